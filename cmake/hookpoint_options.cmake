@@ -1,0 +1,23 @@
+# The options of every target of ours: warnings are errors, and the instruction set is chosen once, here.
+#
+# HOOKPOINT_ISA: `x86-64-v3` compiles for x86-64-v3 (AVX2, FMA); `portable` for the compiler's baseline. The default looks at
+# the building machine; a binary for other machines is built with -DHOOKPOINT_ISA=portable (docs/performance.md).
+if(NOT DEFINED HOOKPOINT_ISA)
+  set(HOOKPOINT_DETECTED_ISA portable)
+  if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64" AND EXISTS /proc/cpuinfo)
+    file(STRINGS /proc/cpuinfo HOOKPOINT_CPU_FLAGS REGEX "^flags" LIMIT_COUNT 1)
+    if(HOOKPOINT_CPU_FLAGS MATCHES " avx2 " AND HOOKPOINT_CPU_FLAGS MATCHES " fma " AND HOOKPOINT_CPU_FLAGS MATCHES " bmi2 ")
+      set(HOOKPOINT_DETECTED_ISA x86-64-v3)
+    endif()
+  endif()
+  set(HOOKPOINT_ISA ${HOOKPOINT_DETECTED_ISA} CACHE STRING "instruction set: x86-64-v3 or portable")
+endif()
+
+add_library(hookpoint_options INTERFACE)
+target_include_directories(hookpoint_options INTERFACE ${PROJECT_SOURCE_DIR})
+target_compile_options(hookpoint_options INTERFACE
+  -Wall -Wextra -Wpedantic -Werror -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Woverloaded-virtual
+  -Wcast-align -Wunused -Wdouble-promotion -Wformat=2)
+if(HOOKPOINT_ISA STREQUAL "x86-64-v3")
+  target_compile_options(hookpoint_options INTERFACE -march=x86-64-v3)
+endif()

@@ -1,0 +1,75 @@
+// The one interface of every engine, ours and the peers: a world built from an Experiment, stepped, and read through
+// plain published values. Whoever measures (studies), records (output) or controls sees only these.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "math/rotation.h"
+#include "simulation/experiment.h"
+
+namespace hookpoint::simulation {
+
+/// A body's motion. World axes, of the body frame's origin.
+struct BodyState {
+  Vector3d position;          ///< p_WB [m]
+  Quaterniond orientation;    ///< R_WB
+  Vector3d velocity;          ///< v_WB [m/s]
+  Vector3d angular_velocity;  ///< w_WB [rad/s]
+  Vector3d contact_force;     ///< sum of ground forces on the body over the last step (impulse / dt) [N]
+  int contacts = 0;           ///< boundary points that carried ground force in the last step
+};
+
+struct JointState {
+  double angle = 0., rate = 0., acceleration = 0., torque = 0.;
+};
+
+/// What an engine publishes after each step. Bodies of all robots in order: base, then links chain by chain.
+struct WorldState {
+  std::int64_t step = 0;
+  double time = 0.;               ///< step * deltat [s]
+  std::vector<BodyState> bodies;
+  std::vector<JointState> joints;
+  std::uint64_t impacts = 0;      ///< impulses applied so far (event-driven laws)
+};
+
+/// Why a step was not taken. Nothing is repaired silently: a run that fails stops and says this.
+struct StepStatus {
+  enum class Kind { ok, not_finite, step_too_large, solver_failed };
+  Kind kind = Kind::ok;
+  double time = 0.;       ///< [s]
+  std::string body;       ///< trail of the body concerned, "block.base"
+  std::string advice;     ///< what to change
+  bool ok() const { return kind == Kind::ok; }
+};
+
+class Engine {
+ public:
+  virtual ~Engine() = default;
+  /// Advances the world by one `deltat`. On failure the state is that before the step.
+  virtual StepStatus step() = 0;
+  /// The published values; the reference stays valid for the engine's life.
+  virtual const WorldState& state() const = 0;
+};
+
+/// What `hookpoint engines` and the provenance file say of an engine.
+struct EngineDescription {
+  std::string name;        ///< as in `engine = ode`
+  std::string version;     ///< of the library linked
+  std::string precision;   ///< "double"
+  bool found = true;
+  std::vector<std::string> settings;  ///< names that `settings =` accepts
+};
+
+/// Builds a world from an experiment. Throws ExperimentError when the engine cannot run it, saying what it lacks.
+using EngineFactory = std::unique_ptr<Engine> (*)(const Experiment&);
+
+/// The user's experiment cannot run as written; the message says what to change.
+struct ExperimentError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace hookpoint::simulation
