@@ -1,0 +1,29 @@
+// The terrain as a peer wants it: an infinite plane, or triangles.
+#pragma once
+
+#include <array>
+#include <variant>
+#include <vector>
+
+#include "math/vector3.h"
+#include "simulation/experiment.h"
+
+namespace hookpoint::reference {
+
+/// Points x with normal . x = offset; the ground is below. An extent given to a Flat or Slope is
+/// not an edge here, as it is none in our own terrain (a point beyond it sees the edge's tile,
+/// which is this plane).
+struct GroundPlane {
+  Vector3d normal;     ///< unit, out of the ground
+  double offset = 0.;  ///< [m]
+};
+/// Triangles counter-clockwise from above, two a cell, diagonal from (i, j) to (i+1, j+1).
+struct GroundMesh {
+  std::vector<Vector3d> vertices;  ///< world axes [m]
+  std::vector<std::array<int, 3>> triangles;
+};
+using Ground = std::variant<GroundPlane, GroundMesh>;
+
+Ground ground_of(const simulation::TerrainSpec& terrain);
+
+}  // namespace hookpoint::reference

@@ -1,0 +1,165 @@
+#include "reference/settings.h"
+
+#include <array>
+#include <cstdio>
+#include <stdexcept>
+
+namespace hookpoint::reference {
+namespace {
+
+constexpr std::array<std::string_view, 3> names{"default", "recommended", "matched"};
+
+std::string text(double value) {
+  std::array<char, 32> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), "%g", value);
+  return buffer.data();
+}
+
+/// A spring k and damper c taken implicitly over dt: ERP = dt k/(dt k + c), CFM = 1/(dt k + c)
+/// (ODE manual, "How to use ERP and CFM"; the same expressions are in Bullet's contact rows).
+struct ImplicitSpring {
+  double error_reduction, mixing;
+};
+ImplicitSpring implicit_spring(double k, double c, double dt) {
+  return {dt * k / (dt * k + c), 1. / (dt * k + c)};
+}
+
+// ode/objects.h, dWorldSetERP and dWorldSetCFM: the defaults of the double precision library. A
+// mixing of 0 makes the matrix of a four-cornered contact singular, so no setting goes there.
+constexpr ConstraintConstants ode_defaults{0.2, 1e-10, 0., 1e-10, 0.};
+// btContactSolverInfo.h: m_erp2, m_globalCfm, m_frictionERP (used with anchors only),
+// m_frictionCFM.
+constexpr ConstraintConstants bullet_defaults{0.2, 0., 0., 0., 0.};
+
+std::vector<SettingRow> ode_table(OdeSolver solver) {
+  const auto at = [solver](Settings settings) { return ode_settings(settings, solver, 1., {}); };
+  const OdeSettings first = at(Settings::default_), second = at(Settings::recommended);
+  const OdeSettings third = at(Settings::matched);
+  std::vector<SettingRow> rows{
+      {"solver", solver == OdeSolver::step ? "dWorldStep" : "dWorldQuickStep", "same", "same",
+       "ode/objects.h"},
+      {"normal ERP [1]", text(first.constraint.normal_error_reduction),
+       text(second.constraint.normal_error_reduction), "dt k/(dt k + c)",
+       "ode/objects.h (default); ODE manual, How to use ERP and CFM (matched)"},
+      {"normal CFM [m/(N s)]", text(first.constraint.normal_mixing),
+       text(second.constraint.normal_mixing), "1/(dt k + c)", "as normal ERP"},
+      {"friction CFM [m/(N s)]", text(first.constraint.tangential_mixing),
+       text(second.constraint.tangential_mixing), "1/(dt k_t + c_t)",
+       "world CFM (default); dContactSlip1/2 (matched): friction rows have no position error"},
+      {"friction", "dContactApprox1, directions by the library", "same", "same",
+       "ODE manual, Contact: without dContactApprox1 mu is a force"},
+      {"contact surface layer [m]", text(first.constraint.surface_layer),
+       text(second.constraint.surface_layer), text(third.constraint.surface_layer),
+       "ode/objects.h, dWorldSetContactSurfaceLayer"},
+      {"restitution", "material's", "material's", "0: the damper's", "dContactBounce"},
+  };
+  if (solver == OdeSolver::quickstep)
+    rows.push_back({"iterations", std::to_string(first.iterations),
+                    std::to_string(second.iterations), std::to_string(third.iterations),
+                    "ode/objects.h, dWorldSetQuickStepNumIterations (default)"});
+  return rows;
+}
+
+std::vector<SettingRow> bullet_table() {
+  const auto at = [](Settings settings) { return bullet_settings(settings, 1., {}); };
+  const BulletSettings first = at(Settings::default_), second = at(Settings::recommended);
+  const BulletSettings third = at(Settings::matched);
+  const std::string server = "bullet3 examples/SharedMemory/PhysicsServerCommandProcessor.cpp";
+  return {
+      {"solver", "btSequentialImpulseConstraintSolver", "same", "same", "HelloWorld.cpp"},
+      {"iterations", std::to_string(first.iterations), std::to_string(second.iterations),
+       std::to_string(third.iterations), "btContactSolverInfo.h (default); " + server},
+      {"early stop, squared residual", text(first.residual_threshold),
+       text(second.residual_threshold), text(third.residual_threshold), server},
+      {"normal ERP [1]", text(first.constraint.normal_error_reduction),
+       text(second.constraint.normal_error_reduction), "dt k/(dt k + c)", server},
+      {"normal CFM [m/(N s)]", text(first.constraint.normal_mixing),
+       text(second.constraint.normal_mixing), "1/(dt k + c)",
+       "setContactStiffnessAndDamping (matched)"},
+      {"friction CFM [m/(N s)]", "0", "0", "0: no compliance to be had", "btContactSolverInfo.h"},
+      {"friction anchor, ERP [1]", "off", "off", "on, dt k_t/(dt k_t + c_t)",
+       "CF_HAS_FRICTION_ANCHOR"},
+      {"linear slop [m]", text(first.constraint.surface_layer),
+       text(second.constraint.surface_layer), text(third.constraint.surface_layer), server},
+      {"warm starting [1]", text(first.warmstarting), text(second.warmstarting),
+       text(third.warmstarting), server},
+      {"split impulse", "on", "on", "off: it would bypass the spring", "btContactSolverInfo.h"},
+      {"friction directions", "one, along the slip", "same", "same",
+       "btContactSolverInfo.h, m_solverMode"},
+      {"restitution", "material's", "material's", "0: the damper's", "btCollisionObject.h"},
+      {"sleeping", "off", "off", "off", "a resting body is what is measured"},
+      {"linear and angular damping", "0", "0", "0", "btRigidBodyConstructionInfo"},
+  };
+}
+
+}  // namespace
+
+std::vector<std::string> settings_names() { return {names.begin(), names.end()}; }
+
+Settings settings_of(const simulation::Experiment& experiment, std::string_view engine) {
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (experiment.settings == names[i]) return static_cast<Settings>(i);
+  throw simulation::ExperimentError("engine " + std::string(engine) + " has no settings '" +
+                                    experiment.settings +
+                                    "': choose default, recommended or matched");
+}
+
+OdeSettings ode_settings(Settings settings, OdeSolver solver, double dt,
+                         const contact::MaterialConstants<double>& material) {
+  OdeSettings result;
+  result.constraint = ode_defaults;
+  if (settings == Settings::default_) return result;
+  // QuickStep's 20 iterations leave a resting box creeping at 1e-5 to 1e-4 m/s; with 100 it creeps
+  // as dWorldStep does (measured, docs/reference_engines.md).
+  if (solver == OdeSolver::quickstep) result.iterations = 100;
+  if (settings == Settings::recommended) {
+    // ode/objects.h, dWorldSetContactSurfaceLayer: a millimetre, against contacts made and broken.
+    result.constraint.surface_layer = 1e-3;
+    return result;
+  }
+  const ImplicitSpring normal =
+      implicit_spring(material.normal_stiffness, material.normal_damping, dt);
+  const ImplicitSpring tangential =
+      implicit_spring(material.tangential_stiffness, material.tangential_damping, dt);
+  result.constraint = {normal.error_reduction, normal.mixing, 0., tangential.mixing, 0.};
+  result.soft_normal = result.tangential_slip = true;
+  result.restitution = false;
+  return result;
+}
+
+BulletSettings bullet_settings(Settings settings, double dt,
+                               const contact::MaterialConstants<double>& material) {
+  BulletSettings result;
+  result.constraint = bullet_defaults;
+  if (settings == Settings::default_) return result;
+  // The maintainers' set-up for robotics (PyBullet's server, createEmptyDynamicsWorld in
+  // examples/SharedMemory/PhysicsServerCommandProcessor.cpp).
+  result.iterations = 50;
+  if (settings == Settings::recommended) {
+    result.constraint.normal_error_reduction = 0.08;
+    result.residual_threshold = 1e-7;
+    result.constraint.surface_layer = 1e-5;
+    result.warmstarting = 0.1;
+    return result;
+  }
+  const ImplicitSpring normal =
+      implicit_spring(material.normal_stiffness, material.normal_damping, dt);
+  const ImplicitSpring tangential =
+      implicit_spring(material.tangential_stiffness, material.tangential_damping, dt);
+  // The friction anchor is the nearest thing to a hook, with the spring's ERP but no compliance:
+  // m_frictionCFM enters a row without being divided by the step or scaled by the effective mass,
+  // so no value of it is 1/(dt k_t + c_t).
+  result.constraint = {normal.error_reduction, normal.mixing, tangential.error_reduction, 0., 0.};
+  result.contact_stiffness = result.friction_anchor = true;
+  result.restitution = false;
+  return result;
+}
+
+std::vector<SettingRow> settings_table(std::string_view engine) {
+  if (engine == "ode") return ode_table(OdeSolver::step);
+  if (engine == "ode_quickstep") return ode_table(OdeSolver::quickstep);
+  if (engine == "bullet") return bullet_table();
+  throw std::invalid_argument("no peer called '" + std::string(engine) + "'");
+}
+
+}  // namespace hookpoint::reference

@@ -1,0 +1,122 @@
+// The sloped block under ODE and Bullet: closed forms, and the figures measured elsewhere for the
+// same block.
+#include <gtest/gtest.h>
+
+#include "reference/engines.h"
+#include "tests/support/reference_scenes.h"
+
+namespace hookpoint {
+namespace {
+
+using namespace reference_scenes;
+using reference::constraint_constants;
+
+constexpr double angle = 15. * degree;
+const double f_t = g * std::sin(angle) / 4.;  // of each of the four corners, 1 kg
+
+double creep(simulation::EngineFactory make, double azimuth, double mu, double deltat,
+             const char* settings, double from, double to) {
+  const auto engine = make(sloped_block(angle, azimuth, mu, deltat, settings));
+  return creep_speed(*engine, slope_axes(angle, azimuth).downhill, deltat, from, to);
+}
+
+TEST(OdeBlock, CreepsAtMixingTimesTangentialForce) {
+  for (const double deltat : {1e-3, 1e-2}) {
+    const double expected = 1e-10 * f_t;  // ODE's documented double precision CFM
+    EXPECT_NEAR(creep(reference::make_ode, 0., 0.5, deltat, "default", 1., 3.), expected,
+                0.01 * expected);
+    const auto experiment = sloped_block(angle, 0., 0.5, deltat);
+    EXPECT_EQ(constraint_constants("ode", experiment).tangential_mixing, 1e-10);
+  }
+}
+
+TEST(OdeBlock, CreepsAtTheMatchedDampersSpeed) {
+  for (const auto make : {reference::make_ode, reference::make_ode_quickstep})
+    for (const double deltat : {1e-4, 1e-3, 1e-2}) {
+      const double expected = f_t / (deltat * 1e5 + 300.);  // k_t, c_t of the material
+      EXPECT_NEAR(creep(make, 0., 0.5, deltat, "matched", 0.5, 1.), expected, 0.01 * expected);
+    }
+}
+
+// Inside the surface layer nothing pushes out what the normal rows let in, so the lower edge sinks
+// faster: the contacts creep at CFM f_t and the origin, h/2 above them, at CFM f_t (1 + (h/l)^2).
+TEST(OdeBlock, TiltsIntoTheSurfaceLayerAtTheRecommendedSetting) {
+  const double expected = 1e-10 * f_t * (1. + 0.25);
+  EXPECT_NEAR(creep(reference::make_ode, 0., 0.5, 1e-3, "recommended", 1., 3.), expected,
+              0.01 * expected);
+}
+
+TEST(OdeBlock, SticksAltogetherAcrossItsFrictionBox) {
+  // tan 15 deg = 0.268 > mu: a cone slides, a box of half width mu holds up to mu sqrt(2) = 0.283.
+  EXPECT_LT(std::abs(creep(reference::make_ode, 45. * degree, 0.2, 1e-3, "default", 1., 2.)), 1e-9);
+  EXPECT_GT(creep(reference::make_ode, 0., 0.2, 1e-3, "default", 1., 2.), 0.1);
+}
+
+// The figures were taken with ODE's own first seed, 0; another seed changes them by up to 7 % at 1
+// ms and 25 % at 10 ms.
+TEST(QuickStepBlock, CreepsAsMeasuredElsewhere) {
+  const auto creep_of_seed_0 = [](double deltat) {
+    simulation::Experiment experiment = sloped_block(angle, 0., 0.5, deltat);
+    experiment.seed = 0;
+    const auto engine = reference::make_ode_quickstep(experiment);
+    return creep_speed(*engine, slope_axes(angle, 0.).downhill, deltat, 5., 20.);
+  };
+  EXPECT_NEAR(creep_of_seed_0(1e-3), 3.1e-5, 0.05 * 3.1e-5);
+  EXPECT_NEAR(creep_of_seed_0(1e-2), 3.5e-4, 0.05 * 3.5e-4);
+}
+
+TEST(QuickStepBlock, ConvergesAtOneHundredIterations) {
+  EXPECT_LT(creep(reference::make_ode_quickstep, 0., 0.5, 1e-3, "recommended", 1., 2.), 1e-9);
+}
+
+TEST(BulletBlock, CreepsNoFasterThanMeasuredElsewhere) {
+  for (const char* settings : {"default", "recommended", "matched"})
+    EXPECT_LT(std::abs(creep(reference::make_bullet, 0., 0.5, 1e-3, settings, 5., 10.)), 5e-8)
+        << settings;
+}
+
+TEST(BulletBlock, SlidesWhereAConeSlides) {
+  const double a = g * (std::sin(angle) - 0.2 * std::cos(angle));
+  for (const char* settings : {"default", "recommended", "matched"})
+    EXPECT_NEAR(creep(reference::make_bullet, 45. * degree, 0.2, 1e-3, settings, 1., 2.), 1.5 * a,
+                0.02 * 1.5 * a)
+        << settings;
+}
+
+TEST(PeerBlock, SlidesAtCoulombsAcceleration) {
+  const double a = g * (std::sin(angle) - 0.2 * std::cos(angle));
+  for (const auto& peer : reference::peers()) {
+    const double deltat = 1e-3;
+    const auto engine = peer.make(sloped_block(angle, 0., 0.2, deltat));
+    ASSERT_TRUE(run_until(*engine, deltat, 2.));
+    const double speed = dot(engine->state().bodies[0].velocity, slope_axes(angle, 0.).downhill);
+    const double tolerance = peer.name == "ode" ? 1e-3 : 1e-2;  // of the iterative solvers
+    EXPECT_NEAR(speed, 2. * a, tolerance * 2. * a) << peer.name;
+  }
+}
+
+TEST(PeerBlock, RestsAtTheMatchedSpringsDepth) {
+  const double expected = g * std::cos(angle) / (4. * 1e5);
+  for (const auto& peer : reference::peers()) {
+    const auto engine = peer.make(sloped_block(angle, 0., 0.5, 1e-3, "matched"));
+    ASSERT_TRUE(run_until(*engine, 1e-3, 1.));
+    const double height = dot(engine->state().bodies[0].position, slope_axes(angle, 0.).normal);
+    EXPECT_NEAR(0.05 - height, expected, 0.01 * expected) << peer.name;
+  }
+}
+
+TEST(PeerBlock, ReportsTheForcesThatHoldIt) {
+  for (const auto& peer : reference::peers())
+    for (const char* settings : {"default", "recommended", "matched"}) {
+      const auto engine = peer.make(sloped_block(angle, 30. * degree, 0.6, 1e-3, settings));
+      ASSERT_TRUE(run_until(*engine, 1e-3, 2.));
+      const auto& body = engine->state().bodies[0];
+      EXPECT_NEAR(body.contact_force.x, 0., 0.02) << peer.name << " " << settings;
+      EXPECT_NEAR(body.contact_force.y, 0., 0.02) << peer.name << " " << settings;
+      EXPECT_NEAR(body.contact_force.z, g, 0.02 * g) << peer.name << " " << settings;
+      EXPECT_GE(body.contacts, 3) << peer.name << " " << settings;
+    }
+}
+
+}  // namespace
+}  // namespace hookpoint

@@ -1,0 +1,86 @@
+// Scenes of the peers' tests, built without the language: a block on a slope, a free body.
+#pragma once
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <string>
+
+#include "simulation/engine.h"
+
+namespace hookpoint::reference_scenes {
+
+inline constexpr double degree = std::numbers::pi / 180.;
+inline constexpr double g = 9.81;
+
+/// 1 kg, 0.2 x 0.2 x 0.1 m.
+inline simulation::RobotSpec block() {
+  simulation::RobotSpec robot;
+  robot.name = "block";
+  robot.mobile = true;
+  robot.base.name = "base";
+  robot.base.mass.mass = 1.;
+  robot.base.mass.inertia = {0.05 / 12., 0.05 / 12., 0.08 / 12., 0., 0., 0.};
+  simulation::ShapeSpec shape;
+  shape.geometry = simulation::Box{{0.2, 0.2, 0.1}};
+  robot.base.shapes.push_back(shape);
+  return robot;
+}
+
+/// Directions of a slope, in the world.
+struct SlopeAxes {
+  Vector3d normal, downhill;
+  Quaterniond
+      orientation;  ///< of a body that lies on it, with its edges along the fall where azimuth is 0
+};
+inline SlopeAxes slope_axes(double angle, double azimuth) {
+  const double s = std::sin(angle), c = std::cos(angle);
+  const Vector3d along{std::cos(azimuth), std::sin(azimuth), 0.};
+  const Vector3d axis{-along.y, along.x, 0.};
+  return {s * along + Vector3d{0., 0., c}, c * along - Vector3d{0., 0., s},
+          exponential(angle * axis)};
+}
+
+/// Gravity and a material, nothing else.
+inline simulation::Experiment empty_world(double mu, double deltat, const std::string& settings) {
+  simulation::Experiment experiment;
+  experiment.deltat = deltat;
+  experiment.settings = settings;
+  simulation::MaterialSpec material;
+  material.constants.static_friction = material.constants.kinetic_friction = mu;
+  experiment.materials.push_back(material);
+  return experiment;
+}
+
+/// The block at rest on a slope, its lowest corners on the plane.
+inline simulation::Experiment sloped_block(double angle, double azimuth, double mu, double deltat,
+                                           const std::string& settings = "default") {
+  simulation::Experiment experiment = empty_world(mu, deltat, settings);
+  simulation::TerrainSpec terrain;
+  terrain.surface = simulation::SlopeSpec{angle, azimuth};
+  experiment.terrain = terrain;
+  const SlopeAxes axes = slope_axes(angle, azimuth);
+  experiment.robots.push_back(block());
+  experiment.robots[0].location = 0.05 * axes.normal;
+  experiment.robots[0].orientation = axes.orientation;
+  return experiment;
+}
+
+/// Steps until `time` [s]; false when a step fails.
+inline bool run_until(simulation::Engine& engine, double deltat, double time) {
+  const auto last = static_cast<std::int64_t>(std::llround(time / deltat));
+  while (engine.state().step < last)
+    if (!engine.step().ok()) return false;
+  return true;
+}
+
+/// Mean downhill speed of the body's origin between two times [m/s].
+inline double creep_speed(simulation::Engine& engine, const Vector3d& downhill, double deltat,
+                          double from, double to) {
+  run_until(engine, deltat, from);
+  const double start = dot(engine.state().bodies[0].position, downhill);
+  run_until(engine, deltat, to);
+  return (dot(engine.state().bodies[0].position, downhill) - start) / (to - from);
+}
+
+}  // namespace hookpoint::reference_scenes
