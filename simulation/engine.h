@@ -1,5 +1,6 @@
-// The one interface of every engine, ours and the peers: a world built from an Experiment, stepped, and read through
-// plain published values. Whoever measures (studies), records (output) or controls sees only these.
+// The one interface of every engine, ours and the peers: a world built from an Experiment, stepped,
+// and read through plain published values. Whoever measures (studies), records (output) or controls
+// sees only these.
 #pragma once
 
 #include <cstdint>
@@ -19,30 +20,34 @@ struct BodyState {
   Quaterniond orientation;    ///< R_WB
   Vector3d velocity;          ///< v_WB [m/s]
   Vector3d angular_velocity;  ///< w_WB [rad/s]
-  Vector3d contact_force;     ///< sum of ground forces on the body over the last step (impulse / dt) [N]
-  int contacts = 0;           ///< boundary points that carried ground force in the last step
+  Vector3d
+      contact_force;  ///< sum of ground forces on the body over the last step (impulse / dt) [N]
+  int contacts = 0;   ///< boundary points that carried ground force in the last step
 };
 
 struct JointState {
   double angle = 0., rate = 0., acceleration = 0., torque = 0.;
 };
 
-/// What an engine publishes after each step. Bodies of all robots in order: base, then links chain by chain.
+/// What an engine publishes after each step. Bodies of all robots in order: base, then links chain
+/// by chain.
 struct WorldState {
   std::int64_t step = 0;
-  double time = 0.;               ///< step * deltat [s]
+  double time = 0.;  ///< step * deltat [s]
   std::vector<BodyState> bodies;
   std::vector<JointState> joints;
-  std::uint64_t impacts = 0;      ///< impulses applied so far (event-driven laws)
+  std::uint64_t impacts = 0;  ///< impulses applied so far (event-driven laws)
+  std::vector<std::string>
+      notices;  ///< what the user should know, each said once: a robot has left the terrain
 };
 
 /// Why a step was not taken. Nothing is repaired silently: a run that fails stops and says this.
 struct StepStatus {
   enum class Kind { ok, not_finite, step_too_large, solver_failed };
   Kind kind = Kind::ok;
-  double time = 0.;       ///< [s]
-  std::string body;       ///< trail of the body concerned, "block.base"
-  std::string advice;     ///< what to change
+  double time = 0.;    ///< [s]
+  std::string body;    ///< trail of the body concerned, "block.base"
+  std::string advice;  ///< what to change
   bool ok() const { return kind == Kind::ok; }
 };
 
@@ -57,14 +62,15 @@ class Engine {
 
 /// What `hookpoint engines` and the provenance file say of an engine.
 struct EngineDescription {
-  std::string name;        ///< as in `engine = ode`
-  std::string version;     ///< of the library linked
-  std::string precision;   ///< "double"
+  std::string name;       ///< as in `engine = ode`
+  std::string version;    ///< of the library linked
+  std::string precision;  ///< "double"
   bool found = true;
   std::vector<std::string> settings;  ///< names that `settings =` accepts
 };
 
-/// Builds a world from an experiment. Throws ExperimentError when the engine cannot run it, saying what it lacks.
+/// Builds a world from an experiment. Throws ExperimentError when the engine cannot run it, saying
+/// what it lacks.
 using EngineFactory = std::unique_ptr<Engine> (*)(const Experiment&);
 
 /// The user's experiment cannot run as written; the message says what to change.

@@ -1,5 +1,6 @@
-// An experiment as plain typed values, SI units, world z up: what a `.hook` file says once every name, unit and
-// expression is resolved. It is what every engine is built from, ours and the peers alike.
+// An experiment as plain typed values, SI units, world z up: what a `.hook` file says once every
+// name, unit and expression is resolved. It is what every engine is built from, ours and the peers
+// alike.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "contact/terrain.h"
 #include "contact/vocabulary.h"
 #include "math/rotation.h"
 
@@ -15,9 +17,9 @@ namespace hookpoint::simulation {
 
 /// Mass, centre of mass and inertia about the centre of mass, in the axes of the body's frame.
 struct MassSpec {
-  double mass = 0.;                ///< [kg]
-  Vector3d center_of_mass;         ///< [m]
-  Symmetric3d inertia;             ///< [kg m^2]
+  double mass = 0.;         ///< [kg]
+  Vector3d center_of_mass;  ///< [m]
+  Symmetric3d inertia;      ///< [kg m^2]
 };
 
 struct Box {
@@ -40,31 +42,34 @@ using ShapeGeometry = std::variant<Box, Sphere, Cylinder, Legcone>;
 
 struct ShapeSpec {
   ShapeGeometry geometry;
-  Vector3d location;            ///< p_BS, of the shape's frame in its body [m]
-  Quaterniond orientation;      ///< R_BS
-  int boundary_points = 0;      ///< how densely the surface is sampled; 0 is the shape's own default
+  Vector3d location;        ///< p_BS, of the shape's frame in its body [m]
+  Quaterniond orientation;  ///< R_BS
+  int boundary_points = 0;  ///< how densely the surface is sampled; 0 is the shape's own default
 };
 
-/// What every body has: a name, mass, shapes to draw and to collide, and the points that may touch the ground.
+/// What every body has: a name, mass, shapes to draw and to collide, and the points that may touch
+/// the ground.
 struct BodySpec {
-  std::string name;                       ///< "base" or the link's name
+  std::string name;  ///< "base" or the link's name
   MassSpec mass;
   std::vector<ShapeSpec> shapes;
-  std::vector<Vector3d> boundary_points;  ///< p_BP, body axes [m]: ContactPoints, else sampled from the shapes
+  std::vector<Vector3d>
+      boundary_points;  ///< p_BP, body axes [m]: ContactPoints, else sampled from the shapes
 };
 
 enum class JointKind { revolute, prismatic };
 
-/// A link: its own MDH numbers place its frame after the preceding one, Rot_x(alpha) Trans_x(a) Rot_z(theta)
-/// Trans_z(d); the joint turns about (slides along) the link's own z.
+/// A link: its own MDH numbers place its frame after the preceding one, Rot_x(alpha) Trans_x(a)
+/// Rot_z(theta) Trans_z(d); the joint turns about (slides along) the link's own z.
 struct LinkSpec {
   BodySpec body;
   double a = 0., alpha = 0., d = 0., theta = 0.;
   JointKind joint = JointKind::revolute;
-  double angle = 0., rate = 0., torque = 0.;  ///< initial angle, rate and constant torque (SI by joint kind)
-  double damping = 0.;                        ///< torque = -damping rate
-  double friction = 0.;                       ///< dry friction torque, opposes the rate
-  double stiffness = 0., rest_angle = 0.;     ///< torque = -stiffness (angle - rest_angle)
+  double angle = 0., rate = 0.,
+         torque = 0.;    ///< initial angle, rate and constant torque (SI by joint kind)
+  double damping = 0.;   ///< torque = -damping rate
+  double friction = 0.;  ///< dry friction torque, opposes the rate
+  double stiffness = 0., rest_angle = 0.;  ///< torque = -stiffness (angle - rest_angle)
   std::optional<double> lower_limit, upper_limit;
 };
 
@@ -79,10 +84,10 @@ struct RobotSpec {
   std::string name;
   bool mobile = false;
   BodySpec base;
-  Vector3d location;            ///< p_WB [m]
-  Quaterniond orientation;      ///< R_WB
-  Vector3d velocity;            ///< v_WB, of the base origin, world axes [m/s]
-  Vector3d angular_velocity;    ///< w_WB, world axes [rad/s]
+  Vector3d location;          ///< p_WB [m]
+  Quaterniond orientation;    ///< R_WB
+  Vector3d velocity;          ///< v_WB, of the base origin, world axes [m/s]
+  Vector3d angular_velocity;  ///< w_WB, world axes [rad/s]
   std::vector<ChainSpec> chains;
 };
 
@@ -91,40 +96,23 @@ struct MaterialSpec {
   contact::MaterialConstants<double> constants;
 };
 
-struct FlatSpec {
-  double height = 0.;
-};
-struct SlopeSpec {
-  double angle = 0.;    ///< falls along +x turned by `azimuth` about z, through the world's origin [rad]
-  double azimuth = 0.;  ///< [rad]
-};
-struct GridSpec {
-  int columns = 0, rows = 0;      ///< vertices along x and y
-  std::vector<double> heights;    ///< heights[row * columns + column] [m]; x grows with column, y with row
-};
-/// A rectangle of tiles with another material; later patches cover earlier ones.
-struct PatchSpec {
-  double from_x = 0., from_y = 0., to_x = 0., to_y = 0.;
-  int material = 0;
-};
-struct TerrainSpec {
+using FlatSpec = contact::FlatSurface;
+using SlopeSpec = contact::SlopeSurface;
+using GridSpec = contact::GridSurface;
+using PatchSpec = contact::MaterialPatch;
+/// The ground; its materials are indices into Experiment::materials.
+struct TerrainSpec : contact::TerrainDescription {
   std::string name;
-  std::variant<FlatSpec, SlopeSpec, GridSpec> surface;
-  double spacing = 1.;            ///< edge of a grid cell [m]
-  double size_x = 0., size_y = 0.;  ///< extent [m], centred on the origin; 0: unbounded (Flat, Slope only)
-  double origin_x = 0., origin_y = 0.;  ///< world position of a Grid's first vertex
-  int material = 0;               ///< index into Experiment::materials
-  std::vector<PatchSpec> patches;
 };
 
 /// A constant external force on a body.
 struct ForceSpec {
   std::string name;
   int robot = 0;
-  int body = 0;         ///< 0 is the base, then the links, chain by chain
-  Vector3d point;       ///< where it acts, body axes [m]
-  Vector3d force;       ///< world axes [N]
-  Vector3d torque;      ///< world axes [N m]
+  int body = 0;     ///< 0 is the base, then the links, chain by chain
+  Vector3d point;   ///< where it acts, body axes [m]
+  Vector3d force;   ///< world axes [N]
+  Vector3d torque;  ///< world axes [N m]
 };
 
 struct Experiment {
