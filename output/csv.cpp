@@ -1,0 +1,69 @@
+#include "output/csv.h"
+
+#include "output/number.h"
+
+namespace hookpoint::output {
+namespace {
+
+void append_row(std::string& text, const std::vector<std::string>& fields) {
+  bool first = true;
+  for (const std::string& field : fields) {
+    if (!first) text += ',';
+    text += csv_field(field);
+    first = false;
+  }
+  text += '\n';
+}
+
+}  // namespace
+
+std::string column_title(std::string_view name, std::string_view unit) {
+  std::string title(name);
+  if (!unit.empty()) title.append(" [").append(unit).append("]");
+  return title;
+}
+
+std::string csv_field(std::string_view text) {
+  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"') quoted += '"';
+    quoted += c;
+  }
+  return quoted + '"';
+}
+
+std::string CsvTable::text() const {
+  std::string result;
+  append_row(result, header);
+  for (const auto& row : rows) append_row(result, row);
+  return result;
+}
+
+void write_csv(const std::filesystem::path& path, const CsvTable& table) {
+  write_file(path, table.text());
+}
+
+TraceWriter::TraceWriter(const std::filesystem::path& path, const std::vector<TraceColumn>& columns)
+    : file_(path) {
+  line_ = "time [s]";
+  for (const TraceColumn& column : columns)
+    line_.append(",").append(csv_field(column_title(column.trail, column.unit)));
+  line_ += '\n';
+  file_.write(line_);
+}
+
+void TraceWriter::row(double time, std::span<const double> values) {
+  line_.clear();
+  append_shortest(line_, time);
+  for (const double value : values) {
+    line_ += ',';
+    append_shortest(line_, value);
+  }
+  line_ += '\n';
+  file_.write(line_);
+}
+
+void TraceWriter::close() { file_.complete(); }
+
+}  // namespace hookpoint::output

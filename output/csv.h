@@ -1,0 +1,55 @@
+// Comma-separated tables: UTF-8, one header row of `name [unit]`, \n line ends, fields quoted only
+// where they must be.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "output/file.h"
+
+namespace hookpoint::output {
+
+/// "creep_speed [m/s]"; a column without a unit is its bare name.
+std::string column_title(std::string_view name, std::string_view unit);
+
+/// A field as it stands in a file: in quotes when it holds a comma, a quote or a line end.
+std::string csv_field(std::string_view text);
+
+/// A table in memory. A number is its shortest round-trip text; an empty field is a value that
+/// there is not.
+struct CsvTable {
+  std::vector<std::string> header;
+  std::vector<std::vector<std::string>> rows;
+
+  std::string text() const;
+};
+
+/// The whole table or nothing. Throws FileError.
+void write_csv(const std::filesystem::path& path, const CsvTable& table);
+
+/// A channel of a trace: its trail and unit.
+struct TraceColumn {
+  std::string trail;  ///< "w.block.base.location.x"
+  std::string unit;   ///< "m"; "" for none
+};
+
+/// `trace.csv` of a run, row by row while the run goes on. Columns `time [s]`, then one a trail.
+/// Until `close` it is named
+/// `<path>.partial`. A row costs no heap allocation once the longest has been written.
+class TraceWriter {
+ public:
+  /// Throws FileError.
+  TraceWriter(const std::filesystem::path& path, const std::vector<TraceColumn>& columns);
+  /// `values`: one a column, in its unit. `time` [s].
+  void row(double time, std::span<const double> values);
+  void close();
+
+ private:
+  PartialFile file_;
+  std::string line_;
+};
+
+}  // namespace hookpoint::output

@@ -1,0 +1,118 @@
+#include "output/plot.h"
+
+#include <sys/wait.h>
+
+#include <array>
+#include <cassert>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <utility>
+
+#include "output/csv.h"
+#include "output/file.h"
+#include "output/number.h"
+
+namespace hookpoint::output {
+namespace {
+
+struct CommandResult {
+  int status = -1;
+  std::string output;
+};
+
+CommandResult run_shell(const std::string& command) {
+  CommandResult result;
+  std::FILE* pipe = popen(command.c_str(), "r");
+  if (pipe == nullptr) return result;
+  std::array<char, 512> buffer;
+  while (const std::size_t count = std::fread(buffer.data(), 1, buffer.size(), pipe))
+    result.output.append(buffer.data(), count);
+  const int status = pclose(pipe);
+  result.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  return result;
+}
+
+/// One word of a shell command, whatever characters it holds.
+std::string shell_word(const std::string& text) {
+  std::string word = "'";
+  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return word + "'";
+}
+
+std::string read_file(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+void replace_all(std::string& text, const std::string& from, const std::string& to) {
+  for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
+}
+
+void add_rows(CsvTable& table, const std::string& series, const char* kind,
+              const std::vector<double>& x, const std::vector<double>* y) {
+  for (std::size_t i = 0; i < x.size(); ++i)
+    table.rows.push_back({series, kind, shortest(x[i]), y == nullptr ? "" : shortest((*y)[i])});
+}
+
+}  // namespace
+
+std::string plot_data(const Plot& plot) {
+  CsvTable table;
+  table.header = {"series", "kind", column_title(plot.x.label, plot.x.unit),
+                  column_title(plot.y.label, plot.y.unit)};
+  for (const Series& series : plot.series) {
+    assert(series.measured.x.size() == series.measured.y.size());
+    assert(series.predicted.x.size() == series.predicted.y.size());
+    add_rows(table, series.label, "measured", series.measured.x, &series.measured.y);
+    add_rows(table, series.label, "predicted", series.predicted.x, &series.predicted.y);
+    add_rows(table, series.label, "unfinished", series.unfinished, nullptr);
+  }
+  return table.text();
+}
+
+PlotOutcome draw(const Plot& plot, const std::filesystem::path& folder) {
+  write_file(folder / (plot.name + ".csv"), plot_data(plot));
+  write_file(folder / (plot.name + ".gp"), plot_script(plot));
+  const std::filesystem::path svg = folder / (plot.name + ".svg");
+  std::error_code ignored;
+  std::filesystem::remove(svg, ignored);  // an older drawing must not pass for this one
+  const CommandResult run =
+      run_shell("cd " + shell_word(folder.string()) + " && LC_ALL=C gnuplot " +
+                shell_word(plot.name + ".gp") + " 2>&1");
+  constexpr int command_not_found = 127;
+  if (run.status == command_not_found)
+    return {.drawn = false,
+            .message = "gnuplot is not installed (Debian: gnuplot-nox), so " + plot.name +
+                       ".svg was not drawn; its data and script are in " + folder.string(),
+            .svg = ""};
+  if (run.status != 0) {
+    std::filesystem::remove(svg, ignored);
+    return {.drawn = false,
+            .message = "gnuplot could not draw " + (folder / (plot.name + ".gp")).string() + ": " +
+                       run.output,
+            .svg = ""};
+  }
+  return {.drawn = true, .message = "", .svg = read_file(svg)};
+}
+
+std::string inline_svg(const std::string& svg, const std::string& prefix) {
+  std::string text = svg.substr(std::min(svg.find("<svg"), svg.size()));
+  const auto background = text.find("<rect x=\"0\" y=\"0\"");
+  if (background != std::string::npos)
+    text.erase(background, text.find("/>", background) + 2 - background);
+  for (const std::string quote : {"'", "\""}) {
+    replace_all(text, " id=" + quote, " id=" + quote + prefix + "-");
+    replace_all(text, "xlink:href=" + quote + "#", "href=" + quote + "#" + prefix + "-");
+    replace_all(text, "stroke=" + quote + "black" + quote,
+                "stroke=" + quote + "currentColor" + quote);
+    replace_all(text, "fill=" + quote + "black" + quote, "fill=" + quote + "currentColor" + quote);
+    replace_all(text, " color=" + quote + "black" + quote, "");
+    replace_all(text, quote + "rgb(221, 221, 221)" + quote,
+                quote + "rgba(128, 128, 128, 0.3)" + quote);
+  }
+  return text;
+}
+
+}  // namespace hookpoint::output

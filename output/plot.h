@@ -1,0 +1,75 @@
+// Figures for papers: a Plot value in; its data (.csv), a readable gnuplot script (.gp) and the
+// drawing (.svg) out. The same Plot gives the same bytes. A series has one colour and one marker,
+// pinned by its `style` number, in every figure.
+//
+// Nothing is dropped silently. On a logarithmic axis a value within `floor` of zero is drawn hollow
+// in a strip under the axis, one lane a series, labelled "<= floor"; a negative value is drawn
+// hollow at its magnitude; a run that did not finish is a cross in a strip on top. The legend says
+// so when it happens.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace hookpoint::output {
+
+struct Axis {
+  std::string label;  ///< "creep speed"
+  std::string unit;   ///< "m/s"; "" for none
+  bool logarithmic = false;
+  double floor = 1e-16;  ///< magnitude that counts as zero on a logarithmic axis, in `unit`
+};
+
+/// Points in the units of the axes. Values that are not finite belong in Series::unfinished.
+struct Curve {
+  std::vector<double> x, y;
+};
+
+struct Series {
+  std::string label;
+  int style = 0;  ///< which colour and marker, >= 0: the subject's number in its study
+  Curve measured;
+  Curve predicted;                 ///< dashed; empty for none
+  std::vector<double> unfinished;  ///< x of the runs that gave no value
+};
+
+struct Plot {
+  std::string name;  ///< file name without extension
+  std::string title;
+  std::string subtitle;  ///< what is held fixed: "mu = 0.8, dt = 1 ms"
+  Axis x, y;
+  std::vector<Series> series;
+};
+
+/// Colour (colour-blind safe), marker and dash of a series. Colour and marker together repeat
+/// after 40.
+struct SeriesStyle {
+  std::string color;  ///< "#0072B2"
+  int filled_marker;  ///< gnuplot's point type
+  int hollow_marker;
+  std::string dash;  ///< gnuplot's dash pattern of the line through measured values
+};
+SeriesStyle series_style(int style);
+
+/// Rows `series, kind (measured, predicted, unfinished), x, y`, a series' rows together.
+std::string plot_data(const Plot& plot);
+
+/// The script that draws `<name>.svg` from `<name>.csv` in the folder where it is run.
+std::string plot_script(const Plot& plot);
+
+struct PlotOutcome {
+  bool drawn = false;
+  std::string message;  ///< why not; "" when drawn
+  std::string svg;      ///< the drawing's text
+};
+
+/// Writes `<folder>/<name>.csv` and `.gp`, and the `.svg` if gnuplot can be run. Throws FileError.
+PlotOutcome draw(const Plot& plot, const std::filesystem::path& folder);
+
+/// An .svg of `draw` made fit to stand inside an HTML page: no prologue, no background, ids
+/// prefixed by `prefix`, and black turned into the page's own text colour, so that it follows a
+/// dark page.
+std::string inline_svg(const std::string& svg, const std::string& prefix);
+
+}  // namespace hookpoint::output

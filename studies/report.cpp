@@ -1,0 +1,158 @@
+#include "studies/report.h"
+
+#include <algorithm>
+
+#include "output/file.h"
+#include "output/number.h"
+#include "output/plot.h"
+#include "studies/figures.h"
+#include "studies/report_page.h"
+#include "studies/report_tables.h"
+#include "studies/summary.h"
+
+namespace hookpoint::studies {
+namespace {
+
+std::string paragraph(const std::string& style, const std::string& content) {
+  return "<p class=\"" + style + "\">" + content + "</p>\n";
+}
+
+std::string heading(const std::string& text) { return "<h2>" + text + "</h2>\n"; }
+
+std::string verdict_line(const StudySummary& summary) {
+  const int all = summary.passed + summary.failed;
+  if (all == 0) return paragraph("verdict", "No truth was asked for.");
+  if (summary.failed == 0)
+    return paragraph("verdict good", "✓ All " + std::to_string(all) + " verdicts hold.");
+  return paragraph("verdict bad", "✗ " + std::to_string(summary.failed) + " of " +
+                                      std::to_string(all) + " verdicts do not hold.");
+}
+
+std::string facts_line(const StudySummary& summary) {
+  const SubjectSummary& total = summary.total;
+  std::string text = std::to_string(total.rows()) + " runs of " +
+                     std::to_string(summary.subjects.size()) +
+                     " subjects: " + std::to_string(total.finished) + " finished";
+  if (total.stopped > 0) text += ", " + std::to_string(total.stopped) + " stopped on the way";
+  if (total.skipped > 0) text += ", " + std::to_string(total.skipped) + " skipped";
+  return paragraph("facts", text + ".");
+}
+
+std::string varied_line(const StudyResult& study) {
+  std::string text;
+  for (const SweepColumn& sweep : study.sweeps) {
+    text += text.empty() ? "Varied: " : "; ";
+    text += html(spoken(sweep.name)) + " ";
+    for (std::size_t i = 0; i < sweep.values.size(); ++i)
+      text += (i > 0 ? ", " : "") + output::rounded(sweep.values[i], 6);
+    if (!sweep.unit.empty()) text += " " + html(sweep.unit);
+  }
+  return text.empty() ? "" : paragraph("facts", text + ".");
+}
+
+std::string opening(const StudyResult& study, const ReportContext& context,
+                    const StudySummary& summary) {
+  std::string text = paragraph("kicker", "Study · " + html(study.file));
+  text += "<h1>" + html(spoken(study.name)) + "</h1>\n";
+  if (!study.question.empty()) text += paragraph("question", html(study.question));
+  text += verdict_line(summary) + facts_line(summary) + varied_line(study);
+  text += "<pre>" + html(context.command) + "</pre>\n";
+  if (context.files.empty()) return text;
+  std::string links;
+  for (const std::string& file : context.files)
+    links +=
+        (links.empty() ? "" : " · ") + ("<a href=\"" + html(file) + "\">" + html(file) + "</a>");
+  return text + paragraph("facts", links);
+}
+
+std::string truths_list(const StudyResult& study) {
+  if (study.truths.empty()) return "";
+  std::string text = heading("Truths") + "<ul>\n";
+  for (const std::string& truth : study.truths) text += "<li>" + html(truth) + "</li>\n";
+  return text + "</ul>\n";
+}
+
+std::string described_svg(const ReportFigure& figure) {
+  std::string svg = output::inline_svg(figure.svg, figure.name);
+  const std::string description = " role=\"img\" aria-label=\"" + html(figure.caption) + "\"";
+  return svg.insert(std::min(svg.size(), std::string("<svg").size()), description);
+}
+
+std::string figure_list(const std::vector<ReportFigure>& figures) {
+  if (figures.empty()) return "";
+  std::string text = heading("Figures");
+  int number = 0;
+  for (const ReportFigure& figure : figures) {
+    const std::string name = html(figure.name);
+    text += "<figure id=\"figure-" + name + "\">\n";
+    text += figure.svg.empty() ? paragraph("bad", html(figure.message)) : described_svg(figure);
+    text += "<figcaption><b>Figure " + std::to_string(++number) + ".</b> " + html(figure.caption);
+    if (!figure.svg.empty()) text += " <a href=\"" + name + ".svg\">" + name + ".svg</a>,";
+    text += " <a href=\"" + name + ".csv\">" + name + ".csv</a></figcaption>\n</figure>\n";
+  }
+  return text;
+}
+
+std::string peer_table(const ReportContext& context) {
+  if (context.peers.empty()) return "";
+  std::string text =
+      heading("Settings of the peers") +
+      "<div class=\"scroll\"><table class=\"wide\"><thead><tr>"
+      "<th class=\"text\">engine</th><th class=\"text\">settings</th><th class=\"text\">what</th>"
+      "<th class=\"text\">value</th><th class=\"text\">source</th></tr></thead><tbody>\n";
+  for (const PeerSetting& peer : context.peers) {
+    text += "<tr>";
+    for (const std::string& cell : {peer.engine, peer.settings, peer.name, peer.value, peer.source})
+      text += "<td>" + html(cell) + "</td>";
+    text += "</tr>\n";
+  }
+  return text + "</tbody></table></div>\n";
+}
+
+std::string provenance_table(const ReportContext& context) {
+  if (context.provenance.empty()) return "";
+  std::string text =
+      heading("Provenance") + "<div class=\"scroll\"><table class=\"wide\"><tbody>\n";
+  for (const auto& [name, value] : context.provenance)
+    text += "<tr><td>" + html(name) + "</td><td>" + html(value) + "</td></tr>\n";
+  return text + "</tbody></table></div>\n";
+}
+
+}  // namespace
+
+std::string report_html(const StudyResult& study, const ReportContext& context,
+                        const std::vector<ReportFigure>& figures) {
+  const StudySummary summary = summarise(study);
+  std::string page =
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
+      html(spoken(study.name)) + " - hookpoint</title>\n<style>";
+  page += report_style();
+  page += "</style>\n</head>\n<body>\n<main>\n";
+  page += opening(study, context, summary);
+  page += heading("Subjects and metrics") + summary_table(study, summary);
+  page += failure_table(study);
+  page += figure_list(figures);
+  page += truths_list(study);
+  page += heading("Every run") + runs_table(study);
+  page += peer_table(context) + provenance_table(context);
+  page += "</main>\n<script>";
+  page += report_script();
+  return page + "</script>\n</body>\n</html>\n";
+}
+
+ReportOutcome write_report(const StudyResult& study, const ReportContext& context,
+                           const std::filesystem::path& folder) {
+  ReportOutcome outcome;
+  std::vector<ReportFigure> figures;
+  for (std::size_t i = 0; i < study.plots.size(); ++i) {
+    const Figure figure = make_figure(study, i);
+    const output::PlotOutcome drawn = output::draw(figure.plot, folder);
+    if (!drawn.drawn) outcome.messages.push_back(drawn.message);
+    figures.push_back({figure.plot.name, figure.caption, drawn.svg, drawn.message});
+  }
+  output::write_file(folder / "report.html", report_html(study, context, figures));
+  return outcome;
+}
+
+}  // namespace hookpoint::studies

@@ -1,0 +1,128 @@
+#include "studies/summary.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "output/number.h"
+
+namespace hookpoint::studies {
+namespace {
+
+bool has_measurement(const MetricValue& value) {
+  return value.measured && std::isfinite(*value.measured);
+}
+
+/// How badly a value does: a failing Truth outweighs any distance.
+struct Badness {
+  bool fails = false;
+  double distance = -1.;
+  bool operator<(const Badness& other) const {
+    return fails != other.fails ? !fails : distance < other.distance;
+  }
+};
+
+Badness badness_of(const MetricValue& value) {
+  const bool fails = value.ok && !*value.ok;
+  return {fails, std::abs(*value.measured - value.predicted.value_or(0.))};
+}
+
+MetricSummary summarise_metric(const StudyResult& study, int subject, std::size_t metric) {
+  MetricSummary summary;
+  Badness worst;
+  std::vector<double> values;
+  for (std::size_t i = 0; i < study.rows.size(); ++i) {
+    const RunResult& row = study.rows[i];
+    if (row.subject != subject || metric >= row.metrics.size()) continue;
+    const MetricValue& value = row.metrics[metric];
+    if (value.ok) ++(*value.ok ? summary.passed : summary.failed);
+    if (has_measurement(value)) values.push_back(*value.measured);
+    if (!has_measurement(value)) continue;
+    if (summary.worst < 0 || worst < badness_of(value)) {
+      summary.worst = static_cast<int>(i);
+      worst = badness_of(value);
+    }
+  }
+  if (values.empty()) return summary;
+  std::sort(values.begin(), values.end());
+  summary.values = static_cast<int>(values.size());
+  summary.median = values[(values.size() - 1) / 2];
+  summary.least = values.front();
+  summary.largest = values.back();
+  return summary;
+}
+
+void count(SubjectSummary& summary, const RunResult& row) {
+  switch (outcome_of(row)) {
+    case RunOutcome::finished:
+      ++summary.finished;
+      break;
+    case RunOutcome::stopped:
+      ++summary.stopped;
+      break;
+    case RunOutcome::skipped:
+      ++summary.skipped;
+      break;
+  }
+}
+
+}  // namespace
+
+RunOutcome outcome_of(const RunResult& row) {
+  if (row.status == "ok") return RunOutcome::finished;
+  return row.status.starts_with("skipped") ? RunOutcome::skipped : RunOutcome::stopped;
+}
+
+StudySummary summarise(const StudyResult& study) {
+  StudySummary summary;
+  summary.subjects.resize(study.subjects.size());
+  summary.total.metrics.resize(study.metrics.size());
+  for (const RunResult& row : study.rows) {
+    count(summary.subjects[static_cast<std::size_t>(row.subject)], row);
+    count(summary.total, row);
+  }
+  for (std::size_t subject = 0; subject < study.subjects.size(); ++subject) {
+    for (std::size_t metric = 0; metric < study.metrics.size(); ++metric) {
+      const MetricSummary one = summarise_metric(study, static_cast<int>(subject), metric);
+      summary.subjects[subject].metrics.push_back(one);
+      summary.total.metrics[metric].passed += one.passed;
+      summary.total.metrics[metric].failed += one.failed;
+      summary.passed += one.passed;
+      summary.failed += one.failed;
+    }
+  }
+  return summary;
+}
+
+std::vector<Failure> failures_of(const StudyResult& study) {
+  std::vector<Failure> failures;
+  for (std::size_t row = 0; row < study.rows.size(); ++row)
+    for (std::size_t metric = 0; metric < study.rows[row].metrics.size(); ++metric)
+      if (!study.rows[row].metrics[metric].ok.value_or(true))
+        failures.push_back({static_cast<int>(row), static_cast<int>(metric)});
+  return failures;
+}
+
+std::string parameters_text(const StudyResult& study, const RunResult& row) {
+  std::string text;
+  for (std::size_t i = 0; i < study.sweeps.size() && i < row.parameters.size(); ++i) {
+    text += text.empty() ? "" : ", ";
+    text += study.sweeps[i].name + " = " + output::rounded(row.parameters[i], 6);
+    if (!study.sweeps[i].unit.empty()) text += " " + study.sweeps[i].unit;
+  }
+  return text;
+}
+
+std::string spoken(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+std::string composition(const SubjectInfo& subject) {
+  std::string text = subject.engine;
+  for (const std::string& part : {subject.law, subject.integrator})
+    if (!part.empty()) text += ", " + part;
+  if (!subject.settings.empty()) text += ", " + subject.settings + " settings";
+  return text;
+}
+
+}  // namespace hookpoint::studies

@@ -1,0 +1,60 @@
+// A study's rows condensed to one line a subject: what the terminal and the top of the report show.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "studies/result.h"
+
+namespace hookpoint::studies {
+
+enum class RunOutcome { finished, stopped, skipped };
+
+/// "ok" finished; a status that begins with "skipped" never ran; anything else stopped on the way.
+RunOutcome outcome_of(const RunResult& row);
+
+/// One subject, one metric, over all rows of the sweep.
+struct MetricSummary {
+  int values = 0;      ///< rows with a finite measurement; the three numbers below are theirs
+  double median = 0.;  ///< the lower of the middle two for an even count, so that it is a value
+                       ///< that was measured
+  double least = 0., largest = 0.;
+  /// Row (index into StudyResult::rows) to look at first: one whose Truth fails before one whose
+  /// Truth holds, then the one farthest from its closed form; without a closed form the largest
+  /// magnitude. -1 when nothing was measured.
+  int worst = -1;
+  int passed = 0, failed = 0;  ///< verdicts
+};
+
+struct SubjectSummary {
+  int finished = 0, stopped = 0, skipped = 0;  ///< rows
+  std::vector<MetricSummary> metrics;          ///< one a StudyResult::metrics
+  int rows() const { return finished + stopped + skipped; }
+};
+
+struct StudySummary {
+  std::vector<SubjectSummary> subjects;  ///< one a StudyResult::subjects
+  SubjectSummary total;  ///< over all subjects; its metrics hold counts of verdicts only
+  int passed = 0, failed = 0;
+};
+
+/// Cost O(rows log rows) a metric.
+StudySummary summarise(const StudyResult& study);
+
+/// A verdict that does not hold: row and metric.
+struct Failure {
+  int row = 0, metric = 0;
+};
+std::vector<Failure> failures_of(const StudyResult& study);
+
+/// "mu = 0.8, slope = 20 deg": the row's sweep values.
+std::string parameters_text(const StudyResult& study, const RunResult& row);
+
+/// "creep_speed" as a reader writes it: "creep speed".
+std::string spoken(std::string name);
+
+/// "dts, hookpoint, semi_implicit_euler" or "ode, recommended settings": what the subject is made
+/// of.
+std::string composition(const SubjectInfo& subject);
+
+}  // namespace hookpoint::studies

@@ -1,0 +1,75 @@
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "output/csv.h"
+
+namespace hookpoint::output {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string content(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+class Csv : public ::testing::Test {
+ protected:
+  Csv() : folder_(fs::temp_directory_path() / ("hookpoint_csv_" + std::to_string(::getpid()))) {}
+  ~Csv() override { fs::remove_all(folder_); }
+  fs::path folder_;
+};
+
+TEST_F(Csv, QuotesOnlyWhatNeedsQuotes) {
+  EXPECT_EQ(csv_field("plain text"), "plain text");
+  EXPECT_EQ(csv_field("a,b"), "\"a,b\"");
+  EXPECT_EQ(csv_field("say \"slip\""), "\"say \"\"slip\"\"\"");
+  EXPECT_EQ(csv_field("two\nlines"), "\"two\nlines\"");
+  EXPECT_EQ(column_title("creep_speed", "m/s"), "creep_speed [m/s]");
+  EXPECT_EQ(column_title("contacts", ""), "contacts");
+}
+
+TEST_F(Csv, TableIsHeaderAndRows) {
+  const CsvTable table{{"slope [deg]", "status"}, {{"5", "ok"}, {"", "stopped, at 1 s"}}};
+  write_csv(folder_ / "deep" / "results.csv", table);
+  EXPECT_EQ(content(folder_ / "deep" / "results.csv"),
+            "slope [deg],status\n5,ok\n,\"stopped, at 1 s\"\n");
+}
+
+TEST_F(Csv, TraceAppearsOnlyWhenClosed) {
+  const fs::path path = folder_ / "trace.csv";
+  TraceWriter trace(path, {{"w.block.base.location.x", "m"}, {"w.block.contacts", ""}});
+  trace.row(0., std::vector{0.1, 4.});
+  trace.row(1e-3, std::vector{-2e-17, 4.});
+  EXPECT_FALSE(fs::exists(path));
+  trace.close();
+  EXPECT_EQ(content(path),
+            "time [s],w.block.base.location.x [m],w.block.contacts\n0,0.1,4\n0.001,-2e-17,4\n");
+  EXPECT_FALSE(fs::exists(folder_ / "trace.csv.partial"));
+}
+
+TEST_F(Csv, AbandonedFileLeavesTheOldOneAlone) {
+  const fs::path path = folder_ / "results.csv";
+  write_file(path, "old\n");
+  {
+    PartialFile file(path);
+    file.write("half");
+  }
+  EXPECT_EQ(content(path), "old\n");
+}
+
+TEST_F(Csv, UnwritablePlaceIsSaid) {
+  write_file(folder_ / "file", "not a folder");
+  try {
+    write_file(folder_ / "file" / "results.csv", "");
+    FAIL() << "expected a FileError";
+  } catch (const FileError& error) {
+    EXPECT_NE(std::string(error.what()).find("results.csv"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace hookpoint::output

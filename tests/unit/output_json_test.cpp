@@ -1,0 +1,45 @@
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "output/json.h"
+
+namespace hookpoint::output {
+namespace {
+
+TEST(Json, NestsAndIndents) {
+  JsonWriter json;
+  json.begin_object().member("world", "SimpleWorld").member("time", 0.).member("found", true);
+  json.key("base").begin_object().key("linear_acceleration").numbers({0., 0., -9.81}).end_object();
+  json.key("engines").begin_array().value("dts").value("ode").end_array();
+  json.key("none").begin_array().end_array().member("count", std::uint64_t{18}).end_object();
+  EXPECT_EQ(json.text(), R"({
+  "world": "SimpleWorld",
+  "time": 0,
+  "found": true,
+  "base": {
+    "linear_acceleration": [0, 0, -9.8100000000000005]
+  },
+  "engines": [
+    "dts",
+    "ode"
+  ],
+  "none": [],
+  "count": 18
+}
+)");
+}
+
+TEST(Json, WhatIsNotFiniteIsNull) {
+  JsonWriter json;
+  const double infinite = std::numeric_limits<double>::infinity();
+  json.numbers({infinite, -infinite, std::numeric_limits<double>::quiet_NaN(), 1e300});
+  EXPECT_EQ(json.text(), "[null, null, null, 1.0000000000000001e+300]\n");
+}
+
+TEST(Json, EscapesWhatItMust) {
+  EXPECT_EQ(json_string("a\"b\\c\n\t\x01 \u00b5"), "\"a\\\"b\\\\c\\n\\t\\u0001 \u00b5\"");
+}
+
+}  // namespace
+}  // namespace hookpoint::output

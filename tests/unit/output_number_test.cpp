@@ -1,0 +1,61 @@
+#include <gtest/gtest.h>
+
+#include <clocale>
+#include <cstdlib>
+#include <cstring>
+#include <limits>
+#include <random>
+
+#include "output/number.h"
+
+namespace hookpoint::output {
+namespace {
+
+TEST(Number, ShortestReadsBackAsTheSameDouble) {
+  std::mt19937_64 bits(1);
+  for (int i = 0; i < 100000; ++i) {
+    const auto word = bits();
+    double value;
+    static_assert(sizeof value == sizeof word);
+    std::memcpy(&value, &word, sizeof value);
+    if (value != value) continue;
+    EXPECT_EQ(std::strtod(shortest(value).c_str(), nullptr), value);
+  }
+}
+
+TEST(Number, ShortestIsShort) {
+  EXPECT_EQ(shortest(0.1), "0.1");
+  EXPECT_EQ(shortest(-3.), "-3");
+  EXPECT_EQ(shortest(1e-9), "1e-09");
+  EXPECT_EQ(shortest(std::numeric_limits<double>::infinity()), "inf");
+  EXPECT_EQ(shortest(-std::numeric_limits<double>::quiet_NaN()), "nan");
+}
+
+TEST(Number, SeventeenDigitsAreThoseOfTheBinaryValue) {
+  // 0.1 is 0.1000000000000000055511151231257827... in binary64.
+  EXPECT_EQ(seventeen_digits(0.1), "0.10000000000000001");
+  EXPECT_EQ(seventeen_digits(1.), "1");
+  EXPECT_EQ(seventeen_digits(-9.81), "-9.8100000000000005");
+}
+
+TEST(Number, RoundedReadsWell) {
+  EXPECT_EQ(rounded(0.), "0");
+  EXPECT_EQ(rounded(12345.6), "12346");
+  EXPECT_EQ(rounded(3.14159265), "3.142");
+  EXPECT_EQ(rounded(2.1e-16), "2.1e-16");
+  EXPECT_EQ(rounded(-0.000123456), "-0.0001235");
+}
+
+TEST(Number, TheLocaleDoesNotMatter) {
+  const std::string before = std::setlocale(LC_ALL, nullptr);
+  for (const char* name : {"de_DE.UTF-8", "de_DE.utf8", "fr_FR.UTF-8"}) {
+    if (std::setlocale(LC_ALL, name) == nullptr) continue;
+    EXPECT_EQ(shortest(0.5), "0.5");
+    EXPECT_EQ(seventeen_digits(0.5), "0.5");
+    EXPECT_EQ(rounded(0.5), "0.5");
+  }
+  std::setlocale(LC_ALL, before.c_str());
+}
+
+}  // namespace
+}  // namespace hookpoint::output

@@ -1,0 +1,133 @@
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <set>
+
+#include "output/plot.h"
+#include "output/plot_scale.h"
+
+namespace hookpoint::output {
+namespace {
+
+namespace fs = std::filesystem;
+
+Plot sample() {
+  Plot plot{.name = "creep",
+            .title = "Creep, it's 50 % & more",
+            .subtitle = "mu = 0.8",
+            .x = {},
+            .y = {},
+            .series = {}};
+  plot.x = {.label = "slope", .unit = "deg"};
+  plot.y = {.label = "creep speed", .unit = "m/s", .logarithmic = true};
+  plot.series.push_back({"exact", 0, {{5., 10.}, {0., 0.}}, {{5., 10.}, {0., 0.}}, {}});
+  plot.series.push_back({"creeps, a lot", 1, {{5., 10.}, {1e-4, 2e-4}}, {}, {}});
+  plot.series.push_back({"uphill", 2, {{5.}, {-3e-7}}, {}, {10.}});
+  return plot;
+}
+
+class Figures : public ::testing::Test {
+ protected:
+  Figures()
+      : folder_(fs::temp_directory_path() / ("hookpoint_plot's_" + std::to_string(::getpid()))) {}
+  ~Figures() override { fs::remove_all(folder_); }
+  fs::path folder_;
+};
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t found = 0;
+  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+  return found;
+}
+
+TEST(PlotStyle, FortySubjectsLookDifferent) {
+  std::set<std::pair<std::string, int>> looks;
+  for (int i = 0; i < 40; ++i) looks.emplace(series_style(i).color, series_style(i).filled_marker);
+  EXPECT_EQ(looks.size(), 40u);
+}
+
+TEST(PlotData, HoldsEveryPointAsGiven) {
+  EXPECT_EQ(plot_data(sample()),
+            "series,kind,slope [deg],creep speed [m/s]\n"
+            "exact,measured,5,0\nexact,measured,10,0\nexact,predicted,5,0\nexact,predicted,10,0\n"
+            "\"creeps, a lot\",measured,5,1e-04\n\"creeps, a lot\",measured,10,2e-04\n"
+            "uphill,measured,5,-3e-07\nuphill,unfinished,10,\n");
+}
+
+TEST(PlotScale, ZerosAndUnfinishedRunsHaveStripsOfTheirOwn) {
+  const Layout layout = lay_out(sample());
+  EXPECT_EQ(layout.strips.below_floor, std::vector<int>{0});
+  EXPECT_EQ(layout.strips.unfinished, std::vector<int>{2});
+  EXPECT_NEAR(layout.y.low / 1e-7, 1., 1e-9);
+  EXPECT_NEAR(layout.y.high / 1e-3, 1., 1e-9);
+  EXPECT_GT(layout.floor_lane(0), layout.y.range_low);
+  EXPECT_LT(layout.floor_lane(0), layout.y.low);
+  EXPECT_GT(layout.unfinished_lane(0), layout.y.high);
+  EXPECT_LT(layout.unfinished_lane(0), layout.y.range_high);
+}
+
+TEST(PlotScale, LinearTicksAreRoundNumbers) {
+  Plot plot = sample();
+  plot.y.logarithmic = false;
+  plot.series = {{"line", 0, {{0., 30.}, {-1., 1.}}, {}, {}}};
+  EXPECT_EQ(lay_out(plot).x.ticks, "('0' 0, '5' 5, '10' 10, '15' 15, '20' 20, '25' 25, '30' 30)");
+}
+
+TEST(PlotScale, AnEmptyOrConstantPlotStillHasAxes) {
+  Plot plot = sample();
+  plot.series.clear();
+  EXPECT_LT(lay_out(plot).x.range_low, lay_out(plot).x.range_high);
+  plot.series = {{"constant", 0, {{1., 1.}, {2., 2.}}, {}, {}}};
+  EXPECT_LT(lay_out(plot).x.range_low, lay_out(plot).x.range_high);
+  EXPECT_LT(lay_out(plot).y.range_low, lay_out(plot).y.range_high);
+}
+
+TEST_F(Figures, AreTheSameBytesEachTime) {
+  const PlotOutcome first = draw(sample(), folder_);
+  if (!first.drawn) GTEST_SKIP() << first.message;
+  const PlotOutcome second = draw(sample(), folder_);
+  EXPECT_EQ(first.svg, second.svg);
+  EXPECT_EQ(count(first.svg, "</svg>"), 1u);
+  for (const char* name : {"creep.csv", "creep.gp", "creep.svg"})
+    EXPECT_TRUE(fs::exists(folder_ / name));
+}
+
+TEST_F(Figures, DrawEveryPoint) {
+  const PlotOutcome outcome = draw(sample(), folder_);
+  if (!outcome.drawn) GTEST_SKIP() << outcome.message;
+  // Circle of `exact`, hollow: two zeros in the strip and the legend's note; filled only in the
+  // legend.
+  EXPECT_EQ(count(outcome.svg, "<use xlink:href='#gpPt5' transform"), 3u);
+  EXPECT_EQ(count(outcome.svg, "<use xlink:href='#gpPt6' transform"), 1u);
+  // Square of `creeps`: two points and the legend.
+  EXPECT_EQ(count(outcome.svg, "<use xlink:href='#gpPt4' transform"), 3u);
+  // Cross: the unfinished run and the legend.
+  EXPECT_EQ(count(outcome.svg, "<use xlink:href='#gpPt1' transform"), 2u);
+}
+
+TEST_F(Figures, AMissingGnuplotIsSaidAndLeavesDataAndScript) {
+  const std::string path = std::getenv("PATH");
+  ::setenv("PATH", "/nowhere", 1);
+  const PlotOutcome outcome = draw(sample(), folder_);
+  ::setenv("PATH", path.c_str(), 1);
+  EXPECT_FALSE(outcome.drawn);
+  EXPECT_NE(outcome.message.find("gnuplot is not installed"), std::string::npos);
+  EXPECT_TRUE(fs::exists(folder_ / "creep.csv"));
+  EXPECT_FALSE(fs::exists(folder_ / "creep.svg"));
+}
+
+TEST_F(Figures, InsideAPageKeepTheirIdsApart) {
+  const PlotOutcome outcome = draw(sample(), folder_);
+  if (!outcome.drawn) GTEST_SKIP() << outcome.message;
+  const std::string inlined = inline_svg(outcome.svg, "creep");
+  EXPECT_EQ(inlined.rfind("<svg", 0), 0u);
+  EXPECT_EQ(count(inlined, "'#gp"), 0u);
+  EXPECT_EQ(count(inlined, "id='gp"), 0u);
+  EXPECT_EQ(count(inlined, "black"), 0u);
+}
+
+}  // namespace
+}  // namespace hookpoint::output
