@@ -64,15 +64,19 @@ template <class Real>
 struct LinkConstants {
   JointType joint = JointType::revolute;
   Real sin_alpha{}, cos_alpha{}, a{}, d{}, theta{};
+  bool twisted = true;  ///< alpha or a differs from 0, so that there is a screw about x
   RigidInertia<Real> inertia;
 };
 
 template <class Real>
 struct ChainConstants {
   std::size_t first_link = 0, link_count = 0;
+  // H is the hip frame after the first link's constant screw about x, which the model has merged
+  // into it.
   bool aligned = true;  ///< R_BH is the identity
   Vector3<Real> p_BH;
   Matrix3<Real> R_BH;
+  Vector3<Real> hip_to_H;  ///< from the hip as described to H, base axes [m]
   Elimination<Real> leaf;  ///< of the last link, which carries nothing: constant
 };
 

@@ -1,5 +1,5 @@
-// General and symmetric 3x3 matrices. A symmetric one stores six numbers, which is what lets the articulated-body
-// recursion move 21 numbers a link instead of 36 (docs/performance.md).
+// General and symmetric 3x3 matrices. A symmetric one stores six numbers, which is what lets the
+// articulated-body recursion move 21 numbers a link instead of 36 (docs/performance.md).
 #pragma once
 
 #include "math/vector3.h"
@@ -82,12 +82,11 @@ constexpr Real determinant(const Matrix3<Real>& m) {
 /// Inverse by cofactors; the caller knows that `m` is regular.
 template <class Real>
 constexpr Matrix3<Real> inverse(const Matrix3<Real>& m) {
-  return (1. / determinant(m)) *
-         Matrix3<Real>{m.yy * m.zz - m.yz * m.zy, m.xz * m.zy - m.xy * m.zz,
-                       m.xy * m.yz - m.xz * m.yy, m.yz * m.zx - m.yx * m.zz,
-                       m.xx * m.zz - m.xz * m.zx, m.xz * m.yx - m.xx * m.yz,
-                       m.yx * m.zy - m.yy * m.zx, m.xy * m.zx - m.xx * m.zy,
-                       m.xx * m.yy - m.xy * m.yx};
+  return (1. / determinant(m)) * Matrix3<Real>{m.yy * m.zz - m.yz * m.zy, m.xz * m.zy - m.xy * m.zz,
+                                               m.xy * m.yz - m.xz * m.yy, m.yz * m.zx - m.yx * m.zz,
+                                               m.xx * m.zz - m.xz * m.zx, m.xz * m.yx - m.xx * m.yz,
+                                               m.yx * m.zy - m.yy * m.zx, m.xy * m.zx - m.xx * m.zy,
+                                               m.xx * m.yy - m.xy * m.yx};
 }
 
 template <class Real>
@@ -130,6 +129,13 @@ constexpr Symmetric3<Real> inverse(const Symmetric3<Real>& m) {
           scale * cxz,
           scale * (m.xy * m.xz - m.xx * m.yz)};
 }
+/// A M A^T, of which only six numbers are computed.
+template <class Real>
+constexpr Symmetric3<Real> congruent(const Matrix3<Real>& a, const Symmetric3<Real>& m) {
+  const Vector3<Real> x{a.xx, a.xy, a.xz}, y{a.yx, a.yy, a.yz}, z{a.zx, a.zy, a.zz};
+  const Vector3<Real> mx = m * x, my = m * y, mz = m * z;
+  return {dot(x, mx), dot(y, my), dot(z, mz), dot(x, my), dot(x, mz), dot(y, mz)};
+}
 /// R M R^T: `m` re-expressed by the rotation `r`.
 template <class Real>
 constexpr Symmetric3<Real> rotate(const Matrix3<Real>& r, const Symmetric3<Real>& m) {
@@ -138,9 +144,12 @@ constexpr Symmetric3<Real> rotate(const Matrix3<Real>& r, const Symmetric3<Real>
 /// mass (|c|^2 1 - c c^T): what a point mass at `c` adds to an inertia about the origin (Steiner).
 template <class Real>
 constexpr Symmetric3<Real> point_inertia(const Real& mass, const Vector3<Real>& c) {
-  return mass * Symmetric3<Real>{c.y * c.y + c.z * c.z, c.x * c.x + c.z * c.z,
-                                 c.x * c.x + c.y * c.y, -c.x * c.y,
-                                 -c.x * c.z,            -c.y * c.z};
+  return mass * Symmetric3<Real>{c.y * c.y + c.z * c.z,
+                                 c.x * c.x + c.z * c.z,
+                                 c.x * c.x + c.y * c.y,
+                                 -c.x * c.y,
+                                 -c.x * c.z,
+                                 -c.y * c.z};
 }
 
 }  // namespace hookpoint

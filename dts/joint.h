@@ -1,0 +1,111 @@
+// One joint in the recursions: its free direction S, the z unit vector of angular (revolute) or of
+// linear motion (prismatic), and the way across it and across a hip. Choices here are of the
+// model's structure, never of the state.
+#pragma once
+
+#include "dts/mdh.h"
+#include "dts/rigid_body.h"
+#include "dts/workspace.h"
+
+namespace hookpoint::dts {
+
+/// S^T f.
+template <class Real>
+constexpr Real along(JointType joint, const Wrench<Real>& f) {
+  return joint == JointType::revolute ? f.moment.z : f.force.z;
+}
+/// a + S x.
+template <class Real>
+constexpr Motion<Real> with_joint_motion(JointType joint, Motion<Real> a, const Real& x) {
+  if (joint == JointType::revolute) {
+    a.angular.z += x;
+  } else {
+    a.linear.z += x;
+  }
+  return a;
+}
+
+/// A - u u^T / D; the parts along S come out as rounding of zero, and are zero.
+template <class Real>
+constexpr Symmetric3<Real> less_dyad(const Symmetric3<Real>& A, const Vector3<Real>& u,
+                                     const Vector3<Real>& u_over_D) {
+  return {A.xx - u.x * u_over_D.x, A.yy - u.y * u_over_D.y, A.zz - u.z * u_over_D.z,
+          A.xy - u.x * u_over_D.y, A.xz - u.x * u_over_D.z, A.yz - u.y * u_over_D.z};
+}
+
+/// U = IA S, D = S^T U, Ia = IA - U U^T / D (Featherstone 2008, equation 7.43). Along a revolute z,
+/// row and column of I and the row of H vanish; along a prismatic z, row and column of M and the
+/// column of H do.
+template <class Real>
+constexpr Elimination<Real> eliminate(JointType joint, const ArticulatedInertia<Real>& IA) {
+  const auto& [I, H, M] = IA;
+  if (joint == JointType::revolute) {
+    const Vector3<Real> m{I.xz, I.yz, I.zz};
+    const Vector3<Real> f{H.zx, H.zy, H.zz};
+    const Real D_inverse = 1. / I.zz;
+    const Real mx = D_inverse * m.x;
+    const Real my = D_inverse * m.y;
+    return {{{I.xx - mx * m.x, I.yy - my * m.y, 0., I.xy - mx * m.y, 0., 0.},
+             {H.xx - mx * f.x, H.xy - mx * f.y, H.xz - mx * f.z, H.yx - my * f.x, H.yy - my * f.y,
+              H.yz - my * f.z, 0., 0., 0.},
+             less_dyad(M, f, D_inverse * f)},
+            {m, f},
+            D_inverse};
+  }
+  const Vector3<Real> m{H.xz, H.yz, H.zz};
+  const Vector3<Real> f{M.xz, M.yz, M.zz};
+  const Real D_inverse = 1. / M.zz;
+  const Real fx = D_inverse * f.x;
+  const Real fy = D_inverse * f.y;
+  return {{less_dyad(I, m, D_inverse * m),
+           {H.xx - m.x * fx, H.xy - m.x * fy, 0., H.yx - m.y * fx, H.yy - m.y * fy, 0.,
+            H.zx - m.z * fx, H.zy - m.z * fy, 0.},
+           {M.xx - fx * f.x, M.yy - fy * f.y, 0., M.xy - fx * f.y, 0., 0.}},
+          {m, f},
+          D_inverse};
+}
+
+/// An inertia or a wrench of a link, as the preceding frame sees it.
+template <class Real, class Quantity>
+constexpr Quantity inward(const LinkConstants<Real>& link, const LinkPass<Real>& pass,
+                          const Quantity& x) {
+  const Quantity y = inward_z(Screw<Real>{pass.sine, pass.cosine, pass.d}, x);
+  if (!link.twisted) return y;
+  return inward_x(Screw<Real>{link.sin_alpha, link.cos_alpha, link.a}, y);
+}
+/// A motion of the preceding frame, as the link would have it with its joint locked.
+template <class Real>
+constexpr Motion<Real> outward(const LinkConstants<Real>& link, const LinkPass<Real>& pass,
+                               const Motion<Real>& a) {
+  const Screw<Real> z{pass.sine, pass.cosine, pass.d};
+  if (!link.twisted) return outward_z(z, a);
+  return outward_z(z, outward_x(Screw<Real>{link.sin_alpha, link.cos_alpha, link.a}, a));
+}
+
+/// An inertia of the chain about its hip, as the base sees it: H' = H + [p]x M, I' = I - H [p]x +
+/// [p]x H'^T.
+template <class Real>
+constexpr ArticulatedInertia<Real> inward(const ChainConstants<Real>& chain,
+                                          const ArticulatedInertia<Real>& x) {
+  if (chain.aligned) return shift(chain.p_BH, x);
+  return shift(chain.p_BH, {congruent(chain.R_BH, x.I), chain.R_BH * x.H * transpose(chain.R_BH),
+                            congruent(chain.R_BH, x.M)});
+}
+template <class Real>
+constexpr Wrench<Real> inward(const ChainConstants<Real>& chain, const Wrench<Real>& f) {
+  const Vector3<Real> force = chain.R_BH * f.force;
+  return {chain.R_BH * f.moment + cross(chain.p_BH, force), force};
+}
+template <class Real>
+constexpr Motion<Real> outward(const ChainConstants<Real>& chain, const Motion<Real>& a) {
+  return {transpose_times(chain.R_BH, a.angular),
+          transpose_times(chain.R_BH, a.linear + cross(a.angular, chain.p_BH))};
+}
+
+/// Whether link `l` ends its chain, so that its elimination is a constant of the model.
+template <class Real>
+constexpr bool is_last(const ChainConstants<Real>& chain, std::size_t l) {
+  return l + 1 == chain.first_link + chain.link_count;
+}
+
+}  // namespace hookpoint::dts

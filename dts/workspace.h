@@ -1,0 +1,80 @@
+// Every intermediate and result of the recursions, sized once from a Model: one a thread, no
+// allocation afterwards.
+#pragma once
+
+#include <vector>
+
+#include "dts/model.h"
+
+namespace hookpoint::dts {
+
+/// A body's pose and velocity, of its frame's origin, world axes.
+template <class Real>
+struct BodyMotion {
+  Matrix3<Real> R_WB;
+  Vector3<Real> p_WB;  ///< [m]
+  Vector3<Real> v_WB;  ///< [m/s]
+  Vector3<Real> w_WB;  ///< [rad/s]
+};
+
+/// What the passes hand one another about a link, in link axes.
+template <class Real>
+struct LinkPass {
+  Real sine{}, cosine{};  ///< of the angle about the link's z
+  Real d{};               ///< offset along the link's z [m]
+  Vector3<Real> w;        ///< angular velocity
+  Motion<Real> c;         ///< acceleration that the velocities alone give the link
+  Wrench<Real> U;         ///< IA S
+  Real D_inverse{};       ///< 1 / (S^T IA S)
+  Real u{};               ///< tau - S^T pA
+  Real impulse{};         ///< as u, when impulses take the place of forces
+};
+
+/// A chain seen from its hip frame: f_hip = IA a_hip + pA.
+template <class Real>
+struct HipPass {
+  ArticulatedInertia<Real> IA;
+  Wrench<Real> pA;
+};
+
+/// The base with all that it carries, base axes, factored for a = -IA^-1 pA.
+template <class Real>
+struct BasePass {
+  Vector3<Real> w;  ///< angular velocity
+  Matrix3<Real> H;  ///< of IA
+  Symmetric3<Real> M_inverse;
+  Symmetric3<Real> rotational_inverse;  ///< (I - H M^-1 H^T)^-1
+};
+
+template <class Real>
+struct Workspace {
+  explicit Workspace(const Model<Real>& model)
+      : bodies(model.body_count()),
+        external(model.body_count()),
+        joint_accelerations(model.link_count()),
+        hip_wrenches(model.chain_count()),
+        links(model.link_count()),
+        hips(model.chain_count()),
+        link_wrenches(model.link_count()) {}
+
+  // Set by forward_kinematics.
+  std::vector<BodyMotion<Real>> bodies;
+
+  // Set by the caller (external_forces.h): on each body, about its origin, world axes.
+  std::vector<Wrench<Real>> external;
+
+  // Set by forward_dynamics.
+  Vector3<Real> base_acceleration;  ///< of the base origin, world axes; free fall: g [m/s^2]
+  Vector3<Real> base_angular_acceleration;  ///< world axes [rad/s^2]
+  std::vector<Real> joint_accelerations;    ///< chain by chain
+  std::vector<Wrench<Real>> hip_wrenches;  ///< by each chain ON the base, about its hip, world axes
+
+  // Between the passes.
+  std::vector<LinkPass<Real>> links;
+  std::vector<HipPass<Real>> hips;
+  std::vector<Wrench<Real>> link_wrenches;  ///< across each joint, on the link, link axes
+  BasePass<Real> base;
+  Motion<Real> base_motion;  ///< acceleration less gravity (or velocity jump), base axes
+};
+
+}  // namespace hookpoint::dts
