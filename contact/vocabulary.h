@@ -1,7 +1,7 @@
 // What a contact law reads and returns. A law is a pure function
 //     (kinematics of a boundary point, committed memory, material, step) -> (force, next memory)
-// of one point; it never mutates an anchor, so an integrator may evaluate it at as many trial states as it likes and
-// commit the memory once, at the accepted state (docs/contact.md).
+// of one point; it never mutates an anchor, so an integrator may evaluate it at as many trial
+// states as it likes and commit the memory once, at the accepted state (docs/contact.md).
 #pragma once
 
 #include "math/vector3.h"
@@ -20,10 +20,11 @@ struct PointKinematics {
 /// What a point remembers between steps. Plain value: copying it is a checkpoint.
 template <class Real>
 struct Memory {
-  Vector3<Real> hook;       ///< h, the anchor on the ground [m]; meaningful while attached
-  Vector3<Real> stretch;    ///< e_old, tangential part of x - h when the memory was committed [m]
-  Mask<Real> attached{};    ///< the point was inside the ground at the commit
-  Mask<Real> sliding{};     ///< the last commit was a slip: kinetic friction holds until the trial falls below it
+  Vector3<Real> hook;     ///< h, the anchor on the ground [m]; meaningful while attached
+  Vector3<Real> stretch;  ///< e_old, tangential part of x - h when the memory was committed [m]
+  Mask<Real> attached{};  ///< the point was inside the ground at the commit
+  Mask<Real> sliding{};   ///< the last commit was a slip: kinetic friction holds until the trial
+                          ///< falls below it
 };
 
 template <class Real>
@@ -35,20 +36,20 @@ struct Reaction {
 /// Constants of a tile's surface (docs/contact.md says which law reads which). SI.
 template <class Real>
 struct MaterialConstants {
-  Real normal_stiffness{1e5};      ///< k [N/m]
-  Real normal_damping{300.};       ///< c [N s/m]
-  Real tangential_stiffness{1e5};  ///< k_t [N/m]
-  Real tangential_damping{300.};   ///< c_t [N s/m]
-  Real static_friction{0.8};       ///< mu_s
-  Real kinetic_friction{0.8};      ///< mu_k
-  Real nominal_penetration{1e-3};  ///< d0 [m]
-  Real nominal_stiffness{1e4};     ///< k1 [N/m], law `nominal`
-  Real restitution{0.};            ///< e, impulse laws
-  Real exponent{1.5};              ///< n of k d^n, hunt_crossley
-  Real hysteresis_damping{0.5};    ///< alpha [s/m], hunt_crossley
-  Real regularisation_speed{1e-3}; ///< v_s [m/s], regularised Coulomb friction
-  Real stribeck_speed{1e-2};       ///< v_St [m/s]: over which mu falls from static to kinetic
-  Real rebound_speed{1e-3};        ///< u0 [m/s], least rebound of a microcollision, impulse laws
+  Real normal_stiffness{1e5};       ///< k [N/m]
+  Real normal_damping{300.};        ///< c [N s/m]
+  Real tangential_stiffness{1e5};   ///< k_t [N/m]
+  Real tangential_damping{300.};    ///< c_t [N s/m]
+  Real static_friction{0.8};        ///< mu_s
+  Real kinetic_friction{0.8};       ///< mu_k
+  Real nominal_penetration{1e-3};   ///< d0 [m]
+  Real nominal_stiffness{1e4};      ///< k1 [N/m], law `nominal`
+  Real restitution{0.};             ///< e, impulse laws
+  Real exponent{1.5};               ///< n of k d^n, hunt_crossley
+  Real hysteresis_damping{0.5};     ///< alpha [s/m], hunt_crossley
+  Real regularisation_speed{1e-3};  ///< v_s [m/s], regularised Coulomb friction
+  Real stribeck_speed{1e-2};        ///< v_St [m/s]: over which mu falls from static to kinetic
+  Real rebound_speed{1e-3};         ///< u0 [m/s], least rebound of a microcollision, impulse laws
 };
 
 }  // namespace hookpoint::contact

@@ -1,0 +1,88 @@
+#include "contact/force_law.h"
+
+#include <array>
+
+namespace hookpoint::contact {
+namespace {
+
+template <class Law>
+constexpr LawDescription describe() {
+  return {Law::name, Law::source, Law::summary, false};
+}
+
+constexpr std::array laws{
+    describe<Hookpoint>(),
+    describe<HookpointReset>(),
+    describe<HuntCrossley>(),
+    LawDescription{"impulse", "Mirtich 1996",
+                   "event-driven microcollisions with restitution, no penetration: creeps", true},
+    LawDescription{"impulse_reversal", "Mirtich 1996",
+                   "as impulse, but a rebound inside the cone reverses the whole velocity", true},
+};
+
+/// Tries the alternatives of the variant in turn.
+template <std::size_t Index = 0>
+std::optional<ForceLaw> force_law_named(std::string_view name) {
+  if constexpr (Index < std::variant_size_v<ForceLaw>) {
+    using Law = std::variant_alternative_t<Index, ForceLaw>;
+    if (name == Law::name) return ForceLaw{Law{}};
+    return force_law_named<Index + 1>(name);
+  } else {
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
+std::span<const LawDescription> law_table() { return laws; }
+
+const LawDescription* find_law(std::string_view name) {
+  for (const LawDescription& law : laws) {
+    if (law.name == name) return &law;
+  }
+  return nullptr;
+}
+
+std::optional<ForceLaw> find_force_law(std::string_view name) { return force_law_named(name); }
+
+double static_depth(const ForceLaw& law, double load, const MaterialConstants<double>& material) {
+  return std::visit([&](const auto& chosen) { return chosen.static_depth(load, material); }, law);
+}
+
+double stick_displacement(const ForceLaw& law, double load,
+                          const MaterialConstants<double>& material) {
+  return std::visit([&](const auto& chosen) { return chosen.stick_displacement(load, material); },
+                    law);
+}
+
+std::optional<double> creep_speed(const ForceLaw& law, double tangent_of_slope,
+                                  const MaterialConstants<double>& material) {
+  return std::visit(
+      [&](const auto& chosen) { return chosen.creep_speed(tangent_of_slope, material); }, law);
+}
+
+double restitution(const ForceLaw& law, double mass, double speed,
+                   const MaterialConstants<double>& material) {
+  return std::visit([&](const auto& chosen) { return chosen.restitution(mass, speed, material); },
+                    law);
+}
+
+LinearContact linearise(const ForceLaw& law, double load,
+                        const MaterialConstants<double>& material) {
+  return std::visit([&](const auto& chosen) { return chosen.linearise(load, material); }, law);
+}
+
+double stored_energy(const ForceLaw& law, double depth, const Vector3d& stretch,
+                     const MaterialConstants<double>& material) {
+  return std::visit(
+      [&](const auto& chosen) { return chosen.stored_energy(depth, stretch, material); }, law);
+}
+
+Reaction<double> evaluate(const ForceLaw& law, const PointKinematics<double>& point,
+                          const Memory<double>& memory, const MaterialConstants<double>& material,
+                          double dt) {
+  return std::visit(
+      [&](const auto& chosen) { return chosen.evaluate(point, memory, material, dt); }, law);
+}
+
+}  // namespace hookpoint::contact

@@ -1,0 +1,56 @@
+// The table of contact laws: what `contact = NAME` may say. A force law is one alternative of
+// `ForceLaw`, so that the loop over points is compiled for each law; an impulse law owns its time
+// advance and is only listed here.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string_view>
+#include <variant>
+
+#include "contact/hookpoint.h"
+#include "contact/hookpoint_reset.h"
+#include "contact/hunt_crossley.h"
+
+namespace hookpoint::contact {
+
+using ForceLaw = std::variant<Hookpoint, HookpointReset, HuntCrossley>;
+
+/// One row of the table.
+struct LawDescription {
+  std::string_view name;        ///< as in `contact = hookpoint`
+  std::string_view source;      ///< whose law it is
+  std::string_view summary;     ///< one line
+  bool is_impulse_law = false;  ///< event-driven: cannot be paired with RK4 or CVODE
+};
+
+/// Every law, force laws first.
+std::span<const LawDescription> law_table();
+
+/// The row of a name; null for an unknown name.
+const LawDescription* find_law(std::string_view name);
+
+/// The force law of a name; none for an impulse law or an unknown name.
+std::optional<ForceLaw> find_force_law(std::string_view name);
+
+/// The named prediction of the law held by `law`; arguments, units and meaning as in the law's own
+/// file.
+double static_depth(const ForceLaw& law, double load, const MaterialConstants<double>& material);
+double stick_displacement(const ForceLaw& law, double load,
+                          const MaterialConstants<double>& material);
+std::optional<double> creep_speed(const ForceLaw& law, double tangent_of_slope,
+                                  const MaterialConstants<double>& material);
+double restitution(const ForceLaw& law, double mass, double speed,
+                   const MaterialConstants<double>& material);
+LinearContact linearise(const ForceLaw& law, double load,
+                        const MaterialConstants<double>& material);
+double stored_energy(const ForceLaw& law, double depth, const Vector3d& stretch,
+                     const MaterialConstants<double>& material);
+
+/// Evaluates the law held by `law`; a loop over many points visits once and calls `Law::evaluate`
+/// inside instead.
+Reaction<double> evaluate(const ForceLaw& law, const PointKinematics<double>& point,
+                          const Memory<double>& memory, const MaterialConstants<double>& material,
+                          double dt);
+
+}  // namespace hookpoint::contact

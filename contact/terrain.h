@@ -1,0 +1,112 @@
+// The ground: a fixed-spacing triangular tiling over a grid of heights (Reichler & Delcomyn
+// 2000, 3.3). Two triangles a cell, diagonal from vertex (i,j) to (i+1,j+1), a material for every
+// tile. The one tile that a point can touch is indexed by the point's x and y: no search.
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "math/rotation.h"
+
+namespace hookpoint::contact {
+
+/// The level plane z = height [m].
+struct FlatSurface {
+  double height = 0.;
+};
+/// The plane through the world's origin that falls along +x turned by `azimuth` about z:
+/// z = -tan(angle) (x cos azimuth + y sin azimuth). Radians, 0 <= angle < pi/2.
+struct SlopeSurface {
+  double angle = 0.;
+  double azimuth = 0.;
+};
+/// heights[row * columns + column] [m] at (origin_x + column spacing, origin_y + row spacing).
+struct GridSurface {
+  int columns = 0, rows = 0;  ///< vertices along x and y, at least 2 each
+  std::vector<double> heights;
+  double origin_x = 0., origin_y = 0.;  ///< world position of vertex (0,0) [m]
+};
+
+/// Paints the tiles whose centroid lies within the rectangle [m]; later patches cover earlier ones.
+struct MaterialPatch {
+  double from_x = 0., from_y = 0., to_x = 0., to_y = 0.;
+  int material = 0;
+};
+
+struct TerrainDescription {
+  std::variant<FlatSurface, SlopeSurface, GridSurface> surface;
+  double spacing = 1.;              ///< edge of a cell [m]
+  double size_x = 0., size_y = 0.;  ///< extent of a plane, centred on the origin [m]; 0: unbounded.
+                                    ///< A grid has its own.
+  int material = 0;                 ///< of every tile that no patch covers
+  std::vector<MaterialPatch> patches;
+};
+
+/// The tile under (or over) a point, and where the point is against it.
+struct TilePoint {
+  Vector3d normal;       ///< unit normal of the tile, out of the ground
+  double depth = 0.;     ///< delta, along the normal: vertical depth * n_z, > 0 inside [m]
+  double height = 0.;    ///< z of the tile's plane at the point's x, y [m]
+  int material = 0;      ///< index that the description gave
+  bool outside = false;  ///< the point's x, y are off the terrain; its edge tile was continued
+};
+
+/// Where a body lies on the ground: `orientation` turns body to world axes, z to the tile's normal.
+struct TilePose {
+  Vector3d position;  ///< on the tile's plane at the x, y asked for [m]
+  Quaterniond orientation;
+  TilePoint tile;
+};
+
+class Terrain {
+ public:
+  /// What is wrong with a description, in words for its author; empty when a Terrain can be built
+  /// from it.
+  static std::string problem(const TerrainDescription& description);
+
+  /// The description must be without `problem`.
+  explicit Terrain(TerrainDescription description);
+
+  /// The tile at a point's x, y and the point's depth in it. Off the terrain the nearest edge
+  /// tile's plane goes on and `outside` is set, for the caller to report once (outside_message).
+  /// O(1), plus the number of patches for a plane. Const without caches: any number of threads may
+  /// ask.
+  TilePoint query(const Vector3d& point) const;
+  TilePoint query(double x, double y, double z) const { return query(Vector3d{x, y, z}); }
+
+  /// What to tell the user, once, when a point has left the terrain.
+  std::string outside_message(const Vector3d& point) const;
+
+  /// Lies a body on the tile at (x, y) [m]: first turned by `yaw` [rad] about the world's z, then
+  /// tilted by the shortest rotation that takes z to the tile's normal (the same as tilting first
+  /// and then turning about the normal).
+  TilePose pose_on_tile(double x, double y, double yaw) const;
+
+  const TerrainDescription& description() const { return description_; }
+
+ private:
+  /// One triangle: cell and half, and whether the point asked about lies off the terrain.
+  struct Tile {
+    double column = 0., row = 0.;  ///< the cell's lower left vertex, in cells from `origin`
+    bool upper = false;            ///< the half left of (above) the diagonal
+    bool outside = false;
+  };
+  struct Plane {
+    double height = 0.;  ///< at the point asked about [m]
+    double gradient_x = 0., gradient_y = 0.;
+  };
+
+  Tile tile_at(double x, double y) const;
+  Plane plane_of(const Tile& tile, double x, double y) const;
+  int painted_material(const Tile& tile) const;
+  int material_of(const Tile& tile) const;
+
+  TerrainDescription description_;
+  double origin_x_ = 0., origin_y_ = 0.;  ///< world position of vertex (0,0) [m]
+  double columns_ = 0., rows_ = 0.;       ///< cells along x and y; infinite for an unbounded plane
+  bool unbounded_x_ = false, unbounded_y_ = false;
+  std::vector<int> tile_materials_;  ///< of a grid with patches: two a cell, row by row
+};
+
+}  // namespace hookpoint::contact

@@ -1,0 +1,45 @@
+// What an integrator sees of a mechanism: a second-order system q' ~ v, v' = a(t, q, v) whose
+// positions q may live on a manifold (unit quaternions), while velocities v are plain vectors.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+namespace hookpoint::integrators {
+
+enum class Status {
+  ok,
+  not_finite,  ///< an acceleration, position or velocity is infinite or not a number
+};
+
+/// Which evaluation within a step this is. `first` is at the accepted state (t, q, v) that the step
+/// starts from, and comes exactly once a step, before all others: there the system may commit what
+/// remembers the past (contact hooks). `trial` is at a state that may never be visited: the system
+/// evaluates it from the memory that `first` committed and leaves that memory alone.
+enum class Stage { first, trial };
+
+class System {
+ public:
+  virtual ~System() = default;
+  /// Numbers that store a position q (7 + joints for a mobile base) and a velocity v (6 + joints).
+  virtual std::size_t position_size() const = 0;
+  virtual std::size_t velocity_size() const = 0;
+
+  /// a = dv/dt at time `t` [s], position `q` and velocity `v`. Anything but `ok` ends the step.
+  virtual Status accelerations(Stage stage, double t, std::span<const double> q,
+                               std::span<const double> v, std::span<double> a) = 0;
+
+  /// q_out = q0 (+) u: the position reached from q0 along the tangent vector `u` (velocity_size
+  /// numbers): q0 + u in a vector space, exp(u) q0 for a rotation in world axes. `q_out` does not
+  /// alias `q0`.
+  virtual void retract(std::span<const double> q0, std::span<const double> u,
+                       std::span<double> q_out) const = 0;
+
+  /// du = the rate of u for which q0 (+) u moves with velocity `v`: v itself in a vector space,
+  /// dexp_u^-1 v for a rotation (rotation_rate.h). It is what keeps RK4 at fourth order on
+  /// rotations (Munthe-Kaas 1999).
+  virtual void tangent_rate(std::span<const double> u, std::span<const double> v,
+                            std::span<double> du) const = 0;
+};
+
+}  // namespace hookpoint::integrators
