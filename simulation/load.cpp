@@ -1,0 +1,98 @@
+#include "simulation/load.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <utility>
+
+#include "simulation/load_parts.h"
+
+namespace hookpoint::simulation {
+namespace {
+
+/// The one World, or null after saying why there is none.
+const language::Object* find_world(const language::Object& root, Loading& loading) {
+  const std::vector<const language::Object*> worlds = root.children_of("World");
+  if (worlds.empty()) {
+    loading.error(root.position,
+                  "there is no World in this file; a run needs one: World NAME { ... }");
+    return nullptr;
+  }
+  for (std::size_t i = 1; i < worlds.size(); ++i) {
+    loading.error(worlds[i]->position, "a second World; a file to run holds exactly one");
+    loading.diagnostics.note(worlds[0]->position, "the first is here");
+  }
+  return worlds[0];
+}
+
+/// Modules may hold these at their top, to be laid down in a World; in a file to run they would be
+/// left out.
+void check_strays(const language::Object& root, Loading& loading) {
+  constexpr std::array<std::pair<const char*, const char*>, 4> homes{
+      {{"Robot", "World"}, {"Terrain.", "World"}, {"Chain", "Robot"}, {"Link", "Chain"}}};
+  for (const auto& [type, home] : homes) {
+    for (const language::Object* stray : root.children_of(type)) {
+      loading.error(stray->position,
+                    fmt::format("{} stands at the top of the file to run; move it into the {}",
+                                stray->type, home));
+    }
+  }
+}
+
+Vector3d load_gravity(const language::Object& world, Loading& loading) {
+  const std::vector<double>& gravity = world.numbers("gravity");
+  if (gravity.size() == 1) return {0., 0., -gravity[0]};
+  if (gravity.size() == 3) return {gravity[0], gravity[1], gravity[2]};
+  loading.error(
+      place_of(world, "gravity"),
+      "gravity has two components; give one number g for 0,0,-g, or the three of the vector");
+  return {};
+}
+
+void load_world(const language::Object& world, Loading& loading) {
+  Experiment& experiment = loading.experiment;
+  experiment.world = world.name;
+  experiment.gravity = load_gravity(world, loading);
+  experiment.deltat = world.number("deltat");
+  experiment.integrator = world.word("integrator");
+  experiment.contact = world.word("contact");
+  experiment.engine = world.word("engine");
+  experiment.settings = world.word("settings");
+  experiment.duration = world.number("duration");
+  experiment.seed = static_cast<std::uint64_t>(world.number("seed"));
+}
+
+/// Controllers and wires are checked with the file but nothing carries their values yet.
+void warn_of_controllers(const language::Object& root, Loading& loading) {
+  const std::vector<const language::Object*> controllers = collect_all(root, "Controller.");
+  if (controllers.empty()) return;
+  loading.diagnostics.warning(
+      controllers[0]->position,
+      "controllers and wires are checked but do not act yet: joints keep the torque "
+      "that their Link states");
+}
+
+}  // namespace
+
+std::optional<Experiment> load_experiment(const language::Object& root,
+                                          language::Diagnostics& diagnostics,
+                                          const std::vector<std::filesystem::path>& search_path) {
+  Loading loading{diagnostics, search_path, {}, {}, {}, {}};
+  const std::size_t errors_before = diagnostics.error_count();
+  const language::Object* world = find_world(root, loading);
+  check_strays(root, loading);
+  if (world == nullptr) return std::nullopt;
+  load_world(*world, loading);
+  load_materials(root, loading);
+  load_terrain(*world, loading);
+  load_robots(*world, loading);
+  load_forces(*world, loading);
+  check_combinations(*world, loading);
+  // A pose on the ground means something only for robots and ground that are right.
+  if (diagnostics.error_count() == errors_before) place_on_terrain(loading);
+  if (diagnostics.error_count() != errors_before) return std::nullopt;
+  warn_of_controllers(root, loading);
+  return std::move(loading.experiment);
+}
+
+}  // namespace hookpoint::simulation

@@ -1,0 +1,22 @@
+// The load step: a checked object tree becomes an Experiment, every number resolved. What no single
+// field can show, because it needs the whole experiment, is checked here.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "language/diagnostics.h"
+#include "language/object.h"
+#include "simulation/experiment.h"
+
+namespace hookpoint::simulation {
+
+/// The experiment of the one World below `root`; nothing when `diagnostics` got an error. A
+/// terrain's file is looked up beside the .hook file that names it, then along `search_path`. Cost:
+/// linear in the tree, plus the terrain's file.
+std::optional<Experiment> load_experiment(
+    const language::Object& root, language::Diagnostics& diagnostics,
+    const std::vector<std::filesystem::path>& search_path = {});
+
+}  // namespace hookpoint::simulation

@@ -1,0 +1,85 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "contact/boundary_points.h"
+#include "simulation/load_parts.h"
+
+namespace hookpoint::simulation {
+namespace {
+
+ShapeGeometry load_geometry(const language::Object& object, Loading& loading) {
+  if (object.type == "Shape.Sphere") return Sphere{object.number("radius")};
+  if (object.type == "Shape.Cylinder")
+    return Cylinder{object.number("radius"), object.number("length")};
+  if (object.type == "Shape.Legcone") {
+    const Legcone cone{object.number("length"), object.number("proximal_radius"),
+                       object.number("distal_radius")};
+    if (cone.proximal_radius == 0. && cone.distal_radius == 0.) {
+      loading.error(object.position,
+                    "both radii of this Shape.Legcone are 0; one of them must be positive");
+    }
+    return cone;
+  }
+  return Box{vector_of(object, "dimensions")};
+}
+
+/// The least density of a round shape that encloses a volume; 0 leaves the choice to the shape.
+int least_density(const ShapeGeometry& geometry) {
+  if (std::holds_alternative<Box>(geometry)) return 1;
+  return std::holds_alternative<Sphere>(geometry) ? 2 : 3;
+}
+
+ShapeSpec load_shape(const language::Object& object, Loading& loading) {
+  ShapeSpec shape{load_geometry(object, loading), vector_of(object, "location"),
+                  orientation_of(object, "orientation"),
+                  static_cast<int>(object.number("boundary_points"))};
+  if (shape.boundary_points != 0 && shape.boundary_points < least_density(shape.geometry)) {
+    loading.error(place_of(object, "boundary_points"),
+                  fmt::format("boundary_points of a {} is 0 (its default) or at least {}",
+                              object.type, least_density(shape.geometry)));
+  }
+  return shape;
+}
+
+std::vector<Vector3d> sample(const Box& box, int density) {
+  return contact::box_points(box.dimensions, density);
+}
+std::vector<Vector3d> sample(const Sphere& sphere, int density) {
+  return contact::sphere_points(sphere.radius, density);
+}
+std::vector<Vector3d> sample(const Cylinder& cylinder, int density) {
+  return contact::cylinder_points(cylinder.radius, cylinder.length, density);
+}
+std::vector<Vector3d> sample(const Legcone& cone, int density) {
+  return contact::legcone_points(cone.length, cone.proximal_radius, cone.distal_radius, density);
+}
+
+void add_shape_points(const ShapeSpec& shape, std::vector<Vector3d>& points) {
+  const auto sampled =
+      std::visit([&](const auto& geometry) { return sample(geometry, shape.boundary_points); },
+                 shape.geometry);
+  for (const Vector3d& p_SP : sampled)
+    points.push_back(shape.location + rotate(shape.orientation, p_SP));
+}
+
+}  // namespace
+
+BodySpec load_body(const language::Object& object, std::string name, bool must_have_inertia,
+                   Loading& loading) {
+  BodySpec body;
+  body.name = std::move(name);
+  const std::size_t errors_before = loading.diagnostics.error_count();
+  const std::vector<const language::Object*> shape_objects = object.children_of("Shape.");
+  for (const language::Object* shape : shape_objects)
+    body.shapes.push_back(load_shape(*shape, loading));
+  if (loading.diagnostics.error_count() != errors_before) return body;
+  body.mass = load_mass(object, body.shapes, shape_objects, must_have_inertia, loading);
+  for (const language::Object* point : object.children_of("ContactPoint")) {
+    body.boundary_points.push_back(vector_of(*point, "location"));
+  }
+  for (const ShapeSpec& shape : body.shapes) add_shape_points(shape, body.boundary_points);
+  return body;
+}
+
+}  // namespace hookpoint::simulation

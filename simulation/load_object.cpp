@@ -1,0 +1,42 @@
+#include <algorithm>
+
+#include "simulation/load_parts.h"
+
+namespace hookpoint::simulation {
+
+std::vector<const language::Object*> collect_all(const language::Object& parent,
+                                                 std::string_view type) {
+  std::vector<const language::Object*> found;
+  for (const auto& child : parent.children) {
+    const bool family = type.ends_with('.') && child->type.starts_with(type);
+    if (family || child->type == type) found.push_back(child.get());
+    std::ranges::copy(collect_all(*child, type), std::back_inserter(found));
+  }
+  return found;
+}
+
+std::string name_within(const language::Object& object, const language::Object& ancestor) {
+  std::string name = object.name;
+  for (const language::Object* above = object.parent; above != nullptr && above != &ancestor;
+       above = above->parent) {
+    if (!above->name.empty()) name = above->name + "." + name;
+  }
+  return name;
+}
+
+const language::Position& place_of(const language::Object& object, std::string_view field) {
+  const language::Field* found = object.find(field);
+  return found != nullptr && found->given ? found->position : object.position;
+}
+
+Vector3d vector_of(const language::Object& object, std::string_view field) {
+  const std::vector<double>& numbers = object.numbers(field);
+  return {numbers[0], numbers[1], numbers[2]};
+}
+
+Quaterniond orientation_of(const language::Object& object, std::string_view field) {
+  const std::vector<double>& numbers = object.numbers(field);
+  return {numbers[0], numbers[1], numbers[2], numbers[3]};
+}
+
+}  // namespace hookpoint::simulation

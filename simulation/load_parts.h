@@ -1,0 +1,68 @@
+// What the files of the load step (load*.cpp) share; for them alone.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "language/diagnostics.h"
+#include "language/object.h"
+#include "simulation/experiment.h"
+
+namespace hookpoint::simulation {
+
+/// A body of a robot: 0 the base, then the links chain by chain.
+struct BodyIndex {
+  int robot = 0, body = 0;
+};
+
+/// The experiment as it grows, and which object each part came from.
+struct Loading {
+  language::Diagnostics& diagnostics;
+  const std::vector<std::filesystem::path>& search_path;
+  Experiment experiment;
+  std::map<const language::Object*, int> materials;  ///< index into Experiment::materials
+  std::map<const language::Object*, BodyIndex> bodies;
+  std::vector<const language::Object*> bases;  ///< one a robot
+
+  void error(const language::Position& position, std::string message) {
+    diagnostics.error(position, std::move(message));
+  }
+};
+
+// Reading objects (load_object.cpp).
+
+/// All objects of `type` (a family when it ends in '.') anywhere below `parent`, in file order.
+std::vector<const language::Object*> collect_all(const language::Object& parent,
+                                                 std::string_view type);
+/// The object's trail from `ancestor` down: "left.leg" for a chain laid down by an Include named
+/// left.
+std::string name_within(const language::Object& object, const language::Object& ancestor);
+/// Where `field` was written, else where the object was.
+const language::Position& place_of(const language::Object& object, std::string_view field);
+Vector3d vector_of(const language::Object& object, std::string_view field);
+Quaterniond orientation_of(const language::Object& object, std::string_view field);
+
+// The parts of a World, each into `loading.experiment`.
+
+void load_materials(const language::Object& root, Loading& loading);
+void load_terrain(const language::Object& world, Loading& loading);
+/// Robots as written; `rest_on` is resolved afterwards.
+void load_robots(const language::Object& world, Loading& loading);
+void load_forces(const language::Object& world, Loading& loading);
+/// Shapes, mass properties and boundary points of a base or a link. `must_have_inertia`: a body
+/// that moves by itself.
+BodySpec load_body(const language::Object& object, std::string name, bool must_have_inertia,
+                   Loading& loading);
+/// Mass properties of `object` with the shapes `shapes`, whose objects are `shape_objects`.
+MassSpec load_mass(const language::Object& object, const std::vector<ShapeSpec>& shapes,
+                   const std::vector<const language::Object*>& shape_objects,
+                   bool must_have_inertia, Loading& loading);
+/// Lays robots that `rest_on` a terrain on it and checks that every robot starts above its terrain.
+void place_on_terrain(Loading& loading);
+/// What cannot run together: laws, integrators, engines, robots.
+void check_combinations(const language::Object& world, Loading& loading);
+
+}  // namespace hookpoint::simulation

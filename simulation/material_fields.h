@@ -1,0 +1,47 @@
+// The constants of a Material, once: what the schema says of each and where the load step puts it.
+#pragma once
+
+#include <array>
+
+#include "contact/vocabulary.h"
+
+namespace hookpoint::simulation {
+
+struct MaterialField {
+  const char* name;
+  const char* unit;
+  double contact::MaterialConstants<double>::*member;
+  bool positive;  ///< must be > 0; else >= 0
+  const char* doc;
+};
+
+inline constexpr std::array<MaterialField, 14> material_fields() {
+  using Constants = contact::MaterialConstants<double>;
+  return {{
+      {"normal_stiffness", "N/m", &Constants::normal_stiffness, true,
+       "k, of a contact point along the ground's normal (hunt_crossley: N/m^n)"},
+      {"normal_damping", "N.s/m", &Constants::normal_damping, false, "c, along the normal"},
+      {"tangential_stiffness", "N/m", &Constants::tangential_stiffness, true,
+       "k_t, between a contact point and its hook"},
+      {"tangential_damping", "N.s/m", &Constants::tangential_damping, false, "c_t, along the tile"},
+      {"static_friction", "", &Constants::static_friction, false,
+       "mu_s, holds while |f| <= mu_s N; if not given, kinetic_friction, or 0.8"},
+      {"kinetic_friction", "", &Constants::kinetic_friction, false,
+       "mu_k <= mu_s, while sliding; if not given, static_friction, or 0.8"},
+      {"nominal_penetration", "m", &Constants::nominal_penetration, true,
+       "d0, the depth wanted under the load"},
+      {"nominal_stiffness", "N/m", &Constants::nominal_stiffness, true,
+       "k1, up to the nominal depth"},
+      {"restitution", "", &Constants::restitution, false, "e, 0..1, rebound of the impulse laws"},
+      {"exponent", "", &Constants::exponent, true, "n of k d^n, hunt_crossley"},
+      {"hysteresis_damping", "s/m", &Constants::hysteresis_damping, false, "alpha, hunt_crossley"},
+      {"regularisation_speed", "m/s", &Constants::regularisation_speed, true,
+       "v_s, below which regularised Coulomb friction gives way"},
+      {"stribeck_speed", "m/s", &Constants::stribeck_speed, true,
+       "v_St, over which mu falls from static to kinetic"},
+      {"rebound_speed", "m/s", &Constants::rebound_speed, false,
+       "u0, least rebound of a microcollision, what keeps a resting block bouncing (impulse laws)"},
+  }};
+}
+
+}  // namespace hookpoint::simulation

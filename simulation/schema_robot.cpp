@@ -1,0 +1,166 @@
+#include "simulation/schema.h"
+#include "simulation/schema_fields.h"
+
+namespace hookpoint::simulation {
+namespace {
+
+std::vector<FieldSchema> mass_fields(const std::string& axes) {
+  return {
+      not_negative(
+          number_field("mass", "kg", "",
+                       "of the body; shared over shapes without a mass of their own, by volume")),
+      vector_field("center_of_mass", "m", "",
+                   axes + " axes; if not given, that of the shapes, or the origin"),
+      list_field("inertia", "kg.m^2", 6, 6, "",
+                 "matrix elements Ixx,Iyy,Izz,Ixy,Ixz,Iyz about the centre of mass, " + axes +
+                     " axes; if not given, that of the shapes"),
+  };
+}
+
+/// What every body publishes of its contact with the ground.
+std::vector<FieldSchema> contact_ports() {
+  return {port_only(
+      Direction::output,
+      vector_field("contact.force", "N", "",
+                   "sum of the ground's forces on the body over the last step, world axes"))};
+}
+
+/// A base's motion: the initial one when assigned, the present one when read.
+std::vector<FieldSchema> motion_fields() {
+  return {
+      with_port(Direction::output,
+                vector_field("location", "m", "0,0,0", "of the base frame's origin, world axes")),
+      with_port(
+          Direction::output,
+          orientation_field("orientation",
+                            "base to world axes: quaternion w,x,y,z, or roll,pitch,yaw angles")),
+      with_port(Direction::output,
+                vector_field("velocity", "m/s", "0,0,0", "of the base frame's origin, world axes")),
+      with_port(Direction::output,
+                vector_field("angular_velocity", "rad/s", "0,0,0", "world axes")),
+  };
+}
+
+/// The same of a body that moves with others: read only. `position` is the name of its place.
+std::vector<FieldSchema> motion_ports(const std::string& position, const std::string& body) {
+  return {
+      port_only(Direction::output,
+                vector_field(position, "m", "", "of " + body + " frame's origin, world axes")),
+      port_only(Direction::output,
+                orientation_field("orientation", body + " to world axes, w,x,y,z")),
+      port_only(Direction::output,
+                vector_field("velocity", "m/s", "", "of " + body + " frame's origin, world axes")),
+      port_only(Direction::output,
+                vector_field("angular_velocity", "rad/s", "", "of " + body + ", world axes")),
+  };
+}
+
+language::ClassSchema robot_class() {
+  language::ClassSchema robot;
+  robot.name = "Robot";
+  robot.doc = "a base that carries any number of chains of links";
+  robot.naming = language::Naming::required;
+  robot.top_level = true;
+  robot.children = {"Base.", "Chain", "Controller."};
+  robot.fields = motion_ports("position", "the base's");
+  append(robot.fields, contact_ports());
+  return robot;
+}
+
+language::ClassSchema base_class(bool mobile) {
+  language::ClassSchema base;
+  base.name = mobile ? "Base.mobile" : "Base.fixed";
+  base.doc = mobile ? "a robot's body, free to move"
+                    : "a robot's body, held in the world; its mass plays no part";
+  base.default_name = "base";
+  base.children = {"Shape.", "ContactPoint"};
+  base.fields = motion_fields();
+  if (mobile) {
+    append(
+        base.fields,
+        {object_field("rest_on", "Terrain.",
+                      "start at rest on this ground instead of at location and orientation: z "
+                      "along the tile's normal, "
+                      "lowest boundary points at the contact law's static penetration (touching, "
+                      "for a peer)"),
+         list_field("at", "m", 2, 2, "0,0", "with rest_on: world x,y of the base frame's origin"),
+         number_field("yaw", "rad", "0", "with rest_on: turn about the ground's normal")});
+  }
+  append(base.fields, mass_fields("base"));
+  append(base.fields, contact_ports());
+  return base;
+}
+
+language::ClassSchema chain_class() {
+  language::ClassSchema chain;
+  chain.name = "Chain";
+  chain.doc = "a leg or an arm: links in series, joined to the base at the hip";
+  chain.naming = language::Naming::required;
+  chain.top_level = true;
+  chain.children = {"Link", "Controller."};
+  chain.fields = {
+      vector_field("hip_distance", "m", "0,0,0", "the hip's position, base axes"),
+      orientation_field("hip_orientation",
+                        "hip to base axes: quaternion w,x,y,z, or roll,pitch,yaw angles"),
+  };
+  return chain;
+}
+
+/// In the units of a revolute joint, by which wires and values are checked; those of a prismatic
+/// joint are written without a unit, in SI.
+std::vector<FieldSchema> joint_fields() {
+  return {
+      choice_field("joint", {"revolute", "prismatic"}, "revolute",
+                   "turns about, or slides along, the link's own z"),
+      with_port(Direction::both, number_field("angle", "rad", "0",
+                                              "joint variable, added to dhangle (prismatic: to "
+                                              "dhoffset, in metres without a unit)")),
+      with_port(Direction::both,
+                number_field("rate", "rad/s", "0", "d(angle)/dt (prismatic: m/s without a unit)")),
+      with_port(Direction::both,
+                number_field("torque", "N.m", "0",
+                             "constant torque of the joint's drive (prismatic: N without a unit)")),
+      port_only(Direction::output, number_field("acceleration", "rad/s^2", "", "d(rate)/dt")),
+      number_field("lower_limit", "rad", "", "least angle; none if not given"),
+      number_field("upper_limit", "rad", "", "greatest angle; none if not given"),
+      not_negative(number_field("damping", "N.m.s/rad", "0", "torque = -damping rate")),
+      not_negative(number_field("friction", "N.m", "0", "dry friction torque, opposes the rate")),
+      not_negative(number_field("stiffness", "N.m/rad", "0",
+                                "joint spring: torque = -stiffness (angle - rest_angle)")),
+      number_field("rest_angle", "rad", "0", "angle at which the joint spring is slack"),
+  };
+}
+
+language::ClassSchema link_class() {
+  language::ClassSchema link;
+  link.name = "Link";
+  link.doc =
+      "a segment and the joint that carries it, in modified Denavit-Hartenberg form: "
+      "Rot_x(dhtwist) Trans_x(dhlength) Rot_z(dhangle) Trans_z(dhoffset) from the preceding frame";
+  link.naming = language::Naming::required;
+  link.top_level = true;
+  link.children = {"Shape.", "ContactPoint", "Controller."};
+  link.fields = {
+      number_field("dhlength", "m", "0", "a: along the preceding frame's x"),
+      number_field("dhtwist", "rad", "0", "alpha: about the preceding frame's x"),
+      number_field("dhoffset", "m", "0", "d: along the link's own z"),
+      number_field("dhangle", "rad", "0", "theta: about the link's own z, at joint angle 0"),
+  };
+  append(link.fields, mass_fields("link"));
+  append(link.fields, joint_fields());
+  append(link.fields, motion_ports("location", "the link's"));
+  append(link.fields, contact_ports());
+  return link;
+}
+
+}  // namespace
+
+void add_robot_classes(language::Schema& schema) {
+  schema.add(robot_class());
+  schema.add(base_class(false));
+  schema.add(base_class(true));
+  schema.add(chain_class());
+  schema.add(link_class());
+}
+
+}  // namespace hookpoint::simulation

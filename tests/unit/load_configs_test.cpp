@@ -1,0 +1,50 @@
+// Every file in configs/ evaluates; every one that holds a World loads.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/support/load_text.h"
+
+namespace hookpoint {
+namespace {
+
+std::vector<std::filesystem::path> config_files() {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(
+           std::filesystem::path(HOOKPOINT_SOURCE_DIR) / "configs")) {
+    // Studies have classes of their own, which their own tests know.
+    const bool study = entry.path().parent_path().filename() == "studies";
+    if (entry.path().extension() == ".hook" && !study) files.push_back(entry.path());
+  }
+  std::ranges::sort(files);
+  return files;
+}
+
+class EveryConfig : public testing::TestWithParam<std::filesystem::path> {};
+
+TEST_P(EveryConfig, Loads) {
+  const std::string folder = GetParam().parent_path().filename();
+  const bool is_world = folder == "scenes" || folder == "paper";
+  const Loaded loaded = load_file(GetParam());
+  if (is_world) {
+    EXPECT_TRUE(loaded.experiment) << loaded.diagnostics;
+    EXPECT_EQ(loaded.diagnostics.find("error"), std::string::npos) << loaded.diagnostics;
+  } else {
+    // A module describes a part: all that is missing is a World around it.
+    EXPECT_NE(loaded.diagnostics.find("there is no World in this file"), std::string::npos)
+        << loaded.diagnostics;
+  }
+}
+
+std::string test_name(const testing::TestParamInfo<std::filesystem::path>& info) {
+  std::string name =
+      info.param.parent_path().filename().string() + "_" + info.param.stem().string();
+  std::ranges::replace_if(
+      name, [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Configs, EveryConfig, testing::ValuesIn(config_files()), test_name);
+
+}  // namespace
+}  // namespace hookpoint
