@@ -1,11 +1,14 @@
 #include "simulation/dts_engine.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "contact/force_law.h"
 #include "simulation/dts_robot.h"
 #include "simulation/ground.h"
 #include "simulation/impulse_engine.h"
+#include "simulation/stability.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -33,9 +36,12 @@ class DtsEngine final : public Engine {
   }
 
   StepStatus step() override {
-    for (Part& part : parts_) {
-      const StepStatus status = part.robot->step(*part.stepper, state_.time, experiment_.deltat);
-      if (!status.ok()) return status;
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      const StepStatus status =
+          parts_[i].robot->step(*parts_[i].stepper, state_.time, experiment_.deltat);
+      if (status.ok()) continue;
+      for (std::size_t stepped = 0; stepped < i; ++stepped) parts_[stepped].robot->undo();
+      return explained(status);
     }
     ++state_.step;
     state_.time = static_cast<double>(state_.step) * experiment_.deltat;
@@ -51,6 +57,19 @@ class DtsEngine final : public Engine {
     std::unique_ptr<integrators::Stepper> stepper;
     bool noticed = false;
   };
+
+  /// A failure above the stability bound is the step's, and the bound is the advice.
+  StepStatus explained(StepStatus status) const {
+    const StabilityBound bound = stability_bound(experiment_);
+    if (experiment_.deltat <= bound.step) return status;
+    status.kind = StepStatus::Kind::step_too_large;
+    status.advice = fmt::format(
+        "deltat {:.4g} s is above the largest stable step {:.4g} s of {}: make the step smaller, "
+        "the "
+        "ground softer, or choose another integrator",
+        experiment_.deltat, bound.step, experiment_.integrator);
+    return status;
+  }
 
   void publish() {
     std::size_t body = 0, joint = 0;

@@ -39,6 +39,12 @@ void for_each_link(const RobotSpec& robot, const Action& action) {
   }
 }
 
+/// Of the two quaternions of one rotation the one nearer to `last`, so that a record has no jumps.
+Quaterniond continued(const Quaterniond& q, const Quaterniond& last) {
+  const double cosine = q.w * last.w + q.x * last.x + q.y * last.y + q.z * last.z;
+  return cosine < 0. ? Quaterniond{-q.w, -q.x, -q.y, -q.z} : q;
+}
+
 std::vector<ContactPoint> boundary_points(const RobotSpec& robot) {
   std::vector<ContactPoint> points;
   std::size_t body = 0;
@@ -157,11 +163,13 @@ void DtsRobot::set_joint_torques() {
   }
 }
 
-void DtsRobot::refresh() {
+void DtsRobot::evaluate_forces(bool trial) {
   dts::forward_kinematics(model_, state_, workspace_);
   apply_external_forces();
-  apply_contact_forces(false);
+  apply_contact_forces(trial);
 }
+
+void DtsRobot::refresh() { evaluate_forces(false); }
 
 void DtsRobot::accelerate() {
   set_joint_torques();
@@ -175,9 +183,7 @@ integrators::Status DtsRobot::accelerations(integrators::Stage stage, double /*t
   if (stage == integrators::Stage::trial) {
     read_positions(q);
     dts::set_velocity<double>(model_, v, state_);
-    dts::forward_kinematics(model_, state_, workspace_);
-    apply_external_forces();
-    apply_contact_forces(true);
+    evaluate_forces(true);
   }
   accelerate();
   std::copy(a_.begin(), a_.end(), a.begin());
@@ -189,29 +195,36 @@ StepStatus DtsRobot::step(integrators::Stepper& stepper, double time, double dt)
   dts::get_velocity<double>(model_, state_, v_);
   q_before_ = q_;
   v_before_ = v_;
-  for (ContactPoint& point : points_) std::swap(point.committed, point.pending);
-  const integrators::Status status = stepper.step(*this, time, dt, q_, v_);
-  if (status != integrators::Status::ok) {
-    for (ContactPoint& point : points_) std::swap(point.committed, point.pending);
-    q_ = q_before_;
-    v_ = v_before_;
+  for (ContactPoint& point : points_) {
+    point.before = point.committed;
+    point.committed = point.pending;
   }
-  read_positions(q_);
-  dts::set_velocity<double>(model_, v_, state_);
+  if (stepper.step(*this, time, dt, q_, v_) != integrators::Status::ok) {
+    undo();
+    return {StepStatus::Kind::not_finite, time, experiment_->robots[index_].name + ".base",
+            "its accelerations are no longer finite: make the step smaller or the ground softer"};
+  }
+  settle_at(q_, v_);
+  return {};
+}
+
+void DtsRobot::undo() {
+  for (ContactPoint& point : points_) point.committed = point.before;
+  settle_at(q_before_, v_before_);
+}
+
+void DtsRobot::settle_at(std::span<const double> q, std::span<const double> v) {
+  read_positions(q);
+  dts::set_velocity<double>(model_, v, state_);
   refresh();
-  if (status == integrators::Status::ok) return {};
-  return {StepStatus::Kind::not_finite, time, experiment_->robots[index_].name + ".base",
-          "its accelerations are no longer finite: make the step smaller (`hookpoint dynamics` "
-          "prints the largest stable one) or "
-          "the ground softer"};
 }
 
 void DtsRobot::publish(std::span<BodyState> bodies, std::span<JointState> joints) const {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const dts::BodyMotion<double>& body = workspace_.bodies[i];
-    bodies[i] = {body.p_WB, i == 0 ? state_.base_orientation : quaternion_from(body.R_WB),
-                 body.v_WB, body.w_WB,
-                 {},        0};
+    const Quaterniond R_WB = i == 0 ? state_.base_orientation
+                                    : continued(quaternion_from(body.R_WB), bodies[i].orientation);
+    bodies[i] = {body.p_WB, R_WB, body.v_WB, body.w_WB, {}, 0};
   }
   for (const ContactPoint& point : points_) {
     bodies[point.body].contact_force += point.force;

@@ -25,6 +25,7 @@ dts::State<double> initial_state(const RobotSpec& robot);
 struct ContactPoint {
   std::size_t body = 0;               ///< 0 the base, then links chain by chain
   Vector3d p_BP;                      ///< body axes [m]
+  contact::Memory<double> before;     ///< what `committed` was before the last step, to undo it
   contact::Memory<double> committed;  ///< of the accepted state before this one
   contact::Memory<double> pending;    ///< to be committed when the step from this state is taken
   Vector3d position;                  ///< p_WP [m]
@@ -43,6 +44,9 @@ class DtsRobot final : public integrators::System {
 
   /// Advances the robot by `dt` [s] from `time` [s]. On failure nothing has changed.
   StepStatus step(integrators::Stepper& stepper, double time, double dt);
+
+  /// Takes the last successful step back.
+  void undo();
 
   /// Kinematics and contact at the present state, with the committed memory: what a step starts
   /// from and what is published.
@@ -75,6 +79,8 @@ class DtsRobot final : public integrators::System {
  private:
   void read_positions(std::span<const double> q);
   void write_positions(std::span<double> q) const;
+  void settle_at(std::span<const double> q, std::span<const double> v);
+  void evaluate_forces(bool trial);
   void apply_external_forces();
   void apply_contact_forces(bool trial);
   void set_joint_torques();

@@ -26,21 +26,28 @@ class ImpulseEngine final : public Engine {
       }
       contact::ImpulseBody body = impulse_body(robot.base);
       if (!ground_) body.boundary_points.clear();
-      parts_.push_back(
-          {robot.mobile,
-           contact::ImpulseAdvance(body, impulse_law(experiment_.contact)),
-           {robot.location, robot.orientation, robot.velocity, robot.angular_velocity}});
-      state_.bodies.push_back(
-          {robot.location, robot.orientation, robot.velocity, robot.angular_velocity, {}, 0});
+      const contact::ImpulseState motion{robot.location, robot.orientation, robot.velocity,
+                                         robot.angular_velocity};
+      parts_.push_back({robot.mobile,
+                        contact::ImpulseAdvance(body, impulse_law(experiment_.contact)),
+                        motion,
+                        motion,
+                        {}});
     }
+    state_.bodies.resize(parts_.size());
+    publish();
   }
 
   StepStatus step() override {
+    for (Part& part : parts_) part.before = part.motion;
     for (std::size_t i = 0; i < parts_.size(); ++i) {
       if (!parts_[i].mobile) continue;
       const StepStatus status = advance(i);
-      if (!status.ok()) return status;
+      if (status.ok()) continue;
+      for (Part& part : parts_) part.motion = part.before;
+      return status;
     }
+    publish();
     ++state_.step;
     state_.time = static_cast<double>(state_.step) * experiment_.deltat;
     return {};
@@ -53,6 +60,8 @@ class ImpulseEngine final : public Engine {
     bool mobile;
     contact::ImpulseAdvance law;
     contact::ImpulseState motion;
+    contact::ImpulseState before;  ///< the present step, to undo it
+    contact::AdvanceResult result;
   };
 
   StepStatus advance(std::size_t i) {
@@ -66,22 +75,26 @@ class ImpulseEngine final : public Engine {
                                   &experiment_.materials[tile.material].constants};
     };
     Part& part = parts_[i];
-    const contact::AdvanceResult result =
-        part.law.advance(part.motion, experiment_.deltat, load_on(i), ground);
-    if (result.status != contact::AdvanceStatus::ok) {
-      const bool lost = result.status == contact::AdvanceStatus::not_finite;
-      return {lost ? StepStatus::Kind::not_finite : StepStatus::Kind::solver_failed, state_.time,
-              experiment_.robots[i].name + ".base", contact::advice(result.status)};
+    part.result = part.law.advance(part.motion, experiment_.deltat, load_on(i), ground);
+    const contact::AdvanceStatus status = part.result.status;
+    if (status == contact::AdvanceStatus::ok) return {};
+    const bool lost = status == contact::AdvanceStatus::not_finite;
+    return {lost ? StepStatus::Kind::not_finite : StepStatus::Kind::solver_failed, state_.time,
+            experiment_.robots[i].name + ".base", contact::advice(status)};
+  }
+
+  void publish() {
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      const contact::ImpulseState& motion = parts_[i].motion;
+      const contact::AdvanceResult& result = parts_[i].result;
+      state_.bodies[i] = {motion.position,
+                          motion.orientation,
+                          motion.velocity,
+                          motion.angular_velocity,
+                          (1. / experiment_.deltat) * result.impulse,
+                          result.contacts};
+      state_.impacts += static_cast<std::uint64_t>(result.impacts);
     }
-    const contact::ImpulseState& motion = part.motion;
-    state_.bodies[i] = {motion.position,
-                        motion.orientation,
-                        motion.velocity,
-                        motion.angular_velocity,
-                        (1. / experiment_.deltat) * result.impulse,
-                        result.contacts};
-    state_.impacts += static_cast<std::uint64_t>(result.impacts);
-    return {};
   }
 
   /// The constant forces on a body, about its centre of mass, at the step's start.

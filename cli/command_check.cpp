@@ -1,0 +1,96 @@
+#include <fstream>
+#include <iostream>
+#include <sstream>
+
+#include "cli/application.h"
+#include "cli/commands.h"
+#include "cli/exit_status.h"
+#include "output/file.h"
+
+namespace hookpoint::cli {
+namespace {
+
+bool holds_world(const language::Object& root) { return !root.children_of("World").empty(); }
+
+/// Empty when the file cannot be read.
+std::optional<std::string> read_text(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream || std::filesystem::is_directory(file)) return std::nullopt;
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+}  // namespace
+
+int check(const std::vector<std::filesystem::path>& files) {
+  Application application;
+  int status = fine;
+  for (const std::filesystem::path& file : files) {
+    const auto root = application.evaluate(file, {});
+    const bool good = root && (!holds_world(*root) || application.load(*root).has_value());
+    if (good) {
+      std::cout << file.string() << ": fine\n";
+    } else {
+      status = wrong_input;
+    }
+  }
+  return status;
+}
+
+int format(const std::vector<std::filesystem::path>& files, bool check_only) {
+  int status = fine;
+  for (const std::filesystem::path& file : files) {
+    const auto text = read_text(file);
+    if (!text) {
+      print_error("cannot read " + file.string());
+      status = wrong_input;
+      continue;
+    }
+    language::Diagnostics diagnostics;
+    const std::string canonical = language::format(file, *text, diagnostics);
+    print_diagnostics(diagnostics);
+    if (diagnostics.has_errors()) {
+      status = wrong_input;
+    } else if (canonical == *text) {
+      continue;
+    } else if (check_only) {
+      std::cout << file.string() << ": would change\n";
+      status = truth_failed;
+    } else {
+      output::write_file(file, canonical);
+      std::cout << file.string() << ": rewritten\n";
+    }
+  }
+  return status;
+}
+
+int print(const std::filesystem::path& file, const std::vector<std::string>& settings) {
+  Application application;
+  const auto root = application.evaluate(file, settings);
+  if (!root) return wrong_input;
+  std::cout << language::print(*root);
+  return fine;
+}
+
+int describe(const std::optional<std::string>& type, bool markdown) {
+  Application application;
+  if (!type) {
+    std::cout << (markdown ? language::describe_markdown(application.schema())
+                           : language::describe_all(application.schema()));
+    return fine;
+  }
+  if (const language::ClassSchema* schema = application.schema().find(*type)) {
+    std::cout << language::describe(*schema);
+    return fine;
+  }
+  std::vector<std::string> names;
+  for (const auto& [name, schema] : application.schema().classes()) names.push_back(name);
+  const std::string nearest = language::nearest_name(*type, names);
+  print_error("there is no class `" + *type + "`" +
+              (nearest.empty() ? "; `hookpoint describe` lists them all"
+                               : "; did you mean `" + nearest + "`?"));
+  return wrong_input;
+}
+
+}  // namespace hookpoint::cli

@@ -1,0 +1,112 @@
+#include <fmt/format.h>
+
+#include <iostream>
+
+#include "cli/application.h"
+#include "cli/commands.h"
+#include "cli/exit_status.h"
+#include "output/json.h"
+#include "simulation/dynamics.h"
+
+namespace hookpoint::cli {
+namespace {
+
+using simulation::DynamicsReport;
+using simulation::RobotDynamics;
+
+void member(output::JsonWriter& json, const char* name, const Vector3d& v) {
+  json.key(name).numbers({v.x, v.y, v.z});
+}
+
+void write_robot(output::JsonWriter& json, const RobotDynamics& robot) {
+  json.key(robot.name).begin_object().key("base").begin_object();
+  member(json, "linear_acceleration", robot.base_acceleration);
+  member(json, "angular_acceleration", robot.base_angular_acceleration);
+  json.end_object().key("chains").begin_object();
+  for (const simulation::ChainDynamics& chain : robot.chains) {
+    json.key(chain.name)
+        .begin_object()
+        .key("joint_accelerations")
+        .numbers(chain.joint_accelerations);
+    member(json, "hip_force", chain.hip_force);
+    member(json, "hip_moment", chain.hip_moment);
+    json.end_object();
+  }
+  json.end_object()
+      .member("kinetic_energy", robot.kinetic_energy)
+      .member("potential_energy", robot.potential_energy);
+  member(json, "linear_momentum", robot.linear_momentum);
+  member(json, "angular_momentum", robot.angular_momentum);
+  json.key("contacts").begin_array();
+  for (const simulation::ContactReport& contact : robot.contacts) {
+    json.begin_object().member("body", contact.body).member("depth", contact.depth);
+    member(json, "position", contact.position);
+    member(json, "normal", contact.normal);
+    member(json, "force", contact.force);
+    json.end_object();
+  }
+  json.end_array().end_object();
+}
+
+void print_json(const DynamicsReport& report) {
+  output::JsonWriter json;
+  json.begin_object().member("world", report.world).member("time", 0.);
+  json.key("robots").begin_object();
+  for (const RobotDynamics& robot : report.robots) write_robot(json, robot);
+  json.end_object().key("largest_stable_step");
+  if (report.largest_stable_step) {
+    json.value(*report.largest_stable_step);
+  } else {
+    json.null();
+  }
+  json.end_object();
+  std::cout << json.text();
+}
+
+std::string text(const Vector3d& v) {
+  return fmt::format("{:12.6g} {:12.6g} {:12.6g}", v.x, v.y, v.z);
+}
+
+void print_robot(const RobotDynamics& robot) {
+  fmt::print("robot {}\n", robot.name);
+  fmt::print("  {:<34} {} m/s^2\n", "base linear acceleration", text(robot.base_acceleration));
+  fmt::print("  {:<34} {} rad/s^2\n", "base angular acceleration",
+             text(robot.base_angular_acceleration));
+  for (const simulation::ChainDynamics& chain : robot.chains) {
+    fmt::print("  chain {:<28} joint accelerations", chain.name);
+    for (double acceleration : chain.joint_accelerations) fmt::print(" {:.6g}", acceleration);
+    fmt::print("\n  {:<34} {} N\n", "  force on the base at the hip", text(chain.hip_force));
+    fmt::print("  {:<34} {} N.m\n", "  moment on the base at the hip", text(chain.hip_moment));
+  }
+  fmt::print("  {:<34} {:12.6g} J\n", "kinetic energy", robot.kinetic_energy);
+  fmt::print("  {:<34} {:12.6g} J\n", "potential energy", robot.potential_energy);
+  fmt::print("  {:<34} {} kg.m/s\n", "linear momentum", text(robot.linear_momentum));
+  fmt::print("  {:<34} {} kg.m^2/s\n", "angular momentum (world origin)",
+             text(robot.angular_momentum));
+  for (const simulation::ContactReport& contact : robot.contacts) {
+    fmt::print("  contact {:<26} {} N, {:.4g} m deep\n", contact.body, text(contact.force),
+               contact.depth);
+  }
+}
+
+}  // namespace
+
+int dynamics(const std::filesystem::path& file, const std::vector<std::string>& settings,
+             bool json) {
+  Application application;
+  const auto experiment = application.load(file, settings);
+  if (!experiment) return wrong_input;
+  const DynamicsReport report = simulation::evaluate_dynamics(*experiment);
+  if (json) {
+    print_json(report);
+    return fine;
+  }
+  fmt::print("world {}, at its initial state (world axes)\n", report.world);
+  for (const RobotDynamics& robot : report.robots) print_robot(robot);
+  if (report.largest_stable_step)
+    fmt::print("largest stable step of {}: {:.4g} s\n", experiment->integrator,
+               *report.largest_stable_step);
+  return fine;
+}
+
+}  // namespace hookpoint::cli

@@ -1,0 +1,193 @@
+// The command line: the one file that sees CLI11. It fills plain arguments and hands them to a
+// command.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <functional>
+
+#include "cli/application.h"
+#include "cli/commands.h"
+#include "cli/exit_status.h"
+#include "output/file.h"
+
+namespace hookpoint::cli {
+namespace {
+
+constexpr const char* about =
+    "hookpoint: dynamics of legged robots under comparable contact models.\n"
+    "`hookpoint FILE.hook` runs what the file holds: its studies, or else its world.\n"
+    "Exit status: 0 fine, 1 a truth failed or a run diverged, 2 wrong input, 3 something is "
+    "missing on this machine.";
+
+/// What the command line asks for; `command` runs it.
+struct Request {
+  RunArguments run;
+  StudyArguments study;
+  std::vector<std::filesystem::path> files;
+  std::filesystem::path file;
+  std::vector<std::string> settings;
+  std::optional<std::string> type;
+  bool json = false, check_only = false, markdown = false;
+  std::function<int()> command;
+};
+
+CLI::App* add_command(CLI::App& app, Request& request, const char* name, const char* doc,
+                      std::function<int()> command) {
+  CLI::App* added = app.add_subcommand(name, doc);
+  added->callback([&request, command = std::move(command)] { request.command = command; });
+  return added;
+}
+
+void add_settings(CLI::App* command, std::vector<std::string>& settings) {
+  command
+      ->add_option("--set", settings,
+                   "TRAIL=VALUE: overrides a field or a Param, e.g. SimpleWorld.deltat=\"1 ms\"")
+      ->type_name("TRAIL=VALUE")
+      ->expected(1)
+      ->take_all()
+      ->check([](const std::string& text) {
+        return text.find('=') == std::string::npos ? "--set takes TRAIL=VALUE, not `" + text + "`"
+                                                   : std::string();
+      });
+}
+
+void add_run_and_study(CLI::App& app, Request& request) {
+  CLI::App* run_app =
+      add_command(app, request, "run", "run a world", [&] { return run(request.run); });
+  run_app->add_option("FILE", request.run.file, "a .hook file with a World")->required();
+  add_settings(run_app, request.run.settings);
+  run_app
+      ->add_option("--for", request.run.duration,
+                   "how long: \"10 s\" (default: the World's duration)")
+      ->type_name("TIME");
+  run_app
+      ->add_option("--out", request.run.out,
+                   "folder of what the run leaves (default with --record: runs/WORLD)")
+      ->type_name("DIR");
+  run_app
+      ->add_option("--record", request.run.record,
+                   "trails to write to DIR/trace.csv, joined by commas")
+      ->type_name("TRAIL,...")
+      ->delimiter(',');
+
+  CLI::App* study_app = add_command(app, request, "study", "run the studies of a file",
+                                    [&] { return study(request.study); });
+  study_app->add_option("FILE", request.study.file, "a .hook file with a Study")->required();
+  study_app
+      ->add_option("--out", request.study.out, "folder of the results (default: runs/STUDY-HASH)")
+      ->type_name("DIR");
+  study_app->add_option("--jobs", request.study.jobs, "threads (default: one a core)")
+      ->type_name("N")
+      ->check([](const std::string& text) {
+        const bool digits =
+            !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+        return digits && text.size() < 5 && text.find_first_not_of('0') != std::string::npos
+                   ? std::string()
+                   : "--jobs takes a whole number from 1 to 9999, not `" + text + "`";
+      });
+  study_app->add_flag("--quick", request.study.quick,
+                      "the reduced size that continuous integration runs");
+  study_app->add_flag("--resume", request.study.resume,
+                      "run only the rows that an interrupted study lacks");
+  study_app->add_option("--only", request.study.only, "run only this subject (may be repeated)")
+      ->type_name("SUBJECT")
+      ->expected(1)
+      ->take_all();
+}
+
+void add_language_tools(CLI::App& app, Request& request) {
+  add_command(app, request, "check", "report what is wrong in files",
+              [&] { return check(request.files); })
+      ->add_option("FILE", request.files, ".hook files")
+      ->required();
+  CLI::App* fmt = add_command(app, request, "fmt", "rewrite files in canonical layout",
+                              [&] { return format(request.files, request.check_only); });
+  fmt->add_option("FILE", request.files, ".hook files")->required();
+  fmt->add_flag("--check", request.check_only, "only say which would change (exit status 1)");
+  CLI::App* print_app =
+      add_command(app, request, "print", "the experiment after includes, loops and expressions",
+                  [&] { return print(request.file, request.settings); });
+  print_app->add_option("FILE", request.file, "a .hook file")->required();
+  add_settings(print_app, request.settings);
+  CLI::App* describe_app = add_command(app, request, "describe", "what a class of the language has",
+                                       [&] { return describe(request.type, request.markdown); });
+  describe_app->add_option("TYPE", request.type,
+                           "a class, e.g. Base.mobile; without it all are listed");
+  describe_app->add_flag("--markdown", request.markdown,
+                         "every class as the manual's reference page");
+}
+
+void add_inspection(CLI::App& app, Request& request) {
+  CLI::App* dynamics_app = add_command(
+      app, request, "dynamics", "forces and accelerations at the initial state; no time passes",
+      [&] { return dynamics(request.file, request.settings, request.json); });
+  dynamics_app->add_option("FILE", request.file, "a .hook file with a World")->required();
+  dynamics_app->add_flag("--json", request.json, "as JSON, 17 significant digits");
+  add_settings(dynamics_app, request.settings);
+  add_command(app, request, "engines", "every engine, contact law and integrator", [&] {
+    return engines(request.json);
+  })->add_flag("--json", request.json, "as JSON");
+}
+
+std::vector<std::string> command_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(command->get_name());
+  return names;
+}
+
+/// The words as a command would have them: `FILE.hook ...` gets `study` or `run` in front, by what
+/// the file holds. Empty when the first word is neither a command, an option nor a file, or the
+/// file has errors; the user has been told.
+std::vector<std::string> with_command(const CLI::App& app, std::vector<std::string> words) {
+  if (words.empty() || words[0].starts_with("-")) return words;
+  const std::vector<std::string> names = command_names(app);
+  if (std::find(names.begin(), names.end(), words[0]) != names.end()) return words;
+  if (std::filesystem::path(words[0]).extension() == ".hook") {
+    const std::optional<bool> study = holds_study(words[0]);
+    if (!study) return {};
+    words.insert(words.begin(), *study ? "study" : "run");
+    return words;
+  }
+  const std::string nearest = language::nearest_name(words[0], names);
+  print_error(
+      "there is no command `" + words[0] + "`" +
+      (nearest.empty() ? "; `hookpoint --help` lists them" : "; did you mean `" + nearest + "`?"));
+  return {};
+}
+
+int main_with(int count, char** words) {
+  CLI::App app(about, "hookpoint");
+  app.require_subcommand(1);
+  app.set_version_flag("--version", HOOKPOINT_VERSION);
+  Request request;
+  add_run_and_study(app, request);
+  add_language_tools(app, request);
+  add_inspection(app, request);
+  std::vector<std::string> wanted = with_command(app, {words + 1, words + count});
+  if (wanted.empty() && count > 1) return wrong_input;
+  std::reverse(wanted.begin(), wanted.end());  // CLI11 takes the words last first
+  try {
+    app.parse(wanted);
+  } catch (const CLI::Success& asked) {
+    return app.exit(asked);
+  } catch (const CLI::ParseError& error) {
+    print_error(std::string(error.what()) + " (`hookpoint --help` says what is possible)");
+    return wrong_input;
+  }
+  return request.command();
+}
+
+}  // namespace
+}  // namespace hookpoint::cli
+
+int main(int count, char** words) {
+  try {
+    return hookpoint::cli::main_with(count, words);
+  } catch (const hookpoint::output::FileError& error) {
+    hookpoint::cli::print_error(error.what());
+    return hookpoint::cli::missing;
+  } catch (const std::exception& error) {
+    hookpoint::cli::print_error(error.what());
+    return hookpoint::cli::missing;
+  }
+}

@@ -1,0 +1,150 @@
+// The program as a user meets it: what it prints, writes and returns, above all when the input is
+// wrong.
+#include <gtest/gtest.h>
+
+#include "tests/support/command.h"
+
+namespace hookpoint {
+namespace {
+
+using testing::CommandResult;
+using testing::config;
+using testing::Workplace;
+
+const std::string block = config("scenes/sloped_block.hook");
+
+struct WrongInput {
+  std::string arguments;
+  std::string says;  // part of the message
+};
+
+class WrongInputTest : public ::testing::TestWithParam<WrongInput> {};
+
+TEST_P(WrongInputTest, IsToldAndNothingIsWritten) {
+  const Workplace work;
+  work.file("empty.hook", "");
+  work.file("text.hook", "this is no experiment");
+  work.file("binary.hook", std::string("World w {\0\1\2\xff}", 14));
+  const std::size_t before = work.entries();
+  const CommandResult result = work.hookpoint(GetParam().arguments);
+  EXPECT_EQ(result.status, 2) << result.err;
+  EXPECT_EQ(result.out, "");
+  EXPECT_NE(result.err.find(GetParam().says), std::string::npos) << result.err;
+  EXPECT_EQ(work.entries(), before);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    CommandLine, WrongInputTest,
+    ::testing::Values(
+        WrongInput{"rn " + block, "there is no command `rn`; did you mean `run`?"},
+        WrongInput{"run", "FILE is required"},
+        WrongInput{"run nowhere.hook", "nowhere.hook:1:1: error: there is no such file"},
+        WrongInput{"run .", "this is a folder"},
+        WrongInput{"run empty.hook", "empty.hook:1:1: error: the file describes nothing"},
+        WrongInput{"check text.hook", "text.hook:1:"},
+        WrongInput{"check binary.hook", "not a text file"},
+        WrongInput{"run " + block + " --set world.deltt=1ms", "did you mean `deltat`?"},
+        WrongInput{"run " + block + " --set slope", "--set takes TRAIL=VALUE, not `slope`"},
+        WrongInput{"run " + block + " --set slope='15 kg'", "takes a value in rad, not in kg"},
+        WrongInput{"run " + block + " --for '10 kg'", "`duration` takes a value in s, not in kg"},
+        WrongInput{"run " + block + " --for -1s", "must be greater than 0 s"},
+        WrongInput{"run " + block + " --record block.base.locatoin.x",
+                   "did you mean `block.base.location.x`?"},
+        WrongInput{"run " + block + " --set world.contact=impulse --set world.integrator=rk4",
+                   "cannot be paired with rk4"},
+        WrongInput{
+            "run " + config("paper/fig7_two_joint_arm.hook") + " --set SimpleWorld.engine=ode",
+            "ode"},
+        WrongInput{"study " + block, "holds no Study"},
+        WrongInput{"study " + config("studies/creep.hook") + " --jobs 0",
+                   "--jobs takes a whole number"},
+        WrongInput{"study " + config("studies/creep.hook") + " --only nobody", "nobody"},
+        WrongInput{"describe Base.mobil", "did you mean `Base.mobile`?"}));
+
+TEST(CommandLine, RunRecordsARowAtTimeZeroThenOneAStep) {
+  const Workplace work;
+  const CommandResult result = work.hookpoint(
+      "run " + block + " --for 5ms --record world.block.base.location.x,time --out here");
+  ASSERT_EQ(result.status, 0) << result.err;
+  const std::string trace = work.read("here/trace.csv");
+  EXPECT_EQ(trace.substr(0, trace.find('\n')), "time [s],world.block.base.location.x [m],time [s]");
+  EXPECT_EQ(std::count(trace.begin(), trace.end(), '\n'), 1 + 6);
+  EXPECT_NE(result.err.find("largest stable step"), std::string::npos);
+  EXPECT_FALSE(work.read("here/experiment.hook").empty());
+}
+
+TEST(CommandLine, ThePrintedExperimentGivesTheSameBytes) {
+  const Workplace work;
+  const std::string record =
+      " --for 50ms --record block.base.location.x,block.base.location.z,block.base.orientation.y "
+      "--out ";
+  ASSERT_EQ(work.hookpoint("run " + block + " --set slope='23 deg'" + record + "a").status, 0);
+  ASSERT_EQ(work.hookpoint("run a/experiment.hook" + record + "b").status, 0);
+  EXPECT_EQ(work.read("a/trace.csv"), work.read("b/trace.csv"));
+  EXPECT_EQ(work.read("a/experiment.hook"), work.read("b/experiment.hook"));
+}
+
+TEST(CommandLine, AStepAboveTheBoundIsWarnedOf) {
+  const Workplace work;
+  const CommandResult result = work.hookpoint("run " + block + " --for 5ms --set world.deltat=5ms");
+  EXPECT_NE(result.err.find("warning: deltat is above the largest stable step"), std::string::npos)
+      << result.err;
+}
+
+TEST(CommandLine, ANonFiniteStateStopsTheRunWithTimeBodyAndAdvice) {
+  const Workplace work;
+  const CommandResult result =
+      work.hookpoint("run " + block +
+                     " --for 100s --set world.deltat=1s --set world.integrator=explicit_euler "
+                     "--out here --record block.base.location.x");
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.err.find("the run stopped at"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("block.base"), std::string::npos);
+  EXPECT_NE(result.err.find("make the step smaller"), std::string::npos);
+  EXPECT_FALSE(work.read("here/trace.csv").empty());
+}
+
+TEST(CommandLine, FigureSevenParsesChecksAndRuns) {
+  const Workplace work;
+  const std::string figure = config("paper/fig7_two_joint_arm.hook");
+  EXPECT_EQ(work.hookpoint("check " + figure).status, 0);
+  const CommandResult result = work.hookpoint("run " + figure + " --for 100ms");
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.out.find("simplebot.leg1.link2"), std::string::npos);
+}
+
+TEST(CommandLine, DynamicsOfFreeFallIsGravity) {
+  const Workplace work;
+  const std::string file = work.file("fall.hook",
+                                     "World w { Robot stone { Base.mobile { mass = 2; inertia = "
+                                     "1,1,1,0,0,0; location = 0,0,5; } } }");
+  const CommandResult result = work.hookpoint("dynamics fall.hook --json");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.out.find("\"linear_acceleration\": [0, 0, -9.81"), std::string::npos)
+      << result.out;
+  EXPECT_NE(result.out.find("\"potential_energy\": 98.1"), std::string::npos) << result.out;
+}
+
+TEST(CommandLine, HelpAndListsSucceed) {
+  const Workplace work;
+  for (const char* arguments : {"--help", "run --help", "study --help", "--version", "engines",
+                                "engines --json", "describe", "describe World"}) {
+    const CommandResult result = work.hookpoint(arguments);
+    EXPECT_EQ(result.status, 0) << arguments;
+    EXPECT_FALSE(result.out.empty()) << arguments;
+  }
+}
+
+TEST(CommandLine, FmtIsIdempotent) {
+  const Workplace work;
+  work.file("a.hook", "World   w{deltat=1 ms; // the step\n}\n");
+  EXPECT_EQ(work.hookpoint("fmt --check a.hook").status, 1);
+  EXPECT_EQ(work.hookpoint("fmt a.hook").status, 0);
+  const std::string once = work.read("a.hook");
+  EXPECT_NE(once.find("// the step"), std::string::npos);
+  EXPECT_EQ(work.hookpoint("fmt --check a.hook").status, 0);
+  EXPECT_EQ(work.read("a.hook"), once);
+}
+
+}  // namespace
+}  // namespace hookpoint
