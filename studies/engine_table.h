@@ -1,0 +1,23 @@
+// Engines by name, as the command hands them in: this folder includes none.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "simulation/engine.h"
+
+namespace hookpoint::studies {
+
+struct EngineEntry {
+  simulation::EngineDescription description;
+  simulation::EngineFactory make = nullptr;
+  /// Tangential speed per newton of friction of a sticking contact in the engine's constraints
+  /// [m/(N s)] (ODE: CFM); nothing where no closed form holds. Null for an engine without such
+  /// constraints.
+  std::optional<double> (*friction_mixing)(const simulation::Experiment&) = nullptr;
+};
+
+using EngineTable = std::map<std::string, EngineEntry>;
+
+}  // namespace hookpoint::studies

@@ -1,0 +1,165 @@
+#include "studies/execute.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+
+namespace hookpoint::studies {
+namespace {
+
+using simulation::StepStatus;
+
+std::string_view kind_name(StepStatus::Kind kind) {
+  switch (kind) {
+    case StepStatus::Kind::ok:
+      return "ok";
+    case StepStatus::Kind::not_finite:
+      return "not_finite";
+    case StepStatus::Kind::step_too_large:
+      return "step_too_large";
+    case StepStatus::Kind::solver_failed:
+      return "solver_failed";
+  }
+  return "failed";
+}
+
+std::string failure(const StepStatus& status) {
+  return fmt::format("{} at {:.6g} s ({}): {}", kind_name(status.kind), status.time, status.body,
+                     status.advice);
+}
+
+/// A trace being recorded: at step 0, then at `trace_samples` steps spread evenly or, for a
+/// logarithmic time axis, in geometric progression.
+class Recording {
+ public:
+  Recording(const PlotPlan& plot, std::int64_t steps) : plot_(plot), steps_(steps) {
+    trace_.time.reserve(trace_samples + 1);
+    trace_.value.reserve(trace_samples + 1);
+  }
+  void observe(const RunContext& context, const Observation& observation) {
+    if (observation.world.step < due_) return;
+    trace_.time.push_back(observation.world.time);
+    trace_.value.push_back(plot_.signal->value(context, observation));
+    while (due_ <= observation.world.step) due_ = step_of(++sample_);
+  }
+  Trace take() { return std::move(trace_); }
+
+ private:
+  std::int64_t step_of(int sample) const {
+    const double part = static_cast<double>(sample) / trace_samples;
+    const double last = static_cast<double>(steps_);
+    if (sample > trace_samples) return INT64_MAX;
+    return std::llround(plot_.spec.log_x ? std::pow(last, part) : part * last);
+  }
+  const PlotPlan& plot_;
+  std::int64_t steps_, due_ = 0;
+  int sample_ = 0;
+  Trace trace_;
+};
+
+/// Everything that looks at a run.
+class Watch {
+ public:
+  Watch(const StudyPlan& plan, const RowPlan& row, const RunContext& context, std::int64_t steps)
+      : context_(context), observer_(context, needs_points(plan)) {
+    for (const MetricDefinition* metric : plan.metrics)
+      metrics_.push_back(metric->timing() ? nullptr : metric->make(context));
+    for (const PlotPlan& plot : plan.plots) {
+      const bool recorded = plot.signal != nullptr && plan.covers(plot.only, row);
+      recordings_.push_back(recorded ? std::optional<Recording>(std::in_place, plot, steps)
+                                     : std::nullopt);
+    }
+  }
+  void observe(const simulation::WorldState& world) {
+    const Observation observation = observer_.observe(world);
+    for (const auto& metric : metrics_)
+      if (metric) metric->observe(observation);
+    for (auto& recording : recordings_)
+      if (recording) recording->observe(context_, observation);
+  }
+  void finish(RowOutcome& outcome, bool complete) {
+    for (const auto& metric : metrics_) {
+      const auto value = metric && complete ? metric->value() : std::nullopt;
+      outcome.measured.push_back(value && std::isfinite(*value) ? value : std::nullopt);
+    }
+    for (auto& recording : recordings_)
+      outcome.traces.push_back(recording ? recording->take() : Trace{});
+  }
+
+ private:
+  static bool needs_points(const StudyPlan& plan) {
+    const bool metric = std::any_of(plan.metrics.begin(), plan.metrics.end(),
+                                    [](const MetricDefinition* m) { return m->needs_points; });
+    return metric || std::any_of(plan.plots.begin(), plan.plots.end(), [](const PlotPlan& plot) {
+             return plot.signal != nullptr && plot.signal->name == "penetration";
+           });
+  }
+  const RunContext& context_;
+  Observer observer_;
+  std::vector<std::unique_ptr<Metric>> metrics_;
+  std::vector<std::optional<Recording>> recordings_;
+};
+
+RowOutcome not_run(const StudyPlan& plan, std::string status) {
+  RowOutcome outcome;
+  outcome.status = std::move(status);
+  outcome.measured.resize(plan.metrics.size());
+  outcome.traces.resize(plan.plots.size());
+  return outcome;
+}
+
+}  // namespace
+
+std::optional<RowOutcome> execute(const StudyPlan& plan, const RowPlan& row,
+                                  const EngineEntry* engine, const std::atomic<bool>& stop) {
+  if (engine == nullptr || !engine->description.found)
+    return not_run(plan,
+                   fmt::format("skipped: engine {} is not on this machine", row.experiment.engine));
+  try {
+    const RunContext context = make_context(row.experiment, plan.settle, plan.duration);
+    const std::int64_t steps = std::llround(plan.duration / row.experiment.deltat);
+    const std::unique_ptr<simulation::Engine> world = engine->make(row.experiment);
+    Watch watch(plan, row, context, steps);
+    StepStatus status;
+    watch.observe(world->state());
+    for (std::int64_t step = 0; step < steps && status.ok(); ++step) {
+      if (stop.load(std::memory_order_relaxed)) return std::nullopt;
+      status = world->step();
+      if (status.ok()) watch.observe(world->state());
+    }
+    RowOutcome outcome;
+    if (!status.ok()) outcome.status = failure(status);
+    watch.finish(outcome, status.ok());
+    return outcome;
+  } catch (const simulation::ExperimentError& error) {
+    return not_run(plan, fmt::format("cannot run: {}", error.what()));
+  }
+}
+
+std::vector<std::optional<double>> execute_timing(const StudyPlan& plan, const RowPlan& row,
+                                                  const EngineEntry& engine) {
+  constexpr int steps = 200;
+  std::array<double, 5> stretches{};
+  std::vector<std::optional<double>> values(plan.metrics.size());
+  const std::unique_ptr<simulation::Engine> world = engine.make(row.experiment);
+  for (double& seconds : stretches) {
+    const auto start = std::chrono::steady_clock::now();
+    for (int step = 0; step < steps; ++step)
+      if (!world->step().ok()) return values;
+    seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
+  std::sort(stretches.begin(), stretches.end());
+  const double step_time = stretches[stretches.size() / 2] / steps;
+  for (std::size_t i = 0; i < plan.metrics.size(); ++i) {
+    if (plan.metrics[i]->name == "step_time") values[i] = step_time;
+    if (plan.metrics[i]->name == "realtime_factor") values[i] = row.experiment.deltat / step_time;
+  }
+  return values;
+}
+
+}  // namespace hookpoint::studies

@@ -1,0 +1,32 @@
+// One run of a plan: steps an engine, shows every state to the metrics, keeps the traces.
+#pragma once
+
+#include <atomic>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "studies/plan.h"
+
+namespace hookpoint::studies {
+
+struct RowOutcome {
+  std::string status = "ok";
+  std::vector<std::optional<double>> measured;  ///< one a metric of the plan
+  std::vector<Trace> traces;  ///< one a plot of the plan, empty for those not over time
+};
+
+/// Most samples of a trace.
+inline constexpr int trace_samples = 500;
+
+/// Runs `row`; nothing when `stop` was set meanwhile. Timing metrics stay empty. An engine that
+/// fails gives a status, no exception.
+std::optional<RowOutcome> execute(const StudyPlan& plan, const RowPlan& row,
+                                  const EngineEntry* engine, const std::atomic<bool>& stop);
+
+/// The timing metrics of `row`, one a metric of the plan (others empty): median over five stretches
+/// of 200 steps. To be called while nothing else runs.
+std::vector<std::optional<double>> execute_timing(const StudyPlan& plan, const RowPlan& row,
+                                                  const EngineEntry& engine);
+
+}  // namespace hookpoint::studies

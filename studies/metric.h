@@ -1,0 +1,123 @@
+// What is measured: one definition a metric, the same code for every engine, from the published
+// poses and velocities only. A metric sees every step once and keeps a fixed amount of memory,
+// however long the run.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "contact/terrain.h"
+#include "simulation/engine.h"
+#include "simulation/experiment.h"
+
+namespace hookpoint::studies {
+
+/// What of a run is known before it starts: the body measured (base of the first mobile robot), the
+/// ground under its start and the direction in which it is driven.
+struct RunContext {
+  const simulation::Experiment* experiment = nullptr;
+  std::optional<contact::Terrain> ground;
+  int robot = 0;         ///< index of the robot measured
+  std::size_t body = 0;  ///< index of its base in WorldState::bodies
+  double settle = 0.;    ///< [s]
+  double duration = 0.;  ///< [s]
+  Vector3d start;        ///< p_WB at time 0 [m]
+  Vector3d normal;       ///< of the ground under the start, unit
+  Vector3d downhill;     ///< unit, in the ground's plane: steepest descent; on the level, along the
+                         ///< initial velocity
+  double weight = 0.;    ///< m |g| [N], of the whole robot
+
+  const simulation::RobotSpec& robot_spec() const {
+    return experiment->robots[static_cast<std::size_t>(robot)];
+  }
+};
+
+/// Throws simulation::ExperimentError when no robot can move.
+RunContext make_context(const simulation::Experiment& experiment, double settle, double duration);
+
+/// A boundary point of the measured body.
+struct PointObservation {
+  Vector3d position;  ///< world [m]
+  double depth = 0.;  ///< along the ground's normal, > 0 inside [m]; minus infinity without ground
+};
+
+/// One step as metrics see it.
+struct Observation {
+  const simulation::WorldState& world;
+  const simulation::BodyState& body;
+  double displacement = 0.;                  ///< of the body's origin since the start, downhill [m]
+  std::span<const PointObservation> points;  ///< empty unless a metric asked for them
+};
+
+/// Whether `settle` has come. Half a step before counts: times are multiples of the step, rounded.
+inline bool settled(const RunContext& context, const Observation& observation) {
+  return observation.world.time >= context.settle - 0.5 * context.experiment->deltat;
+}
+
+/// Makes observations of a run; its buffer is sized once.
+class Observer {
+ public:
+  Observer(const RunContext& context, bool with_points);
+  /// Valid until the next call.
+  Observation observe(const simulation::WorldState& world);
+
+ private:
+  const RunContext& context_;
+  std::vector<PointObservation> points_;
+};
+
+class Metric {
+ public:
+  virtual ~Metric() = default;
+  /// Called once for the initial state and once after each step.
+  virtual void observe(const Observation& observation) = 0;
+  /// Nothing when it does not apply.
+  virtual std::optional<double> value() const = 0;
+};
+
+struct MetricDefinition {
+  std::string_view name;
+  std::string_view unit;
+  std::string_view doc;
+  std::unique_ptr<Metric> (*make)(const RunContext&) = nullptr;  ///< null: a timing metric
+  bool needs_points = false;
+  bool timing() const { return make == nullptr; }
+};
+
+/// Every metric, in the order of the manual.
+std::span<const MetricDefinition> metric_table();
+const MetricDefinition* find_metric(std::string_view name);
+
+/// A quantity that a Plot may draw over time.
+struct SignalDefinition {
+  std::string_view name;
+  std::string_view unit;
+  std::string_view doc;
+  double (*value)(const RunContext&, const Observation&);
+};
+std::span<const SignalDefinition> signal_table();
+const SignalDefinition* find_signal(std::string_view name);
+
+/// Kinetic and gravitational energy of the bodies of the measured robot [J].
+double mechanical_energy(const RunContext& context, const simulation::WorldState& world);
+
+// The factories, each in the file of its family.
+std::unique_ptr<Metric> make_creep_speed(const RunContext&);
+std::unique_ptr<Metric> make_slip_acceleration(const RunContext&);
+std::unique_ptr<Metric> make_settle_shift(const RunContext&);
+std::unique_ptr<Metric> make_stopping_distance(const RunContext&);
+std::unique_ptr<Metric> make_direction_error(const RunContext&);
+std::unique_ptr<Metric> make_energy_gain(const RunContext&);
+std::unique_ptr<Metric> make_stick_displacement(const RunContext&);
+std::unique_ptr<Metric> make_slip_distance(const RunContext&);
+std::unique_ptr<Metric> make_penetration_max(const RunContext&);
+std::unique_ptr<Metric> make_penetration_mean(const RunContext&);
+std::unique_ptr<Metric> make_penetration_rms(const RunContext&);
+std::unique_ptr<Metric> make_contact_breaks(const RunContext&);
+std::unique_ptr<Metric> make_impacts(const RunContext&);
+
+}  // namespace hookpoint::studies

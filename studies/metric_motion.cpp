@@ -1,0 +1,155 @@
+// Metrics of the body's motion: displacement fits, stopping, direction, energy.
+#include <algorithm>
+#include <cmath>
+
+#include "studies/metric.h"
+
+namespace hookpoint::studies {
+namespace {
+
+/// Least-squares fit of s(t) by a polynomial, one sample at a time. Time runs over [-1, 1] and s
+/// from its first sample, so that the sums stay well conditioned.
+class DisplacementFit : public Metric {
+ public:
+  explicit DisplacementFit(const RunContext& context)
+      : context_(context),
+        middle_(0.5 * (context.settle + context.duration)),
+        half_(0.5 * (context.duration - context.settle)) {}
+
+  void observe(const Observation& observation) override {
+    if (!settled(context_, observation)) return;
+    if (count_ == 0) first_ = observation.displacement;
+    const double tau = (observation.world.time - middle_) / half_;
+    const double s = observation.displacement - first_;
+    ++count_;
+    double power = 1.;
+    for (int k = 0; k <= 4; ++k, power *= tau) {
+      time_sums_[k] += power;
+      if (k <= 2) sums_[k] += s * power;
+    }
+  }
+
+ protected:
+  /// ds/dt of the best line.
+  std::optional<double> slope() const {
+    if (count_ < 2) return std::nullopt;
+    const double n = time_sums_[0];
+    const double determinant = n * time_sums_[2] - time_sums_[1] * time_sums_[1];
+    return (n * sums_[1] - time_sums_[1] * sums_[0]) / determinant / half_;
+  }
+  /// d2s/dt2 of the best parabola: the normal equations solved by a symmetric 3x3 inverse.
+  std::optional<double> curvature() const {
+    if (count_ < 3) return std::nullopt;
+    const Symmetric3d normal_matrix{time_sums_[0], time_sums_[2], time_sums_[4],
+                                    time_sums_[1], time_sums_[2], time_sums_[3]};
+    const Vector3d coefficients = inverse(normal_matrix) * Vector3d{sums_[0], sums_[1], sums_[2]};
+    return 2. * coefficients.z / (half_ * half_);
+  }
+
+ private:
+  const RunContext& context_;
+  double middle_, half_, first_ = 0.;
+  long count_ = 0;
+  double time_sums_[5] = {}, sums_[3] = {};
+};
+
+class CreepSpeed : public DisplacementFit {
+ public:
+  using DisplacementFit::DisplacementFit;
+  std::optional<double> value() const override { return slope(); }
+};
+
+class SlipAcceleration : public DisplacementFit {
+ public:
+  using DisplacementFit::DisplacementFit;
+  std::optional<double> value() const override { return curvature(); }
+};
+
+class SettleShift : public Metric {
+ public:
+  explicit SettleShift(const RunContext& context) : context_(context) {}
+  void observe(const Observation& observation) override {
+    if (!shift_ && settled(context_, observation)) shift_ = observation.displacement;
+  }
+  std::optional<double> value() const override { return shift_; }
+
+ private:
+  const RunContext& context_;
+  std::optional<double> shift_;
+};
+
+class StoppingDistance : public Metric {
+ public:
+  static constexpr double rest_speed = 1e-3;  ///< [m/s], as the threshold of slip
+  explicit StoppingDistance(const RunContext&) {}
+  void observe(const Observation& observation) override {
+    displacement_ = observation.displacement;
+    speed_ = norm(observation.body.velocity);
+  }
+  std::optional<double> value() const override {
+    return speed_ < rest_speed ? std::optional(displacement_) : std::nullopt;
+  }
+
+ private:
+  double displacement_ = 0., speed_ = 0.;
+};
+
+class DirectionError : public Metric {
+ public:
+  static constexpr double least_path = 1e-3;  ///< [m]: under it the direction is noise
+  explicit DirectionError(const RunContext& context) : context_(context) {}
+  void observe(const Observation& observation) override {
+    if (!settled(context_, observation)) return;
+    if (!from_) from_ = observation.body.position;
+    path_ = tangential(observation.body.position - *from_, context_.normal);
+  }
+  std::optional<double> value() const override {
+    if (norm(path_) < least_path) return std::nullopt;
+    const Vector3d across = cross(context_.normal, context_.downhill);
+    return std::abs(std::atan2(dot(path_, across), dot(path_, context_.downhill)));
+  }
+
+ private:
+  const RunContext& context_;
+  std::optional<Vector3d> from_;
+  Vector3d path_;
+};
+
+class EnergyGain : public Metric {
+ public:
+  explicit EnergyGain(const RunContext& context) : context_(context) {}
+  void observe(const Observation& observation) override {
+    const double energy = mechanical_energy(context_, observation.world);
+    if (!start_) start_ = energy;
+    gain_ = std::max(gain_, energy - *start_);
+  }
+  std::optional<double> value() const override { return gain_; }
+
+ private:
+  const RunContext& context_;
+  std::optional<double> start_;
+  double gain_ = 0.;
+};
+
+}  // namespace
+
+std::unique_ptr<Metric> make_creep_speed(const RunContext& context) {
+  return std::make_unique<CreepSpeed>(context);
+}
+std::unique_ptr<Metric> make_slip_acceleration(const RunContext& context) {
+  return std::make_unique<SlipAcceleration>(context);
+}
+std::unique_ptr<Metric> make_settle_shift(const RunContext& context) {
+  return std::make_unique<SettleShift>(context);
+}
+std::unique_ptr<Metric> make_stopping_distance(const RunContext& context) {
+  return std::make_unique<StoppingDistance>(context);
+}
+std::unique_ptr<Metric> make_direction_error(const RunContext& context) {
+  return std::make_unique<DirectionError>(context);
+}
+std::unique_ptr<Metric> make_energy_gain(const RunContext& context) {
+  return std::make_unique<EnergyGain>(context);
+}
+
+}  // namespace hookpoint::studies

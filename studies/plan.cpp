@@ -1,0 +1,238 @@
+// Study object -> plan: names, units and values are checked here, and every row's scene is loaded.
+#include "studies/plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "contact/force_law.h"
+#include "language/names.h"
+#include "simulation/load.h"
+#include "studies/plan_parts.h"
+
+namespace hookpoint::studies {
+
+bool Condition::holds(double value) const {
+  const double slack = 1e-9 * std::abs(value);
+  if (from && value < *from - slack) return false;
+  if (to && value > *to + slack) return false;
+  if (values.empty()) return true;
+  return std::any_of(values.begin(), values.end(),
+                     [&](double allowed) { return std::abs(allowed - value) <= slack; });
+}
+
+bool StudyPlan::covers(const std::vector<Condition>& conditions, const RowPlan& row) const {
+  return std::all_of(conditions.begin(), conditions.end(), [&](const Condition& condition) {
+    const auto sweep = static_cast<std::size_t>(condition.sweep);
+    return condition.holds(sweeps[sweep].si[static_cast<std::size_t>(row.values[sweep])]);
+  });
+}
+
+namespace {
+
+using language::Diagnostics;
+using language::Object;
+
+/// FNV-1a, 64 bits.
+class Hash {
+ public:
+  void add(std::string_view text) {
+    for (const char c : text) {
+      state_ ^= static_cast<unsigned char>(c);
+      state_ *= 1099511628211ull;
+    }
+    state_ ^= text.size();
+  }
+  std::string text() const { return fmt::format("{:010x}", state_ >> 24); }
+
+ private:
+  std::uint64_t state_ = 14695981039346656037ull;
+};
+
+/// Evaluates and loads the scene of each row; keeps the library's warnings from being told once a
+/// row.
+class SceneLoader {
+ public:
+  SceneLoader(language::Library& library, std::filesystem::path scene, Diagnostics& diagnostics)
+      : library_(library), scene_(std::move(scene)), diagnostics_(diagnostics) {}
+
+  /// Fills `row.experiment`; false when the scene cannot be loaded so.
+  bool load(const StudyPlan& plan, const Object& study, RowPlan& row, std::string& printed) {
+    const SubjectPlan& subject = plan.subjects[static_cast<std::size_t>(row.subject)];
+    language::EvaluateOptions options;
+    std::string where = "with subject = " + subject.info.name;
+    for (const Assignment& fix : fixes) options.parameters[fix.parameter] = fix.text;
+    for (const Assignment& fix : subject.fixes) options.parameters[fix.parameter] = fix.text;
+    for (std::size_t i = 0; i < plan.sweeps.size(); ++i) {
+      const SweepPlan& sweep = plan.sweeps[i];
+      const std::string& text = sweep.texts[static_cast<std::size_t>(row.values[i])];
+      options.parameters[sweep.column.name] = text;
+      where += fmt::format(", {} = {}", sweep.column.name, text);
+    }
+    if (!find_world(options)) return false;
+    const auto set = [&](const char* field, const std::string& value) {
+      if (!value.empty()) options.overrides.push_back({world_ + "." + field, value});
+    };
+    set("engine", subject.engine);
+    set("contact", subject.contact);
+    set("integrator", subject.integrator);
+    set("settings", subject.settings);
+    Diagnostics found;
+    const auto tree = library_.evaluate(scene_, options, found);
+    std::optional<simulation::Experiment> experiment;
+    if (tree) experiment = simulation::load_experiment(*tree, found);
+    forward(found, study, where);
+    if (!experiment || found.has_errors()) return false;
+    row.experiment = std::move(*experiment);
+    printed = language::print(*tree);
+    return true;
+  }
+
+  std::vector<Assignment> fixes;  ///< the study's own
+
+ private:
+  /// The trail of the scene's World, once.
+  bool find_world(const language::EvaluateOptions& options) {
+    if (!world_.empty()) return true;
+    const auto tree = library_.evaluate(scene_, options, diagnostics_);
+    if (!tree) return false;
+    const auto worlds = tree->children_of("World");
+    if (worlds.empty()) {
+      diagnostics_.error(tree->position, "the study's scene has no World");
+      return false;
+    }
+    world_ = worlds.front()->trail();
+    return true;
+  }
+
+  void forward(const Diagnostics& found, const Object& study, const std::string& where) {
+    for (const language::Diagnostic& diagnostic : found.all()) {
+      if (!told_.insert(diagnostic.message).second) continue;
+      if (diagnostic.severity == language::Severity::error)
+        diagnostics_.error(diagnostic.position, diagnostic.message);
+      else if (diagnostic.severity == language::Severity::warning)
+        diagnostics_.warning(diagnostic.position, diagnostic.message);
+      else
+        diagnostics_.note(diagnostic.position, diagnostic.message);
+      if (diagnostic.severity != language::Severity::note)
+        diagnostics_.note(study.position, "in study " + study.name + " " + where);
+    }
+  }
+
+  language::Library& library_;
+  std::filesystem::path scene_;
+  Diagnostics& diagnostics_;
+  std::string world_;
+  std::set<std::string> told_;
+};
+
+/// Advances the innermost sweep first; false after the last combination.
+bool next_combination(const std::vector<SweepPlan>& sweeps, std::vector<int>& values) {
+  for (std::size_t i = sweeps.size(); i-- > 0;) {
+    if (++values[i] < static_cast<int>(sweeps[i].si.size())) return true;
+    values[i] = 0;
+  }
+  return false;
+}
+
+bool plan_rows(StudyPlan& plan, const Object& study, SceneLoader& loader,
+               const PlanOptions& options, Hash& hash) {
+  std::vector<int> values(plan.sweeps.size(), 0);
+  do {
+    for (std::size_t i = 0; i < plan.subjects.size(); ++i) {
+      const SubjectPlan& subject = plan.subjects[i];
+      RowPlan row;
+      row.values = values;
+      row.subject = static_cast<int>(i);
+      if (!options.only.empty() && std::find(options.only.begin(), options.only.end(),
+                                             subject.info.name) == options.only.end())
+        continue;
+      if (!plan.covers(subject.only, row)) continue;
+      std::string printed;
+      if (!loader.load(plan, study, row, printed)) return false;
+      row.experiment.duration = plan.duration;
+      hash.add(printed);
+      if (plan.rows.empty()) plan.scene_printed = printed;
+      plan.rows.push_back(std::move(row));
+    }
+  } while (next_combination(plan.sweeps, values));
+  return true;
+}
+
+/// A scene may set engine, law and integrator itself: the table names those in force.
+void complete_subjects(StudyPlan& plan, const EngineTable& engines) {
+  for (std::size_t i = 0; i < plan.subjects.size(); ++i) {
+    SubjectInfo& info = plan.subjects[i].info;
+    const auto row = std::find_if(
+        plan.rows.begin(), plan.rows.end(),
+        [&](const RowPlan& candidate) { return candidate.subject == static_cast<int>(i); });
+    const simulation::Experiment* experiment = row == plan.rows.end() ? nullptr : &row->experiment;
+    info.engine = experiment != nullptr ? experiment->engine : plan.subjects[i].engine;
+    const auto entry = engines.find(info.engine);
+    info.available = entry != engines.end() && entry->second.description.found;
+    if (experiment == nullptr) continue;
+    const bool ours = info.engine == "dts";
+    info.law = ours ? experiment->contact : "";
+    const bool integrated = ours && contact::find_force_law(experiment->contact).has_value();
+    info.integrator = integrated ? experiment->integrator : "";
+    info.settings = ours ? "" : experiment->settings;
+  }
+}
+
+void plan_times(StudyPlan& plan, const Object& study, Diagnostics& diagnostics) {
+  constexpr double quick_part = 0.2;
+  const auto quick = [&](const char* field, double full) {
+    return study.find(field) != nullptr ? study.number(field) : quick_part * full;
+  };
+  plan.duration = study.number("duration");
+  plan.settle = study.number("settle");
+  if (plan.quick) {
+    plan.duration = quick("quick_duration", plan.duration);
+    plan.settle = quick("quick_settle", plan.settle);
+  }
+  if (plan.settle >= plan.duration)
+    diagnostics.error(study.find("duration")->position,
+                      "duration must be longer than settle: nothing would be measured");
+}
+
+}  // namespace
+
+std::optional<StudyPlan> make_plan(const Object& root, const Object& study, const std::string& file,
+                                   language::Library& library, const EngineTable& engines,
+                                   const PlanOptions& options, Diagnostics& diagnostics) {
+  StudyPlan plan;
+  plan.name = study.name;
+  plan.file = file;
+  plan.quick = options.quick;
+  if (study.find("title") != nullptr) plan.title = study.word("title");
+  if (study.find("question") != nullptr) plan.question = study.word("question");
+  plan_times(plan, study, diagnostics);
+  const std::filesystem::path scene = library.find(study.word("scene"), file);
+  if (scene.empty()) {
+    diagnostics.error(study.find("scene")->position,
+                      "no file \"" + study.word("scene") + "\" beside the study or in configs/");
+    return std::nullopt;
+  }
+  SceneLoader loader(library, scene, diagnostics);
+  loader.fixes =
+      plan_parts(plan, study, library.parameters(scene, diagnostics), options, diagnostics);
+  if (diagnostics.has_errors()) return std::nullopt;
+  plan.printed = language::print(root);
+  Hash hash;
+  hash.add(plan.printed);
+  hash.add(fmt::format("{} {} {} {}", plan.name, language::join(options.only, ","), plan.settle,
+                       plan.duration));
+  if (!plan_rows(plan, study, loader, options, hash)) return std::nullopt;
+  plan.hash = hash.text();
+  if (plan.rows.empty()) {
+    diagnostics.error(study.position,
+                      "the study has no run: no Subject, or none that its Only blocks allow");
+    return std::nullopt;
+  }
+  complete_subjects(plan, engines);
+  return plan;
+}
+
+}  // namespace hookpoint::studies

@@ -1,0 +1,309 @@
+#include "studies/plan_parts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "language/names.h"
+#include "output/number.h"
+#include "studies/plan_values.h"
+
+namespace hookpoint::studies {
+namespace {
+
+using language::Diagnostics;
+using language::Field;
+using language::Object;
+
+/// Looks names up among the parts planned so far, with the nearest one in the error.
+class Parts {
+ public:
+  Parts(StudyPlan& plan, std::vector<std::string> parameters, const PlanOptions& options,
+        Diagnostics& diagnostics)
+      : plan_(plan),
+        parameters_(std::move(parameters)),
+        options_(options),
+        diagnostics_(diagnostics) {}
+
+  void add_sweep(const Object& block);
+  void add_subject(const Object& block);
+  void add_metric(const Object& block);
+  void add_truth(const Object& block);
+  void add_plot(const Object& block);
+  void check_only_option(const Object& study);
+  std::vector<Assignment> fixes(const Object& owner);
+
+ private:
+  void unknown(const language::Position& position, std::string_view kind, const std::string& name,
+               const std::vector<std::string>& known) {
+    diagnostics_.error(position, fmt::format("no {} is called `{}`{}", kind, name,
+                                             language::did_you_mean(name, known)));
+  }
+  std::vector<std::string> sweep_names() const {
+    std::vector<std::string> names;
+    for (const SweepPlan& sweep : plan_.sweeps) names.push_back(sweep.column.name);
+    return names;
+  }
+  int sweep_index(const std::string& name) const {
+    const auto names = sweep_names();
+    const auto found = std::find(names.begin(), names.end(), name);
+    return found == names.end() ? -1 : static_cast<int>(found - names.begin());
+  }
+  bool parameter_exists(const Object& block) {
+    if (std::find(parameters_.begin(), parameters_.end(), block.name) != parameters_.end())
+      return true;
+    unknown(block.position, "Param of the scene", block.name, parameters_);
+    return false;
+  }
+  std::vector<double> sweep_values(const Object& block, const WrittenUnit& unit);
+  std::vector<Condition> conditions(const Object& owner);
+  std::string truth_words(const Object& block, const TruthPlan& truth);
+
+  StudyPlan& plan_;
+  std::vector<std::string> parameters_;
+  const PlanOptions& options_;
+  Diagnostics& diagnostics_;
+};
+
+std::vector<double> in_unit(const std::vector<double>& si, const WrittenUnit& unit) {
+  std::vector<double> values;
+  for (const double value : si) values.push_back(tidy(unit.from_si(value)));
+  return values;
+}
+
+std::vector<double> Parts::sweep_values(const Object& block, const WrittenUnit& unit) {
+  if (options_.quick && block.find("quick_values") != nullptr)
+    return in_unit(block.numbers("quick_values"), unit);
+  std::vector<double> values;
+  if (block.find("values") != nullptr) {
+    values = in_unit(block.numbers("values"), unit);
+  } else if (block.find("from") != nullptr && block.find("to") != nullptr) {
+    const double from = unit.from_si(block.number("from")), to = unit.from_si(block.number("to"));
+    const bool logarithmic = block.word("scale") == "log";
+    if (block.find("step") != nullptr && block.number("step") > 0. && to >= from)
+      values = stepped(from, to, unit.from_si(block.number("step")));
+    else if (block.find("count") != nullptr && (!logarithmic || (from > 0. && to > 0.)))
+      values = spaced(from, to, static_cast<int>(block.number("count")), logarithmic);
+  }
+  if (values.empty())
+    diagnostics_.error(block.position,
+                       "a Sweep needs `values`, or `from`, `to` and a `step` > 0 (or a "
+                       "`count`; on a log scale both ends > 0)");
+  if (options_.quick && values.size() > 2) return {values.front(), values.back()};
+  return values;
+}
+
+void Parts::add_sweep(const Object& block) {
+  if (!parameter_exists(block)) return;
+  const Field* first = block.find("values") != nullptr ? block.find("values") : block.find("from");
+  const WrittenUnit unit = first == nullptr ? WrittenUnit{} : written_unit(*first);
+  SweepPlan sweep;
+  sweep.column = {block.name, unit.text, sweep_values(block, unit)};
+  for (const double value : sweep.column.values) {
+    sweep.si.push_back(unit.to_si(value));
+    sweep.texts.push_back(unit.with_unit(value));
+  }
+  plan_.sweeps.push_back(std::move(sweep));
+}
+
+std::vector<Assignment> Parts::fixes(const Object& owner) {
+  std::vector<Assignment> result;
+  for (const Object* block : owner.children_of("Fix")) {
+    if (!parameter_exists(*block)) continue;
+    if (sweep_index(block->name) >= 0) {
+      diagnostics_.error(block->position,
+                         fmt::format("`{}` is swept: it cannot be fixed as well", block->name));
+      continue;
+    }
+    const WrittenUnit unit = written_unit(*block->find("value"));
+    result.push_back({block->name, unit.with_unit(tidy(unit.from_si(block->number("value"))))});
+  }
+  return result;
+}
+
+std::vector<Condition> Parts::conditions(const Object& owner) {
+  std::vector<Condition> result;
+  for (const Object* block : owner.children_of("Only")) {
+    Condition condition;
+    condition.sweep = sweep_index(block->name);
+    if (condition.sweep < 0) {
+      unknown(block->position, "Sweep", block->name, sweep_names());
+      continue;
+    }
+    if (block->find("values") != nullptr) condition.values = block->numbers("values");
+    if (block->find("from") != nullptr) condition.from = block->number("from");
+    if (block->find("to") != nullptr) condition.to = block->number("to");
+    result.push_back(std::move(condition));
+  }
+  return result;
+}
+
+void Parts::add_subject(const Object& block) {
+  SubjectPlan subject;
+  subject.info.name = block.name;
+  const auto word = [&](const char* field) {
+    return block.find(field) == nullptr ? std::string() : block.word(field);
+  };
+  subject.engine = word("engine");
+  subject.contact = word("contact");
+  subject.integrator = word("integrator");
+  subject.settings = word("settings");
+  if (!subject.engine.empty() && subject.engine != "dts" && !subject.contact.empty())
+    diagnostics_.error(
+        block.find("contact")->position,
+        fmt::format("engine {} has a contact of its own: leave `contact` out", subject.engine));
+  subject.fixes = fixes(block);
+  subject.only = conditions(block);
+  plan_.subjects.push_back(std::move(subject));
+}
+
+std::vector<std::string> metric_names() {
+  std::vector<std::string> names;
+  for (const MetricDefinition& metric : metric_table()) names.emplace_back(metric.name);
+  return names;
+}
+
+void Parts::add_metric(const Object& block) {
+  if (const MetricDefinition* metric = find_metric(block.name))
+    plan_.metrics.push_back(metric);
+  else
+    unknown(block.position, "metric", block.name, metric_names());
+}
+
+std::string Parts::truth_words(const Object& block, const TruthPlan& truth) {
+  const MetricDefinition& metric = *plan_.metrics[truth.metric];
+  const std::string unit = metric.unit.empty() ? "" : " " + std::string(metric.unit);
+  const auto number = [&](double value) { return output::shortest(value) + unit; };
+  std::string words(metric.name);
+  if (truth.predicted) words += " equals predicted";
+  if (truth.value) words += " equals " + number(*truth.value);
+  if (truth.same_over >= 0)
+    words +=
+        " is the same over " + plan_.sweeps[static_cast<std::size_t>(truth.same_over)].column.name;
+  if (truth.tolerance > 0.)
+    words += " within " + output::shortest(tidy(100. * truth.tolerance)) + " %";
+  if (truth.within > 0.)
+    words += (truth.tolerance > 0. ? " or " : " within ") + number(truth.within);
+  if (truth.above) words += " is above " + number(*truth.above);
+  if (truth.below) words += " is below " + number(*truth.below);
+  if (block.find("subjects") != nullptr)
+    words += " (" + language::join(block.find("subjects")->words, ", ") + ")";
+  return words;
+}
+
+void Parts::add_truth(const Object& block) {
+  TruthPlan truth;
+  const std::string metric = block.find("metric") != nullptr ? block.word("metric") : block.name;
+  std::vector<std::string> measured;
+  for (const MetricDefinition* definition : plan_.metrics) measured.emplace_back(definition->name);
+  const auto found = std::find(measured.begin(), measured.end(), metric);
+  if (found == measured.end()) {
+    unknown(block.position, "Measure of this study", metric, measured);
+    return;
+  }
+  truth.metric = static_cast<std::size_t>(found - measured.begin());
+  const auto number = [&](const char* field) {
+    return block.find(field) == nullptr ? std::nullopt : std::optional(block.number(field));
+  };
+  truth.value = number("value");
+  truth.above = number("above");
+  truth.below = number("below");
+  truth.within = number("within").value_or(0.);
+  truth.tolerance = block.number("tolerance");
+  if (block.find("same_over") != nullptr) {
+    truth.same_over = sweep_index(block.word("same_over"));
+    if (truth.same_over < 0)
+      unknown(block.find("same_over")->position, "Sweep", block.word("same_over"), sweep_names());
+  }
+  truth.predicted = block.find("equals") != nullptr && block.word("equals") == "predicted";
+  if (!truth.predicted && !truth.value && !truth.above && !truth.below && truth.same_over < 0)
+    diagnostics_.error(
+        block.position,
+        "a Truth needs `equals = predicted`, `value`, `above`, `below` or `same_over`");
+  if (truth.predicted && truth.value)
+    diagnostics_.error(block.find("value")->position,
+                       "a Truth equals the prediction or a value, not both");
+  if (block.find("subjects") != nullptr) {
+    std::vector<std::string> names;
+    for (const SubjectPlan& subject : plan_.subjects) names.push_back(subject.info.name);
+    for (const std::string& word : block.find("subjects")->words) {
+      const auto subject = std::find(names.begin(), names.end(), word);
+      if (subject == names.end()) unknown(block.find("subjects")->position, "Subject", word, names);
+      truth.subjects.push_back(static_cast<int>(subject - names.begin()));
+    }
+  }
+  truth.only = conditions(block);
+  truth.words = truth_words(block, truth);
+  plan_.truths.push_back(std::move(truth));
+}
+
+void Parts::add_plot(const Object& block) {
+  PlotPlan plot;
+  PlotSpec& spec = plot.spec;
+  spec.name = block.name;
+  spec.title = block.find("title") != nullptr ? block.word("title") : block.name;
+  spec.x = block.word("x");
+  spec.y = block.word("y");
+  if (block.find("series") != nullptr) spec.series = block.word("series");
+  const std::string& scale = block.word("scale");
+  spec.log_x = scale == "log_x" || scale == "log_log";
+  spec.log_y = scale == "log" || scale == "log_log";
+  if (spec.x == "time") {
+    spec.x_unit = "s";
+    plot.signal = find_signal(spec.y);
+    std::vector<std::string> names;
+    for (const SignalDefinition& signal : signal_table()) names.emplace_back(signal.name);
+    if (plot.signal == nullptr) unknown(block.find("y")->position, "signal", spec.y, names);
+    if (plot.signal != nullptr) spec.y_unit = plot.signal->unit;
+  } else {
+    const int sweep = sweep_index(spec.x);
+    if (sweep < 0)
+      unknown(block.find("x")->position, "Sweep", spec.x, sweep_names());
+    else
+      spec.x_unit = plan_.sweeps[static_cast<std::size_t>(sweep)].column.unit;
+    const MetricDefinition* metric = find_metric(spec.y);
+    if (metric == nullptr ||
+        std::find(plan_.metrics.begin(), plan_.metrics.end(), metric) == plan_.metrics.end())
+      unknown(block.find("y")->position, "Measure of this study", spec.y, metric_names());
+    else
+      spec.y_unit = metric->unit;
+  }
+  if (spec.series != "subject" && sweep_index(spec.series) < 0)
+    unknown(block.find("series")->position, "Sweep", spec.series, sweep_names());
+  plot.only = conditions(block);
+  for (const Condition& condition : plot.only) {
+    const SweepPlan& sweep = plan_.sweeps[static_cast<std::size_t>(condition.sweep)];
+    for (std::size_t i = 0; i < sweep.si.size(); ++i)
+      if (condition.values.size() == 1 && condition.holds(sweep.si[i]))
+        spec.where.emplace_back(sweep.column.name, sweep.column.values[i]);
+  }
+  plan_.plots.push_back(std::move(plot));
+}
+
+void Parts::check_only_option(const Object& study) {
+  std::vector<std::string> names;
+  for (const SubjectPlan& subject : plan_.subjects) names.push_back(subject.info.name);
+  for (const std::string& only : options_.only)
+    if (std::find(names.begin(), names.end(), only) == names.end())
+      unknown(study.position, "Subject", only, names);
+}
+
+}  // namespace
+
+std::vector<Assignment> plan_parts(StudyPlan& plan, const Object& study,
+                                   const std::vector<language::ParameterDeclaration>& parameters,
+                                   const PlanOptions& options, Diagnostics& diagnostics) {
+  std::vector<std::string> names;
+  for (const language::ParameterDeclaration& parameter : parameters)
+    names.push_back(parameter.name);
+  Parts parts(plan, std::move(names), options, diagnostics);
+  for (const Object* block : study.children_of("Sweep")) parts.add_sweep(*block);
+  for (const Object* block : study.children_of("Measure")) parts.add_metric(*block);
+  for (const Object* block : study.children_of("Subject")) parts.add_subject(*block);
+  for (const Object* block : study.children_of("Truth")) parts.add_truth(*block);
+  for (const Object* block : study.children_of("Plot")) parts.add_plot(*block);
+  parts.check_only_option(study);
+  return parts.fixes(study);
+}
+
+}  // namespace hookpoint::studies

@@ -1,0 +1,34 @@
+// Values as a study's file writes them, with the unit that the author chose.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "language/object.h"
+#include "language/units.h"
+
+namespace hookpoint::studies {
+
+/// A unit as written, with its factor to SI.
+struct WrittenUnit {
+  std::string text;  ///< "deg"; "" when none was written
+  language::Unit unit;
+
+  double to_si(double value) const { return value * unit.numerator / unit.denominator; }
+  double from_si(double value) const { return value * unit.denominator / unit.numerator; }
+  /// `value` in this unit, as text that the language reads back: "5 deg".
+  std::string with_unit(double value) const;
+};
+
+/// The unit of the first number of the field's value in its source text.
+WrittenUnit written_unit(const language::Field& field);
+
+/// To 12 significant digits: 0.30000000000000004 is 0.3.
+double tidy(double value);
+
+/// from, from + step, ... up to `to` (half a millionth of a step of tolerance), tidied.
+std::vector<double> stepped(double from, double to, double step);
+/// `count` values from `from` to `to`, evenly spaced or in geometric progression, tidied.
+std::vector<double> spaced(double from, double to, int count, bool logarithmic);
+
+}  // namespace hookpoint::studies

@@ -1,0 +1,78 @@
+// What a study produced: the table that results.csv, the terminal and the report all print. Plain values.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace hookpoint::studies {
+
+/// One thing that the study varied.
+struct SweepColumn {
+  std::string name;            ///< the scene's Param: "slope"
+  std::string unit;            ///< as in results.csv, SI or the unit the study wrote ("deg")
+  std::vector<double> values;  ///< in `unit`, in order
+};
+
+struct SubjectInfo {
+  std::string name;        ///< "dts_hookpoint"
+  std::string engine;      ///< "dts"
+  std::string law;         ///< "hookpoint"; "" for a peer, whose contact is its own
+  std::string integrator;  ///< "semi_implicit_euler"; "" for a peer
+  std::string settings;    ///< "default" ... for a peer; "" for ours
+  bool available = true;   ///< false: the engine is not on this machine; its rows are "skipped"
+};
+
+struct MetricColumn {
+  std::string name;        ///< "creep_speed"
+  std::string unit;        ///< "m/s"
+  bool timing = false;     ///< goes to timing.csv, not to results.csv
+};
+
+struct MetricValue {
+  std::optional<double> measured;   ///< empty: does not apply, or the run failed before
+  std::optional<double> predicted;  ///< the closed form, where there is one
+  std::optional<bool> ok;           ///< verdict of the Truth that covers it, if any
+};
+
+/// A recorded curve of one run: displacement over time.
+struct Trace {
+  std::vector<double> time;   ///< [s]
+  std::vector<double> value;
+};
+
+struct RunResult {
+  std::vector<double> parameters;    ///< one a sweep, in the sweep's unit
+  int subject = 0;                   ///< index into StudyResult::subjects
+  std::vector<MetricValue> metrics;  ///< one a metric
+  std::string status = "ok";         ///< "ok", or what stopped the run, with its time: never a missing row
+  std::vector<Trace> traces;         ///< one a PlotSpec with x = time, empty for the others
+};
+
+/// A Plot block.
+struct PlotSpec {
+  std::string name;                 ///< file name of its SVG
+  std::string title;
+  std::string x, y;                 ///< a sweep or "time"; a metric or a trail
+  std::string x_unit, y_unit;
+  std::string series = "subject";   ///< what makes a curve
+  bool log_x = false, log_y = false;
+  bool show_predicted = true;       ///< dashed line of the closed form beside the points
+  /// Values that fix the other sweeps ("mu" = 0.8): rows that differ are left out.
+  std::vector<std::pair<std::string, double>> where;
+};
+
+struct StudyResult {
+  std::string name;
+  std::string question;             ///< one or two sentences, first thing in the report
+  std::string file;                 ///< the study's file as the user named it
+  std::vector<SweepColumn> sweeps;
+  std::vector<SubjectInfo> subjects;
+  std::vector<MetricColumn> metrics;
+  std::vector<RunResult> rows;      ///< sweep values outermost first, subjects innermost
+  std::vector<PlotSpec> plots;
+  std::vector<std::string> truths;  ///< each Truth in words: "creep_speed equals predicted within 1 %"
+};
+
+}  // namespace hookpoint::studies

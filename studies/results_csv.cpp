@@ -1,0 +1,135 @@
+#include "studies/results_csv.h"
+
+#include <fmt/format.h>
+#include <sys/utsname.h>
+
+#include <algorithm>
+#include <array>
+#include <ctime>
+#include <set>
+#include <thread>
+
+#include "output/file.h"
+#include "output/json.h"
+#include "output/number.h"
+
+namespace hookpoint::studies {
+namespace {
+
+std::string field(const std::optional<double>& value) {
+  return value ? output::shortest(*value) : std::string();
+}
+std::string field(const std::optional<bool>& value) {
+  return value ? (*value ? "true" : "false") : std::string();
+}
+
+std::vector<std::string> header(const StudyResult& result, bool timing) {
+  std::vector<std::string> names;
+  for (const SweepColumn& sweep : result.sweeps)
+    names.push_back(output::column_title(sweep.name, sweep.unit));
+  for (const char* name : {"subject", "engine", "law", "integrator", "settings"})
+    names.emplace_back(name);
+  for (const MetricColumn& metric : result.metrics) {
+    if (metric.timing != timing) continue;
+    names.push_back(output::column_title(metric.name, metric.unit));
+    names.push_back(output::column_title(metric.name + "_predicted", metric.unit));
+    names.push_back(metric.name + "_ok");
+  }
+  names.emplace_back("status");
+  return names;
+}
+
+std::vector<std::string> table_row(const StudyResult& result, const RunResult& run, bool timing) {
+  std::vector<std::string> fields;
+  for (const double parameter : run.parameters) fields.push_back(output::shortest(parameter));
+  const SubjectInfo& subject = result.subjects[static_cast<std::size_t>(run.subject)];
+  for (const std::string& word :
+       {subject.name, subject.engine, subject.law, subject.integrator, subject.settings})
+    fields.push_back(word);
+  for (std::size_t i = 0; i < result.metrics.size(); ++i) {
+    if (result.metrics[i].timing != timing) continue;
+    fields.push_back(field(run.metrics[i].measured));
+    fields.push_back(field(run.metrics[i].predicted));
+    fields.push_back(field(run.metrics[i].ok));
+  }
+  fields.push_back(run.status);
+  return fields;
+}
+
+std::string utc_now() {
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  std::array<char, 32> text{};
+  std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &utc);
+  return text.data();
+}
+
+/// traces/<plot>_<row>.csv: a time column and the signal.
+void write_traces(const std::filesystem::path& folder, const StudyResult& result) {
+  for (std::size_t row = 0; row < result.rows.size(); ++row) {
+    for (std::size_t i = 0; i < result.plots.size(); ++i) {
+      const Trace& trace = result.rows[row].traces[i];
+      const PlotSpec& plot = result.plots[i];
+      if (trace.time.empty()) continue;
+      output::CsvTable table;
+      table.header = {"time [s]", output::column_title(plot.y, plot.y_unit)};
+      for (std::size_t k = 0; k < trace.time.size(); ++k)
+        table.rows.push_back({output::shortest(trace.time[k]), output::shortest(trace.value[k])});
+      output::write_csv(folder / "traces" / fmt::format("{}_{:05}.csv", plot.name, row), table);
+    }
+  }
+}
+
+}  // namespace
+
+output::CsvTable results_table(const StudyResult& result, bool timing) {
+  output::CsvTable table;
+  table.header = header(result, timing);
+  for (const RunResult& run : result.rows) table.rows.push_back(table_row(result, run, timing));
+  return table;
+}
+
+std::string provenance(const StudyPlan& plan, const EngineTable& engines) {
+  utsname host{};
+  uname(&host);
+  std::set<std::uint64_t> seeds;
+  for (const RowPlan& row : plan.rows) seeds.insert(row.experiment.seed);
+  output::JsonWriter json;
+  json.begin_object()
+      .member("study", plan.name)
+      .member("file", plan.file)
+      .member("hash", plan.hash);
+  json.member("quick", plan.quick)
+      .member("hookpoint", HOOKPOINT_VERSION)
+      .member("compiler", HOOKPOINT_FLAGS);
+  json.key("engines").begin_object();
+  for (const auto& [name, entry] : engines) {
+    json.key(name).begin_object().member("found", entry.description.found);
+    json.member("version", entry.description.version)
+        .member("precision", entry.description.precision);
+    json.end_object();
+  }
+  json.end_object().key("seeds").begin_array();
+  for (const std::uint64_t seed : seeds) json.value(seed);
+  json.end_array().key("host").begin_object();
+  json.member("name", host.nodename)
+      .member("system", fmt::format("{} {}", host.sysname, host.release));
+  json.member("machine", host.machine).member("cores", std::thread::hardware_concurrency());
+  json.end_object().member("date", utc_now()).end_object();
+  return json.text();
+}
+
+void write_study_files(const std::filesystem::path& folder, const StudyPlan& plan,
+                       const StudyResult& result, const EngineTable& engines) {
+  output::write_csv(folder / "results.csv", results_table(result, false));
+  if (std::any_of(result.metrics.begin(), result.metrics.end(),
+                  [](const MetricColumn& m) { return m.timing; }))
+    output::write_csv(folder / "timing.csv", results_table(result, true));
+  output::write_file(folder / "experiment.hook", plan.printed);
+  output::write_file(folder / "scene.hook", plan.scene_printed);
+  output::write_file(folder / "provenance.json", provenance(plan, engines));
+  write_traces(folder, result);
+}
+
+}  // namespace hookpoint::studies

@@ -1,0 +1,175 @@
+#include "studies/schema.h"
+
+#include <utility>
+#include <vector>
+
+#include "studies/metric.h"
+
+namespace hookpoint::studies {
+namespace {
+
+using language::ClassSchema;
+using language::FieldSchema;
+using language::FieldType;
+using language::Naming;
+using language::Schema;
+
+FieldSchema text(std::string name, std::string doc) {
+  FieldSchema field;
+  field.name = std::move(name);
+  field.type = FieldType::text;
+  field.doc = std::move(doc);
+  return field;
+}
+
+FieldSchema number(std::string name, std::string unit, std::string doc) {
+  FieldSchema field;
+  field.name = std::move(name);
+  field.unit = std::move(unit);
+  field.doc = std::move(doc);
+  return field;
+}
+
+FieldSchema at_least_zero(FieldSchema field) {
+  field.minimum = 0.;
+  return field;
+}
+
+FieldSchema positive(FieldSchema field) {
+  field.minimum = 0.;
+  field.exclusive_minimum = true;
+  return field;
+}
+
+FieldSchema values(std::string name, std::string doc) {
+  FieldSchema field = number(std::move(name), "?", std::move(doc));
+  field.type = FieldType::numbers;
+  field.max_count = 1000;
+  return field;
+}
+
+FieldSchema choice(std::string name, std::vector<std::string> choices, std::string default_text,
+                   std::string doc) {
+  FieldSchema field;
+  field.name = std::move(name);
+  field.type = FieldType::choice;
+  field.choices = std::move(choices);
+  field.default_text = std::move(default_text);
+  field.doc = std::move(doc);
+  return field;
+}
+
+FieldSchema words(std::string name, int most, std::string doc) {
+  FieldSchema field;
+  field.name = std::move(name);
+  field.type = FieldType::words;
+  field.max_count = most;
+  field.doc = std::move(doc);
+  return field;
+}
+
+FieldSchema with_default(FieldSchema field, std::string default_text) {
+  field.default_text = std::move(default_text);
+  return field;
+}
+
+FieldSchema required(FieldSchema field) {
+  field.required = true;
+  return field;
+}
+
+/// A field of World as a Subject may set it: the same choices, no default.
+FieldSchema of_world(const Schema& schema, const std::string& name, std::string doc) {
+  const ClassSchema* world = schema.find("World");
+  const FieldSchema* field = world == nullptr ? nullptr : world->find(name);
+  if (field == nullptr || field->type != FieldType::choice) return words(name, 1, std::move(doc));
+  return choice(name, field->choices, "", std::move(doc));
+}
+
+ClassSchema named(std::string name, std::string doc, std::vector<FieldSchema> fields,
+                  std::vector<std::string> children = {}) {
+  ClassSchema schema;
+  schema.name = std::move(name);
+  schema.doc = std::move(doc);
+  schema.fields = std::move(fields);
+  schema.children = std::move(children);
+  schema.naming = Naming::required;
+  schema.names_a_subject = schema.name != "Study";
+  return schema;
+}
+
+ClassSchema study_class() {
+  ClassSchema study = named(
+      "Study",
+      "One scene under every subject and parameter value, measured and held against closed forms.",
+      {text("title", "heading of the report"),
+       text("question", "what the study asks, first thing in the report"),
+       required(text("scene", "file of the world, whose Params a Sweep may vary")),
+       required(positive(number("duration", "s", "simulated time of every run"))),
+       with_default(
+           at_least_zero(number("settle", "s", "time from which metrics look: the start may ring")),
+           "0"),
+       positive(number("quick_duration", "s", "duration under --quick; default: a fifth")),
+       at_least_zero(number("quick_settle", "s", "settle under --quick; default: a fifth"))},
+      {"Subject", "Sweep", "Measure", "Truth", "Plot", "Fix"});
+  study.top_level = true;
+  return study;
+}
+
+ClassSchema truth_class(std::vector<std::string> metrics) {
+  ClassSchema truth = named(
+      "Truth", "What a metric must be; its name is the metric's unless `metric` says otherwise.",
+      {choice("metric", std::move(metrics), "", "the metric, where the name is a label"),
+       choice("equals", {"predicted", "value"}, "", "the closed form, or the number in `value`"),
+       number("value", "?", "the number that the metric must equal"),
+       with_default(at_least_zero(number("tolerance", "",
+                                         "allowed difference relative to the expected value")),
+                    "0"),
+       at_least_zero(number("within", "?", "allowed absolute difference")),
+       number("above", "?", "the metric must be greater"),
+       number("below", "?", "the metric must be less"),
+       words("same_over", 1, "the value must be that at this sweep's first value"),
+       words("subjects", 100, "subjects that it covers; default: all")},
+      {"Only"});
+  return truth;
+}
+
+}  // namespace
+
+void add_study_classes(Schema& schema) {
+  std::vector<std::string> metrics;
+  for (const MetricDefinition& metric : metric_table()) metrics.emplace_back(metric.name);
+  schema.add(study_class());
+  schema.add(
+      named("Subject", "One engine with its law, integrator and settings.",
+            {of_world(schema, "engine", "which engine runs the scene"),
+             of_world(schema, "contact", "the contact law, of engine dts"),
+             of_world(schema, "integrator", "the integrator, of engine dts"),
+             of_world(schema, "settings", "a peer's settings: default, recommended, matched")},
+            {"Fix", "Only"}));
+  schema.add(named(
+      "Sweep", "A Param of the scene to vary: `values`, or `from`, `to` and `step` (or `count`).",
+      {values("values", "the values, in order"), number("from", "?", "first value"),
+       number("to", "?", "last value"), number("step", "?", "distance between values"),
+       at_least_zero(number("count", "", "how many values from `from` to `to`")),
+       choice("scale", {"linear", "log"}, "linear", "how `count` values are spaced"),
+       values("quick_values", "the values under --quick; default: first and last")}));
+  schema.add(named("Measure", "A metric to measure, by its name.", {}));
+  schema.add(truth_class(std::move(metrics)));
+  schema.add(named(
+      "Plot", "A figure: a metric over a sweep, or a signal over time.",
+      {text("title", "heading; default: the name"), required(words("x", 1, "a sweep, or time")),
+       required(
+           words("y", 1, "a metric; over time a signal: displacement, speed, penetration, energy")),
+       words("series", 1, "what makes a curve: subject, or a sweep"),
+       choice("scale", {"linear", "log", "log_x", "log_log"}, "linear",
+              "axes that are logarithmic: log is y")},
+      {"Only"}));
+  schema.add(named("Fix", "A value of a Param of the scene.",
+                   {required(number("value", "?", "the value"))}));
+  schema.add(named("Only", "Restricts its owner to some values of a swept Param.",
+                   {values("values", "exactly these values"), number("from", "?", "least value"),
+                    number("to", "?", "greatest value")}));
+}
+
+}  // namespace hookpoint::studies

@@ -1,0 +1,13 @@
+// The classes of the language that a study is written with: Study, Subject, Sweep, Measure, Truth,
+// Plot, Fix, Only.
+#pragma once
+
+#include "language/schema.h"
+
+namespace hookpoint::studies {
+
+/// Adds the classes of this folder. Call after the world's own have been added: a Subject's choices
+/// of engine, law and integrator are those of `World`, so that there is one list of each.
+void add_study_classes(language::Schema& schema);
+
+}  // namespace hookpoint::studies

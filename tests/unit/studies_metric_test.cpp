@@ -1,0 +1,211 @@
+// Metrics on trajectories whose answers are known by hand: no engine runs here.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "studies/metric.h"
+
+namespace hookpoint::studies {
+namespace {
+
+using simulation::Experiment;
+using simulation::WorldState;
+
+constexpr double pi = 3.14159265358979323846;
+
+/// A unit mass with four boundary points at the corners of a 0.2 m square, 0.05 m under its origin,
+/// on a slope.
+Experiment block_on_slope(double angle, double azimuth) {
+  Experiment experiment;
+  experiment.materials.resize(1);
+  experiment.deltat = 0.01;
+  simulation::TerrainSpec terrain;
+  terrain.surface = contact::SlopeSurface{angle, azimuth};
+  experiment.terrain = terrain;
+  simulation::RobotSpec robot;
+  robot.mobile = true;
+  robot.base.mass = {1., {}, {1., 1., 1., 0., 0., 0.}};
+  for (const double x : {-0.1, 0.1})
+    for (const double y : {-0.1, 0.1}) robot.base.boundary_points.push_back({x, y, -0.05});
+  robot.orientation = exponential(Vector3d{0., 0., azimuth}) * exponential(Vector3d{0., angle, 0.});
+  robot.location = 0.05 * rotate(robot.orientation, Vector3d{0., 0., 1.});
+  experiment.robots.push_back(robot);
+  return experiment;
+}
+
+/// Shows `metric` the states that `move` writes at every step of `duration`.
+std::optional<double> measure(const Experiment& experiment, std::string_view name, double settle,
+                              double duration,
+                              const std::function<void(const RunContext&, WorldState&)>& move) {
+  const RunContext context = make_context(experiment, settle, duration);
+  const auto metric = find_metric(name)->make(context);
+  Observer observer(context, true);
+  WorldState world;
+  world.bodies.resize(1);
+  for (int step = 0; step <= std::lround(duration / experiment.deltat); ++step) {
+    world.step = step;
+    world.time = step * experiment.deltat;
+    world.bodies[0].position = context.start;
+    world.bodies[0].orientation = experiment.robots[0].orientation;
+    move(context, world);
+    metric->observe(observer.observe(world));
+  }
+  return metric->value();
+}
+
+/// Moves the body downhill by s(t).
+auto downhill(std::function<double(double)> s) {
+  return [s](const RunContext& context, WorldState& world) {
+    world.bodies[0].position += s(world.time) * context.downhill;
+  };
+}
+
+TEST(Context, DownhillPointsAlongTheAzimuthAndDown) {
+  const RunContext context = make_context(block_on_slope(20. * pi / 180., 30. * pi / 180.), 0., 1.);
+  EXPECT_NEAR(context.downhill.x, std::cos(pi / 9.) * std::cos(pi / 6.), 1e-14);
+  EXPECT_NEAR(context.downhill.y, std::cos(pi / 9.) * std::sin(pi / 6.), 1e-14);
+  EXPECT_NEAR(context.downhill.z, -std::sin(pi / 9.), 1e-14);
+  EXPECT_NEAR(context.weight, 9.81, 1e-14);
+}
+
+TEST(Context, OnTheLevelTheInitialVelocityDrives) {
+  Experiment experiment = block_on_slope(0., 0.);
+  experiment.robots[0].velocity = {0., -2., 0.};
+  EXPECT_NEAR(make_context(experiment, 0., 1.).downhill.y, -1., 1e-15);
+}
+
+TEST(Context, AWorldWithoutMobileRobotIsRefused) {
+  Experiment experiment = block_on_slope(0.1, 0.);
+  experiment.robots[0].mobile = false;
+  EXPECT_THROW(make_context(experiment, 0., 1.), simulation::ExperimentError);
+}
+
+TEST(CreepSpeed, IsTheSlopeAfterSettleWhateverCameBefore) {
+  const auto value =
+      measure(block_on_slope(0.3, 0.7), "creep_speed", 2., 10.,
+              downhill([](double t) { return t < 1.5 ? 5. * t * t : 1. + 3e-5 * t; }));
+  EXPECT_NEAR(*value, 3e-5, 1e-14);
+}
+
+TEST(CreepSpeed, OfAParabolaIsTheSpeedHalfWay) {
+  const auto value = measure(block_on_slope(0.3, 0.), "creep_speed", 1., 4.,
+                             downhill([](double t) { return 0.5 * 1.7 * t * t; }));
+  EXPECT_NEAR(*value, 1.7 * 2.5, 1e-11);
+}
+
+TEST(SlipAcceleration, IsExactForAParabola) {
+  const auto value = measure(block_on_slope(0.3, 0.), "slip_acceleration", 1., 4.,
+                             downhill([](double t) { return 0.3 - 2. * t + 0.5 * 1.7 * t * t; }));
+  EXPECT_NEAR(*value, 1.7, 1e-11);
+}
+
+TEST(SettleShift, IsTheDisplacementAtSettle) {
+  const auto value = measure(block_on_slope(0.3, 0.), "settle_shift", 1., 2.,
+                             downhill([](double t) { return 0.25 * t; }));
+  EXPECT_NEAR(*value, 0.25, 1e-14);
+}
+
+TEST(StickDisplacement, IgnoresThatTheBodyLeansOnItsFeet) {
+  // A rotation about the feet moves the origin 0.05 * 1e-4 downhill; the feet move 1e-6.
+  const auto value = measure(block_on_slope(0.2, 0.), "stick_displacement", 0.5, 1.,
+                             [](const RunContext& context, WorldState& world) {
+                               if (world.step == 0) return;
+                               const Vector3d across = cross(context.normal, context.downhill);
+                               const Quaterniond lean = exponential(1e-4 * across);
+                               const Vector3d arm = context.start;
+                               world.bodies[0].orientation = lean * world.bodies[0].orientation;
+                               world.bodies[0].position =
+                                   rotate(lean, arm) + 1e-6 * context.downhill;
+                             });
+  EXPECT_NEAR(*value, 1e-6, 1e-9);
+}
+
+TEST(Penetration, MaxMeanAndRmsOfTheDepthsAlongTheNormal) {
+  // Sunk by 2 mm along the normal, leaning by 0.005 rad: the points go 0.5 mm up and down,
+  // depths 1.5 and 2.5 mm.
+  const auto sunk = [](const RunContext& context, WorldState& world) {
+    const Vector3d across = cross(context.normal, context.downhill);
+    const Quaterniond lean = exponential(0.005 * across);
+    world.bodies[0].orientation = lean * world.bodies[0].orientation;
+    const Vector3d arm = context.start;
+    world.bodies[0].position = rotate(lean, arm) - 0.002 * context.normal;
+  };
+  const Experiment experiment = block_on_slope(0.4, 0.5);
+  const double shift = 0.1 * std::sin(0.005);
+  EXPECT_NEAR(*measure(experiment, "penetration_max", 0., 0.1, sunk), 0.002 + shift, 1e-12);
+  EXPECT_NEAR(*measure(experiment, "penetration_mean", 0., 0.1, sunk), 0.002, 1e-12);
+  EXPECT_NEAR(*measure(experiment, "penetration_rms", 0., 0.1, sunk), std::hypot(0.002, shift),
+              1e-12);
+}
+
+TEST(Penetration, LooksOnlyAfterSettle) {
+  const auto value = measure(block_on_slope(0.4, 0.), "penetration_max", 0.5, 1.,
+                             [](const RunContext& context, WorldState& world) {
+                               world.bodies[0].position +=
+                                   (world.time < 0.4 ? -0.01 : 0.01) * context.normal;
+                             });
+  EXPECT_EQ(*value, 0.);
+}
+
+TEST(ContactBreaks, CountsEveryContactLostPerSecond) {
+  // Four contacts that become two and four again, ten times a second: twenty losses a second.
+  const auto value = measure(block_on_slope(0.2, 0.), "contact_breaks", 1., 3.,
+                             [](const RunContext&, WorldState& world) {
+                               world.bodies[0].contacts = world.step % 10 < 5 ? 4 : 2;
+                             });
+  EXPECT_NEAR(*value, 20., 1.01);
+}
+
+TEST(Impacts, AreCountedAfterSettleAndAbsentForAForceLaw) {
+  const auto counting = [](const RunContext&, WorldState& world) {
+    world.impacts = 3 * world.step;
+  };
+  EXPECT_NEAR(*measure(block_on_slope(0.2, 0.), "impacts", 1., 3., counting), 300., 1e-9);
+  EXPECT_FALSE(
+      measure(block_on_slope(0.2, 0.), "impacts", 1., 3., downhill([](double) { return 0.; })));
+}
+
+TEST(StoppingDistance, NeedsABodyAtRest) {
+  Experiment experiment = block_on_slope(0., 0.);
+  experiment.robots[0].velocity = {1., 0., 0.};
+  const auto braking = [](double until) {
+    return [until](const RunContext& context, WorldState& world) {
+      const double t = std::min(world.time, until);
+      world.bodies[0].position += (t - 0.5 * t * t) * context.downhill;
+      world.bodies[0].velocity = (1. - t) * context.downhill;
+    };
+  };
+  EXPECT_NEAR(*measure(experiment, "stopping_distance", 0., 2., braking(1.)), 0.5, 1e-14);
+  EXPECT_FALSE(measure(experiment, "stopping_distance", 0., 2., braking(0.5)));
+}
+
+TEST(DirectionError, IsTheAngleToDownhill) {
+  const auto oblique = [](const RunContext& context, WorldState& world) {
+    const Vector3d across = cross(context.normal, context.downhill);
+    world.bodies[0].position +=
+        world.time * (std::cos(0.1) * context.downhill - std::sin(0.1) * across);
+  };
+  EXPECT_NEAR(*measure(block_on_slope(0.2, 0.7), "direction_error", 0.5, 2., oblique), 0.1, 1e-12);
+}
+
+TEST(SlipDistance, IsThePathNotTheDisplacementAndOnlyUnderLoad) {
+  const auto shaken = [](const RunContext& context, WorldState& world) {
+    world.bodies[0].contact_force = (world.time < 0.505 ? 9.81 : 0.) * context.normal;
+    world.bodies[0].position += (world.step % 2 == 0 ? 0. : 1e-3) * context.downhill;
+  };
+  EXPECT_NEAR(*measure(block_on_slope(0.2, 0.), "slip_distance", 0., 1., shaken), 50e-3, 1e-12);
+}
+
+TEST(EnergyGain, IsTheGreatestRiseAboveTheStart) {
+  // Lifted by 1 cm and let down: m g h; and a spin of 2 rad/s of inertia 1 adds 2 J.
+  const auto lifted = [](const RunContext&, WorldState& world) {
+    if (world.step == 5) world.bodies[0].position.z += 0.01;
+    if (world.step == 5) world.bodies[0].angular_velocity = {0., 0., 2.};
+  };
+  EXPECT_NEAR(*measure(block_on_slope(0., 0.), "energy_gain", 0., 0.1, lifted), 9.81 * 0.01 + 2.,
+              1e-12);
+}
+
+}  // namespace
+}  // namespace hookpoint::studies

@@ -1,0 +1,127 @@
+// Predictions against numbers worked out by hand from docs/contact.md.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "studies/predictions.h"
+
+namespace hookpoint::studies {
+namespace {
+
+using simulation::Experiment;
+
+constexpr double degree = 3.14159265358979323846 / 180.;
+
+/// 1 kg, 0.2 x 0.2 x 0.1 m, k = k_t = 1e5 N/m, on a slope or, single, a point.
+Experiment body(double slope, double mu, const std::string& law, bool point = false) {
+  Experiment experiment;
+  experiment.contact = law;
+  experiment.materials.resize(1);
+  auto& constants = experiment.materials[0].constants;
+  constants.static_friction = constants.kinetic_friction = mu;
+  constants.rebound_speed = 2e-3;
+  constants.regularisation_speed = 1e-3;
+  simulation::TerrainSpec terrain;
+  terrain.surface = contact::SlopeSurface{slope * degree, 0.};
+  experiment.terrain = terrain;
+  simulation::RobotSpec robot;
+  robot.mobile = true;
+  robot.base.mass.mass = 1.;
+  robot.orientation = exponential(Vector3d{0., slope * degree, 0.});
+  if (point) {
+    robot.base.boundary_points = {{}};
+  } else {
+    for (const double x : {-0.1, 0.1})
+      for (const double y : {-0.1, 0.1})
+        for (const double z : {-0.05, 0.05}) robot.base.boundary_points.push_back({x, y, z});
+  }
+  experiment.robots.push_back(robot);
+  return experiment;
+}
+
+std::optional<double> prediction(const Experiment& experiment, std::string_view metric,
+                                 std::optional<double> mixing = std::nullopt) {
+  return predict(metric, make_context(experiment, 5., 20.), mixing);
+}
+
+TEST(CreepPrediction, HooksHold) {
+  EXPECT_EQ(prediction(body(20., 0.8, "hookpoint"), "creep_speed"), 0.);
+}
+
+TEST(CreepPrediction, RegularisedFrictionCreepsAtTheSpeedThatCarriesTheLoad) {
+  // phi(s) = s/sqrt(1 + s^2) = tan 20 deg/0.8 = 0.454963: s = 0.510911.
+  EXPECT_NEAR(*prediction(body(20., 0.8, "hunt_crossley"), "creep_speed"), 0.510911e-3, 1e-8);
+}
+
+TEST(CreepPrediction, AMicrocollidingPointCreepsAtReboundSpeedTimesTangent) {
+  EXPECT_NEAR(*prediction(body(15., 0.5, "impulse", true), "creep_speed"), 2e-3 * 0.2679491924,
+              1e-12);
+  EXPECT_NEAR(*prediction(body(15., 0.9, "impulse", true), "creep_speed"), 2e-3 * 0.2679491924,
+              1e-12);
+  EXPECT_FALSE(prediction(body(15., 0.5, "impulse"), "creep_speed"));
+  EXPECT_EQ(prediction(body(15., 0.5, "impulse_reversal", true), "creep_speed"), 0.);
+}
+
+TEST(CreepPrediction, OdeGivesWayByItsMixing) {
+  Experiment experiment = body(15., 0.5, "hookpoint");
+  experiment.engine = "ode";
+  // CFM 1e-10 times 1 kg * 9.81 * sin 15 deg / 4 = 0.634756 N: the 6e-11 m/s measured elsewhere.
+  EXPECT_NEAR(*prediction(experiment, "creep_speed", 1e-10), 6.34756e-11, 1e-15);
+  EXPECT_FALSE(prediction(experiment, "creep_speed"));
+}
+
+TEST(CreepPrediction, AboveTheConeTheLineThroughTheParabola) {
+  // a = 9.81 (sin 30 - 0.2 cos 30) = 3.205858 m/s^2; over 5..20 s the best line has slope 12.5 a.
+  EXPECT_NEAR(*prediction(body(30., 0.2, "hookpoint"), "creep_speed"), 12.5 * 3.2058582, 1e-5);
+  EXPECT_NEAR(*prediction(body(30., 0.2, "hookpoint"), "slip_acceleration"), 3.2058582, 1e-6);
+  EXPECT_EQ(prediction(body(30., 0.2, "hookpoint"), "direction_error"), 0.);
+}
+
+TEST(PenetrationPrediction, MeanIsTheSharedWeightAndMaxTheDownhillEdge) {
+  // m g cos/(4 k) = 2.3045e-5; the friction m g sin at 0.05 m tilts: +- m g sin h/(4 k * 0.1) = 0.5
+  // * 8.3880e-6.
+  const Experiment experiment = body(20., 0.8, "hookpoint");
+  EXPECT_NEAR(*prediction(experiment, "penetration_mean"), 2.304599e-5, 1e-10);
+  EXPECT_NEAR(*prediction(experiment, "penetration_max"), 2.304599e-5 + 0.419403e-5, 1e-10);
+  EXPECT_NEAR(*prediction(experiment, "penetration_rms"), std::hypot(2.304599e-5, 0.419403e-5),
+              1e-10);
+}
+
+TEST(PenetrationPrediction, HuntCrossleyOnlyForAPoint) {
+  // (N/k)^(2/3), N = 9.81 cos 20 deg = 9.218385 N.
+  EXPECT_NEAR(*prediction(body(20., 0.8, "hunt_crossley", true), "penetration_max"),
+              std::pow(9.218385e-5, 2. / 3.), 1e-9);
+  EXPECT_FALSE(prediction(body(20., 0.8, "hunt_crossley"), "penetration_max"));
+}
+
+TEST(StickPrediction, IsTheStretchOfTheHooks) {
+  EXPECT_NEAR(*prediction(body(20., 0.8, "hookpoint"), "stick_displacement"), 8.388044e-6, 1e-11);
+  EXPECT_FALSE(prediction(body(20., 0.2, "hookpoint"), "stick_displacement"));
+  EXPECT_FALSE(prediction(body(20., 0.8, "hunt_crossley"), "stick_displacement"));
+}
+
+TEST(ImpactPrediction, FlightsOfTheReboundSpeed) {
+  // g cos/(2 u0) = 9.81 cos 15 deg/0.004.
+  EXPECT_NEAR(*prediction(body(15., 0.5, "impulse", true), "impacts"), 2368.933, 1e-2);
+  EXPECT_FALSE(prediction(body(15., 0.5, "hookpoint", true), "impacts"));
+}
+
+TEST(StoppingPrediction, CoulombLessTheElasticOffset) {
+  Experiment experiment = body(0., 0.5, "hookpoint");
+  experiment.robots[0].velocity = {2., 0., 0.};
+  // v0^2/(2 mu g) = 0.40774720; e0 = mu m g/(4 k_t) = 1.22625e-5.
+  EXPECT_NEAR(*prediction(experiment, "stopping_distance"), 0.407747197 - 1.22625e-5, 1e-8);
+  experiment.materials[0].constants.tangential_damping = 0.;
+  EXPECT_NEAR(*prediction(experiment, "stopping_distance"), 0.407747197 - 0.613125e-5, 1e-8);
+  EXPECT_FALSE(prediction(body(10., 0.5, "hookpoint"), "stopping_distance"));
+}
+
+TEST(Predictions, AreSilentWhereNoClosedFormHolds) {
+  Experiment pushed = body(20., 0.8, "hookpoint");
+  pushed.forces.resize(1);
+  EXPECT_FALSE(prediction(pushed, "creep_speed"));
+  EXPECT_FALSE(prediction(body(20., 0.8, "hookpoint"), "slip_distance"));
+}
+
+}  // namespace
+}  // namespace hookpoint::studies

@@ -1,0 +1,273 @@
+// The runner with an engine of the test's own, whose motion is known: order of rows, bytes of
+// results.csv, independence of the number of threads, resuming, failing rows.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "simulation/schema.h"
+#include "studies/results_csv.h"
+#include "studies/run.h"
+#include "studies/schema.h"
+#include "studies/verdict.h"
+
+namespace hookpoint::studies {
+namespace {
+
+using simulation::Experiment;
+using simulation::StepStatus;
+
+/// Slides down its slope at 2 mm/s, plus a millimetre a second per radian of slope; breaks at 0.5 s
+/// where friction is 13.
+class Slider : public simulation::Engine {
+ public:
+  explicit Slider(const Experiment& experiment)
+      : context_(make_context(experiment, 0., 1.)),
+        break_(experiment.materials[0].constants.static_friction == 13.) {
+    speed_ = 2e-3 + 1e-3 * std::get<contact::SlopeSurface>(experiment.terrain->surface).angle;
+    dt_ = experiment.deltat;
+    world_.bodies.resize(1);
+    place();
+  }
+  StepStatus step() override {
+    ++steps_taken;
+    if (break_ && world_.time > 0.5)
+      return {StepStatus::Kind::not_finite, world_.time, "block.base", "halve deltat"};
+    world_.time = static_cast<double>(++world_.step) * dt_;
+    place();
+    return {};
+  }
+  const simulation::WorldState& state() const override { return world_; }
+
+  static inline std::atomic<long> steps_taken = 0;
+
+ private:
+  void place() {
+    world_.bodies[0].position = context_.start + speed_ * world_.time * context_.downhill;
+  }
+  RunContext context_;
+  bool break_;
+  double speed_ = 0., dt_ = 0.;
+  simulation::WorldState world_;
+};
+
+constexpr const char* scene = R"(
+Param slope = 10 deg;
+Param mu = 0.8;
+World world {
+  deltat = 10 ms;
+  Material surface { static_friction = mu; kinetic_friction = mu; }
+  Terrain.Slope ground { angle = slope; material = surface; }
+  Robot block { Base.mobile { rest_on = ground; Shape.Box { dimensions = 0.2, 0.2, 0.1; mass = 1 kg; } } }
+}
+)";
+
+constexpr const char* study = R"(
+Study creep {
+  scene = "scene.hook";
+  duration = 1 s;
+  settle = 0.2 s;
+  Subject ours { engine = dts; contact = hookpoint; }
+  Subject peer { engine = ode; settings = matched; Only slope { from = 15 deg; } }
+  Sweep slope { from = 10 deg; to = 30 deg; step = 10 deg; }
+  Sweep mu { values = 0.8, 1; }
+  Measure creep_speed;
+  Truth creep_speed { above = 2 mm/s; below = 2.4 mm/s; subjects = ours; }
+  Plot fig5 { x = time; y = displacement; Only slope { values = 20 deg; } Only mu { values = 1; } }
+}
+)";
+
+class StudyRunner : public ::testing::Test {
+ protected:
+  StudyRunner() {
+    folder_ = std::filesystem::temp_directory_path() /
+              (std::string("hookpoint_studies_") +
+               ::testing::UnitTest::GetInstance()->current_test_info()->name());
+    std::filesystem::remove_all(folder_);
+    std::filesystem::create_directories(folder_);
+    simulation::add_experiment_classes(schema_);
+    add_study_classes(schema_);
+    write("scene.hook", scene);
+    engines_["dts"] = {{"dts", "test", "double", true, {}}, make, nullptr};
+    engines_["ode"] = engines_["dts"];
+    Slider::steps_taken = 0;
+  }
+  ~StudyRunner() override { std::filesystem::remove_all(folder_); }
+
+  static std::unique_ptr<simulation::Engine> make(const Experiment& experiment) {
+    return std::make_unique<Slider>(experiment);
+  }
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << text;
+  }
+  std::string read(const std::filesystem::path& path) const {
+    std::stringstream text;
+    text << std::ifstream(path).rdbuf();
+    return text.str();
+  }
+  std::optional<StudyPlan> plan(const std::string& text, const PlanOptions& options = {}) {
+    write("study.hook", text);
+    language::Library library(schema_, {});
+    diagnostics_ = {};
+    const auto root = library.evaluate(folder_ / "study.hook", {}, diagnostics_);
+    if (!root) return std::nullopt;
+    return make_plan(*root, *root->children_of("Study").front(), (folder_ / "study.hook").string(),
+                     library, engines_, options, diagnostics_);
+  }
+  StudyRun run(const StudyPlan& plan, const std::string& name, int jobs = 1, bool resume = false,
+               std::function<void(const Progress&)> progress = {}) {
+    RunOptions options{jobs, resume, folder_ / name, std::move(progress)};
+    return run_study(plan, engines_, options, stop_);
+  }
+  std::string first_error() const {
+    return diagnostics_.all().empty() ? "" : diagnostics_.all().front().message;
+  }
+
+  std::filesystem::path folder_;
+  language::Schema schema_;
+  EngineTable engines_;
+  language::Diagnostics diagnostics_;
+  std::atomic<bool> stop_{false};
+};
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  return text.replace(text.find(from), from.size(), to);
+}
+
+TEST_F(StudyRunner, RowsAreOrderedSweepsOutermostSubjectsInnermost) {
+  const auto plan = this->plan(study);
+  ASSERT_TRUE(plan) << first_error();
+  std::string order;
+  for (const RowPlan& row : plan->rows)
+    order += std::to_string(row.values[0]) + std::to_string(row.values[1]) +
+             std::to_string(row.subject) + " ";
+  EXPECT_EQ(order, "000 010 100 101 110 111 200 201 210 211 ");
+  EXPECT_EQ(plan->sweeps[0].column.unit, "deg");
+  EXPECT_EQ(plan->sweeps[0].column.values, (std::vector<double>{10., 20., 30.}));
+  EXPECT_NEAR(std::get<contact::SlopeSurface>(plan->rows[2].experiment.terrain->surface).angle,
+              0.3490658503988659, 1e-16);
+  EXPECT_EQ(plan->rows[3].experiment.engine, "ode");
+  EXPECT_EQ(plan->rows[3].experiment.settings, "matched");
+}
+
+TEST_F(StudyRunner, ResultsHaveTheColumnsAndValuesOfTheManual) {
+  const auto plan = this->plan(study);
+  ASSERT_TRUE(plan) << first_error();
+  const StudyRun run = this->run(*plan, "out");
+  const output::CsvTable table = results_table(run.result, false);
+  EXPECT_EQ(table.header,
+            (std::vector<std::string>{"slope [deg]", "mu", "subject", "engine", "law", "integrator",
+                                      "settings", "creep_speed [m/s]",
+                                      "creep_speed_predicted [m/s]", "creep_speed_ok", "status"}));
+  ASSERT_EQ(table.rows.size(), 10u);
+  EXPECT_EQ(table.rows[3][2], "peer");
+  EXPECT_EQ(table.rows[3][4], "");
+  EXPECT_EQ(table.rows[3][9], "");
+  EXPECT_EQ(table.rows[2][4], "hookpoint");
+  EXPECT_EQ(table.rows[2][8], "0");
+  EXPECT_NEAR(*run.result.rows[2].metrics[0].measured, 2e-3 + 1e-3 * 0.3490658503988659, 1e-12);
+  EXPECT_EQ(table.rows[2][9], "true");   // 2.35 mm/s
+  EXPECT_EQ(table.rows[6][9], "false");  // 2.52 mm/s
+  EXPECT_FALSE(all_truths_hold(run.result));
+  EXPECT_EQ(run.result.rows[4].traces[0].time.size(), 101u);
+  EXPECT_TRUE(run.result.rows[2].traces[0].time.empty());
+  for (const char* file :
+       {"results.csv", "experiment.hook", "scene.hook", "provenance.json", "traces/fig5_00004.csv"})
+    EXPECT_TRUE(std::filesystem::exists(run.folder / file)) << file;
+}
+
+TEST_F(StudyRunner, BytesDoNotDependOnTheNumberOfThreads) {
+  const auto plan = this->plan(study);
+  ASSERT_TRUE(plan) << first_error();
+  run(*plan, "one", 1);
+  run(*plan, "seven", 7);
+  EXPECT_EQ(read(folder_ / "one/results.csv"), read(folder_ / "seven/results.csv"));
+  EXPECT_FALSE(read(folder_ / "one/results.csv").empty());
+}
+
+TEST_F(StudyRunner, ADivergedRowSaysWhenAndTheOthersRunOn) {
+  const auto plan = this->plan(replaced(study, "0.8, 1;", "0.8, 13;"));
+  ASSERT_TRUE(plan) << first_error();
+  const StudyRun run = this->run(*plan, "out");
+  EXPECT_EQ(run.result.rows[1].status, "not_finite at 0.51 s (block.base): halve deltat");
+  EXPECT_FALSE(run.result.rows[1].metrics[0].measured);
+  EXPECT_EQ(run.result.rows[1].metrics[0].ok, false);
+  EXPECT_EQ(run.result.rows[2].status, "ok");
+}
+
+TEST_F(StudyRunner, AMissingEngineIsSkippedNeverPassed) {
+  engines_.erase("ode");
+  const auto plan = this->plan(study);
+  ASSERT_TRUE(plan) << first_error();
+  const StudyRun run = this->run(*plan, "out");
+  EXPECT_EQ(run.result.rows[3].status, "skipped: engine ode is not on this machine");
+  EXPECT_FALSE(run.result.rows[3].metrics[0].ok);
+  EXPECT_FALSE(run.result.subjects[1].available);
+}
+
+TEST_F(StudyRunner, ResumesAfterAnInterruptToTheSameBytes) {
+  const auto plan = this->plan(study);
+  ASSERT_TRUE(plan) << first_error();
+  run(*plan, "whole");
+  const std::string expected = read(folder_ / "whole/results.csv");
+  const StudyRun cut = run(*plan, "cut", 1, false, [this](const Progress& progress) {
+    if (progress.done == 4) stop_ = true;
+  });
+  EXPECT_TRUE(cut.interrupted);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "cut/results.csv"));
+  stop_ = false;
+  Slider::steps_taken = 0;
+  const StudyRun resumed = run(*plan, "cut", 2, true);
+  EXPECT_FALSE(resumed.interrupted);
+  EXPECT_EQ(Slider::steps_taken, 6 * 100);
+  EXPECT_EQ(read(folder_ / "cut/results.csv"), expected);
+}
+
+TEST_F(StudyRunner, ResumingNeverTakesRowsOfAnotherPlan) {
+  const auto plan = this->plan(study);
+  ASSERT_TRUE(plan) << first_error();
+  run(*plan, "out");
+  const auto longer = this->plan(replaced(study, "1 s", "2 s"));
+  ASSERT_TRUE(longer) << first_error();
+  EXPECT_NE(plan->hash, longer->hash);
+  Slider::steps_taken = 0;
+  run(*longer, "out", 1, true);
+  EXPECT_EQ(Slider::steps_taken, 10 * 200);
+}
+
+TEST_F(StudyRunner, QuickTakesTheEndsOfSweepsAndAFifthOfTheTime) {
+  const auto plan = this->plan(study, {true, {}});
+  ASSERT_TRUE(plan) << first_error();
+  EXPECT_EQ(plan->sweeps[0].column.values, (std::vector<double>{10., 30.}));
+  EXPECT_DOUBLE_EQ(plan->duration, 0.2);
+  EXPECT_DOUBLE_EQ(plan->settle, 0.04);
+}
+
+TEST_F(StudyRunner, OnlyRunsTheNamedSubject) {
+  const auto plan = this->plan(study, {false, {"peer"}});
+  ASSERT_TRUE(plan) << first_error();
+  EXPECT_EQ(plan->rows.size(), 4u);
+  EXPECT_FALSE(this->plan(study, {false, {"pear"}}));
+  EXPECT_EQ(first_error(), "no Subject is called `pear`; did you mean `peer`?");
+}
+
+TEST_F(StudyRunner, MisspeltNamesAreErrorsBeforeAnythingRuns) {
+  EXPECT_FALSE(plan(replaced(study, "Sweep slope", "Sweep slop")));
+  EXPECT_EQ(first_error(), "no Param of the scene is called `slop`; did you mean `slope`?");
+  EXPECT_FALSE(plan(replaced(study, "Measure creep_speed", "Measure creep_sped")));
+  EXPECT_EQ(first_error(), "no metric is called `creep_sped`; did you mean `creep_speed`?");
+  EXPECT_FALSE(plan(replaced(study, "subjects = ours", "subjects = our")));
+  EXPECT_EQ(first_error(), "no Subject is called `our`; did you mean `ours`?");
+  EXPECT_FALSE(plan(replaced(study, "scene.hook", "secne.hook")));
+  EXPECT_EQ(first_error(), "no file \"secne.hook\" beside the study or in configs/");
+}
+
+TEST_F(StudyRunner, AUnitThatDoesNotFitTheSceneIsAnError) {
+  EXPECT_FALSE(
+      plan(replaced(study, "from = 10 deg; to = 30 deg; step = 10 deg", "values = 1 m, 2 m")));
+  EXPECT_NE(first_error(), "");
+}
+
+}  // namespace
+}  // namespace hookpoint::studies
