@@ -1,0 +1,50 @@
+// Diagnostics with a place: what the user is told, all of a file's errors in one go, at most
+// `limit` of them.
+#pragma once
+
+#include <cstddef>
+#include <iosfwd>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "language/source.h"
+
+namespace hookpoint::language {
+
+enum class Severity { error, warning, note };
+
+struct Diagnostic {
+  Severity severity = Severity::error;
+  Position position;
+  std::string message;
+};
+
+class Diagnostics {
+ public:
+  static constexpr std::size_t limit = 20;
+
+  void error(const Position& position, std::string message);
+  void warning(const Position& position, std::string message);
+  /// A second place that belongs to the diagnostic before it ("defined here").
+  void note(const Position& position, std::string message);
+
+  /// Keeps what positions point into alive as long as the diagnostics.
+  void keep(std::shared_ptr<const void> source) { kept_.push_back(std::move(source)); }
+
+  bool has_errors() const { return errors_ > 0; }
+  std::size_t error_count() const { return errors_; }
+  const std::vector<Diagnostic>& all() const { return diagnostics_; }
+
+  /// `path:line:column: error: message`, the line, and a caret under the place; one line saying how
+  /// many more there were.
+  void print(std::ostream& out, bool colours) const;
+
+ private:
+  void add(Severity severity, const Position& position, std::string message);
+  std::vector<Diagnostic> diagnostics_;
+  std::size_t errors_ = 0;
+  std::vector<std::shared_ptr<const void>> kept_;
+};
+
+}  // namespace hookpoint::language

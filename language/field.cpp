@@ -1,0 +1,321 @@
+#include "language/field.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "language/names.h"
+#include "language/units.h"
+
+namespace hookpoint::language {
+namespace {
+
+std::string quoted(const std::string& name) { return "`" + name + "`"; }
+
+class FieldMaker {
+ public:
+  FieldMaker(const FieldContext& context, Range value)
+      : schema_(context.schema), context_(context), value_(value), report_(context.report) {}
+
+  std::optional<Field> run(const Syntax& syntax);
+
+ private:
+  bool make_numbers();
+  bool make_orientation();
+  bool make_boolean();
+  bool make_text();
+  bool make_choice();
+  bool make_words();
+  bool make_reference();
+  bool check_number(const Value& value);
+  bool check_range(const Value& value);
+  bool check_count(std::size_t count, int least, int most, std::string_view noun);
+  /// The values of the list; nothing after an error.
+  bool evaluate();
+  /// The word that is all of expression i, "" when there is more: not a variable's value.
+  std::string_view bare_word(std::uint32_t i) const;
+  std::string choices_text() const { return "expected one of " + join(schema_.choices, ", "); }
+  bool fail(const Position& place, std::string message) {
+    report_.error(place, std::move(message));
+    return false;
+  }
+
+  const FieldSchema& schema_;
+  const FieldContext& context_;
+  Range value_;
+  Report& report_;
+  std::vector<Value> values_;
+  const Syntax* syntax_ = nullptr;
+  Field field_;
+};
+
+std::optional<Field> FieldMaker::run(const Syntax& syntax) {
+  syntax_ = &syntax;
+  field_.schema = &schema_;
+  const Span first = syntax.expressions[value_.begin].span,
+             last = syntax.expressions[value_.end - 1].span;
+  field_.position =
+      context_.evaluator.position({first.offset, last.offset + last.length - first.offset});
+  bool good = false;
+  switch (schema_.type) {
+    case FieldType::number:
+    case FieldType::integer:
+    case FieldType::numbers:
+      good = make_numbers();
+      break;
+    case FieldType::orientation:
+      good = make_orientation();
+      break;
+    case FieldType::boolean:
+      good = make_boolean();
+      break;
+    case FieldType::text:
+      good = make_text();
+      break;
+    case FieldType::choice:
+      good = make_choice();
+      break;
+    case FieldType::words:
+      good = make_words();
+      break;
+    case FieldType::object:
+    case FieldType::port:
+      good = make_reference();
+      break;
+  }
+  return good ? std::optional(std::move(field_)) : std::nullopt;
+}
+
+bool FieldMaker::evaluate() {
+  std::optional<std::vector<Value>> values = context_.evaluator.evaluate_list(value_);
+  if (values) values_ = std::move(*values);
+  return values.has_value();
+}
+
+std::string_view FieldMaker::bare_word(std::uint32_t i) const {
+  const Trail* trail = context_.evaluator.lone_trail(syntax_->expressions[i]);
+  return trail != nullptr && trail->parts.size() == 1 ? context_.evaluator.text(trail->span) : "";
+}
+
+bool FieldMaker::check_count(std::size_t count, int least, int most, std::string_view noun) {
+  if (count >= static_cast<std::size_t>(least) && count <= static_cast<std::size_t>(most))
+    return true;
+  std::string wanted = count_of(static_cast<std::size_t>(most), noun);
+  if (least != most) wanted = std::to_string(least) + " to " + wanted;
+  if (most > 1000) wanted = "at least " + count_of(static_cast<std::size_t>(least), noun);
+  return fail(field_.position,
+              quoted(schema_.name) + " takes " + wanted + ", not " + std::to_string(count));
+}
+
+bool FieldMaker::check_number(const Value& value) {
+  if (value.kind == ValueKind::word) return context_.evaluator.unknown_word(value);
+  if (value.kind != ValueKind::number) {
+    return fail(value.position,
+                quoted(schema_.name) + " takes a number, not " + describe_value(value));
+  }
+  if (schema_.unit != "?" && !fits(value.quantity.dimension, context_.dimension)) {
+    const std::string wanted =
+        schema_.unit.empty() ? "a number without a unit" : "a value in " + schema_.unit;
+    return fail(value.position, quoted(schema_.name) + " takes " + wanted + ", not in " +
+                                    unit_text(value.quantity.dimension));
+  }
+  return check_range(value);
+}
+
+bool FieldMaker::check_range(const Value& value) {
+  const double number = value.quantity.value;
+  if (schema_.type == FieldType::integer &&
+      (number != std::floor(number) || std::fabs(number) > 9007199254740992.)) {
+    return fail(value.position,
+                quoted(schema_.name) + " takes a whole number, not " + number_text(number));
+  }
+  const bool below =
+      schema_.exclusive_minimum ? number <= schema_.minimum : number < schema_.minimum;
+  const bool above =
+      schema_.exclusive_maximum ? number >= schema_.maximum : number > schema_.maximum;
+  if (!below && !above) return true;
+  const std::string unit = schema_.unit.empty() || schema_.unit == "?" ? "" : " " + schema_.unit;
+  return fail(value.position, quoted(schema_.name) + " must be " + range_text(schema_) + ", not " +
+                                  number_text(number) + unit);
+}
+
+bool FieldMaker::make_numbers() {
+  if (!evaluate()) return false;
+  const bool list = schema_.type == FieldType::numbers;
+  if (!check_count(values_.size(), list ? schema_.min_count : 1, list ? schema_.max_count : 1,
+                   "number"))
+    return false;
+  if (schema_.unit == "?") field_.dimension = values_[0].quantity.dimension;
+  for (const Value& value : values_) {
+    if (!check_number(value)) return false;
+    if (schema_.unit == "?" && !fits(value.quantity.dimension, field_.dimension)) {
+      return fail(value.position, "the values of " + quoted(schema_.name) +
+                                      " must have one unit, not " +
+                                      describe_dimension(field_.dimension) + " and " +
+                                      describe_dimension(value.quantity.dimension));
+    }
+    field_.numbers.push_back(value.quantity.value);
+  }
+  return true;
+}
+
+/// Rz(yaw) Ry(pitch) Rx(roll) as a quaternion w,x,y,z.
+std::vector<double> from_roll_pitch_yaw(const std::vector<double>& angles) {
+  const double cr = std::cos(angles[0] / 2.), sr = std::sin(angles[0] / 2.);
+  const double cp = std::cos(angles[1] / 2.), sp = std::sin(angles[1] / 2.);
+  const double cy = std::cos(angles[2] / 2.), sy = std::sin(angles[2] / 2.);
+  return {cr * cp * cy + sr * sp * sy, sr * cp * cy - cr * sp * sy, cr * sp * cy + sr * cp * sy,
+          cr * cp * sy - sr * sp * cy};
+}
+
+bool FieldMaker::make_orientation() {
+  constexpr Dimension angle{0, 0, 0, 1};
+  if (!evaluate()) return false;
+  if (values_.size() != 3 && values_.size() != 4) {
+    return fail(field_.position,
+                quoted(schema_.name) +
+                    " takes a quaternion w, x, y, z or three angles roll, pitch, yaw, not " +
+                    count_of(values_.size(), "number"));
+  }
+  for (const Value& value : values_) {
+    if (value.kind == ValueKind::word) return context_.evaluator.unknown_word(value);
+    const Dimension& dimension = value.quantity.dimension;
+    if (value.kind != ValueKind::number ||
+        !fits(dimension, values_.size() == 3 ? angle : Dimension{})) {
+      const std::string wanted = values_.size() == 3 ? "angles" : "numbers without a unit";
+      return fail(value.position, quoted(schema_.name) + " takes " + wanted + " here, not " +
+                                      describe_value(value));
+    }
+    field_.numbers.push_back(value.quantity.value);
+  }
+  if (field_.numbers.size() == 3) field_.numbers = from_roll_pitch_yaw(field_.numbers);
+  const double largest = std::fabs(
+      *std::ranges::max_element(field_.numbers, {}, [](double x) { return std::fabs(x); }));
+  if (largest == 0.)
+    return fail(field_.position, quoted(schema_.name) + " must not be the zero quaternion");
+  double square = 0.;
+  for (const double x : field_.numbers) square += (x / largest) * (x / largest);
+  const double norm = largest * std::sqrt(square);
+  // A unit quaternion stays as it is, bit for bit, so that printed files read back the same.
+  if (std::fabs(norm - 1.) > 1e-14) {
+    for (double& x : field_.numbers) x /= norm;
+  }
+  return true;
+}
+
+bool FieldMaker::make_boolean() {
+  if (!evaluate() || !check_count(values_.size(), 1, 1, "value")) return false;
+  const Value& value = values_[0];
+  if (value.kind == ValueKind::word) {
+    const std::string hint = did_you_mean(value.text, {"true", "false"});
+    return fail(value.position,
+                quoted(schema_.name) + " takes true or false, not " + quoted(value.text) + hint);
+  }
+  if (value.kind != ValueKind::boolean) {
+    return fail(value.position,
+                quoted(schema_.name) + " takes true or false, not " + describe_value(value));
+  }
+  field_.numbers.push_back(value.quantity.value);
+  return true;
+}
+
+bool FieldMaker::make_text() {
+  if (!evaluate() || !check_count(values_.size(), 1, 1, "string")) return false;
+  const Value& value = values_[0];
+  if (value.kind != ValueKind::text) {
+    return fail(value.position,
+                quoted(schema_.name) + " takes a string in quotes, not " + describe_value(value));
+  }
+  field_.words.push_back(value.text);
+  return true;
+}
+
+bool FieldMaker::make_choice() {
+  const std::string_view word = bare_word(value_.begin);
+  if (value_.size() == 1 && std::ranges::find(schema_.choices, word) != schema_.choices.end()) {
+    field_.words.emplace_back(word);
+    return true;
+  }
+  if (!evaluate() || !check_count(values_.size(), 1, 1, "word")) return false;
+  const Value& value = values_[0];
+  if (value.kind == ValueKind::text) {
+    return fail(value.position,
+                quoted(schema_.name) + " takes a word without quotes: " + choices_text());
+  }
+  if (value.kind != ValueKind::word) {
+    return fail(value.position, quoted(schema_.name) + " takes a word, not " +
+                                    describe_value(value) + ": " + choices_text());
+  }
+  if (std::ranges::find(schema_.choices, value.text) == schema_.choices.end()) {
+    return fail(value.position, quoted(value.text) + " is no " + schema_.name + ": " +
+                                    choices_text() + did_you_mean(value.text, schema_.choices));
+  }
+  field_.words.push_back(value.text);
+  return true;
+}
+
+bool FieldMaker::make_words() {
+  if (!evaluate() || !check_count(values_.size(), schema_.min_count, schema_.max_count, "word"))
+    return false;
+  for (const Value& value : values_) {
+    if (value.kind != ValueKind::word && value.kind != ValueKind::text) {
+      return fail(value.position,
+                  quoted(schema_.name) + " takes words or strings, not " + describe_value(value));
+    }
+    field_.words.push_back(value.text);
+  }
+  return true;
+}
+
+bool FieldMaker::make_reference() {
+  const std::string wanted =
+      schema_.type == FieldType::port ? "the trail of a port" : "the name of an object";
+  if (value_.size() == 1) {
+    const Trail* trail = context_.evaluator.lone_trail(syntax_->expressions[value_.begin]);
+    std::optional<std::string> text;
+    if (trail != nullptr) {
+      text = context_.evaluator.trail_text(*trail);
+      if (!text) return false;
+    } else {
+      if (!evaluate()) return false;
+      if (values_[0].kind == ValueKind::word) text = values_[0].text;
+    }
+    if (text) {
+      field_.reference.trail = *text;
+      field_.reference.position = field_.position;
+      return true;
+    }
+  }
+  return fail(field_.position, quoted(schema_.name) + " takes " + wanted);
+}
+
+}  // namespace
+
+std::optional<Field> make_field(const FieldContext& context, Range value) {
+  return FieldMaker(context, value).run(context.evaluator.syntax());
+}
+
+std::string number_text(double value) {
+  char buffer[32];
+  const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, value);
+  return {buffer, end};
+}
+
+std::string range_text(const FieldSchema& field) {
+  const std::string unit = field.unit.empty() || field.unit == "?" ? "" : " " + field.unit;
+  const bool low = std::isfinite(field.minimum), high = std::isfinite(field.maximum);
+  if (low && high && !field.exclusive_minimum && !field.exclusive_maximum) {
+    return "from " + number_text(field.minimum) + " to " + number_text(field.maximum) + unit;
+  }
+  std::string text;
+  if (low)
+    text = (field.exclusive_minimum ? "greater than " : "at least ") + number_text(field.minimum) +
+           unit;
+  if (low && high) text += " and ";
+  if (high)
+    text +=
+        (field.exclusive_maximum ? "less than " : "at most ") + number_text(field.maximum) + unit;
+  return text;
+}
+
+}  // namespace hookpoint::language

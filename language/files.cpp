@@ -1,0 +1,99 @@
+#include "language/files.h"
+
+#include <fstream>
+
+namespace hookpoint::language {
+namespace {
+
+constexpr std::size_t largest = (256UL << 20) + 1;
+
+/// Reads no more than the parser would take, so that a device without end does no harm.
+void read(const std::filesystem::path& path, ParsedFile& file) {
+  std::error_code ignored;
+  const Position start{&file.source, 0, 1};
+  if (!std::filesystem::exists(path, ignored))
+    return file.report.error(start, "there is no such file");
+  if (std::filesystem::is_directory(path, ignored))
+    return file.report.error(start, "this is a folder, expected a file");
+  std::ifstream stream(path, std::ios::binary);
+  std::string& text = file.source.text;
+  std::vector<char> block(1 << 16);
+  while (stream && text.size() < largest) {
+    stream.read(block.data(), static_cast<std::streamsize>(block.size()));
+    text.append(block.data(), static_cast<std::size_t>(stream.gcount()));
+  }
+  if (!stream.eof() && text.size() < largest) file.report.error(start, "the file cannot be read");
+}
+
+}  // namespace
+
+std::filesystem::path FileStore::find(const std::filesystem::path& path,
+                                      const std::filesystem::path& from) const {
+  std::error_code ignored;
+  const std::filesystem::path beside = (from.parent_path() / path).lexically_normal();
+  if (std::filesystem::exists(beside, ignored)) return beside;
+  if (path.is_absolute()) return {};
+  for (const std::filesystem::path& folder : search_path_) {
+    const std::filesystem::path candidate = (folder / path).lexically_normal();
+    if (std::filesystem::exists(candidate, ignored)) return candidate;
+  }
+  return {};
+}
+
+std::vector<std::string> FileStore::searched(const std::filesystem::path& path,
+                                             const std::filesystem::path& from) const {
+  if (path.is_absolute()) return {path.parent_path().string()};
+  std::vector<std::string> folders{from.parent_path().empty() ? "." : from.parent_path().string()};
+  for (const std::filesystem::path& folder : search_path_) folders.push_back(folder.string());
+  return folders;
+}
+
+const ParsedFile& FileStore::load(const std::filesystem::path& path) {
+  std::error_code ignored;
+  const std::string key = std::filesystem::weakly_canonical(path, ignored).string();
+  const std::lock_guard lock(mutex_);
+  std::unique_ptr<ParsedFile>& file = files_[key.empty() ? path.string() : key];
+  if (file == nullptr) {
+    file = std::make_unique<ParsedFile>();
+    file->source.path = path.string();
+    read(path, *file);
+    index_lines(file->source);
+    if (!file->report.has_errors()) parse(*file);
+  }
+  return *file;
+}
+
+const ParsedFile& FileStore::override_text(const std::string& trail, const std::string& value) {
+  const std::lock_guard lock(mutex_);
+  std::unique_ptr<ParsedFile>& file = overrides_[trail + '=' + value];
+  if (file == nullptr) {
+    file = std::make_unique<ParsedFile>();
+    file->source.path = "<--set " + trail + ">";
+    file->source.text = trail + '=' + value;
+    index_lines(file->source);
+    parse_override(*file);
+  }
+  return *file;
+}
+
+const Item* find_param(const ParsedFile& file, std::string_view name) {
+  for (std::uint32_t i = file.syntax.top.begin; i < file.syntax.top.end; ++i) {
+    const Item& item = file.syntax.items[i];
+    const std::string_view param =
+        std::string_view(file.source.text).substr(item.name.offset, item.name.length);
+    if (item.kind == ItemKind::param && param == name) return &item;
+  }
+  return nullptr;
+}
+
+std::vector<std::string> param_names(const ParsedFile& file) {
+  std::vector<std::string> names;
+  for (std::uint32_t i = file.syntax.top.begin; i < file.syntax.top.end; ++i) {
+    const Item& item = file.syntax.items[i];
+    if (item.kind == ItemKind::param)
+      names.emplace_back(file.source.text, item.name.offset, item.name.length);
+  }
+  return names;
+}
+
+}  // namespace hookpoint::language

@@ -1,0 +1,42 @@
+// The files that a Library has read: found along the search path, parsed once, kept for good.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "language/syntax.h"
+
+namespace hookpoint::language {
+
+class FileStore {
+ public:
+  explicit FileStore(std::vector<std::filesystem::path> search_path)
+      : search_path_(std::move(search_path)) {}
+
+  /// See Library::find.
+  std::filesystem::path find(const std::filesystem::path& path,
+                             const std::filesystem::path& from) const;
+  /// The folders where find() looks, in order.
+  std::vector<std::string> searched(const std::filesystem::path& path,
+                                    const std::filesystem::path& from) const;
+  /// The file, parsed; when it cannot be read its report says so. Thread-safe.
+  const ParsedFile& load(const std::filesystem::path& path);
+  /// `trail=value` as a file of its own, named <--set trail>. Thread-safe.
+  const ParsedFile& override_text(const std::string& trail, const std::string& value);
+
+ private:
+  std::vector<std::filesystem::path> search_path_;
+  std::mutex mutex_;
+  std::map<std::string, std::unique_ptr<ParsedFile>> files_, overrides_;
+};
+
+/// The declaration of a Param of the file, or null; the names of all of them.
+const Item* find_param(const ParsedFile& file, std::string_view name);
+std::vector<std::string> param_names(const ParsedFile& file);
+
+}  // namespace hookpoint::language

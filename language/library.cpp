@@ -1,0 +1,71 @@
+#include "language/builder.h"
+#include "language/checker.h"
+#include "language/document.h"
+#include "language/files.h"
+#include "language/prepared.h"
+
+namespace hookpoint::language {
+
+struct Library::Implementation {
+  Implementation(const Schema& schema, std::vector<std::filesystem::path> search_path)
+      : prepared(schema), files(std::move(search_path)) {}
+  PreparedSchema prepared;
+  FileStore files;
+};
+
+Library::Library(const Schema& schema, std::vector<std::filesystem::path> search_path)
+    : implementation_(std::make_unique<Implementation>(schema, std::move(search_path))) {}
+
+Library::~Library() = default;
+
+std::unique_ptr<Object> Library::evaluate(const std::filesystem::path& file,
+                                          const EvaluateOptions& options,
+                                          Diagnostics& diagnostics) {
+  const ParsedFile& parsed = implementation_->files.load(file);
+  // An override by a lone name that is a Param gives the Param its value.
+  EvaluateOptions split;
+  split.parameters = options.parameters;
+  for (const Override& setting : options.overrides) {
+    if (find_param(parsed, setting.trail) != nullptr) {
+      split.parameters[setting.trail] = setting.value;
+    } else {
+      split.overrides.push_back(setting);
+    }
+  }
+  Report report;
+  report.order_file(parsed.source);
+  Builder builder(implementation_->prepared, implementation_->files, report);
+  std::unique_ptr<Object> root = builder.build(parsed, split);
+  Checker checker(implementation_->prepared, implementation_->files, builder.left_out(), report);
+  for (const Override& setting : split.overrides)
+    checker.apply(*root, setting, param_names(parsed));
+  checker.check(*root);
+  report.deliver(diagnostics);
+  return report.has_errors() ? nullptr : std::move(root);
+}
+
+std::vector<ParameterDeclaration> Library::parameters(const std::filesystem::path& file,
+                                                      Diagnostics& diagnostics) {
+  const ParsedFile& parsed = implementation_->files.load(file);
+  parsed.report.deliver(diagnostics);
+  const std::string& text = parsed.source.text;
+  std::vector<ParameterDeclaration> declarations;
+  for (const std::string& name : param_names(parsed)) {
+    const Item& item = *find_param(parsed, name);
+    ParameterDeclaration& declaration = declarations.emplace_back();
+    declaration.name = name;
+    declaration.position = {&parsed.source, item.name.offset, item.name.length};
+    if (item.value.empty()) continue;
+    const Span first = parsed.syntax.expressions[item.value.begin].span;
+    const Span last = parsed.syntax.expressions[item.value.end - 1].span;
+    declaration.default_text = text.substr(first.offset, last.offset + last.length - first.offset);
+  }
+  return declarations;
+}
+
+std::filesystem::path Library::find(const std::filesystem::path& path,
+                                    const std::filesystem::path& from) const {
+  return implementation_->files.find(path, from);
+}
+
+}  // namespace hookpoint::language

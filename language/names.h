@@ -1,0 +1,17 @@
+// Small helpers for messages that speak about names.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hookpoint::language {
+
+/// "; did you mean `x`?" or "".
+std::string did_you_mean(std::string_view name, const std::vector<std::string>& candidates);
+std::string join(const std::vector<std::string>& words, std::string_view separator);
+/// "1 number", "3 numbers".
+std::string count_of(std::size_t count, std::string_view noun);
+
+}  // namespace hookpoint::language

@@ -1,0 +1,105 @@
+#include "language/prepared.h"
+
+#include <algorithm>
+#include <sstream>
+
+#include "language/field.h"
+#include "language/units.h"
+
+namespace hookpoint::language {
+
+bool matches_class(std::string_view name, std::string_view patterns) {
+  while (true) {
+    const std::size_t end = patterns.find('|');
+    if (name.starts_with(patterns.substr(0, end))) return true;
+    if (end == std::string_view::npos) return false;
+    patterns.remove_prefix(end + 1);
+  }
+}
+
+PreparedSchema::PreparedSchema(const Schema& schema) : schema_(schema) {
+  for (const auto& [name, class_schema] : schema.classes()) {
+    prepare(class_schema);
+    check_names(class_schema);
+    if (name != "Wire" && name != "Group") class_names_.push_back(name);
+  }
+}
+
+void PreparedSchema::prepare(const ClassSchema& schema) {
+  auto prepared = std::make_unique<PreparedClass>();
+  prepared->schema = &schema;
+  for (const FieldSchema& field : schema.fields) {
+    const std::optional<Unit> unit = parse_unit(field.unit == "?" ? "" : field.unit);
+    if (!unit || unit->numerator != unit->denominator) {
+      problems_.push_back(schema.name + "." + field.name + ": `" + field.unit +
+                          "` is not an SI unit of the language");
+    }
+    prepared->dimensions.push_back(unit ? unit->dimension : Dimension{});
+    prepared->has_required = prepared->has_required || field.required;
+    if (!field.default_text.empty()) add_default(schema, field, *prepared);
+  }
+  classes_.emplace(&schema, std::move(prepared));
+}
+
+void PreparedSchema::check_names(const ClassSchema& schema) {
+  const auto exists = [this](std::string_view pattern) {
+    return std::ranges::any_of(schema_.classes(),
+                               [&](const auto& entry) { return entry.first.starts_with(pattern); });
+  };
+  for (const std::string& child : schema.children) {
+    if (!exists(child))
+      problems_.push_back(schema.name + ": no class `" + child + "` to stand inside");
+  }
+  for (const FieldSchema& field : schema.fields) {
+    if (field.type == FieldType::object &&
+        !exists(field.refers_to.substr(0, field.refers_to.find('|')))) {
+      problems_.push_back(schema.name + "." + field.name + ": refers to no class `" +
+                          field.refers_to + "`");
+    }
+    if (field.type == FieldType::choice && field.choices.empty()) {
+      problems_.push_back(schema.name + "." + field.name + ": a choice without choices");
+    }
+    if (std::ranges::count(schema.fields, field.name, &FieldSchema::name) > 1) {
+      problems_.push_back(schema.name + "." + field.name + ": described twice");
+    }
+  }
+  for (const std::string& port : {schema.default_input, schema.default_output}) {
+    if (!port.empty() && schema.find(port) == nullptr)
+      problems_.push_back(schema.name + ": no port `" + port + "`");
+  }
+}
+
+void PreparedSchema::add_default(const ClassSchema& owner, const FieldSchema& field,
+                                 PreparedClass& prepared) {
+  auto file = std::make_unique<ParsedFile>();
+  file->source.path = "<default of " + owner.name + ">";
+  file->source.text = field.name + " = " + field.default_text;
+  index_lines(file->source);
+  parse_override(*file);
+  Report report;
+  report.append(file->report);
+  if (!report.has_errors()) {
+    const Variables none;
+    Budget budget;
+    const ExpressionEvaluator evaluator(*file, none, report, budget);
+    const Range value = file->syntax.items[file->syntax.top.begin].value;
+    std::optional<Field> made =
+        make_field({field, prepared.dimensions.back(), evaluator, report}, value);
+    if (made && (field.type == FieldType::object || field.type == FieldType::port)) {
+      report.error({}, "a reference cannot have a default");
+    }
+    if (made) prepared.defaults.push_back(std::move(*made));
+  }
+  default_texts_.push_back(std::move(file));
+  if (!report.has_errors()) return;
+  Diagnostics diagnostics;
+  report.deliver(diagnostics);
+  problems_.push_back(owner.name + "." + field.name +
+                      ": default: " + diagnostics.all().front().message);
+}
+
+std::vector<std::string> schema_problems(const Schema& schema) {
+  return PreparedSchema(schema).problems();
+}
+
+}  // namespace hookpoint::language

@@ -1,0 +1,175 @@
+#include "language/references.h"
+
+#include <algorithm>
+
+#include "language/document.h"
+#include "language/names.h"
+
+namespace hookpoint::language {
+namespace {
+
+std::vector<std::string_view> split(std::string_view trail) {
+  std::vector<std::string_view> parts;
+  while (true) {
+    const std::size_t dot = trail.find('.');
+    parts.push_back(trail.substr(0, dot));
+    if (dot == std::string_view::npos) return parts;
+    trail.remove_prefix(dot + 1);
+  }
+}
+
+std::string called(const Object& object) {
+  if (object.parent == nullptr) return "the top of the file";
+  return object.name.empty() ? "this " + object.type
+                             : "`" + object.name + "` (" + object.type + ")";
+}
+
+}  // namespace
+
+std::string_view part_letters(const FieldSchema& field) {
+  if (field.type == FieldType::orientation) return "wxyz";
+  if (field.type != FieldType::numbers || field.max_count < 2 || field.max_count > 3) return "";
+  return field.max_count == 3 ? "xyz" : "xy";
+}
+
+std::optional<Target> Names::resolve(const Object& from, std::string_view trail, bool want_field,
+                                     Unresolved& why) {
+  const std::vector<std::string_view> parts = split(trail);
+  for (const Object* scope = &from; scope != nullptr; scope = scope->parent) {
+    // A lone name is the enclosing object's own port before it is an object; a longer trail begins
+    // with an object.
+    std::optional<Target> own = want_field ? field_of(*scope, parts, 0) : std::nullopt;
+    if (own && parts.size() == 1) return own;
+    const Object* first = child(*scope, parts[0], why);
+    if (!why.message.empty()) return std::nullopt;
+    if (first != nullptr) return descend(*first, parts, 1, want_field, why);
+    if (own) return own;
+  }
+  std::vector<std::string> names;
+  for (const Object* scope = &from; scope != nullptr; scope = scope->parent) {
+    const std::vector<std::string> seen = names_in(*scope, want_field && parts.size() == 1);
+    names.insert(names.end(), seen.begin(), seen.end());
+  }
+  const std::string kind = want_field && parts.size() == 1 ? "no object or port" : "no object";
+  why.message = kind + " `" + std::string(parts[0]) + "` can be seen from here" +
+                did_you_mean(parts[0], names);
+  return std::nullopt;
+}
+
+std::optional<Target> Names::descend(const Object& object,
+                                     const std::vector<std::string_view>& parts, std::size_t next,
+                                     bool want_field, Unresolved& why) {
+  if (next == parts.size()) return Target{&object, nullptr, -1, ""};
+  const Object* found = child(object, parts[next], why);
+  if (!why.message.empty()) return std::nullopt;
+  if (found != nullptr) return descend(*found, parts, next + 1, want_field, why);
+  std::optional<Target> field = want_field ? field_of(object, parts, next) : std::nullopt;
+  if (field) return field;
+  const FieldSchema* whole =
+      want_field && object.schema != nullptr ? object.schema->find(parts[next]) : nullptr;
+  if (whole != nullptr) {
+    const std::string_view letters = part_letters(*whole);
+    why.message = "`" + whole->name + "` of " + called(object) + " has no part `" +
+                  std::string(parts[next + 1]) + "`";
+    if (!letters.empty()) why.message += "; its parts are";
+    for (const char letter : letters)
+      why.message += std::string(letter == letters.front() ? " " : ", ") + letter;
+  } else {
+    const std::string kind = want_field ? " has no object or port `" : " holds no object `";
+    const std::vector<std::string> names = names_in(object, want_field);
+    std::string hint = did_you_mean(parts[next], names);
+    constexpr std::size_t most_names = 20;
+    if (hint.empty() && !names.empty() && names.size() <= most_names)
+      hint = "; it has " + join(names, ", ");
+    why.message = called(object) + kind + std::string(parts[next]) + "`" + hint;
+  }
+  why.candidates.push_back(&object);
+  return std::nullopt;
+}
+
+std::optional<Target> Names::field_of(const Object& object,
+                                      const std::vector<std::string_view>& parts,
+                                      std::size_t next) const {
+  if (object.schema == nullptr) return std::nullopt;
+  // A port's own name may hold a dot: contact.force.
+  const FieldSchema* field = nullptr;
+  std::size_t end = next;
+  for (std::string name; field == nullptr && end < parts.size(); ++end) {
+    if (!name.empty()) name += '.';
+    field = object.schema->find(name += parts[end]);
+  }
+  if (field == nullptr || parts.size() > end + 1) return std::nullopt;
+  if (parts.size() == end) return Target{&object, field, -1, field->name};
+  const std::string_view part = parts[end];
+  const std::size_t index =
+      part.size() == 1 ? part_letters(*field).find(part[0]) : std::string_view::npos;
+  if (index == std::string_view::npos) return std::nullopt;
+  return Target{&object, field, static_cast<int>(index), field->name + '.' + std::string(part)};
+}
+
+const Object* Names::child(const Object& scope, std::string_view name, Unresolved& why) {
+  const Table& seen = table(scope);
+  const auto found = seen.find(name);
+  if (found == seen.end()) return nullptr;
+  if (found->second.rival == nullptr) return found->second.object;
+  why.message =
+      "`" + std::string(name) + "` means two objects: give one of the objects around them a name";
+  why.candidates = {found->second.object, found->second.rival};
+  return nullptr;
+}
+
+const Names::Table& Names::table(const Object& scope) {
+  const auto [entry, added] = tables_.try_emplace(&scope);
+  if (added) list(scope, 0, entry->second);
+  return entry->second;
+}
+
+void Names::list(const Object& scope, int depth, Table& table) const {
+  for (const std::unique_ptr<Object>& object : scope.children) {
+    if (object->name.empty()) {
+      list(*object, depth + 1, table);
+      continue;
+    }
+    const auto [entry, added] = table.try_emplace(object->name, Seen{object.get(), nullptr, depth});
+    Seen& seen = entry->second;
+    if (added) continue;
+    if (depth < seen.depth) {
+      seen = {object.get(), nullptr, depth};
+    } else if (depth == seen.depth) {
+      seen.rival = object.get();
+    }
+  }
+}
+
+std::vector<std::string> Names::names_in(const Object& scope, bool want_field) {
+  std::vector<std::string> names;
+  for (const auto& [name, seen] : table(scope)) names.emplace_back(name);
+  if (want_field && scope.schema != nullptr) {
+    for (const FieldSchema& field : scope.schema->fields) names.push_back(field.name);
+  }
+  std::ranges::sort(names);
+  return names;
+}
+
+std::optional<Reference> resolve(const Object& root, const std::string& trail, bool want_port,
+                                 Diagnostics& diagnostics) {
+  Names names;
+  Unresolved why;
+  std::optional<Target> target = names.resolve(root, trail, want_port, why);
+  if (target && want_port && target->field == nullptr) {
+    const std::string& port = target->object->schema->default_output;
+    target->field = target->object->schema->find(port);
+    target->port = port;
+    if (target->field == nullptr)
+      why.message =
+          "a " + target->object->type + " has no output of its own: name one of its ports";
+  }
+  if (target && target->field != nullptr && target->field->port == Direction::none) {
+    why.message = "`" + target->port + "` of " + target->object->type + " is no port";
+  }
+  if (why.message.empty()) return Reference{trail, target->object, target->port, {}};
+  diagnostics.error({}, "`" + trail + "`: " + why.message);
+  return std::nullopt;
+}
+
+}  // namespace hookpoint::language

@@ -1,0 +1,93 @@
+// What a class tells the language about itself, once: its fields and ports with type, unit, range,
+// default and one line of documentation. Parsing, checking, `describe`, the manual, data
+// annotations and plot labels all come from here.
+#pragma once
+
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hookpoint::language {
+
+enum class FieldType {
+  number,       ///< one quantity
+  integer,      ///< a whole number
+  boolean,      ///< true or false
+  text,         ///< "a string"
+  choice,       ///< a bare word out of `choices`
+  numbers,      ///< min_count..max_count quantities of one unit: location = 0,0,.3
+  orientation,  ///< quaternion w,x,y,z, or roll, pitch, yaw angles
+  object,       ///< a reference to an object whose class starts with `refers_to`
+  port,         ///< a reference to a port's trail: block.base.location.x
+  words,        ///< one or more bare words or strings
+};
+
+/// Which ends of a wire may be joined to the field.
+enum class Direction { none, input, output, both };
+
+struct FieldSchema {
+  std::string name;
+  FieldType type = FieldType::number;
+  std::string unit;  ///< SI unit as the language writes it: "m/s", "N.m/rad"; "" is dimensionless;
+                     ///< "?" any unit
+  std::string
+      default_text;  ///< in the language's own syntax; "" when there is no default (see `required`)
+  std::string doc;   ///< one line
+  double minimum = -std::numeric_limits<double>::infinity();
+  double maximum = std::numeric_limits<double>::infinity();
+  bool exclusive_minimum = false;  ///< value > minimum instead of >=
+  bool exclusive_maximum = false;
+  int min_count = 1, max_count = 1;  ///< of `numbers` and `words`
+  std::vector<std::string> choices;
+  std::string refers_to;  ///< class name or prefix ("Terrain") of `object`; several: "Base|Link";
+                          ///< "" any class
+  bool required = false;
+  bool setting = true;  ///< may be assigned in a file; false: a port only
+  Direction port = Direction::none;
+};
+
+enum class Naming { optional, required, forbidden };
+
+struct ClassSchema {
+  std::string name;                 ///< "Terrain.Slope"
+  std::string doc;                  ///< one line
+  std::vector<FieldSchema> fields;  ///< fields and ports, in the order of the manual
+  std::vector<std::string>
+      children;            ///< classes that may stand inside; "Shape." allows the whole family
+  bool top_level = false;  ///< may stand at the top of a file
+  bool implicit = false;  ///< one stands at the top of every file without being written (Simulator)
+  Naming naming = Naming::optional;
+  /// The name says what the object is about (Measure creep_speed, Truth creep_speed): only two of
+  /// the same class clash.
+  bool names_a_subject = false;
+  std::string default_name;  ///< what an unnamed one is called in a trail: "base" for Base.fixed;
+                             ///< "" if none
+  std::string default_input, default_output;  ///< the ports that a wire without an end means
+
+  const FieldSchema* find(std::string_view field) const;
+};
+
+/// All classes. Every folder that owns objects of the language adds its own; the command joins
+/// them.
+class Schema {
+ public:
+  /// Holds the language's own classes: Wire (what a wire's block may say) and Group (what a named
+  /// Include lays down).
+  Schema();
+  void add(ClassSchema schema);
+  const ClassSchema* find(std::string_view name) const;
+  const std::map<std::string, ClassSchema, std::less<>>& classes() const { return classes_; }
+
+ private:
+  std::map<std::string, ClassSchema, std::less<>> classes_;
+};
+
+/// What is wrong with a schema itself, one line each: units and defaults that do not parse, names
+/// of classes that do not exist. Empty for a good one; every program that builds a schema tests
+/// this.
+std::vector<std::string> schema_problems(const Schema& schema);
+
+}  // namespace hookpoint::language

@@ -1,0 +1,67 @@
+// The words of the language.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "language/report.h"
+#include "language/source.h"
+
+namespace hookpoint::language {
+
+enum class TokenKind : std::uint8_t {
+  identifier,
+  number,  ///< with its unit: "30 kN/m"
+  text,    ///< with its quotes
+  comment,
+  open_brace,
+  close_brace,
+  open_parenthesis,
+  close_parenthesis,
+  open_bracket,
+  close_bracket,
+  semicolon,
+  comma,
+  dot,
+  range,
+  assign,
+  plus,
+  minus,
+  star,
+  slash,
+  caret,
+  less,
+  less_equal,
+  greater,
+  greater_equal,
+  equal,
+  not_equal,
+  and_operator,
+  or_operator,
+  not_operator,
+  question,
+  colon,
+  unknown,
+  end,
+};
+
+struct Token {
+  TokenKind kind = TokenKind::end;
+  bool begins_line = false;  ///< the first of its line
+  std::uint32_t offset = 0, length = 0;
+};
+
+inline std::string_view text_of(const SourceFile& file, const Token& token) {
+  return std::string_view(file.text).substr(token.offset, token.length);
+}
+
+/// All tokens of a file that `check_text` accepts, the last one `end`. Comments only when asked
+/// for. Cost: linear.
+std::vector<Token> tokenize(const SourceFile& file, bool comments, Report& report);
+
+/// False, with an error in `report`, when the file is no text: NUL and control bytes, broken UTF-8,
+/// too large.
+bool check_text(const SourceFile& file, Report& report);
+
+}  // namespace hookpoint::language

@@ -1,0 +1,86 @@
+// Every wrong file of tests/unit/diagnostics gives exactly the text in its .expected, and nothing
+// else.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/support/language_files.h"
+
+namespace hookpoint::language::testing {
+namespace {
+
+std::filesystem::path diagnostics_folder() {
+  return std::filesystem::path(HOOKPOINT_SOURCE_DIR) / "tests/unit/diagnostics";
+}
+
+std::vector<std::string> wrong_files() {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(diagnostics_folder())) {
+    if (entry.path().extension() == ".hook") names.push_back(entry.path().stem().string());
+  }
+  std::ranges::sort(names);
+  return names;
+}
+
+class WrongFile : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(WrongFile, GivesTheExpectedText) {
+  // Messages name files as they are reached from the folder.
+  std::filesystem::current_path(diagnostics_folder());
+  const Evaluated result = evaluate_file(GetParam() + ".hook", {}, {"configs"});
+  EXPECT_EQ(result.root, nullptr);
+  EXPECT_EQ(result.errors(), read_file(GetParam() + ".expected"));
+}
+
+INSTANTIATE_TEST_SUITE_P(All, WrongFile, ::testing::ValuesIn(wrong_files()),
+                         [](const auto& test) { return test.param; });
+
+TEST(Diagnostics, ThereAreEnoughWrongFiles) { EXPECT_GE(wrong_files().size(), 36U); }
+
+TEST(Diagnostics, ShowTheLineTheCaretAndColours) {
+  SourceFile file;
+  file.path = "a.hook";
+  file.text = "one\n\tt\xC3\xA9 two;\r\n";
+  index_lines(file);
+  Diagnostics diagnostics;
+  diagnostics.error({&file, 9, 3}, "expected three");
+  diagnostics.note({}, "without a place");
+  std::ostringstream plain, coloured;
+  diagnostics.print(plain, false);
+  EXPECT_EQ(plain.str(),
+            "a.hook:2:5: error: expected three\n"
+            " 2 | \tt\xC3\xA9 two;\n"
+            "   | \t   ^~~\n"
+            "note: without a place\n");
+  diagnostics.print(coloured, true);
+  EXPECT_NE(coloured.str().find("\033[1;31merror: \033[0mexpected three"), std::string::npos);
+}
+
+TEST(Diagnostics, ALongLineIsShownAroundItsCaret) {
+  SourceFile file;
+  file.path = "a.hook";
+  file.text = std::string(100000, 'x') + "!" + std::string(100000, 'y');
+  index_lines(file);
+  Diagnostics diagnostics;
+  diagnostics.error({&file, 100000, 1}, "here");
+  std::ostringstream out;
+  diagnostics.print(out, false);
+  const std::string text = out.str();
+  EXPECT_LT(text.size(), 500U);
+  const std::size_t mark = text.find('!'), caret = text.find('^');
+  EXPECT_EQ(mark - text.rfind('\n', mark), caret - text.rfind('\n', caret));
+}
+
+TEST(NearestName, IsNearAndDeterministic) {
+  const std::vector<std::string> names{"mass", "length", "location", "x"};
+  EXPECT_EQ(nearest_name("mas", names), "mass");
+  EXPECT_EQ(nearest_name("Mass", names), "mass");
+  EXPECT_EQ(nearest_name("lenght", names), "length");
+  EXPECT_EQ(nearest_name("locatoin", names), "location");
+  EXPECT_EQ(nearest_name("velocity", names), "");
+  EXPECT_EQ(nearest_name("q", names), "");
+  EXPECT_EQ(nearest_name("", names), "");
+}
+
+}  // namespace
+}  // namespace hookpoint::language::testing
