@@ -135,6 +135,16 @@ TEST(CommandLine, HelpAndListsSucceed) {
   }
 }
 
+// docs/reference_language.md is what `hookpoint describe --markdown` prints: write it anew after a
+// change of the schema.
+TEST(CommandLine, TheManualsReferencePageIsCurrent) {
+  const Workplace work;
+  std::ostringstream page;
+  page << std::ifstream(HOOKPOINT_SOURCE_DIR "/docs/reference_language.md", std::ios::binary)
+              .rdbuf();
+  EXPECT_EQ(work.hookpoint("describe --markdown").out, page.str());
+}
+
 TEST(CommandLine, FmtIsIdempotent) {
   const Workplace work;
   work.file("a.hook", "World   w{deltat=1 ms; // the step\n}\n");
