@@ -133,8 +133,9 @@ class Reader {
     if (header_.contains("xllcorner")) grid_.origin_x = header_["xllcorner"];
     if (header_.contains("yllcorner")) grid_.origin_y = header_["yllcorner"];
     for (int row = 0; row < grid_.rows / 2; ++row) {  // northernmost first -> least y first
-      const auto southern = grid_.heights.begin() + row * grid_.columns;
-      const auto northern = grid_.heights.begin() + (grid_.rows - 1 - row) * grid_.columns;
+      const std::ptrdiff_t columns = grid_.columns;
+      const auto southern = grid_.heights.begin() + row * columns;
+      const auto northern = grid_.heights.begin() + (grid_.rows - 1 - row) * columns;
       std::swap_ranges(southern, southern + grid_.columns, northern);
     }
   }

@@ -148,7 +148,8 @@ Object* Builder::open_object(const ClassSchema& schema, std::string name, const 
   object->schema = &schema;
   object->type = schema.name;
   object->named = !name.empty();
-  object->name = object->named ? std::move(name) : schema.default_name;
+  object->name = schema.default_name;
+  if (object->named) object->name = std::move(name);
   object->position = place;
   object->parent = around.object;
   object->defaults = &schema_.of(schema).defaults;

@@ -30,11 +30,11 @@ void read(const std::filesystem::path& path, ParsedFile& file) {
 std::filesystem::path FileStore::find(const std::filesystem::path& path,
                                       const std::filesystem::path& from) const {
   std::error_code ignored;
-  const std::filesystem::path beside = (from.parent_path() / path).lexically_normal();
+  std::filesystem::path beside = (from.parent_path() / path).lexically_normal();
   if (std::filesystem::exists(beside, ignored)) return beside;
   if (path.is_absolute()) return {};
   for (const std::filesystem::path& folder : search_path_) {
-    const std::filesystem::path candidate = (folder / path).lexically_normal();
+    std::filesystem::path candidate = (folder / path).lexically_normal();
     if (std::filesystem::exists(candidate, ignored)) return candidate;
   }
   return {};

@@ -20,7 +20,7 @@ class Printer {
   }
 
  private:
-  void indent(int depth) { text_.append(static_cast<std::size_t>(2 * depth), ' '); }
+  void indent(int depth) { text_.append(2 * static_cast<std::size_t>(depth), ' '); }
 
   void print(const Object& object, int depth) {
     indent(depth);
