@@ -2,23 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <limits>
-#include <new>
 
 #include "contact/impulse_advance.h"
-
-namespace {
-std::size_t allocations = 0;
-}
-
-void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size)) return memory;
-  throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+#include "tests/support/allocation_counter.h"
 
 namespace hookpoint::contact {
 namespace {
@@ -248,9 +235,9 @@ TEST(ImpulseAdvance, AStepAllocatesNothing) {
   for (const ImpulseLaw law : {ImpulseLaw::impulse, ImpulseLaw::impulse_reversal}) {
     ImpulseAdvance engine(block(), law);
     ImpulseState s{{0., 0., 0.0501}, exponential(Vector3d{1e-3, 0., 0.}), {0.1, 0., 0.}, {}};
-    const std::size_t before = allocations;
+    const long before = testing::allocation_count();
     const AdvanceResult result = engine.advance(s, 0.02, kGravity, ground);
-    EXPECT_EQ(allocations, before);
+    EXPECT_EQ(testing::allocation_count(), before);
     EXPECT_GT(result.impacts, 10);
   }
 }

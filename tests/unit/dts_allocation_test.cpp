@@ -1,27 +1,13 @@
 // Once model, workspace and state exist, a step of the engine allocates nothing.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <new>
-
 #include "dts/energy.h"
 #include "dts/external_forces.h"
 #include "dts/forward_dynamics.h"
 #include "dts/impulse_response.h"
 #include "dts/inverse_dynamics.h"
+#include "tests/support/allocation_counter.h"
 #include "tests/support/random_robot.h"
-
-namespace {
-std::size_t allocations = 0;
-}  // namespace
-
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size)) return memory;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace hookpoint::tests {
 namespace {
@@ -36,7 +22,7 @@ TEST(DtsAllocation, AStepAllocatesNothing) {
   const Vector3d gravity{0., 0., -9.81};
   const dts::BodyPoint<double> point{model.body_count() - 1, {}};
 
-  const std::size_t before = allocations;
+  const long before = testing::allocation_count();
   dts::forward_kinematics(model, state, workspace);
   dts::clear_external_forces(workspace);
   dts::add_external_force(workspace, 1, {1., 2., 3.}, Vector3d{});
@@ -54,13 +40,13 @@ TEST(DtsAllocation, AStepAllocatesNothing) {
   dts::kinetic_energy(model, workspace);
   dts::potential_energy(model, gravity, workspace);
   dts::angular_momentum(model, workspace);
-  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(testing::allocation_count(), before);
 }
 
 TEST(DtsAllocation, TheCounterCounts) {
-  const std::size_t before = allocations;
+  const long before = testing::allocation_count();
   const std::vector<double> something(10);
-  EXPECT_GT(allocations, before) << something.size();
+  EXPECT_GT(testing::allocation_count(), before) << something.size();
 }
 
 }  // namespace

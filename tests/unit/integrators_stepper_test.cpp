@@ -2,24 +2,10 @@
 // table of names.
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
 #include <limits>
-#include <new>
 
 #include "integrators/stepper.h"
-
-namespace {
-std::atomic<long> allocations = 0;
-}
-
-void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size)) return memory;
-  throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+#include "tests/support/allocation_counter.h"
 
 namespace hookpoint::integrators {
 namespace {
@@ -114,9 +100,9 @@ TEST(Stepper, AllocatesNothingInAStep) {
     Recorded system;
     const auto stepper = row.make(system);
     double q = 1., v = 0.5;
-    const long before = allocations;
+    const long before = testing::allocation_count();
     for (int i = 0; i < 10; ++i) stepper->step(system, 0., 0.1, {&q, 1}, {&v, 1});
-    EXPECT_EQ(allocations, before) << row.name;
+    EXPECT_EQ(testing::allocation_count(), before) << row.name;
     EXPECT_GT(before, 0);
   }
 }

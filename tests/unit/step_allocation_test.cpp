@@ -1,24 +1,9 @@
 // A step allocates nothing: counted at operator new, for every law and integrator of ours.
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
-#include <new>
-
 #include "simulation/dts_engine.h"
+#include "tests/support/allocation_counter.h"
 #include "tests/support/scene.h"
-
-namespace {
-std::atomic<long> allocations = 0;
-}
-
-void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size)) return memory;
-  throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace hookpoint {
 namespace {
@@ -26,15 +11,15 @@ namespace {
 long allocations_in_steps(const simulation::Experiment& experiment, int steps) {
   const auto engine = simulation::make_dts(experiment);
   EXPECT_TRUE(engine->step().ok());
-  const long before = allocations;
+  const long before = testing::allocation_count();
   for (int i = 0; i < steps; ++i) EXPECT_TRUE(engine->step().ok());
-  return allocations - before;
+  return testing::allocation_count() - before;
 }
 
 TEST(StepAllocation, CounterCounts) {
-  const long before = allocations;
+  const long before = testing::allocation_count();
   std::vector<double> numbers(100);
-  EXPECT_EQ(allocations - before, 1);
+  EXPECT_EQ(testing::allocation_count() - before, 1);
   EXPECT_EQ(numbers.size(), 100u);
 }
 
