@@ -28,19 +28,20 @@ template <class Real>
 void backward_dynamics(const Model<Real>& model,
                        std::span<const std::type_identity_t<Real>> joint_torques,
                        Workspace<Real>& workspace) {
-  for (std::size_t k = 0; k < model.chain_count(); ++k) {
-    const ChainConstants<Real>& chain = model.chains()[k];
-    HipPass<Real> carried;
-    for (std::size_t l = chain.first_link + chain.link_count; l-- > chain.first_link;) {
-      const LinkConstants<Real>& link = model.links()[l];
-      LinkPass<Real>& pass = workspace.links[l];
-      const Wrench<Real> pA = carried.pA + bias_wrench(link.inertia, pass.w, l + 1, workspace);
-      carried = is_last(chain, l)
-                    ? pass_inward(link, chain.leaf, pA, joint_torques[l], pass)
+  for (std::size_t g = 0; g < model.groups().size(); ++g) {
+    const ChainGroup<Real>& group = model.groups()[g];
+    const std::span<LinkPass<Lanes<Real>>> passes = workspace.passes(group);
+    HipPass<Lanes<Real>>& carried = workspace.hips[g];
+    carried = {};
+    for (std::size_t n = group.link_count(); n-- > 0;) {
+      const LinkConstants<Lanes<Real>>& link = group.links[n];
+      const Wrench<Lanes<Real>> pA = carried.pA + bias_wrench(group, n, passes[n], workspace);
+      const Lanes<Real> torque = gather(at_link(group, n, joint_torques));
+      carried = n + 1 == group.link_count()
+                    ? pass_inward(link, group.leaf, pA, torque, passes[n])
                     : pass_inward(link, eliminate(link.joint, carried.IA + link.inertia), pA,
-                                  joint_torques[l], pass);
+                                  torque, passes[n]);
     }
-    workspace.hips[k] = carried;
   }
 }
 

@@ -7,24 +7,27 @@ namespace hookpoint::dts {
 
 template <class Real>
 void forward_accelerations(const Model<Real>& model, Workspace<Real>& workspace) {
-  const Matrix3<Real>& R_WB = workspace.bodies[0].R_WB;
-  for (std::size_t k = 0; k < model.chain_count(); ++k) {
-    const ChainConstants<Real>& chain = model.chains()[k];
-    Motion<Real> a = outward(chain, workspace.base_motion);
-    a.linear += transpose_times(chain.R_BH, hip_centripetal(chain, workspace.base));
+  const Matrix3<Lanes<Real>> R_WB = in_all_lanes<Lanes<Real>>(workspace.bodies[0].R_WB);
+  for (std::size_t g = 0; g < model.groups().size(); ++g) {
+    const ChainGroup<Real>& group = model.groups()[g];
+    Motion<Lanes<Real>> a = outward(group, workspace.base_motion);
+    a.linear += hip_centripetal(group, workspace.base);
 
-    const Wrench<Real> on_chain = workspace.hips[k].IA * a + workspace.hips[k].pA;
-    const Vector3<Real> force = chain.R_BH * on_chain.force;
-    const Vector3<Real> moment = chain.R_BH * on_chain.moment + cross(chain.hip_to_H, force);
-    workspace.hip_wrenches[k] = {-(R_WB * moment), -(R_WB * force)};
+    const Wrench<Lanes<Real>> on_chain = workspace.hips[g].IA * a + workspace.hips[g].pA;
+    const Vector3<Lanes<Real>> force = group.hip.R_BH * on_chain.force;
+    const Vector3<Lanes<Real>> moment =
+        group.hip.R_BH * on_chain.moment + cross(group.hip.hip_to_H, force);
+    scatter(Wrench<Lanes<Real>>{-(R_WB * moment), -(R_WB * force)},
+            at_chain(group, std::span(workspace.hip_wrenches)));
 
-    for (std::size_t l = chain.first_link; l < chain.first_link + chain.link_count; ++l) {
-      const LinkConstants<Real>& link = model.links()[l];
-      const LinkPass<Real>& pass = workspace.links[l];
+    const std::span<LinkPass<Lanes<Real>>> passes = workspace.passes(group);
+    for (std::size_t n = 0; n < group.link_count(); ++n) {
+      const LinkConstants<Lanes<Real>>& link = group.links[n];
+      const LinkPass<Lanes<Real>>& pass = passes[n];
       // a' = X a + c;  ddq = (u - U^T a') / D;  a = a' + S ddq
       a = outward(link, pass, a) + pass.c;
-      const Real acceleration = pass.D_inverse * (pass.u - dot(pass.U, a));
-      workspace.joint_accelerations[l] = acceleration;
+      const Lanes<Real> acceleration = pass.D_inverse * (pass.u - dot(pass.U, a));
+      scatter(acceleration, at_link(group, n, std::span(workspace.joint_accelerations)));
       a = with_joint_motion(link.joint, a, acceleration);
     }
   }

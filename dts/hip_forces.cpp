@@ -8,10 +8,12 @@ namespace hookpoint::dts {
 template <class Real>
 void factor_base(const Model<Real>& model, Workspace<Real>& workspace) {
   if (!model.mobile()) return;
-  ArticulatedInertia<Real> IA = articulated(model.base());
-  for (std::size_t k = 0; k < model.chain_count(); ++k) {
-    IA = IA + inward(model.chains()[k], workspace.hips[k].IA);
+  ArticulatedInertia<Lanes<Real>> carried;
+  for (std::size_t g = 0; g < model.groups().size(); ++g) {
+    const ChainGroup<Real>& group = model.groups()[g];
+    carried = carried + only(group.in_use, inward(group, workspace.hips[g].IA));
   }
+  const ArticulatedInertia<Real> IA = lane_sum(carried) + model.base();
   BasePass<Real>& base = workspace.base;
   base.H = IA.H;
   base.M_inverse = inverse(IA.M);
@@ -29,13 +31,16 @@ void hip_forces_to_base(const Model<Real>& model, const Vector3<Real>& gravity_W
     return;
   }
   factor_base(model, workspace);
-  Wrench<Real> pA = bias_wrench(model.base(), workspace.base.w, 0, workspace);
-  for (std::size_t k = 0; k < model.chain_count(); ++k) {
-    const ChainConstants<Real>& chain = model.chains()[k];
-    const auto& [IA, pA_hip] = workspace.hips[k];
-    const Vector3<Real> c = transpose_times(chain.R_BH, hip_centripetal(chain, workspace.base));
-    pA = pA + inward(chain, pA_hip + IA * Motion<Real>{{}, c});
+  Wrench<Lanes<Real>> carried;
+  for (std::size_t g = 0; g < model.groups().size(); ++g) {
+    const ChainGroup<Real>& group = model.groups()[g];
+    const auto& [IA, pA] = workspace.hips[g];
+    const Vector3<Lanes<Real>> c = hip_centripetal(group, workspace.base);
+    const Wrench<Lanes<Real>> on_hip = pA + Wrench<Lanes<Real>>{IA.H * c, IA.M * c};
+    carried = carried + only(group.in_use, inward(group, on_hip));
   }
+  const Wrench<Real> pA =
+      lane_sum(carried) + bias_wrench(model.base(), workspace.base.w, R_WB, workspace.external[0]);
   workspace.base_motion = solve_base(workspace.base, pA);
   workspace.base_acceleration = R_WB * workspace.base_motion.linear + gravity_W;
   workspace.base_angular_acceleration = R_WB * workspace.base_motion.angular;

@@ -26,11 +26,12 @@ Motion<Real> solve_base(const BasePass<Real>& base, const Wrench<Real>& pA) {
   return {angular, -(base.M_inverse * (pA.force + transpose_times(base.H, angular)))};
 }
 
-/// w x (w x p): the acceleration of a chain's hip that the base's angular velocity alone gives it,
-/// base axes.
+/// w x (w x p): the acceleration of hips that the base's angular velocity alone gives them, in
+/// their axes.
 template <class Real>
-Vector3<Real> hip_centripetal(const ChainConstants<Real>& chain, const BasePass<Real>& base) {
-  return cross(base.w, cross(base.w, chain.p_BH));
+Vector3<Lanes<Real>> hip_centripetal(const ChainGroup<Real>& group, const BasePass<Real>& base) {
+  const Vector3<Lanes<Real>> w = in_all_lanes<Lanes<Real>>(base.w);
+  return transpose_times(group.hip.R_BH, cross(w, cross(w, group.hip.p_BH)));
 }
 
 extern template void hip_forces_to_base(const Model<double>&, const Vector3<double>&,

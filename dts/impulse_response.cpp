@@ -8,7 +8,8 @@ namespace hookpoint::dts {
 namespace {
 
 /// Carries an impulse from `point` to the base, leaving its part along each joint of the chain in
-/// `links[].impulse`, and returns the velocity jump of the base, base axes.
+/// the chain's lane of `links[].impulse` and zero in the others, and returns the velocity jump of
+/// the base, base axes.
 template <class Real>
 Motion<Real> jump_of_base(const Model<Real>& model, Workspace<Real>& workspace,
                           const BodyPoint<Real>& point, const Vector3<Real>& impulse_W) {
@@ -16,43 +17,46 @@ Motion<Real> jump_of_base(const Model<Real>& model, Workspace<Real>& workspace,
   Wrench<Real> p{-transpose_times(body.R_WB, cross(point.p_WP - body.p_WB, impulse_W)),
                  -transpose_times(body.R_WB, impulse_W)};
   if (point.body > 0) {
-    const ChainConstants<Real>& chain = model.chains()[model.chain_of(point.body)];
-    for (std::size_t l = point.body; l < chain.first_link + chain.link_count; ++l) {
-      workspace.links[l].impulse = Real(0.);
+    const Seat& seat = model.seat_of(point.body);
+    const ChainGroup<Real>& group = model.groups()[seat.group];
+    const std::span<LinkPass<Lanes<Real>>> passes = workspace.passes(group);
+    for (LinkPass<Lanes<Real>>& beyond : passes.subspan(seat.link + 1)) beyond.impulse = 0.;
+    Wrench<Lanes<Real>> struck;
+    set_lane(struck, seat.lane, p);
+    for (std::size_t n = seat.link + 1; n-- > 0;) {
+      const LinkConstants<Lanes<Real>>& link = group.links[n];
+      LinkPass<Lanes<Real>>& pass = passes[n];
+      pass.impulse = -along(link.joint, struck);
+      struck = inward(link, pass, struck + (pass.impulse * pass.D_inverse) * pass.U);
     }
-    for (std::size_t l = point.body; l-- > chain.first_link;) {
-      const LinkConstants<Real>& link = model.links()[l];
-      LinkPass<Real>& pass = workspace.links[l];
-      pass.impulse = -along(link.joint, p);
-      p = inward(link, pass, p + (pass.impulse * pass.D_inverse) * pass.U);
-    }
-    p = inward(chain, p);
+    p = lane_of(inward(group, struck), seat.lane);
   }
   return model.mobile() ? solve_base(workspace.base, p) : Motion<Real>{};
 }
 
-/// Carries the base's jump out along the chain of link `last`; `struck` says that the impulse acted
-/// on this chain. Returns the jump of `last`, link axes; `on_joint(l, jump of its rate)` sees each
-/// joint passed.
+/// Carries the base's jump out along a group's chains to their links `last`; `struck` says that the
+/// impulse acted on one of them. Returns the jumps of those links, link axes; `on_joint(n, jump of
+/// its rate)` sees each joint passed.
 template <class Real, class OnJoint>
-Motion<Real> carry_outward(const Model<Real>& model, const Workspace<Real>& workspace,
-                           const ChainConstants<Real>& chain, std::size_t last, bool struck,
-                           const Motion<Real>& base, const OnJoint& on_joint) {
-  Motion<Real> jump = outward(chain, base);
-  for (std::size_t l = chain.first_link; l <= last; ++l) {
-    const LinkPass<Real>& pass = workspace.links[l];
-    jump = outward(model.links()[l], pass, jump);
-    const Real u = struck ? pass.impulse : Real(0.);
-    const Real rate = pass.D_inverse * (u - dot(pass.U, jump));
-    jump = with_joint_motion(model.links()[l].joint, jump, rate);
-    on_joint(l, rate);
+Motion<Lanes<Real>> carry_outward(const ChainGroup<Real>& group, std::size_t last, bool struck,
+                                  const Motion<Real>& base, Workspace<Real>& workspace,
+                                  const OnJoint& on_joint) {
+  Motion<Lanes<Real>> jump = outward(group, base);
+  const std::span<const LinkPass<Lanes<Real>>> passes = workspace.passes(group);
+  for (std::size_t n = 0; n <= last; ++n) {
+    const LinkPass<Lanes<Real>>& pass = passes[n];
+    jump = outward(group.links[n], pass, jump);
+    const Lanes<Real> u = struck ? pass.impulse : Lanes<Real>(0.);
+    const Lanes<Real> rate = pass.D_inverse * (u - dot(pass.U, jump));
+    jump = with_joint_motion(group.links[n].joint, jump, rate);
+    on_joint(n, rate);
   }
   return jump;
 }
 
 template <class Real>
-bool same_chain(const Model<Real>& model, std::size_t body, std::size_t chain) {
-  return body > 0 && model.chain_of(body) == chain;
+bool in_group(const Model<Real>& model, std::size_t body, std::size_t group) {
+  return body > 0 && model.seat_of(body).group == group;
 }
 
 /// The velocity change of `b` under the impulse `impulse_W` at `a`, world axes.
@@ -62,9 +66,11 @@ Vector3<Real> response(const Model<Real>& model, Workspace<Real>& workspace,
                        const BodyPoint<Real>& b) {
   Motion<Real> jump = jump_of_base(model, workspace, a, impulse_W);
   if (b.body > 0) {
-    const std::size_t k = model.chain_of(b.body);
-    jump = carry_outward(model, workspace, model.chains()[k], b.body - 1,
-                         same_chain(model, a.body, k), jump, [](std::size_t, const Real&) {});
+    const Seat& seat = model.seat_of(b.body);
+    const Motion<Lanes<Real>> jumps =
+        carry_outward(model.groups()[seat.group], seat.link, in_group(model, a.body, seat.group),
+                      jump, workspace, [](std::size_t, const Lanes<Real>&) {});
+    jump = lane_of(jumps, seat.lane);
   }
   const BodyMotion<Real>& body = workspace.bodies[b.body];
   return body.R_WB * jump.linear + cross(body.R_WB * jump.angular, b.p_WP - body.p_WB);
@@ -77,11 +83,15 @@ Motion<Real> jump_of_robot(const Model<Real>& model, Workspace<Real>& workspace,
                            const BodyPoint<Real>& point, const Vector3<Real>& impulse_W,
                            const OnJoint& on_joint) {
   const Motion<Real> base = jump_of_base(model, workspace, point, impulse_W);
-  for (std::size_t k = 0; k < model.chain_count(); ++k) {
-    const ChainConstants<Real>& chain = model.chains()[k];
-    if (chain.link_count == 0) continue;
-    carry_outward(model, workspace, chain, chain.first_link + chain.link_count - 1,
-                  same_chain(model, point.body, k), base, on_joint);
+  for (std::size_t g = 0; g < model.groups().size(); ++g) {
+    const ChainGroup<Real>& group = model.groups()[g];
+    if (group.link_count() == 0) continue;
+    carry_outward(group, group.link_count() - 1, in_group(model, point.body, g), base, workspace,
+                  [&](std::size_t n, const Lanes<Real>& rates) {
+                    for (std::size_t lane = 0; lane < group.chain_count; ++lane) {
+                      on_joint(group.first_links[lane] + n, rates[lane]);
+                    }
+                  });
   }
   return base;
 }
@@ -90,19 +100,20 @@ Motion<Real> jump_of_robot(const Model<Real>& model, Workspace<Real>& workspace,
 
 template <class Real>
 void articulated_inertias(const Model<Real>& model, Workspace<Real>& workspace) {
-  for (std::size_t k = 0; k < model.chain_count(); ++k) {
-    const ChainConstants<Real>& chain = model.chains()[k];
-    ArticulatedInertia<Real> IA;
-    for (std::size_t l = chain.first_link + chain.link_count; l-- > chain.first_link;) {
-      LinkPass<Real>& pass = workspace.links[l];
-      const LinkConstants<Real>& link = model.links()[l];
-      const Elimination<Real> free =
-          is_last(chain, l) ? chain.leaf : eliminate(link.joint, IA + link.inertia);
+  for (std::size_t g = 0; g < model.groups().size(); ++g) {
+    const ChainGroup<Real>& group = model.groups()[g];
+    const std::span<LinkPass<Lanes<Real>>> passes = workspace.passes(group);
+    ArticulatedInertia<Lanes<Real>> IA;
+    for (std::size_t n = group.link_count(); n-- > 0;) {
+      const LinkConstants<Lanes<Real>>& link = group.links[n];
+      LinkPass<Lanes<Real>>& pass = passes[n];
+      const Elimination<Lanes<Real>> free =
+          n + 1 == group.link_count() ? group.leaf : eliminate(link.joint, IA + link.inertia);
       pass.U = free.U;
       pass.D_inverse = free.D_inverse;
       IA = inward(link, pass, free.Ia);
     }
-    workspace.hips[k].IA = IA;
+    workspace.hips[g].IA = IA;
   }
   factor_base(model, workspace);
 }

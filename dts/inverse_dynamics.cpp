@@ -13,28 +13,31 @@ Wrench<Real> inverse_dynamics(const Model<Real>& model, const Vector3<Real>& gra
   const Matrix3<Real>& R_WB = workspace.bodies[0].R_WB;
   const Motion<Real> a_base{transpose_times(R_WB, accelerations.base_angular),
                             transpose_times(R_WB, accelerations.base_linear - gravity_W)};
-  Wrench<Real> f_base =
-      model.base() * a_base + bias_wrench(model.base(), workspace.base.w, 0, workspace);
-
-  for (const ChainConstants<Real>& chain : model.chains()) {
-    Motion<Real> a = outward(chain, a_base);
-    a.linear += transpose_times(chain.R_BH, hip_centripetal(chain, workspace.base));
-    for (std::size_t l = chain.first_link; l < chain.first_link + chain.link_count; ++l) {
-      const LinkConstants<Real>& link = model.links()[l];
-      const LinkPass<Real>& pass = workspace.links[l];
-      a = with_joint_motion(link.joint, outward(link, pass, a) + pass.c, accelerations.joints[l]);
-      workspace.link_wrenches[l] =
-          link.inertia * a + bias_wrench(link.inertia, pass.w, l + 1, workspace);
+  Wrench<Lanes<Real>> on_base;
+  for (const ChainGroup<Real>& group : model.groups()) {
+    const std::span<LinkPass<Lanes<Real>>> passes = workspace.passes(group);
+    const std::span<Wrench<Lanes<Real>>> wrenches =
+        std::span(workspace.link_wrenches).subspan(group.first_pass, group.link_count());
+    Motion<Lanes<Real>> a = outward(group, a_base);
+    a.linear += hip_centripetal(group, workspace.base);
+    for (std::size_t n = 0; n < group.link_count(); ++n) {
+      const LinkConstants<Lanes<Real>>& link = group.links[n];
+      a = with_joint_motion(link.joint, outward(link, passes[n], a) + passes[n].c,
+                            gather(at_link(group, n, accelerations.joints)));
+      wrenches[n] = link.inertia * a + bias_wrench(group, n, passes[n], workspace);
     }
-    Wrench<Real> carried;
-    for (std::size_t l = chain.first_link + chain.link_count; l-- > chain.first_link;) {
-      const LinkConstants<Real>& link = model.links()[l];
-      const Wrench<Real> f = workspace.link_wrenches[l] + carried;
-      joint_torques[l] = along(link.joint, f);
-      carried = inward(link, workspace.links[l], f);
+    Wrench<Lanes<Real>> carried;
+    for (std::size_t n = group.link_count(); n-- > 0;) {
+      const LinkConstants<Lanes<Real>>& link = group.links[n];
+      const Wrench<Lanes<Real>> f = wrenches[n] + carried;
+      scatter(along(link.joint, f), at_link(group, n, joint_torques));
+      carried = inward(link, passes[n], f);
     }
-    f_base = f_base + inward(chain, carried);
+    on_base = on_base + only(group.in_use, inward(group, carried));
   }
+  const Wrench<Real> f_base =
+      lane_sum(on_base) + model.base() * a_base +
+      bias_wrench(model.base(), workspace.base.w, R_WB, workspace.external[0]);
   return {R_WB * f_base.moment, R_WB * f_base.force};
 }
 

@@ -69,43 +69,38 @@ constexpr Elimination<Real> eliminate(JointType joint, const ArticulatedInertia<
 template <class Real, class Quantity>
 constexpr Quantity inward(const LinkConstants<Real>& link, const LinkPass<Real>& pass,
                           const Quantity& x) {
-  const Quantity y = inward_z(Screw<Real>{pass.sine, pass.cosine, pass.d}, x);
-  if (!link.twisted) return y;
-  return inward_x(Screw<Real>{link.sin_alpha, link.cos_alpha, link.a}, y);
+  const Quantity y = inward_z(pass.turn, x);
+  return link.twisted ? inward_x(link.twist, y) : y;
 }
 /// A motion of the preceding frame, as the link would have it with its joint locked.
 template <class Real>
 constexpr Motion<Real> outward(const LinkConstants<Real>& link, const LinkPass<Real>& pass,
                                const Motion<Real>& a) {
-  const Screw<Real> z{pass.sine, pass.cosine, pass.d};
-  if (!link.twisted) return outward_z(z, a);
-  return outward_z(z, outward_x(Screw<Real>{link.sin_alpha, link.cos_alpha, link.a}, a));
+  return outward_z(pass.turn, link.twisted ? outward_x(link.twist, a) : a);
 }
 
-/// An inertia of the chain about its hip, as the base sees it: H' = H + [p]x M, I' = I - H [p]x +
+/// Inertias of chains about their hips, as the base sees them: H' = H + [p]x M, I' = I - H [p]x +
 /// [p]x H'^T.
 template <class Real>
-constexpr ArticulatedInertia<Real> inward(const ChainConstants<Real>& chain,
-                                          const ArticulatedInertia<Real>& x) {
-  if (chain.aligned) return shift(chain.p_BH, x);
-  return shift(chain.p_BH, {congruent(chain.R_BH, x.I), chain.R_BH * x.H * transpose(chain.R_BH),
-                            congruent(chain.R_BH, x.M)});
+constexpr ArticulatedInertia<Lanes<Real>> inward(const ChainGroup<Real>& group,
+                                                 const ArticulatedInertia<Lanes<Real>>& x) {
+  const auto& [p_BH, R_BH, hip_to_H] = group.hip;
+  if (group.aligned) return shift(p_BH, x);
+  return shift(p_BH, {congruent(R_BH, x.I), R_BH * x.H * transpose(R_BH), congruent(R_BH, x.M)});
 }
 template <class Real>
-constexpr Wrench<Real> inward(const ChainConstants<Real>& chain, const Wrench<Real>& f) {
-  const Vector3<Real> force = chain.R_BH * f.force;
-  return {chain.R_BH * f.moment + cross(chain.p_BH, force), force};
+constexpr Wrench<Lanes<Real>> inward(const ChainGroup<Real>& group, const Wrench<Lanes<Real>>& f) {
+  const auto& [p_BH, R_BH, hip_to_H] = group.hip;
+  const Vector3<Lanes<Real>> force = R_BH * f.force;
+  return {R_BH * f.moment + cross(p_BH, force), force};
 }
+/// The base's motion as the hips have it.
 template <class Real>
-constexpr Motion<Real> outward(const ChainConstants<Real>& chain, const Motion<Real>& a) {
-  return {transpose_times(chain.R_BH, a.angular),
-          transpose_times(chain.R_BH, a.linear + cross(a.angular, chain.p_BH))};
-}
-
-/// Whether link `l` ends its chain, so that its elimination is a constant of the model.
-template <class Real>
-constexpr bool is_last(const ChainConstants<Real>& chain, std::size_t l) {
-  return l + 1 == chain.first_link + chain.link_count;
+constexpr Motion<Lanes<Real>> outward(const ChainGroup<Real>& group, const Motion<Real>& base) {
+  const auto& [p_BH, R_BH, hip_to_H] = group.hip;
+  const Motion<Lanes<Real>> a = in_all_lanes<Lanes<Real>>(base);
+  return {transpose_times(R_BH, a.angular),
+          transpose_times(R_BH, a.linear + cross(a.angular, p_BH))};
 }
 
 }  // namespace hookpoint::dts

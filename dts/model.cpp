@@ -1,5 +1,7 @@
 #include "dts/model.h"
 
+#include <algorithm>
+
 #include "dts/joint.h"
 #include "dts/rigid_body.h"
 
@@ -7,52 +9,55 @@ namespace hookpoint::dts {
 namespace {
 
 template <class Real>
-Vector3<Real> lanes(const Vector3d& a) {
-  return {Real(a.x), Real(a.y), Real(a.z)};
-}
-
-template <class Real>
 RigidInertia<Real> about_origin(const MassProperties<double>& body) {
-  const Symmetric3d I = body.inertia + point_inertia(body.mass, body.center_of_mass);
-  return {Real(body.mass),
-          lanes<Real>(body.mass * body.center_of_mass),
-          {Real(I.xx), Real(I.yy), Real(I.zz), Real(I.xy), Real(I.xz), Real(I.yz)}};
+  return in_all_lanes<Real>(
+      RigidInertia<double>{body.mass, body.mass * body.center_of_mass,
+                           body.inertia + point_inertia(body.mass, body.center_of_mass)});
 }
 
-template <class Real>
-Matrix3<Real> lanes(const Matrix3d& m) {
-  return {Real(m.xx), Real(m.xy), Real(m.xz), Real(m.yx), Real(m.yy),
-          Real(m.yz), Real(m.zx), Real(m.zy), Real(m.zz)};
-}
-
-template <class Real>
-LinkConstants<Real> constants_of(const LinkDescription& link) {
+Screw<double> twist_of(const LinkDescription& link) {
   const SineCosine<double> alpha = sine_cosine(link.alpha);
-  return {link.joint,
-          Real(alpha.sine),
-          Real(alpha.cosine),
-          Real(link.a),
-          Real(link.d),
-          Real(link.theta),
-          link.alpha != 0. || link.a != 0.,
-          about_origin<Real>(link.mass)};
+  return {alpha.sine, alpha.cosine, link.a};
 }
 
 /// The hip with the first link's screw about x, which never moves against it; `first` is left with
 /// none.
-template <class Real>
-ChainConstants<Real> merged_hip(const ChainDescription& description, LinkDescription& first) {
+HipConstants<double> merged_hip(const ChainDescription& description, LinkDescription& first) {
   const Matrix3d R = rotation_matrix(normalized(description.hip_orientation));
-  const SineCosine<double> alpha = sine_cosine(first.alpha);
-  const Matrix3d R_BH = times_rotation_x(R, alpha.sine, alpha.cosine);
-  const Vector3d hip_to_H = R * Vector3d{first.a, 0., 0.};
+  const Screw<double> twist = twist_of(first);
+  const Vector3d hip_to_H = R * Vector3d{twist.shift, 0., 0.};
   first.a = first.alpha = 0.;
-  ChainConstants<Real> chain;
-  chain.aligned = R_BH == Matrix3d::identity();
-  chain.p_BH = lanes<Real>(description.hip_position + hip_to_H);
-  chain.R_BH = lanes<Real>(R_BH);
-  chain.hip_to_H = lanes<Real>(hip_to_H);
-  return chain;
+  return {description.hip_position + hip_to_H, times_rotation_x(R, twist.sine, twist.cosine),
+          hip_to_H};
+}
+
+/// Puts a link of a chain into lane `lane`.
+template <class Real>
+void set_link(LinkConstants<Lanes<Real>>& links, std::size_t lane, const LinkDescription& link) {
+  links.joint = link.joint;
+  links.twisted = links.twisted || link.alpha != 0. || link.a != 0.;
+  set_lane(links.twist, lane, in_all_lanes<Real>(twist_of(link)));
+  links.d.lanes[lane] = link.d;
+  links.theta.lanes[lane] = link.theta;
+  set_lane(links.inertia, lane, about_origin<Real>(link.mass));
+}
+
+/// Adds a chain to a group of its kind: in the next lane, and for the time being in those beyond.
+template <class Real>
+void add_to(ChainGroup<Real>& group, std::size_t chain, std::size_t first_link,
+            const HipConstants<double>& hip, std::span<const LinkDescription> links) {
+  group.aligned = group.aligned && hip.R_BH == Matrix3d::identity();
+  for (std::size_t lane = group.chain_count; lane < lane_count; ++lane) {
+    group.chains[lane] = chain;
+    group.first_links[lane] = first_link;
+    set_lane(group.hip, lane, in_all_lanes<Real>(hip));
+    for (std::size_t n = 0; n < links.size(); ++n) set_link<Real>(group.links[n], lane, links[n]);
+  }
+  group.in_use.bits[group.chain_count] = -1;
+  ++group.chain_count;
+  if (!links.empty()) {
+    group.leaf = eliminate(links.back().joint, articulated(group.links.back().inertia));
+  }
 }
 
 }  // namespace
@@ -60,23 +65,40 @@ ChainConstants<Real> merged_hip(const ChainDescription& description, LinkDescrip
 template <class Real>
 Model<Real>::Model(const RobotDescription& robot)
     : mobile_(robot.mobile),
-      base_(robot.mobile ? about_origin<Real>(robot.base) : RigidInertia<Real>{}) {
-  for (const ChainDescription& description : robot.chains) {
-    std::vector<LinkDescription> links = description.links;
-    LinkDescription none;
-    ChainConstants<Real> chain =
-        merged_hip<Real>(description, links.empty() ? none : links.front());
-    chain.first_link = links_.size();
-    chain.link_count = links.size();
-    for (const LinkDescription& link : links) {
-      links_.push_back(constants_of<Real>(link));
-      chain_of_link_.push_back(chains_.size());
-    }
-    if (chain.link_count > 0) {
-      chain.leaf = eliminate(links_.back().joint, articulated(links_.back().inertia));
-    }
-    chains_.push_back(chain);
+      inertias_{robot.mobile ? about_origin<Real>(robot.base) : RigidInertia<Real>{}} {
+  for (const ChainDescription& description : robot.chains) add_chain(description);
+}
+
+template <class Real>
+void Model<Real>::add_chain(const ChainDescription& description) {
+  std::vector<LinkDescription> links = description.links;
+  LinkDescription none;
+  const HipConstants<double> hip = merged_hip(description, links.empty() ? none : links.front());
+  const std::size_t g = group_for(links);
+  for (std::size_t n = 0; n < links.size(); ++n) {
+    seats_.push_back({g, groups_[g].chain_count, n});
   }
+  add_to<Real>(groups_[g], chain_count_, link_count(), hip, links);
+  for (const LinkDescription& link : links) inertias_.push_back(about_origin<Real>(link.mass));
+  ++chain_count_;
+}
+
+/// The group with room for a chain of these joints: the first there is, or a new one.
+template <class Real>
+std::size_t Model<Real>::group_for(std::span<const LinkDescription> links) {
+  const auto fits = [&](const ChainGroup<Real>& group) {
+    return group.chain_count < lane_count &&
+           std::ranges::equal(group.links, links, {}, &LinkConstants<Lanes<Real>>::joint,
+                              &LinkDescription::joint);
+  };
+  const auto found = std::ranges::find_if(groups_, fits);
+  const std::size_t g = std::size_t(found - groups_.begin());
+  if (found != groups_.end()) return g;
+  ChainGroup<Real>& group = groups_.emplace_back();
+  if (g > 0) group.first_pass = groups_[g - 1].first_pass + groups_[g - 1].link_count();
+  group.links.resize(links.size());
+  for (std::size_t n = 0; n < links.size(); ++n) group.links[n].joint = links[n].joint;
+  return g;
 }
 
 template class Model<double>;

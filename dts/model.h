@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "dts/spatial.h"
+#include "dts/chain_group.h"
 #include "math/rotation.h"
 
 namespace hookpoint::dts {
@@ -20,8 +20,6 @@ struct MassProperties {
   Vector3<Real> center_of_mass;
   Symmetric3<Real> inertia;
 };
-
-enum class JointType { revolute, prismatic };
 
 /// Link i's own four numbers place its frame after the preceding one: Rot_x(alpha) Trans_x(a)
 /// Rot_z(theta) Trans_z(d). The joint variable adds to theta (revolute) or to d (prismatic). SI,
@@ -44,40 +42,10 @@ struct RobotDescription {
   std::vector<ChainDescription> chains;
 };
 
-/// What the recursions need of a body's mass: about the body frame's origin, body axes.
-template <class Real>
-struct RigidInertia {
-  Real mass{};
-  Vector3<Real> mass_moment;  ///< h = m c [kg m]
-  Symmetric3<Real> inertia;   ///< about the frame's origin [kg m^2]
-};
-
-/// What is left of an articulated inertia once its joint moves freely: Ia = IA - U U^T / D.
-template <class Real>
-struct Elimination {
-  ArticulatedInertia<Real> Ia;
-  Wrench<Real> U;    ///< IA S
-  Real D_inverse{};  ///< 1 / (S^T IA S)
-};
-
-template <class Real>
-struct LinkConstants {
-  JointType joint = JointType::revolute;
-  Real sin_alpha{}, cos_alpha{}, a{}, d{}, theta{};
-  bool twisted = true;  ///< alpha or a differs from 0, so that there is a screw about x
-  RigidInertia<Real> inertia;
-};
-
-template <class Real>
-struct ChainConstants {
-  std::size_t first_link = 0, link_count = 0;
-  // H is the hip frame after the first link's constant screw about x, which the model has merged
-  // into it.
-  bool aligned = true;  ///< R_BH is the identity
-  Vector3<Real> p_BH;
-  Matrix3<Real> R_BH;
-  Vector3<Real> hip_to_H;  ///< from the hip as described to H, base axes [m]
-  Elimination<Real> leaf;  ///< of the last link, which carries nothing: constant
+/// Where the recursions find a link: which of its chain, and the lane of the group that the chain
+/// is in.
+struct Seat {
+  std::size_t group = 0, lane = 0, link = 0;
 };
 
 /// A robot's constants, ready for the recursions. Immutable: share it between threads, one
@@ -91,25 +59,25 @@ class Model {
   explicit Model(const RobotDescription& robot);
 
   bool mobile() const { return mobile_; }
-  std::size_t body_count() const { return 1 + links_.size(); }
-  std::size_t link_count() const { return links_.size(); }
-  std::size_t chain_count() const { return chains_.size(); }
-  std::span<const LinkConstants<Real>> links() const { return links_; }
-  std::span<const ChainConstants<Real>> chains() const { return chains_; }
+  std::size_t body_count() const { return inertias_.size(); }
+  std::size_t link_count() const { return body_count() - 1; }
+  std::size_t chain_count() const { return chain_count_; }
+  std::span<const ChainGroup<Real>> groups() const { return groups_; }
   /// Zero for a fixed base, whose mass plays no part.
-  const RigidInertia<Real>& base() const { return base_; }
-  const RigidInertia<Real>& inertia(std::size_t body) const {
-    return body == 0 ? base_ : links_[body - 1].inertia;
-  }
-  /// The chain that body `body` >= 1 belongs to.
-  std::size_t chain_of(std::size_t body) const { return chain_of_link_[body - 1]; }
+  const RigidInertia<Real>& base() const { return inertias_[0]; }
+  const RigidInertia<Real>& inertia(std::size_t body) const { return inertias_[body]; }
+  /// The place of body `body` >= 1.
+  const Seat& seat_of(std::size_t body) const { return seats_[body - 1]; }
 
  private:
+  void add_chain(const ChainDescription& description);
+  std::size_t group_for(std::span<const LinkDescription> links);
+
   bool mobile_;
-  RigidInertia<Real> base_;
-  std::vector<LinkConstants<Real>> links_;
-  std::vector<ChainConstants<Real>> chains_;
-  std::vector<std::size_t> chain_of_link_;
+  std::size_t chain_count_ = 0;
+  std::vector<RigidInertia<Real>> inertias_;
+  std::vector<ChainGroup<Real>> groups_;
+  std::vector<Seat> seats_;
 };
 
 extern template class Model<double>;

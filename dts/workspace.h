@@ -20,17 +20,17 @@ struct BodyMotion {
 /// What the passes hand one another about a link, in link axes.
 template <class Real>
 struct LinkPass {
-  Real sine{}, cosine{};  ///< of the angle about the link's z
-  Real d{};               ///< offset along the link's z [m]
-  Vector3<Real> w;        ///< angular velocity
-  Motion<Real> c;         ///< acceleration that the velocities alone give the link
-  Wrench<Real> U;         ///< IA S
-  Real D_inverse{};       ///< 1 / (S^T IA S)
-  Real u{};               ///< tau - S^T pA
-  Real impulse{};         ///< as u, when impulses take the place of forces
+  Screw<Real> turn;    ///< about the link's z, by its angle and offset
+  Matrix3<Real> R_WB;  ///< of the link
+  Vector3<Real> w;     ///< angular velocity
+  Motion<Real> c;      ///< acceleration that the velocities alone give the link
+  Wrench<Real> U;      ///< IA S
+  Real D_inverse{};    ///< 1 / (S^T IA S)
+  Real u{};            ///< tau - S^T pA
+  Real impulse{};      ///< as u, when impulses take the place of forces
 };
 
-/// A chain seen from its hip frame: f_hip = IA a_hip + pA.
+/// What a chain asks of its hip frame: f_hip = IA a_hip + pA.
 template <class Real>
 struct HipPass {
   ArticulatedInertia<Real> IA;
@@ -53,9 +53,17 @@ struct Workspace {
         external(model.body_count()),
         joint_accelerations(model.link_count()),
         hip_wrenches(model.chain_count()),
-        links(model.link_count()),
-        hips(model.chain_count()),
-        link_wrenches(model.link_count()) {}
+        hips(model.groups().size()) {
+    for (const ChainGroup<Real>& group : model.groups()) {
+      links.resize(links.size() + group.link_count());
+    }
+    link_wrenches.resize(links.size());
+  }
+
+  /// What the passes know about the links of `group`, from the base outwards.
+  std::span<LinkPass<Lanes<Real>>> passes(const ChainGroup<Real>& group) {
+    return std::span(links).subspan(group.first_pass, group.link_count());
+  }
 
   // Set by forward_kinematics.
   std::vector<BodyMotion<Real>> bodies;
@@ -70,9 +78,9 @@ struct Workspace {
   std::vector<Wrench<Real>> hip_wrenches;  ///< by each chain ON the base, about its hip, world axes
 
   // Between the passes.
-  std::vector<LinkPass<Real>> links;
-  std::vector<HipPass<Real>> hips;
-  std::vector<Wrench<Real>> link_wrenches;  ///< across each joint, on the link, link axes
+  std::vector<LinkPass<Lanes<Real>>> links;        ///< group by group
+  std::vector<HipPass<Lanes<Real>>> hips;          ///< one a group
+  std::vector<Wrench<Lanes<Real>>> link_wrenches;  ///< as links: on the link, link axes
   BasePass<Real> base;
   Motion<Real> base_motion;  ///< acceleration less gravity (or velocity jump), base axes
 };

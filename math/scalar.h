@@ -20,6 +20,9 @@ using Mask = typename MaskOf<Real>::type;
 inline double select(bool mask, double a, double b) { return mask ? a : b; }
 inline bool select(bool mask, bool a, bool b) { return mask ? a : b; }
 
+/// Whether a comparison holds in every lane.
+inline bool all(bool mask) { return mask; }
+
 /// The greater (lesser) of two scalars, found by argument-dependent lookup for packs.
 inline double max(double a, double b) { return std::max(a, b); }
 inline double min(double a, double b) { return std::min(a, b); }
