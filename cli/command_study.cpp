@@ -15,6 +15,7 @@
 #include "studies/report.h"
 #include "studies/run.h"
 #include "studies/terminal_table.h"
+#include "studies/verdict.h"
 
 namespace hookpoint::cli {
 namespace {
@@ -42,18 +43,6 @@ std::vector<studies::PeerSetting> peer_settings(const studies::StudyResult& resu
   return settings;
 }
 
-std::vector<std::pair<std::string, std::string>> provenance_lines(const Application& application,
-                                                                  const StudyPlan& plan) {
-  std::vector<std::pair<std::string, std::string>> lines{{"hookpoint", HOOKPOINT_VERSION}};
-  for (const auto& [name, engine] : application.engines()) {
-    lines.emplace_back(
-        name, engine.description.version + ", " + engine.description.precision + " precision");
-  }
-  lines.emplace_back("instruction set", HOOKPOINT_ISA);
-  lines.emplace_back("hash of the experiment", plan.hash);
-  return lines;
-}
-
 std::string rerun_command(const StudyArguments& arguments) {
   std::string command = "hookpoint study " + arguments.file.string();
   if (arguments.quick) command += " --quick";
@@ -78,11 +67,12 @@ std::size_t terminal_width() {
   return std::max<std::size_t>(size.ws_col, 60);
 }
 
-bool all_hold(const studies::StudyResult& result) {
-  return std::all_of(result.rows.begin(), result.rows.end(), [](const studies::RunResult& row) {
-    return std::all_of(row.metrics.begin(), row.metrics.end(),
-                       [](const studies::MetricValue& value) { return value.ok.value_or(true); });
-  });
+/// The files beside the report that it links to.
+std::vector<std::string> result_files(const StudyRun& run) {
+  std::vector<std::string> files{"results.csv"};
+  if (std::filesystem::exists(run.folder / "timing.csv")) files.emplace_back("timing.csv");
+  files.insert(files.end(), {"experiment.hook", "scene.hook", "provenance.json"});
+  return files;
 }
 
 /// Runs one study with its progress bar; the table, files and report follow unless it was
@@ -107,16 +97,14 @@ int run_one(Application& application, const StudyPlan& plan, const StudyArgument
                 rerun_command(arguments) + " --resume` goes on from there");
     return truth_failed;
   }
-  const studies::ReportContext context{
-      rerun_command(arguments),
-      peer_settings(run.result),
-      provenance_lines(application, plan),
-      {"results.csv", "experiment.hook", "scene.hook", "provenance.json"}};
+  const studies::ReportContext context{rerun_command(arguments), peer_settings(run.result),
+                                       studies::provenance_lines(run.provenance),
+                                       result_files(run)};
   const studies::ReportOutcome report = studies::write_report(run.result, context, run.folder);
   std::cout << studies::terminal_table(run.result, {isatty(STDOUT_FILENO) != 0, terminal_width()});
   std::cout << "\nreport: " << (run.folder / "report.html").string() << '\n';
   for (const std::string& message : report.messages) print_error(message);
-  if (!all_hold(run.result)) return truth_failed;
+  if (!studies::all_truths_hold(run.result)) return truth_failed;
   return report.messages.empty() ? fine : missing;
 }
 

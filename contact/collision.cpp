@@ -36,6 +36,9 @@ class Path {
     }
     speed_ = std::max({at_.s, -un_, rebound_speed_});
     largest_k_ = std::max({axes_.a1, axes_.a2, axes_.knn});
+    // The flow's own time: (1 + mu) max K is the size of its rates.
+    longest_dtau_ = 1. / ((1. + mu_) * largest_k_);
+    dtau_ = 0.1 * longest_dtau_;
   }
 
   bool approaches() const { return un_ < 0.; }
@@ -146,9 +149,11 @@ class Path {
     if (phase_ != Phase::done) at_.s = 0.;
   }
 
-  // One adaptive step of the curved flow, cut at the end of the phase if that lies inside.
+  // One adaptive step of the curved flow, cut at the end of the phase if that lies inside. A point
+  // that all but stops and slides off again hardly moves meanwhile, so its error of u_t would allow
+  // a step of any length, past where the series in dtau means anything: the flow's own time bounds
+  // it.
   void turn() {
-    if (dtau_ <= 0.) dtau_ = 0.1 / ((1. + mu_) * largest_k_);
     double error = 0.;
     CollisionPoint to = sliding_step(axes_, mu_, un_, at_, dtau_, &error);
     const double allowed = kTolerance * std::max(speed_, at_.s);
@@ -165,7 +170,7 @@ class Path {
       return;
     }
     at_ = to;
-    dtau_ *= growth;
+    dtau_ = std::min(longest_dtau_, growth * dtau_);
     if (phase_ != Phase::compression && normal_velocity(axes_, un_, at_) < 0.) {
       phase_ = Phase::compression;
     }
@@ -195,7 +200,7 @@ class Path {
 
   CollisionAxes axes_;
   double mu_, un_, restored_, rebound_speed_;
-  double speed_ = 0., largest_k_ = 0., dtau_ = 0.;
+  double speed_ = 0., largest_k_ = 0., longest_dtau_ = 0., dtau_ = 0.;
   CollisionPoint at_;
   Phase phase_ = Phase::compression;
   double compression_work_ = 0., goal_ = 0.;

@@ -31,7 +31,7 @@ struct Collision {
 
 /// The impulse of one collision. Exact where the sliding direction is constant (K isotropic in the
 /// tangent plane and without coupling, motion in a plane of symmetry, sticking), else integrated
-/// adaptively to about 1e-10 of the impulse. Result: |p_t| <= mu p_n; the kinetic energy does not
+/// adaptively to about 1e-8 of the impulse. Result: |p_t| <= mu p_n; the kinetic energy does not
 /// grow for e <= 1, except by what lifts u_n to u0. Cost: about 0.1 us in closed form, a few us
 /// otherwise. No allocation. Source: Mirtich 1996, chapter 3; Stronge 1990 for the
 /// restitution; Bhatt & Koechling 1995 for the flow.

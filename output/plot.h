@@ -4,8 +4,8 @@
 //
 // Nothing is dropped silently. On a logarithmic axis a value within `floor` of zero is drawn hollow
 // in a strip under the axis, one lane a series, labelled "<= floor"; a negative value is drawn
-// hollow at its magnitude; a run that did not finish is a cross in a strip on top. The legend says
-// so when it happens.
+// hollow at its magnitude; a run that did not finish is a cross in a strip on top. Notes say so
+// when it happens. Names stand at the ends of their curves.
 #pragma once
 
 #include <filesystem>
@@ -42,13 +42,14 @@ struct Plot {
   std::vector<Series> series;
 };
 
-/// Colour (colour-blind safe), marker and dash of a series. Colour and marker together repeat
-/// after 40.
+/// How many colours there are: styles s and s + style_colors share a colour and differ in marker.
+inline constexpr int style_colors = 8;
+
+/// Colour (colour-blind safe) and marker of a series. Both together repeat after 40.
 struct SeriesStyle {
   std::string color;  ///< "#0072B2"
   int filled_marker;  ///< gnuplot's point type
   int hollow_marker;
-  std::string dash;  ///< gnuplot's dash pattern of the line through measured values
 };
 SeriesStyle series_style(int style);
 

@@ -160,7 +160,7 @@ double Scale::fraction(double value) const {
 bool Scale::below_floor(double value) const { return logarithmic && std::abs(value) <= floor; }
 
 double strip_height(std::size_t lanes) {
-  return lanes == 0 ? 0. : std::min(0.08 + 0.014 * static_cast<double>(lanes - 1), 0.3);
+  return lanes == 0 ? 0. : std::min(0.06 + 0.034 * static_cast<double>(lanes - 1), 0.4);
 }
 
 double Layout::floor_lane(int lane) const {

@@ -6,6 +6,7 @@
 #include "output/csv.h"
 #include "output/number.h"
 #include "output/plot.h"
+#include "output/plot_legend.h"
 #include "output/plot_scale.h"
 
 namespace hookpoint::output {
@@ -13,8 +14,10 @@ namespace {
 
 constexpr double width = 900.;        // of the drawing [px]
 constexpr double left_margin = 100.;  // of the axes [px]
-constexpr double row_height = 18.;    // of a legend entry
-constexpr double letter = 7.5;        // mean width of a letter at 12 px, for the legend's share
+constexpr double bottom_margin = 62.;
+constexpr double row_height = 17.;  // of a legend entry
+constexpr double lead = 34.;        // room for lines from the curves' ends to the legend
+constexpr double letter = 7.5;      // mean width of a letter at 12 px, for the legend's share
 constexpr const char* note_color = "#777777";
 constexpr std::size_t dense = 60;  // more points than this make a line with few markers
 
@@ -51,10 +54,10 @@ struct Rows {
   std::string all() const {
     return "every ::" + std::to_string(first) + "::" + std::to_string(first + count - 1);
   }
-  /// About twelve of the rows, starting later for later series so that markers of curves that
+  /// About eight of the rows, starting later for later series so that markers of curves that
   /// coincide all show.
   std::string some(std::size_t series, std::size_t series_count) const {
-    const std::size_t stride = count > dense ? count / 12 : 1;
+    const std::size_t stride = count > dense ? count / 8 : 1;
     const std::size_t start = first + stride * series / std::max<std::size_t>(series_count, 1);
     return "every " + std::to_string(stride) + "::" + std::to_string(start) +
            "::" + std::to_string(first + count - 1);
@@ -82,7 +85,6 @@ std::vector<Drawn> count_rows(const Plot& plot) {
 /// What the legend has to explain beside the series' names.
 struct Notes {
   bool predicted = false, below_floor = false, negative = false, unfinished = false;
-  int count() const { return predicted + negative + unfinished; }
 };
 
 Notes notes_of(const Plot& plot, const Layout& layout) {
@@ -120,12 +122,12 @@ class Script {
   double legend_width() const {
     std::size_t longest = 18;
     for (const Series& series : plot_.series) longest = std::max(longest, series.label.size());
-    return 72. + letter * static_cast<double>(longest);
+    return lead + 44. + letter * static_cast<double>(longest);
   }
 
   void set_page() {
-    const double entries = static_cast<double>(plot_.series.size()) + notes_.count() + 1.;
-    height_ = std::max(500., std::ceil(row_height * entries) + 130.);
+    const double entries = static_cast<double>(plot_.series.size());
+    height_ = std::max(520., std::ceil(row_height * entries) + 150.);
     right_ = 1. - legend_width() / width;
     top_ = 1. - (plot_.subtitle.empty() ? 46. : 64.) / height_;
     out_ << "# Draws " << plot_.name << ".svg from " << plot_.name << ".csv: gnuplot " << plot_.name
@@ -139,7 +141,7 @@ class Script {
          << "set lmargin at screen " << rounded(left_margin / width, 5) << "\n"
          << "set rmargin at screen " << rounded(right_, 5) << "\n"
          << "set tmargin at screen " << rounded(top_, 5) << "\n"
-         << "set bmargin at screen " << rounded(58. / height_, 5) << "\n"
+         << "set bmargin at screen " << rounded(bottom_margin / height_, 5) << "\n"
          << "set label " << in_quotes("{/:Bold " + escaped(typeset(plot_.title)) + "}")
          << " at screen " << rounded(left_margin / width, 5) << ", screen "
          << rounded(1. - 22. / height_, 5) << " left font 'Helvetica,15'\n";
@@ -241,14 +243,15 @@ class Script {
     const Series& series = plot_.series[i];
     const SeriesStyle style = series_style(series.style);
     const std::string color = " lc rgb '" + style.color + "'";
-    const std::string pen = "lines lw 1.6 dt " + style.dash + color;
+    const std::string pen = "lines lw 1.6" + color;
     const std::string points = rows.some(i, plot_.series.size());
     const std::string filled =
         "points ps 0.8 lw 1.4 pt " + std::to_string(style.filled_marker) + color;
     const std::string hollow =
         "points ps 0.8 lw 1.4 pt " + std::to_string(style.hollow_marker) + color;
     const bool joined = rows.count > dense || rows_[i].predicted.count == 0;
-    if (joined) add_rows(rows.all(), "shown($4)", pen);
+    const std::string faint = "lines lw 0.8 lc rgb '#80" + style.color.substr(1) + "'";
+    add_rows(rows.all(), "shown($4)", joined ? pen : faint);
     add_rows(points, "positive($4)", filled);
     if (layout_.y.logarithmic && negative(series.measured))
       add_rows(points, "negative($4)", hollow);
@@ -265,38 +268,48 @@ class Script {
              "points pt 2 ps 0.8 lw 2 lc rgb '" + series_style(plot_.series[i].style).color + "'");
   }
 
-  /// gnuplot drops the entries of a key that it deems too long, so the legend is drawn entry by
-  /// entry.
+  /// gnuplot drops the entries of a key that it deems too long, and cannot place them beside their
+  /// curves, so the legend is drawn entry by entry.
   void set_legend() {
-    for (const Series& series : plot_.series) {
+    const LegendRoom room{bottom_margin, top_ * height_, row_height};
+    for (const LegendEntry& entry : place_legend(plot_, layout_, room)) {
+      const Series& series = plot_.series[entry.series];
       const SeriesStyle style = series_style(series.style);
       const bool joined = series.measured.x.size() > dense || series.predicted.x.empty();
-      set_entry(series.label, style.color, joined ? "1.6 dt " + style.dash : "",
-                style.filled_marker);
+      if (entry.leads)
+        out_ << "set arrow from first " << shortest(entry.end_x) << ", first "
+             << shortest(entry.end_y) << " to " << beside(lead, entry.height)
+             << " nohead lw 0.7 lc rgb '#90" << style.color.substr(1) << "'\n";
+      set_entry(series.label, entry.height, style.color, joined ? "1.6" : "", style.filled_marker);
     }
-    ++entry_;
-    if (notes_.predicted) set_entry("closed form", note_color, "1.3 dt (7,4)", 0);
-    if (notes_.negative) set_entry("hollow: negative", note_color, "", 6);
-    if (notes_.unfinished) set_entry("did not finish", note_color, "", 2);
+    double height = bottom_margin - 14.;
+    const auto note = [&](const char* text, const char* line, int marker) {
+      set_entry(text, height, note_color, line, marker);
+      height -= 16.;
+    };
+    if (notes_.predicted) note("closed form", "1.3 dt (7,4)", 0);
+    if (notes_.negative) note("hollow: negative", "", 6);
+    if (notes_.unfinished) note("did not finish", "", 2);
+  }
+
+  /// A place so many pixels right of the axes, at a height over the drawing's bottom.
+  std::string beside(double pixels, double height) const {
+    return "screen " + rounded(right_ + pixels / width, 5) + ", screen " +
+           rounded(height / height_, 5);
   }
 
   /// A sample of the line (its width and dash, "" for none), of the marker (0 for none), and the
   /// name.
-  void set_entry(const std::string& name, const std::string& color, const std::string& line,
-                 int marker) {
-    const double y = top_ - (entry_++ + 0.4) * row_height / height_;
-    const std::string at_y = ", screen " + rounded(y, 5);
-    const auto x = [this](double pixels) {
-      return "screen " + rounded(right_ + pixels / width, 5);
-    };
+  void set_entry(const std::string& name, double height, const std::string& color,
+                 const std::string& line, int marker) {
     const std::string pen = " lc rgb '" + color + "'";
     if (!line.empty())
-      out_ << "set arrow from " << x(16.) << at_y << " to " << x(48.) << at_y << " nohead lw "
-           << line << pen << "\n";
+      out_ << "set arrow from " << beside(lead, height) << " to " << beside(lead + 24., height)
+           << " nohead lw " << line << pen << "\n";
     if (marker != 0)
-      out_ << "set label '' at " << x(32.) << at_y << " point pt " << marker << " ps 0.8 lw 1.4"
-           << pen << "\n";
-    out_ << "set label " << in_quotes(name) << " at " << x(56.) << at_y
+      out_ << "set label '' at " << beside(lead + 12., height) << " point pt " << marker
+           << " ps 0.8 lw 1.4" << pen << "\n";
+    out_ << "set label " << in_quotes(name) << " at " << beside(lead + 32., height)
          << " left font 'Helvetica,12' noenhanced\n";
   }
 
@@ -319,7 +332,6 @@ class Script {
   std::ostringstream out_;
   double height_ = 0.;            // of the drawing [px]
   double right_ = 0., top_ = 0.;  // of the axes, shares of the drawing
-  int entry_ = 0;                 // of the legend, from the top
   bool first_ = true;
 };
 

@@ -34,18 +34,26 @@ std::string failure(const StepStatus& status) {
 }
 
 /// A trace being recorded: at step 0, then at `trace_samples` steps spread evenly or, for a
-/// logarithmic time axis, in geometric progression.
+/// logarithmic time axis, in geometric progression. A signal that counts from `settle` starts
+/// there.
 class Recording {
  public:
-  Recording(const PlotPlan& plot, std::int64_t steps) : plot_(plot), steps_(steps) {
+  Recording(const PlotPlan& plot, std::int64_t first, std::int64_t steps)
+      : plot_(plot), first_(first), steps_(steps - first) {
     trace_.time.reserve(trace_samples + 1);
     trace_.value.reserve(trace_samples + 1);
   }
   void observe(const RunContext& context, const Observation& observation) {
-    if (observation.world.step < due_) return;
-    trace_.time.push_back(observation.world.time);
-    trace_.value.push_back(plot_.signal->value(context, observation));
-    while (due_ <= observation.world.step) due_ = step_of(++sample_);
+    const std::int64_t step = observation.world.step - first_;
+    if (step < due_) return;
+    const double value = plot_.signal->value(context, observation);
+    if (step == 0 && plot_.signal->since_settle) {
+      start_time_ = observation.world.time;
+      start_value_ = value;
+    }
+    trace_.time.push_back(observation.world.time - start_time_);
+    trace_.value.push_back(value - start_value_);
+    while (due_ <= step) due_ = step_of(++sample_);
   }
   Trace take() { return std::move(trace_); }
 
@@ -57,7 +65,8 @@ class Recording {
     return std::llround(plot_.spec.log_x ? std::pow(last, part) : part * last);
   }
   const PlotPlan& plot_;
-  std::int64_t steps_, due_ = 0;
+  std::int64_t first_, steps_, due_ = 0;
+  double start_time_ = 0., start_value_ = 0.;
   int sample_ = 0;
   Trace trace_;
 };
@@ -69,9 +78,11 @@ class Watch {
       : context_(context), observer_(context, needs_points(plan)) {
     for (const MetricDefinition* metric : plan.metrics)
       metrics_.push_back(metric->timing() ? nullptr : metric->make(context));
+    const std::int64_t settle = std::llround(plan.settle / row.experiment.deltat);
     for (const PlotPlan& plot : plan.plots) {
       const bool recorded = plot.signal != nullptr && plan.covers(plot.only, row);
-      recordings_.push_back(recorded ? std::optional<Recording>(std::in_place, plot, steps)
+      const std::int64_t first = recorded && plot.signal->since_settle ? settle : 0;
+      recordings_.push_back(recorded ? std::optional<Recording>(std::in_place, plot, first, steps)
                                      : std::nullopt);
     }
   }

@@ -32,7 +32,9 @@ bool same(double a, double b) {
 bool selected(const StudyResult& study, const PlotSpec& spec, const RunResult& row) {
   return std::all_of(spec.where.begin(), spec.where.end(), [&](const auto& fixed) {
     const auto sweep = sweep_index(study, fixed.first);
-    return !sweep || same(row.parameters[*sweep], fixed.second);
+    const auto& values = fixed.second;
+    return !sweep || std::any_of(values.begin(), values.end(),
+                                 [&](double value) { return same(row.parameters[*sweep], value); });
   });
 }
 
@@ -52,21 +54,25 @@ SeriesKey key_of(const StudyResult& study, const PlotSpec& spec, const RunResult
   return {row.subject, static_cast<int>(found - values.begin())};
 }
 
+/// "impulse", or "impulse, 3 mm/s" where a sweep tells curves apart.
 std::string series_label(const StudyResult& study, const PlotSpec& spec, const SeriesKey& key) {
   const std::string& subject = study.subjects[static_cast<std::size_t>(key.subject)].name;
   const auto sweep = sweep_index(study, spec.series);
   if (!sweep) return subject;
   const SweepColumn& column = study.sweeps[*sweep];
-  std::string value =
-      column.name + " = " + output::rounded(column.values[static_cast<std::size_t>(key.value)], 6);
+  std::string value = output::rounded(column.values[static_cast<std::size_t>(key.value)], 6);
   if (!column.unit.empty()) value += " " + column.unit;
   return study.subjects.size() > 1 ? subject + ", " + value : value;
 }
 
+/// A subject's own; for one at several values of a sweep its colour, with a marker a value. A
+/// single subject leaves the colours to the values.
 int series_style(const StudyResult& study, const PlotSpec& spec, const SeriesKey& key) {
-  const auto sweep = sweep_index(study, spec.series);
-  if (!sweep) return key.subject;
-  return key.subject * static_cast<int>(study.sweeps[*sweep].values.size()) + key.value;
+  if (!sweep_index(study, spec.series))
+    return subject_styles(study)[static_cast<std::size_t>(key.subject)];
+  if (study.subjects.size() == 1) return key.value;
+  const int color = subject_styles(study)[static_cast<std::size_t>(key.subject)];
+  return color % output::style_colors + output::style_colors * key.value;
 }
 
 /// Least and largest value of each bucket along x, in their order: what a line of this width can
@@ -161,8 +167,9 @@ void fill(output::Series& series, const Gathered& gathered, const PlotSpec& spec
 std::string undecided(const StudyResult& study, const PlotSpec& spec) {
   std::string names;
   for (const SweepColumn& sweep : study.sweeps) {
-    const bool fixed = std::any_of(spec.where.begin(), spec.where.end(),
-                                   [&](const auto& pair) { return pair.first == sweep.name; });
+    const bool fixed = std::any_of(spec.where.begin(), spec.where.end(), [&](const auto& pair) {
+      return pair.first == sweep.name && pair.second.size() == 1;
+    });
     if (fixed || sweep.name == spec.x || sweep.name == spec.series || sweep.values.size() < 2)
       continue;
     names += (names.empty() ? "" : " and ") + spoken(sweep.name);
@@ -172,9 +179,12 @@ std::string undecided(const StudyResult& study, const PlotSpec& spec) {
 
 std::string fixed_text(const StudyResult& study, const PlotSpec& spec) {
   std::string text;
-  for (const auto& [name, value] : spec.where) {
+  for (const auto& [name, values] : spec.where) {
     const auto sweep = sweep_index(study, name);
-    text += (text.empty() ? "" : ", ") + spoken(name) + " = " + output::rounded(value, 6);
+    if (name == spec.x) continue;
+    text += (text.empty() ? "" : ", ") + spoken(name) + " = ";
+    for (std::size_t i = 0; i < values.size(); ++i)
+      text += (i > 0 ? " or " : "") + output::rounded(values[i], 6);
     if (sweep && !study.sweeps[*sweep].unit.empty()) text += " " + study.sweeps[*sweep].unit;
   }
   return text;
@@ -189,6 +199,14 @@ std::string caption_of(const StudyResult& study, const PlotSpec& spec, const out
   if (spec.x == "time" && !undecided(study, spec).empty())
     caption +=
         " Of the runs that differ in " + undecided(study, spec) + ", the one that goes farthest.";
+  const bool vanishing =
+      std::any_of(plot.series.begin(), plot.series.end(), [&](const output::Series& series) {
+        return std::any_of(series.measured.y.begin(), series.measured.y.end(),
+                           [&](double y) { return std::abs(y) <= plot.y.floor; });
+      });
+  if (plot.y.logarithmic && vanishing)
+    caption += " In the grey strip: at most " + output::rounded(plot.y.floor, 2) + " " +
+               plot.y.unit + ", which is round-off.";
   if (spec.x == "time" && spec.log_y) caption += " The zero at time 0 is not drawn.";
   std::string absent;
   for (const SubjectInfo& subject : study.subjects)
@@ -198,6 +216,21 @@ std::string caption_of(const StudyResult& study, const PlotSpec& spec, const out
 }
 
 }  // namespace
+
+std::vector<int> subject_styles(const StudyResult& study) {
+  std::vector<std::string> families;
+  std::vector<int> members(output::style_colors, 0);
+  std::vector<int> styles;
+  for (const SubjectInfo& subject : study.subjects) {
+    const std::string& family = subject.law.empty() ? subject.engine : subject.law;
+    const auto place = std::find(families.begin(), families.end(), family);
+    const auto color = (place - families.begin()) % output::style_colors;
+    if (place == families.end()) families.push_back(family);
+    int& member = members[static_cast<std::size_t>(color)];
+    styles.push_back(static_cast<int>(color) + output::style_colors * member++);
+  }
+  return styles;
+}
 
 Figure make_figure(const StudyResult& study, std::size_t plot) {
   const PlotSpec& spec = study.plots[plot];
@@ -217,11 +250,19 @@ Figure make_figure(const StudyResult& study, std::size_t plot) {
   figure.plot.name = spec.name;
   figure.plot.title = spec.title.empty() ? spoken(spec.y) + " over " + spoken(spec.x) : spec.title;
   figure.plot.subtitle = fixed_text(study, spec);
+  const auto add_note = [&](const std::string& note) {
+    figure.plot.subtitle += (figure.plot.subtitle.empty() ? "" : "; ") + note;
+  };
+  if (sweep_index(study, spec.series)) add_note("curves by " + spoken(spec.series));
   if (spec.x != "time" && !undecided(study, spec).empty())
-    figure.plot.subtitle +=
-        (figure.plot.subtitle.empty() ? "" : "; ") + ("largest over " + undecided(study, spec));
-  figure.plot.x = {.label = spoken(spec.x), .unit = spec.x_unit, .logarithmic = spec.log_x};
-  figure.plot.y = {.label = spoken(spec.y), .unit = spec.y_unit, .logarithmic = spec.log_y};
+    add_note("largest over " + undecided(study, spec));
+  const auto axis = [](const std::string& label, const std::string& name, const std::string& unit,
+                       bool logarithmic) {
+    return output::Axis{
+        .label = label.empty() ? spoken(name) : label, .unit = unit, .logarithmic = logarithmic};
+  };
+  figure.plot.x = axis(spec.x_label, spec.x, spec.x_unit, spec.log_x);
+  figure.plot.y = axis(spec.y_label, spec.y, spec.y_unit, spec.log_y);
   for (const auto& [key, points] : gathered) {
     output::Series series;
     series.label = series_label(study, spec, key);

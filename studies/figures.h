@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "output/plot.h"
 #include "studies/result.h"
@@ -13,10 +14,14 @@ struct Figure {
   std::string caption;  ///< what is drawn, what is held fixed and what stands for what
 };
 
-/// The figure of `study.plots[plot]`. A subject's colour and marker are those of its number in the
-/// study, in every figure. Rows that the block's `where` and axes leave undecided (a sweep that is
-/// neither) are condensed to the largest magnitude, and the caption says so. Curves over time are
-/// thinned to their envelope, at most about 800 points each.
+/// The output::Series::style of each subject: the colour is its family's (its law, or the engine of
+/// a peer), the marker tells members of a family apart.
+std::vector<int> subject_styles(const StudyResult& study);
+
+/// The figure of `study.plots[plot]`. A subject looks the same in every figure. Rows that the
+/// block's `where` and axes leave undecided (a sweep that is neither) are condensed to the largest
+/// magnitude, and the caption says so. Curves over time are thinned to their envelope, at most
+/// about 800 points each.
 Figure make_figure(const StudyResult& study, std::size_t plot);
 
 }  // namespace hookpoint::studies

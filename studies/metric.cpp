@@ -12,18 +12,19 @@ namespace {
 
 constexpr std::array<MetricDefinition, 15> metrics{{
     {"creep_speed", "m/s",
-     "least-squares slope of the downhill displacement over [settle, duration]", make_creep_speed},
+     "least-squares slope of the downhill displacement over [settle, duration]", make_creep_speed,
+     false, Regime::holds},
     {"slip_acceleration", "m/s^2", "least-squares parabola of the same: its second derivative",
-     make_slip_acceleration},
+     make_slip_acceleration, false, Regime::slides},
     {"settle_shift", "m", "downhill displacement at `settle`", make_settle_shift},
     {"stick_displacement", "m", "mean downhill displacement of the points that touch at the end",
-     make_stick_displacement, true},
+     make_stick_displacement, true, Regime::holds},
     {"slip_distance", "m", "longest tangential path of a boundary point while it is loaded",
      make_slip_distance, true},
     {"stopping_distance", "m", "displacement at the end, if the body rests then",
      make_stopping_distance},
     {"direction_error", "rad", "angle between the displacement after `settle` and downhill",
-     make_direction_error},
+     make_direction_error, false, Regime::slides},
     {"penetration_max", "m", "greatest depth of a boundary point after `settle`",
      make_penetration_max, true},
     {"penetration_mean", "m", "mean depth of the points inside the ground after `settle`",
@@ -43,9 +44,11 @@ double deepest(const RunContext&, const Observation& observation) {
   return depth;
 }
 
-constexpr std::array<SignalDefinition, 4> signals{{
+constexpr std::array<SignalDefinition, 5> signals{{
     {"displacement", "m", "downhill displacement of the body's origin",
      [](const RunContext&, const Observation& o) { return o.displacement; }},
+    {"drift", "m", "downhill displacement of the body's origin since `settle`",
+     [](const RunContext&, const Observation& o) { return o.displacement; }, true},
     {"speed", "m/s", "downhill velocity of the body's origin",
      [](const RunContext& c, const Observation& o) { return dot(o.body.velocity, c.downhill); }},
     {"penetration", "m", "depth of the deepest boundary point", deepest},

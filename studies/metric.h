@@ -13,6 +13,7 @@
 #include "contact/terrain.h"
 #include "simulation/engine.h"
 #include "simulation/experiment.h"
+#include "studies/regime.h"
 
 namespace hookpoint::studies {
 
@@ -85,6 +86,7 @@ struct MetricDefinition {
   std::string_view doc;
   std::unique_ptr<Metric> (*make)(const RunContext&) = nullptr;  ///< null: a timing metric
   bool needs_points = false;
+  Regime regime = Regime::none;  ///< the only one in which it says something; none: any
   bool timing() const { return make == nullptr; }
 };
 
@@ -98,6 +100,7 @@ struct SignalDefinition {
   std::string_view unit;
   std::string_view doc;
   double (*value)(const RunContext&, const Observation&);
+  bool since_settle = false;  ///< value and time are counted from `settle`
 };
 std::span<const SignalDefinition> signal_table();
 const SignalDefinition* find_signal(std::string_view name);

@@ -54,7 +54,7 @@ struct TruthPlan {
   int same_over = -1;         ///< index of a sweep
   std::vector<int> subjects;  ///< empty: all
   std::vector<Condition> only;
-  std::string words;
+  std::string name, words;
 };
 
 struct PlotPlan {

@@ -57,6 +57,7 @@ class Parts {
   }
   std::vector<double> sweep_values(const Object& block, const WrittenUnit& unit);
   std::vector<Condition> conditions(const Object& owner);
+  std::string conditions_words(const std::vector<Condition>& conditions) const;
   std::string truth_words(const Object& block, const TruthPlan& truth);
 
   StudyPlan& plan_;
@@ -170,6 +171,22 @@ void Parts::add_metric(const Object& block) {
     unknown(block.position, "metric", block.name, metric_names());
 }
 
+/// ", mu = 0.8, slope from 15 deg".
+std::string Parts::conditions_words(const std::vector<Condition>& conditions) const {
+  std::string words;
+  for (const Condition& condition : conditions) {
+    const SweepPlan& sweep = plan_.sweeps[static_cast<std::size_t>(condition.sweep)];
+    std::vector<std::string> held;
+    for (std::size_t i = 0; i < sweep.si.size(); ++i)
+      if (condition.holds(sweep.si[i])) held.push_back(sweep.texts[i]);
+    const bool all_given = held.size() < 3 || !condition.values.empty();
+    words += ", " + sweep.column.name +
+             (all_given ? " = " + language::join(held, " or ")
+                        : " from " + held.front() + " to " + held.back());
+  }
+  return words;
+}
+
 std::string Parts::truth_words(const Object& block, const TruthPlan& truth) {
   const MetricDefinition& metric = *plan_.metrics[truth.metric];
   const std::string unit = metric.unit.empty() ? "" : " " + std::string(metric.unit);
@@ -186,6 +203,7 @@ std::string Parts::truth_words(const Object& block, const TruthPlan& truth) {
     words += (truth.tolerance > 0. ? " or " : " within ") + number(truth.within);
   if (truth.above) words += " is above " + number(*truth.above);
   if (truth.below) words += " is below " + number(*truth.below);
+  words += conditions_words(truth.only);
   if (block.find("subjects") != nullptr)
     words += " (" + language::join(block.find("subjects")->words, ", ") + ")";
   return words;
@@ -233,6 +251,7 @@ void Parts::add_truth(const Object& block) {
     }
   }
   truth.only = conditions(block);
+  truth.name = block.name;
   truth.words = truth_words(block, truth);
   plan_.truths.push_back(std::move(truth));
 }
@@ -255,6 +274,8 @@ void Parts::add_plot(const Object& block) {
     for (const SignalDefinition& signal : signal_table()) names.emplace_back(signal.name);
     if (plot.signal == nullptr) unknown(block.find("y")->position, "signal", spec.y, names);
     if (plot.signal != nullptr) spec.y_unit = plot.signal->unit;
+    if (plot.signal != nullptr && plot.signal->since_settle) spec.x_label = "time since settling";
+    if (plot.signal != nullptr && plot.signal->since_settle) spec.y_label = spec.y + " downhill";
   } else {
     const int sweep = sweep_index(spec.x);
     if (sweep < 0)
@@ -273,9 +294,10 @@ void Parts::add_plot(const Object& block) {
   plot.only = conditions(block);
   for (const Condition& condition : plot.only) {
     const SweepPlan& sweep = plan_.sweeps[static_cast<std::size_t>(condition.sweep)];
+    std::vector<double> drawn;
     for (std::size_t i = 0; i < sweep.si.size(); ++i)
-      if (condition.values.size() == 1 && condition.holds(sweep.si[i]))
-        spec.where.emplace_back(sweep.column.name, sweep.column.values[i]);
+      if (condition.holds(sweep.si[i])) drawn.push_back(sweep.column.values[i]);
+    spec.where.emplace_back(sweep.column.name, std::move(drawn));
   }
   plan_.plots.push_back(std::move(plot));
 }

@@ -189,4 +189,11 @@ std::optional<double> predict(std::string_view metric, const RunContext& context
   return std::nullopt;
 }
 
+Regime regime_of(const RunContext& context) {
+  if (!applies(context)) return Regime::none;
+  const BodyOnPlane body = body_on_plane(context);
+  if (body.speed > 0.) return Regime::none;
+  return body.sticks() ? Regime::holds : Regime::slides;
+}
+
 }  // namespace hookpoint::studies

@@ -16,4 +16,8 @@ namespace hookpoint::studies {
 std::optional<double> predict(std::string_view metric, const RunContext& context,
                               std::optional<double> friction_mixing);
 
+/// What friction does in the run described by `context`: none unless `predict`'s conditions hold
+/// and the body starts at rest.
+Regime regime_of(const RunContext& context);
+
 }  // namespace hookpoint::studies

@@ -25,7 +25,14 @@ std::string verdict_line(const StudySummary& summary) {
   if (summary.failed == 0)
     return paragraph("verdict good", "✓ All " + std::to_string(all) + " verdicts hold.");
   return paragraph("verdict bad", "✗ " + std::to_string(summary.failed) + " of " +
-                                      std::to_string(all) + " verdicts do not hold.");
+                                      std::to_string(all) +
+                                      " verdicts <a href=\"#truths\">do not hold</a>.");
+}
+
+std::string stopped_line(const SubjectSummary& total) {
+  if (total.stopped == 0) return "";
+  const std::string runs = total.stopped == 1 ? "1 run" : std::to_string(total.stopped) + " runs";
+  return paragraph("verdict bad", "✗ " + runs + " <a href=\"#stopped\">stopped on the way</a>.");
 }
 
 std::string facts_line(const StudySummary& summary) {
@@ -50,12 +57,17 @@ std::string varied_line(const StudyResult& study) {
   return text.empty() ? "" : paragraph("facts", text + ".");
 }
 
+std::string title_of(const StudyResult& study) {
+  return study.title.empty() ? spoken(study.name) : study.title;
+}
+
 std::string opening(const StudyResult& study, const ReportContext& context,
                     const StudySummary& summary) {
   std::string text = paragraph("kicker", "Study · " + html(study.file));
-  text += "<h1>" + html(spoken(study.name)) + "</h1>\n";
+  text += "<h1>" + html(title_of(study)) + "</h1>\n";
   if (!study.question.empty()) text += paragraph("question", html(study.question));
-  text += verdict_line(summary) + facts_line(summary) + varied_line(study);
+  text += verdict_line(summary) + stopped_line(summary.total) + facts_line(summary) +
+          varied_line(study);
   text += "<pre>" + html(context.command) + "</pre>\n";
   if (context.files.empty()) return text;
   std::string links;
@@ -63,13 +75,6 @@ std::string opening(const StudyResult& study, const ReportContext& context,
     links +=
         (links.empty() ? "" : " · ") + ("<a href=\"" + html(file) + "\">" + html(file) + "</a>");
   return text + paragraph("facts", links);
-}
-
-std::string truths_list(const StudyResult& study) {
-  if (study.truths.empty()) return "";
-  std::string text = heading("Truths") + "<ul>\n";
-  for (const std::string& truth : study.truths) text += "<li>" + html(truth) + "</li>\n";
-  return text + "</ul>\n";
 }
 
 std::string described_svg(const ReportFigure& figure) {
@@ -91,6 +96,33 @@ std::string figure_list(const std::vector<ReportFigure>& figures) {
     text += " <a href=\"" + name + ".csv\">" + name + ".csv</a></figcaption>\n</figure>\n";
   }
   return text;
+}
+
+std::string regime_heading(const RegimeTable& table) {
+  std::string text = table.heading.empty() ? "Subjects and metrics" : table.heading;
+  const auto at_most = text.find("<=");
+  if (at_most != std::string::npos) text.replace(at_most, 2, "≤");
+  return html(text);
+}
+
+/// What answers the question, the figures, then the other metrics and regimes.
+std::string results(const StudyResult& study, const std::vector<ReportFigure>& figures) {
+  std::string answer, others;
+  for (const RegimeTable& table : regime_tables(study)) {
+    const auto portions = page_portions(study, table);
+    for (std::size_t i = 0; i < portions.size(); ++i) {
+      std::string& text = answer.empty() ? answer : others;
+      if (i < 2) text += heading(regime_heading(table) + (i > 0 ? ": other metrics" : ""));
+      text += summary_table(study, table, portions[i]);
+    }
+  }
+  return answer +
+         paragraph("note soft",
+                   "Worst: the run whose truth fails, else the one farthest from its closed form, "
+                   "which stands beside it; it leads to its row. Small figures: median or range "
+                   "over the sweep. ✓ and ✗ count the runs that a truth judges; the worst may be "
+                   "one that none judges.") +
+         figure_list(figures) + others;
 }
 
 std::string peer_table(const ReportContext& context) {
@@ -126,14 +158,12 @@ std::string report_html(const StudyResult& study, const ReportContext& context,
   std::string page =
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
-      html(spoken(study.name)) + " - hookpoint</title>\n<style>";
+      html(title_of(study)) + " - hookpoint</title>\n<style>";
   page += report_style();
   page += "</style>\n</head>\n<body>\n<main>\n";
   page += opening(study, context, summary);
-  page += heading("Subjects and metrics") + summary_table(study, summary);
-  page += failure_table(study);
-  page += figure_list(figures);
-  page += truths_list(study);
+  page += results(study, figures);
+  page += truths_table(study) + failure_table(study) + stopped_table(study);
   page += heading("Every run") + runs_table(study);
   page += peer_table(context) + provenance_table(context);
   page += "</main>\n<script>";

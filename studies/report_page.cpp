@@ -40,18 +40,18 @@ h1 { font-size: 2.1rem; line-height: 1.15; margin: 0 0 .6rem; font-weight: 600; 
 h2 { font-size: 1.25rem; margin: 3rem 0 .6rem; padding-top: .8rem; border-top: 1px solid var(--rule); font-weight: 600; }
 p, ul { max-width: 44rem; margin: .5rem 0; }
 ul { padding-left: 1.2rem; }
-a { color: var(--link); }
+a { color: var(--link); } td a { color: inherit; text-decoration: none; } td a:hover { text-decoration: underline; } tr:target { background: var(--band); outline: 1px solid var(--soft); }
 .kicker, .facts, table, label, select, input, output, .note, figcaption, svg text { font-family: "Helvetica Neue", Helvetica, Arial,
   "Liberation Sans", sans-serif; }
 .kicker { color: var(--soft); font-size: .85rem; margin: 0 0 .3rem; }
 .question { font-size: 1.15rem; max-width: 44rem; }
-.verdict { font-size: 1.15rem; font-weight: 600; margin: 1.4rem 0 .2rem; }
+.verdict { font-size: 1.15rem; font-weight: 600; margin: 1.4rem 0 .2rem; } .verdict + .verdict { margin-top: .2rem; }
 .facts { color: var(--soft); font-size: .9rem; margin: .2rem 0; }
 .good { color: var(--good); } .bad { color: var(--bad); } .soft { color: var(--soft); }
 pre { background: var(--band); padding: .7rem .9rem; overflow-x: auto; font-size: .88rem; max-width: 44rem; margin: .6rem 0; }
 .scroll { overflow-x: auto; margin: .8rem 0; }
 table { border-collapse: collapse; font-size: .82rem; line-height: 1.35; font-variant-numeric: tabular-nums lining-nums; }
-th, td { padding: .28rem .7rem; text-align: right; vertical-align: top; white-space: nowrap; }
+th, td { padding: .28rem .5rem; text-align: right; vertical-align: top; white-space: nowrap; }
 th { font-weight: 600; vertical-align: bottom; }
 thead th { border-bottom: 1px solid var(--ink); }
 thead tr.groups th { border-bottom: none; text-align: left; padding-bottom: 0; }
@@ -60,7 +60,7 @@ th.text, td.text { text-align: left; }
 tbody tr { border-bottom: 1px solid var(--rule); }
 tbody tr:hover { background: var(--band); }
 table.summary tbody th { font-weight: 400; text-align: left; position: sticky; left: 0; background: var(--paper); }
-table.summary .first, table.runs .first { padding-left: 1.5rem; }
+table.summary .first, table.runs .first { padding-left: 1.1rem; }
 small { display: block; font-size: .74rem; color: var(--soft); }
 .note { font-size: .82rem; }
 td.status { white-space: normal; text-align: left; min-width: 10rem; max-width: 22rem; }
@@ -81,9 +81,9 @@ table.runs th, table.runs td { padding: .18rem .55rem; }
 table.wide td { white-space: normal; text-align: left; max-width: 34rem; overflow-wrap: anywhere; }
 @media print {
   :root { --paper: #fff; --ink: #000; --soft: #555; --rule: #ccc; --band: #f4f4f4; --good: #005a3c; --bad: #a00; --bad-band: #fbeceb; }
-  body { font-size: 10pt; } main { max-width: none; padding: 0; }
-  .filter { display: none; } .scroll, .tall { overflow: visible; max-height: none; } thead { display: table-header-group; }
-  table { font-size: 7pt; } table.runs { font-size: 6pt; } th, td { padding: 1pt 4pt; } tr { break-inside: avoid; } h2 { break-after: avoid; }
+  html { font-size: 11px; } body { font-size: 10pt; } main { max-width: none; padding: 0; } table.summary small { font-size: 5.5pt; }
+  .filter { display: none; } .scroll, .tall { overflow: visible; max-height: none; } thead { display: table-header-group; } a { color: inherit; }
+  table { font-size: 7pt; } table.summary { font-size: 6.5pt; } table.runs { font-size: 6pt; } th, td { padding: 1pt 4pt; } tr { break-inside: avoid; } h2 { break-after: avoid; }
 }
 )";
 }

@@ -2,25 +2,29 @@
 
 #include <algorithm>
 #include <array>
+#include <initializer_list>
 
 #include "output/number.h"
 #include "output/plot.h"
+#include "studies/figures.h"
 #include "studies/report_page.h"
 
 namespace hookpoint::studies {
 namespace {
 
 constexpr std::size_t most_rows = 5000;
-constexpr std::size_t most_failures = 40;
+constexpr std::size_t most_listed = 40;
+constexpr std::size_t page_columns = 6;
 
 /// What a metric's columns have to show, over all subjects.
 struct MetricShape {
   bool predicted = false, verdict = false;
 };
 
-std::vector<MetricShape> shapes_of(const StudyResult& study) {
+std::vector<MetricShape> shapes_of(const StudyResult& study, std::optional<Regime> regime = {}) {
   std::vector<MetricShape> shapes(study.metrics.size());
   for (const RunResult& row : study.rows) {
+    if (regime && row.regime != *regime) continue;
     for (std::size_t i = 0; i < row.metrics.size(); ++i) {
       shapes[i].predicted |= row.metrics[i].predicted.has_value();
       shapes[i].verdict |= row.metrics[i].ok.has_value();
@@ -36,10 +40,37 @@ std::string number(const std::optional<double>& value) {
 std::string unit_of(const std::string& unit) { return unit.empty() ? "" : " [" + html(unit) + "]"; }
 
 /// The subject's marker in its colour, as in the figures.
-std::string swatch(std::size_t subject) {
-  const output::SeriesStyle style = output::series_style(static_cast<int>(subject));
+std::string swatch(int subject_style) {
+  const output::SeriesStyle style = output::series_style(subject_style);
   const std::string name = std::array{"■", "●", "▲", "▼", "◆", "⬟"}[(style.filled_marker - 5) / 2];
   return "<span class=\"swatch\" style=\"color:" + style.color + "\">" + name + "</span>";
+}
+
+bool fails_or_stopped(const RunResult& row) {
+  return outcome_of(row) == RunOutcome::stopped ||
+         std::any_of(row.metrics.begin(), row.metrics.end(),
+                     [](const MetricValue& value) { return !value.ok.value_or(true); });
+}
+
+/// `text` as a link to the row in the table of all runs, if it is there.
+std::string run_link(const StudyResult& study, std::size_t row, const std::string& text) {
+  if (study.rows.size() > most_rows && !fails_or_stopped(study.rows[row])) return text;
+  return "<a href=\"#run-" + std::to_string(row) + "\">" + text + "</a>";
+}
+
+std::string table_head(std::initializer_list<const char*> titles) {
+  std::string head = "<div class=\"scroll\" tabindex=\"0\"><table><thead><tr>";
+  for (const char* title : titles) head += std::string("<th class=\"text\">") + title + "</th>";
+  return head + "</tr></thead><tbody>\n";
+}
+
+std::string text_cell(const std::string& content) {
+  return "<td class=\"text\">" + content + "</td>";
+}
+
+std::string and_more(std::size_t all) {
+  if (all <= most_listed) return "";
+  return "<p>and " + std::to_string(all - most_listed) + " more, among the runs below.</p>\n";
 }
 
 std::string verdict_text(const MetricSummary& metric) {
@@ -65,8 +96,9 @@ std::string metric_cells(const StudyResult& study, const MetricSummary& summary,
     return "<td class=\"first\">" + number({}) + "</td><td>" + number({}) + "</td>";
   const RunResult& row = study.rows[static_cast<std::size_t>(summary.worst)];
   const MetricValue& worst = row.metrics[metric];
-  std::string cells = "<td class=\"first" + fails + "\" title=\"" +
-                      html(parameters_text(study, row)) + "\">" + number(worst.measured);
+  std::string cells =
+      "<td class=\"first" + fails + "\" title=\"" + html(parameters_text(study, row)) + "\">" +
+      run_link(study, static_cast<std::size_t>(summary.worst), number(worst.measured));
   if (summary.values > 1)
     cells += "<small>median " + output::rounded(summary.median, 3) + "</small>";
   return cells + "</td><td class=\"" + fails + "\">" + number(worst.predicted) +
@@ -80,10 +112,11 @@ std::string finished_cell(const SubjectSummary& subject) {
   return subject.stopped > 0 ? "<td class=\"bad\">✗ " + count + "</td>" : "<td>" + count + "</td>";
 }
 
-std::string summary_head(const StudyResult& study, const std::vector<MetricShape>& shapes) {
+std::string summary_head(const StudyResult& study, const std::vector<std::size_t>& metrics,
+                         const std::vector<MetricShape>& shapes) {
   std::string groups = "<tr class=\"groups\"><th></th><th></th>";
   std::string columns = "<tr class=\"units\"><th class=\"text\">subject</th><th>runs</th>";
-  for (std::size_t i = 0; i < study.metrics.size(); ++i) {
+  for (const std::size_t i : metrics) {
     const std::string span = shapes[i].predicted ? " colspan=\"2\"" : "";
     groups += "<th class=\"first\"" + span + ">" + html(spoken(study.metrics[i].name)) +
               "<span class=\"soft\">" + unit_of(study.metrics[i].unit) + "</span></th>";
@@ -101,9 +134,9 @@ std::string verdict_cell(const MetricValue& value) {
 /// Words for the filter: fails, stopped, skipped, ok.
 std::string kinds_of(const RunResult& row) {
   std::string kinds;
-  const bool fails = std::any_of(row.metrics.begin(), row.metrics.end(),
-                                 [](const MetricValue& value) { return !value.ok.value_or(true); });
-  if (fails) kinds += "fails ";
+  if (std::any_of(row.metrics.begin(), row.metrics.end(),
+                  [](const MetricValue& value) { return !value.ok.value_or(true); }))
+    kinds += "fails ";
   switch (outcome_of(row)) {
     case RunOutcome::finished:
       return kinds + "finished";
@@ -135,8 +168,10 @@ std::string runs_head(const StudyResult& study, const std::vector<MetricShape>& 
 }
 
 std::string run_row(const StudyResult& study, const std::vector<MetricShape>& shapes,
-                    const RunResult& row) {
-  std::string text = "<tr data-kind=\"" + kinds_of(row) + "\">";
+                    std::size_t index) {
+  const RunResult& row = study.rows[index];
+  std::string text =
+      "<tr data-kind=\"" + kinds_of(row) + "\" id=\"run-" + std::to_string(index) + "\">";
   for (const double value : row.parameters) text += "<td>" + output::rounded(value, 6) + "</td>";
   text += "<td class=\"text\">" + html(study.subjects[static_cast<std::size_t>(row.subject)].name) +
           "</td>";
@@ -153,52 +188,103 @@ std::string run_row(const StudyResult& study, const std::vector<MetricShape>& sh
 
 }  // namespace
 
-std::string summary_table(const StudyResult& study, const StudySummary& summary) {
-  const std::vector<MetricShape> shapes = shapes_of(study);
+std::vector<std::vector<std::size_t>> page_portions(const StudyResult& study,
+                                                    const RegimeTable& table) {
+  const std::vector<MetricShape> shapes = shapes_of(study, table.regime);
+  std::vector<std::vector<std::size_t>> portions;
+  std::size_t used = page_columns;
+  for (const std::size_t metric : table.metrics) {
+    const std::size_t columns = shapes[metric].predicted ? 2 : 1;
+    if (used + columns > page_columns) {
+      portions.emplace_back();
+      used = 0;
+    }
+    portions.back().push_back(metric);
+    used += columns;
+  }
+  return portions;
+}
+
+std::string summary_table(const StudyResult& study, const RegimeTable& table,
+                          const std::vector<std::size_t>& metrics) {
+  const std::vector<MetricShape> shapes = shapes_of(study, table.regime);
+  const std::vector<int> styles = subject_styles(study);
   std::string text = "<div class=\"scroll\" tabindex=\"0\"><table class=\"summary\">\n" +
-                     summary_head(study, shapes) + "<tbody>\n";
-  for (std::size_t i = 0; i < study.subjects.size(); ++i) {
+                     summary_head(study, metrics, shapes) + "<tbody>\n";
+  for (const std::size_t i : table.subjects) {
     const SubjectInfo& subject = study.subjects[i];
-    text += "<tr><th scope=\"row\">" + swatch(i) + html(subject.name) + "<small>" +
-            html(composition(subject)) + "</small></th>" + finished_cell(summary.subjects[i]);
-    for (std::size_t metric = 0; metric < study.metrics.size(); ++metric)
-      text += metric_cells(study, summary.subjects[i].metrics[metric], metric, shapes[metric]);
+    text += "<tr><th scope=\"row\">" + swatch(styles[i]) + html(subject.name) + "<small>" +
+            html(composition(subject)) + "</small></th>" + finished_cell(table.summary.subjects[i]);
+    for (const std::size_t metric : metrics)
+      text +=
+          metric_cells(study, table.summary.subjects[i].metrics[metric], metric, shapes[metric]);
     text += "</tr>\n";
   }
-  text += "</tbody></table></div>\n";
-  return text +
-         "<p class=\"note soft\">Worst: the run whose truth fails, else the one farthest from its "
-         "closed form; the closed "
-         "form beside it is that run's own. Small figures: median, or range, over the sweep.</p>\n";
+  return text + "</tbody></table></div>\n";
+}
+
+std::string truths_table(const StudyResult& study) {
+  std::string rows;
+  for (const TruthResult& truth : study.truths) {
+    const std::string count =
+        std::to_string(truth.passed) + "/" + std::to_string(truth.passed + truth.failed);
+    const std::string verdict = truth.passed + truth.failed == 0
+                                    ? "<td class=\"soft\">not judged</td>"
+                                : truth.failed == 0 ? "<td class=\"good\">✓ " + count + "</td>"
+                                                    : "<td class=\"bad\">✗ " + count + "</td>";
+    std::string words = html(truth.words);
+    if (truth.first_failure >= 0) {
+      const auto row = static_cast<std::size_t>(truth.first_failure);
+      words +=
+          " <small>first fails in " +
+          run_link(study, row,
+                   html(study.subjects[static_cast<std::size_t>(study.rows[row].subject)].name +
+                        " at " + parameters_text(study, study.rows[row]))) +
+          "</small>";
+    }
+    rows += "<tr>" + verdict + text_cell(html(truth.name)) + "<td class=\"status\">" + words +
+            "</td></tr>\n";
+  }
+  if (rows.empty()) return "";
+  return "<h2 id=\"truths\">Truths</h2>\n" + table_head({"holds", "truth", "what it says"}) + rows +
+         "</tbody></table></div>\n";
 }
 
 std::string failure_table(const StudyResult& study) {
   const std::vector<Failure> failures = failures_of(study);
   std::string rows;
-  for (std::size_t i = 0; i < std::min(failures.size(), most_failures); ++i) {
-    const RunResult& row = study.rows[static_cast<std::size_t>(failures[i].row)];
+  for (std::size_t i = 0; i < std::min(failures.size(), most_listed); ++i) {
+    const auto index = static_cast<std::size_t>(failures[i].row);
+    const RunResult& row = study.rows[index];
     const auto metric = static_cast<std::size_t>(failures[i].metric);
-    rows += "<tr><td class=\"text\">" +
-            html(study.subjects[static_cast<std::size_t>(row.subject)].name) +
-            "</td><td class=\"text\">" + html(parameters_text(study, row)) +
-            "</td><td class=\"text\">" + html(spoken(study.metrics[metric].name)) +
-            unit_of(study.metrics[metric].unit) + "</td><td>" +
-            number(row.metrics[metric].measured) + "</td><td>" +
-            number(row.metrics[metric].predicted) + "</td><td class=\"status\">" +
+    const std::string subject = html(study.subjects[static_cast<std::size_t>(row.subject)].name);
+    rows +=
+        "<tr>" + text_cell(run_link(study, index, subject)) +
+        text_cell(html(parameters_text(study, row))) +
+        text_cell(html(spoken(study.metrics[metric].name)) + unit_of(study.metrics[metric].unit)) +
+        text_cell(number(row.metrics[metric].measured)) +
+        text_cell(number(row.metrics[metric].predicted)) + "</tr>\n";
+  }
+  if (rows.empty()) return "";
+  return "<h2 id=\"failures\">What does not hold</h2>\n" +
+         table_head({"subject", "at", "metric", "measured", "closed form"}) + rows +
+         "</tbody></table></div>\n" + and_more(failures.size());
+}
+
+std::string stopped_table(const StudyResult& study) {
+  const std::vector<std::size_t> stopped = stopped_rows(study);
+  std::string rows;
+  for (std::size_t i = 0; i < std::min(stopped.size(), most_listed); ++i) {
+    const RunResult& row = study.rows[stopped[i]];
+    const std::string subject = html(study.subjects[static_cast<std::size_t>(row.subject)].name);
+    rows += "<tr>" + text_cell(run_link(study, stopped[i], subject)) +
+            text_cell(html(parameters_text(study, row))) + "<td class=\"status bad\">" +
             html(row.status) + "</td></tr>\n";
   }
   if (rows.empty()) return "";
-  std::string text =
-      "<h2>What does not hold</h2>\n<div class=\"scroll\" tabindex=\"0\"><table><thead><tr><th "
-      "class=\"text\">subject"
-      "</th><th class=\"text\">at</th><th class=\"text\">metric</th><th>measured</th><th>closed "
-      "form</th>"
-      "<th class=\"text\">status</th></tr></thead><tbody>\n" +
-      rows + "</tbody></table></div>\n";
-  if (failures.size() > most_failures)
-    text += "<p>and " + std::to_string(failures.size() - most_failures) +
-            " more, among the runs below.</p>\n";
-  return text;
+  return "<h2 id=\"stopped\">Runs that stopped on the way</h2>\n" +
+         table_head({"subject", "at", "when and why"}) + rows + "</tbody></table></div>\n" +
+         and_more(stopped.size());
 }
 
 std::string runs_table(const StudyResult& study) {
@@ -206,11 +292,9 @@ std::string runs_table(const StudyResult& study) {
   const bool all = study.rows.size() <= most_rows;
   std::string rows;
   std::size_t listed = 0;
-  for (const RunResult& row : study.rows) {
-    const std::string kinds = kinds_of(row);
-    if (listed == most_rows || (!all && kinds != "fails finished" && !kinds.ends_with("stopped")))
-      continue;
-    rows += run_row(study, shapes, row);
+  for (std::size_t i = 0; i < study.rows.size() && listed < most_rows; ++i) {
+    if (!all && !fails_or_stopped(study.rows[i])) continue;
+    rows += run_row(study, shapes, i);
     ++listed;
   }
   std::string text;

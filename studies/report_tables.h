@@ -2,18 +2,30 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "studies/result.h"
 #include "studies/summary.h"
 
 namespace hookpoint::studies {
 
-/// Subjects by metrics: the worst measurement beside its closed form and the verdicts; median and
-/// range where there is none.
-std::string summary_table(const StudyResult& study, const StudySummary& summary);
+/// Subjects by some metrics of one regime: the worst measurement beside its closed form and the
+/// verdicts; median and range where there is none.
+std::string summary_table(const StudyResult& study, const RegimeTable& table,
+                          const std::vector<std::size_t>& metrics);
 
-/// Verdicts that do not hold and runs that stopped, the first forty; "" when there are none.
+/// The metrics of `table` in portions that fit the page's width side by side.
+std::vector<std::vector<std::size_t>> page_portions(const StudyResult& study,
+                                                    const RegimeTable& table);
+
+/// Each Truth in words with how many of its values agree; "" when there are none.
+std::string truths_table(const StudyResult& study);
+
+/// Verdicts of finished runs that do not hold, the first forty; "" when there are none.
 std::string failure_table(const StudyResult& study);
+
+/// Runs that stopped on the way: where, when and why, the first forty; "" when there are none.
+std::string stopped_table(const StudyResult& study);
 
 /// Every run as a row. Above 5000 rows only those that failed or stopped, and a line that says so.
 std::string runs_table(const StudyResult& study);

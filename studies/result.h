@@ -1,10 +1,13 @@
-// What a study produced: the table that results.csv, the terminal and the report all print. Plain values.
+// What a study produced: the table that results.csv, the terminal and the report all print. Plain
+// values.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "studies/regime.h"
 
 namespace hookpoint::studies {
 
@@ -25,9 +28,10 @@ struct SubjectInfo {
 };
 
 struct MetricColumn {
-  std::string name;        ///< "creep_speed"
-  std::string unit;        ///< "m/s"
-  bool timing = false;     ///< goes to timing.csv, not to results.csv
+  std::string name;              ///< "creep_speed"
+  std::string unit;              ///< "m/s"
+  bool timing = false;           ///< goes to timing.csv, not to results.csv
+  Regime regime = Regime::none;  ///< the only one in which it says something; none: any
 };
 
 struct MetricValue {
@@ -38,41 +42,53 @@ struct MetricValue {
 
 /// A recorded curve of one run: displacement over time.
 struct Trace {
-  std::vector<double> time;   ///< [s]
+  std::vector<double> time;  ///< [s]
   std::vector<double> value;
 };
 
 struct RunResult {
-  std::vector<double> parameters;    ///< one a sweep, in the sweep's unit
-  int subject = 0;                   ///< index into StudyResult::subjects
+  std::vector<double> parameters;  ///< one a sweep, in the sweep's unit
+  int subject = 0;                 ///< index into StudyResult::subjects
+  Regime regime = Regime::none;
   std::vector<MetricValue> metrics;  ///< one a metric
-  std::string status = "ok";         ///< "ok", or what stopped the run, with its time: never a missing row
-  std::vector<Trace> traces;         ///< one a PlotSpec with x = time, empty for the others
+  std::string status = "ok";  ///< "ok", or what stopped the run, with its time: never a missing row
+  std::vector<Trace> traces;  ///< one a PlotSpec with x = time, empty for the others
 };
 
 /// A Plot block.
 struct PlotSpec {
-  std::string name;                 ///< file name of its SVG
+  std::string name;  ///< file name of its SVG
   std::string title;
-  std::string x, y;                 ///< a sweep or "time"; a metric or a trail
+  std::string x, y;  ///< a sweep or "time"; a metric or a trail
   std::string x_unit, y_unit;
-  std::string series = "subject";   ///< what makes a curve
+  std::string x_label, y_label;    ///< of the axes; "" for the names
+  std::string series = "subject";  ///< what makes a curve
   bool log_x = false, log_y = false;
-  bool show_predicted = true;       ///< dashed line of the closed form beside the points
-  /// Values that fix the other sweeps ("mu" = 0.8): rows that differ are left out.
-  std::vector<std::pair<std::string, double>> where;
+  bool show_predicted = true;  ///< dashed line of the closed form beside the points
+  /// Sweeps and the values that are drawn ("mu" = 0.8): other rows are left out.
+  std::vector<std::pair<std::string, std::vector<double>>> where;
+};
+
+/// A Truth and how many of the values that it covers agree.
+struct TruthResult {
+  std::string name;
+  std::string words;           ///< "creep_speed equals predicted within 1 %"
+  int metric = 0;              ///< index into StudyResult::metrics
+  int passed = 0, failed = 0;  ///< rows
+  int first_failure = -1;      ///< index into StudyResult::rows
 };
 
 struct StudyResult {
   std::string name;
-  std::string question;             ///< one or two sentences, first thing in the report
-  std::string file;                 ///< the study's file as the user named it
+  std::string title;     ///< heading of the report; "" for the name
+  std::string question;  ///< one or two sentences, first thing in the report
+  std::string file;      ///< the study's file as the user named it
   std::vector<SweepColumn> sweeps;
   std::vector<SubjectInfo> subjects;
   std::vector<MetricColumn> metrics;
-  std::vector<RunResult> rows;      ///< sweep values outermost first, subjects innermost
+  std::vector<RunResult> rows;  ///< sweep values outermost first, subjects innermost
   std::vector<PlotSpec> plots;
-  std::vector<std::string> truths;  ///< each Truth in words: "creep_speed equals predicted within 1 %"
+  std::vector<TruthResult> truths;
 };
 
 }  // namespace hookpoint::studies

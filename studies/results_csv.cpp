@@ -1,16 +1,10 @@
 #include "studies/results_csv.h"
 
 #include <fmt/format.h>
-#include <sys/utsname.h>
 
 #include <algorithm>
-#include <array>
-#include <ctime>
-#include <set>
-#include <thread>
 
 #include "output/file.h"
-#include "output/json.h"
 #include "output/number.h"
 
 namespace hookpoint::studies {
@@ -56,15 +50,6 @@ std::vector<std::string> table_row(const StudyResult& result, const RunResult& r
   return fields;
 }
 
-std::string utc_now() {
-  const std::time_t now = std::time(nullptr);
-  std::tm utc{};
-  gmtime_r(&now, &utc);
-  std::array<char, 32> text{};
-  std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &utc);
-  return text.data();
-}
-
 /// traces/<plot>_<row>.csv: a time column and the signal.
 void write_traces(const std::filesystem::path& folder, const StudyResult& result) {
   for (std::size_t row = 0; row < result.rows.size(); ++row) {
@@ -73,7 +58,8 @@ void write_traces(const std::filesystem::path& folder, const StudyResult& result
       const PlotSpec& plot = result.plots[i];
       if (trace.time.empty()) continue;
       output::CsvTable table;
-      table.header = {"time [s]", output::column_title(plot.y, plot.y_unit)};
+      table.header = {output::column_title(plot.x_label.empty() ? "time" : plot.x_label, "s"),
+                      output::column_title(plot.y, plot.y_unit)};
       for (std::size_t k = 0; k < trace.time.size(); ++k)
         table.rows.push_back({output::shortest(trace.time[k]), output::shortest(trace.value[k])});
       output::write_csv(folder / "traces" / fmt::format("{}_{:05}.csv", plot.name, row), table);
@@ -90,45 +76,15 @@ output::CsvTable results_table(const StudyResult& result, bool timing) {
   return table;
 }
 
-std::string provenance(const StudyPlan& plan, const EngineTable& engines) {
-  utsname host{};
-  uname(&host);
-  std::set<std::uint64_t> seeds;
-  for (const RowPlan& row : plan.rows) seeds.insert(row.experiment.seed);
-  output::JsonWriter json;
-  json.begin_object()
-      .member("study", plan.name)
-      .member("file", plan.file)
-      .member("hash", plan.hash);
-  json.member("quick", plan.quick)
-      .member("hookpoint", HOOKPOINT_VERSION)
-      .member("compiler", HOOKPOINT_FLAGS);
-  json.key("engines").begin_object();
-  for (const auto& [name, entry] : engines) {
-    json.key(name).begin_object().member("found", entry.description.found);
-    json.member("version", entry.description.version)
-        .member("precision", entry.description.precision);
-    json.end_object();
-  }
-  json.end_object().key("seeds").begin_array();
-  for (const std::uint64_t seed : seeds) json.value(seed);
-  json.end_array().key("host").begin_object();
-  json.member("name", host.nodename)
-      .member("system", fmt::format("{} {}", host.sysname, host.release));
-  json.member("machine", host.machine).member("cores", std::thread::hardware_concurrency());
-  json.end_object().member("date", utc_now()).end_object();
-  return json.text();
-}
-
 void write_study_files(const std::filesystem::path& folder, const StudyPlan& plan,
-                       const StudyResult& result, const EngineTable& engines) {
+                       const StudyResult& result, const Provenance& provenance) {
   output::write_csv(folder / "results.csv", results_table(result, false));
   if (std::any_of(result.metrics.begin(), result.metrics.end(),
                   [](const MetricColumn& m) { return m.timing; }))
     output::write_csv(folder / "timing.csv", results_table(result, true));
   output::write_file(folder / "experiment.hook", plan.printed);
   output::write_file(folder / "scene.hook", plan.scene_printed);
-  output::write_file(folder / "provenance.json", provenance(plan, engines));
+  output::write_file(folder / "provenance.json", provenance_json(provenance));
   write_traces(folder, result);
 }
 

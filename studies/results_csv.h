@@ -5,8 +5,8 @@
 #include <filesystem>
 
 #include "output/csv.h"
-#include "studies/engine_table.h"
 #include "studies/plan.h"
+#include "studies/provenance.h"
 #include "studies/result.h"
 
 namespace hookpoint::studies {
@@ -16,12 +16,8 @@ namespace hookpoint::studies {
 /// others (results.csv, the same bytes every time).
 output::CsvTable results_table(const StudyResult& result, bool timing);
 
-/// Versions of every engine, compiler, host, seeds, date: all that a reader needs to judge or
-/// repeat the run.
-std::string provenance(const StudyPlan& plan, const EngineTable& engines);
-
 /// Writes all of them into `folder`. Throws output::FileError.
 void write_study_files(const std::filesystem::path& folder, const StudyPlan& plan,
-                       const StudyResult& result, const EngineTable& engines);
+                       const StudyResult& result, const Provenance& provenance);
 
 }  // namespace hookpoint::studies

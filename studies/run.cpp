@@ -124,7 +124,8 @@ StudyRun run_study(const StudyPlan& plan, const EngineTable& engines, const RunO
                     (timed && !run_timing(plan, engines, stop, meter, outcomes));
   if (run.interrupted) return run;
   run.result = assemble(plan, engines, outcomes);
-  write_study_files(run.folder, plan, run.result, engines);
+  run.provenance = make_provenance(plan, engines);
+  write_study_files(run.folder, plan, run.result, run.provenance);
   return run;
 }
 

@@ -10,6 +10,7 @@
 
 #include "studies/engine_table.h"
 #include "studies/plan.h"
+#include "studies/provenance.h"
 #include "studies/result.h"
 
 namespace hookpoint::studies {
@@ -29,6 +30,7 @@ struct RunOptions {
 
 struct StudyRun {
   StudyResult result;
+  Provenance provenance;
   std::filesystem::path folder;  ///< where the files are
   bool interrupted = false;      ///< `stop` was set: finished rows are kept, no tables are written
 };

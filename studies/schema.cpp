@@ -160,7 +160,8 @@ void add_study_classes(Schema& schema) {
       "Plot", "A figure: a metric over a sweep, or a signal over time.",
       {text("title", "heading; default: the name"), required(words("x", 1, "a sweep, or time")),
        required(
-           words("y", 1, "a metric; over time a signal: displacement, speed, penetration, energy")),
+           words("y", 1,
+                 "a metric; over time a signal: displacement, drift, speed, penetration, energy")),
        words("series", 1, "what makes a curve: subject, or a sweep"),
        choice("scale", {"linear", "log", "log_x", "log_log"}, "linear",
               "axes that are logarithmic: log is y")},

@@ -26,13 +26,18 @@ Badness badness_of(const MetricValue& value) {
   return {fails, std::abs(*value.measured - value.predicted.value_or(0.))};
 }
 
-MetricSummary summarise_metric(const StudyResult& study, int subject, std::size_t metric) {
+bool belongs(const RunResult& row, std::optional<Regime> regime) {
+  return !regime || row.regime == *regime;
+}
+
+MetricSummary summarise_metric(const StudyResult& study, int subject, std::size_t metric,
+                               std::optional<Regime> regime) {
   MetricSummary summary;
   Badness worst;
   std::vector<double> values;
   for (std::size_t i = 0; i < study.rows.size(); ++i) {
     const RunResult& row = study.rows[i];
-    if (row.subject != subject || metric >= row.metrics.size()) continue;
+    if (row.subject != subject || metric >= row.metrics.size() || !belongs(row, regime)) continue;
     const MetricValue& value = row.metrics[metric];
     if (value.ok) ++(*value.ok ? summary.passed : summary.failed);
     if (has_measurement(value)) values.push_back(*value.measured);
@@ -65,6 +70,17 @@ void count(SubjectSummary& summary, const RunResult& row) {
   }
 }
 
+std::string row_text(const StudyResult& study, const RunResult& row, bool named) {
+  std::string text;
+  for (std::size_t i = 0; i < study.sweeps.size() && i < row.parameters.size(); ++i) {
+    text += text.empty() ? "" : ", ";
+    if (named) text += study.sweeps[i].name + " = ";
+    text += output::rounded(row.parameters[i], 6);
+    if (!study.sweeps[i].unit.empty()) text += " " + study.sweeps[i].unit;
+  }
+  return text;
+}
+
 }  // namespace
 
 RunOutcome outcome_of(const RunResult& row) {
@@ -72,17 +88,18 @@ RunOutcome outcome_of(const RunResult& row) {
   return row.status.starts_with("skipped") ? RunOutcome::skipped : RunOutcome::stopped;
 }
 
-StudySummary summarise(const StudyResult& study) {
+StudySummary summarise(const StudyResult& study, std::optional<Regime> regime) {
   StudySummary summary;
   summary.subjects.resize(study.subjects.size());
   summary.total.metrics.resize(study.metrics.size());
   for (const RunResult& row : study.rows) {
+    if (!belongs(row, regime)) continue;
     count(summary.subjects[static_cast<std::size_t>(row.subject)], row);
     count(summary.total, row);
   }
   for (std::size_t subject = 0; subject < study.subjects.size(); ++subject) {
     for (std::size_t metric = 0; metric < study.metrics.size(); ++metric) {
-      const MetricSummary one = summarise_metric(study, static_cast<int>(subject), metric);
+      const MetricSummary one = summarise_metric(study, static_cast<int>(subject), metric, regime);
       summary.subjects[subject].metrics.push_back(one);
       summary.total.metrics[metric].passed += one.passed;
       summary.total.metrics[metric].failed += one.failed;
@@ -93,23 +110,54 @@ StudySummary summarise(const StudyResult& study) {
   return summary;
 }
 
+std::vector<RegimeTable> regime_tables(const StudyResult& study) {
+  std::vector<RegimeTable> tables;
+  for (const Regime regime : {Regime::holds, Regime::slides, Regime::none}) {
+    if (std::none_of(study.rows.begin(), study.rows.end(),
+                     [&](const RunResult& row) { return row.regime == regime; }))
+      continue;
+    RegimeTable table;
+    table.regime = regime;
+    if (regime != Regime::none || !tables.empty()) table.heading = heading(regime);
+    table.summary = summarise(study, regime);
+    for (std::size_t i = 0; i < study.subjects.size(); ++i)
+      if (table.summary.subjects[i].rows() > 0) table.subjects.push_back(i);
+    for (std::size_t i = 0; i < study.metrics.size(); ++i) {
+      const Regime home = study.metrics[i].regime;
+      const MetricSummary& total = table.summary.total.metrics[i];
+      if (home == Regime::none || regime == Regime::none || home == regime ||
+          total.passed + total.failed > 0)
+        table.metrics.push_back(i);
+    }
+    tables.push_back(std::move(table));
+  }
+  return tables;
+}
+
+std::vector<std::size_t> stopped_rows(const StudyResult& study) {
+  std::vector<std::size_t> rows;
+  for (std::size_t row = 0; row < study.rows.size(); ++row)
+    if (outcome_of(study.rows[row]) == RunOutcome::stopped) rows.push_back(row);
+  return rows;
+}
+
 std::vector<Failure> failures_of(const StudyResult& study) {
   std::vector<Failure> failures;
-  for (std::size_t row = 0; row < study.rows.size(); ++row)
+  for (std::size_t row = 0; row < study.rows.size(); ++row) {
+    if (outcome_of(study.rows[row]) != RunOutcome::finished) continue;
     for (std::size_t metric = 0; metric < study.rows[row].metrics.size(); ++metric)
       if (!study.rows[row].metrics[metric].ok.value_or(true))
         failures.push_back({static_cast<int>(row), static_cast<int>(metric)});
+  }
   return failures;
 }
 
 std::string parameters_text(const StudyResult& study, const RunResult& row) {
-  std::string text;
-  for (std::size_t i = 0; i < study.sweeps.size() && i < row.parameters.size(); ++i) {
-    text += text.empty() ? "" : ", ";
-    text += study.sweeps[i].name + " = " + output::rounded(row.parameters[i], 6);
-    if (!study.sweeps[i].unit.empty()) text += " " + study.sweeps[i].unit;
-  }
-  return text;
+  return row_text(study, row, true);
+}
+
+std::string values_text(const StudyResult& study, const RunResult& row) {
+  return row_text(study, row, false);
 }
 
 std::string spoken(std::string name) {

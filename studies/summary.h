@@ -1,6 +1,7 @@
 // A study's rows condensed to one line a subject: what the terminal and the top of the report show.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,10 +39,26 @@ struct StudySummary {
   int passed = 0, failed = 0;
 };
 
-/// Cost O(rows log rows) a metric.
-StudySummary summarise(const StudyResult& study);
+/// Over the rows of `regime`, or over all. Cost O(rows log rows) a metric.
+StudySummary summarise(const StudyResult& study, std::optional<Regime> regime = {});
 
-/// A verdict that does not hold: row and metric.
+/// One table: the runs of a regime.
+struct RegimeTable {
+  Regime regime = Regime::none;
+  std::string heading;                ///< "" when it is the study's only one and has no name
+  StudySummary summary;               ///< of its rows
+  std::vector<std::size_t> subjects;  ///< those with a row in it
+  std::vector<std::size_t> metrics;   ///< those that say something in it, or that a Truth judges
+};
+
+/// One a regime that occurs, where friction holds first.
+std::vector<RegimeTable> regime_tables(const StudyResult& study);
+
+/// Rows that stopped on the way: indices into StudyResult::rows.
+std::vector<std::size_t> stopped_rows(const StudyResult& study);
+
+/// A verdict of a finished run that does not hold: row and metric. A run that stopped is among
+/// `stopped_rows`.
 struct Failure {
   int row = 0, metric = 0;
 };
@@ -49,6 +66,9 @@ std::vector<Failure> failures_of(const StudyResult& study);
 
 /// "mu = 0.8, slope = 20 deg": the row's sweep values.
 std::string parameters_text(const StudyResult& study, const RunResult& row);
+
+/// "30 deg, 0.8": the same without names.
+std::string values_text(const StudyResult& study, const RunResult& row);
 
 /// "creep_speed" as a reader writes it: "creep speed".
 std::string spoken(std::string name);

@@ -6,54 +6,12 @@
 #include "output/csv.h"
 #include "output/number.h"
 #include "studies/summary.h"
+#include "studies/terminal_blocks.h"
 
 namespace hookpoint::studies {
 namespace {
 
-constexpr std::size_t listed_failures = 10;
-constexpr const char* gap = "  ";
-
-enum class Tone { plain, good, bad, faint };
-
-struct Cell {
-  std::string text;
-  Tone tone = Tone::plain;
-  bool right = true;  ///< alignment
-};
-
-using Row = std::vector<Cell>;
-
-/// Columns of one metric: a title over its sub-columns.
-struct Group {
-  std::string title;
-  std::vector<Row> rows;  ///< header first
-  std::vector<std::size_t> widths;
-
-  std::size_t width() const {
-    std::size_t sum = 2 * (widths.size() - 1);
-    for (const std::size_t one : widths) sum += one;
-    return std::max(sum, title.size());
-  }
-};
-
-std::string toned(const std::string& text, Tone tone, bool color) {
-  if (!color || tone == Tone::plain) return text;
-  const char* code = tone == Tone::good ? "\033[32m" : tone == Tone::bad ? "\033[1;31m" : "\033[2m";
-  return code + text + "\033[0m";
-}
-
-std::string padded(const Cell& cell, std::size_t width, bool color) {
-  const std::string space(width - std::min(width, cell.text.size()), ' ');
-  const std::string text = toned(cell.text, cell.tone, color);
-  return cell.right ? space + text : text + space;
-}
-
-void measure(Group& group) {
-  group.widths.assign(group.rows.front().size(), 0);
-  for (const Row& row : group.rows)
-    for (std::size_t i = 0; i < row.size(); ++i)
-      group.widths[i] = std::max(group.widths[i], row[i].text.size());
-}
+constexpr std::size_t listed_runs = 10;
 
 Cell verdict_cell(const MetricSummary& metric) {
   const int all = metric.passed + metric.failed;
@@ -73,23 +31,24 @@ struct Shape {
   bool predicted = false, verdict = false, several = false;
 };
 
-Shape shape_of(const StudyResult& study, const StudySummary& summary, std::size_t metric) {
+Shape shape_of(const StudyResult& study, const RegimeTable& table, std::size_t metric) {
   Shape shape;
   for (const RunResult& row : study.rows)
-    shape.predicted |= metric < row.metrics.size() && row.metrics[metric].predicted.has_value();
-  for (const SubjectSummary& subject : summary.subjects) {
+    shape.predicted |= row.regime == table.regime && metric < row.metrics.size() &&
+                       row.metrics[metric].predicted.has_value();
+  for (const SubjectSummary& subject : table.summary.subjects) {
     shape.verdict |= subject.metrics[metric].passed + subject.metrics[metric].failed > 0;
     shape.several |= subject.metrics[metric].values > 1;
   }
   return shape;
 }
 
-Row metric_row(const StudyResult& study, const MetricSummary& summary, std::size_t metric,
-               Shape shape) {
+CellRow metric_row(const StudyResult& study, const MetricSummary& summary, std::size_t metric,
+                   Shape shape) {
   const MetricValue* worst =
       summary.worst < 0 ? nullptr
                         : &study.rows[static_cast<std::size_t>(summary.worst)].metrics[metric];
-  Row row;
+  CellRow row;
   const auto if_any = [&](double value) {
     return summary.values > 0 ? std::optional(value) : std::nullopt;
   };
@@ -104,11 +63,11 @@ Row metric_row(const StudyResult& study, const MetricSummary& summary, std::size
   return row;
 }
 
-Group metric_group(const StudyResult& study, const StudySummary& summary, std::size_t metric) {
-  const Shape shape = shape_of(study, summary, metric);
-  Group group;
+ColumnGroup metric_group(const StudyResult& study, const RegimeTable& table, std::size_t metric) {
+  const Shape shape = shape_of(study, table, metric);
+  ColumnGroup group;
   group.title = output::column_title(study.metrics[metric].name, study.metrics[metric].unit);
-  Row header;
+  CellRow header;
   if (shape.predicted || !shape.several) {
     header.push_back({shape.several ? "worst" : "measured", Tone::faint});
   } else {
@@ -118,9 +77,10 @@ Group metric_group(const StudyResult& study, const StudySummary& summary, std::s
   if (shape.predicted) header.push_back({"predicted", Tone::faint});
   if (shape.verdict) header.push_back({"truth", Tone::faint});
   group.rows.push_back(header);
-  for (const SubjectSummary& subject : summary.subjects)
-    group.rows.push_back(metric_row(study, subject.metrics[metric], metric, shape));
-  measure(group);
+  for (const std::size_t subject : table.subjects)
+    group.rows.push_back(
+        metric_row(study, table.summary.subjects[subject].metrics[metric], metric, shape));
+  group.measure();
   return group;
 }
 
@@ -130,92 +90,120 @@ Cell finished_cell(const SubjectSummary& subject) {
   return {text, subject.stopped > 0 ? Tone::bad : Tone::plain};
 }
 
-Group subject_group(const StudyResult& study, const StudySummary& summary) {
-  Group group;
+ColumnGroup subject_group(const StudyResult& study, const RegimeTable& table) {
+  ColumnGroup group;
   group.rows.push_back({{"subject", Tone::faint, false}, {"runs", Tone::faint}});
-  for (std::size_t i = 0; i < study.subjects.size(); ++i)
+  for (const std::size_t i : table.subjects)
     group.rows.push_back(
-        {{study.subjects[i].name, Tone::plain, false}, finished_cell(summary.subjects[i])});
-  measure(group);
+        {{study.subjects[i].name, Tone::plain, false}, finished_cell(table.summary.subjects[i])});
+  group.measure();
   return group;
 }
 
-std::string without_trailing_spaces(std::string line) {
-  line.erase(line.find_last_not_of(' ') + 1);
-  return line + "\n";
-}
-
-std::string print_table(const std::vector<const Group*>& groups, bool color) {
-  std::string titles, text;
-  for (const Group* group : groups)
-    titles += padded({group->title, Tone::plain, false}, group->width(), color) + gap + " ";
-  text += without_trailing_spaces(titles);
-  for (std::size_t row = 0; row < groups.front()->rows.size(); ++row) {
-    std::string line;
-    for (const Group* group : groups) {
-      std::string part;
-      std::size_t used = 0;
-      for (std::size_t i = 0; i < group->widths.size(); ++i) {
-        part += (i > 0 ? gap : "") + padded(group->rows[row][i], group->widths[i], color);
-        used += group->widths[i] + (i > 0 ? 2 : 0);
-      }
-      line += part + std::string(group->width() - used, ' ') + gap + " ";
-    }
-    text += without_trailing_spaces(line);
+/// Where each subject's worst value of the metric was measured.
+ColumnGroup place_group(const StudyResult& study, const RegimeTable& table, std::size_t metric) {
+  std::string names;
+  for (const SweepColumn& sweep : study.sweeps) names += (names.empty() ? "" : ", ") + sweep.name;
+  ColumnGroup group;
+  group.rows.push_back({{"at " + names, Tone::faint, false}});
+  for (const std::size_t subject : table.subjects) {
+    const int worst = table.summary.subjects[subject].metrics[metric].worst;
+    const std::string text =
+        worst < 0 ? "" : values_text(study, study.rows[static_cast<std::size_t>(worst)]);
+    group.rows.push_back({{text, Tone::faint, false}});
   }
-  return text;
+  group.measure();
+  return group;
 }
 
-std::string tables(const StudyResult& study, const StudySummary& summary, const TableStyle& style) {
-  const Group subjects = subject_group(study, summary);
-  std::vector<Group> metrics;
-  for (std::size_t i = 0; i < study.metrics.size(); ++i)
-    metrics.push_back(metric_group(study, summary, i));
-  std::string text;
+/// The first metric by itself, with the place of its worst value; then the others, as many side by
+/// side as fit.
+std::string print_table(const StudyResult& study, const RegimeTable& table,
+                        const TableStyle& style) {
+  const ColumnGroup subjects = subject_group(study, table);
+  std::vector<ColumnGroup> metrics;
+  for (const std::size_t metric : table.metrics)
+    metrics.push_back(metric_group(study, table, metric));
+  const ColumnGroup places = place_group(study, table, table.metrics.front());
+  std::string text = table.heading.empty() ? "" : table.heading + "\n";
   for (std::size_t next = 0; next < metrics.size();) {
-    std::vector<const Group*> side_by_side = {&subjects};
-    std::size_t used = subjects.width();
-    do {
-      used += metrics[next].width() + 3;
-      side_by_side.push_back(&metrics[next++]);
-    } while (next < metrics.size() && used + metrics[next].width() + 3 <= style.width);
-    text += print_table(side_by_side, style.color) + "\n";
+    std::vector<const ColumnGroup*> row = {&subjects};
+    const bool first = next == 0;
+    do row.push_back(&metrics[next++]);
+    while (!first && next < metrics.size() &&
+           printed_width(row) + printed_width({&subjects, &metrics[next]}) - subjects.width() <=
+               style.width);
+    if (first) row.push_back(&places);
+    if (printed_width(row) > style.width && row.back() == &places) row.pop_back();
+    text += print_groups(row, style.color) + "\n";
   }
   return text;
 }
 
-std::string clipped(std::string line, std::size_t width) {
-  if (line.size() > width) line = line.substr(0, width - 3) + "...";
-  return line + "\n";
+std::string run_name(const StudyResult& study, const RunResult& row) {
+  const std::string parameters = parameters_text(study, row);
+  return study.subjects[static_cast<std::size_t>(row.subject)].name +
+         (parameters.empty() ? "" : " at " + parameters);
+}
+
+/// A word in front of each line, which goes on under itself.
+std::string listed(const char* word, const std::vector<std::string>& lines,
+                   const TableStyle& style) {
+  constexpr std::size_t indent = 9;
+  std::string text;
+  const std::string start = word + std::string(indent - std::string(word).size(), ' ');
+  for (std::size_t i = 0; i < std::min(lines.size(), listed_runs); ++i)
+    text += toned(start, Tone::bad, style.color) + wrapped(lines[i], style.width, indent);
+  if (lines.size() > listed_runs)
+    text += std::string(indent, ' ') + "and " + std::to_string(lines.size() - listed_runs) +
+            " more, all in report.html\n";
+  return text.empty() ? "" : text + "\n";
+}
+
+std::string stopped_list(const StudyResult& study, const TableStyle& style) {
+  std::vector<std::string> lines;
+  for (const std::size_t i : stopped_rows(study))
+    lines.push_back(run_name(study, study.rows[i]) + ": " + study.rows[i].status);
+  return listed("stopped", lines, style);
 }
 
 std::string failure_list(const StudyResult& study, const TableStyle& style) {
-  const std::vector<Failure> failures = failures_of(study);
-  std::string text;
-  for (std::size_t i = 0; i < std::min(failures.size(), listed_failures); ++i) {
-    const RunResult& row = study.rows[static_cast<std::size_t>(failures[i].row)];
-    const auto metric = static_cast<std::size_t>(failures[i].metric);
+  std::vector<std::string> lines;
+  for (const Failure& failure : failures_of(study)) {
+    const RunResult& row = study.rows[static_cast<std::size_t>(failure.row)];
+    const auto metric = static_cast<std::size_t>(failure.metric);
     const MetricValue& value = row.metrics[metric];
-    std::string line = study.subjects[static_cast<std::size_t>(row.subject)].name;
-    const std::string parameters = parameters_text(study, row);
-    if (!parameters.empty()) line += " at " + parameters;
-    line += ": " + study.metrics[metric].name + " ";
+    std::string line = run_name(study, row) + ": " + study.metrics[metric].name + " ";
     line += value.measured ? output::rounded(*value.measured) : "not measured";
     if (value.predicted) line += ", predicted " + output::rounded(*value.predicted);
-    if (outcome_of(row) != RunOutcome::finished) line += "; " + row.status;
-    text += toned("fails", Tone::bad, style.color) + "  " + clipped(line, style.width - 7);
+    lines.push_back(std::move(line));
   }
-  if (failures.size() > listed_failures)
-    text += "       and " + std::to_string(failures.size() - listed_failures) +
-            " more, all in report.html\n";
-  return text;
+  return listed("fails", lines, style);
+}
+
+/// Each Truth with the number of values that agree.
+std::string truth_list(const StudyResult& study, const TableStyle& style) {
+  constexpr std::size_t indent = 15;
+  std::string text;
+  for (const TruthResult& truth : study.truths) {
+    const int all = truth.passed + truth.failed;
+    const char* word = all == 0 ? "-   " : truth.failed == 0 ? "pass" : "FAIL";
+    const Tone tone = all == 0 ? Tone::faint : truth.failed == 0 ? Tone::good : Tone::bad;
+    std::string count = " " + std::to_string(truth.passed) + "/" + std::to_string(all);
+    count.resize(std::max(count.size() + 1, indent - 4), ' ');
+    text += toned(word, tone, style.color) + count +
+            wrapped(truth.name + ": " + truth.words, style.width, indent);
+  }
+  return text.empty() ? "" : text + "\n";
 }
 
 std::string counts(const StudySummary& summary, const TableStyle& style) {
   const auto& total = summary.total;
   std::string text =
       std::to_string(total.rows()) + " runs: " + std::to_string(total.finished) + " finished";
-  if (total.stopped > 0) text += ", " + std::to_string(total.stopped) + " stopped on the way";
+  if (total.stopped > 0)
+    text +=
+        ", " + toned(std::to_string(total.stopped) + " stopped on the way", Tone::bad, style.color);
   if (total.skipped > 0) text += ", " + std::to_string(total.skipped) + " skipped";
   if (summary.passed + summary.failed == 0) return text + "; no truth to hold\n";
   const std::string verdict = std::to_string(summary.passed) + " of " +
@@ -227,8 +215,11 @@ std::string counts(const StudySummary& summary, const TableStyle& style) {
 }  // namespace
 
 std::string terminal_table(const StudyResult& study, const TableStyle& style) {
-  const StudySummary summary = summarise(study);
-  return tables(study, summary, style) + failure_list(study, style) + counts(summary, style);
+  std::string text;
+  if (!study.question.empty()) text += wrapped(study.question, style.width) + "\n";
+  for (const RegimeTable& table : regime_tables(study)) text += print_table(study, table, style);
+  return text + truth_list(study, style) + failure_list(study, style) + stopped_list(study, style) +
+         counts(summarise(study), style);
 }
 
 }  // namespace hookpoint::studies

@@ -68,9 +68,10 @@ RunResult run_result(const StudyPlan& plan, const EngineTable& engines, const Ro
   for (const auto& measured : outcome.measured)
     run.metrics.push_back({measured, std::nullopt, std::nullopt});
   const auto engine = engines.find(row.experiment.engine);
-  if (skipped(run.status) || engine == engines.end()) return run;
   try {
     const RunContext context = make_context(row.experiment, plan.settle, plan.duration);
+    run.regime = regime_of(context);
+    if (skipped(run.status) || engine == engines.end()) return run;
     const auto mixing = engine->second.friction_mixing != nullptr
                             ? engine->second.friction_mixing(row.experiment)
                             : std::nullopt;
@@ -88,22 +89,28 @@ StudyResult assemble(const StudyPlan& plan, const EngineTable& engines,
                      const std::vector<RowOutcome>& outcomes) {
   StudyResult result;
   result.name = plan.name;
+  result.title = plan.title;
   result.question = plan.question;
   result.file = plan.file;
   for (const SweepPlan& sweep : plan.sweeps) result.sweeps.push_back(sweep.column);
   for (const SubjectPlan& subject : plan.subjects) result.subjects.push_back(subject.info);
   for (const MetricDefinition* metric : plan.metrics)
     result.metrics.push_back(
-        {std::string(metric->name), std::string(metric->unit), metric->timing()});
+        {std::string(metric->name), std::string(metric->unit), metric->timing(), metric->regime});
   for (const PlotPlan& plot : plan.plots) result.plots.push_back(plot.spec);
-  for (const TruthPlan& truth : plan.truths) result.truths.push_back(truth.words);
+  for (const TruthPlan& truth : plan.truths)
+    result.truths.push_back({truth.name, truth.words, static_cast<int>(truth.metric)});
   for (std::size_t i = 0; i < plan.rows.size(); ++i)
     result.rows.push_back(run_result(plan, engines, plan.rows[i], outcomes[i]));
   for (std::size_t i = 0; i < plan.rows.size(); ++i) {
-    for (const TruthPlan& truth : plan.truths) {
-      const std::optional<bool> verdict = judge(plan, result, i, truth);
-      std::optional<bool>& ok = result.rows[i].metrics[truth.metric].ok;
-      if (verdict) ok = ok.value_or(true) && *verdict;
+    for (std::size_t k = 0; k < plan.truths.size(); ++k) {
+      const std::optional<bool> verdict = judge(plan, result, i, plan.truths[k]);
+      if (!verdict) continue;
+      std::optional<bool>& ok = result.rows[i].metrics[plan.truths[k].metric].ok;
+      ok = ok.value_or(true) && *verdict;
+      TruthResult& truth = result.truths[k];
+      ++(*verdict ? truth.passed : truth.failed);
+      if (!*verdict && truth.first_failure < 0) truth.first_failure = static_cast<int>(i);
     }
   }
   return result;

@@ -101,5 +101,46 @@ TEST(CollisionInvariants, UnitsOfMassAndSpeedOnlyScale) {
   }));
 }
 
+/// A corner of a block that all but rests: any shape from flat to tall, often square; speeds over
+/// many decades; slip that is nought, along a diagonal or the coupling with a hair aside, or any.
+CollisionProblem resting_corner() {
+  const auto decades = [](double low, double high) { return std::pow(10., within(low, high)); };
+  const double m = decades(-1., 1.);
+  const double a = decades(-1.7, 0.), b = within(0., 1.) < 0.5 ? a : decades(-1.7, 0.);
+  const double c = decades(-1.7, 0.);
+  const Symmetric3d J = inverse(Symmetric3d{m / 12. * (b * b + c * c), m / 12. * (a * a + c * c),
+                                            m / 12. * (a * a + b * b), 0., 0., 0.});
+  const Matrix3d lever = cross_matrix(Vector3d{0.5 * a, -0.5 * b, -0.5 * c});
+  CollisionProblem problem;
+  problem.K =
+      Symmetric3d{1. / m, 1. / m, 1. / m, 0., 0., 0.} - symmetric_part(lever * general(J) * lever);
+  const Vector3d tilted{decades(-9., -2.), decades(-9., -2.), 1.};
+  problem.n = (1. / norm(tilted)) * tilted;
+  const double approach = decades(-12., 0.5);
+  const Vector3d along = within(0., 1.) < 0.5 ? Vector3d{a, -b, 0.} : problem.K * problem.n;
+  const double side = within(0., 1.) < 0.5 ? -1. : 1.;
+  const double size = within(0., 1.) < 0.1 ? 0. : approach * decades(-3., 1.) * side;
+  const Vector3d slip = size * ((1. / norm(along)) * along + decades(-17., 0.) * direction());
+  problem.u = tangential(slip, problem.n) - approach * problem.n;
+  problem.mu = within(0., 1.5);
+  problem.rebound_speed = approach * decades(-2., 2.);
+  return problem;
+}
+
+TEST(CollisionInvariants, EveryRestingCornerIsAnswered) {
+  EXPECT_TRUE(rc::check([] {
+    for (int draw = 0; draw < 300; ++draw) {
+      const CollisionProblem problem = resting_corner();
+      const Collision collision = resolve_collision(problem);
+      RC_ASSERT(collision.solved);
+      const Vector3d& p = collision.impulse;
+      const double pn = dot(p, problem.n);
+      RC_ASSERT(norm(tangential(p, problem.n)) <= problem.mu * pn * (1. + 1e-8));
+      RC_ASSERT(std::abs(dot(problem.u + problem.K * p, problem.n) - problem.rebound_speed) <=
+                1e-7 * (norm(problem.u) + problem.rebound_speed));
+    }
+  }));
+}
+
 }  // namespace
 }  // namespace hookpoint::contact

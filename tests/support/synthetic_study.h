@@ -110,13 +110,13 @@ inline studies::StudyResult synthetic_study() {
   studies::PlotSpec by_step =
       synthetic_plot("creep_by_step", "Creep over the step size", "dt", "ms");
   studies::PlotSpec in_time = synthetic_plot("displacement", "Displacement downhill", "time", "s");
-  by_slope.where = {{"dt", 1.}};
+  by_slope.where = {{"dt", {1.}}};
   by_step.log_x = true;
   in_time.y = "displacement";
   in_time.y_unit = "m";
-  in_time.where = {{"slope", 15.}, {"dt", 1.}};
+  in_time.where = {{"slope", {15.}}, {"dt", {1.}}};
   study.plots = {by_slope, by_step, in_time};
-  study.truths = {"creep_speed equals predicted within 1 %"};
+  study.truths = {{"creep", "creep_speed equals predicted within 1 %", 0, 48, 12}};
   return study;
 }
 

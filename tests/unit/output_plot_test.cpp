@@ -7,6 +7,7 @@
 #include <set>
 
 #include "output/plot.h"
+#include "output/plot_legend.h"
 #include "output/plot_scale.h"
 
 namespace hookpoint::output {
@@ -74,6 +75,48 @@ TEST(PlotScale, LinearTicksAreRoundNumbers) {
   plot.y.logarithmic = false;
   plot.series = {{"line", 0, {{0., 30.}, {-1., 1.}}, {}, {}}};
   EXPECT_EQ(lay_out(plot).x.ticks, "('0' 0, '5' 5, '10' 10, '15' 15, '20' 20, '25' 25, '30' 30)");
+}
+
+/// Three curves that end within a tenth of a decade, one far below, one that stops half-way.
+Plot crowded() {
+  Plot plot = sample();
+  plot.series.clear();
+  for (const double end : {1.1e-4, 1e-4, 1.2e-4, 1e-7})
+    plot.series.push_back({"curve", 0, {{5., 10.}, {1e-6, end}}, {}, {}});
+  plot.series.push_back({"short", 0, {{5., 6.}, {1e-6, 1e-6}}, {}, {}});
+  return plot;
+}
+
+TEST(PlotLegend, StandsInTheOrderOfTheCurvesEnds) {
+  const Plot plot = crowded();
+  std::vector<std::size_t> order;
+  std::vector<bool> leads;
+  for (const LegendEntry& entry : place_legend(plot, lay_out(plot), {0., 400., 17.})) {
+    order.push_back(entry.series);
+    leads.push_back(entry.leads);
+  }
+  EXPECT_EQ(order, (std::vector<std::size_t>{2, 0, 1, 4, 3}));
+  EXPECT_EQ(leads, (std::vector<bool>{true, true, true, false, true}));
+}
+
+TEST(PlotLegend, EntriesKeepTheirDistanceAndLieAsNearAsTheyCan) {
+  const Plot plot = crowded();
+  const Layout layout = lay_out(plot);
+  const auto entries = place_legend(plot, layout, {0., 400., 17.});
+  for (std::size_t i = 1; i < entries.size(); ++i)
+    EXPECT_GE(entries[i - 1].height - entries[i].height, 17. - 1e-9);
+  EXPECT_NEAR(entries[3].height, 400. * layout.y.fraction(1e-6), 1e-9);
+  // The three that crowd are centred on the mean of their ends: least squares with fixed gaps.
+  const double mean =
+      400. * (layout.y.fraction(1e-4) + layout.y.fraction(1.1e-4) + layout.y.fraction(1.2e-4)) / 3.;
+  EXPECT_NEAR(entries[1].height, mean, 1e-9);
+}
+
+TEST(PlotLegend, StaysInItsRoom) {
+  const Plot plot = crowded();
+  const auto entries = place_legend(plot, lay_out(plot), {10., 90., 20.});
+  EXPECT_NEAR(entries.front().height, 90., 1e-9);
+  EXPECT_NEAR(entries.back().height, 10., 1e-9);
 }
 
 TEST(PlotScale, AnEmptyOrConstantPlotStillHasAxes) {

@@ -40,7 +40,47 @@ TEST(Summary, CountsRunsAndVerdicts) {
   EXPECT_EQ(summary.total.skipped, 18);
   EXPECT_EQ(summary.passed, 18 + 18 + 12);
   EXPECT_EQ(summary.failed, 6 + 6);
-  EXPECT_EQ(failures_of(synthetic_study()).size(), 12u);
+  EXPECT_EQ(failures_of(synthetic_study()).size(), 6u);  // those of runs that stopped stand apart
+  EXPECT_EQ(stopped_rows(synthetic_study()).size(), 6u);
+}
+
+/// Slope 30 slides; creep says something where friction holds only.
+StudyResult two_regimes() {
+  StudyResult study = synthetic_study();
+  study.metrics[0].regime = Regime::holds;
+  for (RunResult& row : study.rows)
+    row.regime = row.parameters[0] < 30. ? Regime::holds : Regime::slides;
+  for (RunResult& row : study.rows)
+    if (row.regime == Regime::slides) row.metrics[0].ok.reset();
+  return study;
+}
+
+TEST(Summary, KeepsRegimesApart) {
+  const StudyResult study = two_regimes();
+  const std::vector<RegimeTable> tables = regime_tables(study);
+  ASSERT_EQ(tables.size(), 2u);
+  EXPECT_EQ(tables[0].regime, Regime::holds);
+  EXPECT_EQ(tables[0].summary.total.rows(), 90);
+  EXPECT_EQ(tables[1].summary.total.rows(), 18);
+  EXPECT_EQ(tables[0].metrics, (std::vector<std::size_t>{0, 1, 2}));
+  EXPECT_EQ(tables[1].metrics, (std::vector<std::size_t>{1, 2}));
+  const MetricSummary& creep = tables[0].summary.subjects[1].metrics[0];
+  EXPECT_EQ(study.rows[static_cast<std::size_t>(creep.worst)].parameters[0], 25.);
+  EXPECT_DOUBLE_EQ(creep.largest, 1.002 * synthetic_creep(25.));
+}
+
+TEST(Summary, AMetricThatATruthJudgesIsShownInAnyRegime) {
+  StudyResult study = two_regimes();
+  for (RunResult& row : study.rows)
+    if (row.regime == Regime::slides) row.metrics[0].ok = true;
+  EXPECT_EQ(regime_tables(study)[1].metrics, (std::vector<std::size_t>{0, 1, 2}));
+}
+
+TEST(Summary, AStudyOutsideTheRegimesIsOneTableWithoutAName) {
+  const std::vector<RegimeTable> tables = regime_tables(synthetic_study());
+  ASSERT_EQ(tables.size(), 1u);
+  EXPECT_EQ(tables[0].heading, "");
+  EXPECT_EQ(tables[0].subjects.size(), 6u);
 }
 
 TEST(Summary, TheWorstRunFailsRatherThanLiesFar) {
@@ -63,6 +103,20 @@ TEST(Figures, KeepASubjectsStyleAndMarkWhatStopped) {
   EXPECT_DOUBLE_EQ(figure.plot.series[1].measured.y[0], 1.002 * synthetic_creep(30.));
 }
 
+TEST(Figures, AFamilySharesAColourAndItsMembersDifferInMarker) {
+  StudyResult study = synthetic_study();
+  study.subjects[2].law = "hookpoint";
+  study.subjects[4].engine = "ode_quickstep";
+  EXPECT_EQ(subject_styles(study), (std::vector<int>{0, 1, 8, 2, 10, 3}));
+}
+
+TEST(Figures, DrawOnlyTheRowsThatTheBlockChooses) {
+  StudyResult study = synthetic_study();
+  study.plots[0].where = {{"dt", {1.}}, {"slope", {10., 20.}}};
+  const Figure figure = make_figure(study, 0);
+  EXPECT_EQ(figure.plot.series[1].measured.x, (std::vector{10., 20.}));
+}
+
 TEST(Figures, LongCurvesKeepTheirEnvelope) {
   StudyResult study = synthetic_study();
   for (RunResult& row : study.rows) {
@@ -82,14 +136,36 @@ TEST(TerminalTable, FitsTheWidthAndNamesEverything) {
   std::istringstream lines(table);
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 120u) << line;
   for (const char* word : {"dts_hookpoint", "creep_speed [m/s]", "pass 18/18", "FAIL 12/18",
-                           "skipped", "48 of 60 verdicts hold"})
+                           "skipped", "48 of 60 verdicts hold", "FAIL 48/60     creep: creep_speed",
+                           "at slope, dt", "6 stopped on the way"})
     EXPECT_TRUE(contains(table, word)) << word;
   EXPECT_FALSE(contains(table, "\033"));
 }
 
+TEST(TerminalTable, ShowsOneTableARegimeTheAnswerFirst) {
+  const std::string table = terminal_table(two_regimes());
+  const auto question = table.find("Does a block creep");
+  const auto holds = table.find("Where friction holds: tan(slope) <= mu");
+  const auto creep = table.find("creep_speed [m/s]");
+  const auto slides = table.find("Where the body slides: tan(slope) > mu");
+  EXPECT_EQ(question, 0u);
+  EXPECT_LT(holds, creep);
+  EXPECT_LT(creep, slides);
+  EXPECT_EQ(table.find("creep_speed [m/s]", slides), std::string::npos);
+}
+
+TEST(TerminalTable, SaysWhereWhenAndWhyARunStopped) {
+  const std::string table = terminal_table(synthetic_study(), {.color = false, .width = 100});
+  EXPECT_TRUE(
+      contains(table,
+               "stopped  bullet_default at slope = 5 deg, dt = 10 ms: not_finite at 0.37 s in "
+               "block.base: reduce\n         deltat <or> damping\n"))
+      << table;
+}
+
 TEST(TerminalTable, NarrowTerminalsGetMetricsBelowOneAnother) {
   const std::string table = terminal_table(synthetic_study(), {.color = false, .width = 80});
-  EXPECT_EQ(count(table, "ode_quickstep_recommended  "), 2u);
+  EXPECT_EQ(count(table, "\node_quickstep_recommended  "), 2u);
   std::istringstream lines(table);
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80u) << line;
 }
@@ -99,11 +175,17 @@ TEST(Report, SaysWhatHappened) {
   context.command = "hookpoint study configs/studies/creep.hook";
   context.peers = {{"ode", "recommended", "CFM", "1e-10", "its manual"}};
   context.provenance = {{"ODE", "0.16.2, double"}};
-  const StudyResult study = synthetic_study();
+  StudyResult study = synthetic_study();
+  study.title = "Who creeps?";
+  study.truths[0].first_failure = 74;
   const std::string page = report_html(
       study, context, {{"creep_by_slope", "A caption", "", "gnuplot is not installed"}});
   for (const std::string& part :
-       {study.question, context.command, std::string("12 of 60 verdicts do not hold"),
+       {study.question, context.command,
+        std::string("12 of 60 verdicts <a href=\"#truths\">do not hold</a>"),
+        std::string("<h1>Who creeps?</h1>"), std::string("✗ 48/60"),
+        std::string("6 runs <a href=\"#stopped\">stopped on the way</a>"),
+        std::string("<a href=\"#run-74\">"), std::string("id=\"run-74\""),
         std::string("creep_speed equals predicted within 1 %"),
         std::string("reduce deltat &lt;or&gt; damping"), std::string("skipped: engine mujoco"),
         std::string("its manual"), std::string("0.16.2, double"),

@@ -116,6 +116,23 @@ TEST(StoppingPrediction, CoulombLessTheElasticOffset) {
   EXPECT_FALSE(prediction(body(10., 0.5, "hookpoint"), "stopping_distance"));
 }
 
+TEST(Regime, IsDecidedByTheConeNotByTheEngine) {
+  const auto regime = [](const Experiment& experiment) {
+    return regime_of(make_context(experiment, 5., 20.));
+  };
+  // tan 11 deg = 0.1944, tan 12 deg = 0.2126.
+  for (const char* law : {"hookpoint", "hunt_crossley", "impulse"}) {
+    EXPECT_EQ(regime(body(11., 0.2, law)), Regime::holds);
+    EXPECT_EQ(regime(body(12., 0.2, law)), Regime::slides);
+  }
+  Experiment thrown = body(0., 0.5, "hookpoint");
+  thrown.robots[0].velocity = {1., 0., 0.};
+  EXPECT_EQ(regime(thrown), Regime::none);
+  Experiment pair = body(11., 0.2, "hookpoint");
+  pair.robots.push_back(pair.robots[0]);
+  EXPECT_EQ(regime(pair), Regime::none);
+}
+
 TEST(Predictions, AreSilentWhereNoClosedFormHolds) {
   Experiment pushed = body(20., 0.8, "hookpoint");
   pushed.forces.resize(1);

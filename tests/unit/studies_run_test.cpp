@@ -177,6 +177,56 @@ TEST_F(StudyRunner, ResultsHaveTheColumnsAndValuesOfTheManual) {
     EXPECT_TRUE(std::filesystem::exists(run.folder / file)) << file;
 }
 
+TEST_F(StudyRunner, EachRunHasItsRegimeAndEachTruthItsCounts) {
+  // tan(30 deg) = 0.577: friction 0.8 and 1 hold at 10, 20 and 30 deg, 0.5 does not at 30.
+  const auto plan = this->plan(
+      replaced(replaced(study, "0.8, 1;", "0.8, 0.5;"), "scene =", "title = \"Who?\"; scene ="));
+  ASSERT_TRUE(plan) << first_error();
+  const StudyRun run = this->run(*plan, "out");
+  EXPECT_EQ(run.result.title, "Who?");
+  std::string regimes;
+  for (const RunResult& row : run.result.rows) regimes += row.regime == Regime::slides ? 's' : 'h';
+  EXPECT_EQ(regimes, "hhhhhhhhss");
+  // 2 mm/s + 1 mm/s per radian is 2.17, 2.35 and 2.52 mm/s; the Truth covers `ours` alone.
+  ASSERT_EQ(run.result.truths.size(), 1u);
+  EXPECT_EQ(run.result.truths[0].passed, 4);
+  EXPECT_EQ(run.result.truths[0].failed, 2);
+  EXPECT_EQ(run.result.truths[0].first_failure, 6);
+}
+
+TEST_F(StudyRunner, ASignalThatCountsFromSettleStartsThereAtZero) {
+  const auto plan = this->plan(replaced(study, "y = displacement", "y = drift"));
+  ASSERT_TRUE(plan) << first_error();
+  const StudyRun run = this->run(*plan, "out");
+  const Trace& trace = run.result.rows[4].traces[0];
+  ASSERT_EQ(trace.time.size(), 81u);  // of 100 steps, those from 0.2 s
+  EXPECT_EQ(trace.time.front(), 0.);
+  EXPECT_EQ(trace.value.front(), 0.);
+  EXPECT_NEAR(trace.time.back(), 0.8, 1e-12);
+  EXPECT_NEAR(trace.value.back(), 0.8 * (2e-3 + 1e-3 * 0.3490658503988659), 1e-12);
+}
+
+TEST_F(StudyRunner, TheReportsProvenanceIsThatOfTheFile) {
+  const auto plan = this->plan(study);
+  ASSERT_TRUE(plan) << first_error();
+  const StudyRun run = this->run(*plan, "out");
+  EXPECT_EQ(read(run.folder / "provenance.json"), provenance_json(run.provenance));
+  for (const auto& [name, value] : provenance_lines(run.provenance))
+    if (name == "date" || name == "compiler" || name == "hash of the experiment") {
+      EXPECT_NE(provenance_json(run.provenance).find('"' + value + '"'), std::string::npos) << name;
+    }
+}
+
+TEST_F(StudyRunner, ADivergedRowIsNoSuccess) {
+  const auto plan = this->plan(replaced(replaced(study, "0.8, 1;", "0.8, 13;"),
+                                        "below = 2.4 mm/s; subjects = ours;",
+                                        "below = 1 m/s; Only mu { to = 1; }"));
+  ASSERT_TRUE(plan) << first_error();
+  const StudyRun run = this->run(*plan, "out");
+  EXPECT_EQ(run.result.truths[0].failed, 0);
+  EXPECT_FALSE(all_truths_hold(run.result));
+}
+
 TEST_F(StudyRunner, BytesDoNotDependOnTheNumberOfThreads) {
   const auto plan = this->plan(study);
   ASSERT_TRUE(plan) << first_error();
