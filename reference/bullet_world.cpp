@@ -45,8 +45,8 @@ class BulletWorld final : public PeerWorld {
   BulletWorld(const BulletWorld&) = delete;
   BulletWorld& operator=(const BulletWorld&) = delete;
 
-  std::string advance() override {
-    apply_forces();
+  std::string advance(const std::vector<simulation::ForceInput>& forces) override {
+    apply_forces(forces);
     // No substeps: one step of exactly deltat, as every other engine takes.
     world_.stepSimulation(deltat_, 0);
     return {};
@@ -124,10 +124,11 @@ class BulletWorld final : public PeerWorld {
     bodies_.push_back(std::move(body));
   }
 
-  void apply_forces() {
-    for (const auto& force : forces_)
+  void apply_forces(const std::vector<simulation::ForceInput>& forces) {
+    for (std::size_t i = 0; i < forces.size(); ++i)
       for (const Body& body : bodies_) {
-        if (body.index != static_cast<std::size_t>(force.robot)) continue;
+        if (body.index != static_cast<std::size_t>(forces_[i].robot)) continue;
+        const simulation::ForceInput& force = forces[i];
         const btTransform& X_WP = body.rigid->getWorldTransform();
         const btVector3 point = X_WP * (body.X_PB * bullet(force.point));
         body.rigid->applyForce(bullet(force.force), point - X_WP.getOrigin());

@@ -22,12 +22,24 @@ std::mutex& random_mutex() {
   throw OdeFailure(text.data());
 }
 
+thread_local OdeMessages* listener = nullptr;
+
+/// ODE goes on after a message. Left to itself it prints it to standard error, in the midst of
+/// whatever is there.
+void pass_on(int, const char* format, va_list arguments) {
+  if (listener == nullptr) return;
+  std::array<char, 256> text{};
+  std::vsnprintf(text.data(), text.size(), format, arguments);
+  listener->add(text.data());
+}
+
 /// From the first use to the end of the process.
 struct Library {
   Library() {
     dInitODE2(0);
     dSetErrorHandler(report);
     dSetDebugHandler(report);
+    dSetMessageHandler(pass_on);
   }
   ~Library() { dCloseODE(); }
 };
@@ -38,6 +50,13 @@ void prepare_ode_for_this_thread() {
   static const Library library;
   thread_local const int allocated = dAllocateODEDataForThread(dAllocateMaskAll);
   static_cast<void>(allocated);
+}
+
+OdeMessages::OdeMessages() { listener = this; }
+OdeMessages::~OdeMessages() { listener = nullptr; }
+
+void OdeMessages::add(const char* text) {
+  if (count_++ == 0) std::snprintf(first_.data(), first_.size(), "%s", text);
 }
 
 void abandon_ode_threading(OdePointer<dxThreadingImplementation> threading) {

@@ -3,6 +3,7 @@
 
 #include <ode/ode.h>
 
+#include <array>
 #include <memory>
 #include <mutex>
 #include <stdexcept>
@@ -26,6 +27,25 @@ using OdePointer = std::unique_ptr<Object, OdeDeleter>;
 /// (abandon_ode_threading first).
 struct OdeFailure : std::runtime_error {
   using std::runtime_error::runtime_error;
+};
+
+/// What the library had to say while this lived, in its own thread, instead of printing it. One at
+/// a time in a thread.
+class OdeMessages {
+ public:
+  OdeMessages();
+  ~OdeMessages();
+  OdeMessages(const OdeMessages&) = delete;
+  OdeMessages& operator=(const OdeMessages&) = delete;
+
+  int count() const { return count_; }
+  /// The first message, without a line's end; empty while there is none.
+  const char* first() const { return first_.data(); }
+  void add(const char* text);
+
+ private:
+  int count_ = 0;
+  std::array<char, 256> first_{};
 };
 
 /// Keeps the threading object of a world whose step failed until the process ends: its list of jobs

@@ -1,6 +1,7 @@
 #include "reference/ode_world.h"
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -54,17 +55,22 @@ class OdeWorld final : public PeerWorld {
     touches_.reserve(max_contacts);
   }
 
-  std::string advance() override {
+  std::string advance(const std::vector<simulation::ForceInput>& forces) override {
     prepare_ode_for_this_thread();
+    const OdeMessages messages;
     try {
-      apply_forces();
+      apply_forces(forces);
       collide();
-      return take_step() != 0 ? std::string() : std::string("ODE is out of memory");
+      const int taken = take_step();
+      listen(messages);
+      return taken != 0 ? std::string() : std::string("ODE is out of memory");
     } catch (const OdeFailure& failure) {
       abandon_ode_threading(std::move(threading_));
       return std::string("ODE gave up: ") + failure.what();
     }
   }
+
+  std::string notice() override { return std::exchange(notice_, {}); }
 
   void read(std::vector<BodyState>& bodies) const override {
     for (const Body& body : bodies_) {
@@ -147,10 +153,11 @@ class OdeWorld final : public PeerWorld {
     bodies_.push_back(std::move(body));
   }
 
-  void apply_forces() {
-    for (const auto& force : forces_)
+  void apply_forces(const std::vector<simulation::ForceInput>& forces) {
+    for (std::size_t i = 0; i < forces.size(); ++i)
       for (const Body& body : bodies_) {
-        if (body.index != static_cast<std::size_t>(force.robot)) continue;
+        if (body.index != static_cast<std::size_t>(forces_[i].robot)) continue;
+        const simulation::ForceInput& force = forces[i];
         const Vector3d point = force.point - body.center_of_mass;
         dBodyAddForceAtRelPos(body.id, force.force.x, force.force.y, force.force.z, point.x,
                               point.y, point.z);
@@ -191,6 +198,17 @@ class OdeWorld final : public PeerWorld {
     return dWorldQuickStep(world_.get(), deltat_);
   }
 
+  void listen(const OdeMessages& messages) {
+    if (messages.count() == 0) return;
+    if (messages_ == 0)
+      notice_ = std::string("ODE's solver reported \"") + messages.first() +
+                "\"; it went on with what it had, so forces of this step may be wrong; later "
+                "reports are not repeated (docs/reference_engines.md)";
+    messages_ += messages.count();
+  }
+
+  std::string notice_;
+  std::int64_t messages_ = 0;  ///< of the library so far
   OdeSettings settings_;
   OdeSolver solver_;
   double deltat_;

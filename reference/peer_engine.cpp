@@ -1,6 +1,8 @@
 #include "reference/peer_engine.h"
 
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <utility>
 
 namespace hookpoint::reference {
@@ -21,7 +23,9 @@ bool finite(const BodyState& body) {
 class PeerEngine final : public simulation::Engine {
  public:
   PeerEngine(const simulation::Experiment& experiment, std::unique_ptr<PeerWorld> world)
-      : world_(std::move(world)), deltat_(experiment.deltat) {
+      : world_(std::move(world)),
+        deltat_(experiment.deltat),
+        inputs_(simulation::initial_inputs(experiment)) {
     for (const auto& robot : experiment.robots) {
       trails_.push_back(robot.name + "." + (robot.base.name.empty() ? "base" : robot.base.name));
       BodyState body;
@@ -36,7 +40,7 @@ class PeerEngine final : public simulation::Engine {
 
   StepStatus step() override {
     if (!failure_.ok()) return failure_;
-    const std::string trouble = world_->advance();
+    const std::string trouble = world_->advance(inputs_.forces);
     world_->read(next_);
     for (std::size_t i = 0; i < next_.size(); ++i)
       if (!finite(next_[i]))
@@ -48,10 +52,16 @@ class PeerEngine final : public simulation::Engine {
     std::swap(state_.bodies, next_);
     ++state_.step;
     state_.time = static_cast<double>(state_.step) * deltat_;
+    if (std::string notice = world_->notice(); !notice.empty()) {
+      std::array<char, 32> time{};
+      std::snprintf(time.data(), time.size(), "%g s: ", state_.time);
+      state_.notices.push_back(time.data() + std::move(notice));
+    }
     return {};
   }
 
   const simulation::WorldState& state() const override { return state_; }
+  simulation::WorldInputs& inputs() override { return inputs_; }
 
  private:
   /// The library's own state is lost with the failure, so every later step repeats it.
@@ -63,6 +73,7 @@ class PeerEngine final : public simulation::Engine {
 
   std::unique_ptr<PeerWorld> world_;
   double deltat_;
+  simulation::WorldInputs inputs_;
   std::vector<std::string> trails_;
   simulation::WorldState state_;
   std::vector<BodyState> next_;

@@ -13,8 +13,11 @@ namespace hookpoint::reference {
 class PeerWorld {
  public:
   virtual ~PeerWorld() = default;
-  /// Advances by one step. Empty on success, else the library's trouble in a few words.
-  virtual std::string advance() = 0;
+  /// Advances by one step under `forces`, one a ForceSpec of the experiment. Empty on success, else
+  /// the library's trouble in a few words.
+  virtual std::string advance(const std::vector<simulation::ForceInput>& forces) = 0;
+  /// What the user should know of the step just taken, else empty. Said once.
+  virtual std::string notice() { return {}; }
   /// Writes the motion and last contact force of every body; fixed bodies are left as they are.
   /// After a failure too: what is not finite then tells which body it was.
   virtual void read(std::vector<simulation::BodyState>& bodies) const = 0;

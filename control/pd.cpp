@@ -1,0 +1,35 @@
+#include "control/component.h"
+#include "control/registry.h"
+
+namespace hookpoint::control {
+namespace {
+
+class PD final : public Component {
+ public:
+  Parameter goal{*this, "goal", "?", 0., "value that current is to reach"};
+  Parameter pconstant{*this, "pconstant", "?", 0., "output per error"};
+  Parameter dconstant{*this, "dconstant", "?", 0., "output per rate"};
+  Input current{*this, "current", "?", "the value controlled: a joint's angle"};
+  Input rate_in{*this, "rate_in", "?",
+                "d(current)/dt: a joint's rate; if not wired, from successive samples"};
+  Output output{*this, "output", "?", "to a joint's torque"};
+  State previous{*this, "previous", "?", "current at the last update"};
+
+  void update(const Tick& tick) override {
+    output = pconstant * (goal - current) - dconstant * rate(tick);
+    previous = current;
+  }
+
+ private:
+  /// d(current)/dt; 0 on the first update when it would take two samples.
+  double rate(const Tick& tick) const {
+    if (rate_in.driven()) return rate_in;
+    return tick.count == 0 ? 0. : (current - previous) / tick.period;
+  }
+};
+
+}  // namespace
+HOOKPOINT_REGISTER_COMPONENT(PD, "Controller.PD",
+                             "output = pconstant (goal - current) - dconstant d(current)/dt",
+                             Attachment::none, "current")
+}  // namespace hookpoint::control

@@ -1,0 +1,72 @@
+#include "control/registry.h"
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
+namespace hookpoint::control {
+namespace {
+
+/// Fields of the stub around every component, which no port may hide.
+constexpr std::array stub_fields{"rate", "delay", "noise"};
+
+/// "" or why `name` cannot be a default port of the kinds that `fits` accepts. An array stands for
+/// its first value.
+template <class Fits>
+std::string default_port_problem(const Component& component, const std::string& name, Fits fits) {
+  if (name.empty()) return "";
+  for (const PortDescription& port : component.ports()) {
+    if (port.name == name) {
+      return fits(port.kind) ? "" : "the default port '" + name + "' is of the wrong direction";
+    }
+  }
+  return "the default port '" + name + "' does not exist";
+}
+
+}  // namespace
+
+Registry& Registry::instance() {
+  static Registry registry;
+  return registry;
+}
+
+void Registry::add(ComponentClass type) {
+  type.origin = origin_;
+  const std::string name = type.name;
+  const auto [place, added] = classes_.try_emplace(name, std::move(type));
+  if (added) return;
+  const auto from = [](const std::string& origin) {
+    return origin.empty() ? std::string("the program") : "'" + origin + "'";
+  };
+  problems_.push_back("class '" + name + "' of " + from(origin_) +
+                      " is refused: " + from(place->second.origin) + " has one of that name");
+}
+
+const ComponentClass* Registry::find(std::string_view name) const {
+  const auto place = classes_.find(name);
+  return place == classes_.end() ? nullptr : &place->second;
+}
+
+std::string declaration_problem(const ComponentClass& type) {
+  try {
+    const std::unique_ptr<Component> component = type.make();
+    for (const PortDescription& port : component->ports()) {
+      if (std::find(stub_fields.begin(), stub_fields.end(), port.name) != stub_fields.end()) {
+        return "port '" + port.name + "' has the name of a field of the stub";
+      }
+      if (!port.attached.empty() && type.attachment == Attachment::none) {
+        return "port '" + port.name + "' is attached, but the class attaches to nothing";
+      }
+    }
+    const auto is_input = [](PortKind kind) {
+      return kind == PortKind::input || kind == PortKind::parameter;
+    };
+    const auto is_output = [](PortKind kind) { return kind == PortKind::output; };
+    const std::string input = default_port_problem(*component, type.default_input, is_input);
+    return input.empty() ? default_port_problem(*component, type.default_output, is_output) : input;
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+}
+
+}  // namespace hookpoint::control
