@@ -5,6 +5,9 @@
 namespace hookpoint::output {
 namespace {
 
+/// Bytes of a number with its comma: "-1.2345678901234567e-308,".
+constexpr std::size_t longest_number = 25;
+
 void append_row(std::string& text, const std::vector<std::string>& fields) {
   bool first = true;
   for (const std::string& field : fields) {
@@ -51,6 +54,7 @@ TraceWriter::TraceWriter(const std::filesystem::path& path, const std::vector<Tr
     line_.append(",").append(csv_field(column_title(column.trail, column.unit)));
   line_ += '\n';
   file_.write(line_);
+  line_.reserve((columns.size() + 1) * longest_number + 1);
 }
 
 void TraceWriter::row(double time, std::span<const double> values) {

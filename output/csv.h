@@ -37,15 +37,17 @@ struct TraceColumn {
 };
 
 /// `trace.csv` of a run, row by row while the run goes on. Columns `time [s]`, then one a trail.
-/// Until `close` it is named
-/// `<path>.partial`. A row costs no heap allocation once the longest has been written.
+/// Until `close` it is named `<path>.partial`; however the run ends, that holds every row so far,
+/// whole lines all. A row costs no heap allocation.
 class TraceWriter {
  public:
   /// Throws FileError.
   TraceWriter(const std::filesystem::path& path, const std::vector<TraceColumn>& columns);
   /// `values`: one a column, in its unit. `time` [s].
+  /// Throws FileError.
   void row(double time, std::span<const double> values);
   void close();
+  const std::filesystem::path& partial() const { return file_.partial(); }
 
  private:
   PartialFile file_;

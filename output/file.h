@@ -1,7 +1,7 @@
 // A file that appears under its own name only when it is complete.
 #pragma once
 
-#include <cstdio>
+#include <cstdint>
 #include <filesystem>
 #include <stdexcept>
 #include <string_view>
@@ -13,29 +13,51 @@ struct FileError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Written as `<path>.partial`, renamed to `path` by `complete`. Destroyed before that, it leaves
-/// the partial file, whose whole lines are there to be looked at, and never touches what stood
-/// under `path`.
+/// "cannot write trace.csv.partial: No space left on device"; the reason is errno's.
+[[noreturn]] void fail_file(std::string_view doing, const std::filesystem::path& file);
+
+/// `path` with `suffix` added: where a file stands until it is complete.
+std::filesystem::path partial_name(std::filesystem::path path,
+                                   std::string_view suffix = ".partial");
+
+/// Creates the missing folders above `path`; whoever opens the file then reports what could not be.
+void make_folder_of(const std::filesystem::path& path);
+
+/// `from` under the name `to`. Throws FileError.
+void rename_file(const std::filesystem::path& from, const std::filesystem::path& to);
+
+/// Takes `bytes` of the disk for `file` (which exists) beyond its end now, so that a library that
+/// cannot live with a full disk never meets one. Throws FileError.
+void reserve_room(const std::filesystem::path& file, std::uint64_t bytes);
+
+/// Written as `<path><suffix>`, renamed to `path` by `complete`. Destroyed before that, it leaves
+/// the partial file, and never touches what stood under `path`. Nothing waits in a buffer: what was
+/// written survives the end of the process, however it ends.
 class PartialFile {
  public:
   /// Creates missing folders. Throws FileError.
-  explicit PartialFile(std::filesystem::path path);
+  explicit PartialFile(std::filesystem::path path, std::string_view suffix = ".partial");
   ~PartialFile();
   PartialFile(const PartialFile&) = delete;
   PartialFile& operator=(const PartialFile&) = delete;
 
-  /// Throws FileError when the disk is full.
-  void write(std::string_view text);
-  /// Flushes and renames; nothing may be written afterwards. Throws FileError.
+  /// At the end, the whole text or, when the disk is full, nothing of it. Throws FileError.
+  void write(std::string_view text) { write_at(size_, text); }
+  /// All from `offset` <= size() on becomes `text`. Throws FileError; the file then ends at
+  /// `offset`.
+  void write_at(std::uint64_t offset, std::string_view text);
+  /// Renames; nothing may be written afterwards. Throws FileError.
   void complete();
+
+  std::uint64_t size() const { return size_; }
   const std::filesystem::path& path() const { return path_; }
+  const std::filesystem::path& partial() const { return partial_; }
 
  private:
-  [[noreturn]] void fail(const char* doing) const;
-
   std::filesystem::path path_;
   std::filesystem::path partial_;
-  std::FILE* file_ = nullptr;
+  int descriptor_ = -1;
+  std::uint64_t size_ = 0;
 };
 
 /// `text` as the whole of `path`, all or nothing. Throws FileError.

@@ -1,0 +1,59 @@
+// CSV: the trace itself, `<stem>.channels.csv` (a line a column) and `<stem>.record.csv` (what
+// belongs to the whole record), so that the trace stays a plain table.
+#include "output/csv.h"
+#include "output/number.h"
+#include "output/record_formats.h"
+
+namespace hookpoint::output {
+namespace {
+
+void write_channels(std::filesystem::path path, const RecordHeader& header) {
+  CsvTable table{{"path", "unit", "type", "minimum", "maximum", "doc"}, {}};
+  table.rows.push_back({"time", "s", "double", "0", "inf", "simulated time"});
+  for (const Channel& channel : header.channels)
+    table.rows.push_back({channel.path, channel.unit, channel.type, shortest(channel.minimum),
+                          shortest(channel.maximum), channel.doc});
+  write_csv(path.replace_extension(".channels.csv"), table);
+}
+
+void write_about(std::filesystem::path path, const RecordHeader& header) {
+  CsvTable table{{"key", "value"}, {{"name", header.name}, {"period", shortest(header.period)}}};
+  for (const auto& [key, value] : header.annotations) table.rows.push_back({key, value});
+  table.rows.push_back({"experiment", header.experiment});
+  write_csv(path.replace_extension(".record.csv"), table);
+}
+
+std::vector<TraceColumn> columns(const RecordHeader& header) {
+  std::vector<TraceColumn> result;
+  for (const Channel& channel : header.channels) result.push_back({channel.path, channel.unit});
+  return result;
+}
+
+class CsvRecord final : public RecordWriter {
+ public:
+  CsvRecord(const std::filesystem::path& path, const RecordHeader& header)
+      : RecordWriter(header.channels.size()), trace_(path, columns(header)) {
+    write_channels(path, header);
+    write_about(path, header);
+  }
+
+ private:
+  void append(double time, std::span<const double> values) override {
+    trace_.row(time, values);
+    ++rows_;
+  }
+  void finish() override { trace_.close(); }
+  Kept keep() override { return {trace_.partial(), rows_}; }
+
+  TraceWriter trace_;
+  std::int64_t rows_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<RecordWriter> make_csv_record(const std::filesystem::path& path,
+                                              const RecordHeader& header) {
+  return std::make_unique<CsvRecord>(path, header);
+}
+
+}  // namespace hookpoint::output

@@ -1,0 +1,208 @@
+// HDF5: `/time` and a dataset a channel under `/channels`, extended block by block. The library
+// loses a file in which a write failed, so the room of a block is taken before it is written; after
+// each block everything is flushed, and a run that dies leaves a file that reads up to there.
+#include <hdf5.h>
+
+#include <utility>
+
+#include "output/record_formats.h"
+
+namespace hookpoint::output {
+namespace {
+
+constexpr hsize_t block_rows = 512;  ///< rows of a chunk, and between two flushes
+
+/// An identifier of the library, closed by `close`.
+class Handle {
+ public:
+  Handle() = default;
+  Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {
+    if (id_ < 0) throw FileError("the HDF5 library refused a call");
+  }
+  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
+  Handle& operator=(Handle&& other) noexcept {
+    std::swap(id_, other.id_);
+    std::swap(close_, other.close_);
+    return *this;
+  }
+  ~Handle() { reset(); }
+  /// Whether closing went well.
+  bool reset() { return id_ < 0 || close_(std::exchange(id_, -1)) >= 0; }
+  operator hid_t() const {
+    return id_;
+  }  // NOLINT(google-explicit-constructor): passed to the library
+
+ private:
+  hid_t id_ = -1;
+  herr_t (*close_)(hid_t) = nullptr;
+};
+
+void check(herr_t result, const std::filesystem::path& file) {
+  if (result < 0) throw FileError("cannot write " + file.string());
+}
+
+void annotate(hid_t object, const char* name, const std::string& text) {
+  const Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+  H5Tset_size(type, text.size() + 1);
+  H5Tset_cset(type, H5T_CSET_UTF8);
+  const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+  const Handle attribute(H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  H5Awrite(attribute, type, text.c_str());
+}
+
+void annotate(hid_t object, const char* name, double value) {
+  const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+  const Handle attribute(H5Acreate2(object, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT),
+                         H5Aclose);
+  H5Awrite(attribute, H5T_NATIVE_DOUBLE, &value);
+}
+
+/// A text that may be longer than the 64 KB of an attribute.
+void write_text(hid_t group, const char* name, const std::string& text) {
+  const Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+  H5Tset_size(type, text.size() + 1);
+  H5Tset_cset(type, H5T_CSET_UTF8);
+  const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+  const Handle dataset(H5Dcreate2(group, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                       H5Dclose);
+  H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.c_str());
+}
+
+Handle create_file(const std::filesystem::path& file) {
+  // Failures come back as results and end as a FileError; the library's own report on stderr helps
+  // nobody.
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  return {H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose};
+}
+
+Handle create_dataset(hid_t group, const Channel& channel, const char* name) {
+  const hsize_t none = 0, unlimited = H5S_UNLIMITED;
+  const Handle space(H5Screate_simple(1, &none, &unlimited), H5Sclose);
+  const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  H5Pset_chunk(properties, 1, &block_rows);
+  H5Pset_shuffle(properties);
+  H5Pset_deflate(properties, 4);
+  H5Pset_obj_track_times(properties, false);  // the same run gives the same bytes
+  Handle dataset(
+      H5Dcreate2(group, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, properties, H5P_DEFAULT),
+      H5Dclose);
+  annotate(dataset, "path", channel.path);
+  annotate(dataset, "unit", channel.unit);
+  annotate(dataset, "type", channel.type);
+  annotate(dataset, "minimum", channel.minimum);
+  annotate(dataset, "maximum", channel.maximum);
+  annotate(dataset, "doc", channel.doc);
+  return dataset;
+}
+
+class Hdf5Record final : public RecordWriter {
+ public:
+  Hdf5Record(const std::filesystem::path& path, const RecordHeader& header)
+      : RecordWriter(header.channels.size()), path_(path), partial_(partial_name(path)) {
+    make_folder_of(path_);
+    { PartialFile place(path_); }  // whether the file can be made at all, and why not
+    reserve_room(partial_, header_room(header));
+    file_ = create_file(partial_);
+    write_header(header);
+    block_.resize(datasets_.size() * block_rows);
+    check(H5Fflush(file_, H5F_SCOPE_LOCAL), partial_);
+  }
+  ~Hdf5Record() override {
+    datasets_.clear();
+    file_.reset();
+  }
+
+ private:
+  void write_header(const RecordHeader& header) {
+    annotate(file_, "name", header.name);
+    annotate(file_, "period", header.period);
+    annotate(file_, "complete", 0.);
+    write_text(file_, "experiment", header.experiment);
+    const Handle notes(H5Gcreate2(file_, "annotations", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                       H5Gclose);
+    for (const auto& [key, value] : header.annotations) write_text(notes, key.c_str(), value);
+    datasets_.push_back(
+        create_dataset(file_, {"time", "s", "double", 0., infinity, "simulated time"}, "time"));
+    const Handle group(H5Gcreate2(file_, "channels", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                       H5Gclose);
+    for (const Channel& channel : header.channels)
+      datasets_.push_back(create_dataset(group, channel, channel.path.c_str()));
+  }
+
+  void append(double time, std::span<const double> values) override {
+    block_[waiting_] = time;
+    for (std::size_t i = 0; i < values.size(); ++i)
+      block_[(i + 1) * block_rows + waiting_] = values[i];
+    if (++waiting_ == block_rows) flush();
+  }
+
+  /// The block that waits, to the disk.
+  void flush() {
+    if (waiting_ == 0) return;
+    reserve_room(partial_, room(datasets_.size()));
+    const Handle memory(H5Screate_simple(1, &waiting_, nullptr), H5Sclose);
+    const hsize_t end = written_ + waiting_;
+    for (std::size_t i = 0; i < datasets_.size(); ++i) {
+      check(H5Dset_extent(datasets_[i], &end), partial_);
+      const Handle target(H5Dget_space(datasets_[i]), H5Sclose);
+      H5Sselect_hyperslab(target, H5S_SELECT_SET, &written_, nullptr, &waiting_, nullptr);
+      check(H5Dwrite(datasets_[i], H5T_NATIVE_DOUBLE, memory, target, H5P_DEFAULT,
+                     block_.data() + i * block_rows),
+            partial_);
+    }
+    check(H5Fflush(file_, H5F_SCOPE_LOCAL), partial_);
+    written_ = end;
+    waiting_ = 0;
+  }
+
+  /// An upper bound of what a block takes: its data uncompressed, and for each dataset a few nodes
+  /// of the tree in which its chunks are found.
+  static std::uint64_t room(std::size_t datasets) {
+    constexpr std::uint64_t tree = 16384;
+    return (datasets + 1) * (block_rows * sizeof(double) + tree);
+  }
+  static std::uint64_t header_room(const RecordHeader& header) {
+    std::uint64_t texts = header.name.size() + header.experiment.size();
+    for (const auto& [key, value] : header.annotations) texts += key.size() + value.size();
+    for (const Channel& channel : header.channels)
+      texts += 2 * channel.path.size() + channel.doc.size();
+    return texts + room(header.channels.size() + header.annotations.size());
+  }
+
+  void finish() override {
+    flush();
+    H5Adelete(file_, "complete");
+    annotate(file_, "complete", 1.);
+    close_file();
+    rename_file(partial_, path_);
+  }
+  void close_file() {
+    bool closed = true;
+    for (Handle& dataset : datasets_) closed = dataset.reset() && closed;
+    closed = file_.reset() && closed;
+    if (!closed) throw FileError("cannot close " + partial_.string());
+  }
+  Kept keep() override {
+    datasets_.clear();
+    file_.reset();
+    return {partial_, static_cast<std::int64_t>(written_)};
+  }
+
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+  std::filesystem::path path_;
+  std::filesystem::path partial_;
+  Handle file_;
+  std::vector<Handle> datasets_;  ///< the time, then the channels
+  std::vector<double> block_;     ///< one row of `block_rows` a dataset
+  hsize_t waiting_ = 0;           ///< rows in the block
+  hsize_t written_ = 0;           ///< rows in the file
+};
+
+}  // namespace
+
+std::unique_ptr<RecordWriter> make_hdf5_record(const std::filesystem::path& path,
+                                               const RecordHeader& header) {
+  return std::make_unique<Hdf5Record>(path, header);
+}
+
+}  // namespace hookpoint::output
