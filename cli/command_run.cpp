@@ -11,8 +11,9 @@
 #include "contact/force_law.h"
 #include "output/csv.h"
 #include "output/progress.h"
-#include "simulation/ports.h"
+#include "simulation/records.h"
 #include "simulation/stability.h"
+#include "simulation/world.h"
 
 namespace hookpoint::cli {
 namespace {
@@ -23,13 +24,14 @@ using simulation::WorldState;
 volatile std::sig_atomic_t interrupted = 0;
 void interrupt(int) { interrupted = 1; }
 
-/// The rows of trace.csv: the row at time 0, then one a step.
+/// The Records of the file, and the rows of trace.csv: the row at time 0, then one a step.
 class Recorder {
  public:
-  Recorder(const Experiment& experiment, const WorldState& state,
-           const std::vector<std::string>& trails, const std::filesystem::path& folder) {
+  Recorder(const Experiment& experiment, const std::vector<simulation::Port>& all,
+           const std::vector<std::string>& trails, const std::filesystem::path& folder,
+           const std::string& text)
+      : records_(experiment, all, folder, text) {
     if (trails.empty()) return;
-    const std::vector<simulation::Port> all = simulation::list_ports(experiment, state);
     std::vector<output::TraceColumn> columns;
     for (const std::string& trail : trails) {
       ports_.push_back(simulation::find_port(experiment, all, trail));
@@ -38,16 +40,19 @@ class Recorder {
     values_.resize(ports_.size());
     writer_.emplace(folder / "trace.csv", columns);
   }
-  void row(double time) {
+  void row(std::int64_t step, double time) {
+    records_.row(step, time);
     if (!writer_) return;
     for (std::size_t i = 0; i < ports_.size(); ++i) values_[i] = *ports_[i].value;
     writer_->row(time, values_);
   }
   void close() {
+    records_.close();
     if (writer_) writer_->close();
   }
 
  private:
+  simulation::Records records_;
   std::vector<simulation::Port> ports_;
   std::vector<double> values_;
   std::optional<output::TraceWriter> writer_;
@@ -130,27 +135,31 @@ int report_failure(const simulation::StepStatus& status) {
   return truth_failed;
 }
 
-int step_through(const Experiment& experiment, simulation::Engine& engine, Recorder& recorder) {
+int step_through(const Experiment& experiment, simulation::World& world, Recorder& recorder) {
   const auto steps =
       static_cast<std::int64_t>(std::llround(experiment.duration / experiment.deltat));
   LazyProgress progress(experiment.world, steps);
   std::signal(SIGINT, interrupt);
-  recorder.row(0.);
+  std::signal(SIGTERM, interrupt);
+  recorder.row(0, 0.);
   std::size_t told = 0;
   const auto tell_notices = [&] {
-    for (; told < engine.state().notices.size(); ++told)
-      std::cerr << "hookpoint: note: " << engine.state().notices[told] << '\n';
+    for (; told < world.state().notices.size(); ++told)
+      std::cerr << "hookpoint: note: " << world.state().notices[told] << '\n';
   };
-  for (std::int64_t step = 1; step <= steps && !interrupted; ++step) {
-    const simulation::StepStatus status = engine.step();
+  for (std::int64_t step = 1; step <= steps && !interrupted && world.ended().empty(); ++step) {
+    const simulation::StepStatus status = world.step();
     tell_notices();
     if (!status.ok()) return report_failure(status);
-    recorder.row(engine.state().time);
+    recorder.row(step, world.state().time);
     progress.at(step);
   }
+  if (const std::string reason = world.ended(); !reason.empty())
+    std::cerr << fmt::format("hookpoint: note: the run ended at {:.6g} s: {}\n", world.state().time,
+                             reason);
   if (!interrupted) return fine;
   print_error(fmt::format("interrupted at {:.6g} s; what was recorded up to then is kept",
-                          engine.state().time));
+                          world.state().time));
   return truth_failed;
 }
 
@@ -180,16 +189,17 @@ int run(const RunArguments& arguments) {
   if (!experiment) return wrong_input;
 
   try {
-    const auto engine = application.make_engine(*experiment);
+    simulation::World world(*experiment, application.make_engine(*experiment));
     const std::filesystem::path folder =
         arguments.out.value_or(std::filesystem::path("runs") / experiment->world);
-    Recorder recorder(*experiment, engine->state(), arguments.record, folder);
+    const std::string text = language::print(*root);
+    Recorder recorder(*experiment, world.ports(), arguments.record, folder, text);
     tell_stability(*experiment);
-    if (arguments.out || !arguments.record.empty())
-      output::write_file(folder / "experiment.hook", language::print(*root));
-    const int status = step_through(*experiment, *engine, recorder);
+    if (arguments.out || !arguments.record.empty() || !experiment->records.empty())
+      output::write_file(folder / "experiment.hook", text);
+    const int status = step_through(*experiment, world, recorder);
     recorder.close();
-    print_summary(*experiment, engine->state());
+    print_summary(*experiment, world.state());
     return status;
   } catch (const simulation::ExperimentError& error) {
     print_error(error.what());

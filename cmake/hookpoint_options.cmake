@@ -18,9 +18,9 @@ target_include_directories(hookpoint_options INTERFACE ${PROJECT_SOURCE_DIR})
 target_compile_options(hookpoint_options INTERFACE
   -Wall -Wextra -Wpedantic -Werror -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Woverloaded-virtual
   -Wcast-align -Wunused -Wdouble-promotion -Wformat=2)
-# GCC 12 warns of std::string's own operator+ (GCC bugs 105651, 105562): both warnings are false there and only there.
+# GCC 12 warns, falsely and only it, of std::string's own operator+ (GCC bugs 105651, 105562) and, at -O3, of Eigen's small vectors.
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-  target_compile_options(hookpoint_options INTERFACE -Wno-restrict -Wno-maybe-uninitialized)
+  target_compile_options(hookpoint_options INTERFACE -Wno-restrict -Wno-maybe-uninitialized -Wno-array-bounds)
 endif()
 if(HOOKPOINT_ISA STREQUAL "x86-64-v3")
   target_compile_options(hookpoint_options INTERFACE -march=x86-64-v3)

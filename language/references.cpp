@@ -1,6 +1,8 @@
 #include "language/references.h"
 
 #include <algorithm>
+#include <charconv>
+#include <utility>
 
 #include "language/document.h"
 #include "language/names.h"
@@ -22,6 +24,18 @@ std::string called(const Object& object) {
   if (object.parent == nullptr) return "the top of the file";
   return object.name.empty() ? "this " + object.type
                              : "`" + object.name + "` (" + object.type + ")";
+}
+
+/// The element that "goal[3]" means of a list that has it, as "goal" and 3; no index otherwise.
+std::pair<std::string_view, std::optional<int>> split_element(std::string_view part) {
+  const std::size_t open = part.find('[');
+  if (open == std::string_view::npos || !part.ends_with(']')) return {part, std::nullopt};
+  const std::string_view digits = part.substr(open + 1, part.size() - open - 2);
+  int index = 0;
+  const char* end = digits.data() + digits.size();
+  const auto [stop, error] = std::from_chars(digits.data(), end, index);
+  if (error != std::errc{} || stop != end || index < 0) return {part, std::nullopt};
+  return {part.substr(0, open), index};
 }
 
 }  // namespace
@@ -67,7 +81,15 @@ std::optional<Target> Names::descend(const Object& object,
   if (field) return field;
   const FieldSchema* whole =
       want_field && object.schema != nullptr ? object.schema->find(parts[next]) : nullptr;
-  if (whole != nullptr) {
+  const auto [list, element] = split_element(parts[next]);
+  const FieldSchema* listed =
+      want_field && element && object.schema != nullptr ? object.schema->find(list) : nullptr;
+  if (listed != nullptr) {
+    why.message = "`" + listed->name + "` of " + called(object) + " has no element [" +
+                  std::to_string(*element) + "]";
+    if (listed->type == FieldType::numbers && listed->max_count > 1)
+      why.message += "; its elements are [0] to [" + std::to_string(listed->max_count - 1) + "]";
+  } else if (whole != nullptr) {
     const std::string_view letters = part_letters(*whole);
     why.message = "`" + whole->name + "` of " + called(object) + " has no part `" +
                   std::string(parts[next + 1]) + "`";
@@ -87,6 +109,12 @@ std::optional<Target> Names::descend(const Object& object,
   return std::nullopt;
 }
 
+std::string part_name(const FieldSchema& field, int index) {
+  const std::string_view letters = part_letters(field);
+  if (letters.empty()) return '[' + std::to_string(index) + ']';
+  return {'.', letters[static_cast<std::size_t>(index)]};
+}
+
 std::optional<Target> Names::field_of(const Object& object,
                                       const std::vector<std::string_view>& parts,
                                       std::size_t next) const {
@@ -94,6 +122,14 @@ std::optional<Target> Names::field_of(const Object& object,
   // A port's own name may hold a dot: contact.force.
   const FieldSchema* field = nullptr;
   std::size_t end = next;
+  if (const auto [list, element] = split_element(parts[next]);
+      element && parts.size() == next + 1) {
+    field = object.schema->find(list);
+    const bool has = field != nullptr && field->type == FieldType::numbers &&
+                     field->max_count > std::max(1, *element);
+    if (!has) return std::nullopt;
+    return Target{&object, field, *element, field->name + part_name(*field, *element)};
+  }
   for (std::string name; field == nullptr && end < parts.size(); ++end) {
     if (!name.empty()) name += '.';
     field = object.schema->find(name += parts[end]);

@@ -62,5 +62,7 @@ class Names {
 
 /// The letters by which a field's parts are reached: "xyz", "wxyz", or "".
 std::string_view part_letters(const FieldSchema& field);
+/// How a trail names part `index` after the field's name: ".x", "[17]".
+std::string part_name(const FieldSchema& field, int index);
 
 }  // namespace hookpoint::language

@@ -35,6 +35,12 @@ int kind_of(const FieldSchema& field) {
   }
 }
 
+/// Booleans also take numbers without a unit: what is not 0 is true.
+bool kinds_agree(const FieldSchema& output, const FieldSchema& input) {
+  const int from = kind_of(output), to = kind_of(input);
+  return from == to || (from == 0 && to == 1 && (output.unit.empty() || output.unit == "?"));
+}
+
 int values_of(const Target& target) {
   if (target.part >= 0) return 1;
   if (target.field->type == FieldType::orientation) return 4;
@@ -104,7 +110,7 @@ std::optional<Checker::End> Checker::check_end(const Object& object,
 void Checker::check_agreement(const End& from, const End& to, const Wire& wire) {
   const FieldSchema &output = *from.target.field, &input = *to.target.field;
   const std::string a = "`" + from.target.port + "`", b = "`" + to.target.port + "`";
-  if (kind_of(output) != kind_of(input)) {
+  if (!kinds_agree(output, input)) {
     return report_.error(wire.position, a + " and " + b + " carry different kinds of values");
   }
   if (values_of(from.target) != values_of(to.target)) {

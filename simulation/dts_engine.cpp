@@ -16,13 +16,15 @@ namespace {
 class DtsEngine final : public Engine {
  public:
   explicit DtsEngine(const Experiment& experiment)
-      : experiment_(experiment), ground_(make_ground(experiment_)) {
+      : experiment_(experiment),
+        inputs_(initial_inputs(experiment_)),
+        ground_(make_ground(experiment_)) {
     if (!contact::find_force_law(experiment_.contact))
       throw ExperimentError("there is no contact law `" + experiment_.contact + "`");
     std::size_t bodies = 0, joints = 0;
     for (std::size_t i = 0; i < experiment_.robots.size(); ++i) {
       auto robot = std::make_unique<DtsRobot>(experiment_, static_cast<int>(i),
-                                              ground_ ? &*ground_ : nullptr);
+                                              ground_ ? &*ground_ : nullptr, inputs_);
       auto stepper = integrators::make_stepper(experiment_.integrator, *robot);
       if (!stepper)
         throw ExperimentError("there is no integrator `" + experiment_.integrator + "`");
@@ -50,6 +52,7 @@ class DtsEngine final : public Engine {
   }
 
   const WorldState& state() const override { return state_; }
+  WorldInputs& inputs() override { return inputs_; }
 
  private:
   struct Part {
@@ -87,6 +90,7 @@ class DtsEngine final : public Engine {
   }
 
   const Experiment experiment_;
+  WorldInputs inputs_;
   const std::optional<contact::Terrain> ground_;
   std::vector<Part> parts_;
   WorldState state_;

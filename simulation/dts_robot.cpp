@@ -66,6 +66,13 @@ std::vector<ContactPoint> boundary_points(const RobotSpec& robot) {
   return points;
 }
 
+std::size_t joints_before(const Experiment& experiment, int robot) {
+  std::size_t joints = 0;
+  for (int i = 0; i < robot; ++i)
+    for_each_link(experiment.robots[i], [&](const LinkSpec&) { ++joints; });
+  return joints;
+}
+
 }  // namespace
 
 dts::RobotDescription describe_robot(const RobotSpec& robot) {
@@ -92,19 +99,21 @@ dts::State<double> initial_state(const RobotSpec& robot) {
   return state;
 }
 
-DtsRobot::DtsRobot(const Experiment& experiment, int index, const contact::Terrain* ground)
+DtsRobot::DtsRobot(const Experiment& experiment, int index, const contact::Terrain* ground,
+                   const WorldInputs& inputs)
     : experiment_(&experiment),
       index_(index),
       ground_(ground),
+      inputs_(&inputs),
+      first_joint_(joints_before(experiment, index)),
       law_(contact::find_force_law(experiment.contact).value_or(contact::Hookpoint{})),
       model_(describe_robot(experiment.robots[index])),
       state_(initial_state(experiment.robots[index])),
       workspace_(model_),
       points_(ground ? boundary_points(experiment.robots[index]) : std::vector<ContactPoint>{}) {
-  for_each_link(experiment.robots[index], [&](const LinkSpec& link) {
-    joints_.push_back(joint_properties(link));
-    constant_torques_.push_back(link.torque);
-  });
+  for_each_link(experiment.robots[index],
+                [&](const LinkSpec& link) { joints_.push_back(joint_properties(link)); });
+  for (const ForceSpec& force : experiment.forces) has_forces_ |= force.robot == index_;
   joint_torques_.resize(joints_.size());
   for (std::vector<double>* positions : {&q_, &q_before_}) positions->resize(position_size());
   for (std::vector<double>* velocities : {&v_, &v_before_, &a_})
@@ -115,12 +124,24 @@ DtsRobot::DtsRobot(const Experiment& experiment, int index, const contact::Terra
 
 void DtsRobot::apply_external_forces() {
   dts::clear_external_forces(workspace_);
-  for (const ForceSpec& force : experiment_->forces) {
+  for (std::size_t i = 0; i < experiment_->forces.size(); ++i) {
+    const ForceSpec& force = experiment_->forces[i];
     if (force.robot != index_) continue;
+    const ForceInput& input = inputs_->forces[i];
     const dts::BodyMotion<double>& body = workspace_.bodies[force.body];
-    dts::add_external_force(workspace_, force.body, force.force,
-                            body.p_WB + body.R_WB * force.point);
-    dts::add_external_torque(workspace_, force.body, force.torque);
+    dts::add_external_force(workspace_, force.body, input.force,
+                            body.p_WB + body.R_WB * input.point);
+    dts::add_external_torque(workspace_, force.body, input.torque);
+  }
+}
+
+// The state was refreshed before its inputs were known; contact does not depend on them.
+void DtsRobot::take_inputs() {
+  if (!has_forces_) return;
+  apply_external_forces();
+  for (const ContactPoint& point : points_) {
+    if (point.depth > 0.)
+      dts::add_external_force(workspace_, point.body, point.force, point.position);
   }
 }
 
@@ -158,7 +179,7 @@ void DtsRobot::apply_contact_forces(bool trial) {
 void DtsRobot::set_joint_torques() {
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     joint_torques_[i] =
-        constant_torques_[i] +
+        inputs_->joint_torques[first_joint_ + i] +
         dts::passive_joint_torque(joints_[i], state_.joint_positions[i], state_.joint_rates[i]);
   }
 }
@@ -191,6 +212,7 @@ integrators::Status DtsRobot::accelerations(integrators::Stage stage, double /*t
 }
 
 StepStatus DtsRobot::step(integrators::Stepper& stepper, double time, double dt) {
+  take_inputs();
   write_positions(q_);
   dts::get_velocity<double>(model_, state_, v_);
   q_before_ = q_;

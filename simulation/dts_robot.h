@@ -39,8 +39,9 @@ struct ContactPoint {
 /// velocities: w_WB (3), v_WB (3), then joint rates (dts/configuration.h).
 class DtsRobot final : public integrators::System {
  public:
-  /// `ground` may be null: no contact. All three outlive the robot.
-  DtsRobot(const Experiment& experiment, int index, const contact::Terrain* ground);
+  /// `ground` may be null: no contact. All that is referred to outlives the robot.
+  DtsRobot(const Experiment& experiment, int index, const contact::Terrain* ground,
+           const WorldInputs& inputs);
 
   /// Advances the robot by `dt` [s] from `time` [s]. On failure nothing has changed.
   StepStatus step(integrators::Stepper& stepper, double time, double dt);
@@ -83,11 +84,15 @@ class DtsRobot final : public integrators::System {
   void evaluate_forces(bool trial);
   void apply_external_forces();
   void apply_contact_forces(bool trial);
+  void take_inputs();
   void set_joint_torques();
 
   const Experiment* experiment_;
   int index_;
   const contact::Terrain* ground_;
+  const WorldInputs* inputs_;
+  std::size_t first_joint_;  ///< where the robot's joints begin in WorldInputs::joint_torques
+  bool has_forces_ = false;  ///< one of the experiment's forces acts on this robot
   contact::ForceLaw law_;
   dts::Model<double> model_;
   dts::State<double> state_;
@@ -95,7 +100,7 @@ class DtsRobot final : public integrators::System {
   std::vector<ContactPoint> points_;
   std::string notice_;
   std::vector<dts::JointProperties<double>> joints_;
-  std::vector<double> constant_torques_, joint_torques_;
+  std::vector<double> joint_torques_;
   std::vector<double> q_, v_, a_, q_before_, v_before_;
 };
 

@@ -25,10 +25,10 @@ std::vector<ChainDynamics> chain_dynamics(const RobotSpec& spec,
 }
 
 RobotDynamics robot_dynamics(const Experiment& experiment, int index,
-                             const contact::Terrain* ground,
+                             const contact::Terrain* ground, const WorldInputs& inputs,
                              const std::vector<std::string>& body_names) {
   const RobotSpec& spec = experiment.robots[index];
-  DtsRobot robot(experiment, index, ground);
+  DtsRobot robot(experiment, index, ground, inputs);
   const dts::Workspace<double>& workspace = robot.workspace();
 
   RobotDynamics report;
@@ -56,13 +56,14 @@ DynamicsReport evaluate_dynamics(const Experiment& experiment) {
   const bool has_forces = contact::find_force_law(experiment.contact).has_value();
   const auto ground = has_forces ? make_ground(experiment) : std::nullopt;
   const std::vector<std::string> names = body_trails(experiment);
+  const WorldInputs inputs = initial_inputs(experiment);
   auto first_body = names.begin();
   for (std::size_t i = 0; i < experiment.robots.size(); ++i) {
     std::size_t bodies = 1;
     for (const ChainSpec& chain : experiment.robots[i].chains) bodies += chain.links.size();
     const auto end = first_body + static_cast<std::ptrdiff_t>(bodies);
     report.robots.push_back(robot_dynamics(experiment, static_cast<int>(i),
-                                           ground ? &*ground : nullptr, {first_body, end}));
+                                           ground ? &*ground : nullptr, inputs, {first_body, end}));
     first_body = end;
   }
   const double step = stability_bound(experiment).step;

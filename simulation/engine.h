@@ -41,6 +41,25 @@ struct WorldState {
       notices;  ///< what the user should know, each said once: a robot has left the terrain
 };
 
+/// An external force on a body, as it acts now.
+struct ForceInput {
+  Vector3d point;   ///< where it acts, body axes [m]
+  Vector3d force;   ///< world axes [N]
+  Vector3d torque;  ///< world axes [N m]
+};
+
+/// What acts on a world from outside, held over the next step.
+struct WorldInputs {
+  /// One a joint, robots and chains in order: the drive's force beside what the joint does by
+  /// itself (springs, damping, friction) [N m, N for a prismatic joint]. At first the Link's
+  /// constant torque.
+  std::vector<double> joint_torques;
+  /// One a ForceSpec, in order. At first as written; a force over a window starts at zero.
+  std::vector<ForceInput> forces;
+};
+
+WorldInputs initial_inputs(const Experiment& experiment);
+
 /// Why a step was not taken. Nothing is repaired silently: a run that fails stops and says this.
 struct StepStatus {
   enum class Kind { ok, not_finite, step_too_large, solver_failed };
@@ -58,6 +77,9 @@ class Engine {
   virtual StepStatus step() = 0;
   /// The published values; the reference stays valid for the engine's life.
   virtual const WorldState& state() const = 0;
+  /// What acts on the world in the next step; may be written between steps. The reference and its
+  /// elements' addresses stay valid for the engine's life.
+  virtual WorldInputs& inputs() = 0;
 };
 
 /// What `hookpoint engines` and the provenance file say of an engine.

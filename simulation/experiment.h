@@ -4,14 +4,17 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
 #include "contact/terrain.h"
 #include "contact/vocabulary.h"
 #include "math/rotation.h"
+#include "output/recorder.h"
 
 namespace hookpoint::simulation {
 
@@ -105,7 +108,13 @@ struct TerrainSpec : contact::TerrainDescription {
   std::string name;
 };
 
-/// A constant external force on a body.
+/// When a force acts: from `from` to `to`, rising and falling over `edge` as half a cosine.
+struct ForceWindow {
+  double from = 0., to = 0.;  ///< [s]
+  double edge = 0.;           ///< [s]; 0 switches between steps
+};
+
+/// An external force on a body, constant unless it has a window or wires drive it.
 struct ForceSpec {
   std::string name;
   int robot = 0;
@@ -113,6 +122,43 @@ struct ForceSpec {
   Vector3d point;   ///< where it acts, body axes [m]
   Vector3d force;   ///< world axes [N]
   Vector3d torque;  ///< world axes [N m]
+  std::optional<ForceWindow> window;
+};
+
+/// A value of an object that no engine and no component computes: a constant (a mass, a material's
+/// stiffness), or one that holds what was written last (a slider's value, a camera's zoom).
+struct ValueSpec {
+  std::string trail;  ///< from the top, port included: "SimpleWorld.clay.normal_stiffness"
+  std::string unit;
+  std::optional<double> value;  ///< none: that of the input which it is wired to, else 0
+  bool writable = false;
+};
+
+/// A component and the values that the file gives it.
+struct ComponentSpec {
+  std::string trail;           ///< from the top, no two alike: "pd1"
+  std::string type;            ///< class of control::Registry: "Controller.PD"
+  std::optional<double> rate;  ///< of its updates [Hz]; none: every step
+  std::vector<std::pair<std::size_t, double>> values;  ///< index among the component's values
+  std::vector<std::pair<std::size_t, std::string>>
+      texts;  ///< index among its texts; paths absolute
+};
+
+/// One number's way from a port to a port, by their trails from the top.
+struct WireSpec {
+  std::string from, to;
+  std::optional<double> rate;  ///< of sampling [Hz]; none: every step
+  double delay = 0.;           ///< [s]
+  double noise = 0.;           ///< standard deviation, in the unit of the value
+};
+
+/// A data file of the run.
+struct RecordSpec {
+  std::string name;
+  std::string format;          ///< of output::record_formats
+  std::string file;            ///< in the run's folder
+  std::optional<double> rate;  ///< of its rows [Hz]; none: every step
+  std::vector<output::Channel> channels;  ///< `path`: the port's trail from the top; an open `unit` is the port's
 };
 
 struct Experiment {
@@ -129,6 +175,11 @@ struct Experiment {
   std::optional<TerrainSpec> terrain;
   std::vector<RobotSpec> robots;
   std::vector<ForceSpec> forces;
+  std::vector<ComponentSpec> components;
+  std::vector<WireSpec> wires;                           ///< attachments included
+  std::vector<RecordSpec> records;
+  std::shared_ptr<const std::vector<ValueSpec>> values;  ///< shared: copies of an experiment differ
+                                                         ///< in what runs, not in what is readable
 };
 
 }  // namespace hookpoint::simulation

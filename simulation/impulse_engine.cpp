@@ -18,7 +18,9 @@ contact::ImpulseBody impulse_body(const BodySpec& body) {
 class ImpulseEngine final : public Engine {
  public:
   explicit ImpulseEngine(const Experiment& experiment)
-      : experiment_(experiment), ground_(make_ground(experiment_)) {
+      : experiment_(experiment),
+        inputs_(initial_inputs(experiment_)),
+        ground_(make_ground(experiment_)) {
     for (const RobotSpec& robot : experiment_.robots) {
       if (!robot.chains.empty()) {
         throw ExperimentError("the law `" + experiment_.contact + "` moves single bodies; robot `" +
@@ -54,6 +56,7 @@ class ImpulseEngine final : public Engine {
   }
 
   const WorldState& state() const override { return state_; }
+  WorldInputs& inputs() override { return inputs_; }
 
  private:
   struct Part {
@@ -97,12 +100,13 @@ class ImpulseEngine final : public Engine {
     }
   }
 
-  /// The constant forces on a body, about its centre of mass, at the step's start.
+  /// The external forces on a body, about its centre of mass, at the step's start.
   contact::ImpulseLoad load_on(std::size_t i) const {
     contact::ImpulseLoad load{experiment_.gravity, {}, {}};
     const BodySpec& body = experiment_.robots[i].base;
-    for (const ForceSpec& force : experiment_.forces) {
-      if (force.robot != static_cast<int>(i)) continue;
+    for (std::size_t k = 0; k < experiment_.forces.size(); ++k) {
+      if (experiment_.forces[k].robot != static_cast<int>(i)) continue;
+      const ForceInput& force = inputs_.forces[k];
       load.force += force.force;
       load.torque += force.torque;
       load.torque +=
@@ -113,6 +117,7 @@ class ImpulseEngine final : public Engine {
   }
 
   const Experiment experiment_;
+  WorldInputs inputs_;
   const std::optional<contact::Terrain> ground_;
   std::vector<Part> parts_;
   WorldState state_;

@@ -62,14 +62,12 @@ void load_world(const language::Object& world, Loading& loading) {
   experiment.seed = static_cast<std::uint64_t>(world.number("seed"));
 }
 
-/// Controllers and wires are checked with the file but nothing carries their values yet.
-void warn_of_controllers(const language::Object& root, Loading& loading) {
-  const std::vector<const language::Object*> controllers = collect_all(root, "Controller.");
-  if (controllers.empty()) return;
-  loading.diagnostics.warning(
-      controllers[0]->position,
-      "controllers and wires are checked but do not act yet: joints keep the torque "
-      "that their Link states");
+void load_signals(const language::Object& root, Loading& loading) {
+  const std::size_t errors_before = loading.diagnostics.error_count();
+  load_values(root, loading);
+  load_components(root, loading);
+  if (loading.diagnostics.error_count() == errors_before) load_wires(root, loading);
+  load_records(root, loading);
 }
 
 }  // namespace
@@ -77,7 +75,7 @@ void warn_of_controllers(const language::Object& root, Loading& loading) {
 std::optional<Experiment> load_experiment(const language::Object& root,
                                           language::Diagnostics& diagnostics,
                                           const std::vector<std::filesystem::path>& search_path) {
-  Loading loading{diagnostics, search_path, {}, {}, {}, {}};
+  Loading loading{diagnostics, search_path, {}, {}, {}, {}, {}, {}};
   const std::size_t errors_before = diagnostics.error_count();
   const language::Object* world = find_world(root, loading);
   check_strays(root, loading);
@@ -90,8 +88,8 @@ std::optional<Experiment> load_experiment(const language::Object& root,
   check_combinations(*world, loading);
   // A pose on the ground means something only for robots and ground that are right.
   if (diagnostics.error_count() == errors_before) place_on_terrain(loading);
+  if (diagnostics.error_count() == errors_before) load_signals(root, loading);
   if (diagnostics.error_count() != errors_before) return std::nullopt;
-  warn_of_controllers(root, loading);
   return std::move(loading.experiment);
 }
 

@@ -38,31 +38,11 @@ int material_index(const language::Object& object, Loading& loading) {
   return entry->second;
 }
 
-/// Beside the file that names it, then along the search path; empty if nowhere.
-std::filesystem::path find_file(const std::string& name, const language::Position& from,
-                                const Loading& loading) {
-  std::vector<std::filesystem::path> folders;
-  folders.push_back(from.file == nullptr ? ""
-                                         : std::filesystem::path(from.file->path).parent_path());
-  folders.insert(folders.end(), loading.search_path.begin(), loading.search_path.end());
-  for (const std::filesystem::path& folder : folders) {
-    std::error_code ignored;
-    if (std::filesystem::is_regular_file(folder / name, ignored)) return folder / name;
-  }
-  return {};
-}
-
 GridSpec load_grid(const language::Object& object, TerrainSpec& terrain, Loading& loading) {
   const language::Position& place = place_of(object, "file");
   const std::string& name = object.word("file");
   const std::filesystem::path path = find_file(name, place, loading);
-  if (path.empty()) {
-    loading.error(place,
-                  fmt::format("there is no file \"{}\" beside this one or along the search path "
-                              "(the project's configs/, HOOKPOINT_PATH)",
-                              name));
-    return {};
-  }
+  if (path.empty()) return {};
   const contact::AsciiGridResult result = contact::read_ascii_grid(path);
   if (!result.grid) {
     loading.error(

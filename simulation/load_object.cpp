@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "simulation/load_parts.h"
@@ -37,6 +39,23 @@ Vector3d vector_of(const language::Object& object, std::string_view field) {
 Quaterniond orientation_of(const language::Object& object, std::string_view field) {
   const std::vector<double>& numbers = object.numbers(field);
   return {numbers[0], numbers[1], numbers[2], numbers[3]};
+}
+
+std::filesystem::path find_file(const std::string& name, const language::Position& from,
+                                Loading& loading) {
+  std::vector<std::filesystem::path> folders;
+  folders.push_back(from.file == nullptr ? ""
+                                         : std::filesystem::path(from.file->path).parent_path());
+  folders.insert(folders.end(), loading.search_path.begin(), loading.search_path.end());
+  for (const std::filesystem::path& folder : folders) {
+    std::error_code ignored;
+    if (std::filesystem::is_regular_file(folder / name, ignored)) return folder / name;
+  }
+  loading.error(from,
+                fmt::format("there is no file \"{}\" beside this one or along the search path "
+                            "(the project's configs/, HOOKPOINT_PATH)",
+                            name));
+  return {};
 }
 
 }  // namespace hookpoint::simulation

@@ -25,7 +25,9 @@ struct Loading {
   Experiment experiment;
   std::map<const language::Object*, int> materials;  ///< index into Experiment::materials
   std::map<const language::Object*, BodyIndex> bodies;
-  std::vector<const language::Object*> bases;  ///< one a robot
+  std::vector<const language::Object*> bases;             ///< one a robot
+  std::map<const language::Object*, std::string> trails;  ///< from the top, no two alike
+  std::vector<const language::Object*> components;        ///< one a ComponentSpec
 
   void error(const language::Position& position, std::string message) {
     diagnostics.error(position, std::move(message));
@@ -44,6 +46,11 @@ std::string name_within(const language::Object& object, const language::Object& 
 const language::Position& place_of(const language::Object& object, std::string_view field);
 Vector3d vector_of(const language::Object& object, std::string_view field);
 Quaterniond orientation_of(const language::Object& object, std::string_view field);
+
+/// `name` beside the file that names it at `from`, then along the search path; empty, after saying
+/// so, if nowhere.
+std::filesystem::path find_file(const std::string& name, const language::Position& from,
+                                Loading& loading);
 
 // The parts of a World, each into `loading.experiment`.
 
@@ -64,5 +71,18 @@ MassSpec load_mass(const language::Object& object, const std::vector<ShapeSpec>&
 void place_on_terrain(Loading& loading);
 /// What cannot run together: laws, integrators, engines, robots.
 void check_combinations(const language::Object& world, Loading& loading);
+
+// Signals, when the rest is right.
+
+/// Gives every object its trail, none to two; collects the numbers that are readable as they stand
+/// in the file.
+void load_values(const language::Object& root, Loading& loading);
+/// Controllers, sensors, actuators, sources.
+void load_components(const language::Object& root, Loading& loading);
+/// Wires and attachments. Finds second drivers, missing attachments, loops without delay, and
+/// components that cannot start.
+void load_wires(const language::Object& root, Loading& loading);
+/// Data files.
+void load_records(const language::Object& root, Loading& loading);
 
 }  // namespace hookpoint::simulation

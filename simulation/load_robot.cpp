@@ -179,19 +179,4 @@ void load_robots(const language::Object& world, Loading& loading) {
   }
 }
 
-void load_forces(const language::Object& world, Loading& loading) {
-  for (const language::Object* object : world.children_of("Force")) {
-    const auto body = loading.bodies.find(object->object("body"));
-    if (body == loading.bodies.end()) {
-      loading.error(
-          place_of(*object, "body"),
-          "a Force acts on a body: name a robot's base (bot.base) or a link (bot.leg1.link2)");
-      continue;
-    }
-    loading.experiment.forces.push_back(
-        {name_within(*object, world), body->second.robot, body->second.body,
-         vector_of(*object, "point"), vector_of(*object, "force"), vector_of(*object, "torque")});
-  }
-}
-
 }  // namespace hookpoint::simulation

@@ -2,54 +2,80 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "language/document.h"
 
 namespace hookpoint::simulation {
 namespace {
 
+Port readable(std::string trail, std::string unit, const double& value) {
+  Port port;
+  port.trail = std::move(trail);
+  port.unit = std::move(unit);
+  port.value = &value;
+  return port;
+}
+
 void add_vector(std::vector<Port>& ports, const std::string& trail, const char* unit,
                 const Vector3d& v) {
-  ports.push_back({trail + ".x", unit, &v.x});
-  ports.push_back({trail + ".y", unit, &v.y});
-  ports.push_back({trail + ".z", unit, &v.z});
+  ports.push_back(readable(trail + ".x", unit, v.x));
+  ports.push_back(readable(trail + ".y", unit, v.y));
+  ports.push_back(readable(trail + ".z", unit, v.z));
 }
 
 /// A body's motion under `trail`, its position under the name `position_name`.
 void add_body(std::vector<Port>& ports, const std::string& trail, const char* position_name,
               const BodyState& body) {
   add_vector(ports, trail + "." + position_name, "m", body.position);
-  ports.push_back({trail + ".orientation.w", "", &body.orientation.w});
-  ports.push_back({trail + ".orientation.x", "", &body.orientation.x});
-  ports.push_back({trail + ".orientation.y", "", &body.orientation.y});
-  ports.push_back({trail + ".orientation.z", "", &body.orientation.z});
+  ports.push_back(readable(trail + ".orientation.w", "", body.orientation.w));
+  ports.push_back(readable(trail + ".orientation.x", "", body.orientation.x));
+  ports.push_back(readable(trail + ".orientation.y", "", body.orientation.y));
+  ports.push_back(readable(trail + ".orientation.z", "", body.orientation.z));
   add_vector(ports, trail + ".velocity", "m/s", body.velocity);
   add_vector(ports, trail + ".angular_velocity", "rad/s", body.angular_velocity);
   add_vector(ports, trail + ".contact.force", "N", body.contact_force);
 }
 
 void add_joint(std::vector<Port>& ports, const std::string& trail, JointKind kind,
-               const JointState& joint) {
+               const JointState& joint, double& drive) {
   const bool turns = kind == JointKind::revolute;
-  ports.push_back({trail + ".angle", turns ? "rad" : "m", &joint.angle});
-  ports.push_back({trail + ".rate", turns ? "rad/s" : "m/s", &joint.rate});
-  ports.push_back({trail + ".acceleration", turns ? "rad/s^2" : "m/s^2", &joint.acceleration});
-  ports.push_back({trail + ".torque", turns ? "N.m" : "N", &joint.torque});
+  ports.push_back(readable(trail + ".angle", turns ? "rad" : "m", joint.angle));
+  ports.push_back(readable(trail + ".rate", turns ? "rad/s" : "m/s", joint.rate));
+  ports.push_back(
+      readable(trail + ".acceleration", turns ? "rad/s^2" : "m/s^2", joint.acceleration));
+  ports.push_back(readable(trail + ".torque", turns ? "N.m" : "N", drive));
+  ports.back().writable = &drive;
+}
+
+/// Elements of short lists have letters: "gains[1]" as "gains.y", any other trail as it is.
+std::string by_letter(std::string_view trail) {
+  for (const auto& [index, letter] :
+       {std::pair{"[0]", ".x"}, std::pair{"[1]", ".y"}, std::pair{"[2]", ".z"}}) {
+    if (trail.ends_with(index)) return std::string(trail.substr(0, trail.size() - 3)) + letter;
+  }
+  return std::string(trail);
 }
 
 }  // namespace
 
-std::vector<Port> list_ports(const Experiment& experiment, const WorldState& state) {
-  std::vector<Port> ports{{"time", "s", &state.time}};
+std::vector<Port> list_ports(const Experiment& experiment, Engine& engine) {
+  const WorldState& state = engine.state();
+  const std::string world = experiment.world + ".";
+  std::vector<Port> ports{readable(world + "time", "s", state.time)};
   std::size_t body = 0, joint = 0;
   for (const RobotSpec& robot : experiment.robots) {
-    add_body(ports, robot.name + ".base", "location", state.bodies[body]);
-    add_body(ports, robot.name, "position", state.bodies[body]);
+    const std::string base = robot.base.name.empty() ? "base" : robot.base.name;
+    add_body(ports, world + robot.name + "." + base, "location", state.bodies[body]);
+    add_body(ports, world + robot.name, "position", state.bodies[body]);
     ++body;
     for (const ChainSpec& chain : robot.chains) {
       for (const LinkSpec& link : chain.links) {
-        const std::string trail = robot.name + "." + chain.name + "." + link.body.name;
-        add_joint(ports, trail, link.joint, state.joints[joint++]);
+        const std::string trail = world + robot.name + "." + chain.name + "." + link.body.name;
+        add_joint(ports, trail, link.joint, state.joints[joint],
+                  engine.inputs().joint_torques[joint]);
         add_body(ports, trail, "location", state.bodies[body++]);
+        ++joint;
       }
     }
   }
@@ -58,15 +84,22 @@ std::vector<Port> list_ports(const Experiment& experiment, const WorldState& sta
 
 Port find_port(const Experiment& experiment, const std::vector<Port>& ports,
                std::string_view trail) {
-  std::string_view wanted = trail;
-  if (wanted.substr(0, experiment.world.size() + 1) == experiment.world + ".")
-    wanted.remove_prefix(experiment.world.size() + 1);
+  const std::string world = experiment.world + ".";
+  const std::string own = by_letter(trail);
+  for (const std::string& wanted :
+       {std::string(trail), own, world + std::string(trail), world + own}) {
+    for (const Port& port : ports) {
+      if (port.trail == wanted) return port;
+    }
+  }
+  // Trails are suggested as the user writes them: with or without the world's name.
+  const bool with_world = trail.starts_with(world);
   std::vector<std::string> trails;
   for (const Port& port : ports) {
-    if (port.trail == wanted) return port;
-    trails.push_back(port.trail);
+    const bool inside = port.trail.starts_with(world);
+    trails.push_back(inside && !with_world ? port.trail.substr(world.size()) : port.trail);
   }
-  const std::string nearest = language::nearest_name(wanted, trails);
+  const std::string nearest = language::nearest_name(trail, trails);
   throw ExperimentError(fmt::format("there is no port `{}`{}", trail,
                                     nearest.empty()
                                         ? "; `hookpoint describe` lists the ports of each class"

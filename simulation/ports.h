@@ -1,8 +1,8 @@
-// Every number that an engine publishes, by its trail. A resolved port is a pointer into the
-// WorldState: reading it costs an index.
+// Every number of a world by its trail. A resolved port is a pointer: reading or writing it costs
+// no look-up.
 #pragma once
 
-#include <optional>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,18 +12,21 @@
 namespace hookpoint::simulation {
 
 struct Port {
-  std::string trail;              ///< "block.base.location.x", without the world's name
+  std::string trail;              ///< from the top: "SimpleWorld.block.base.location.x", "pd1.goal"
   std::string unit;               ///< "m"
-  const double* value = nullptr;  ///< lives as long as the engine that published it
+  const double* value = nullptr;  ///< lives as long as the world
+  double* writable = nullptr;     ///< the same where wires may write, else null
+  std::string doc;                ///< one line, of a component's port
+  double minimum = -std::numeric_limits<double>::infinity();  ///< declared range
+  double maximum = std::numeric_limits<double>::infinity();
 };
 
-/// All ports of a world, robots in file order. A robot's own `position`, `velocity`, ... are its
-/// base's. `state` is the engine's published state; its bodies and joints stand in the experiment's
-/// order.
-std::vector<Port> list_ports(const Experiment& experiment, const WorldState& state);
+/// What the engine publishes, and its joints' drives: robots in file order. A robot's own
+/// `position`, `velocity`, ... are its base's.
+std::vector<Port> list_ports(const Experiment& experiment, Engine& engine);
 
-/// The port named by `trail`, with or without the world's name in front.
-/// Throws ExperimentError naming the nearest trails when there is none. O(ports).
+/// The port named by `trail`: from the top, or from within the world ("block.base.location.x").
+/// Throws ExperimentError naming the nearest trail when there is none. O(ports).
 Port find_port(const Experiment& experiment, const std::vector<Port>& ports,
                std::string_view trail);
 

@@ -2,6 +2,10 @@
 // description each, from which checking, `describe` and the manual come.
 #pragma once
 
+#include <string>
+#include <vector>
+
+#include "control/registry.h"
 #include "language/schema.h"
 
 namespace hookpoint::simulation {
@@ -15,5 +19,11 @@ void add_robot_classes(language::Schema& schema);
 void add_shape_classes(language::Schema& schema);
 void add_ground_classes(language::Schema& schema);
 void add_control_classes(language::Schema& schema);
+void add_record_classes(language::Schema& schema);
+
+/// A component class as the language sees it: its ports, and the fields of the stub around it.
+language::ClassSchema component_schema(const control::ComponentClass& type);
+/// "Controller.", "Sensor.", "Gain", ...: what may stand wherever a controller may.
+std::vector<std::string> component_families();
 
 }  // namespace hookpoint::simulation

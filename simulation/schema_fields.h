@@ -104,9 +104,10 @@ inline FieldSchema port_only(Direction direction, FieldSchema field) {
   return field;
 }
 
-/// Appends `more` to `fields`.
-inline void append(std::vector<FieldSchema>& fields, std::vector<FieldSchema> more) {
-  for (FieldSchema& field : more) fields.push_back(std::move(field));
+/// Appends `more` to `list`.
+template <class Element>
+void append(std::vector<Element>& list, std::vector<Element> more) {
+  for (Element& element : more) list.push_back(std::move(element));
 }
 
 }  // namespace hookpoint::simulation

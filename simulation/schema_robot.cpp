@@ -61,7 +61,8 @@ language::ClassSchema robot_class() {
   robot.doc = "a base that carries any number of chains of links";
   robot.naming = language::Naming::required;
   robot.top_level = true;
-  robot.children = {"Base.", "Chain", "Controller."};
+  robot.children = {"Base.", "Chain"};
+  append(robot.children, component_families());
   robot.fields = motion_ports("position", "the base's");
   append(robot.fields, contact_ports());
   return robot;
@@ -97,7 +98,8 @@ language::ClassSchema chain_class() {
   chain.doc = "a leg or an arm: links in series, joined to the base at the hip";
   chain.naming = language::Naming::required;
   chain.top_level = true;
-  chain.children = {"Link", "Controller."};
+  chain.children = {"Link"};
+  append(chain.children, component_families());
   chain.fields = {
       vector_field("hip_distance", "m", "0,0,0", "the hip's position, base axes"),
       orientation_field("hip_orientation",
@@ -112,14 +114,15 @@ std::vector<FieldSchema> joint_fields() {
   return {
       choice_field("joint", {"revolute", "prismatic"}, "revolute",
                    "turns about, or slides along, the link's own z"),
-      with_port(Direction::both, number_field("angle", "rad", "0",
-                                              "joint variable, added to dhangle (prismatic: to "
-                                              "dhoffset, in metres without a unit)")),
-      with_port(Direction::both,
+      with_port(Direction::output, number_field("angle", "rad", "0",
+                                                "joint variable, added to dhangle (prismatic: to "
+                                                "dhoffset, in metres without a unit)")),
+      with_port(Direction::output,
                 number_field("rate", "rad/s", "0", "d(angle)/dt (prismatic: m/s without a unit)")),
       with_port(Direction::both,
-                number_field("torque", "N.m", "0",
-                             "constant torque of the joint's drive (prismatic: N without a unit)")),
+                number_field(
+                    "torque", "N.m", "0",
+                    "of the joint's drive: constant unless wired (prismatic: N without a unit)")),
       port_only(Direction::output, number_field("acceleration", "rad/s^2", "", "d(rate)/dt")),
       number_field("lower_limit", "rad", "", "least angle; none if not given"),
       number_field("upper_limit", "rad", "", "greatest angle; none if not given"),
@@ -139,7 +142,8 @@ language::ClassSchema link_class() {
       "Rot_x(dhtwist) Trans_x(dhlength) Rot_z(dhangle) Trans_z(dhoffset) from the preceding frame";
   link.naming = language::Naming::required;
   link.top_level = true;
-  link.children = {"Shape.", "ContactPoint", "Controller."};
+  link.children = {"Shape.", "ContactPoint"};
+  append(link.children, component_families());
   link.fields = {
       number_field("dhlength", "m", "0", "a: along the preceding frame's x"),
       number_field("dhtwist", "rad", "0", "alpha: about the preceding frame's x"),

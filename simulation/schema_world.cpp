@@ -18,7 +18,8 @@ language::ClassSchema world_class() {
       "what is simulated: gravity, ground, robots, and how time advances; exactly one a run";
   world.top_level = true;
   world.default_name = "World";
-  world.children = {"Robot", "Material", "Terrain.", "Force", "Controller."};
+  world.children = {"Robot", "Material", "Terrain.", "Force", "Push", "Record"};
+  append(world.children, component_families());
   world.fields = {
       list_field("gravity", "m/s^2", 1, 3, "9.81",
                  "a number g means 0,0,-g; three numbers are the vector"),
@@ -55,19 +56,55 @@ language::ClassSchema simulator_class() {
   return simulator;
 }
 
+/// Where and how strongly a force acts; wires may drive each part.
+std::vector<FieldSchema> force_fields() {
+  return {
+      required(object_field(
+          "body", "", "the body it acts on: a robot's base (bot.base) or a link (bot.leg1.link2)")),
+      with_port(Direction::both,
+                vector_field("point", "m", "0,0,0",
+                             "where the force acts, body axes, from the body frame's origin")),
+      with_port(Direction::both, vector_field("force", "N", "0,0,0", "world axes")),
+      with_port(Direction::both, vector_field("torque", "N.m", "0,0,0",
+                                              "a torque beside the force's moment, world axes")),
+  };
+}
+
 language::ClassSchema force_class() {
   language::ClassSchema force;
   force.name = "Force";
-  force.doc = "a constant external force and torque on a body";
-  force.fields = {
-      required(object_field(
-          "body", "", "the body it acts on: a robot's base (bot.base) or a link (bot.leg1.link2)")),
-      vector_field("point", "m", "0,0,0",
-                   "where the force acts, body axes, from the body frame's origin"),
-      vector_field("force", "N", "0,0,0", "world axes"),
-      vector_field("torque", "N.m", "0,0,0", "a torque beside the force's moment, world axes"),
-  };
+  force.doc = "an external force and torque on a body, constant unless wired";
+  force.fields = force_fields();
   return force;
+}
+
+language::ClassSchema push_class() {
+  language::ClassSchema push;
+  push.name = "Push";
+  push.doc = "a Force over a window of time";
+  push.fields = force_fields();
+  append(
+      push.fields,
+      {not_negative(number_field("from", "s", "0", "when it begins")),
+       not_negative(number_field("to", "s", "", "when it ends; or give `duration`")),
+       positive(number_field("duration", "s", "", "how long it lasts; or give `to`")),
+       not_negative(number_field("edge", "s", "0",
+                                 "time over which it rises at first and falls at last, as half "
+                                 "a cosine; 0 switches")),
+       port_only(Direction::output,
+                 number_field("envelope", "", "",
+                              "the part of the force that acts: 0 outside the window, 1 inside"))});
+  return push;
+}
+
+/// Every number of an object is readable by its trail.
+void make_readable(language::ClassSchema& schema) {
+  for (FieldSchema& field : schema.fields) {
+    const bool numeric = field.type == FieldType::number || field.type == FieldType::integer ||
+                         field.type == FieldType::numbers || field.type == FieldType::boolean ||
+                         field.type == FieldType::orientation;
+    if (numeric && field.port == Direction::none) field.port = Direction::output;
+  }
 }
 
 }  // namespace
@@ -76,14 +113,23 @@ void add_world_classes(language::Schema& schema) {
   schema.add(world_class());
   schema.add(simulator_class());
   schema.add(force_class());
+  schema.add(push_class());
 }
 
 void add_experiment_classes(language::Schema& schema) {
-  add_world_classes(schema);
-  add_robot_classes(schema);
-  add_shape_classes(schema);
-  add_ground_classes(schema);
-  add_control_classes(schema);
+  language::Schema classes;
+  add_world_classes(classes);
+  add_robot_classes(classes);
+  add_shape_classes(classes);
+  add_ground_classes(classes);
+  add_control_classes(classes);
+  add_record_classes(classes);
+  for (const auto& [name, type] : classes.classes()) {
+    if (schema.find(name) != nullptr) continue;  // the language's own
+    language::ClassSchema readable = type;
+    make_readable(readable);
+    schema.add(std::move(readable));
+  }
 }
 
 }  // namespace hookpoint::simulation

@@ -87,7 +87,8 @@ StabilityBound robot_bound(const Experiment& experiment, int index,
                            const contact::Terrain& ground) {
   const contact::ForceLaw law = *contact::find_force_law(experiment.contact);
   const RobotSpec& spec = experiment.robots[index];
-  DtsRobot robot(experiment, index, &ground);
+  const WorldInputs inputs = initial_inputs(experiment);
+  DtsRobot robot(experiment, index, &ground, inputs);
   dts::articulated_inertias(robot.model(), robot.workspace());
 
   std::vector<const ContactPoint*> touching;

@@ -8,6 +8,9 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <string>
+
+#include "simulation/world.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -134,18 +137,22 @@ std::optional<RowOutcome> execute(const StudyPlan& plan, const RowPlan& row,
   try {
     const RunContext context = make_context(row.experiment, plan.settle, plan.duration);
     const std::int64_t steps = std::llround(plan.duration / row.experiment.deltat);
-    const std::unique_ptr<simulation::Engine> world = engine->make(row.experiment);
+    simulation::World world(row.experiment, engine->make(row.experiment));
     Watch watch(plan, row, context, steps);
     StepStatus status;
-    watch.observe(world->state());
-    for (std::int64_t step = 0; step < steps && status.ok(); ++step) {
+    watch.observe(world.state());
+    std::string ended = world.ended();
+    for (std::int64_t step = 0; step < steps && status.ok() && ended.empty(); ++step) {
       if (stop.load(std::memory_order_relaxed)) return std::nullopt;
-      status = world->step();
-      if (status.ok()) watch.observe(world->state());
+      status = world.step();
+      if (status.ok()) watch.observe(world.state());
+      ended = world.ended();
     }
     RowOutcome outcome;
     if (!status.ok()) outcome.status = failure(status);
-    watch.finish(outcome, status.ok());
+    const bool cut_short = status.ok() && world.state().step < steps;
+    if (cut_short) outcome.status = fmt::format("ended at {:.6g} s: {}", world.state().time, ended);
+    watch.finish(outcome, status.ok() && !cut_short);
     return outcome;
   } catch (const simulation::ExperimentError& error) {
     return not_run(plan, fmt::format("cannot run: {}", error.what()));
@@ -157,11 +164,11 @@ std::vector<std::optional<double>> execute_timing(const StudyPlan& plan, const R
   constexpr int steps = 200;
   std::array<double, 5> stretches{};
   std::vector<std::optional<double>> values(plan.metrics.size());
-  const std::unique_ptr<simulation::Engine> world = engine.make(row.experiment);
+  simulation::World world(row.experiment, engine.make(row.experiment));
   for (double& seconds : stretches) {
     const auto start = std::chrono::steady_clock::now();
     for (int step = 0; step < steps; ++step)
-      if (!world->step().ok()) return values;
+      if (!world.step().ok()) return values;
     seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
   std::sort(stretches.begin(), stretches.end());

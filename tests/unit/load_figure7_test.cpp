@@ -76,10 +76,6 @@ TEST(LoadPorts, AWireMayReadAContactForce) {
   EXPECT_TRUE(loaded.experiment) << loaded.diagnostics;
 }
 
-TEST_F(Figure7, SaysThatControllersDoNotActYet) {
-  EXPECT_NE(loaded_.diagnostics.find("controllers and wires are checked but do not act yet"),
-            std::string::npos);
-}
 
 }  // namespace
 }  // namespace hookpoint

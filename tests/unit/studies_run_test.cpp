@@ -39,6 +39,7 @@ class Slider : public simulation::Engine {
     return {};
   }
   const simulation::WorldState& state() const override { return world_; }
+  simulation::WorldInputs& inputs() override { return inputs_; }
 
   static inline std::atomic<long> steps_taken = 0;
 
@@ -50,6 +51,7 @@ class Slider : public simulation::Engine {
   bool break_;
   double speed_ = 0., dt_ = 0.;
   simulation::WorldState world_;
+  simulation::WorldInputs inputs_;
 };
 
 constexpr const char* scene = R"(

@@ -1,0 +1,20 @@
+#include "simulation/engine.h"
+
+namespace hookpoint::simulation {
+
+WorldInputs initial_inputs(const Experiment& experiment) {
+  WorldInputs inputs;
+  for (const RobotSpec& robot : experiment.robots) {
+    for (const ChainSpec& chain : robot.chains) {
+      for (const LinkSpec& link : chain.links) inputs.joint_torques.push_back(link.torque);
+    }
+  }
+  for (const ForceSpec& force : experiment.forces) {
+    const bool waits = force.window.has_value();
+    inputs.forces.push_back(
+        {force.point, waits ? Vector3d{} : force.force, waits ? Vector3d{} : force.torque});
+  }
+  return inputs;
+}
+
+}  // namespace hookpoint::simulation

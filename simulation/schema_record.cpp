@@ -1,0 +1,35 @@
+// What a file says of the data that a run leaves.
+#include "output/recorder.h"
+#include "simulation/schema.h"
+#include "simulation/schema_fields.h"
+
+namespace hookpoint::simulation {
+
+void add_record_classes(language::Schema& schema) {
+  language::ClassSchema record;
+  record.name = "Record";
+  record.doc =
+      "a data file of the run: a row of chosen ports at time 0 and at every step or sampling "
+      "instant";
+  record.top_level = true;
+  record.naming = language::Naming::required;
+
+  FieldSchema trails =
+      make_field(FieldType::words, "trails",
+                 "ports to record, a channel each; a vector is a channel a component");
+  trails.max_count = 100'000;
+  std::vector<std::string> formats;
+  for (const output::RecordFormat& format : output::record_formats())
+    formats.emplace_back(format.name);
+  record.fields = {
+      required(std::move(trails)),
+      choice_field("format", formats, "csv", "of the file; docs/data.md tells how to read each"),
+      positive(number_field("rate", "Hz", "", "rows a second; if not given, one each step")),
+      text_field(
+          "file",
+          "name in the run's folder; if not given, the record's with the format's extension"),
+  };
+  schema.add(std::move(record));
+}
+
+}  // namespace hookpoint::simulation

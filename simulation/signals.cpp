@@ -1,0 +1,109 @@
+#include "simulation/signals.h"
+
+#include <algorithm>
+#include <exception>
+#include <unordered_map>
+
+#include "simulation/force_window.h"
+
+namespace hookpoint::simulation {
+namespace {
+
+using PortsByTrail = std::unordered_map<std::string_view, const Port*>;
+
+const Port& port_of(const PortsByTrail& ports, const std::string& trail) {
+  const auto found = ports.find(trail);
+  if (found == ports.end())
+    throw ExperimentError("a wire or an attachment needs the port `" + trail +
+                          "`, which does not exist");
+  return *found->second;
+}
+
+}  // namespace
+
+Signals::Signals(const Experiment& experiment, Engine& engine)
+    : experiment_(experiment), engine_(engine), components_(experiment) {
+  for (const ForceSpec& force : experiment.forces)
+    held_.forces.push_back({force.point, force.force, force.torque});
+  held_.envelopes.resize(experiment.forces.size(), 1.);
+  if (experiment.values) {
+    for (const ValueSpec& value : *experiment.values)
+      held_.values.push_back(value.value.value_or(0.));
+  }
+  for (const ComponentSpec& component : experiment.components)
+    updates_.push_back({update_schedule(component, experiment.deltat)});
+  for (const StartProblem& problem : components_.start(experiment))
+    throw ExperimentError(experiment.components[problem.component].trail + ": " + problem.message);
+  if (!experiment.wires.empty()) connect(ports());
+  const WiringOrder order = order_wiring(experiment, components_);
+  if (!order.loop.empty()) throw ExperimentError("wires without delay form a loop");
+  order_ = order.items;
+}
+
+void Signals::connect(const std::vector<Port>& ports) {
+  PortsByTrail by_trail;
+  for (const Port& port : ports) by_trail.emplace(port.trail, &port);
+  const auto ends = [&](const WireSpec& wire) {
+    return std::pair{&port_of(by_trail, wire.from), &port_of(by_trail, wire.to)};
+  };
+  // A slider that states no value stands where the input that it sets stands.
+  for (std::size_t i = 0; i < held_.values.size(); ++i) {
+    const ValueSpec& value = (*experiment_.values)[i];
+    if (value.value) continue;
+    const auto wire = std::ranges::find(experiment_.wires, value.trail, &WireSpec::from);
+    if (wire != experiment_.wires.end()) held_.values[i] = *ends(*wire).second->value;
+  }
+  for (const WireSpec& wire : experiment_.wires) {
+    const auto [from, to] = ends(wire);
+    if (to->writable == nullptr) throw ExperimentError("no wire can end at `" + wire.to + "`");
+    try {
+      lines_.push_back(
+          {transmission_line(wire, experiment_, *to->value), from->value, to->writable});
+    } catch (const std::exception& error) {
+      throw ExperimentError("the wire from `" + wire.from + "` to `" + wire.to +
+                            "`: " + error.what());
+    }
+    if (lines_.back().line.delayed()) delayed_.push_back(lines_.size() - 1);
+  }
+}
+
+void Signals::update(std::int64_t step) {
+  const double time = engine_.state().time;
+  held_.step = static_cast<double>(step);
+  for (const std::size_t i : delayed_) *lines_[i].to = lines_[i].line.deliver(step);
+  for (const WiringItem& item : order_) {
+    if (item.is_wire) {
+      Line& line = lines_[item.index];
+      *line.to = line.line.at(step, *line.from);
+    } else {
+      update_component(item.index, step, time);
+    }
+  }
+  for (const std::size_t i : delayed_) lines_[i].line.sample(step, *lines_[i].from);
+  apply_forces(step);
+}
+
+void Signals::update_component(std::size_t index, std::int64_t step, double time) {
+  Updates& updates = updates_[index];
+  if (!updates.schedule.due(step)) return;
+  const double period = updates.count == 0 ? updates.schedule.period() : time - updates.last;
+  components_[index].update({time, period, updates.count});
+  updates.last = time;
+  ++updates.count;
+}
+
+void Signals::apply_forces(std::int64_t step) {
+  std::vector<ForceInput>& acting = engine_.inputs().forces;
+  for (std::size_t i = 0; i < acting.size(); ++i) {
+    const ForceInput& whole = held_.forces[i];
+    acting[i] = whole;
+    const std::optional<ForceWindow>& window = experiment_.forces[i].window;
+    if (!window) continue;
+    const double part = envelope(*window, step, experiment_.deltat);
+    held_.envelopes[i] = part;
+    acting[i].force = part * whole.force;
+    acting[i].torque = part * whole.torque;
+  }
+}
+
+}  // namespace hookpoint::simulation
