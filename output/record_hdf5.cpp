@@ -105,7 +105,7 @@ class Hdf5Record final : public RecordWriter {
     file_ = create_file(partial_);
     write_header(header);
     block_.resize(datasets_.size() * block_rows);
-    check(H5Fflush(file_, H5F_SCOPE_LOCAL), partial_);
+    flush_file();
   }
   ~Hdf5Record() override {
     datasets_.clear();
@@ -150,9 +150,17 @@ class Hdf5Record final : public RecordWriter {
                      block_.data() + i * block_rows),
             partial_);
     }
-    check(H5Fflush(file_, H5F_SCOPE_LOCAL), partial_);
+    flush_file();
     written_ = end;
     waiting_ = 0;
+  }
+
+  void flush_file() {
+    check(H5Fflush(file_, H5F_SCOPE_LOCAL), partial_);
+    // The library knows nothing of the room that was taken: what it left over is given back.
+    hsize_t size = 0;
+    check(H5Fget_filesize(file_, &size), partial_);
+    std::filesystem::resize_file(partial_, size);
   }
 
   /// An upper bound of what a block takes: its data uncompressed, and for each dataset a few nodes

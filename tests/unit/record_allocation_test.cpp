@@ -2,24 +2,9 @@
 // allocates by itself (malloc, at the end of a block only); ours around it does not.
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
-#include <new>
-
+#include "tests/support/allocation_counter.h"
 #include "tests/support/command.h"
 #include "tests/support/record_scene.h"
-
-namespace {
-std::atomic<long> allocations = 0;
-}
-
-void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size)) return memory;
-  throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace hookpoint {
 namespace {
@@ -31,9 +16,9 @@ TEST(RecordAllocation, RowsAllocateNothing) {
   for (const output::RecordFormat& format : output::record_formats()) {
     const auto writer =
         output::make_record_writer(format.name, place.folder() / "run", testing::awkward_header());
-    const long before = allocations;
+    const long before = testing::allocation_count();
     for (int k = 0; k < 1200; ++k) writer->row(testing::awkward_time(k), rows[k]);
-    EXPECT_EQ(allocations - before, 0) << format.name;
+    EXPECT_EQ(testing::allocation_count() - before, 0) << format.name;
     writer->close();
   }
 }

@@ -162,6 +162,22 @@ TEST(Recorder, SameRowsGiveTheSameBytes) {
   }
 }
 
+TEST(Recorder, BinaryFormatsCompress) {
+  const hookpoint::testing::Workplace place;
+  RecordHeader header;
+  for (int i = 0; i < 24; ++i) header.channels.emplace_back().path = "value" + std::to_string(i);
+  for (const char* format : {"mat5", "mat73", "hdf5"}) {
+    const auto writer = make_record_writer(format, place.folder() / format, header);
+    std::vector<double> values(header.channels.size());
+    for (int k = 0; k < 8192; ++k) {
+      for (double& value : values) value = std::floor(k / 10.);
+      writer->row(k, values);
+    }
+    writer->close();
+    EXPECT_LT(std::filesystem::file_size(place.folder() / format), 25u * 8192u * 8u / 4u) << format;
+  }
+}
+
 TEST(Recorder, UnwritablePlaceIsSaid) {
   const hookpoint::testing::Workplace place;
   const std::string file = place.file("file", "not a folder");
