@@ -21,6 +21,10 @@ struct SlopeSurface {
   double angle = 0.;
   double azimuth = 0.;
 };
+/// The largest grid that is made or read from an image.
+inline constexpr int most_grid_vertices = 1 << 24;  ///< 4096 x 4096, or as many in another shape
+inline constexpr int most_grid_side = 1 << 16;
+
 /// heights[row * columns + column] [m] at (origin_x + column spacing, origin_y + row spacing).
 struct GridSurface {
   int columns = 0, rows = 0;  ///< vertices along x and y, at least 2 each
