@@ -14,6 +14,8 @@ constexpr double kConstant =
     1e-14;  // turn rate over K below which a direction is constant to rounding
 constexpr double kStraight =
     1e-9;  // share of the speeds that a path may still turn aside to count as straight
+constexpr double kJammed =
+    1e-6;  // share of knn below which a stuck point cannot be moved along the normal
 constexpr int kMostSteps = 100000;
 constexpr double kEndless = std::numeric_limits<double>::infinity();
 
@@ -54,8 +56,7 @@ class Path {
       if (mu_ <= 0.) {
         straight(0., 0., 0., axes_.knn, kEndless);
       } else if (at_.s <= 0.) {
-        const StoppedFriction friction = stopped_friction(axes_, mu_);
-        straight(friction.f1, friction.f2, 0., friction.normal, kEndless);
+        leave_standstill();
       } else {
         slide();
       }
@@ -127,6 +128,18 @@ class Path {
       } else {
         return;
       }
+    }
+  }
+
+  // A point that can move along one line only (a hinged link without a base to give way) is wedged
+  // by friction that holds it, however great p_n. What lifts it is then taken along the normal
+  // alone: p stays in the cone, and no more energy comes back than e^2 of the compression.
+  void leave_standstill() {
+    const StoppedFriction friction = stopped_friction(axes_, mu_);
+    if (phase_ != Phase::compression && friction.normal <= kJammed * axes_.knn) {
+      straight(0., 0., 0., axes_.knn, kEndless);
+    } else {
+      straight(friction.f1, friction.f2, 0., friction.normal, kEndless);
     }
   }
 

@@ -13,7 +13,12 @@ constexpr LawDescription describe() {
 constexpr std::array laws{
     describe<Hookpoint>(),
     describe<HookpointReset>(),
+    describe<Nominal>(),
     describe<HuntCrossley>(),
+    describe<AzadFeatherstone>(),
+    describe<Lugre>(),
+    describe<Elastoplastic>(),
+    describe<Exponential>(),
     LawDescription{"impulse", "Mirtich 1996",
                    "event-driven microcollisions with restitution, no penetration: creeps", true},
     LawDescription{"impulse_reversal", "Mirtich 1996",
@@ -49,10 +54,11 @@ double static_depth(const ForceLaw& law, double load, const MaterialConstants<do
   return std::visit([&](const auto& chosen) { return chosen.static_depth(load, material); }, law);
 }
 
-double stick_displacement(const ForceLaw& law, double load,
-                          const MaterialConstants<double>& material) {
-  return std::visit([&](const auto& chosen) { return chosen.stick_displacement(load, material); },
-                    law);
+std::optional<double> stick_displacement(const ForceLaw& law, double load, double normal_load,
+                                         const MaterialConstants<double>& material) {
+  return std::visit(
+      [&](const auto& chosen) { return chosen.stick_displacement(load, normal_load, material); },
+      law);
 }
 
 std::optional<double> creep_speed(const ForceLaw& law, double tangent_of_slope,
@@ -76,6 +82,16 @@ double stored_energy(const ForceLaw& law, double depth, const Vector3d& stretch,
                      const MaterialConstants<double>& material) {
   return std::visit(
       [&](const auto& chosen) { return chosen.stored_energy(depth, stretch, material); }, law);
+}
+
+std::size_t bristle_states(const ForceLaw& law) {
+  return std::visit([](const auto& chosen) { return chosen.bristle_states; }, law);
+}
+
+double resolved_speed(const ForceLaw& law, double load, double dt,
+                      const MaterialConstants<double>& material) {
+  return std::visit([&](const auto& chosen) { return chosen.resolved_speed(load, dt, material); },
+                    law);
 }
 
 Reaction<double> evaluate(const ForceLaw& law, const PointKinematics<double>& point,

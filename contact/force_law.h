@@ -8,13 +8,19 @@
 #include <string_view>
 #include <variant>
 
+#include "contact/azad_featherstone.h"
+#include "contact/elastoplastic.h"
+#include "contact/exponential.h"
 #include "contact/hookpoint.h"
 #include "contact/hookpoint_reset.h"
 #include "contact/hunt_crossley.h"
+#include "contact/lugre.h"
+#include "contact/nominal.h"
 
 namespace hookpoint::contact {
 
-using ForceLaw = std::variant<Hookpoint, HookpointReset, HuntCrossley>;
+using ForceLaw = std::variant<Hookpoint, HookpointReset, Nominal, HuntCrossley, AzadFeatherstone,
+                              Lugre, Elastoplastic, Exponential>;
 
 /// One row of the table.
 struct LawDescription {
@@ -36,8 +42,8 @@ std::optional<ForceLaw> find_force_law(std::string_view name);
 /// The named prediction of the law held by `law`; arguments, units and meaning as in the law's own
 /// file.
 double static_depth(const ForceLaw& law, double load, const MaterialConstants<double>& material);
-double stick_displacement(const ForceLaw& law, double load,
-                          const MaterialConstants<double>& material);
+std::optional<double> stick_displacement(const ForceLaw& law, double load, double normal_load,
+                                         const MaterialConstants<double>& material);
 std::optional<double> creep_speed(const ForceLaw& law, double tangent_of_slope,
                                   const MaterialConstants<double>& material);
 double restitution(const ForceLaw& law, double mass, double speed,
@@ -46,6 +52,13 @@ LinearContact linearise(const ForceLaw& law, double load,
                         const MaterialConstants<double>& material);
 double stored_energy(const ForceLaw& law, double depth, const Vector3d& stretch,
                      const MaterialConstants<double>& material);
+
+/// How many numbers of Bristle the law integrates: 0, 3 or 4.
+std::size_t bristle_states(const ForceLaw& law);
+/// Sliding speed [m/s] up to which a step dt [s] resolves the law's bristle under a load [N];
+/// infinite for a law without one.
+double resolved_speed(const ForceLaw& law, double load, double dt,
+                      const MaterialConstants<double>& material);
 
 /// Evaluates the law held by `law`; a loop over many points visits once and calls `Law::evaluate`
 /// inside instead.

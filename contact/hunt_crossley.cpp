@@ -9,7 +9,7 @@ std::optional<double> HuntCrossley::creep_speed(double tangent_of_slope,
   if (tangent_of_slope <= 0.) return 0.;
   const double v_s = material.regularisation_speed;
   const auto excess = [&](double v) {
-    return friction_coefficient(v, material) * friction_regularisation(v / v_s) - tangent_of_slope;
+    return stribeck_friction(v, material) * friction_regularisation(v / v_s) - tangent_of_slope;
   };
   // Stribeck's drop makes friction rise and fall, so march outwards to the first crossing. Since
   // friction is at most max(mu) v/v_s, the root lies no nearer than `low`; past `last` the curve is

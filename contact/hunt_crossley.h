@@ -5,8 +5,9 @@
 
 #include <optional>
 
+#include "contact/bristle.h"
 #include "contact/predictions.h"
-#include "contact/vocabulary.h"
+#include "contact/stribeck.h"
 
 namespace hookpoint::contact {
 
@@ -15,20 +16,11 @@ inline double friction_regularisation(double s) { return s / std::sqrt(1. + s * 
 /// Its inverse, y/sqrt(1 - y^2) for |y| < 1.
 inline double friction_regularisation_inverse(double y) { return y / std::sqrt(1. - y * y); }
 
-struct HuntCrossley {
+struct HuntCrossley : WithoutBristle {
   static constexpr const char* name = "hunt_crossley";
   static constexpr const char* source = "Hunt & Crossley 1975";
   static constexpr const char* summary =
       "k d^n (1 + alpha d'); friction a smooth function of velocity, no memory: creeps";
-
-  /// Stribeck's curve mu(v) = mu_k + (mu_s - mu_k) exp(-(v/v_St)^2) at `speed` v >= 0 [m/s].
-  template <class Real>
-  static Real friction_coefficient(const Real& speed, const MaterialConstants<Real>& material) {
-    using std::exp;
-    const Real ratio = speed / material.stribeck_speed;
-    return material.kinetic_friction +
-           (material.static_friction - material.kinetic_friction) * exp(-(ratio * ratio));
-  }
 
   /// Force on the robot and next memory of one point; the memory only tells that the point is
   /// inside.
@@ -51,7 +43,7 @@ struct HuntCrossley {
     const Real regularised =
         sqrt(speed_squared + material.regularisation_speed * material.regularisation_speed);
     const Real friction =
-        friction_coefficient(Real(sqrt(speed_squared)), material) * normal_force / regularised;
+        stribeck_friction(Real(sqrt(speed_squared)), material) * normal_force / regularised;
 
     Reaction<Real> reaction;
     reaction.force =
@@ -68,7 +60,8 @@ struct HuntCrossley {
   }
   /// No spring holds a point: a steady tangential load [N] moves it for ever, and its elastic shift
   /// is 0 [m].
-  static double stick_displacement(double /*load*/, const MaterialConstants<double>& /*material*/) {
+  static std::optional<double> stick_displacement(double /*load*/, double /*normal_load*/,
+                                                  const MaterialConstants<double>& /*material*/) {
     return 0.;
   }
   /// Steady speed v on a slope of tangent tan(theta) >= 0: the least root of mu(v) phi(v/v_s) =

@@ -4,14 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "contact/landing_time.h"
+
 namespace hookpoint::contact {
 namespace {
 
 constexpr double kDeepestStart = 1e-9;  // what rounding of a pose between steps may cost [m]
 constexpr int kMostHalvings = 60;
-constexpr double kReach =
-    4.;  // heights of a microflight, u0^2/(2 g_n), within which points are reversed together
-constexpr double kReversed = 1e-6;  // of u0: the velocity that a reversal may miss
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 bool finite(const Vector3d& a) { return std::isfinite(a.x + a.y + a.z); }
@@ -20,55 +19,19 @@ bool finite(const FlightState& s) {
          std::isfinite(s.orientation.w + s.orientation.x + s.orientation.y + s.orientation.z);
 }
 
-// The time at which gap + rate t + acceleration t^2/2 comes down to zero: a point that touches and
-// leaves is awaited where it comes back, also if rounding left it a little inside. A point at rest
-// on the plane falls a hair, `sink`, to be hit there.
-double landing_time(double gap, double rate, double acceleration, double sink) {
-  double discriminant = rate * rate - 2. * acceleration * gap;
-  if (gap <= 0.) {
-    if (acceleration >= 0.) return kNever;
-    if (rate <= 0.) return std::sqrt(2. * sink / -acceleration);
-    if (discriminant < 0.) discriminant = rate * rate;
-    return (rate + std::sqrt(discriminant)) / -acceleration;
-  }
-  if (discriminant < 0.) return kNever;
-  const double root = std::sqrt(discriminant);
-  if (rate < 0.) return 2. * gap / (root - rate);
-  return acceleration < 0. ? (rate + root) / -acceleration : kNever;
-}
-
 }  // namespace
-
-const char* advice(AdvanceStatus status) {
-  switch (status) {
-    case AdvanceStatus::ok:
-      return "";
-    case AdvanceStatus::not_finite:
-      return "a number is not finite: check masses, forces and the initial state";
-    case AdvanceStatus::inside_ground:
-      return "the body starts inside the ground: place it above, or use rest_on";
-    case AdvanceStatus::too_many_impacts:
-      return "impacts follow one another without end: raise rebound_speed, lower restitution or "
-             "shorten deltat";
-    case AdvanceStatus::unsolved_collision:
-      return "a collision has no solution: check the body's mass and inertia";
-  }
-  return "";
-}
 
 ImpulseAdvance::ImpulseAdvance(const ImpulseBody& body, ImpulseLaw law,
                                const ImpulseOptions& options)
     : inertia_(body.mass, body.inertia),
-      law_(law),
       options_(options),
       center_of_mass_(body.center_of_mass),
       points_(body.boundary_points.size()),
-      near_(body.boundary_points.size()),
-      near_index_(body.boundary_points.size()),
-      hit_now_(body.boundary_points.size()),
-      hit_(body.boundary_points.size()) {
+      resolution_(body.boundary_points.size(), law, options) {
   arms_.reserve(body.boundary_points.size());
   for (const Vector3d& point : body.boundary_points) arms_.push_back(point - body.center_of_mass);
+  radii_ = body.boundary_radii;
+  radii_.resize(arms_.size(), 0.);
 }
 
 FlightState ImpulseAdvance::flight_from(const ImpulseState& state) const {
@@ -88,8 +51,11 @@ ImpulseState ImpulseAdvance::state_from(const FlightState& flight) const {
 void ImpulseAdvance::locate(const FlightState& flight, const GroundQuery& ground) {
   const Matrix3d R = rotation_matrix(flight.orientation);
   for (std::size_t i = 0; i < arms_.size(); ++i) {
-    points_[i].arm = R * arms_[i];
-    points_[i].ground = ground(flight.center_of_mass + points_[i].arm);
+    Touch& point = points_[i];
+    point.center = R * arms_[i];
+    point.ground = ground(flight.center_of_mass + point.center);
+    point.ground.gap -= radii_[i];
+    point.arm = point.center - radii_[i] * point.ground.normal;
   }
 }
 
@@ -114,11 +80,11 @@ double ImpulseAdvance::safe_time(const FlightState& flight, const FlightLoad& lo
   double safe = longest;
   for (const Touch& point : points_) {
     const Vector3d& n = point.ground.normal;
-    const Vector3d spin = cross(w, point.arm);
+    const Vector3d spin = cross(w, point.center);
     const double rate = dot(n, flight.velocity + spin);
     const double acceleration =
-        dot(n, load.acceleration + cross(alpha, point.arm) + cross(w, spin));
-    const double jerk = unit_jerk * norm(point.arm);
+        dot(n, load.acceleration + cross(alpha, point.center) + cross(w, spin));
+    const double jerk = unit_jerk * norm(point.center);
     const double gap = point.ground.gap;
     // The bound holds up to the time it is made for; made for the time it gave, it gives a later
     // one, up to which it holds only if made for that: two rounds from above leave nothing to gain.
@@ -152,102 +118,68 @@ FlightState ImpulseAdvance::fly_above(const FlightState& flight, const FlightLoa
   return flight;
 }
 
-Symmetric3d ImpulseAdvance::collision_matrix(const FlightState& flight, const Vector3d& r) const {
-  // K = 1/m - [r] I^-1 [r].
-  const Matrix3d R = rotation_matrix(flight.orientation);
-  const Matrix3d lever = cross_matrix(r);
-  const Matrix3d turning = lever * general(rotate(R, inertia_.inverse_inertia)) * lever;
-  const double translation = 1. / inertia_.mass;
-  return Symmetric3d{translation, translation, translation, 0., 0., 0.} - symmetric_part(turning);
-}
+// The body as its collisions see it: rigid, its centre of mass in flight.
+class ImpulseAdvance::Struck final : public StruckRobot {
+ public:
+  Struck(const ImpulseAdvance& body, FlightState& flight, const FlightLoad& load,
+         AdvanceResult& result)
+      : body_(body),
+        flight_(flight),
+        load_(load),
+        result_(result),
+        w_(contact::angular_velocity(body.inertia_, flight)) {}
 
-int ImpulseAdvance::fastest_approach(const FlightState& flight, const Vector3d& w) const {
-  int fastest = -1;
-  double lowest = 0.;
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    if (points_[i].ground.gap > options_.tolerance) continue;
-    const double rate = dot(points_[i].ground.normal, flight.velocity + cross(w, points_[i].arm));
-    if (rate < lowest) {
-      lowest = rate;
-      fastest = static_cast<int>(i);
-    }
+  std::size_t point_count() const override { return body_.points_.size(); }
+  const GroundPoint& ground(std::size_t point) const override {
+    return body_.points_[point].ground;
   }
-  return fastest;
-}
+  Vector3d velocity(std::size_t point) const override {
+    return flight_.velocity + cross(w_, body_.points_[point].arm);
+  }
 
-void ImpulseAdvance::apply(std::size_t point, const Vector3d& impulse, FlightState& flight,
-                           AdvanceResult& result) {
-  const Vector3d moment = cross(points_[point].arm, impulse);
-  flight.velocity += (1. / inertia_.mass) * impulse;
-  flight.angular_momentum += moment;
-  result.impulse += impulse;
-  result.angular_impulse += moment;
-  ++result.impacts;
-  hit_now_[point] = 1;
-}
+  Symmetric3d collision_matrix(std::size_t point) override {
+    // K = 1/m - [r] I^-1 [r].
+    const Matrix3d R = rotation_matrix(flight_.orientation);
+    const Matrix3d lever = cross_matrix(body_.points_[point].arm);
+    const Matrix3d turning = lever * general(rotate(R, body_.inertia_.inverse_inertia)) * lever;
+    const double translation = 1. / body_.inertia_.mass;
+    return Symmetric3d{translation, translation, translation, 0., 0., 0.} - symmetric_part(turning);
+  }
 
-// A microcollision of the point `hit` and of all others that are about as near: whether they could
-// be reversed together.
-bool ImpulseAdvance::reverse(FlightState& flight, const FlightLoad& load, const Vector3d& w,
-                             int hit, AdvanceResult& result) {
-  const GroundPoint& struck = points_[static_cast<std::size_t>(hit)].ground;
-  const double u0 = struck.material->rebound_speed;
-  const double fall = -dot(load.acceleration, struck.normal);
-  if (!(fall > 0.) || !(u0 > 0.)) return false;
-  const Symmetric3d inverse_inertia =
-      rotate(rotation_matrix(flight.orientation), inertia_.inverse_inertia);
-  const Vector3d alpha = inverse_inertia * (load.torque - cross(w, flight.angular_momentum));
-  const double reach = kReach * u0 * u0 / (2. * fall);
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    const auto& [arm, ground] = points_[i];
-    if (ground.gap > reach) continue;
-    const Vector3d u = flight.velocity + cross(w, arm);
-    if (std::abs(dot(u, ground.normal)) > kMicrocollision * u0) return false;
-    const Vector3d gain = (u0 / fall) * (load.acceleration + cross(alpha, arm));
-    near_[count] = {
-        arm, ground.normal, ground.material->kinetic_friction, gain, collision_matrix(flight, arm),
-        {}};
-    near_index_[count++] = i;
+  void strike(std::size_t point, const Vector3d& impulse) override {
+    const Vector3d moment = cross(body_.points_[point].arm, impulse);
+    flight_.velocity += (1. / body_.inertia_.mass) * impulse;
+    flight_.angular_momentum += moment;
+    result_.impulse += impulse;
+    result_.angular_impulse += moment;
+    w_ = contact::angular_velocity(body_.inertia_, flight_);
   }
-  Twist twist{flight.velocity, w};
-  const std::span<ReversalPoint> group(near_.data(), count);
-  if (!reverse_together(group, inertia_.mass, inverse_inertia, kReversed * u0, twist)) return false;
-  for (std::size_t k = 0; k < count; ++k) {
-    if (dot(group[k].impulse, group[k].normal) > 0.) {
-      apply(near_index_[k], group[k].impulse, flight, result);
-    }
-  }
-  return true;
-}
 
-AdvanceStatus ImpulseAdvance::collide(FlightState& flight, const FlightLoad& load,
-                                      AdvanceResult& result) {
-  std::fill(hit_now_.begin(), hit_now_.end(), char{0});
-  Vector3d w = contact::angular_velocity(inertia_, flight);
-  bool together = law_ == ImpulseLaw::impulse_reversal;
-  for (int i = fastest_approach(flight, w); i >= 0; i = fastest_approach(flight, w)) {
-    if (!together || !reverse(flight, load, w, i, result)) {
-      const std::size_t point = static_cast<std::size_t>(i);
-      const auto& [arm, ground] = points_[point];
-      const Collision collision =
-          impulse(collision_matrix(flight, arm), flight.velocity + cross(w, arm), ground.normal,
-                  *ground.material);
-      if (!collision.solved) return AdvanceStatus::unsolved_collision;
-      apply(point, collision.impulse, flight, result);
-    }
-    together = false;
-    if (result.impacts > options_.most_impacts) return AdvanceStatus::too_many_impacts;
-    w = contact::angular_velocity(inertia_, flight);
+  double begin_reversal(std::size_t struck) override {
+    inverse_inertia_ = rotate(rotation_matrix(flight_.orientation), body_.inertia_.inverse_inertia);
+    alpha_ = inverse_inertia_ * (load_.torque - cross(w_, flight_.angular_momentum));
+    return -dot(load_.acceleration, ground(struck).normal);
   }
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    if (!hit_now_[i]) continue;
-    hit_[i] = 1;
-    ++result.lift_offs;
-    result.deepest = std::max(result.deepest, -points_[i].ground.gap);
+  Vector3d flight_acceleration(std::size_t point) const override {
+    return load_.acceleration + cross(alpha_, body_.points_[point].arm);
   }
-  return AdvanceStatus::ok;
-}
+  bool find_reversal(std::span<ReversalPoint> points, std::span<const std::size_t> index,
+                     double tolerance) override {
+    for (std::size_t k = 0; k < points.size(); ++k) points[k].arm = body_.points_[index[k]].arm;
+    return reverse_together(points, body_.inertia_.mass, inverse_inertia_, {flight_.velocity, w_},
+                            tolerance);
+  }
+
+ private:
+  const ImpulseAdvance& body_;
+  FlightState& flight_;
+  const FlightLoad& load_;
+  AdvanceResult& result_;
+  Vector3d w_;
+  // At the collision that is to be reversed.
+  Symmetric3d inverse_inertia_;
+  Vector3d alpha_;
+};
 
 AdvanceResult ImpulseAdvance::advance(ImpulseState& state, double dt, const ImpulseLoad& load,
                                       const GroundQuery& ground) {
@@ -261,7 +193,7 @@ AdvanceResult ImpulseAdvance::advance(ImpulseState& state, double dt, const Impu
   if (!finite(flight) || !finite(flight_load.acceleration) || !finite(load.torque) || !(dt >= 0.)) {
     return failed(AdvanceStatus::not_finite);
   }
-  std::fill(hit_.begin(), hit_.end(), char{0});
+  resolution_.begin_step();
   locate(flight, ground);
   if (lowest_gap() < -kDeepestStart) return failed(AdvanceStatus::inside_ground);
 
@@ -269,7 +201,8 @@ AdvanceResult ImpulseAdvance::advance(ImpulseState& state, double dt, const Impu
   const std::int64_t most_flights = 10 * static_cast<std::int64_t>(options_.most_impacts);
   for (std::int64_t flights = 0; left > 0.; ++flights) {
     if (flights > most_flights) return failed(AdvanceStatus::too_many_impacts);
-    const AdvanceStatus collided = collide(flight, flight_load, result);
+    Struck struck(*this, flight, flight_load, result);
+    const AdvanceStatus collided = resolution_.resolve(struck, result);
     if (collided != AdvanceStatus::ok) return failed(collided);
     const double turn = angular_speed_bound(inertia_, flight, flight_load, left);
     const double travel = norm(flight.velocity) + left * norm(flight_load.acceleration);
@@ -283,7 +216,7 @@ AdvanceResult ImpulseAdvance::advance(ImpulseState& state, double dt, const Impu
     left -= duration;
   }
   result.deepest = std::max(result.deepest, -lowest_gap());
-  result.contacts = static_cast<int>(std::count(hit_.begin(), hit_.end(), char{1}));
+  result.contacts = resolution_.contacts();
   state = state_from(flight);
   return result;
 }

@@ -23,12 +23,12 @@ inline constexpr double kMicrocollision = 4.;
 
 /// A point that takes part. World axes, SI.
 struct ReversalPoint {
-  Vector3d arm;      ///< from the centre of mass [m]
+  Vector3d arm;      ///< from the centre of mass of a single body [m]
   Vector3d normal;   ///< unit, out of the ground
   double mu = 0.;    ///< coefficient of friction
   Vector3d gain;     ///< what flight adds to u until u_n = -u0, a_i u0/|a_n| [m/s]
-  Symmetric3d K;     ///< collision matrix of the point [1/kg]
-  Vector3d impulse;  ///< result: p on the body, in the cone [N s]
+  Symmetric3d K;     ///< collision matrix of the point, K_ii [1/kg]
+  Vector3d impulse;  ///< result: p on the robot, in the cone [N s]
 };
 
 /// Velocity of the centre of mass [m/s] and angular velocity [rad/s], world axes.
@@ -36,13 +36,19 @@ struct Twist {
   Vector3d velocity, angular_velocity;
 };
 
-/// Finds the impulses that send every point off at -gain, to within `tolerance` [m/s], by block
-/// Gauss-Seidel with projection on the cones; with the tangential part of -gain times the greatest
-/// share in [0, 1] for which there are any (to 1/16). Result: whether there are; then `twist` is
-/// the one after them, else it is unchanged. Cost: some 0.1 us a point and sweep, at most 400
-/// sweeps a share. No allocation. Source: Mirtich 1996 (the remedy, for one point);
-/// Jean & Moreau 1992 (the sweeps).
+/// Finds the impulses that send every point of a single body off at -gain, to within `tolerance`
+/// [m/s], by block Gauss-Seidel with projection on the cones; with the tangential part of -gain
+/// times the greatest share in [0, 1] for which there are any (to 1/16). Result: whether there are.
+/// `twist` is the body's before them. Cost: some 0.1 us a point and sweep, at most 400 sweeps a
+/// share. No allocation. Source: Mirtich 1996 (the remedy, for one point); Jean & Moreau 1992 (the
+/// sweeps).
 bool reverse_together(std::span<ReversalPoint> points, double mass,
-                      const Symmetric3d& inverse_inertia, double tolerance, Twist& twist);
+                      const Symmetric3d& inverse_inertia, const Twist& twist, double tolerance);
+
+/// The same for any robot: `couplings` K_ij [1/kg], the velocity change of point i for a unit
+/// impulse at point j, at i * points + j; `before` the points' velocities u_i [m/s]; `work` as many
+/// numbers to work in.
+bool reverse_together(std::span<ReversalPoint> points, std::span<const Matrix3d> couplings,
+                      std::span<const Vector3d> before, std::span<Vector3d> work, double tolerance);
 
 }  // namespace hookpoint::contact

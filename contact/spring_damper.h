@@ -4,8 +4,8 @@
 // say.
 #pragma once
 
+#include "contact/bristle.h"
 #include "contact/predictions.h"
-#include "contact/vocabulary.h"
 
 namespace hookpoint::contact {
 
@@ -103,13 +103,15 @@ Reaction<Real> hook_reaction(const PointKinematics<Real>& point, const HookTrial
 }
 
 /// Predictions that every law with a linear spring-damper and a hook shares.
-struct SpringDamperPredictions {
+struct SpringDamperPredictions : WithoutBristle {
   /// Penetration under a steady normal load [N] on one point: N/k [m].
   static double static_depth(double load, const MaterialConstants<double>& material) {
     return load / material.normal_stiffness;
   }
-  /// Shift of a sticking point under a steady tangential load [N]: f/k_t [m].
-  static double stick_displacement(double load, const MaterialConstants<double>& material) {
+  /// Shift of a sticking point under a steady tangential load [N], whatever the normal load [N]:
+  /// f/k_t [m].
+  static std::optional<double> stick_displacement(double load, double /*normal_load*/,
+                                                  const MaterialConstants<double>& material) {
     return load / material.tangential_stiffness;
   }
   /// Steady speed on a slope whose tangent is within the friction cone: a hook holds, 0 [m/s].

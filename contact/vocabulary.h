@@ -8,13 +8,22 @@
 
 namespace hookpoint::contact {
 
+/// What a law integrates along with the motion, of one point: its continuous state. A law says how
+/// many of these numbers it has (`bristle_states`: 0, 3 or 4); those that it has not stay 0.
+template <class Real>
+struct Bristle {
+  Vector3<Real> deflection;  ///< z (u), of the bristle along the tile, world axes [m]
+  Real sliding{};            ///< S, from 0 sticking to 1 sliding
+};
+
 /// One boundary point against the tile under it. World axes, SI.
 template <class Real>
 struct PointKinematics {
-  Vector3<Real> position;  ///< x, p_WP [m]
-  Vector3<Real> velocity;  ///< dx/dt, v_WP [m/s]
-  Vector3<Real> normal;    ///< unit normal of the tile, out of the ground
-  Real depth{};            ///< delta, penetration along the normal, > 0 inside [m]
+  Vector3<Real> position;   ///< x, p_WP [m]
+  Vector3<Real> velocity;   ///< dx/dt, v_WP [m/s]
+  Vector3<Real> normal;     ///< unit normal of the tile, out of the ground
+  Real depth{};             ///< delta, penetration along the normal, > 0 inside [m]
+  Bristle<Real> bristle{};  ///< the integrator's, of the same instant
 };
 
 /// What a point remembers between steps. Plain value: copying it is a checkpoint.
@@ -31,6 +40,10 @@ template <class Real>
 struct Reaction {
   Vector3<Real> force;  ///< on the robot, world axes [N]
   Memory<Real> next;    ///< to commit if the step is accepted
+  Bristle<Real>
+      bristle;  ///< with which an accepted state goes on: the point's, in the plane of the tile now
+                ///< under it, and no farther bent than its load can hold; 0 out of reach
+  Bristle<Real> bristle_rate;  ///< its time derivative [m/s, 1/s]
 };
 
 /// Constants of a tile's surface (docs/contact.md says which law reads which). SI.
@@ -44,11 +57,19 @@ struct MaterialConstants {
   Real kinetic_friction{0.8};       ///< mu_k
   Real nominal_penetration{1e-3};   ///< d0 [m]
   Real nominal_stiffness{1e4};      ///< k1 [N/m], law `nominal`
+  Real blend_width{0.};             ///< w [m], over which k1 turns into k, law `nominal`
   Real restitution{0.};             ///< e, impulse laws
   Real exponent{1.5};               ///< n of k d^n, hunt_crossley
-  Real hysteresis_damping{0.5};     ///< alpha [s/m], hunt_crossley
+  Real hysteresis_damping{0.5};     ///< alpha, c [s/m], hunt_crossley, exponential
   Real regularisation_speed{1e-3};  ///< v_s [m/s], regularised Coulomb friction
   Real stribeck_speed{1e-2};        ///< v_St [m/s]: over which mu falls from static to kinetic
+  Real viscous_friction{0.};        ///< sigma2 [N s/m], lugre, elastoplastic
+  Real breakaway{0.7};              ///< fraction of mu_k N up to which a bristle is elastic,
+                                    ///< elastoplastic
+  Real exponential_force{0.5336};   ///< d1 [N], at height d0, exponential
+  Real exponential_rate{1150.};     ///< d2 [1/m], exponential
+  Real exponential_height{0.};      ///< d0 [m] above the tile, exponential
+  Real sliding_time{0.01};          ///< tau [s], in which S follows stick and slip, exponential
   Real rebound_speed{1e-3};         ///< u0 [m/s], least rebound of a microcollision, impulse laws
 };
 

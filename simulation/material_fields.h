@@ -15,15 +15,17 @@ struct MaterialField {
   const char* doc;
 };
 
-inline constexpr std::array<MaterialField, 14> material_fields() {
+inline constexpr std::array<MaterialField, 21> material_fields() {
   using Constants = contact::MaterialConstants<double>;
   return {{
       {"normal_stiffness", "N/m", &Constants::normal_stiffness, true,
-       "k, of a contact point along the ground's normal (hunt_crossley: N/m^n)"},
-      {"normal_damping", "N.s/m", &Constants::normal_damping, false, "c, along the normal"},
+       "k, of a contact point along the ground's normal (hunt_crossley: N/m^n; azad_featherstone: "
+       "N/m^1.5; nominal: beyond the nominal depth)"},
+      {"normal_damping", "N.s/m", &Constants::normal_damping, false,
+       "c, along the normal (azad_featherstone: D, N.s/m^1.5)"},
       {"tangential_stiffness", "N/m", &Constants::tangential_stiffness, true,
-       "k_t, between a contact point and its hook"},
-      {"tangential_damping", "N.s/m", &Constants::tangential_damping, false, "c_t, along the tile"},
+       "k_t, between a contact point and its hook; sigma0 of a bristle"},
+      {"tangential_damping", "N.s/m", &Constants::tangential_damping, false, "c_t, along the tile; sigma1 of a bristle"},
       {"static_friction", "", &Constants::static_friction, false,
        "mu_s, holds while |f| <= mu_s N; if not given, kinetic_friction, or 0.8"},
       {"kinetic_friction", "", &Constants::kinetic_friction, false,
@@ -31,14 +33,29 @@ inline constexpr std::array<MaterialField, 14> material_fields() {
       {"nominal_penetration", "m", &Constants::nominal_penetration, true,
        "d0, the depth wanted under the load"},
       {"nominal_stiffness", "N/m", &Constants::nominal_stiffness, true,
-       "k1, up to the nominal depth"},
+       "k1, up to the nominal depth: the load on a point / nominal_penetration"},
+      {"blend_width", "m", &Constants::blend_width, false,
+       "w, beyond the nominal depth, over which k1 turns smoothly into k; 0: at once"},
       {"restitution", "", &Constants::restitution, false, "e, 0..1, rebound of the impulse laws"},
       {"exponent", "", &Constants::exponent, true, "n of k d^n, hunt_crossley"},
-      {"hysteresis_damping", "s/m", &Constants::hysteresis_damping, false, "alpha, hunt_crossley"},
+      {"hysteresis_damping", "s/m", &Constants::hysteresis_damping, false,
+       "alpha of hunt_crossley, c of exponential"},
       {"regularisation_speed", "m/s", &Constants::regularisation_speed, true,
        "v_s, below which regularised Coulomb friction gives way"},
       {"stribeck_speed", "m/s", &Constants::stribeck_speed, true,
        "v_St, over which mu falls from static to kinetic"},
+      {"viscous_friction", "N.s/m", &Constants::viscous_friction, false,
+       "sigma2, of lugre and elastoplastic"},
+      {"breakaway", "", &Constants::breakaway, true,
+       "fraction, at most 1, of mu_k N up to which a bristle only bends, elastoplastic"},
+      {"exponential_force", "N", &Constants::exponential_force, true,
+       "d1, the normal force at height d0, exponential"},
+      {"exponential_rate", "1/m", &Constants::exponential_rate, true,
+       "d2, the normal force is e times greater 1/d2 deeper, exponential"},
+      {"exponential_height", "m", &Constants::exponential_height, false,
+       "d0, height above the tile where the normal force is d1, exponential"},
+      {"sliding_time", "s", &Constants::sliding_time, true,
+       "tau, in which friction changes between static and kinetic, exponential"},
       {"rebound_speed", "m/s", &Constants::rebound_speed, false,
        "u0, least rebound of a microcollision, what keeps a resting block bouncing (impulse laws)"},
   }};

@@ -10,6 +10,7 @@
 
 namespace hookpoint::test_support {
 
+using contact::Bristle;
 using contact::MaterialConstants;
 using contact::Memory;
 using contact::PointKinematics;
@@ -30,6 +31,16 @@ inline MaterialConstants<double> any_material() {
   material.static_friction = material.kinetic_friction + number(0., 0.5);
   material.exponent = number(1., 2.);
   material.hysteresis_damping = number(0., 2.);
+  material.nominal_penetration = number(1e-4, 1e-3);
+  material.nominal_stiffness = number(1e3, 1e6);
+  material.blend_width = std::max(0., number(-5e-4, 5e-4));
+  material.stribeck_speed = number(1e-3, 0.5);
+  material.viscous_friction = number(0., 50.);
+  material.breakaway = number(0.1, 1.);
+  material.exponential_force = number(0.1, 10.);
+  material.exponential_rate = number(100., 2000.);
+  material.exponential_height = number(0., 1e-3);
+  material.sliding_time = number(1e-4, 0.1);
   return material;
 }
 
@@ -57,7 +68,22 @@ inline std::vector<Vector3d> any_path(std::size_t steps = 40) {
 inline PointKinematics<double> point_at(const std::vector<Vector3d>& path, std::size_t k,
                                         const Vector3d& normal, double dt,
                                         const Vector3d& origin = {}) {
-  return {path[k], (1. / dt) * (path[k] - path[k - 1]), normal, -dot(path[k] - origin, normal)};
+  return {path[k], (1. / dt) * (path[k] - path[k - 1]), normal, -dot(path[k] - origin, normal), {}};
+}
+
+/// The bristle one step after a state that `reaction` was for, by explicit Euler.
+inline Bristle<double> bristle_after(const Reaction<double>& reaction, double dt) {
+  return {reaction.bristle.deflection + dt * reaction.bristle_rate.deflection,
+          reaction.bristle.sliding + dt * reaction.bristle_rate.sliding};
+}
+
+/// The point as an accepted state goes on: with `bristle`, where the law holds it.
+template <class Law>
+PointKinematics<double> accepted(PointKinematics<double> point, const Bristle<double>& bristle,
+                                 const MaterialConstants<double>& material, double dt) {
+  point.bristle = bristle;
+  point.bristle = Law::evaluate(point, {}, material, dt).bristle;
+  return point;
 }
 
 /// The law's reactions at path[1], path[2], ..., each from the memory committed by the one before.
@@ -68,9 +94,12 @@ std::vector<Reaction<double>> reactions_along(const std::vector<Vector3d>& path,
                                               const Vector3d& origin = {}) {
   std::vector<Reaction<double>> reactions;
   Memory<double> memory;
+  Bristle<double> bristle;
   for (std::size_t k = 1; k < path.size(); ++k) {
-    reactions.push_back(Law::evaluate(point_at(path, k, normal, dt, origin), memory, material, dt));
+    const auto point = accepted<Law>(point_at(path, k, normal, dt, origin), bristle, material, dt);
+    reactions.push_back(Law::evaluate(point, memory, material, dt));
     memory = reactions.back().next;
+    bristle = bristle_after(reactions.back(), dt);
   }
   return reactions;
 }

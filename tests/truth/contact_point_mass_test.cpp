@@ -6,57 +6,12 @@
 #include <numbers>
 
 #include "contact/force_law.h"
+#include "tests/support/point_mass.h"
 
 namespace hookpoint::contact {
 namespace {
 
-constexpr double g = 9.81;
-
-/// A point mass over the plane z = 0, with gravity tilted by `slope` towards the direction
-/// `azimuth`: the slope's own axes.
-struct PointMass {
-  double mass = 1., slope = 0., azimuth = 0.;
-  MaterialConstants<double> material{};
-  Vector3d position{}, velocity{}, ground_force{};
-  Memory<double> memory{};
-
-  Vector3d downhill() const { return {std::cos(azimuth), std::sin(azimuth), 0.}; }
-  Vector3d weight() const {
-    return mass * g * (std::sin(slope) * downhill() - std::cos(slope) * Vector3d{0., 0., 1.});
-  }
-  double normal_load() const { return mass * g * std::cos(slope); }
-  double tangential_load() const { return mass * g * std::sin(slope); }
-
-  /// At rest where a hook at the origin carries the weight.
-  void settle() {
-    position = (tangential_load() / material.tangential_stiffness) * downhill() -
-               normal_load() / material.normal_stiffness * Vector3d{0., 0., 1.};
-    memory = {{}, tangential(position, {0., 0., 1.}), true, false};
-  }
-  template <class Law>
-  void step(double dt) {
-    const PointKinematics<double> point{position, velocity, {0., 0., 1.}, -position.z};
-    const auto reaction = Law::evaluate(point, memory, material, dt);
-    ground_force = reaction.force;
-    memory = reaction.next;
-    velocity += dt / mass * (weight() + ground_force);
-    position += dt * velocity;
-  }
-  template <class Law>
-  void run(double dt, double duration) {
-    const auto steps = static_cast<long>(std::lround(duration / dt));
-    for (long i = 0; i < steps; ++i) step<Law>(dt);
-  }
-};
-
-MaterialConstants<double> well_damped() {
-  MaterialConstants<double> material;
-  material.normal_stiffness = 2e4;
-  material.tangential_stiffness = 1e4;
-  material.normal_damping = 200.;
-  material.tangential_damping = 150.;
-  return material;
-}
+using namespace test_support;
 
 template <class Law>
 class HookLaw : public ::testing::Test {};
@@ -71,7 +26,10 @@ TYPED_TEST(HookLaw, SticksWithTheDisplacementAndPenetrationOfItsSprings) {
   const double shift = dot(block.position, block.downhill());
   EXPECT_NEAR(shift, 2. * g * std::sin(block.slope) / 1e4, 1e-12);
   EXPECT_NEAR(-block.position.z, 2. * g * std::cos(block.slope) / 2e4, 1e-12);
-  EXPECT_NEAR(shift, TypeParam::stick_displacement(block.tangential_load(), block.material), 1e-12);
+  EXPECT_NEAR(
+      shift,
+      *TypeParam::stick_displacement(block.tangential_load(), block.normal_load(), block.material),
+      1e-12);
   const Vector3d before = block.position;
   block.template run<TypeParam>(1e-4, 5.);
   EXPECT_LE(norm(block.position - before), 1e-15);  // no creep: round-off only

@@ -1,0 +1,105 @@
+// The bristle that LuGre and the elastoplastic law share: they differ in how much of the motion is
+// plastic (alpha), which is what their own files say.
+#pragma once
+
+#include "contact/spring_damper.h"
+#include "contact/stribeck.h"
+
+namespace hookpoint::contact {
+
+/// A bristle under its load, before the law decides how much of its motion is plastic. World axes.
+template <class Real>
+struct LoadedBristle {
+  Vector3<Real> deflection;  ///< z, as it was integrated [m]
+  Vector3<Real> held;        ///< z, as far as mu_s N holds it [m]
+  Vector3<Real> velocity;    ///< v, of the point along the tile [m/s]
+  Real speed{};              ///< |v| [m/s]
+  Real normal_force{};       ///< N [N]
+  Real steady{};             ///< g(v) = mu(v) N, Stribeck's friction [N]
+};
+
+template <class Real>
+LoadedBristle<Real> loaded_bristle(const PointKinematics<Real>& point,
+                                   const MaterialConstants<Real>& material) {
+  LoadedBristle<Real> bristle;
+  bristle.normal_force = spring_damper_normal_force(point, material);
+  bristle.deflection = tangential(point.bristle.deflection, point.normal);
+  bristle.held = held_deflection(bristle.deflection, material,
+                                 Real(material.static_friction * bristle.normal_force));
+  bristle.velocity = tangential(point.velocity, point.normal);
+  bristle.speed = norm(bristle.velocity);
+  bristle.steady = stribeck_friction(bristle.speed, material) * bristle.normal_force;
+  return bristle;
+}
+
+/// z' = v - alpha k_t |v| z/g(v) (Canudas de Wit et al. 1995 with alpha = 1, Dupont et al. 2002),
+/// no faster than to be relaxed after a step `dt` [s], where it then ends at its steady value; dt =
+/// 0 does not bound it [m/s].
+template <class Real>
+Vector3<Real> bristle_rate(const LoadedBristle<Real>& bristle, const Real& alpha,
+                           const MaterialConstants<Real>& material, const Real& dt) {
+  const Real drag = material.tangential_stiffness * bristle.speed;  // k_t |v|
+  const Vector3<Real> numerator =
+      bristle.steady * bristle.velocity - (alpha * drag) * bristle.deflection;
+  return (1. / positive_or_one(Real(max(bristle.steady, drag * dt)))) * numerator;
+}
+
+/// f = k_t z + sigma1(v) z' + sigma2 v where the ground carries load, and
+///   sigma1(v) = c_t/(1 + c_t |v|/g(v)),
+/// c_t at rest and falling with speed, as Olsson et al. 1998 ask for: with sigma1 |v| <= g the
+/// bristle gives back no more energy than it took, at any speed. [N]
+template <class Real>
+Reaction<Real> lugre_reaction(const PointKinematics<Real>& point,
+                              const LoadedBristle<Real>& bristle, const Real& alpha,
+                              const MaterialConstants<Real>& material, const Real& dt) {
+  const Mask<Real> loaded = bristle.normal_force > Real(0.);
+  BristleFriction<Real> friction;
+  friction.rate = bristle_rate(bristle, alpha, material, dt);
+  const Real sigma1 =
+      material.tangential_damping * bristle.steady /
+      positive_or_one(Real(bristle.steady + material.tangential_damping * bristle.speed));
+  const Vector3<Real> force = material.tangential_stiffness * bristle.held +
+                              sigma1 * friction.rate + material.viscous_friction * bristle.velocity;
+  friction.force = select(loaded, force, Vector3<Real>{});
+  // More of the motion is slip than bending.
+  friction.slips = 0.5 * bristle.speed * bristle.speed > dot(friction.rate, bristle.velocity);
+  return bristle_reaction(point, point.depth > Real(0.), bristle.normal_force, bristle.held,
+                          friction);
+}
+
+/// Predictions that both share; the normal direction is the linear spring-damper's.
+struct LugrePredictions {
+  static constexpr std::size_t bristle_states = 3;
+  static double reach(const MaterialConstants<double>& /*material*/) { return 0.; }
+  /// N/k [m].
+  static double static_depth(double load, const MaterialConstants<double>& material) {
+    return SpringDamperPredictions::static_depth(load, material);
+  }
+  /// Under a steady pull within mu_s N the bristle comes to rest at z = f/k_t: 0 [m/s]; none
+  /// beyond.
+  static std::optional<double> creep_speed(double tangent_of_slope,
+                                           const MaterialConstants<double>& material) {
+    return SpringDamperPredictions::creep_speed(tangent_of_slope, material);
+  }
+  /// The clamped Kelvin-Voigt body's.
+  static double restitution(double mass, double speed, const MaterialConstants<double>& material) {
+    return SpringDamperPredictions::restitution(mass, speed, material);
+  }
+  /// About rest, z following the point: k, c, k_t, c_t + sigma2.
+  static LinearContact linearise(double /*load*/, const MaterialConstants<double>& material) {
+    return {material.normal_stiffness, material.normal_damping, material.tangential_stiffness,
+            material.tangential_damping + material.viscous_friction};
+  }
+  /// k d^2/2 + k_t z^2/2 [J].
+  static double stored_energy(double depth, const Vector3d& stretch,
+                              const MaterialConstants<double>& material) {
+    return SpringDamperPredictions::stored_energy(depth, stretch, material);
+  }
+  /// Sliding speed up to which a step dt [s] resolves the relaxation k_t |v|/g of a bristle under a
+  /// load N [N]: mu_k N/(k_t dt) [m/s].
+  static double resolved_speed(double load, double dt, const MaterialConstants<double>& material) {
+    return material.kinetic_friction * load / (material.tangential_stiffness * dt);
+  }
+};
+
+}  // namespace hookpoint::contact

@@ -1,0 +1,160 @@
+// The energy ledger of laws with springs: kinetic + potential + what the law says is stored + what
+// was dissipated stays the same, with the dissipation written down from each law's equations here.
+#include <gtest/gtest.h>
+
+#include "contact/force_law.h"
+#include "tests/support/point_mass.h"
+
+namespace hookpoint::contact {
+namespace {
+
+using namespace test_support;
+
+const Vector3d up{0., 0., 1.};
+
+/// A point mass on the level, its bristle, and the heat so far.
+struct Bearing {
+  Vector3d position, velocity;
+  Bristle<double> bristle;
+  double heat = 0.;
+};
+
+Bearing moved(const Bearing& from, double dt, const Bearing& rate) {
+  return {from.position + dt * rate.position,
+          from.velocity + dt * rate.velocity,
+          {from.bristle.deflection + dt * rate.bristle.deflection,
+           from.bristle.sliding + dt * rate.bristle.sliding},
+          from.heat + dt * rate.heat};
+}
+
+/// Power turned into heat along the normal [W].
+template <class Law>
+double normal_heat(double depth, double depth_rate, const MaterialConstants<double>& m) {
+  if (std::is_same_v<Law, AzadFeatherstone>)
+    return m.normal_damping * std::sqrt(depth) * depth_rate * depth_rate;
+  if (std::is_same_v<Law, Exponential>)
+    return 0.5336 * std::exp(1150. * depth) * m.hysteresis_damping * depth_rate * depth_rate;
+  return m.normal_damping * depth_rate * depth_rate;
+}
+
+/// Power turned into heat along the tile [W]: a clipped bristle's damper and sliding foot, or
+/// LuGre's micro-damping sigma1 z'.v, viscous sigma2 v^2 and slip k_t z.(v - z').
+template <class Law>
+double tangential_heat(const Vector3d& v, const Vector3d& friction, const Vector3d& z,
+                       const Vector3d& z_rate, double mu_N, const MaterialConstants<double>& m) {
+  if (std::is_base_of_v<LugrePredictions, Law>) {
+    const double sigma1 = m.tangential_damping / (1. + m.tangential_damping * norm(v) / mu_N);
+    const double held = std::min(1., mu_N / (m.tangential_stiffness * norm(z) + 1e-300));
+    return sigma1 * dot(z_rate, v) + m.viscous_friction * dot(v, v) +
+           m.tangential_stiffness * dot(z, held * v - z_rate);
+  }
+  return m.tangential_damping * dot(z_rate, z_rate) + dot(friction, v - z_rate);
+}
+
+template <class Law>
+Bearing rate_of(const Bearing& state, double mass, const MaterialConstants<double>& material) {
+  const PointKinematics<double> point{state.position, state.velocity, up, -state.position.z,
+                                      state.bristle};
+  const auto reaction = Law::evaluate(point, {}, material, 0.);
+  const Vector3d v = tangential(state.velocity, up);
+  const double mu_N = material.kinetic_friction * reaction.force.z;
+  return {state.velocity, 1. / mass * reaction.force - g * up, reaction.bristle_rate,
+          normal_heat<Law>(point.depth, -state.velocity.z, material) +
+              tangential_heat<Law>(v, -tangential(reaction.force, up), state.bristle.deflection,
+                                   reaction.bristle_rate.deflection, mu_N, material)};
+}
+
+template <class Law>
+double energy(const Bearing& state, double mass, const MaterialConstants<double>& material) {
+  return 0.5 * mass * dot(state.velocity, state.velocity) + mass * g * state.position.z +
+         Law::stored_energy(-state.position.z, state.bristle.deflection, material) + state.heat;
+}
+
+/// How far the ledger is from closing after `duration`, by RK4 with step dt, beside the heat [J].
+template <class Law>
+std::pair<double, double> ledger(Bearing state, const MaterialConstants<double>& material,
+                                 double duration, double dt) {
+  const double mass = 1.;
+  const double before = energy<Law>(state, mass, material);
+  for (long i = std::lround(duration / dt); i > 0; --i) {
+    const auto k1 = rate_of<Law>(state, mass, material);
+    const auto k2 = rate_of<Law>(moved(state, 0.5 * dt, k1), mass, material);
+    const auto k3 = rate_of<Law>(moved(state, 0.5 * dt, k2), mass, material);
+    const auto k4 = rate_of<Law>(moved(state, dt, k3), mass, material);
+    for (const auto& [rate, weight] : {std::pair{k1, 1.}, {k2, 2.}, {k3, 2.}, {k4, 1.}})
+      state = moved(state, weight * dt / 6., rate);
+  }
+  return {std::abs(energy<Law>(state, mass, material) - before), state.heat};
+}
+
+template <class Law>
+class StoringLaw : public ::testing::Test {};
+using StoringLaws = ::testing::Types<AzadFeatherstone, Lugre, Elastoplastic, Exponential>;
+TYPED_TEST_SUITE(StoringLaw, StoringLaws);
+
+MaterialConstants<double> ground() {
+  MaterialConstants<double> material = well_damped();
+  material.static_friction = material.kinetic_friction = 0.8;
+  material.viscous_friction = 3.;
+  material.sliding_time = 0.05;
+  return material;
+}
+
+// Moving along the ground, at its static depth times `deeper`; it stays inside.
+template <class Law>
+Bearing start(double speed, double deeper) {
+  const double depth = deeper * Law::static_depth(g, ground());
+  return {{0., 0., -depth}, {speed, 0.3 * speed, 0.}, {}, 0.};
+}
+
+// Slow enough to stick, or, of LuGre and its like, which always slip a little, without a reversal,
+// where |v| has a kink, and under a steady load, which holds its bristles.
+TYPED_TEST(StoringLaw, ClosesItsLedgerToTheOrderOfTheIntegrator) {
+  const bool slips = std::is_base_of_v<LugrePredictions, TypeParam>;
+  const auto begin = slips ? start<TypeParam>(2., 1.) : start<TypeParam>(0.02, 1.1);
+  const double duration = slips ? 0.1 : 0.3;
+  const auto [coarse, heat] = ledger<TypeParam>(begin, ground(), duration, 4e-4);
+  const auto fine = ledger<TypeParam>(begin, ground(), duration, 2e-4).first;
+  const auto finest = ledger<TypeParam>(begin, ground(), duration, 5e-6).first;
+  EXPECT_GT(heat, 1e-5);
+  EXPECT_GT(coarse, 12. * fine);  // fourth order: 16
+  EXPECT_LE(finest, 1e-10 * heat);
+}
+
+TYPED_TEST(StoringLaw, ClosesItsLedgerThroughStickAndSlip) {
+  const auto [error, heat] = ledger<TypeParam>(start<TypeParam>(0.5, 1.1), ground(), 0.4, 1e-5);
+  EXPECT_GT(heat, 0.1);  // it has slipped to rest
+  EXPECT_LE(error, 1e-7 * heat);
+}
+
+// No dampers, no slip: what a hook or a bristle stores it gives back.
+TEST(NominalTruth, KeepsItsEnergyWithoutDampers) {
+  MaterialConstants<double> material = ground();
+  material.normal_damping = material.tangential_damping = 0.;
+  material.nominal_penetration = 6e-4;
+  material.nominal_stiffness = 8e3;
+  material.blend_width = 3e-4;
+  const auto swing = [&](double dt) {
+    PointMass block{.mass = 1., .material = material};
+    block.position.z = -Nominal::static_depth(g, material);
+    block.velocity = {0.02, 0.01, 0.01};
+    block.step<Nominal>(dt);
+    const auto now = [&] {
+      return 0.5 * dot(block.velocity, block.velocity) + g * block.position.z +
+             Nominal::stored_energy(-block.position.z, tangential(block.position, up), material);
+    };
+    const double before = now();
+    double worst = 0.;
+    for (long i = std::lround(0.5 / dt); i > 0; --i) {
+      block.step<Nominal>(dt);
+      worst = std::max(worst, std::abs(now() - before));
+    }
+    return worst;
+  };
+  const double coarse = swing(2e-5), fine = swing(1e-5);
+  EXPECT_NEAR(coarse / fine, 2., 0.1);  // semi-implicit Euler: first order, no drift
+  EXPECT_LE(fine, 1e-6);
+}
+
+}  // namespace
+}  // namespace hookpoint::contact
