@@ -1,7 +1,10 @@
 #include "simulation/impulse_engine.h"
 
-#include "contact/impulse_advance.h"
+#include <fmt/format.h>
+
 #include "simulation/ground.h"
+#include "simulation/impulse_body.h"
+#include "simulation/impulse_robot.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -11,44 +14,40 @@ contact::ImpulseLaw impulse_law(const std::string& name) {
                                     : contact::ImpulseLaw::impulse;
 }
 
-contact::ImpulseBody impulse_body(const BodySpec& body) {
-  return {body.mass.mass, body.mass.center_of_mass, body.mass.inertia, body.boundary_points};
+std::unique_ptr<ImpulsePart> make_part(const Experiment& experiment, std::size_t robot,
+                                       const WorldInputs& inputs) {
+  const contact::ImpulseLaw law = impulse_law(experiment.contact);
+  const bool has_ground = experiment.terrain.has_value();
+  if (experiment.robots[robot].chains.empty())
+    return std::make_unique<ImpulseBody>(experiment, robot, law, has_ground, inputs);
+  return std::make_unique<ImpulseRobot>(experiment, robot, law, has_ground, inputs);
 }
 
-class ImpulseEngine final : public Engine {
+class ImpulseEngine final : public Engine, public Resumable {
  public:
   explicit ImpulseEngine(const Experiment& experiment)
       : experiment_(experiment),
         inputs_(initial_inputs(experiment_)),
         ground_(make_ground(experiment_)) {
-    for (const RobotSpec& robot : experiment_.robots) {
-      if (!robot.chains.empty()) {
-        throw ExperimentError("the law `" + experiment_.contact + "` moves single bodies; robot `" +
-                              robot.name + "` has chains: choose a force law such as `hookpoint`");
-      }
-      contact::ImpulseBody body = impulse_body(robot.base);
-      if (!ground_) body.boundary_points.clear();
-      const contact::ImpulseState motion{robot.location, robot.orientation, robot.velocity,
-                                         robot.angular_velocity};
-      parts_.push_back({robot.mobile,
-                        contact::ImpulseAdvance(body, impulse_law(experiment_.contact)),
-                        motion,
-                        motion,
-                        {}});
+    std::size_t bodies = 0, joints = 0;
+    for (std::size_t i = 0; i < experiment_.robots.size(); ++i) {
+      parts_.push_back({make_part(experiment_, i, inputs_), bodies, joints, 0});
+      bodies += parts_.back().robot->body_count();
+      joints += parts_.back().robot->joint_count();
     }
-    state_.bodies.resize(parts_.size());
+    state_.bodies.resize(bodies);
+    state_.joints.resize(joints);
     publish();
   }
 
   StepStatus step() override {
-    for (Part& part : parts_) part.before = part.motion;
     for (std::size_t i = 0; i < parts_.size(); ++i) {
-      if (!parts_[i].mobile) continue;
       const StepStatus status = advance(i);
       if (status.ok()) continue;
-      for (Part& part : parts_) part.motion = part.before;
+      for (std::size_t stepped = 0; stepped < i; ++stepped) parts_[stepped].robot->undo();
       return status;
     }
+    for (const Part& part : parts_) state_.impacts += static_cast<std::uint64_t>(part.impacts);
     publish();
     ++state_.step;
     state_.time = static_cast<double>(state_.step) * experiment_.deltat;
@@ -57,63 +56,89 @@ class ImpulseEngine final : public Engine {
 
   const WorldState& state() const override { return state_; }
   WorldInputs& inputs() override { return inputs_; }
+  Resumable* resumable() override { return this; }
+
+  std::size_t state_size() const override {
+    StateCount count;
+    exchange(*this, count);
+    std::size_t size = count.count();
+    for (const Part& part : parts_) size += part.robot->state_size();
+    return size;
+  }
+  std::string state_layout() const override {
+    std::string layout = "step impacts noticed";
+    for (const Part& part : parts_) layout += fmt::format(" {{{}}}", part.robot->state_layout());
+    return layout;
+  }
+  void save(std::span<double> numbers) const override {
+    StateSaver saver(numbers);
+    exchange(*this, saver);
+    std::span<double> left = numbers.subspan(kOwnNumbers);
+    for (const Part& part : parts_) {
+      const std::size_t size = part.robot->state_size();
+      part.robot->save(left.first(size),
+                       std::span(state_.bodies).subspan(part.first_body, part.robot->body_count()));
+      left = left.subspan(size);
+    }
+  }
+  void restore(std::span<const double> numbers) override {
+    StateRestorer restorer(numbers);
+    exchange(*this, restorer);
+    state_.time = static_cast<double>(state_.step) * experiment_.deltat;
+    std::span<const double> left = numbers.subspan(kOwnNumbers);
+    for (Part& part : parts_) {
+      const std::size_t size = part.robot->state_size();
+      part.robot->restore(left.first(size), bodies_of(part));
+      left = left.subspan(size);
+    }
+    publish();
+  }
 
  private:
+  static constexpr std::size_t kOwnNumbers = 3;  ///< of `exchange`
+
   struct Part {
-    bool mobile;
-    contact::ImpulseAdvance law;
-    contact::ImpulseState motion;
-    contact::ImpulseState before;  ///< the present step, to undo it
-    contact::AdvanceResult result;
+    std::unique_ptr<ImpulsePart> robot;
+    std::size_t first_body, first_joint;
+    std::int64_t impacts;  ///< of the last step
   };
+
+  template <class Self, class Archive>
+  static void exchange(Self& self, Archive& archive) {
+    archive(self.state_.step);
+    archive(self.state_.impacts);
+    archive(self.noticed_);
+  }
+
+  std::span<BodyState> bodies_of(const Part& part) {
+    return std::span(state_.bodies).subspan(part.first_body, part.robot->body_count());
+  }
 
   StepStatus advance(std::size_t i) {
     const auto ground = [&](const Vector3d& point) {
       const contact::TilePoint tile = ground_->query(point);
-      if (tile.outside && state_.notices.empty()) {
+      if (tile.outside && !noticed_) {
+        noticed_ = true;
         state_.notices.push_back(experiment_.robots[i].name + ": " +
                                  ground_->outside_message(point));
       }
       return contact::GroundPoint{-tile.depth, tile.normal,
                                   &experiment_.materials[tile.material].constants};
     };
-    Part& part = parts_[i];
-    part.result = part.law.advance(part.motion, experiment_.deltat, load_on(i), ground);
-    const contact::AdvanceStatus status = part.result.status;
-    if (status == contact::AdvanceStatus::ok) return {};
-    const bool lost = status == contact::AdvanceStatus::not_finite;
+    const contact::ImpulseTally tally = parts_[i].robot->advance(ground);
+    parts_[i].impacts = tally.impacts;
+    if (tally.status == contact::AdvanceStatus::ok) return {};
+    const bool lost = tally.status == contact::AdvanceStatus::not_finite;
     return {lost ? StepStatus::Kind::not_finite : StepStatus::Kind::solver_failed, state_.time,
-            experiment_.robots[i].name + ".base", contact::advice(status)};
+            experiment_.robots[i].name + ".base", contact::advice(tally.status)};
   }
 
   void publish() {
-    for (std::size_t i = 0; i < parts_.size(); ++i) {
-      const contact::ImpulseState& motion = parts_[i].motion;
-      const contact::AdvanceResult& result = parts_[i].result;
-      state_.bodies[i] = {motion.position,
-                          motion.orientation,
-                          motion.velocity,
-                          motion.angular_velocity,
-                          (1. / experiment_.deltat) * result.impulse,
-                          result.contacts};
-      state_.impacts += static_cast<std::uint64_t>(result.impacts);
+    for (Part& part : parts_) {
+      part.robot->publish(
+          bodies_of(part),
+          std::span(state_.joints).subspan(part.first_joint, part.robot->joint_count()));
     }
-  }
-
-  /// The external forces on a body, about its centre of mass, at the step's start.
-  contact::ImpulseLoad load_on(std::size_t i) const {
-    contact::ImpulseLoad load{experiment_.gravity, {}, {}};
-    const BodySpec& body = experiment_.robots[i].base;
-    for (std::size_t k = 0; k < experiment_.forces.size(); ++k) {
-      if (experiment_.forces[k].robot != static_cast<int>(i)) continue;
-      const ForceInput& force = inputs_.forces[k];
-      load.force += force.force;
-      load.torque += force.torque;
-      load.torque +=
-          cross(rotate(parts_[i].motion.orientation, force.point - body.mass.center_of_mass),
-                force.force);
-    }
-    return load;
   }
 
   const Experiment experiment_;
@@ -121,6 +146,7 @@ class ImpulseEngine final : public Engine {
   const std::optional<contact::Terrain> ground_;
   std::vector<Part> parts_;
   WorldState state_;
+  bool noticed_ = false;
 };
 
 }  // namespace
