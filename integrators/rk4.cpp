@@ -21,7 +21,7 @@ Status RungeKutta4::trial(System& system, double t, double reach, double weight,
   }
   system.retract(q, u_, q_);
   system.tangent_rate(u_, v_, k_u_);
-  const Status status = system.accelerations(Stage::trial, t, q_, v_, k_v_);
+  const Status status = evaluate(system, Stage::trial, t, q_, v_, k_v_);
   for (std::size_t i = 0; i < v.size(); ++i) {
     sum_u_[i] += weight * k_u_[i];
     sum_v_[i] += weight * k_v_[i];
@@ -31,7 +31,7 @@ Status RungeKutta4::trial(System& system, double t, double reach, double weight,
 
 Status RungeKutta4::step(System& system, double t, double dt, std::span<double> q,
                          std::span<double> v) {
-  Status status = system.accelerations(Stage::first, t, q, v, k_v_);
+  Status status = evaluate(system, Stage::first, t, q, v, k_v_);
   if (status != Status::ok) return status;
   std::copy(v.begin(), v.end(), k_u_.begin());  // at u = 0 the tangent rate is v itself
   sum_u_ = k_u_;

@@ -10,7 +10,7 @@ SemiImplicitEuler::SemiImplicitEuler(const System& system)
 
 Status SemiImplicitEuler::step(System& system, double t, double dt, std::span<double> q,
                                std::span<double> v) {
-  const Status status = system.accelerations(Stage::first, t, q, v, acceleration_);
+  const Status status = evaluate(system, Stage::first, t, q, v, acceleration_);
   if (status != Status::ok) return status;
   for (std::size_t i = 0; i < v.size(); ++i) {
     next_v_[i] = v[i] + dt * acceleration_[i];

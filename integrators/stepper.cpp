@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "integrators/arkode.h"
+#include "integrators/cvode.h"
 #include "integrators/explicit_euler.h"
 #include "integrators/rk4.h"
 #include "integrators/semi_implicit_euler.h"
@@ -12,7 +14,7 @@ namespace hookpoint::integrators {
 namespace {
 
 template <class Method>
-std::unique_ptr<Stepper> make(const System& system) {
+std::unique_ptr<Stepper> make(const System& system, const Tolerances& /*tolerances*/) {
   return std::make_unique<Method>(system);
 }
 
@@ -25,6 +27,20 @@ constexpr std::array steppers{
                        make<SemiImplicitEuler>},
     StepperDescription{"rk4", 4, 4, "classical Runge-Kutta, fourth order on rotations as well",
                        make<RungeKutta4>},
+    StepperDescription{"cvode_bdf", 0, 0,
+                       "SUNDIALS CVODE: backward differentiation of order 1 to 5, Newton with the "
+                       "dense or band Jacobian",
+                       make_cvode_bdf},
+    StepperDescription{"cvode_adams", 0, 0,
+                       "SUNDIALS CVODE: Adams-Moulton predictor-corrector of order 1 to 12",
+                       make_cvode_adams},
+    StepperDescription{"arkode", 0, 0,
+                       "SUNDIALS ARKODE: adaptive explicit Runge-Kutta of order 5, Dormand-Prince",
+                       make_arkode},
+    StepperDescription{"arkode_imex", 0, 0,
+                       "SUNDIALS ARKODE: additive Runge-Kutta of order 4, contact implicit, the "
+                       "rest explicit",
+                       make_arkode_imex},
 };
 
 }  // namespace
@@ -38,20 +54,39 @@ const StepperDescription* find_stepper(std::string_view name) {
   return nullptr;
 }
 
-std::unique_ptr<Stepper> make_stepper(std::string_view name, const System& system) {
+std::unique_ptr<Stepper> make_stepper(std::string_view name, const System& system,
+                                      const Tolerances& tolerances) {
   const StepperDescription* stepper = find_stepper(name);
-  return stepper ? stepper->make(system) : nullptr;
+  return stepper ? stepper->make(system, tolerances) : nullptr;
 }
 
 bool all_finite(std::span<const double> values) {
   return std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
 }
 
-Status accept(std::span<const double> next_q, std::span<const double> next_v, std::span<double> q,
-              std::span<double> v) {
+void Stepper::save(std::span<double> numbers) const {
+  const auto& [steps, rejected, evaluations, jacobians, events] = statistics_;
+  const std::array state{steps, rejected, evaluations, jacobians, events, next_step_};
+  std::copy(state.begin(), state.end(), numbers.begin());
+}
+
+void Stepper::restore(std::span<const double> numbers) {
+  statistics_ = {numbers[0], numbers[1], numbers[2], numbers[3], numbers[4]};
+  next_step_ = numbers[5];
+}
+
+Status Stepper::evaluate(System& system, Stage stage, double t, std::span<const double> q,
+                         std::span<const double> v, std::span<double> a) {
+  ++statistics_.evaluations;
+  return system.accelerations(stage, t, q, v, a);
+}
+
+Status Stepper::accept(std::span<const double> next_q, std::span<const double> next_v,
+                       std::span<double> q, std::span<double> v) {
   if (!all_finite(next_q) || !all_finite(next_v)) return Status::not_finite;
   std::copy(next_q.begin(), next_q.end(), q.begin());
   std::copy(next_v.begin(), next_v.end(), v.begin());
+  ++statistics_.steps;
   return Status::ok;
 }
 

@@ -10,6 +10,7 @@ namespace hookpoint::integrators {
 enum class Status {
   ok,
   not_finite,  ///< an acceleration, position or velocity is infinite or not a number
+  no_step,     ///< an adaptive integrator finds no step that meets its tolerances
 };
 
 /// Which evaluation within a step this is. `first` is at the accepted state (t, q, v) that the step
@@ -40,6 +41,37 @@ class System {
   /// rotations (Munthe-Kaas 1999).
   virtual void tangent_rate(std::span<const double> u, std::span<const double> v,
                             std::span<double> du) const = 0;
+
+  // What only adaptive integrators ask. A system without memory, events and contact keeps these
+  // defaults.
+
+  /// An internal step of `dt` [s] has been accepted at (t, q, v), and another follows: what
+  /// remembers the past is brought up to date here. Not called for the last internal step, whose
+  /// end is the caller's next accepted state.
+  virtual void commit(double /*t*/, double /*dt*/, std::span<const double> /*q*/,
+                      std::span<const double> /*v*/) {}
+
+  /// How many event functions there are; the number is the same for life.
+  virtual std::size_t event_count() const { return 0; }
+  /// The event functions at (t, q, v): the integration stops where one changes sign (a point enters
+  /// or leaves the ground), commits and begins anew.
+  virtual void event_values(double /*t*/, std::span<const double> /*q*/,
+                            std::span<const double> /*v*/, std::span<double> /*values*/) {}
+
+  /// a = a_free + a_contact: the stiff part of `accelerations` at a trial state, and the rest.
+  virtual Status split_accelerations(double t, std::span<const double> q, std::span<const double> v,
+                                     std::span<double> a_free, std::span<double> a_contact) {
+    for (double& a : a_contact) a = 0.;
+    return accelerations(Stage::trial, t, q, v, a_free);
+  }
+
+  /// Whether the tangent vector `u` has come so far from its origin that it should start at a new
+  /// one (half way to where tangent_rate is singular).
+  virtual bool far(std::span<const double> /*u*/) const { return false; }
+
+  /// Coordinates fall into consecutive groups of at most this many, none of which feels another
+  /// (the legs of a fixed base): then the Jacobian is a band.
+  virtual std::size_t group_size() const { return velocity_size(); }
 };
 
 }  // namespace hookpoint::integrators

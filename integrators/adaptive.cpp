@@ -1,0 +1,123 @@
+#include "integrators/adaptive.h"
+
+#include <algorithm>
+
+namespace hookpoint::integrators {
+namespace {
+
+/// More internal steps than this in one `step` are a crawl that the user should hear of.
+constexpr int most_internal_steps = 200000;
+
+}  // namespace
+
+AdaptiveStepper::AdaptiveStepper(const System& system)
+    : unknowns_(2 * system.velocity_size()),
+      band_(2 * system.group_size() - 1),
+      origin_(system.position_size()),
+      q_(system.position_size()) {
+  for (std::vector<double>* numbers : {&u_, &v_, &u_rate_, &v_rate_, &other_rate_, &zero_, &first_})
+    numbers->resize(system.velocity_size());
+}
+
+Status AdaptiveStepper::step(System& system, double t, double dt, std::span<double> q,
+                             std::span<double> v) {
+  const Status status = evaluate(system, Stage::first, t, q, v, first_);
+  if (status != Status::ok) return status;
+  system_ = &system;
+  start_ = t;
+  at_start_ = true;
+  lost_ = false;
+  start_from(q, v);
+  const Status reached = integrate(dt);
+  if (reached != Status::ok) return reached;
+  read(unknowns_.data());
+  return accept(q_, v_, q, v);
+}
+
+Status AdaptiveStepper::integrate(double dt) {
+  double committed = 0.;
+  begin(0., dt);
+  for (int i = 0; i < most_internal_steps; ++i) {
+    const Arrival arrival = advance(dt);
+    if (arrival.kind == Arrival::Kind::failed) {
+      count();
+      return lost_ ? Status::not_finite : Status::no_step;
+    }
+    const bool event = arrival.kind == Arrival::Kind::event;
+    if (event) ++statistics_.events;
+    if (arrival.kind == Arrival::Kind::at_end || dt - arrival.time <= least_step * dt) {
+      count();
+      return Status::ok;
+    }
+    ++statistics_.steps;  // `accept` counts the last
+    read(unknowns_.data());
+    system_->commit(start_ + arrival.time, arrival.time - committed, q_, v_);
+    committed = arrival.time;
+    if (event || system_->far(u_)) {
+      count();
+      start_from(q_, v_);
+      begin(arrival.time, dt);
+    }
+  }
+  count();
+  return Status::no_step;
+}
+
+void AdaptiveStepper::start_from(std::span<const double> q, std::span<const double> v) {
+  std::copy(q.begin(), q.end(), origin_.begin());
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    unknowns_[2 * i] = 0.;
+    unknowns_[2 * i + 1] = v[i];
+  }
+}
+
+void AdaptiveStepper::read(const double* y) {
+  for (std::size_t i = 0; i < v_.size(); ++i) {
+    u_[i] = y[2 * i];
+    v_[i] = y[2 * i + 1];
+  }
+  system_->retract(origin_, u_, q_);
+}
+
+bool AdaptiveStepper::write_rates(Status status, std::span<const double> u_rate,
+                                  std::span<const double> v_rate, double* rate) {
+  for (std::size_t i = 0; i < v_.size(); ++i) {
+    rate[2 * i] = u_rate[i];
+    rate[2 * i + 1] = v_rate[i];
+  }
+  lost_ = status != Status::ok;
+  return !lost_;
+}
+
+bool AdaptiveStepper::rates(double time, const double* y, double* rate) {
+  read(y);
+  system_->tangent_rate(u_, v_, u_rate_);
+  if (at_start_) {
+    at_start_ = false;
+    return write_rates(Status::ok, u_rate_, first_, rate);
+  }
+  const Status status = evaluate(*system_, Stage::trial, start_ + time, q_, v_, v_rate_);
+  return write_rates(status, u_rate_, v_rate_, rate);
+}
+
+bool AdaptiveStepper::explicit_rates(double time, const double* y, double* rate) {
+  read(y);
+  statistics_.evaluations += 2;
+  const Status status = system_->split_accelerations(start_ + time, q_, v_, v_rate_, other_rate_);
+  return write_rates(status, zero_, v_rate_, rate);
+}
+
+bool AdaptiveStepper::implicit_rates(double time, const double* y, double* rate) {
+  read(y);
+  system_->tangent_rate(u_, v_, u_rate_);
+  statistics_.evaluations += 2;
+  const Status status = system_->split_accelerations(start_ + time, q_, v_, other_rate_, v_rate_);
+  return write_rates(status, u_rate_, v_rate_, rate);
+}
+
+void AdaptiveStepper::event_values(double time, const double* y, double* values) {
+  read(y);
+  system_->event_values(start_ + time, q_, v_, {values, system_->event_count()});
+}
+
+}  // namespace hookpoint::integrators

@@ -1,0 +1,63 @@
+// What the adaptive integrators share: the unknowns, and the way from t to t + dt by internal steps
+// that end at events. The libraries' side is in cvode.cpp and arkode.cpp.
+#pragma once
+
+#include "integrators/stepper.h"
+
+namespace hookpoint::integrators {
+
+/// Unknowns: y = (u_1, v_1, u_2, v_2, ...), u the tangent coordinates of q = origin (+) u, so that
+/// an orientation moves on its group and y' is an ordinary equation (Munthe-Kaas 1999). Coordinate
+/// by coordinate, which makes the Jacobian a band where groups of them are independent. Each call
+/// of `step` begins anew from (q, v): inputs may have jumped there, and a run that is saved and
+/// resumed goes on bit for bit (docs/decisions/0010). Time is counted from the step's start.
+class AdaptiveStepper : public Stepper {
+ public:
+  explicit AdaptiveStepper(const System& system);
+  Status step(System& system, double t, double dt, std::span<double> q, std::span<double> v) final;
+
+  // For the library's callbacks, at `time` since the step's start [s]; y and the results have
+  // `unknowns()` and `event_count()` numbers. False when a rate is not finite: a shorter step may
+  // help.
+  bool rates(double time, const double* y, double* rate);
+  /// Rates without contact and kinematics, and those of contact and kinematics: the two parts of an
+  /// implicit-explicit method.
+  bool explicit_rates(double time, const double* y, double* rate);
+  bool implicit_rates(double time, const double* y, double* rate);
+  void event_values(double time, const double* y, double* values);
+
+ protected:
+  /// Of the whole interval: a step that should be shorter still is given up.
+  static constexpr double least_step = 1e-12;
+
+  /// How an internal step ended.
+  struct Arrival {
+    enum class Kind { inside, at_end, event, failed };
+    Kind kind = Kind::failed;
+    double time = 0.;  ///< reached, since the step's start [s]
+  };
+  /// Begins anew at `time` with the y of `unknowns_`, not to go beyond `end`.
+  virtual void begin(double time, double end) = 0;
+  /// Takes one internal step, leaving y in `unknowns_`.
+  virtual Arrival advance(double end) = 0;
+  /// Adds what the library counted since the last `begin` to the statistics.
+  virtual void count() = 0;
+
+  std::vector<double> unknowns_;
+  std::size_t band_;  ///< half the Jacobian's bandwidth; unknowns - 1 when it is full
+
+ private:
+  void start_from(std::span<const double> q, std::span<const double> v);
+  void read(const double* y);
+  bool write_rates(Status status, std::span<const double> u_rate, std::span<const double> v_rate,
+                   double* rate);
+  Status integrate(double dt);
+
+  System* system_ = nullptr;  ///< during `step`
+  double start_ = 0.;         ///< time of the step's start [s]
+  bool at_start_ = false;     ///< the next rates are those that Stage::first gave
+  bool lost_ = false;         ///< the latest rates are not finite
+  std::vector<double> origin_, q_, u_, v_, u_rate_, v_rate_, other_rate_, zero_, first_;
+};
+
+}  // namespace hookpoint::integrators

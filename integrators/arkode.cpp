@@ -1,0 +1,99 @@
+#include "integrators/arkode.h"
+
+#include <arkode/arkode_arkstep.h>
+
+#include <algorithm>
+
+#include "integrators/sundials_memory.h"
+
+namespace hookpoint::integrators {
+namespace {
+
+class Arkode final : public AdaptiveStepper {
+ public:
+  Arkode(const System& system, const Tolerances& tolerances, bool imex)
+      : AdaptiveStepper(system),
+        explicit_part_(imex ? sundials::rates<&AdaptiveStepper::explicit_rates>
+                            : sundials::rates<&AdaptiveStepper::rates>),
+        implicit_part_(imex ? sundials::rates<&AdaptiveStepper::implicit_rates> : nullptr),
+        context_(sundials::make_context()),
+        y_(sundials::vector_over(unknowns_, context_.get())),
+        memory_(ARKStepCreate(explicit_part_, implicit_part_, 0., y_.get(), context_.get())) {
+    ARKStepSetErrHandlerFn(memory_, sundials::silent, nullptr);
+    ARKStepSetUserData(memory_, static_cast<AdaptiveStepper*>(this));
+    ARKStepSStolerances(memory_, tolerances.relative, tolerances.absolute);
+    ARKStepSetNoInactiveRootWarn(memory_);
+    // A higher interpolant evaluates rates of its own, and whether it does depends on more than this
+    // step: a run that is resumed would count others.
+    ARKStepSetInterpolantDegree(memory_, 3);
+    if (system.event_count() > 0)
+      ARKStepRootInit(memory_, static_cast<int>(system.event_count()), sundials::events);
+    if (imex) {
+      ARKStepSetTableNum(memory_, ARKODE_ARK436L2SA_DIRK_6_3_4, ARKODE_ARK436L2SA_ERK_6_3_4);
+      linear_ = sundials::make_linear_solver(y_.get(), unknowns_.size(), band_, context_.get());
+      ARKStepSetLinearSolver(memory_, linear_.solver.get(), linear_.matrix.get());
+      // By default Newton's iteration is trusted after one correction where the ones before went
+      // well. The implicit part here is linear off contact, all of them go well, and the one with
+      // an old matrix is far off: errors of 1e-2 at a tolerance of 1e-6.
+      ARKStepSetNonlinCRDown(memory_, 1.);
+    } else {
+      ARKStepSetTableNum(memory_, ARKODE_DIRK_NONE, ARKODE_DORMAND_PRINCE_7_4_5);
+    }
+  }
+  ~Arkode() override { ARKStepFree(&memory_); }
+  Arkode(const Arkode&) = delete;
+  Arkode& operator=(const Arkode&) = delete;
+
+ private:
+  static constexpr double growth = 1.2;  ///< of the first step tried, while none is rejected
+
+  void begin(double time, double end) override {
+    ARKStepReInit(memory_, explicit_part_, implicit_part_, time, y_.get());
+    ARKStepSetStopTime(memory_, end);
+    ARKStepSetMinStep(memory_, least_step * end);
+    ARKStepSetInitStep(memory_, next_step_);  // 0: the library's own guess
+    longest_ = 0.;
+  }
+
+  Arrival advance(double end) override {
+    double time = 0.;
+    const int flag = ARKStepEvolve(memory_, end, y_.get(), &time, ARK_ONE_STEP);
+    double taken = 0.;
+    ARKStepGetLastStep(memory_, &taken);
+    longest_ = std::max(longest_, taken);
+    if (flag == ARK_SUCCESS) return {Arrival::Kind::inside, time};
+    if (flag != ARK_TSTOP_RETURN && flag != ARK_ROOT_RETURN) return {};
+    return {flag == ARK_ROOT_RETURN ? Arrival::Kind::event : Arrival::Kind::at_end, time};
+  }
+
+  void count() override {
+    long errors = 0, divergences = 0, jacobians = 0;
+    ARKStepGetNumErrTestFails(memory_, &errors);
+    if (linear_.solver) ARKStepGetNumNonlinSolvConvFails(memory_, &divergences);
+    if (linear_.solver) ARKStepGetNumJacEvals(memory_, &jacobians);
+    statistics_.rejected += static_cast<double>(errors + divergences);
+    statistics_.jacobians += static_cast<double>(jacobians);
+    // The library's own proposal is cut short by the end of the interval; the longest step that it
+    // took is not.
+    if (longest_ > 0.) next_step_ = errors > 0 ? longest_ : growth * longest_;
+  }
+
+  ARKRhsFn explicit_part_, implicit_part_;
+  sundials::Owner<SUNContext> context_;
+  sundials::Owner<N_Vector> y_;
+  sundials::LinearSolver linear_;
+  void* memory_;
+  double longest_ = 0.;  ///< step taken since `begin` [s]
+};
+
+}  // namespace
+
+std::unique_ptr<Stepper> make_arkode(const System& system, const Tolerances& tolerances) {
+  return std::make_unique<Arkode>(system, tolerances, false);
+}
+
+std::unique_ptr<Stepper> make_arkode_imex(const System& system, const Tolerances& tolerances) {
+  return std::make_unique<Arkode>(system, tolerances, true);
+}
+
+}  // namespace hookpoint::integrators

@@ -1,0 +1,17 @@
+// SUNDIALS CVODE (Hindmarsh & al. 2005): linear multistep methods of variable order and step.
+#pragma once
+
+#include "integrators/stepper.h"
+
+namespace hookpoint::integrators {
+
+/// Backward differentiation formulas of order 1 to 5, for stiff contact; Newton's method with a
+/// Jacobian by difference quotients, dense, or a band where groups of coordinates are independent
+/// (System::group_size).
+std::unique_ptr<Stepper> make_cvode_bdf(const System& system, const Tolerances& tolerances);
+
+/// Adams-Moulton formulas of order 1 to 12, corrected by functional iteration: the
+/// predictor-corrector that the paper weighs in 3.5.
+std::unique_ptr<Stepper> make_cvode_adams(const System& system, const Tolerances& tolerances);
+
+}  // namespace hookpoint::integrators

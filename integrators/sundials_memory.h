@@ -1,0 +1,77 @@
+// Owners of what SUNDIALS hands out, and the callbacks that lead from it to an AdaptiveStepper. For
+// cvode.cpp and arkode.cpp only.
+#pragma once
+
+#include <nvector/nvector_serial.h>
+#include <sundials/sundials_context.h>
+#include <sundials/sundials_linearsolver.h>
+#include <sundials/sundials_nonlinearsolver.h>
+#include <sunlinsol/sunlinsol_band.h>
+#include <sunlinsol/sunlinsol_dense.h>
+#include <sunmatrix/sunmatrix_band.h>
+#include <sunmatrix/sunmatrix_dense.h>
+
+#include <memory>
+#include <span>
+
+#include "integrators/adaptive.h"
+
+namespace hookpoint::integrators::sundials {
+
+struct Free {
+  void operator()(SUNContext context) const { SUNContext_Free(&context); }
+  void operator()(N_Vector vector) const { N_VDestroy(vector); }
+  void operator()(SUNMatrix matrix) const { SUNMatDestroy(matrix); }
+  void operator()(SUNLinearSolver solver) const { SUNLinSolFree(solver); }
+  void operator()(SUNNonlinearSolver solver) const { SUNNonlinSolFree(solver); }
+};
+template <class Pointer>
+using Owner = std::unique_ptr<std::remove_pointer_t<Pointer>, Free>;
+
+inline Owner<SUNContext> make_context() {
+  SUNContext context = nullptr;
+  SUNContext_Create(nullptr, &context);
+  return Owner<SUNContext>(context);
+}
+
+/// A vector of the library over numbers of ours.
+inline Owner<N_Vector> vector_over(std::span<double> numbers, SUNContext context) {
+  return Owner<N_Vector>(
+      N_VMake_Serial(static_cast<sunindextype>(numbers.size()), numbers.data(), context));
+}
+
+/// A Jacobian of half bandwidth `band` and its solver: dense where a band would save nothing.
+struct LinearSolver {
+  Owner<SUNMatrix> matrix;
+  Owner<SUNLinearSolver> solver;
+};
+inline LinearSolver make_linear_solver(N_Vector y, std::size_t size, std::size_t band,
+                                       SUNContext context) {
+  const auto n = static_cast<sunindextype>(size);
+  const auto half = static_cast<sunindextype>(band);
+  const bool dense = 2 * half + 1 >= n;
+  LinearSolver linear;
+  linear.matrix.reset(dense ? SUNDenseMatrix(n, n, context)
+                            : SUNBandMatrix(n, half, half, context));
+  linear.solver.reset(dense ? SUNLinSol_Dense(y, linear.matrix.get(), context)
+                            : SUNLinSol_Band(y, linear.matrix.get(), context));
+  return linear;
+}
+
+/// Messages go to the caller by the returned flags; nothing is printed.
+inline void silent(int, const char*, const char*, char*, void*) {}
+
+inline AdaptiveStepper& stepper(void* user) { return *static_cast<AdaptiveStepper*>(user); }
+
+/// For the library: 0 fine, 1 try a shorter step.
+template <bool (AdaptiveStepper::*part)(double, const double*, double*)>
+int rates(double time, N_Vector y, N_Vector rate, void* user) {
+  return (stepper(user).*part)(time, NV_DATA_S(y), NV_DATA_S(rate)) ? 0 : 1;
+}
+
+inline int events(double time, N_Vector y, double* values, void* user) {
+  stepper(user).event_values(time, NV_DATA_S(y), values);
+  return 0;
+}
+
+}  // namespace hookpoint::integrators::sundials

@@ -1,0 +1,57 @@
+// The distance of a run from its own limit, where the limit is known: semi-implicit Euler falls g t
+// dt/2 too far, so that its self error is that of an eighth of the step less than that of the
+// whole.
+#include <gtest/gtest.h>
+
+#include "simulation/dts_engine.h"
+#include "simulation/world.h"
+#include "studies/metric.h"
+#include "tests/support/load_text.h"
+
+namespace hookpoint {
+namespace {
+
+constexpr const char* falling = R"(
+World w { gravity = 9.81; Robot r { Base.mobile { mass = 1 kg; inertia = 1, 1, 1, 0, 0, 0; } } }
+)";
+
+std::optional<double> measure(const char* name, simulation::Experiment experiment,
+                              const std::string& integrator, double deltat) {
+  experiment.integrator = integrator;
+  experiment.deltat = deltat;
+  studies::RunContext context = studies::make_context(experiment, 0., 1.);
+  context.make = simulation::make_dts;
+  const auto metric = studies::find_metric(name)->make(context);
+  studies::Observer observer(context, false);
+  simulation::World world(experiment, simulation::make_dts(experiment));
+  metric->observe(observer.observe(world.state()));
+  for (int i = 0; i < std::lround(1. / deltat); ++i) {
+    EXPECT_TRUE(world.step().ok());
+    metric->observe(observer.observe(world.state()));
+  }
+  return metric->value();
+}
+
+TEST(SelfError, IsTheDistanceFromTheLimitOfSmallSteps) {
+  const simulation::Experiment experiment = *load_text(falling).experiment;
+  for (const double deltat : {0.01, 0.005}) {
+    const double whole = 9.81 * 1. * deltat / 2.;
+    EXPECT_NEAR(measure("self_error", experiment, "semi_implicit_euler", deltat).value(),
+                whole * 7. / 8., 1e-12);
+    EXPECT_NEAR(measure("reference_error", experiment, "semi_implicit_euler", deltat).value(),
+                whole, 1e-9);
+  }
+  EXPECT_LE(measure("self_error", experiment, "rk4", 0.01).value(), 1e-13);
+  EXPECT_LE(measure("self_error", experiment, "arkode", 0.01).value(), 1e-9);
+}
+
+TEST(IntegratorMetrics, CountWhatFixedStepsCost) {
+  const simulation::Experiment experiment = *load_text(falling).experiment;
+  EXPECT_EQ(measure("evaluations", experiment, "rk4", 0.01), 400.);
+  EXPECT_EQ(measure("evaluations", experiment, "explicit_euler", 0.01), 100.);
+  EXPECT_EQ(measure("integrator_steps", experiment, "rk4", 0.01), 100.);
+  EXPECT_EQ(measure("rejected_steps", experiment, "rk4", 0.01), 0.);
+}
+
+}  // namespace
+}  // namespace hookpoint

@@ -1,0 +1,191 @@
+// What a caller of an adaptive integrator relies on beside what every integrator promises: the
+// state on failure, runs that are resumed, memory that is committed once a step, no allocation.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdlib>
+#include <limits>
+
+#include "integrators/stepper.h"
+#include "tests/support/integrator_systems.h"
+
+// Counts what the library asks of malloc, which operator new does not see. Sanitizers bring a
+// malloc of their own.
+#if defined(__SANITIZE_ADDRESS__)
+static long mallocs = 0;
+#else
+static long mallocs = 0;
+extern "C" void* __libc_malloc(std::size_t size);
+extern "C" void* malloc(std::size_t size) {
+  ++mallocs;
+  return __libc_malloc(size);
+}
+#endif
+
+namespace hookpoint::integrators {
+namespace {
+
+using testing::Ball;
+using testing::FreeBody;
+using testing::OneCoordinate;
+using testing::Pendulum;
+
+template <class Check>
+void for_each_adaptive(Check check) {
+  for (const StepperDescription& row : stepper_table()) {
+    if (row.adaptive()) check(row);
+  }
+}
+
+// The library makes a vector's header (three small blocks) for each Jacobian by difference
+// quotients, and nothing else.
+TEST(AdaptiveStepper, AllocatesOnlyForJacobiansAfterItsFirstStep) {
+  for_each_adaptive([](const StepperDescription& row) {
+    FreeBody body;
+    const auto stepper = row.make(body, {});
+    std::vector<double> q = FreeBody::start_orientation(), v = FreeBody::start_velocity();
+    stepper->step(body, 0., 0.1, q, v);
+    const long before = mallocs;
+    const double jacobians = stepper->statistics().jacobians;
+    for (int i = 1; i < 100; ++i) stepper->step(body, 0.1 * i, 0.1, q, v);
+    const double made = stepper->statistics().jacobians - jacobians;
+    EXPECT_LE(static_cast<double>(mallocs - before), 3. * made) << row.name;
+    const bool implicit = row.name == "cvode_bdf" || row.name == "arkode_imex";
+    EXPECT_EQ(made > 0., implicit) << row.name;
+  });
+}
+
+TEST(AdaptiveStepper, GoesOnBitForBitFromASavedState) {
+  for_each_adaptive([](const StepperDescription& row) {
+    FreeBody body;
+    const auto stepper = row.make(body, {});
+    std::vector<double> q = FreeBody::start_orientation(), v = FreeBody::start_velocity();
+    for (int i = 0; i < 10; ++i) stepper->step(body, 0.1 * i, 0.1, q, v);
+    std::array<double, Stepper::state_size()> state{};
+    stepper->save(state);
+    const auto resumed = row.make(body, {});
+    resumed->restore(state);
+    std::vector<double> resumed_q = q, resumed_v = v;
+    for (int i = 10; i < 20; ++i) {
+      stepper->step(body, 0.1 * i, 0.1, q, v);
+      resumed->step(body, 0.1 * i, 0.1, resumed_q, resumed_v);
+    }
+    EXPECT_EQ(resumed_q, q) << row.name;
+    EXPECT_EQ(resumed_v, v) << row.name;
+    EXPECT_EQ(resumed->statistics().evaluations, stepper->statistics().evaluations) << row.name;
+  });
+}
+
+/// Has no accelerations after t = 1/2, however short the step.
+class Ending final : public OneCoordinate {
+ public:
+  Status accelerations(Stage, double t, std::span<const double>, std::span<const double>,
+                       std::span<double> a) override {
+    a[0] = 1.;
+    return t > 0.5 ? Status::not_finite : Status::ok;
+  }
+};
+
+TEST(AdaptiveStepper, LeavesTheStateAloneWhenItFindsNoStep) {
+  for_each_adaptive([](const StepperDescription& row) {
+    for (const double start : {0., 1.}) {
+      Ending system;
+      double q = 1., v = 0.5;
+      const Status status = row.make(system, {})->step(system, start, 1., {&q, 1}, {&v, 1});
+      EXPECT_EQ(status == Status::ok, false) << row.name;
+      EXPECT_EQ(status == Status::not_finite || start == 0., true) << row.name;
+      EXPECT_EQ(q, 1.) << row.name;
+      EXPECT_EQ(v, 0.5) << row.name;
+    }
+  });
+}
+
+/// Writes down the commits.
+class Remembering final : public OneCoordinate {
+ public:
+  std::vector<std::pair<double, double>> commits;  ///< time, length
+  Status accelerations(Stage, double, std::span<const double> q, std::span<const double>,
+                       std::span<double> a) override {
+    a[0] = -25. * q[0];
+    return Status::ok;
+  }
+  void commit(double t, double dt, std::span<const double>, std::span<const double>) override {
+    commits.emplace_back(t, dt);
+  }
+};
+
+TEST(AdaptiveStepper, CommitsAtTheEndOfEachInternalStepButTheLast) {
+  for_each_adaptive([](const StepperDescription& row) {
+    Remembering system;
+    const auto stepper = row.make(system, {});
+    double q = 1., v = 0.;
+    stepper->step(system, 3., 2., {&q, 1}, {&v, 1});
+    ASSERT_EQ(static_cast<double>(system.commits.size()), stepper->statistics().steps - 1.);
+    double time = 3.;
+    for (const auto& [end, dt] : system.commits) {
+      EXPECT_GT(dt, 0.);
+      EXPECT_NEAR(end, time + dt, 1e-14);
+      time = end;
+    }
+    EXPECT_LT(time, 5.);
+  });
+}
+
+/// Two coordinates a group, two groups: a stiff spring between those of one group.
+class TwoPairs final : public System {
+ public:
+  std::size_t group = 2;
+  std::size_t position_size() const override { return 4; }
+  std::size_t velocity_size() const override { return 4; }
+  std::size_t group_size() const override { return group; }
+  void retract(std::span<const double> q0, std::span<const double> u,
+               std::span<double> q) const override {
+    for (int i = 0; i < 4; ++i) q[i] = q0[i] + u[i];
+  }
+  void tangent_rate(std::span<const double>, std::span<const double> v,
+                    std::span<double> du) const override {
+    std::copy(v.begin(), v.end(), du.begin());
+  }
+  Status accelerations(Stage, double, std::span<const double> q, std::span<const double> v,
+                       std::span<double> a) override {
+    for (int i = 0; i < 4; ++i) {
+      const int other = i ^ 1;
+      a[i] = -1e4 * (q[i] - q[other]) - 100. * (v[i] - v[other]) - q[i];
+    }
+    return Status::ok;
+  }
+};
+
+TEST(AdaptiveStepper, TakesABandWhereGroupsAreIndependent) {
+  const auto run = [](std::size_t group, Statistics& statistics) {
+    TwoPairs pairs;
+    pairs.group = group;
+    const auto stepper = make_stepper("cvode_bdf", pairs, {1e-8, 1e-10});
+    std::array q{1., 0.9, -0.5, -0.4}, v{0., 0., 0., 0.};
+    EXPECT_EQ(stepper->step(pairs, 0., 1., q, v), Status::ok);
+    statistics = stepper->statistics();
+    return q;
+  };
+  Statistics band, dense;
+  const auto q_band = run(2, band), q_dense = run(4, dense);
+  for (int i = 0; i < 4; ++i) EXPECT_NEAR(q_band[i], q_dense[i], 1e-6);
+  // A banded Jacobian of half bandwidth 3 has 7 groups of columns, a dense one 8 columns.
+  EXPECT_LT(band.evaluations - band.jacobians * 7., dense.evaluations - dense.jacobians * 7.);
+}
+
+TEST(AdaptiveStepper, IsDrivenBySmallerTolerancesToMoreWork) {
+  for_each_adaptive([](const StepperDescription& row) {
+    double last = 0.;
+    for (const double tolerance : {1e-4, 1e-7, 1e-10}) {
+      Pendulum pendulum;
+      const auto stepper = row.make(pendulum, {tolerance, tolerance});
+      double q = 2., v = 0.;
+      stepper->step(pendulum, 0., 3., {&q, 1}, {&v, 1});
+      EXPECT_GT(stepper->statistics().evaluations, last) << row.name;
+      last = stepper->statistics().evaluations;
+    }
+  });
+}
+
+}  // namespace
+}  // namespace hookpoint::integrators
