@@ -5,6 +5,8 @@
 namespace hookpoint::control {
 namespace {
 
+__extension__ using Wide = __int128;
+
 constexpr std::int64_t most_under_way = 10'000'000;
 
 /// Samples that can be under way at once: those of delay + 1 successive steps.
@@ -47,12 +49,15 @@ void Schedule::advance() {
 }
 
 void Schedule::resume(std::int64_t count) {
-  __extension__ using Wide = __int128;
-  const Wide parts = Wide{part_} * count;
-  const Wide rounded_up = (parts + denominator_ - 1) / denominator_;
+  next_ = step_of(count);
   count_ = count;
-  next_ = count * whole_ + static_cast<std::int64_t>(rounded_up);
-  early_ = static_cast<std::int64_t>(rounded_up * denominator_ - parts);
+  early_ =
+      static_cast<std::int64_t>(Wide{next_ - count * whole_} * denominator_ - Wide{part_} * count);
+}
+
+std::int64_t Schedule::step_of(std::int64_t n) const {
+  return n * whole_ +
+         static_cast<std::int64_t>((Wide{part_} * n + denominator_ - 1) / denominator_);
 }
 
 TransmissionLine::TransmissionLine(const LineDescription& description, const Rational& dt)
@@ -88,24 +93,24 @@ double TransmissionLine::deliver(std::int64_t step) {
 }
 
 void TransmissionLine::save(std::span<double> state) const {
+  if (passes()) return;
   state[0] = static_cast<double>(schedule_.count());
   state[1] = output_;
   state[2] = static_cast<double>(under_way_);
-  for (std::size_t i = 0; i < ring_.size(); ++i) {
-    const Sample sample = i < under_way_ ? ring_[(first_ + i) % ring_.size()] : Sample{};
-    state[3 + 2 * i] = static_cast<double>(sample.arrival);
-    state[4 + 2 * i] = sample.value;
-  }
+  for (std::size_t i = 0; i < ring_.size(); ++i) state[3 + i] = ring_[i].value;
 }
 
-void TransmissionLine::restore(std::span<const double> state) {
+void TransmissionLine::restore(std::int64_t step, std::span<const double> state) {
+  if (passes()) return schedule_.resume(step + 1);
   schedule_.resume(static_cast<std::int64_t>(state[0]));
   output_ = state[1];
   under_way_ = static_cast<std::size_t>(state[2]);
-  first_ = 0;
-  for (std::size_t i = 0; i < ring_.size(); ++i) {
-    ring_[i] = {static_cast<std::int64_t>(state[3 + 2 * i]), state[4 + 2 * i]};
-  }
+  const std::int64_t oldest = schedule_.count() - static_cast<std::int64_t>(under_way_);
+  const auto size = static_cast<std::int64_t>(ring_.size());
+  first_ = static_cast<std::size_t>(oldest % size);
+  for (std::size_t i = 0; i < ring_.size(); ++i) ring_[i].value = state[3 + i];
+  for (std::int64_t n = oldest; n < schedule_.count(); ++n)
+    ring_[static_cast<std::size_t>(n % size)].arrival = schedule_.step_of(n) + delay_;
 }
 
 }  // namespace hookpoint::control

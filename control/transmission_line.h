@@ -34,6 +34,10 @@ class Schedule {
   std::int64_t count() const { return count_; }
   /// As after having been due `count` times: a run goes on from a record.
   void resume(std::int64_t count);
+  /// The step at which it is due for the n-th time, from 0 on.
+  std::int64_t step_of(std::int64_t n) const;
+  /// Whether every step is a due one.
+  bool every_step() const { return whole_ == 1 && part_ == 0; }
   /// No two due steps are closer than this many steps.
   std::int64_t shortest_interval() const { return whole_; }
 
@@ -81,10 +85,14 @@ class TransmissionLine {
   double output() const { return output_; }
 
   /// The state as numbers, for records from which a run is resumed: `state_size()` of them, the
-  /// same for the life of the line.
-  std::size_t state_size() const { return 3 + 2 * ring_.size(); }
+  /// same for the life of the line: samples taken, output, samples under way, then the n-th sample
+  /// at n modulo the ring's size. None where every step's value is the output of that step: its
+  /// samples are as many as there were steps.
+  std::size_t state_size() const { return passes() ? 0 : 3 + ring_.size(); }
   void save(std::span<double> state) const;
-  void restore(std::span<const double> state);
+  /// As after `step`, of which the numbers are. Where there are none `output` is that of the next
+  /// step on.
+  void restore(std::int64_t step, std::span<const double> state);
 
  private:
   struct Sample {
@@ -92,12 +100,14 @@ class TransmissionLine {
     double value;
   };
 
+  bool passes() const { return delay_ == 0 && schedule_.every_step(); }
+
   Schedule schedule_;
   RandomStream stream_;
   double noise_;
   std::int64_t delay_;  // steps
   double output_;
-  // Samples under way: a ring, oldest at first_.
+  // Samples under way: a ring, the n-th sample at n modulo its size, oldest at first_.
   std::vector<Sample> ring_;
   std::size_t first_ = 0, under_way_ = 0;
 };

@@ -1,10 +1,7 @@
 // HDF5: `/time` and a dataset a channel under `/channels`, extended block by block. The library
 // loses a file in which a write failed, so the room of a block is taken before it is written; after
 // each block everything is flushed, and a run that dies leaves a file that reads up to there.
-#include <hdf5.h>
-
-#include <utility>
-
+#include "output/hdf5_file.h"
 #include "output/record_formats.h"
 
 namespace hookpoint::output {
@@ -12,86 +9,23 @@ namespace {
 
 constexpr hsize_t block_rows = 512;  ///< rows of a chunk, and between two flushes
 
-/// An identifier of the library, closed by `close`.
-class Handle {
- public:
-  Handle() = default;
-  Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {
-    if (id_ < 0) throw FileError("the HDF5 library refused a call");
-  }
-  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
-  Handle& operator=(Handle&& other) noexcept {
-    std::swap(id_, other.id_);
-    std::swap(close_, other.close_);
-    return *this;
-  }
-  ~Handle() { reset(); }
-  /// Whether closing went well.
-  bool reset() { return id_ < 0 || close_(std::exchange(id_, -1)) >= 0; }
-  operator hid_t() const {
-    return id_;
-  }  // NOLINT(google-explicit-constructor): passed to the library
-
- private:
-  hid_t id_ = -1;
-  herr_t (*close_)(hid_t) = nullptr;
-};
-
-void check(herr_t result, const std::filesystem::path& file) {
-  if (result < 0) throw FileError("cannot write " + file.string());
-}
-
-void annotate(hid_t object, const char* name, const std::string& text) {
-  const Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
-  H5Tset_size(type, text.size() + 1);
-  H5Tset_cset(type, H5T_CSET_UTF8);
-  const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
-  const Handle attribute(H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
-  H5Awrite(attribute, type, text.c_str());
-}
-
-void annotate(hid_t object, const char* name, double value) {
-  const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
-  const Handle attribute(H5Acreate2(object, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT),
-                         H5Aclose);
-  H5Awrite(attribute, H5T_NATIVE_DOUBLE, &value);
-}
-
-/// A text that may be longer than the 64 KB of an attribute.
-void write_text(hid_t group, const char* name, const std::string& text) {
-  const Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
-  H5Tset_size(type, text.size() + 1);
-  H5Tset_cset(type, H5T_CSET_UTF8);
-  const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
-  const Handle dataset(H5Dcreate2(group, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-                       H5Dclose);
-  H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.c_str());
-}
-
-Handle create_file(const std::filesystem::path& file) {
-  // Failures come back as results and end as a FileError; the library's own report on stderr helps
-  // nobody.
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  return {H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose};
-}
-
-Handle create_dataset(hid_t group, const Channel& channel, const char* name) {
+Hdf5Handle create_dataset(hid_t group, const Channel& channel, const char* name) {
   const hsize_t none = 0, unlimited = H5S_UNLIMITED;
-  const Handle space(H5Screate_simple(1, &none, &unlimited), H5Sclose);
-  const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  const Hdf5Handle space(H5Screate_simple(1, &none, &unlimited), H5Sclose);
+  const Hdf5Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   H5Pset_chunk(properties, 1, &block_rows);
   H5Pset_shuffle(properties);
   H5Pset_deflate(properties, 4);
   H5Pset_obj_track_times(properties, false);  // the same run gives the same bytes
-  Handle dataset(
+  Hdf5Handle dataset(
       H5Dcreate2(group, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, properties, H5P_DEFAULT),
       H5Dclose);
-  annotate(dataset, "path", channel.path);
-  annotate(dataset, "unit", channel.unit);
-  annotate(dataset, "type", channel.type);
-  annotate(dataset, "minimum", channel.minimum);
-  annotate(dataset, "maximum", channel.maximum);
-  annotate(dataset, "doc", channel.doc);
+  hdf5_annotate(dataset, "path", channel.path);
+  hdf5_annotate(dataset, "unit", channel.unit);
+  hdf5_annotate(dataset, "type", channel.type);
+  hdf5_annotate(dataset, "minimum", channel.minimum);
+  hdf5_annotate(dataset, "maximum", channel.maximum);
+  hdf5_annotate(dataset, "doc", channel.doc);
   return dataset;
 }
 
@@ -102,10 +36,10 @@ class Hdf5Record final : public RecordWriter {
     make_folder_of(path_);
     { PartialFile place(path_); }  // whether the file can be made at all, and why not
     reserve_room(partial_, header_room(header));
-    file_ = create_file(partial_);
+    file_ = create_hdf5(partial_);
     write_header(header);
     block_.resize(datasets_.size() * block_rows);
-    flush_file();
+    flush_hdf5(file_, partial_);
   }
   ~Hdf5Record() override {
     datasets_.clear();
@@ -114,17 +48,17 @@ class Hdf5Record final : public RecordWriter {
 
  private:
   void write_header(const RecordHeader& header) {
-    annotate(file_, "name", header.name);
-    annotate(file_, "period", header.period);
-    annotate(file_, "complete", 0.);
-    write_text(file_, "experiment", header.experiment);
-    const Handle notes(H5Gcreate2(file_, "annotations", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-                       H5Gclose);
-    for (const auto& [key, value] : header.annotations) write_text(notes, key.c_str(), value);
+    hdf5_annotate(file_, "name", header.name);
+    hdf5_annotate(file_, "period", header.period);
+    hdf5_annotate(file_, "complete", 0.);
+    hdf5_write_text(file_, "experiment", header.experiment);
+    const Hdf5Handle notes(H5Gcreate2(file_, "annotations", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                           H5Gclose);
+    for (const auto& [key, value] : header.annotations) hdf5_write_text(notes, key.c_str(), value);
     datasets_.push_back(
         create_dataset(file_, {"time", "s", "double", 0., infinity, "simulated time"}, "time"));
-    const Handle group(H5Gcreate2(file_, "channels", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-                       H5Gclose);
+    const Hdf5Handle group(H5Gcreate2(file_, "channels", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                           H5Gclose);
     for (const Channel& channel : header.channels)
       datasets_.push_back(create_dataset(group, channel, channel.path.c_str()));
   }
@@ -140,27 +74,19 @@ class Hdf5Record final : public RecordWriter {
   void flush() {
     if (waiting_ == 0) return;
     reserve_room(partial_, room(datasets_.size()));
-    const Handle memory(H5Screate_simple(1, &waiting_, nullptr), H5Sclose);
+    const Hdf5Handle memory(H5Screate_simple(1, &waiting_, nullptr), H5Sclose);
     const hsize_t end = written_ + waiting_;
     for (std::size_t i = 0; i < datasets_.size(); ++i) {
-      check(H5Dset_extent(datasets_[i], &end), partial_);
-      const Handle target(H5Dget_space(datasets_[i]), H5Sclose);
+      check_hdf5(H5Dset_extent(datasets_[i], &end), partial_);
+      const Hdf5Handle target(H5Dget_space(datasets_[i]), H5Sclose);
       H5Sselect_hyperslab(target, H5S_SELECT_SET, &written_, nullptr, &waiting_, nullptr);
-      check(H5Dwrite(datasets_[i], H5T_NATIVE_DOUBLE, memory, target, H5P_DEFAULT,
-                     block_.data() + i * block_rows),
-            partial_);
+      check_hdf5(H5Dwrite(datasets_[i], H5T_NATIVE_DOUBLE, memory, target, H5P_DEFAULT,
+                          block_.data() + i * block_rows),
+                 partial_);
     }
-    flush_file();
+    flush_hdf5(file_, partial_);
     written_ = end;
     waiting_ = 0;
-  }
-
-  void flush_file() {
-    check(H5Fflush(file_, H5F_SCOPE_LOCAL), partial_);
-    // The library knows nothing of the room that was taken: what it left over is given back.
-    hsize_t size = 0;
-    check(H5Fget_filesize(file_, &size), partial_);
-    std::filesystem::resize_file(partial_, size);
   }
 
   /// An upper bound of what a block takes: its data uncompressed, and for each dataset a few nodes
@@ -180,13 +106,13 @@ class Hdf5Record final : public RecordWriter {
   void finish() override {
     flush();
     H5Adelete(file_, "complete");
-    annotate(file_, "complete", 1.);
+    hdf5_annotate(file_, "complete", 1.);
     close_file();
     rename_file(partial_, path_);
   }
   void close_file() {
     bool closed = true;
-    for (Handle& dataset : datasets_) closed = dataset.reset() && closed;
+    for (Hdf5Handle& dataset : datasets_) closed = dataset.reset() && closed;
     closed = file_.reset() && closed;
     if (!closed) throw FileError("cannot close " + partial_.string());
   }
@@ -199,11 +125,11 @@ class Hdf5Record final : public RecordWriter {
   static constexpr double infinity = std::numeric_limits<double>::infinity();
   std::filesystem::path path_;
   std::filesystem::path partial_;
-  Handle file_;
-  std::vector<Handle> datasets_;  ///< the time, then the channels
-  std::vector<double> block_;     ///< one row of `block_rows` a dataset
-  hsize_t waiting_ = 0;           ///< rows in the block
-  hsize_t written_ = 0;           ///< rows in the file
+  Hdf5Handle file_;
+  std::vector<Hdf5Handle> datasets_;  ///< the time, then the channels
+  std::vector<double> block_;         ///< one row of `block_rows` a dataset
+  hsize_t waiting_ = 0;               ///< rows in the block
+  hsize_t written_ = 0;               ///< rows in the file
 };
 
 }  // namespace

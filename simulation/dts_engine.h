@@ -6,8 +6,7 @@
 
 namespace hookpoint::simulation {
 
-/// Throws ExperimentError when the experiment cannot run: an impulse law on a robot with chains, an
-/// unknown law or integrator.
+/// Throws ExperimentError when the experiment cannot run: an unknown law or integrator.
 std::unique_ptr<Engine> make_dts(const Experiment& experiment);
 
 EngineDescription describe_dts();

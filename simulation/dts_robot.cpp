@@ -45,25 +45,19 @@ Quaterniond continued(const Quaterniond& q, const Quaterniond& last) {
   return cosine < 0. ? Quaterniond{-q.w, -q.x, -q.y, -q.z} : q;
 }
 
-std::vector<ContactPoint> boundary_points(const RobotSpec& robot) {
-  std::vector<ContactPoint> points;
-  std::size_t body = 0;
-  const auto add = [&](const BodySpec& spec) {
-    for (const Vector3d& p_BP : spec.boundary_points) {
-      ContactPoint& point = points.emplace_back();
-      point.body = body;
-      point.p_BP = p_BP;
-    }
-    ++body;
-  };
-  // A fixed base cannot be moved by the ground.
-  if (robot.mobile) {
-    add(robot.base);
-  } else {
-    ++body;
+StepStatus explain(integrators::Status status, double time, std::string body) {
+  if (status == integrators::Status::no_step) {
+    return {StepStatus::Kind::solver_failed, time, std::move(body),
+            "the integrator finds no step that meets its tolerances: raise relative_tolerance and "
+            "absolute_tolerance, make the ground softer, or choose a fixed-step integrator"};
   }
-  for_each_link(robot, [&](const LinkSpec& link) { add(link.body); });
-  return points;
+  return {StepStatus::Kind::not_finite, time, std::move(body),
+          "its accelerations are no longer finite: make the step smaller or the ground softer"};
+}
+
+bool is_adaptive(const std::string& integrator) {
+  const integrators::StepperDescription* stepper = integrators::find_stepper(integrator);
+  return stepper != nullptr && stepper->adaptive();
 }
 
 std::size_t joints_before(const Experiment& experiment, int robot) {
@@ -107,6 +101,11 @@ DtsRobot::DtsRobot(const Experiment& experiment, int index, const contact::Terra
       inputs_(&inputs),
       first_joint_(joints_before(experiment, index)),
       law_(contact::find_force_law(experiment.contact).value_or(contact::Hookpoint{})),
+      bristle_states_(contact::bristle_states(law_)),
+      adaptive_(is_adaptive(experiment.integrator)),
+      semi_implicit_(experiment.integrator == "semi_implicit_euler"),
+      law_step_(experiment.deltat),
+      law_step_before_(experiment.deltat),
       model_(describe_robot(experiment.robots[index])),
       state_(initial_state(experiment.robots[index])),
       workspace_(model_),
@@ -114,7 +113,13 @@ DtsRobot::DtsRobot(const Experiment& experiment, int index, const contact::Terra
   for_each_link(experiment.robots[index],
                 [&](const LinkSpec& link) { joints_.push_back(joint_properties(link)); });
   for (const ForceSpec& force : experiment.forces) has_forces_ |= force.robot == index_;
+  for (std::size_t body = 0; body <= model_.body_count(); ++body) {
+    const auto first = std::ranges::lower_bound(points_, body, {}, &ContactPoint::body);
+    first_points_.push_back(static_cast<std::size_t>(first - points_.begin()));
+  }
   joint_torques_.resize(joints_.size());
+  for (std::vector<double>* bristles : {&bristles_, &next_bristles_, &bristle_rates_})
+    bristles->resize(bristle_states_ * points_.size());
   for (std::vector<double>* positions : {&q_, &q_before_}) positions->resize(position_size());
   for (std::vector<double>* velocities : {&v_, &v_before_, &a_})
     velocities->resize(velocity_size());
@@ -140,7 +145,7 @@ void DtsRobot::take_inputs() {
   if (!has_forces_) return;
   apply_external_forces();
   for (const ContactPoint& point : points_) {
-    if (point.depth > 0.)
+    if (point.pending.attached)
       dts::add_external_force(workspace_, point.body, point.force, point.position);
   }
 }
@@ -148,24 +153,36 @@ void DtsRobot::take_inputs() {
 // A trial state is evaluated with the memory that the step's start committed, and leaves no trace
 // but its forces.
 void DtsRobot::apply_contact_forces(bool trial) {
-  const double dt = experiment_->deltat;
+  // An integrator that chooses its steps resolves a bristle by itself.
+  const double dt = bristle_states_ > 0 && adaptive_ ? 0. : law_step_;
   std::visit(
       [&](const auto& law) {
-        for (ContactPoint& point : points_) {
+        for (std::size_t i = 0; i < points_.size(); ++i) {
+          ContactPoint& point = points_[i];
           const dts::BodyMotion<double>& body = workspace_.bodies[point.body];
-          const Vector3d arm = body.R_WB * point.p_BP;
-          const Vector3d position = body.p_WB + arm;
-          const contact::TilePoint tile = ground_->query(position);
-          const contact::PointKinematics<double> kinematics{
-              position, body.v_WB + cross(body.w_WB, arm), tile.normal, tile.depth};
-          const auto reaction = law.evaluate(kinematics, point.committed,
-                                             experiment_->materials[tile.material].constants, dt);
-          if (kinematics.depth > 0.)
+          const TouchingPlace touching = touching_place(point, body, *ground_);
+          const contact::TilePoint& tile = touching.tile;
+          const Vector3d& position = touching.position;
+          const auto& material = experiment_->materials[tile.material].constants;
+          const contact::BallFrame frame = ball_frame(point, body, tile);
+          const contact::Memory<double> memory = point.carried(frame);
+          if (!trial) point.inside = tile.depth > 0.;
+          const double depth = adaptive_ ? point.depth_on_side(tile.depth) : tile.depth;
+          contact::PointKinematics<double> kinematics{position, touching.velocity, tile.normal,
+                                                      depth, bristle_at(bristles_, i)};
+          if (!trial) kinematics = contact::held_point(law, kinematics, memory, material, dt);
+          const auto reaction = semi_implicit_ ? contact::semi_implicit_reaction(
+                                                     law, kinematics, memory, material, dt)
+                                               : law.evaluate(kinematics, memory, material, dt);
+          if (reaction.next.attached)
             dts::add_external_force(workspace_, point.body, reaction.force, position);
+          put_bristle(reaction.bristle_rate, i, bristle_rates_);
           if (trial) continue;
+          put_bristle(reaction.bristle, i, next_bristles_);
           if (tile.outside && notice_.empty())
             notice_ = experiment_->robots[index_].name + ": " + ground_->outside_message(position);
           point.pending = reaction.next;
+          point.pending_frame = frame;
           point.position = position;
           point.normal = tile.normal;
           point.depth = tile.depth;
@@ -196,14 +213,14 @@ void DtsRobot::accelerate() {
   set_joint_torques();
   dts::forward_dynamics<double>(model_, experiment_->gravity, joint_torques_, workspace_);
   dts::get_acceleration<double>(model_, workspace_, a_);
+  std::ranges::copy(bristle_rates_, a_.end() - std::ssize(bristle_rates_));
 }
 
 integrators::Status DtsRobot::accelerations(integrators::Stage stage, double /*time*/,
                                             std::span<const double> q, std::span<const double> v,
                                             std::span<double> a) {
   if (stage == integrators::Stage::trial) {
-    read_positions(q);
-    dts::set_velocity<double>(model_, v, state_);
+    read_state(q, v);
     evaluate_forces(true);
   }
   accelerate();
@@ -214,30 +231,64 @@ integrators::Status DtsRobot::accelerations(integrators::Stage stage, double /*t
 StepStatus DtsRobot::step(integrators::Stepper& stepper, double time, double dt) {
   take_inputs();
   write_positions(q_);
-  dts::get_velocity<double>(model_, state_, v_);
   q_before_ = q_;
-  v_before_ = v_;
+  write_velocities(v_before_, bristles_);
+  write_velocities(v_, next_bristles_);
   for (ContactPoint& point : points_) {
     point.before = point.committed;
-    point.committed = point.pending;
+    point.before_frame = point.committed_frame;
+    point.commit();
   }
-  if (stepper.step(*this, time, dt, q_, v_) != integrators::Status::ok) {
+  law_step_before_ = law_step_;
+  law_step_ = dt;
+  const integrators::Status status = stepper.step(*this, time, dt, q_, v_);
+  if (status != integrators::Status::ok) {
     undo();
-    return {StepStatus::Kind::not_finite, time, experiment_->robots[index_].name + ".base",
-            "its accelerations are no longer finite: make the step smaller or the ground softer"};
+    return explain(status, time, experiment_->robots[index_].name + ".base");
   }
   settle_at(q_, v_);
   return {};
 }
 
 void DtsRobot::undo() {
-  for (ContactPoint& point : points_) point.committed = point.before;
+  for (ContactPoint& point : points_) {
+    point.committed = point.before;
+    point.committed_frame = point.before_frame;
+  }
+  law_step_ = law_step_before_;
   settle_at(q_before_, v_before_);
 }
 
-void DtsRobot::settle_at(std::span<const double> q, std::span<const double> v) {
+void DtsRobot::read_state(std::span<const double> q, std::span<const double> v) {
   read_positions(q);
-  dts::set_velocity<double>(model_, v, state_);
+  dts::set_velocity<double>(model_, v.first(dts::velocity_count(model_)), state_);
+  std::ranges::copy(v.last(bristles_.size()), bristles_.begin());
+}
+
+void DtsRobot::write_velocities(std::span<double> v, std::span<const double> bristles) const {
+  dts::get_velocity<double>(model_, state_, v);
+  std::ranges::copy(bristles, v.last(bristles.size()).begin());
+}
+
+contact::Bristle<double> DtsRobot::bristle_at(std::span<const double> numbers,
+                                              std::size_t point) const {
+  if (bristle_states_ == 0) return {};
+  const double* z = &numbers[bristle_states_ * point];
+  return {{z[0], z[1], z[2]}, bristle_states_ > 3 ? z[3] : 0.};
+}
+
+void DtsRobot::put_bristle(const contact::Bristle<double>& bristle, std::size_t point,
+                           std::span<double> numbers) const {
+  if (bristle_states_ == 0) return;
+  double* z = &numbers[bristle_states_ * point];
+  z[0] = bristle.deflection.x;
+  z[1] = bristle.deflection.y;
+  z[2] = bristle.deflection.z;
+  if (bristle_states_ > 3) z[3] = bristle.sliding;
+}
+
+void DtsRobot::settle_at(std::span<const double> q, std::span<const double> v) {
+  read_state(q, v);
   refresh();
 }
 
@@ -258,8 +309,26 @@ void DtsRobot::publish(std::span<BodyState> bodies, std::span<JointState> joints
   }
 }
 
+PointState DtsRobot::point_state(int body, int point) const {
+  const auto at = static_cast<std::size_t>(body);
+  const std::size_t index = first_points_[at] + static_cast<std::size_t>(point);
+  // The points of a fixed base, and all where there is no ground, are left out.
+  if (index >= first_points_[at + 1]) return {};
+  const ContactPoint& found = points_[index];
+  const contact::Memory<double>& memory = found.pending;
+  return {found.position, found.force, memory.attached ? memory.hook : found.position, found.depth,
+          memory.sliding ? 1. : 0.};
+}
+
+void DtsRobot::publish_hips(std::span<ChainState> chains) const {
+  for (std::size_t i = 0; i < chains.size(); ++i)
+    chains[i] = {workspace_.hip_wrenches[i].force, workspace_.hip_wrenches[i].moment};
+}
+
 std::size_t DtsRobot::position_size() const { return dts::position_count(model_); }
-std::size_t DtsRobot::velocity_size() const { return dts::velocity_count(model_); }
+std::size_t DtsRobot::velocity_size() const {
+  return dts::velocity_count(model_) + bristles_.size();
+}
 
 void DtsRobot::read_positions(std::span<const double> q) {
   if (model_.mobile()) {
@@ -298,6 +367,7 @@ void DtsRobot::retract(std::span<const double> q0, std::span<const double> u,
 void DtsRobot::tangent_rate(std::span<const double> u, std::span<const double> v,
                             std::span<double> du) const {
   std::copy(v.begin(), v.end(), du.begin());
+  std::ranges::fill(du.last(bristles_.size()), 0.);  // bristles move no position
   if (!model_.mobile()) return;
   const Vector3d rate =
       integrators::rotation_tangent_rate(Vector3d{u[0], u[1], u[2]}, Vector3d{v[0], v[1], v[2]});

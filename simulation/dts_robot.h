@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "contact/force_law.h"
+#include "contact/rolling.h"
 #include "contact/terrain.h"
 #include "dts/joint_forces.h"
 #include "dts/model.h"
@@ -25,18 +26,54 @@ dts::State<double> initial_state(const RobotSpec& robot);
 struct ContactPoint {
   std::size_t body = 0;               ///< 0 the base, then links chain by chain
   Vector3d p_BP;                      ///< body axes [m]
+  double radius = 0.;                 ///< of the ball about p_BP [m]
   contact::Memory<double> before;     ///< what `committed` was before the last step, to undo it
   contact::Memory<double> committed;  ///< of the accepted state before this one
   contact::Memory<double> pending;    ///< to be committed when the step from this state is taken
-  Vector3d position;                  ///< p_WP [m]
-  Vector3d normal;                    ///< of the tile under it
-  double depth = 0.;                  ///< > 0 inside the ground [m]
-  int material = 0;                   ///< of the tile under it
-  Vector3d force;                     ///< on the robot, world axes [N]
+  /// Of a ball: how it stood when `before`, `committed` and `pending` were made.
+  contact::BallFrame before_frame, committed_frame, pending_frame;
+  Vector3d position;  ///< where it touches: p_WP less radius times the normal [m]
+  Vector3d normal;    ///< of the tile under p_WP
+  double depth = 0.;  ///< > 0 inside the ground [m]
+  int material = 0;   ///< of the tile under it
+  Vector3d force;     ///< on the robot, world axes [N]
+  bool inside = false;  ///< depth > 0 at the accepted state before this one
+
+  /// The depth that the law gets from an adaptive integrator: a point stays on its side of the
+  /// surface until the event at which it crosses has been reached, so that no step meets a jump.
+  double depth_on_side(double depth_now) const;
+  /// Changes sign where the point leaves its side, a hair behind the surface: there it is on the
+  /// other side, and the event is not met again at its own restart.
+  double side_event(double depth_now) const;
+
+  /// The step from the refreshed state is taken.
+  void commit() {
+    committed = pending;
+    committed_frame = pending_frame;
+  }
+  /// The committed memory as a ball that now stands in `now` has carried it along.
+  contact::Memory<double> carried(const contact::BallFrame& now) const;
 };
 
+/// The boundary points of all bodies that can move.
+std::vector<ContactPoint> boundary_points(const RobotSpec& robot);
+
+/// Where a boundary point meets the ground: a ball at its centre less its radius along the normal
+/// of the tile under the centre.
+struct TouchingPlace {
+  Vector3d position;        ///< [m]
+  Vector3d velocity;        ///< of the body's material there [m/s]
+  contact::TilePoint tile;  ///< with the depth of `position`
+};
+TouchingPlace touching_place(const ContactPoint& point, const dts::BodyMotion<double>& body,
+                             const contact::Terrain& ground);
+/// How the ball of a boundary point stands; a point needs none.
+contact::BallFrame ball_frame(const ContactPoint& point, const dts::BodyMotion<double>& body,
+                              const contact::TilePoint& tile);
+
 /// Layout of positions: p_WB (3), R_WB as w x y z (4) of a mobile base, then joint positions; of
-/// velocities: w_WB (3), v_WB (3), then joint rates (dts/configuration.h).
+/// velocities: w_WB (3), v_WB (3), then joint rates (dts/configuration.h), then, of a law with
+/// bristles, those of each boundary point: they are integrated like velocities and move no position.
 class DtsRobot final : public integrators::System {
  public:
   /// `ground` may be null: no contact. All that is referred to outlives the robot.
@@ -54,8 +91,23 @@ class DtsRobot final : public integrators::System {
   void refresh();
   /// Accelerations at the refreshed state, left in `workspace()`.
   void accelerate();
+  /// Reads the positions of the present state.
+  void write_positions(std::span<double> q) const;
+  /// Goes to a state and refreshes it.
+  void settle_at(std::span<const double> q, std::span<const double> v);
   /// Writes the published values of this robot's bodies and joints.
   void publish(std::span<BodyState> bodies, std::span<JointState> joints) const;
+  /// Boundary point `point` of `body`, as the law left it.
+  PointState point_state(int body, int point) const;
+  /// What each chain does to the base, in the step just taken.
+  void publish_hips(std::span<ChainState> chains) const;
+
+  /// What evolves (resumable.h). `bodies`: this robot's published values, of whose quaternions the
+  /// signs go on.
+  std::size_t state_size() const;
+  std::string state_layout() const;
+  void save(std::span<double> numbers, std::span<const BodyState> bodies) const;
+  void restore(std::span<const double> numbers, std::span<BodyState> bodies);
 
   const dts::Model<double>& model() const { return model_; }
   const dts::State<double>& state() const { return state_; }
@@ -64,6 +116,7 @@ class DtsRobot final : public integrators::System {
   /// the user.
   const std::string& notice() const { return notice_; }
   dts::Workspace<double>& workspace() { return workspace_; }
+  const dts::Workspace<double>& workspace() const { return workspace_; }
   const Vector3d& gravity() const { return experiment_->gravity; }
 
   // integrators::System
@@ -76,11 +129,29 @@ class DtsRobot final : public integrators::System {
                std::span<double> q) const override;
   void tangent_rate(std::span<const double> u, std::span<const double> v,
                     std::span<double> du) const override;
+  void commit(double time, double dt, std::span<const double> q,
+              std::span<const double> v) override;
+  /// Events: each boundary point's depth and, while it slips, its speed along its stretch; each
+  /// joint limit.
+  std::size_t event_count() const override;
+  void event_values(double time, std::span<const double> q, std::span<const double> v,
+                    std::span<double> values) override;
+  integrators::Status split_accelerations(double time, std::span<const double> q,
+                                          std::span<const double> v, std::span<double> a_free,
+                                          std::span<double> a_contact) override;
+  bool far(std::span<const double> u) const override;
+  std::size_t group_size() const override;
 
  private:
+  template <class Self, class Archive>
+  static void exchange(Self& self, Archive& archive);
   void read_positions(std::span<const double> q);
-  void write_positions(std::span<double> q) const;
-  void settle_at(std::span<const double> q, std::span<const double> v);
+  void read_state(std::span<const double> q, std::span<const double> v);
+  void write_velocities(std::span<double> v, std::span<const double> bristles) const;
+  /// The numbers of a Bristle of point `point`, or their rates, in one of the vectors below.
+  contact::Bristle<double> bristle_at(std::span<const double> numbers, std::size_t point) const;
+  void put_bristle(const contact::Bristle<double>& bristle, std::size_t point,
+                   std::span<double> numbers) const;
   void evaluate_forces(bool trial);
   void apply_external_forces();
   void apply_contact_forces(bool trial);
@@ -94,10 +165,20 @@ class DtsRobot final : public integrators::System {
   std::size_t first_joint_;  ///< where the robot's joints begin in WorldInputs::joint_torques
   bool has_forces_ = false;  ///< one of the experiment's forces acts on this robot
   contact::ForceLaw law_;
+  std::size_t bristle_states_ = 0;  ///< numbers that the law integrates, of a point
+  bool adaptive_ = false;           ///< the integrator chooses its own steps
+  bool semi_implicit_ = false;      ///< its positions move with the new velocities
+  /// From the latest commit of contact memory to the step's end, which is when the next one is due
+  /// [s]: what the law gets for a step.
+  double law_step_, law_step_before_;
   dts::Model<double> model_;
   dts::State<double> state_;
   dts::Workspace<double> workspace_;
   std::vector<ContactPoint> points_;
+  /// bristle_states_ numbers a point: the law's continuous state, with which an accepted state goes
+  /// on (as the law let go of some), and its rates at the state evaluated last.
+  std::vector<double> bristles_, next_bristles_, bristle_rates_;
+  std::vector<std::size_t> first_points_;  ///< of each body, into points_; one more at the end
   std::string notice_;
   std::vector<dts::JointProperties<double>> joints_;
   std::vector<double> joint_torques_;

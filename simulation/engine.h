@@ -11,6 +11,7 @@
 
 #include "math/rotation.h"
 #include "simulation/experiment.h"
+#include "simulation/resumable.h"
 
 namespace hookpoint::simulation {
 
@@ -29,6 +30,27 @@ struct JointState {
   double angle = 0., rate = 0., acceleration = 0., torque = 0.;
 };
 
+/// A ContactPoint as the law left it, world axes.
+struct PointState {
+  Vector3d position;   ///< p_WP [m]
+  Vector3d force;      ///< on the robot [N]
+  Vector3d hook;       ///< anchor on the ground; the point itself while it is free [m]
+  double depth = 0.;   ///< along the ground's normal, > 0 inside [m]
+  double sliding = 0.; ///< 1 while it slips, else 0
+};
+
+/// What a chain does to the base, at its hip, world axes, in the step just taken.
+struct ChainState {
+  Vector3d hip_force;   ///< [N]
+  Vector3d hip_moment;  ///< [N m]
+};
+
+/// What the integration has cost so far, all robots together (integrators/stepper.h); zeros for an
+/// engine that does not say.
+struct IntegratorState {
+  double steps = 0., rejected = 0., evaluations = 0., jacobians = 0., events = 0.;
+};
+
 /// What an engine publishes after each step. Bodies of all robots in order: base, then links chain
 /// by chain.
 struct WorldState {
@@ -36,7 +58,11 @@ struct WorldState {
   double time = 0.;  ///< step * deltat [s]
   std::vector<BodyState> bodies;
   std::vector<JointState> joints;
+  // Once Engine::publish_details was called; empty where the engine has none.
+  std::vector<PointState> points;  ///< one a PointSpec
+  std::vector<ChainState> chains;  ///< robots in order
   std::uint64_t impacts = 0;  ///< impulses applied so far (event-driven laws)
+  IntegratorState integrator;
   std::vector<std::string>
       notices;  ///< what the user should know, each said once: a robot has left the terrain
 };
@@ -80,6 +106,10 @@ class Engine {
   /// What acts on the world in the next step; may be written between steps. The reference and its
   /// elements' addresses stay valid for the engine's life.
   virtual WorldInputs& inputs() = 0;
+  /// From now on, at once and after each step, `state().points` and `chains` are kept up to date.
+  virtual void publish_details() {}
+  /// Its state as numbers; null for an engine whose solver remembers what nobody can read or set.
+  virtual Resumable* resumable() { return nullptr; }
 };
 
 /// What `hookpoint engines` and the provenance file say of an engine.

@@ -7,33 +7,39 @@
 namespace hookpoint::simulation {
 namespace {
 
-control::Schedule schedule_of(const RecordSpec& spec, double deltat) {
-  std::optional<control::Rational> rate;
-  if (spec.rate) rate = control::Rational::from(*spec.rate);
-  return {rate, control::Rational::from(deltat)};
-}
-
 output::RecordHeader header_of(const RecordSpec& spec, const Experiment& experiment) {
   output::RecordHeader header;
   header.name = spec.name;
   header.channels = spec.channels;
-  header.annotations = {{"hookpoint", HOOKPOINT_VERSION},
-                        {"world", experiment.world},
-                        {"engine", experiment.engine},
-                        {"contact", experiment.contact},
-                        {"integrator", experiment.integrator},
-                        {"deltat", fmt::format("{}", experiment.deltat)},
-                        {"seed", fmt::format("{}", experiment.seed)}};
+  header.annotations = run_annotations(experiment);
   return header;
 }
 
 }  // namespace
 
+control::Schedule row_schedule(const std::optional<double>& rate, double deltat) {
+  std::optional<control::Rational> exact;
+  if (rate) exact = control::Rational::from(*rate);
+  return {exact, control::Rational::from(deltat)};
+}
+
+std::vector<std::pair<std::string, std::string>> run_annotations(const Experiment& experiment) {
+  return {{"hookpoint", HOOKPOINT_VERSION},
+          {"world", experiment.world},
+          {"engine", experiment.engine},
+          {"contact", experiment.contact},
+          {"integrator", experiment.integrator},
+          {"deltat", fmt::format("{}", experiment.deltat)},
+          {"seed", fmt::format("{}", experiment.seed)}};
+}
+
 Records::Records(const Experiment& experiment, const std::vector<Port>& ports,
-                 const std::filesystem::path& folder, const std::string& experiment_text) {
+                 const std::filesystem::path& folder, const std::string& experiment_text,
+                 std::int64_t first_step) {
   for (const RecordSpec& spec : experiment.records) {
-    Record record{schedule_of(spec, experiment.deltat), {}, {}, nullptr};
+    Record record{row_schedule(spec.rate, experiment.deltat), {}, {}, nullptr};
     output::RecordHeader header = header_of(spec, experiment);
+    for (std::int64_t step = 0; step < first_step; ++step) record.schedule.due(step);
     header.period = record.schedule.period();
     header.experiment = experiment_text;
     for (output::Channel& channel : header.channels) {

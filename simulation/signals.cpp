@@ -22,7 +22,10 @@ const Port& port_of(const PortsByTrail& ports, const std::string& trail) {
 }  // namespace
 
 Signals::Signals(const Experiment& experiment, Engine& engine)
-    : experiment_(experiment), engine_(engine), components_(experiment) {
+    : experiment_(experiment),
+      engine_(engine),
+      derived_(experiment, engine),
+      components_(experiment) {
   for (const ForceSpec& force : experiment.forces)
     held_.forces.push_back({force.point, force.force, force.torque});
   held_.envelopes.resize(experiment.forces.size(), 1.);
@@ -55,6 +58,7 @@ void Signals::connect(const std::vector<Port>& ports) {
   }
   for (const WireSpec& wire : experiment_.wires) {
     const auto [from, to] = ends(wire);
+    if (from->lazy != nullptr) from->lazy->begin();
     if (to->writable == nullptr) throw ExperimentError("no wire can end at `" + wire.to + "`");
     try {
       lines_.push_back(
@@ -70,6 +74,8 @@ void Signals::connect(const std::vector<Port>& ports) {
 void Signals::update(std::int64_t step) {
   const double time = engine_.state().time;
   held_.step = static_cast<double>(step);
+  held_.impacts = static_cast<double>(engine_.state().impacts);
+  derived_.update();
   for (const std::size_t i : delayed_) *lines_[i].to = lines_[i].line.deliver(step);
   for (const WiringItem& item : order_) {
     if (item.is_wire) {

@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "simulation/components.h"
+#include "simulation/derived.h"
 #include "simulation/ports.h"
+#include "simulation/resumable.h"
 #include "simulation/timing.h"
 #include "simulation/wiring_order.h"
 
@@ -29,7 +31,17 @@ class Signals {
   /// Every port, of the engine too. O(ports), allocates.
   std::vector<Port> ports();
 
+  /// What evolves beside the engine's own state, in stretches of one owner each.
+  std::vector<StateSection> state_layout() const;
+  std::size_t state_size() const;
+  /// `numbers`: state_size() of them, at the engine's present step. Allocates nothing.
+  void save(std::span<double> numbers) const;
+  /// The engine has its state of that step already.
+  void restore(std::span<const double> numbers);
+
  private:
+  template <class Self, class Archive>
+  static void exchange(Self& self, Archive& archive);
   struct Line {
     control::TransmissionLine line;
     const double* from;
@@ -42,7 +54,7 @@ class Signals {
   };
   /// What is neither the engine's nor a component's. Sized once: its addresses last.
   struct Held {
-    double step = 0., running = 1., quit = 0.;
+    double step = 0., impacts = 0., running = 1., quit = 0.;
     std::vector<ForceInput> forces;  ///< as written or wired, before their windows
     std::vector<double> envelopes;   ///< one a force: the part of it that acts
     std::vector<double> values;      ///< one a ValueSpec
@@ -56,6 +68,7 @@ class Signals {
 
   const Experiment& experiment_;
   Engine& engine_;
+  Derived derived_;
   Components components_;
   Held held_;
   std::vector<Updates> updates_;      // one a component

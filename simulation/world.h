@@ -2,7 +2,9 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "simulation/signals.h"
 
@@ -26,7 +28,20 @@ class World {
   /// `World.running` is false, which nothing can change any more once time stands still.
   std::string ended() const;
 
+  /// Everything that evolves, as numbers: a world of the same experiment that restores them goes on
+  /// bit for bit as this one does. Ports that tell of the step that led to an instant (joints'
+  /// acceleration and total_torque, bodies' accelerations, hip forces) are right again after the
+  /// next step. Throws ExperimentError when the engine cannot be saved.
+  std::vector<StateSection> state_layout() const;
+  std::size_t state_size() const;
+  /// `numbers`: state_size() of them. Allocates nothing.
+  void save(std::span<double> numbers) const;
+  void restore(std::span<const double> numbers);
+
  private:
+  Resumable& resumable() const;
+
+  const Experiment& experiment_;
   std::unique_ptr<Engine> engine_;
   Signals signals_;
 };

@@ -1,0 +1,102 @@
+#include <fmt/format.h>
+
+#include <iostream>
+
+#include "cli/commands.h"
+#include "cli/exit_status.h"
+#include "cli/opened_movie.h"
+#include "output/json.h"
+#include "output/number.h"
+
+namespace hookpoint::cli {
+namespace {
+
+using simulation::Port;
+
+/// All ports, or those that are asked for under the names by which they are.
+std::vector<Port> wanted_ports(const simulation::Experiment& experiment, simulation::World& world,
+                               const std::vector<std::string>& trails) {
+  const std::vector<Port> all = world.ports();
+  std::vector<Port> ports;
+  if (trails.empty()) ports = all;
+  for (const std::string& trail : trails) {
+    ports.push_back(simulation::find_port(experiment, all, trail));
+    ports.back().trail = trail;
+  }
+  for (const Port& port : ports) {
+    if (port.lazy != nullptr) port.lazy->begin();
+  }
+  return ports;
+}
+
+void print_json(const std::string& world, const simulation::WorldState& state,
+                const std::vector<Port>& ports) {
+  output::JsonWriter json;
+  json.begin_object().member("world", world).member("time", state.time).member("step", state.step);
+  json.key("ports").begin_object();
+  for (const Port& port : ports) json.member(port.trail, *port.value);
+  json.end_object().end_object();
+  std::cout << json.text();
+}
+
+void print_table(const simulation::WorldState& state, const std::vector<Port>& ports) {
+  fmt::print("time {} s, step {}\n", output::shortest(state.time), state.step);
+  for (const Port& port : ports)
+    fmt::print("{:<56} {} {}\n", port.trail, output::shortest(*port.value), port.unit);
+}
+
+void print_summary(const output::MovieReader& movie) {
+  const output::MovieHeader& header = movie.header();
+  fmt::print("movie {}, {}\n", header.name,
+             movie.complete() ? "complete" : "cut off: its last instants may be missing");
+  for (const auto& [key, value] : header.annotations) fmt::print("  {:<12} {}\n", key, value);
+  for (const output::MovieFile& file : header.files)
+    fmt::print("  {:<12} {} ({} bytes)\n", "file", file.name, file.content.size());
+  const std::vector<double>& times = movie.times();
+  fmt::print("  {:<12} {}, {} s apart\n", "instants", times.size(),
+             output::shortest(header.period));
+  if (!times.empty())
+    fmt::print("  {:<12} {} s to {} s\n", "time", output::shortest(times.front()),
+               output::shortest(times.back()));
+  fmt::print("  {:<12} {} numbers an instant\n", "state", header.size);
+}
+
+int show(const ReplayArguments& arguments) {
+  OpenedMovie movie(arguments.movie, arguments.allow_plugins);
+  if (!arguments.at) {
+    print_summary(movie.reader());
+    return fine;
+  }
+  simulation::Experiment experiment = movie.load();
+  simulation::World world = movie.make_world(experiment);
+  simulation::Rewind rewind(experiment, movie.reader(), world);
+  const std::int64_t step = rewind.step_at(seconds(*arguments.at, "--at"));
+  const std::vector<Port> ports = wanted_ports(experiment, world, arguments.record);
+  rewind.approach(step);
+  rewind.arrive(step);
+  if (arguments.json) {
+    print_json(experiment.world, world.state(), ports);
+  } else {
+    print_table(world.state(), ports);
+  }
+  return fine;
+}
+
+}  // namespace
+
+int replay(const ReplayArguments& arguments) {
+  if (!arguments.at && (arguments.json || !arguments.record.empty())) {
+    print_error("--json and --record tell of a moment: give it with --at, e.g. --at \"2.5 s\"");
+    return wrong_input;
+  }
+  try {
+    return show(arguments);
+  } catch (const output::MovieError& error) {
+    print_error(error.what());
+  } catch (const simulation::ExperimentError& error) {
+    print_error(error.what());
+  }
+  return wrong_input;
+}
+
+}  // namespace hookpoint::cli

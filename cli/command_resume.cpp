@@ -1,0 +1,70 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "cli/commands.h"
+#include "cli/exit_status.h"
+#include "cli/opened_movie.h"
+#include "cli/run_loop.h"
+
+namespace hookpoint::cli {
+namespace {
+
+/// Steps from `first` on: as `--for` says, else to the World's duration.
+std::int64_t last_step(const RunArguments& arguments, const simulation::Experiment& experiment,
+                       std::int64_t first) {
+  const double duration =
+      arguments.duration ? seconds(*arguments.duration, "--for") : experiment.duration;
+  const auto steps = static_cast<std::int64_t>(std::llround(duration / experiment.deltat));
+  const std::int64_t last = arguments.duration ? first + steps : steps;
+  if (last > first) return last;
+  throw output::MovieError(
+      fmt::format("nothing is left to run from {} s on: the World's duration is {} s; say --for "
+                  "how long, or an "
+                  "earlier moment with --at",
+                  static_cast<double>(first) * experiment.deltat, experiment.duration));
+}
+
+int go_on(const RunArguments& arguments) {
+  OpenedMovie movie(*arguments.resume, arguments.allow_plugins);
+  simulation::Experiment experiment = movie.load();
+  add_movie(arguments, experiment);
+  simulation::World world = movie.make_world(experiment);
+  simulation::Rewind rewind(experiment, movie.reader(), world);
+  const std::int64_t first =
+      arguments.at ? rewind.step_at(seconds(*arguments.at, "--at")) : rewind.last();
+  const std::int64_t last = last_step(arguments, experiment, first);
+  rewind.approach(first);
+  const std::filesystem::path folder =
+      arguments.out.value_or(std::filesystem::path("runs") / (experiment.world + "-resumed"));
+  RunFiles files(
+      experiment, world, world.ports(),
+      {folder, arguments.record, movie.reader().header().experiment, arguments.out.has_value()},
+      first);
+  rewind.arrive(first);
+  const int status = step_through(experiment, world, files, last);
+  files.close();
+  print_summary(experiment, world.state());
+  return status;
+}
+
+}  // namespace
+
+int resume(const RunArguments& arguments) {
+  if (!arguments.file.empty() || !arguments.settings.empty()) {
+    print_error(
+        "run --resume goes on with the experiment inside the movie: it takes neither a FILE nor "
+        "--set");
+    return wrong_input;
+  }
+  try {
+    return go_on(arguments);
+  } catch (const output::MovieError& error) {
+    print_error(error.what());
+  } catch (const simulation::ExperimentError& error) {
+    print_error(error.what());
+  }
+  return wrong_input;
+}
+
+}  // namespace hookpoint::cli

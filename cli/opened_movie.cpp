@@ -1,0 +1,77 @@
+#include "cli/opened_movie.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+
+#include "language/units.h"
+#include "simulation/load.h"
+
+namespace hookpoint::cli {
+namespace {
+
+std::filesystem::path fresh_folder() {
+  std::string pattern =
+      (std::filesystem::temp_directory_path() / "hookpoint-movie-XXXXXX").string();
+  if (mkdtemp(pattern.data()) == nullptr)
+    throw output::FileError("cannot create a folder in " +
+                            std::filesystem::temp_directory_path().string());
+  return pattern;
+}
+
+}  // namespace
+
+OpenedMovie::OpenedMovie(const std::filesystem::path& file, bool allow_plugins)
+    : reader_(file), application_(allow_plugins), folder_(fresh_folder()) {}
+
+OpenedMovie::~OpenedMovie() {
+  std::error_code ignored;
+  std::filesystem::remove_all(folder_, ignored);
+}
+
+simulation::Experiment OpenedMovie::load() {
+  const output::MovieHeader& header = reader_.header();
+  std::vector<simulation::FileSpec> files;
+  for (std::size_t i = 0; i < header.files.size(); ++i) {
+    const output::MovieFile& file = header.files[i];
+    const std::filesystem::path place =
+        folder_ / fmt::format("{}-{}", i, std::filesystem::path(file.name).filename().string());
+    output::write_file(place, file.content);
+    files.push_back({file.name, place.string()});
+  }
+  const std::filesystem::path text = folder_ / "experiment.hook";
+  output::write_file(text, header.experiment);
+  const auto fail = [] {
+    throw output::MovieError("the experiment inside the movie cannot be loaded");
+  };
+  if (!application_.load_plugins(text)) fail();
+  const auto root = application_.evaluate(text, {});
+  if (!root) fail();
+  language::Diagnostics diagnostics;
+  auto experiment = simulation::load_experiment(*root, diagnostics, {}, files);
+  print_diagnostics(diagnostics);
+  if (!experiment) fail();
+  return *experiment;
+}
+
+simulation::World OpenedMovie::make_world(const simulation::Experiment& experiment) const {
+  return {experiment, application_.make_engine(experiment)};
+}
+
+double seconds(const std::string& text, const char* option) {
+  double value = 0.;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  std::string_view unit(stop, static_cast<std::size_t>(end - stop));
+  while (unit.starts_with(' ')) unit.remove_prefix(1);
+  const auto given = language::parse_unit(unit.empty() ? "s" : unit);
+  const bool is_time = given && given->dimension == language::find_unit("s")->dimension;
+  if (error != std::errc{} || !is_time || !std::isfinite(value))
+    throw output::MovieError(
+        fmt::format("{} takes a time such as \"2.5 s\" or \"300 ms\", not `{}`", option, text));
+  return value * given->numerator / given->denominator;
+}
+
+}  // namespace hookpoint::cli

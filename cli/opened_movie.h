@@ -1,0 +1,37 @@
+// A movie and the experiment inside it, ready to be run again.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "cli/application.h"
+#include "output/movie.h"
+#include "simulation/rewind.h"
+
+namespace hookpoint::cli {
+
+class OpenedMovie {
+ public:
+  /// Throws output::MovieError.
+  explicit OpenedMovie(const std::filesystem::path& file, bool allow_plugins);
+  ~OpenedMovie();
+  OpenedMovie(const OpenedMovie&) = delete;
+  OpenedMovie& operator=(const OpenedMovie&) = delete;
+
+  const output::MovieReader& reader() const { return reader_; }
+  /// The experiment, with the files that it read as they were. Its diagnostics are printed; throws
+  /// output::MovieError when it has errors.
+  simulation::Experiment load();
+  /// At time 0. Throws simulation::ExperimentError.
+  simulation::World make_world(const simulation::Experiment& experiment) const;
+
+ private:
+  output::MovieReader reader_;
+  Application application_;
+  std::filesystem::path folder_;  ///< of the files taken out; gone with this
+};
+
+/// "2.5 s", "300 ms", "2.5" as seconds. `option`: for the message. Throws output::MovieError.
+double seconds(const std::string& text, const char* option);
+
+}  // namespace hookpoint::cli

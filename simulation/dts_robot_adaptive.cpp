@@ -1,0 +1,98 @@
+// What a robot tells adaptive integrators: when its contact memory is committed, where its
+// accelerations jump, and which part of them is stiff.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "dts/forward_kinematics.h"
+#include "simulation/dts_robot.h"
+
+namespace hookpoint::simulation {
+
+namespace {
+
+/// Width of the surface to either side [m]: above the rounding of positions, far below any depth
+/// that matters.
+constexpr double surface = 1e-11;
+
+}  // namespace
+
+double ContactPoint::depth_on_side(double depth_now) const {
+  return inside ? std::max(depth_now, std::numeric_limits<double>::min()) : std::min(depth_now, 0.);
+}
+
+double ContactPoint::side_event(double depth_now) const {
+  return depth_now + (inside ? surface : -surface);
+}
+
+// The law is evaluated at the accepted state from the memory of the internal step's start, over
+// that step's length; until the next commit the law's step is what is left.
+void DtsRobot::commit(double /*time*/, double dt, std::span<const double> q,
+                      std::span<const double> v) {
+  if (points_.empty()) return;
+  const double left = law_step_ - dt;
+  law_step_ = dt;
+  settle_at(q, v);
+  law_step_ = left;
+  for (ContactPoint& point : points_) point.commit();
+}
+
+std::size_t DtsRobot::event_count() const {
+  const auto limits = [](std::size_t sum, const dts::JointProperties<double>& joint) {
+    return sum + std::isfinite(joint.lower_limit) + std::isfinite(joint.upper_limit);
+  };
+  return std::accumulate(joints_.begin(), joints_.end(), 2 * points_.size(), limits);
+}
+
+void DtsRobot::event_values(double /*time*/, std::span<const double> q, std::span<const double> v,
+                            std::span<double> values) {
+  read_state(q, v);
+  dts::forward_kinematics(model_, state_, workspace_);
+  auto value = values.begin();
+  for (const ContactPoint& point : points_) {
+    const TouchingPlace touching = touching_place(point, workspace_.bodies[point.body], *ground_);
+    *value++ = point.side_event(touching.tile.depth);
+    // Where slip reverses the point sticks: an integrator that stepped across would go on pushing.
+    const bool slips = point.committed.sliding;
+    *value++ = slips ? dot(touching.velocity, point.committed.stretch) : 1.;
+  }
+  for (std::size_t i = 0; i < joints_.size(); ++i) {
+    const double angle = state_.joint_positions[i];
+    if (std::isfinite(joints_[i].lower_limit)) *value++ = angle - joints_[i].lower_limit;
+    if (std::isfinite(joints_[i].upper_limit)) *value++ = joints_[i].upper_limit - angle;
+  }
+}
+
+integrators::Status DtsRobot::split_accelerations(double time, std::span<const double> q,
+                                                  std::span<const double> v,
+                                                  std::span<double> a_free,
+                                                  std::span<double> a_contact) {
+  const integrators::Status status =
+      accelerations(integrators::Stage::trial, time, q, v, a_contact);
+  if (status != integrators::Status::ok) return status;
+  apply_external_forces();
+  std::ranges::fill(bristle_rates_, 0.);
+  accelerate();
+  for (std::size_t i = 0; i < a_.size(); ++i) {
+    a_free[i] = a_[i];
+    a_contact[i] -= a_[i];
+  }
+  return integrators::all_finite(a_free) ? status : integrators::Status::not_finite;
+}
+
+// tangent_rate is singular at 2 pi, where a rotation vector has gone round.
+bool DtsRobot::far(std::span<const double> u) const {
+  return model_.mobile() && norm(Vector3d{u[0], u[1], u[2]}) > 2.;
+}
+
+// A base that cannot move keeps its chains from feeling each other.
+std::size_t DtsRobot::group_size() const {
+  if (model_.mobile() || velocity_size() != joints_.size()) return velocity_size();
+  std::size_t longest = 1;
+  for (const ChainSpec& chain : experiment_->robots[index_].chains)
+    longest = std::max(longest, chain.links.size());
+  return longest;
+}
+
+}  // namespace hookpoint::simulation
