@@ -57,6 +57,11 @@ class CruseGait final : public HexapodGait {
 
   State placed{*this, "placed", "", "how many tripods have stepped to where they begin"};
   State landed{*this, "landed", "s", "since each leg's last touch-down", leg_count};
+  State nominal_forward{*this, "nominal_forward", "m/s", "the command within what legs can step"};
+  State nominal_sideways{*this, "nominal_sideways", "m/s", "the command within what legs can step"};
+  State nominal_turn{*this, "nominal_turn", "rad/s", "the command within what legs can step"};
+  State stance_time{*this, "stance_time", "s", "of a whole stance"};
+  State walking{*this, "walking", "", "1 when fast enough that stepping is worth it"};
 
  private:
   void begin() override {
@@ -92,22 +97,25 @@ class CruseGait final : public HexapodGait {
   void measure(const PlanarTwist& wanted) {
     const double speed = fastest(wanted);
     const double share = std::min(1., stride / (swing_duration * std::max(speed, 1e-12)));
-    nominal_ = {share * wanted.forward, share * wanted.sideways, share * wanted.turn};
-    stance_time_ = stride / std::max(share * speed, 1e-12);
-    walking_ = share * speed * 100. * swing_duration > stride;
+    nominal_forward = share * wanted.forward;
+    nominal_sideways = share * wanted.sideways;
+    nominal_turn = share * wanted.turn;
+    stance_time = stride / std::max(share * speed, 1e-12);
+    walking = share * speed * 100. * swing_duration > stride ? 1. : 0.;
   }
+  PlanarTwist nominal() const { return {nominal_forward, nominal_sideways, nominal_turn}; }
 
   /// Where the leg is on its way from the anterior (0) to the posterior (1) extreme position.
   double progress(std::size_t leg) const {
-    const Vector3d velocity = ground_velocity(neutral(leg), nominal_);
+    const Vector3d velocity = ground_velocity(neutral(leg), nominal());
     const double squared = dot(velocity, velocity);
     const double least = 1e-3 * stride / swing_duration;
     const double along = dot(feet_[leg].position - neutral(leg), velocity);
-    return 0.5 + along / (std::max(squared, least * least) * stance_time_);
+    return 0.5 + along / (std::max(squared, least * least) * stance_time);
   }
 
   Vector3d target(std::size_t leg, double where) const {
-    return carried(neutral(leg), nominal_, (where - 0.5) * stance_time_);
+    return carried(neutral(leg), nominal(), (where - 0.5) * stance_time);
   }
 
   /// Before the walk the legs step to where they are to begin, one tripod after the other.
@@ -119,7 +127,7 @@ class CruseGait final : public HexapodGait {
     for (std::size_t leg = 0; leg < leg_count; ++leg) {
       if (in_first_tripod(leg) != first || initial_phase[leg] == 0.5) continue;
       if (!feet_[leg].swinging()) feet_[leg].lift_off({});
-      const double done = walking_ ? initial_phase[leg] : 0.5;
+      const double done = walking > 0.5 ? initial_phase[leg] : 0.5;
       feet_[leg].swing(placed - bound + 1., target(leg, done), {}, swing_duration, step_height);
       if (placed == bound) feet_[leg].touch_down();
     }
@@ -132,7 +140,7 @@ class CruseGait final : public HexapodGait {
       if (!feet_[leg].swinging()) furthest = std::max(furthest, progress(leg));
     }
     pace = std::clamp(1. - (furthest - 1.) / overreach, 0., 1.);
-    const PlanarTwist body{pace * nominal_.forward, pace * nominal_.sideways, pace * nominal_.turn};
+    const PlanarTwist body{pace * nominal_forward, pace * nominal_sideways, pace * nominal_turn};
     for (std::size_t leg = 0; leg < leg_count; ++leg) {
       if (feet_[leg].swinging()) {
         swing(leg, body, dt);
@@ -142,7 +150,7 @@ class CruseGait final : public HexapodGait {
       }
     }
     for (std::size_t leg = 0; leg < leg_count; ++leg) {
-      if (walking_ && !feet_[leg].swinging() && progress(leg) >= lift_off_at(leg))
+      if (walking > 0.5 && !feet_[leg].swinging() && progress(leg) >= lift_off_at(leg))
         feet_[leg].lift_off(body);
     }
   }
@@ -177,11 +185,6 @@ class CruseGait final : public HexapodGait {
     if (swinging(behind(leg)) || swinging(before(leg)) || swinging(across(leg))) at += load;
     return at;
   }
-
-  // Follow from the command anew in each update.
-  PlanarTwist nominal_;  ///< the command within what the legs can step
-  double stance_time_ = 1.;
-  bool walking_ = false;  ///< fast enough that stepping is worth it
 };
 
 HOOKPOINT_REGISTER_COMPONENT(

@@ -85,7 +85,7 @@ LegSolution HexapodGait::solve(std::size_t leg) const {
   const double cosine = std::cos(hip_heading[leg]), sine = std::sin(hip_heading[leg]);
   const Vector3d p_HF{cosine * x + sine * y, cosine * y - sine * x,
                       foot.z - body_height - height_offset[leg]};
-  return leg_angles({coxa_length, femur_length, tibia_length}, p_HF,
+  return leg_angles({coxa_length[leg], femur_length[leg], tibia_length[leg]}, p_HF,
                     knee_up > 0.5 ? Knee::up : Knee::down);
 }
 

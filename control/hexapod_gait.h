@@ -30,14 +30,20 @@ class HexapodGait : public Component {
   Parameter stand =
       Parameter{*this, "stand", "s", 0.5, "time to stand before the first step"}.range(0., 1e6);
   Parameter coxa_length =
-      Parameter{*this, "coxa_length", "m", 0.05, "from the coxa's axis to the femur's"}.range(0.,
-                                                                                              1e3);
+      Parameter{
+          *this,    "coxa_length", "m", 0.05, "of each leg, from the coxa's axis to the femur's",
+          leg_count}
+          .range(0., 1e3);
   Parameter femur_length =
-      Parameter{*this, "femur_length", "m", 0.1, "from the femur's axis to the tibia's"}.range(1e-6,
-                                                                                               1e3);
+      Parameter{
+          *this,    "femur_length", "m", 0.1, "of each leg, from the femur's axis to the tibia's",
+          leg_count}
+          .range(1e-6, 1e3);
   Parameter tibia_length =
-      Parameter{*this, "tibia_length", "m", 0.15, "from the tibia's axis to the foot"}.range(1e-6,
-                                                                                             1e3);
+      Parameter{
+          *this,    "tibia_length", "m", 0.15, "of each leg, from the tibia's axis to the foot",
+          leg_count}
+          .range(1e-6, 1e3);
   Parameter knee_up = Parameter{*this, "knee_up", "", 1.,
                                 "1: the knee is above the line from hip to foot, 0: below"}
                           .range(0., 1.);

@@ -1,9 +1,14 @@
 // The one file that sees libmatio.
 #include <matio.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
 #include <memory>
 #include <stdexcept>
+#include <string_view>
 
 #include "control/table.h"
 
@@ -28,6 +33,8 @@ std::vector<double> elements(const matvar_t& variable) {
   if (variable.rank != 2 || variable.isComplex != 0 || variable.data == nullptr) return {};
   if (variable.dims[0] != 1 && variable.dims[1] != 1) return {};
   const std::size_t count = variable.dims[0] * variable.dims[1];
+  const auto size = static_cast<std::size_t>(std::max(variable.data_size, 1));
+  if (variable.nbytes / size < count) return {};
   switch (variable.class_type) {
     case MAT_C_DOUBLE:
       return copied<double>(variable, count);
@@ -58,9 +65,19 @@ matvar_t* field(matvar_t* variable, const char* name) {
   return Mat_VarGetStructFieldByName(variable, name, 0);
 }
 
-std::vector<double> read_vector(const matvar_t* variable, const std::string& path,
+std::vector<std::string> variables_of(mat_t& file) {
+  std::size_t count = 0;
+  char** names = Mat_GetDir(&file, &count);
+  return names == nullptr ? std::vector<std::string>{}
+                          : std::vector<std::string>(names, names + count);
+}
+
+std::vector<double> read_vector(const matvar_t* variable, mat_t& file, const std::string& path,
                                 const std::string& name) {
-  if (variable == nullptr) throw std::runtime_error(path + ": no variable '" + name + "'");
+  if (variable == nullptr) {
+    throw std::runtime_error(path + ": no variable '" + name + "'; there are " +
+                             list_of_names(variables_of(file)));
+  }
   std::vector<double> values = elements(*variable);
   if (values.empty()) {
     throw std::runtime_error(path + ": '" + name + "' is not a vector of real numbers");
@@ -68,25 +85,106 @@ std::vector<double> read_vector(const matvar_t* variable, const std::string& pat
   return values;
 }
 
+/// Bytes of memory that a variable claims, structures with their fields.
+double claimed(matvar_t& variable) {
+  double count = 1.;
+  for (int i = 0; i < variable.rank; ++i) count *= static_cast<double>(variable.dims[i]);
+  if (variable.class_type != MAT_C_STRUCT) return count * std::max(variable.data_size, 1);
+  double bytes = 0.;
+  const unsigned fields = Mat_VarGetNumberOfFields(&variable);
+  for (unsigned i = 0; i < fields; ++i) {
+    if (matvar_t* inner = Mat_VarGetStructFieldByIndex(&variable, i, 0))
+      bytes += claimed(*inner) + sizeof(matvar_t);
+  }
+  return count * bytes;
+}
+
+/// The variable; nothing when there is none. Throws when it claims more than the file can hold: the
+/// library would believe it.
+Variable read_variable(mat_t& file, const std::string& path, const std::string& name) {
+  constexpr double most_compressed = 1032.;  // deflate's limit
+  const Variable header(Mat_VarReadInfo(&file, name.c_str()));
+  if (!header) return nullptr;
+  const auto size = static_cast<double>(std::filesystem::file_size(path));
+  if (claimed(*header) > most_compressed * size)
+    throw std::runtime_error(path + ": '" + name + "' claims to be larger than the file can hold");
+  return Variable(Mat_VarRead(&file, name.c_str()));
+}
+
+/// The first look at a file, as the library believes whatever sizes it reads. The format: MATLAB,
+/// "MAT-File Format" (MAT-file level 5).
+class FirstLook {
+ public:
+  explicit FirstLook(const std::string& path)
+      : file_(path, std::ios::binary), end_(std::filesystem::file_size(path)) {}
+
+  /// A MAT file v5 or 7.3 begins with a text of 124 bytes, the version and the byte order; anything
+  /// else the library would take for a v4 file, which has no mark of its own. The variables of a v5
+  /// file must lie within it, and have no more elements than bytes.
+  bool is_sound() {
+    char header[128] = {};
+    file_.read(header, sizeof header);
+    const std::string_view order(header + 126, 2);
+    swapped_ = order == "MI";
+    const int version = swapped_ ? header[124] : header[125], minor = header[swapped_ ? 125 : 124];
+    if (!file_ || (order != "IM" && !swapped_) || minor != 0) return false;
+    if (version != 1) return version == 2;
+    while (at_ + 8 <= end_) {
+      const std::uint64_t type = word(at_), size = word(at_ + 4);
+      if (at_ + 8 + size > end_ || (type == matrix && !matrix_fits(at_ + 8, size))) return false;
+      at_ += 8 + size;
+    }
+    return static_cast<bool>(file_);
+  }
+
+ private:
+  static constexpr std::uint32_t matrix = 14, sparse = 5;
+
+  /// Array flags (a tag and two words), then the dimensions.
+  bool matrix_fits(std::uint64_t begin, std::uint64_t size) {
+    if (size < 24) return size == 0;
+    if ((word(begin + 8) & 0xFFU) == sparse) return true;
+    const std::uint64_t ranks = word(begin + 20) / 4;
+    if (24 + 4 * ranks > size) return false;
+    double elements = 1.;
+    for (std::uint64_t i = 0; i < ranks; ++i) elements *= word(begin + 24 + 4 * i);
+    return elements <= static_cast<double>(size);
+  }
+
+  std::uint32_t word(std::uint64_t at) {
+    unsigned char b[4] = {};
+    file_.seekg(static_cast<std::streamoff>(at));
+    file_.read(reinterpret_cast<char*>(b), sizeof b);
+    if (swapped_) std::ranges::reverse(b);
+    return b[0] | b[1] << 8U | b[2] << 16U | static_cast<std::uint32_t>(b[3]) << 24U;
+  }
+
+  std::ifstream file_;
+  std::uint64_t at_ = 128, end_;
+  bool swapped_ = false;
+};
+
 }  // namespace
 
 Series read_mat_series(const std::filesystem::path& path, const std::string& column) {
   const std::string name = path.string();
   // Its own messages would go to the terminal beside ours.
   Mat_LogInitFunc("hookpoint", [](int, char*) {});
-  const std::unique_ptr<mat_t, CloseFile> file(Mat_Open(name.c_str(), MAT_ACC_RDONLY));
+  const std::unique_ptr<mat_t, CloseFile> file(
+      FirstLook(name).is_sound() ? Mat_Open(name.c_str(), MAT_ACC_RDONLY) : nullptr);
   if (!file) throw std::runtime_error(name + ": cannot be read as a MAT file");
   const std::size_t dot = column.find('.');
-  const Variable variable(Mat_VarRead(file.get(), column.substr(0, dot).c_str()));
-  const Variable common_time(Mat_VarRead(file.get(), "time"));
+  const Variable variable = read_variable(*file, name, column.substr(0, dot));
+  const Variable common_time = read_variable(*file, name, "time");
   const bool of_structure = dot != std::string::npos;
   matvar_t* values =
       of_structure ? field(variable.get(), column.substr(dot + 1).c_str()) : variable.get();
   if (matvar_t* data = field(values, "data")) values = data;
   matvar_t* own_time = of_structure ? field(variable.get(), "time") : nullptr;
   const std::string time_name = own_time != nullptr ? column.substr(0, dot) + ".time" : "time";
-  Series series{read_vector(own_time != nullptr ? own_time : common_time.get(), name, time_name),
-                read_vector(values, name, column)};
+  Series series{
+      read_vector(own_time != nullptr ? own_time : common_time.get(), *file, name, time_name),
+      read_vector(values, *file, name, column)};
   if (series.time.size() != series.value.size()) {
     throw std::runtime_error(name + ": '" + column + "' has " +
                              std::to_string(series.value.size()) + " elements, '" + time_name +

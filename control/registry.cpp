@@ -10,6 +10,24 @@ namespace {
 /// Fields of the stub around every component, which no port may hide.
 constexpr std::array stub_fields{"rate", "delay", "noise"};
 
+/// A name as the language reads it: a letter or underscore, then digits too.
+bool is_identifier(std::string_view name) {
+  const auto letter = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+  };
+  return !name.empty() && letter(name.front()) &&
+         std::ranges::all_of(name, [&](char c) { return letter(c) || (c >= '0' && c <= '9'); });
+}
+
+/// Identifiers joined by dots.
+bool is_class_name(std::string_view name) {
+  for (std::size_t dot = name.find('.'); dot != std::string_view::npos; dot = name.find('.')) {
+    if (!is_identifier(name.substr(0, dot))) return false;
+    name.remove_prefix(dot + 1);
+  }
+  return is_identifier(name);
+}
+
 /// "" or why `name` cannot be a default port of the kinds that `fits` accepts. An array stands for
 /// its first value.
 template <class Fits>
@@ -42,15 +60,22 @@ void Registry::add(ComponentClass type) {
                       " is refused: " + from(place->second.origin) + " has one of that name");
 }
 
+void Registry::remove(const std::string& origin) {
+  std::erase_if(classes_, [&origin](const auto& entry) { return entry.second.origin == origin; });
+}
+
 const ComponentClass* Registry::find(std::string_view name) const {
   const auto place = classes_.find(name);
   return place == classes_.end() ? nullptr : &place->second;
 }
 
 std::string declaration_problem(const ComponentClass& type) {
+  if (!is_class_name(type.name)) return "a class is named by identifiers joined by dots";
   try {
     const std::unique_ptr<Component> component = type.make();
     for (const PortDescription& port : component->ports()) {
+      if (!is_identifier(port.name))
+        return "port '" + port.name + "' is not named by an identifier";
       if (std::find(stub_fields.begin(), stub_fields.end(), port.name) != stub_fields.end()) {
         return "port '" + port.name + "' has the name of a field of the stub";
       }

@@ -35,6 +35,8 @@ class Registry {
   const std::vector<std::string>& problems() const { return problems_; }
   /// While a plugin is loaded: the origin of what registers.
   void set_origin(std::string origin) { origin_ = std::move(origin); }
+  /// Forgets the classes of a plugin that is refused.
+  void remove(const std::string& origin);
 
  private:
   std::map<std::string, ComponentClass, std::less<>> classes_;
@@ -43,7 +45,7 @@ class Registry {
 };
 
 /// "" or what is wrong with how the class declares its ports: two of one name, a default port that
-/// does not exist, a name that the stub has a field of. Makes one instance.
+/// does not exist, a name that the stub has a field of or that is none. Makes one instance.
 std::string declaration_problem(const ComponentClass& type);
 
 /// The class `Type` as the registry holds it.

@@ -1,6 +1,7 @@
 #include "control/table.h"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -40,13 +41,36 @@ std::string without_unit(const std::string& title) {
   return open != std::string::npos && title.back() == ']' ? trimmed(title.substr(0, open)) : title;
 }
 
+/// Refuses what no text editor wrote, by its first bytes.
+void check_text(std::ifstream& file, const std::string& name) {
+  char bytes[1024];
+  file.read(bytes, sizeof bytes);
+  const bool text = std::all_of(bytes, bytes + file.gcount(), [](char c) {
+    const bool blank = c == '\t' || c == '\r' || c == '\n';
+    return blank || static_cast<unsigned char>(c) >= ' ';
+  });
+  if (!text) throw std::runtime_error(name + ": this is not a text file");
+  file.clear();
+  file.seekg(0);
+}
+
+/// A field as it may be shown: short and printable.
+std::string shown(const std::string& text) {
+  constexpr std::size_t most = 30;
+  std::string printable = text.substr(0, most);
+  for (char& c : printable) {
+    if (std::iscntrl(static_cast<unsigned char>(c)) != 0) c = '?';
+  }
+  return "'" + printable + (text.size() > most ? "...'" : "'");
+}
+
 double parse_number(const std::string& text, const std::string& where, const std::string& column) {
   double number = 0.;
   const char* end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), end, number);
   if (error != std::errc{} || stop != end || !std::isfinite(number)) {
-    throw std::runtime_error(where + ": '" + text + "' in column '" + column +
-                             "' is not a finite number");
+    throw std::runtime_error(where + ": " + shown(text) + " in column " + shown(column) +
+                             " is not a finite number");
   }
   return number;
 }
@@ -54,7 +78,8 @@ double parse_number(const std::string& text, const std::string& where, const std
 void read_header(const std::string& line, const std::string& where, Table& table) {
   std::vector<std::string> titles = split_fields(line);
   if (titles.size() < 2) {
-    throw std::runtime_error(where + ": expected a time column and at least one more");
+    throw std::runtime_error(where +
+                             ": expected a time column and at least one more, separated by commas");
   }
   double number = 0.;
   if (std::from_chars(titles[0].data(), titles[0].data() + titles[0].size(), number).ec ==
@@ -87,12 +112,13 @@ void read_row(const std::string& line, const std::string& where, Table& table) {
 Table read_csv_table(const std::filesystem::path& path) {
   std::ifstream file(path);
   if (!file) throw std::runtime_error(path.string() + ": cannot be read");
+  check_text(file, path.string());
   Table table;
   std::string line;
   for (std::size_t number = 1; std::getline(file, line); ++number) {
+    const std::string where = path.string() + ":" + std::to_string(number);
     const std::string text = trimmed(line);
     if (text.empty() || text.front() == '#') continue;
-    const std::string where = path.string() + ":" + std::to_string(number);
     if (table.columns.empty()) {
       read_header(text, where, table);
     } else {
@@ -108,11 +134,19 @@ Series read_csv_series(const std::filesystem::path& path, const std::string& col
   Table table = read_csv_table(path);
   const auto place = std::find(table.names.begin(), table.names.end(), column);
   if (place == table.names.end()) {
-    std::string known;
-    for (const std::string& name : table.names) known += (known.empty() ? "'" : ", '") + name + "'";
-    throw std::runtime_error(path.string() + ": no column '" + column + "'; there are " + known);
+    throw std::runtime_error(path.string() + ": no column '" + column + "'; there are " +
+                             list_of_names(table.names));
   }
   return {std::move(table.time), std::move(table.columns[place - table.names.begin()])};
+}
+
+std::string list_of_names(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 20;
+  std::string list;
+  for (std::size_t i = 0; i < std::min(names.size(), most); ++i)
+    list += (i == 0 ? "" : ", ") + shown(names[i]);
+  if (names.size() > most) list += " and " + std::to_string(names.size() - most) + " more";
+  return list;
 }
 
 void check_increasing(const std::vector<double>& time, const std::string& where) {

@@ -38,6 +38,9 @@ Series read_csv_series(const std::filesystem::path& path, const std::string& col
 /// std::runtime_error with file and variable.
 Series read_mat_series(const std::filesystem::path& path, const std::string& column);
 
+/// "'a', 'b' and 7 more".
+std::string list_of_names(const std::vector<std::string>& names);
+
 /// Throws std::runtime_error unless `time` is finite and increases strictly; `where` begins the
 /// message, as "x.mat: 'time'".
 void check_increasing(const std::vector<double>& time, const std::string& where);

@@ -1,0 +1,50 @@
+#include <iostream>
+
+#include "cli/application.h"
+#include "cli/commands.h"
+#include "cli/exit_status.h"
+
+namespace hookpoint::cli {
+namespace {
+
+/// False after any is not loaded; which and why is printed.
+bool load_plugins(Application& application, const std::vector<std::filesystem::path>& plugins) {
+  bool good = true;
+  for (const std::filesystem::path& plugin : plugins) {
+    const std::string problem = application.load_plugin(plugin);
+    if (problem.empty()) continue;
+    print_error("the plugin `" + plugin.string() + "` " + problem);
+    good = false;
+  }
+  return good;
+}
+
+}  // namespace
+
+int describe(const DescribeArguments& arguments) {
+  Application application(arguments.allow_plugins);
+  if (!load_plugins(application, arguments.plugins)) return wrong_input;
+  const std::optional<std::string>& type = arguments.type;
+  if (!type) {
+    if (arguments.textmate) {
+      std::cout << language::describe_textmate(application.schema());
+      return fine;
+    }
+    std::cout << (arguments.markdown ? language::describe_markdown(application.schema())
+                                     : language::describe_all(application.schema()));
+    return fine;
+  }
+  if (const language::ClassSchema* schema = application.schema().find(*type)) {
+    std::cout << language::describe(*schema);
+    return fine;
+  }
+  std::vector<std::string> names;
+  for (const auto& [name, schema] : application.schema().classes()) names.push_back(name);
+  const std::string nearest = language::nearest_name(*type, names);
+  print_error("there is no class `" + *type + "`" +
+              (nearest.empty() ? "; `hookpoint describe` lists them all"
+                               : "; did you mean `" + nearest + "`?"));
+  return wrong_input;
+}
+
+}  // namespace hookpoint::cli

@@ -1,0 +1,18 @@
+// Built where a Component has another size.
+#include "control/plugin_abi.h"
+#include "tests/plugins/leaves_a_mark.h"
+
+namespace {
+
+constexpr hookpoint::control::PluginAbi other_sizes() {
+  hookpoint::control::PluginAbi abi = hookpoint::control::this_plugin_abi();
+  abi.component += 8;
+  return abi;
+}
+
+}  // namespace
+
+extern "C" {
+extern const hookpoint::control::PluginAbi hookpoint_plugin_abi;
+constinit const hookpoint::control::PluginAbi hookpoint_plugin_abi = other_sizes();
+}
