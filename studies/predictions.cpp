@@ -38,12 +38,13 @@ struct BodyOnPlane {
   }
 };
 
-/// The closed forms want: one rigid body, a plane, no other forces.
+/// The closed forms want: one rigid body that cannot roll, a plane, no other forces.
 bool applies(const RunContext& context) {
   const simulation::Experiment& experiment = *context.experiment;
   return experiment.terrain && experiment.robots.size() == 1 && experiment.forces.empty() &&
          context.robot_spec().chains.empty() && norm(context.robot_spec().angular_velocity) == 0. &&
          !context.robot_spec().base.boundary_points.empty() &&
+         context.robot_spec().base.boundary_radii.empty() &&
          !std::holds_alternative<contact::GridSurface>(experiment.terrain->surface);
 }
 
@@ -151,18 +152,33 @@ std::optional<double> penetration(std::string_view metric, const RunContext& con
   return metric == "penetration_mean" ? sum / count : std::sqrt(squares / count);
 }
 
+/// Shift of a point that carries the tangential `load` [N], where it grows in proportion: a load
+/// let go at once, or a slide that ends, leaves no other closed form.
+std::optional<double> elastic_shift(const BodyOnPlane& body, double load) {
+  const auto shift = [&](double f) {
+    return contact::stick_displacement(*body.law, f, body.normal_load(), body.material);
+  };
+  const std::optional<double> half = shift(0.5 * load), whole = shift(load);
+  if (!half || !whole || std::abs(*whole - 2. * *half) > 1e-12 * *whole) return std::nullopt;
+  return whole;
+}
+
 std::optional<double> stick_displacement(const BodyOnPlane& body) {
   const bool holds_by_spring =
       body.law && contact::creep_speed(*body.law, body.tangent(), body.material) == 0.;
   if (!body.sticks() || body.speed > 0. || !holds_by_spring) return std::nullopt;
-  return contact::stick_displacement(*body.law, body.friction_load(), body.material);
+  return elastic_shift(body, body.friction_load());
 }
 
 std::optional<double> stopping_distance(const BodyOnPlane& body) {
   if (body.speed == 0. || body.sine > 1e-9) return std::nullopt;
   const double coulomb =
       contact::braking_distance(body.speed, body.gravity, body.material.kinetic_friction);
-  if (!body.law || contact::stick_displacement(*body.law, 1., body.material) == 0.) return coulomb;
+  if (!body.law) return coulomb;
+  const std::optional<double> shift =
+      elastic_shift(body, body.material.kinetic_friction * body.normal_load());
+  if (!shift) return std::nullopt;
+  if (*shift == 0.) return coulomb;
   const double offset = contact::braking_elastic_offset(body.normal_load(), body.material);
   return coulomb - (body.material.tangential_damping > 0. ? offset : 0.5 * offset);
 }
@@ -177,6 +193,7 @@ std::optional<double> impacts(const RunContext& context, const BodyOnPlane& body
 
 std::optional<double> predict(std::string_view metric, const RunContext& context,
                               std::optional<double> friction_mixing) {
+  if (metric == "fell") return joint_loop_fails(context);
   if (!applies(context)) return std::nullopt;
   const BodyOnPlane body = body_on_plane(context);
   if (metric == "creep_speed") return creep_speed(context, body, friction_mixing);

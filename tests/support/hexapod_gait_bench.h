@@ -2,6 +2,7 @@
 // the forward kinematics of its goals.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
@@ -89,5 +90,18 @@ class HexapodGaitBench {
   double period_ = 1e-3;
   std::int64_t count_ = 0;
 };
+
+/// Whether a gait of the same class that gets the values of `bench` goes on as `bench` does, 1000
+/// updates bit for bit: all that a resumed run has.
+inline bool resumes_from_its_values(HexapodGaitBench& bench, const std::string& class_name,
+                                    double period) {
+  HexapodGaitBench other{class_name};
+  std::ranges::copy(bench.component().values(), other.component().values().begin());
+  for (std::int64_t k = 0; k < 1000; ++k) {
+    bench.component().update({0., period, 5000 + k});
+    other.component().update({0., period, 5000 + k});
+  }
+  return std::ranges::equal(bench.component().values(), other.component().values());
+}
 
 }  // namespace hookpoint::testing

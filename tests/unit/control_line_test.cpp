@@ -176,7 +176,7 @@ TEST(TransmissionLine, ACopyAndASavedStateGoOnAlike) {
   TransmissionLine copy = line, restored(description, millisecond);
   std::vector<double> state(line.state_size());
   line.save(state);
-  restored.restore(state);
+  restored.restore(1236, state);
   EXPECT_EQ(restored.output(), line.output());
   for (int k = 1237; k < 2000; ++k) {
     const double expected = line.at(k, std::sin(k));
@@ -191,7 +191,7 @@ TEST(TransmissionLine, ARestoredLineWaitsForItsFirstSample) {
   for (int k = 0; k < 12; ++k) line.at(k, k);
   std::vector<double> state(line.state_size());
   line.save(state);
-  restored.restore(state);
+  restored.restore(11, state);
   for (int k = 12; k < 40; ++k) {
     EXPECT_EQ(restored.at(k, k), k < 25 ? -1 : k < 35 ? 0 : 10) << k;
   }

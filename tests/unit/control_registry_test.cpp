@@ -64,6 +64,12 @@ class AttachedToNothing final : public Component {
   void update(const Tick&) override {}
 };
 
+class NamedByNoIdentifier final : public Component {
+ public:
+  Input a{*this, "2a", "", ""};
+  void update(const Tick&) override {}
+};
+
 template <class Type>
 std::string problem(const std::string& input = "", const std::string& output = "") {
   return declaration_problem(describe_class<Type>("X", "x", Attachment::none, input, output));
@@ -104,6 +110,9 @@ TEST(Registry, RefusesATakenNameAndSaysWhose) {
   ASSERT_EQ(registry.problems().size(), 1u);
   EXPECT_EQ(registry.problems()[0],
             "class 'Good' of 'libmine.so' is refused: the program has one of that name");
+  registry.remove("libmine.so");
+  EXPECT_EQ(registry.find("Better"), nullptr);
+  EXPECT_NE(registry.find("Good"), nullptr);
 }
 
 TEST(Declaration, SaysWhatIsWrong) {
@@ -120,6 +129,12 @@ TEST(Declaration, SaysWhatIsWrong) {
   EXPECT_EQ(problem<NamedLikeStub>(), "port 'delay' has the name of a field of the stub");
   EXPECT_EQ(problem<AttachedToNothing>(),
             "port 'a' is attached, but the class attaches to nothing");
+  EXPECT_EQ(problem<NamedByNoIdentifier>(), "port '2a' is not named by an identifier");
+  for (const char* name : {"", ".X", "X.", "X..Y", "3D", "My class", "X-Y"}) {
+    EXPECT_EQ(declaration_problem(describe_class<Good>(name, "", Attachment::none, "current")),
+              "a class is named by identifiers joined by dots")
+        << name;
+  }
 }
 
 TEST(Declaration, IsWhatTheMembersSay) {

@@ -93,7 +93,7 @@ TEST(Data, SaysWhatIsWrongWithAFileAndWhere) {
   EXPECT_EQ(error("time,force\n0,1\n\n0,2\n"), ":4: time 0 is not after that of the row before");
   EXPECT_EQ(error("time,force\n0,1,2\n"), ":2: expected 2 fields, found 3");
   EXPECT_EQ(error("0,1\n1,2\n"), ":1: expected a row of column names before the numbers");
-  EXPECT_EQ(error("time\n0\n"), ":1: expected a time column and at least one more");
+  EXPECT_EQ(error("time\n0\n"), ":1: expected a time column and at least one more, separated by commas");
   EXPECT_EQ(error("time,force\n"), ": holds no row of numbers");
   EXPECT_EQ(error(""), ": holds no row of numbers");
   EXPECT_EQ(error("time [s],forc [N],b\n0,1,2\n"), ": no column 'force'; there are 'forc', 'b'");
@@ -171,9 +171,9 @@ TEST(Data, SaysWhatIsWrongWithAMatFile) {
     return text.rfind(file.path(), 0) == 0 ? text.substr(file.path().size()) : text;
   };
   const std::string time = mat_vector("time", {0., 1.});
-  EXPECT_EQ(error(time), ": no variable 'force'");
-  EXPECT_EQ(error(time, "time.force"), ": no variable 'time.force'");
-  EXPECT_EQ(error(mat_vector("force", {1., 2.})), ": no variable 'time'");
+  EXPECT_EQ(error(time), ": no variable 'force'; there are 'time'");
+  EXPECT_EQ(error(time, "time.force"), ": no variable 'time.force'; there are 'time'");
+  EXPECT_EQ(error(mat_vector("force", {1., 2.})), ": no variable 'time'; there are 'force'");
   EXPECT_EQ(error(time + mat_vector("force", {1., 2., 3.})), ": 'force' has 3 elements, 'time' 2");
   EXPECT_EQ(error(time + mat_vector("force", {1., NAN})), ": element 2 of 'force' is not finite");
   EXPECT_EQ(error(mat_vector("time", {1., 1.}) + mat_vector("force", {1., 2.})),

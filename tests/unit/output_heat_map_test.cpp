@@ -1,0 +1,86 @@
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "output/heat_map.h"
+
+namespace hookpoint::output {
+namespace {
+
+/// Two columns, three rows: a value each but one that stopped and one that was not run; the closed
+/// form differs between the columns of the upper two rows.
+HeatMap sample() {
+  HeatMap map;
+  map.name = "map";
+  map.title = "It's a map of a_b";
+  map.x = {.label = "delay", .unit = "ms"};
+  map.y = {.label = "rate", .unit = "Hz"};
+  map.color = {.label = "walking speed", .unit = "m/s"};
+  map.x_values = {0., 20.};
+  map.y_values = {50., 100., 1000.};
+  map.panels.push_back({"joint loops",
+                        {{true, 0.25, 0.},
+                         {false, {}, {}},
+                         {true, 0.5, 0.},
+                         {true, {}, 1.},
+                         {true, 0.75, 0.},
+                         {true, 1., 1.}}});
+  return map;
+}
+
+std::size_t count(const std::string& text, const std::string& what) {
+  std::size_t found = 0;
+  for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++found;
+  return found;
+}
+
+TEST(HeatMapData, ARowForEveryRunInOrder) {
+  EXPECT_EQ(heat_map_data(sample()),
+            "panel,delay [ms],rate [Hz],walking speed [m/s],column,row\n"
+            "joint loops,0,50,0.25,0,0\n"
+            "joint loops,0,100,0.5,0,1\n"
+            "joint loops,20,100,,1,1\n"
+            "joint loops,0,1000,0.75,0,2\n"
+            "joint loops,20,1000,1,1,2\n");
+}
+
+TEST(HeatMapScript, TheLineGoesBetweenCellsWhoseClosedFormsDiffer) {
+  const std::string script = heat_map_script(sample());
+  EXPECT_EQ(count(script, "set arrow from"), 2U);
+  EXPECT_NE(script.find("from 0.5,0.5 to 0.5,1.5"), std::string::npos);
+  EXPECT_NE(script.find("from 0.5,1.5 to 0.5,2.5"), std::string::npos);
+  HeatMap turned = sample();
+  std::swap(turned.x_values, turned.y_values);  // now three columns and two rows
+  EXPECT_NE(heat_map_script(turned).find("from -0.5,0.5 to 0.5,0.5"), std::string::npos);
+}
+
+TEST(HeatMapScript, ExplainsOnlyWhatIsThere) {
+  HeatMap map = sample();
+  EXPECT_NE(heat_map_script(map).find("Dashed: closed form"), std::string::npos);
+  EXPECT_NE(heat_map_script(map).find("no value"), std::string::npos);
+  for (HeatMapCell& cell : map.panels[0].cells) cell = {true, 1., {}};
+  EXPECT_EQ(heat_map_script(map).find("Dashed"), std::string::npos);
+  EXPECT_EQ(heat_map_script(map).find("no value"), std::string::npos);
+}
+
+TEST(HeatMap, IsDrawnWithItsNumbersAndItsCross) {
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("hookpoint_map_" + std::to_string(getpid()));
+  const PlotOutcome outcome = draw(sample(), folder);
+  ASSERT_TRUE(outcome.drawn) << outcome.message;
+  for (const char* text : {"It's a map of a_b", "joint loops", "0.25", "0.75", "walking speed"})
+    EXPECT_NE(outcome.svg.find(text), std::string::npos) << text;
+  HeatMap without = sample();
+  without.panels[0].cells[3].value = 0.6;
+  const PlotOutcome other = draw(without, folder);
+  EXPECT_NE(other.svg.find("0.6"), std::string::npos);
+  EXPECT_EQ(outcome.svg.find(">0.6<"), std::string::npos);
+  // A run without a value has no coloured cell.
+  EXPECT_EQ(count(other.svg, "<polygon"), count(outcome.svg, "<polygon") + 1);
+  std::filesystem::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace hookpoint::output

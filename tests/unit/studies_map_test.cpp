@@ -1,0 +1,62 @@
+// From a study's rows to a map, on the made-up study whose numbers are formulas.
+#include <gtest/gtest.h>
+
+#include "studies/figures.h"
+#include "tests/support/synthetic_study.h"
+
+namespace hookpoint::studies {
+namespace {
+
+using output::HeatMapCell;
+using output::HeatMapPanel;
+
+/// Creep over slope (6 values) and step (3), the closed form as the line.
+output::HeatMap creep_map(StudyResult study) {
+  PlotSpec spec = testing::synthetic_plot("map", "Creep", "slope", "deg");
+  spec.y = "dt";
+  spec.y_unit = "ms";
+  spec.color = spec.outline = "creep_speed";
+  spec.color_unit = "m/s";
+  study.plots = {spec};
+  const Figure figure = make_figure(study, 0);
+  EXPECT_EQ(figure.plot.name, "map");
+  return *figure.map;
+}
+
+const HeatMapCell& cell(const HeatMapPanel& panel, std::size_t column, std::size_t row) {
+  return panel.cells.at(6 * row + column);
+}
+
+TEST(StudyMap, ACellForEachPairOfValuesAndAPanelForEachSubject) {
+  const output::HeatMap map = creep_map(testing::synthetic_study());
+  EXPECT_EQ(map.x_values, (std::vector{5., 10., 15., 20., 25., 30.}));
+  EXPECT_EQ(map.y_values, (std::vector{0.1, 1., 10.}));
+  ASSERT_EQ(map.panels.size(), 5U);  // the sixth is not installed
+  EXPECT_EQ(map.panels[1].title, "dts impulse");
+  const double form = testing::synthetic_creep(20.);
+  EXPECT_DOUBLE_EQ(*cell(map.panels[1], 3, 2).value, 1.002 * form);
+  EXPECT_DOUBLE_EQ(*cell(map.panels[1], 3, 2).predicted, form);
+  EXPECT_DOUBLE_EQ(*cell(map.panels[3], 0, 2).value, -3.1e-7 * 10.);
+}
+
+TEST(StudyMap, AStoppedRunHasNoValueButItsCell) {
+  const output::HeatMap map = creep_map(testing::synthetic_study());
+  EXPECT_TRUE(cell(map.panels[4], 0, 2).run);
+  EXPECT_FALSE(cell(map.panels[4], 0, 2).value);
+  EXPECT_TRUE(cell(map.panels[4], 0, 1).value);
+}
+
+TEST(StudyMap, DrawsOnlyWhatItsBlockNames) {
+  StudyResult study = testing::synthetic_study();
+  PlotSpec spec = testing::synthetic_plot("map", "Creep", "slope", "deg");
+  spec.y = "dt";
+  spec.color = "creep_speed";
+  spec.where = {{"slope", {10., 20.}}};
+  study.plots = {spec};
+  const Figure figure = make_figure(study, 0);
+  ASSERT_EQ(figure.map->panels[1].cells.size(), 6U);
+  EXPECT_DOUBLE_EQ(*figure.map->panels[1].cells[3].value, 1.002 * testing::synthetic_creep(20.));
+}
+
+}  // namespace
+}  // namespace hookpoint::studies
