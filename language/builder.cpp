@@ -62,6 +62,8 @@ void Builder::lay_item(FileScope& scope, const Item& item, bool top_of_file) {
       return lay_let(scope, item);
     case ItemKind::include:
       return lay_include(scope, item);
+    case ItemKind::plugin:
+      return lay_plugin(scope, item, top_of_file);
     case ItemKind::for_loop:
       return lay_loop(scope, item);
   }
@@ -209,10 +211,8 @@ void Builder::add_field(const FileScope& scope, const ClassSchema& schema, const
     report_.note(at->position, "first given here");
     return;
   }
-  const PreparedClass& prepared = schema_.of(schema);
-  const Dimension& dimension =
-      prepared.dimensions[static_cast<std::size_t>(field - schema.fields.data())];
-  std::optional<Field> made = make_field({*field, dimension, evaluate, report_}, item.value);
+  std::optional<Field> made =
+      make_field(schema_.context(schema, *field, evaluate, report_), item.value);
   if (!made) {
     // It stays as an empty shell, so that a wrong value is not called missing as well.
     made.emplace().schema = field;

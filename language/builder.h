@@ -78,6 +78,8 @@ class Builder {
   /// Lays the included file down under the Include's name.
   void lay_group(const FileScope& scope, const Item& item, FileScope& inner);
   const ParsedFile* find_include(const FileScope& scope, const Item& item);
+  /// Remembers the library at the root; whoever evaluates has loaded it (Library::load_plugins).
+  void lay_plugin(const FileScope& scope, const Item& item, bool top_of_file);
   void take_arguments(const FileScope& scope, const Item& item, FileScope& inner);
   void take_parameters(const EvaluateOptions& options, FileScope& scope);
   /// False when an argument is missing: nothing sensible can be laid down then.

@@ -142,15 +142,9 @@ void Builder::lay_group(const FileScope& scope, const Item& item, FileScope& inn
 }
 
 const ParsedFile* Builder::find_include(const FileScope& scope, const Item& item) {
-  const Detail& detail = scope.file.syntax.details[item.detail];
-  const std::string path = unquote(evaluator(scope).text(detail.path));
-  const Position place = position(scope, detail.path);
-  const std::filesystem::path found = files_.find(path, scope.file.source.path);
-  if (path.empty() || found.empty()) {
-    const std::string folders = join(files_.searched(path, scope.file.source.path), ", ");
-    report_.error(place, "there is no file `" + path + "`; looked in " + folders);
-    return nullptr;
-  }
+  const std::filesystem::path found = find_named(files_, scope.file, item, report_);
+  if (found.empty()) return nullptr;
+  const Position place = position(scope, scope.file.syntax.details[item.detail].path);
   const ParsedFile& file = files_.load(found);
   for (const FileScope* open = &scope; open != nullptr; open = open->includer) {
     if (&open->file != &file) continue;
@@ -158,6 +152,18 @@ const ParsedFile* Builder::find_include(const FileScope& scope, const Item& item
     return nullptr;
   }
   return &file;
+}
+
+void Builder::lay_plugin(const FileScope& scope, const Item& item, bool top_of_file) {
+  const Position place = position(scope, item.place);
+  if (!top_of_file)
+    return report_.error(place,
+                         "a Plugin stands at the top of its file, not inside an object or a loop");
+  const std::filesystem::path found = find_named(files_, scope.file, item, report_);
+  if (found.empty()) return;
+  std::vector<std::string>& plugins = open_.front().object->plugins;
+  const std::string library = std::filesystem::absolute(found).lexically_normal().string();
+  if (std::ranges::find(plugins, library) == plugins.end()) plugins.push_back(library);
 }
 
 void Builder::take_arguments(const FileScope& scope, const Item& item, FileScope& inner) {

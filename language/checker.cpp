@@ -4,6 +4,7 @@
 
 #include "language/field.h"
 #include "language/names.h"
+#include "language/units.h"
 
 namespace hookpoint::language {
 namespace {
@@ -47,11 +48,8 @@ void Checker::apply(Object& root, const Override& setting, const std::vector<std
                                                  target->object->type +
                                                  " is a port: it cannot be set");
   }
-  const ClassSchema& schema = *target->object->schema;
-  const Dimension& dimension =
-      schema_.of(schema).dimensions[static_cast<std::size_t>(target->field - schema.fields.data())];
-  std::optional<Field> made =
-      make_field({*target->field, dimension, evaluate, report_}, item.value);
+  std::optional<Field> made = make_field(
+      schema_.context(*target->object->schema, *target->field, evaluate, report_), item.value);
   if (!made) return;
   made->given = true;
   // The tree is the caller's to change; only the look-up sees it as const.
@@ -71,6 +69,7 @@ void Checker::check(Object& root) { check_object(root); }
 void Checker::check_object(Object& object) {
   if (report_.full()) return;
   if (object.parent != nullptr && schema_.of(*object.schema).has_required) check_required(object);
+  if (object.parent != nullptr && schema_.of(*object.schema).has_other_units) check_units(object);
   for (Field& field : object.fields) {
     const bool refers =
         field.schema->type == FieldType::object || field.schema->type == FieldType::port;
@@ -86,6 +85,21 @@ void Checker::check_required(const Object& object) {
     if (!field.required || object.given(field.name)) continue;
     const std::string unit = field.unit.empty() || field.unit == "?" ? "" : " [" + field.unit + "]";
     report_.error(object.position, "this " + object.type + " needs `" + field.name + "`" + unit);
+  }
+}
+
+void Checker::check_units(Object& object) {
+  for (Field& field : object.fields) {
+    if (!field.schema->other_unit || field.numbers.empty()) continue;
+    const Field* choice = object.find(field.schema->other_unit->field);
+    if (choice == nullptr || choice->words.empty()) continue;
+    if (!fits(field.dimension, schema_.dimension(object, *field.schema)))
+      report_.error(field.position, "`" + field.schema->name + "` takes a value in " +
+                                        object.unit_of(*field.schema) + " where `" +
+                                        choice->schema->name + "` is " + choice->words[0] +
+                                        ", not in " + unit_text(field.dimension));
+    // From here on it is in the unit that the object says.
+    field.dimension = {};
   }
 }
 

@@ -31,6 +31,8 @@ class Checker {
  private:
   void check_object(Object& object);
   void check_required(const Object& object);
+  /// Values are in the unit that the object's choices ask for.
+  void check_units(Object& object);
   void check_reference(const Object& object, Field& field);
   /// The error that `reference` leads nowhere, unless what it speaks of was left out.
   void report_unresolved(const Reference& reference, const Unresolved& why);

@@ -11,9 +11,11 @@ namespace {
 
 /// "number [m]", "3 numbers [m]", "one of a, b", ...
 std::string type_text(const FieldSchema& field) {
-  const std::string unit = field.unit.empty()  ? ""
-                           : field.unit == "?" ? " [any unit]"
-                                               : " [" + field.unit + "]";
+  std::string unit = field.unit.empty() ? "" : " [" + field.unit + "]";
+  if (field.unit == "?") unit = " [any unit]";
+  if (field.other_unit)
+    unit = " [" + field.unit + ", or " + field.other_unit->unit + " where " +
+           field.other_unit->field + " = " + field.other_unit->word + "]";
   std::string count = std::to_string(field.min_count);
   if (field.max_count > 1000) count += " or more";
   if (field.max_count <= 1000 && field.max_count != field.min_count)
@@ -97,6 +99,7 @@ std::vector<std::pair<std::string, std::string>> class_facts(const ClassSchema& 
   const auto add = [&found](std::string label, std::string text) {
     if (!text.empty()) found.emplace_back(std::move(label), std::move(text));
   };
+  add("from the plugin", schema.origin);
   add("stands in", places(schema, all));
   add("name", naming_text(schema));
   add("may hold", join(schema.children, ", "));

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -56,6 +57,15 @@ class Library {
   /// the Library and the Schema. Cost: linear in the size of the laid-down tree.
   std::unique_ptr<Object> evaluate(const std::filesystem::path& file,
                                    const EvaluateOptions& options, Diagnostics& diagnostics);
+  /// Whatever stands in the way of loading a library: "" or a predicate to the subject "the plugin
+  /// `x.so`". Takes the path as found.
+  using PluginLoader = std::function<std::string(const std::filesystem::path&)>;
+  /// Hands every library that `file` and its Includes name as a Plugin to `load`, once each, in the
+  /// order of the files; nothing is evaluated. What `load` objects to is an error at the Plugin;
+  /// false after any, with the syntax errors of the files beside them. When true `diagnostics` got
+  /// nothing: `evaluate` reports what else is wrong.
+  bool load_plugins(const std::filesystem::path& file, const PluginLoader& load,
+                    Diagnostics& diagnostics);
   /// The Params that `file` declares.
   std::vector<ParameterDeclaration> parameters(const std::filesystem::path& file,
                                                Diagnostics& diagnostics);
@@ -85,6 +95,9 @@ std::string describe(const ClassSchema& schema, const Schema& all);
 std::string describe_all(const Schema& schema);
 /// All classes as a page of the manual, in Markdown.
 std::string describe_markdown(const Schema& schema);
+
+/// The language's words as a TextMate grammar (JSON), for editors.
+std::string describe_textmate(const Schema& schema);
 
 /// The name of `candidates` nearest to `name` (edit distance at most a third of its length), or ""
 /// if none is near.

@@ -12,6 +12,16 @@ namespace {
 
 std::string quoted(const std::string& name) { return "`" + name + "`"; }
 
+std::string other_unit_text(const OtherUnit& other) {
+  return " (in " + other.unit + " where " + quoted(other.field) + " is " + other.word + ")";
+}
+
+/// What follows the numbers of a range: nothing where no one unit does.
+std::string unit_after(const FieldSchema& field) {
+  const bool none = field.unit.empty() || field.unit == "?" || field.other_unit;
+  return none ? "" : " " + field.unit;
+}
+
 class FieldMaker {
  public:
   FieldMaker(const FieldContext& context, Range value)
@@ -113,9 +123,12 @@ bool FieldMaker::check_number(const Value& value) {
     return fail(value.position,
                 quoted(schema_.name) + " takes a number, not " + describe_value(value));
   }
-  if (schema_.unit != "?" && !fits(value.quantity.dimension, context_.dimension)) {
-    const std::string wanted =
+  const bool fits_other =
+      schema_.other_unit && fits(value.quantity.dimension, context_.other_dimension);
+  if (schema_.unit != "?" && !fits(value.quantity.dimension, context_.dimension) && !fits_other) {
+    std::string wanted =
         schema_.unit.empty() ? "a number without a unit" : "a value in " + schema_.unit;
+    if (schema_.other_unit) wanted += other_unit_text(*schema_.other_unit);
     return fail(value.position, quoted(schema_.name) + " takes " + wanted + ", not in " +
                                     unit_text(value.quantity.dimension));
   }
@@ -134,9 +147,8 @@ bool FieldMaker::check_range(const Value& value) {
   const bool above =
       schema_.exclusive_maximum ? number >= schema_.maximum : number > schema_.maximum;
   if (!below && !above) return true;
-  const std::string unit = schema_.unit.empty() || schema_.unit == "?" ? "" : " " + schema_.unit;
   return fail(value.position, quoted(schema_.name) + " must be " + range_text(schema_) + ", not " +
-                                  number_text(number) + unit);
+                                  number_text(number) + unit_after(schema_));
 }
 
 bool FieldMaker::make_numbers() {
@@ -145,7 +157,7 @@ bool FieldMaker::make_numbers() {
   if (!check_count(values_.size(), list ? schema_.min_count : 1, list ? schema_.max_count : 1,
                    "number"))
     return false;
-  if (schema_.unit == "?") field_.dimension = values_[0].quantity.dimension;
+  if (schema_.unit == "?" || schema_.other_unit) field_.dimension = values_[0].quantity.dimension;
   for (const Value& value : values_) {
     if (!check_number(value)) return false;
     if (schema_.unit == "?" && !fits(value.quantity.dimension, field_.dimension)) {
@@ -263,6 +275,7 @@ bool FieldMaker::make_words() {
                   quoted(schema_.name) + " takes words or strings, not " + describe_value(value));
     }
     field_.words.push_back(value.text);
+    field_.places.push_back(value.position);
   }
   return true;
 }
@@ -302,7 +315,7 @@ std::string number_text(double value) {
 }
 
 std::string range_text(const FieldSchema& field) {
-  const std::string unit = field.unit.empty() || field.unit == "?" ? "" : " " + field.unit;
+  const std::string unit = unit_after(field);
   const bool low = std::isfinite(field.minimum), high = std::isfinite(field.maximum);
   if (low && high && !field.exclusive_minimum && !field.exclusive_maximum) {
     return "from " + number_text(field.minimum) + " to " + number_text(field.maximum) + unit;

@@ -11,7 +11,8 @@ namespace hookpoint::language {
 
 struct FieldContext {
   const FieldSchema& schema;
-  const Dimension& dimension;  ///< of the schema's unit
+  const Dimension& dimension;        ///< of the schema's unit
+  const Dimension& other_dimension;  ///< of its other unit, if it has one
   const ExpressionEvaluator& evaluator;
   Report& report;
 };

@@ -2,6 +2,8 @@
 
 #include <fstream>
 
+#include "language/names.h"
+
 namespace hookpoint::language {
 namespace {
 
@@ -74,6 +76,22 @@ const ParsedFile& FileStore::override_text(const std::string& trail, const std::
     parse_override(*file);
   }
   return *file;
+}
+
+std::filesystem::path find_named(const FileStore& files, const ParsedFile& file, const Item& item,
+                                 Report& report) {
+  const Span span = file.syntax.details[item.detail].path;
+  const std::string& from = file.source.path;
+  const std::string path =
+      unquote(std::string_view(file.source.text).substr(span.offset, span.length));
+  std::filesystem::path found;
+  if (!path.empty()) found = files.find(path, from);
+  if (found.empty()) {
+    report.error(
+        {&file.source, span.offset, span.length},
+        "there is no file `" + path + "`; looked in " + join(files.searched(path, from), ", "));
+  }
+  return found;
 }
 
 const Item* find_param(const ParsedFile& file, std::string_view name) {

@@ -35,6 +35,11 @@ class FileStore {
   std::map<std::string, std::unique_ptr<ParsedFile>> files_, overrides_;
 };
 
+/// Where the file lies that an Include or a Plugin of `file` names. Empty, after an error in
+/// `report`, if nowhere.
+std::filesystem::path find_named(const FileStore& files, const ParsedFile& file, const Item& item,
+                                 Report& report);
+
 /// The declaration of a Param of the file, or null; the names of all of them.
 const Item* find_param(const ParsedFile& file, std::string_view name);
 std::vector<std::string> param_names(const ParsedFile& file);

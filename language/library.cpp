@@ -2,6 +2,7 @@
 #include "language/checker.h"
 #include "language/document.h"
 #include "language/files.h"
+#include "language/plugin_search.h"
 #include "language/prepared.h"
 
 namespace hookpoint::language {
@@ -42,6 +43,13 @@ std::unique_ptr<Object> Library::evaluate(const std::filesystem::path& file,
   checker.check(*root);
   report.deliver(diagnostics);
   return report.has_errors() ? nullptr : std::move(root);
+}
+
+bool Library::load_plugins(const std::filesystem::path& file, const PluginLoader& load,
+                           Diagnostics& diagnostics) {
+  PluginSearch search(implementation_->files, load);
+  search.visit(implementation_->files.load(file));
+  return search.deliver(diagnostics);
 }
 
 std::vector<ParameterDeclaration> Library::parameters(const std::filesystem::path& file,

@@ -45,6 +45,16 @@ const std::string& Object::word(std::string_view field) const {
   return value_of(*this, field).words.at(0);
 }
 
+bool Object::in_other_unit(const FieldSchema& field) const {
+  if (!field.other_unit) return false;
+  const Field* choice = find(field.other_unit->field);
+  return choice != nullptr && !choice->words.empty() && choice->words[0] == field.other_unit->word;
+}
+
+const std::string& Object::unit_of(const FieldSchema& field) const {
+  return in_other_unit(field) ? field.other_unit->unit : field.unit;
+}
+
 const Object* Object::object(std::string_view field) const {
   return value_of(*this, field).reference.object;
 }

@@ -31,6 +31,7 @@ struct Field {
   std::vector<double> numbers;     ///< number, integer, numbers (SI); orientation: w, x, y, z,
                                    ///< normalised; boolean: 0 or 1
   std::vector<std::string> words;  ///< text, choice, words
+  std::vector<Position> places;    ///< of each of several `words`
   Reference reference;             ///< object, port
   Dimension dimension;  ///< of `numbers` where the schema's unit is "?" (else the schema's)
   Position position;    ///< of the value
@@ -57,6 +58,8 @@ class Object {
       nullptr;  ///< of the fields that have one; the Library owns them
   std::vector<std::unique_ptr<Object>> children;
   std::vector<Wire> wires;
+  /// Of the root: the libraries that its files name, as absolute paths, each once.
+  std::vector<std::string> plugins;
 
   /// The field if it is given or has a default, else null.
   const Field* find(std::string_view field) const;
@@ -69,6 +72,10 @@ class Object {
   const std::string& word(std::string_view field) const;
   const Object* object(std::string_view field) const;
   bool boolean(std::string_view field) const;
+  /// Whether the field is in its other unit, since the choice that asks for it has been made.
+  bool in_other_unit(const FieldSchema& field) const;
+  /// The unit of one of the class's fields in this object.
+  const std::string& unit_of(const FieldSchema& field) const;
   /// Children whose type is `type` or, when it ends in '.', begins with it, in file order. What
   /// stands in a Group (a named Include) counts as standing in the Group's parent.
   std::vector<const Object*> children_of(std::string_view type) const;

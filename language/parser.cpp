@@ -57,9 +57,8 @@ bool Parser::at_word(std::string_view word, std::size_t ahead) const {
 }
 
 bool Parser::at_keyword(std::size_t ahead) const {
-  static constexpr std::string_view keywords[] = {"Wire", "Param", "Let", "Include", "For"};
   return at(TokenKind::identifier, ahead) &&
-         std::ranges::find(keywords, text(token(ahead))) != std::end(keywords);
+         std::ranges::find(reserved_words, text(token(ahead))) != std::end(reserved_words);
 }
 
 bool Parser::accept(TokenKind kind) {

@@ -35,6 +35,7 @@ class Parser {
   bool parse_param(Item& item);
   bool parse_let(Item& item);
   bool parse_include(Item& item);
+  bool parse_plugin(Item& item);
   bool parse_arguments(Detail& detail);
   bool parse_loop(Item& item);
   /// `{ items }`, or one item, or `;`.

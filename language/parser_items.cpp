@@ -1,4 +1,4 @@
-// Items: objects, assignments, wires, Param, Let, Include, For.
+// Items: objects, assignments, wires, Param, Let, Include, Plugin, For.
 #include "language/parser.h"
 
 namespace hookpoint::language {
@@ -12,7 +12,7 @@ void Parser::parse_items(std::vector<Item>& items) {
 
 bool Parser::parse_item(std::vector<Item>& items) {
   if (!at(TokenKind::identifier))
-    return fail_here("an object, a field, Wire, Param, Let, Include or For");
+    return fail_here("an object, a field, Wire, Param, Let, Include, Plugin or For");
   Item item;
   bool good = false;
   if (at(TokenKind::assign, 1) && !at_keyword()) {
@@ -25,6 +25,8 @@ bool Parser::parse_item(std::vector<Item>& items) {
     good = parse_let(item);
   } else if (at_word("Include")) {
     good = parse_include(item);
+  } else if (at_word("Plugin")) {
+    good = parse_plugin(item);
   } else if (at_word("For")) {
     good = parse_loop(item);
   } else {
@@ -155,6 +157,18 @@ bool Parser::parse_include(Item& item) {
   if (at(TokenKind::identifier) && !at_keyword() && !parse_name(item, detail)) return false;
   detail_of(item) = detail;
   return expect_semicolon("the Include");
+}
+
+bool Parser::parse_plugin(Item& item) {
+  item.kind = ItemKind::plugin;
+  item.place = span(token());
+  ++at_;
+  if (!at(TokenKind::text)) return fail_here("the path of a shared library in quotes");
+  Detail detail;
+  detail.path = span(token());
+  ++at_;
+  detail_of(item) = detail;
+  return expect_semicolon("the Plugin");
 }
 
 bool Parser::parse_arguments(Detail& detail) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <sstream>
 
-#include "language/field.h"
 #include "language/units.h"
 
 namespace hookpoint::language {
@@ -35,10 +34,37 @@ void PreparedSchema::prepare(const ClassSchema& schema) {
                           "` is not an SI unit of the language");
     }
     prepared->dimensions.push_back(unit ? unit->dimension : Dimension{});
+    prepared->other_dimensions.push_back(other_dimension(schema, field));
     prepared->has_required = prepared->has_required || field.required;
+    prepared->has_other_units = prepared->has_other_units || field.other_unit;
     if (!field.default_text.empty()) add_default(schema, field, *prepared);
   }
   classes_.emplace(&schema, std::move(prepared));
+}
+
+Dimension PreparedSchema::other_dimension(const ClassSchema& schema, const FieldSchema& field) {
+  if (!field.other_unit) return {};
+  const std::optional<Unit> unit = parse_unit(field.other_unit->unit);
+  const FieldSchema* choice = schema.find(field.other_unit->field);
+  const bool asked_for =
+      choice != nullptr && std::ranges::count(choice->choices, field.other_unit->word) > 0;
+  if (!unit || !asked_for || field.type != FieldType::number)
+    problems_.push_back(schema.name + "." + field.name + ": its other unit is not one");
+  return unit ? unit->dimension : Dimension{};
+}
+
+const Dimension& PreparedSchema::dimension(const Object& object, const FieldSchema& field) const {
+  const PreparedClass& prepared = of(*object.schema);
+  const auto index = static_cast<std::size_t>(&field - object.schema->fields.data());
+  return object.in_other_unit(field) ? prepared.other_dimensions[index]
+                                     : prepared.dimensions[index];
+}
+
+FieldContext PreparedSchema::context(const ClassSchema& schema, const FieldSchema& field,
+                                     const ExpressionEvaluator& evaluator, Report& report) const {
+  const PreparedClass& prepared = of(schema);
+  const auto index = static_cast<std::size_t>(&field - schema.fields.data());
+  return {field, prepared.dimensions[index], prepared.other_dimensions[index], evaluator, report};
 }
 
 void PreparedSchema::check_names(const ClassSchema& schema) {
@@ -83,8 +109,9 @@ void PreparedSchema::add_default(const ClassSchema& owner, const FieldSchema& fi
     Budget budget;
     const ExpressionEvaluator evaluator(*file, none, report, budget);
     const Range value = file->syntax.items[file->syntax.top.begin].value;
-    std::optional<Field> made =
-        make_field({field, prepared.dimensions.back(), evaluator, report}, value);
+    std::optional<Field> made = make_field(
+        {field, prepared.dimensions.back(), prepared.other_dimensions.back(), evaluator, report},
+        value);
     if (made && (field.type == FieldType::object || field.type == FieldType::port)) {
       report.error({}, "a reference cannot have a default");
     }

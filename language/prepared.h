@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "language/field.h"
 #include "language/object.h"
 #include "language/schema.h"
 #include "language/syntax.h"
@@ -16,8 +17,10 @@ namespace hookpoint::language {
 struct PreparedClass {
   const ClassSchema* schema = nullptr;
   std::vector<Dimension> dimensions;  ///< one for each field
+  std::vector<Dimension> other_dimensions;  ///< one for each field, of its other unit
   std::vector<Field> defaults;        ///< of the fields that have one, in the schema's order
   bool has_required = false;
+  bool has_other_units = false;
 };
 
 class PreparedSchema {
@@ -25,12 +28,18 @@ class PreparedSchema {
   explicit PreparedSchema(const Schema& schema);
   const Schema& schema() const { return schema_; }
   const PreparedClass& of(const ClassSchema& schema) const { return *classes_.at(&schema); }
+  /// Of a field of the object's class, in the object.
+  const Dimension& dimension(const Object& object, const FieldSchema& field) const;
+  /// What a value of a class's field is checked by.
+  FieldContext context(const ClassSchema& schema, const FieldSchema& field,
+                       const ExpressionEvaluator& evaluator, Report& report) const;
   const std::vector<std::string>& class_names() const { return class_names_; }
   /// See schema_problems().
   const std::vector<std::string>& problems() const { return problems_; }
 
  private:
   void prepare(const ClassSchema& schema);
+  Dimension other_dimension(const ClassSchema& schema, const FieldSchema& field);
   void check_names(const ClassSchema& schema);
   void add_default(const ClassSchema& owner, const FieldSchema& field, PreparedClass& prepared);
 

@@ -12,6 +12,7 @@ class Printer {
   explicit Printer(const Object& root) : root_(root) {}
 
   std::string run() {
+    for (const std::string& plugin : root_.plugins) text_ += "Plugin " + quote(plugin) + ";\n";
     for (const std::unique_ptr<Object>& child : root_.children) {
       if (!child->implicit) print(*child, 0);
     }

@@ -38,6 +38,14 @@ std::pair<std::string_view, std::optional<int>> split_element(std::string_view p
   return {part.substr(0, open), index};
 }
 
+std::string no_element(const Object& object, const FieldSchema& list, int element) {
+  std::string message = "`" + list.name + "` of " + called(object) + " has no element [" +
+                        std::to_string(element) + "]";
+  if (list.type == FieldType::numbers && list.max_count > 1)
+    message += "; its elements are [0] to [" + std::to_string(list.max_count - 1) + "]";
+  return message;
+}
+
 }  // namespace
 
 std::string_view part_letters(const FieldSchema& field) {
@@ -58,6 +66,13 @@ std::optional<Target> Names::resolve(const Object& from, std::string_view trail,
     if (!why.message.empty()) return std::nullopt;
     if (first != nullptr) return descend(*first, parts, 1, want_field, why);
     if (own) return own;
+  }
+  const auto [list, element] = split_element(parts[0]);
+  const FieldSchema* listed =
+      want_field && element && from.schema != nullptr ? from.schema->find(list) : nullptr;
+  if (listed != nullptr) {
+    why.message = no_element(from, *listed, *element);
+    return std::nullopt;
   }
   std::vector<std::string> names;
   for (const Object* scope = &from; scope != nullptr; scope = scope->parent) {
@@ -85,10 +100,7 @@ std::optional<Target> Names::descend(const Object& object,
   const FieldSchema* listed =
       want_field && element && object.schema != nullptr ? object.schema->find(list) : nullptr;
   if (listed != nullptr) {
-    why.message = "`" + listed->name + "` of " + called(object) + " has no element [" +
-                  std::to_string(*element) + "]";
-    if (listed->type == FieldType::numbers && listed->max_count > 1)
-      why.message += "; its elements are [0] to [" + std::to_string(listed->max_count - 1) + "]";
+    why.message = no_element(object, *listed, *element);
   } else if (whole != nullptr) {
     const std::string_view letters = part_letters(*whole);
     why.message = "`" + whole->name + "` of " + called(object) + " has no part `" +

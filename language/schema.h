@@ -25,6 +25,13 @@ enum class FieldType {
   words,        ///< one or more bare words or strings
 };
 
+/// Another unit of a field where another field of the object says so: metres instead of radians
+/// where `joint = prismatic`.
+struct OtherUnit {
+  std::string field, word;  ///< the choice and its word that ask for it: "joint", "prismatic"
+  std::string unit;         ///< SI unit as the language writes it
+};
+
 /// Which ends of a wire may be joined to the field.
 enum class Direction { none, input, output, both };
 
@@ -33,6 +40,7 @@ struct FieldSchema {
   FieldType type = FieldType::number;
   std::string unit;  ///< SI unit as the language writes it: "m/s", "N.m/rad"; "" is dimensionless;
                      ///< "?" any unit
+  std::optional<OtherUnit> other_unit;  ///< of a number
   std::string
       default_text;  ///< in the language's own syntax; "" when there is no default (see `required`)
   std::string doc;   ///< one line
@@ -54,6 +62,7 @@ enum class Naming { optional, required, forbidden };
 struct ClassSchema {
   std::string name;                 ///< "Terrain.Slope"
   std::string doc;                  ///< one line
+  std::string origin;               ///< the plugin's file; "" when it is the program's own
   std::vector<FieldSchema> fields;  ///< fields and ports, in the order of the manual
   std::vector<std::string>
       children;            ///< classes that may stand inside; "Shape." allows the whole family

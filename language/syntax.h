@@ -82,7 +82,16 @@ struct Trail {
   Span span;
 };
 
-enum class ItemKind : std::uint8_t { object, assignment, wire, param, let, include, for_loop };
+enum class ItemKind : std::uint8_t {
+  object,
+  assignment,
+  wire,
+  param,
+  let,
+  include,
+  plugin,
+  for_loop
+};
 
 struct Item {
   ItemKind kind = ItemKind::object;
@@ -106,7 +115,7 @@ struct Detail {
   bool has_from = false, has_to = false;
   Trail from, to;          ///< a wire's ends
   Expression first, last;  ///< a loop's range
-  Span path;               ///< an include's, with its quotes
+  Span path;               ///< an include's or a plugin's, with its quotes
   Range arguments;         ///< of Syntax::arguments
 };
 

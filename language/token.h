@@ -46,6 +46,10 @@ enum class TokenKind : std::uint8_t {
   end,
 };
 
+/// The words that begin an item and are no names.
+inline constexpr std::string_view reserved_words[] = {"Wire",    "Param",  "Let",
+                                                      "Include", "Plugin", "For"};
+
 struct Token {
   TokenKind kind = TokenKind::end;
   bool begins_line = false;  ///< the first of its line

@@ -41,6 +41,13 @@ bool kinds_agree(const FieldSchema& output, const FieldSchema& input) {
   return from == to || (from == 0 && to == 1 && (output.unit.empty() || output.unit == "?"));
 }
 
+/// What a port carries or takes, for a wire between two kinds.
+std::string kind_text(const FieldSchema& field) {
+  if (kind_of(field) == 1) return "true or false";
+  if (kind_of(field) == 2) return "no number";
+  return field.unit.empty() || field.unit == "?" ? "a number" : "a number in " + field.unit;
+}
+
 int values_of(const Target& target) {
   if (target.part >= 0) return 1;
   if (target.field->type == FieldType::orientation) return 4;
@@ -101,17 +108,15 @@ std::optional<Checker::End> Checker::check_end(const Object& object,
   }
   reference->object = target.object;
   reference->port = target.port;
-  const ClassSchema& schema = *target.object->schema;
-  return End{
-      target, place,
-      schema_.of(schema).dimensions[static_cast<std::size_t>(&field - schema.fields.data())]};
+  return End{target, place, schema_.dimension(*target.object, field)};
 }
 
 void Checker::check_agreement(const End& from, const End& to, const Wire& wire) {
   const FieldSchema &output = *from.target.field, &input = *to.target.field;
   const std::string a = "`" + from.target.port + "`", b = "`" + to.target.port + "`";
   if (!kinds_agree(output, input)) {
-    return report_.error(wire.position, a + " and " + b + " carry different kinds of values");
+    return report_.error(wire.position,
+                         a + " is " + kind_text(output) + ", " + b + " takes " + kind_text(input));
   }
   if (values_of(from.target) != values_of(to.target)) {
     return report_.error(wire.position,

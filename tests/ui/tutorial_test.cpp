@@ -1,0 +1,130 @@
+// docs/tutorial.md as a newcomer follows it: its files are written, its commands typed in, in the
+// order of the page, and what it says comes true.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "tests/support/command.h"
+
+namespace hookpoint {
+namespace {
+
+using testing::Workplace;
+namespace fs = std::filesystem;
+
+const fs::path source = HOOKPOINT_SOURCE_DIR;
+
+/// A fenced block: "```hook leg.hook" has the language `hook` and the name `leg.hook`.
+struct Block {
+  std::string language, name, text;
+};
+
+std::vector<Block> blocks_of(const std::string& page) {
+  std::vector<Block> blocks;
+  std::istringstream lines(page);
+  bool inside = false;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("```")) {
+      inside = !inside;
+      if (!inside) continue;
+      std::istringstream words(line.substr(3));
+      Block& block = blocks.emplace_back();
+      words >> block.language >> block.name;
+    } else if (inside) {
+      blocks.back().text += line + "\n";
+    }
+  }
+  return blocks;
+}
+
+/// The page as one script for a shell: a named block is a file of the folder reached by then.
+std::string script_of(const std::vector<Block>& blocks) {
+  std::string script = "set -euxo pipefail\nunset HOOKPOINT_TRUSTED_PLUGINS\n";
+  for (const Block& block : blocks) {
+    script += block.language == "sh"
+                  ? block.text
+                  : "cat >'" + block.name + "' <<'END OF BLOCK'\n" + block.text + "END OF BLOCK\n";
+  }
+  const std::string build = "build/release";
+  return script.replace(script.find(build), build.size(), "'" HOOKPOINT_BINARY_DIR "'");
+}
+
+/// Column `index` of a CSV file with a line of titles.
+std::vector<double> column(const std::string& text, std::size_t index) {
+  std::vector<double> values;
+  std::istringstream lines(text.substr(text.find('\n') + 1));
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream cells(line);
+    std::string cell;
+    for (std::size_t i = 0; i <= index; ++i) std::getline(cells, cell, ',');
+    values.push_back(std::stod(cell));
+  }
+  return values;
+}
+
+class Tutorial : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    place_ = new Workplace;
+    const std::vector<Block> blocks = blocks_of(place_->read(source / "docs/tutorial.md"));
+    for (const Block& block : blocks)
+      EXPECT_TRUE(block.language == "sh" || !block.name.empty()) << block.text;
+    place_->file("script", script_of(blocks));
+    const std::string folder = place_->folder().string();
+    status_ = std::system(("cd '" + source.string() + "' && HOME='" + folder + "' bash '" + folder +
+                           "/script' >'" + folder + "/log' 2>&1")
+                              .c_str());
+  }
+  static void TearDownTestSuite() { delete place_; }
+  void SetUp() override { ASSERT_EQ(status_, 0) << place_->read("log"); }
+
+  static Workplace* place_;
+  static int status_;
+};
+Workplace* Tutorial::place_ = nullptr;
+int Tutorial::status_ = -1;
+
+TEST_F(Tutorial, WithoutAControllerItSinksToTheGround) {
+  const std::vector<double> height = column(place_->read("two_legs/limp/trace.csv"), 1);
+  EXPECT_GT(height.front(), 0.35);
+  EXPECT_LT(height.back(), 0.15);
+}
+
+TEST_F(Tutorial, WithItItSquatsAsItSays) {
+  const std::string record = place_->read("two_legs/result/motion.csv");
+  EXPECT_EQ(record.substr(0, record.find('\n')),
+            "time [s],yard.biped.position.z [m],squat.bend [rad],yard.biped.leg[0].shank.angle "
+            "[rad],yard.biped.leg[0].foot.contact.force.z [N]");
+  const std::vector<double> time = column(record, 0), height = column(record, 1),
+                            bend = column(record, 2), knee = column(record, 3);
+  ASSERT_EQ(time.size(), 801U);
+  const auto [low, high] = std::ranges::minmax(height);
+  EXPECT_NEAR(high - low, 0.11, 0.005) << "the page says so";
+  for (std::size_t i = 100; i < time.size(); ++i)
+    EXPECT_NEAR(knee[i], 2. * bend[i], 0.05) << "at " << time[i] << " s";
+  EXPECT_NEAR(*std::ranges::max_element(bend), 50. * M_PI / 180., 1e-3);
+}
+
+TEST_F(Tutorial, ThePlotShowsTheCurves) {
+  const std::string plot = place_->read("two_legs/squat.svg");
+  EXPECT_NE(plot.find("</svg>"), std::string::npos);
+  for (const char* title : {"body", "knee, wanted", "height [m]", "time [s]"})
+    EXPECT_NE(plot.find(title), std::string::npos) << title;
+}
+
+TEST_F(Tutorial, TheControllerMayRunAtHalfTheRateButNotAtAQuarter) {
+  const auto times = [](const char* folder) {
+    return column(place_->read(std::string("two_legs/") + folder + "/motion.csv"), 0);
+  };
+  EXPECT_EQ(times("often").back(), 8.);
+  const std::vector<double> height = column(place_->read("two_legs/often/motion.csv"), 1);
+  EXPECT_NEAR(std::ranges::max(height) - std::ranges::min(height), 0.11, 0.005);
+  EXPECT_LT(times("seldom").back(), 0.1);
+  EXPECT_NE(place_->read("log").find("it was not often enough"), std::string::npos);
+  EXPECT_NE(place_->read("log").find("the run stopped at 0.0"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace hookpoint
