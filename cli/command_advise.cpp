@@ -1,0 +1,142 @@
+#include <fmt/format.h>
+
+#include <iostream>
+
+#include "cli/application.h"
+#include "cli/commands.h"
+#include "cli/exit_status.h"
+#include "output/json.h"
+#include "output/number.h"
+#include "simulation/advice.h"
+
+namespace hookpoint::cli {
+namespace {
+
+using simulation::Advice;
+using simulation::GroundAdvice;
+
+void print_ground(const GroundAdvice& ground) {
+  fmt::print(
+      "robot {} on {}: {:.4g} N and {:.4g} kg on each of {} points (a blow at one feels "
+      "{:.4g} kg, joints free)\n",
+      ground.robot, ground.material, ground.load, ground.mass, ground.points, ground.least_mass);
+  fmt::print("  {:<22} {:>12} {:>12}  {:<7} {}\n", "constant", "present", "advised", "unit",
+             "so that");
+  for (const simulation::ConstantAdvice& constant : ground.constants)
+    fmt::print("  {:<22} {:>12} {:>12}  {:<7} {}\n", constant.name,
+               output::rounded(constant.present), output::rounded(constant.advised), constant.unit,
+               constant.reason);
+  fmt::print(
+      "  a foot keeps its hook while the body bobs below {} m/s (advised constants: {} m/s)\n",
+      output::rounded(ground.survival_present, 3), output::rounded(ground.survival_advised, 3));
+}
+
+void print_text(const simulation::Experiment& experiment, const Advice& advice) {
+  fmt::print("world {}, law {}, {} with deltat {} s\n\n", experiment.world, experiment.contact,
+             experiment.integrator, output::rounded(experiment.deltat));
+  for (const GroundAdvice& ground : advice.grounds) print_ground(ground);
+  fmt::print("\nlargest stable step [s]  {:>12} {:>12}\n", "present", "advised");
+  for (const simulation::StepAdvice& step : advice.steps)
+    fmt::print("  {:<22} {:>12} {:>12}\n", step.integrator, output::rounded(step.present),
+               output::rounded(step.advised));
+  fmt::print("\nwhat to change:{}\n", advice.changes.empty() ? " nothing" : "");
+  for (const std::string& change : advice.changes) fmt::print("  - {}\n", change);
+}
+
+void write_ground(output::JsonWriter& json, const GroundAdvice& ground) {
+  json.begin_object().member("robot", ground.robot).member("material", ground.material);
+  json.member("points", static_cast<double>(ground.points)).member("load", ground.load);
+  json.member("mass", ground.mass).member("least_mass", ground.least_mass);
+  json.member("depth", ground.depth).member("wanted_depth", ground.wanted_depth);
+  json.key("rebound");
+  if (ground.rebound) {
+    json.value(*ground.rebound);
+  } else {
+    json.null();
+  }
+  json.member("wanted_rebound", ground.wanted_rebound);
+  json.member("survival_speed", ground.survival_present);
+  json.member("survival_speed_advised", ground.survival_advised);
+  json.key("constants").begin_object();
+  for (const simulation::ConstantAdvice& constant : ground.constants) {
+    json.key(constant.name).begin_object().member("unit", constant.unit);
+    json.member("present", constant.present).member("advised", constant.advised).end_object();
+  }
+  json.end_object().end_object();
+}
+
+void print_json(const simulation::Experiment& experiment, const Advice& advice) {
+  output::JsonWriter json;
+  json.begin_object().member("world", experiment.world).member("law", experiment.contact);
+  json.member("integrator", experiment.integrator).member("deltat", experiment.deltat);
+  json.key("grounds").begin_array();
+  for (const GroundAdvice& ground : advice.grounds) write_ground(json, ground);
+  json.end_array().key("largest_stable_step").begin_object();
+  for (const simulation::StepAdvice& step : advice.steps) {
+    json.key(step.integrator).begin_object().member("present", step.present);
+    json.member("advised", step.advised).end_object();
+  }
+  json.end_object().key("changes").begin_array();
+  for (const std::string& change : advice.changes) json.value(change);
+  json.end_array().end_object();
+  std::cout << json.text();
+}
+
+/// Where the file's first material stands: "world.rubber"; "" without one.
+std::string first_material(const language::Object& root) {
+  for (const language::Object* world : root.children_of("World")) {
+    for (const language::Object* material : world->children_of("Material"))
+      return world->name + "." + material->name;
+  }
+  for (const language::Object* material : root.children_of("Material")) return material->name;
+  return "";
+}
+
+/// A wish, read as the material's field would be: with its unit, range and messages.
+bool read_wish(Application& application, const AdviseArguments& arguments,
+               const std::string& material, const char* field,
+               double contact::MaterialConstants<double>::*member,
+               const std::optional<std::string>& text, std::optional<double>& wish) {
+  if (!text) return true;
+  std::vector<std::string> settings = arguments.settings;
+  settings.push_back(material + "." + field + "=" + *text);
+  const auto wished = application.load(arguments.file, settings);
+  if (!wished) return false;
+  const std::string name = material.substr(material.rfind('.') + 1);
+  for (const simulation::MaterialSpec& spec : wished->materials) {
+    if (spec.name == name) wish = spec.constants.*member;
+  }
+  return true;
+}
+
+}  // namespace
+
+int advise(const AdviseArguments& arguments) {
+  using Constants = contact::MaterialConstants<double>;
+  Application application(arguments.allow_plugins);
+  const auto root = application.evaluate(arguments.file, arguments.settings);
+  if (!root) return wrong_input;
+  const auto experiment = application.load(*root);
+  if (!experiment) return wrong_input;
+  const std::string material = first_material(*root);
+  simulation::AdviceWishes wishes;
+  if (!read_wish(application, arguments, material, "nominal_penetration",
+                 &Constants::nominal_penetration, arguments.penetration, wishes.penetration) ||
+      !read_wish(application, arguments, material, "restitution", &Constants::restitution,
+                 arguments.rebound, wishes.rebound))
+    return wrong_input;
+  try {
+    const Advice advice = simulation::advise(*experiment, wishes);
+    if (arguments.json) {
+      print_json(*experiment, advice);
+    } else {
+      print_text(*experiment, advice);
+    }
+    return fine;
+  } catch (const simulation::ExperimentError& error) {
+    print_error(error.what());
+    return wrong_input;
+  }
+}
+
+}  // namespace hookpoint::cli

@@ -1,0 +1,182 @@
+#include "simulation/advice.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "dts/impulse_response.h"
+#include "integrators/stability_bound.h"
+#include "integrators/stepper.h"
+#include "simulation/advice_changes.h"
+#include "simulation/advice_constants.h"
+#include "simulation/dts_robot.h"
+#include "simulation/engine.h"
+#include "simulation/ground.h"
+#include "simulation/stability.h"
+
+namespace hookpoint::simulation {
+namespace {
+
+/// How far above its lowest point a robot that does not touch is taken to stand [m].
+constexpr double standing_reach = 1e-3;
+
+void check_applicable(const Experiment& experiment) {
+  if (experiment.engine != "dts")
+    throw ExperimentError("advice is for the laws of engine dts, not for `" + experiment.engine +
+                          "`: give --set " + experiment.world + ".engine=dts");
+  if (!contact::find_force_law(experiment.contact))
+    throw ExperimentError("the law `" + experiment.contact +
+                          "` has no stiffness and no damping: there is nothing to advise on");
+  if (!experiment.terrain)
+    throw ExperimentError("the World has no terrain: there is no contact to advise on");
+}
+
+double mass_of(const RobotSpec& robot) {
+  double mass = robot.mobile ? robot.base.mass.mass : 0.;
+  for (const ChainSpec& chain : robot.chains) {
+    for (const LinkSpec& link : chain.links) mass += link.body.mass.mass;
+  }
+  return mass;
+}
+
+std::vector<const ContactPoint*> carrying_points(const DtsRobot& robot) {
+  double deepest = -HUGE_VAL;
+  for (const ContactPoint& point : robot.contact_points()) deepest = std::max(deepest, point.depth);
+  const double least = deepest > 0. ? 0. : deepest - standing_reach;
+  std::vector<const ContactPoint*> carrying;
+  for (const ContactPoint& point : robot.contact_points()) {
+    if (point.depth > least) carrying.push_back(&point);
+  }
+  return carrying;
+}
+
+/// 1/(n . K n), K the collision matrix: what a blow along the normal feels.
+double effective_mass(DtsRobot& robot, const ContactPoint& point) {
+  const Matrix3d K =
+      dts::collision_matrix(robot.model(), robot.workspace(), {point.body, point.position});
+  return 1. / dot(point.normal, K * point.normal);
+}
+
+/// Sets `field` to `value` among the advised constants.
+void advise_constant(GroundAdvice& ground, const contact::MaterialConstants<double>& present,
+                     const MaterialField& field, double value, std::string reason) {
+  ground.advised.*field.member = value;
+  ground.constants.push_back(
+      {field.name, field.unit, present.*field.member, value, std::move(reason)});
+}
+
+void advise_constants(GroundAdvice& ground, const contact::ForceLaw& law,
+                      const contact::MaterialConstants<double>& present, double speed) {
+  using Constants = contact::MaterialConstants<double>;
+  ground.advised = present;
+  const auto stiffness = stiffness_field(law, ground.load, present);
+  if (!stiffness) return;
+  if (stiffness->member == &Constants::nominal_stiffness)
+    ground.advised.nominal_penetration = ground.wanted_depth;
+  advise_constant(
+      ground, present, *stiffness,
+      stiffness_for_depth(law, *stiffness, ground.load, ground.wanted_depth, ground.advised),
+      fmt::format("{:.4g} N rest {:.3g} mm deep", ground.load, 1e3 * ground.wanted_depth));
+  const auto damping = damping_field(law, ground.mass, speed, present);
+  if (damping) {
+    advise_constant(ground, present, *damping,
+                    damping_for_rebound(law, *damping, ground.mass, speed, ground.wanted_rebound,
+                                        ground.advised),
+                    fmt::format("{:.4g} kg rebound with {:.3g} of the speed", ground.mass,
+                                ground.wanted_rebound));
+  }
+  for (const MaterialField& field : material_fields()) {
+    if (field.member == &Constants::tangential_stiffness)
+      advise_constant(ground, present, field, ground.load / ground.wanted_depth,
+                      "a hook gives as much along the ground as the point sinks");
+    if (field.member == &Constants::tangential_damping && damping &&
+        damping->member == &Constants::normal_damping)
+      advise_constant(ground, present, field, ground.advised.normal_damping, "as along the normal");
+  }
+}
+
+/// One a material under the robot's carrying points.
+std::vector<GroundAdvice> advise_robot(const Experiment& experiment, int index,
+                                       const contact::Terrain& terrain,
+                                       const AdviceWishes& wishes) {
+  const WorldInputs inputs = initial_inputs(experiment);
+  DtsRobot robot(experiment, index, &terrain, inputs);
+  dts::articulated_inertias(robot.model(), robot.workspace());
+  const std::vector<const ContactPoint*> carrying = carrying_points(robot);
+  const contact::ForceLaw law = *contact::find_force_law(experiment.contact);
+  const double gravity = norm(experiment.gravity);
+  const double mass = mass_of(experiment.robots[index]);
+
+  std::map<int, GroundAdvice> by_material;
+  for (const ContactPoint* point : carrying) {
+    GroundAdvice& ground = by_material[point->material];
+    const double effective = effective_mass(robot, *point);
+    ground.least_mass = ground.points == 0 ? effective : std::min(ground.least_mass, effective);
+    ++ground.points;
+  }
+  std::vector<GroundAdvice> grounds;
+  for (auto& [material, ground] : by_material) {
+    const MaterialSpec& spec = experiment.materials[material];
+    ground.robot = experiment.robots[index].name;
+    ground.material = spec.name;
+    ground.mass = mass / static_cast<double>(carrying.size());
+    ground.load = ground.mass * gravity;
+    ground.depth = contact::static_depth(law, ground.load, spec.constants);
+    ground.rebound = contact::restitution(law, ground.mass, wishes.impact_speed, spec.constants);
+    ground.wanted_depth = wishes.penetration.value_or(spec.constants.nominal_penetration);
+    ground.wanted_rebound = wishes.rebound.value_or(spec.constants.restitution);
+    advise_constants(ground, law, spec.constants, wishes.impact_speed);
+    ground.survival_present =
+        contact::hook_survival_speed(gravity, ground.mass, ground.load / ground.depth);
+    ground.survival_advised =
+        contact::hook_survival_speed(gravity, ground.mass, ground.load / ground.wanted_depth);
+    grounds.push_back(std::move(ground));
+  }
+  return grounds;
+}
+
+/// The experiment on the advised ground. Of two robots on one material the stiffer advice counts.
+Experiment advised_experiment(const Experiment& experiment,
+                              const std::vector<GroundAdvice>& grounds) {
+  Experiment advised = experiment;
+  for (MaterialSpec& material : advised.materials) {
+    const GroundAdvice* stiffest = nullptr;
+    for (const GroundAdvice& ground : grounds) {
+      if (ground.material == material.name &&
+          (stiffest == nullptr ||
+           ground.advised.normal_stiffness > stiffest->advised.normal_stiffness))
+        stiffest = &ground;
+    }
+    if (stiffest != nullptr) material.constants = stiffest->advised;
+  }
+  return advised;
+}
+
+double bound_under(Experiment experiment, std::string_view integrator) {
+  experiment.integrator = integrator;
+  return stability_bound(experiment).step;
+}
+
+}  // namespace
+
+Advice advise(const Experiment& experiment, const AdviceWishes& wishes) {
+  check_applicable(experiment);
+  const auto terrain = make_ground(experiment);
+  Advice advice;
+  for (std::size_t i = 0; i < experiment.robots.size(); ++i) {
+    for (GroundAdvice& ground : advise_robot(experiment, static_cast<int>(i), *terrain, wishes))
+      advice.grounds.push_back(std::move(ground));
+  }
+  const Experiment advised = advised_experiment(experiment, advice.grounds);
+  for (const integrators::StepperDescription& stepper : integrators::stepper_table()) {
+    if (!integrators::largest_stable_step(stepper.name, {1., 1., 1.})) continue;
+    advice.steps.push_back({std::string(stepper.name), bound_under(experiment, stepper.name),
+                            bound_under(advised, stepper.name)});
+  }
+  advice.changes = advise_changes(experiment, advice);
+  return advice;
+}
+
+}  // namespace hookpoint::simulation

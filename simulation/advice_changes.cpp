@@ -1,0 +1,146 @@
+#include "simulation/advice_changes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "simulation/stability.h"
+
+namespace hookpoint::simulation {
+namespace {
+
+using Constants = contact::MaterialConstants<double>;
+
+/// A depth or a rebound nearer to the wish than this is left alone.
+constexpr double depth_tolerance = 0.2;
+constexpr double rebound_tolerance = 0.1;
+/// A constant that limits the step is lowered until the bound is this much above it.
+constexpr double step_margin = 1.25;
+
+using Member = double Constants::*;
+
+struct Culprit {
+  const char* name;
+  std::vector<Member> members;
+};
+
+/// What may limit the step, from what costs least to lower; together what no single one helps.
+std::vector<Culprit> culprits() {
+  return {
+      {"tangential_damping", {&Constants::tangential_damping}},
+      {"normal_damping", {&Constants::normal_damping, &Constants::hysteresis_damping}},
+      {"tangential_stiffness", {&Constants::tangential_stiffness}},
+      {"normal_stiffness", {&Constants::normal_stiffness, &Constants::nominal_stiffness}},
+      {"tangential_damping and normal_damping",
+       {&Constants::tangential_damping, &Constants::normal_damping,
+        &Constants::hysteresis_damping}},
+      {"all stiffness and damping",
+       {&Constants::tangential_damping, &Constants::normal_damping, &Constants::hysteresis_damping,
+        &Constants::tangential_stiffness, &Constants::normal_stiffness,
+        &Constants::nominal_stiffness}},
+  };
+}
+
+/// The bound with the culprit's constants `factor` times as large in all materials.
+double bound_with(const Experiment& experiment, const Culprit& culprit, double factor) {
+  Experiment changed = experiment;
+  for (MaterialSpec& material : changed.materials) {
+    for (const Member member : culprit.members) material.constants.*member *= factor;
+  }
+  return stability_bound(changed).step;
+}
+
+/// The largest factor below 1 with which the step is stable; none when even a ten-thousandth is not
+/// enough.
+std::optional<double> factor_for_step(const Experiment& experiment, const Culprit& culprit) {
+  const double wanted = step_margin * experiment.deltat;
+  double low = 1e-4, high = 1.;
+  if (bound_with(experiment, culprit, low) < wanted) return std::nullopt;
+  for (int i = 0; i < 30; ++i) {
+    const double middle = std::sqrt(low * high);
+    (bound_with(experiment, culprit, middle) < wanted ? high : low) = middle;
+  }
+  return low;
+}
+
+std::string another_integrator(const Experiment& experiment, const Advice& advice) {
+  for (const StepAdvice& step : advice.steps) {
+    if (step.integrator != experiment.integrator && step.present > experiment.deltat)
+      return fmt::format(", or integrator = {} (stable up to {:.3g} s)", step.integrator,
+                         step.present);
+  }
+  return "";
+}
+
+void advise_step(const Experiment& experiment, const Advice& advice,
+                 std::vector<std::string>& changes) {
+  const double bound = stability_bound(experiment).step;
+  if (!std::isfinite(bound) || experiment.deltat <= bound) return;
+  std::string smaller = bound > 0. ? fmt::format("deltat = {:.3g} s", bound / step_margin)
+                                   : std::string("some damping");
+  for (const Culprit& culprit : culprits()) {
+    const auto factor = factor_for_step(experiment, culprit);
+    if (!factor) continue;
+    changes.push_back(fmt::format(
+        "deltat {:.4g} s is above the largest stable step {:.4g} s of {}: multiply {} by {:.2g}, "
+        "or {}{}",
+        experiment.deltat, bound, experiment.integrator, culprit.name, *factor, smaller,
+        another_integrator(experiment, advice)));
+    return;
+  }
+  changes.push_back(fmt::format(
+      "deltat {:.4g} s is above the largest stable step {:.4g} s of {}, and no softer ground "
+      "helps: {}{}",
+      experiment.deltat, bound, experiment.integrator, smaller,
+      another_integrator(experiment, advice)));
+}
+
+const ConstantAdvice* constant(const GroundAdvice& ground, std::string_view part) {
+  const auto found = std::ranges::find_if(ground.constants, [&](const ConstantAdvice& advised) {
+    return advised.name.find(part) != std::string::npos;
+  });
+  return found == ground.constants.end() ? nullptr : &*found;
+}
+
+void advise_ground(const GroundAdvice& ground, std::vector<std::string>& changes) {
+  const ConstantAdvice* stiffness = constant(ground, "stiffness");
+  if (stiffness != nullptr && std::abs(ground.depth / ground.wanted_depth - 1.) > depth_tolerance)
+    changes.push_back(
+        fmt::format("{} sinks {:.3g} mm into {}, {:.3g} mm are allowed: set {} = {:.4g} {}",
+                    ground.robot, 1e3 * ground.depth, ground.material, 1e3 * ground.wanted_depth,
+                    stiffness->name, stiffness->advised, stiffness->unit));
+  const ConstantAdvice* damping = constant(ground, "normal_damping");
+  if (damping == nullptr) damping = constant(ground, "hysteresis_damping");
+  if (damping != nullptr && ground.rebound &&
+      std::abs(*ground.rebound - ground.wanted_rebound) > rebound_tolerance)
+    changes.push_back(
+        fmt::format("{} rebounds from {} with {:.2g} of its speed, {:.2g} is wanted: set {} = "
+                    "{:.4g} {} (with the advised stiffness)",
+                    ground.robot, ground.material, *ground.rebound, ground.wanted_rebound,
+                    damping->name, damping->advised, damping->unit));
+}
+
+void advise_for_advised(const Experiment& experiment, const Advice& advice,
+                        std::vector<std::string>& changes) {
+  for (const StepAdvice& step : advice.steps) {
+    if (step.integrator != experiment.integrator || step.advised >= experiment.deltat) continue;
+    changes.push_back(fmt::format(
+        "with all advised constants {} needs deltat below {:.3g} s (it is {:.3g} s); allow more "
+        "penetration or more rebound to keep the step",
+        step.integrator, step.advised, experiment.deltat));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> advise_changes(const Experiment& experiment, const Advice& advice) {
+  std::vector<std::string> changes;
+  advise_step(experiment, advice, changes);
+  for (const GroundAdvice& ground : advice.grounds) advise_ground(ground, changes);
+  advise_for_advised(experiment, advice, changes);
+  return changes;
+}
+
+}  // namespace hookpoint::simulation
