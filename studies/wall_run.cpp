@@ -1,0 +1,203 @@
+// Running a Wall, and its files.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <thread>
+
+#include "contact/force_law.h"
+#include "output/csv.h"
+#include "output/file.h"
+#include "output/number.h"
+#include "simulation/expectation.h"
+#include "simulation/world.h"
+#include "studies/wall.h"
+
+namespace hookpoint::studies {
+namespace {
+
+using simulation::ExpectationResult;
+using simulation::ExpectationSpec;
+
+struct RunOutcome {
+  std::string status = "ok";
+  std::vector<ExpectationResult> results;
+};
+
+/// Nothing when `stop` was set meanwhile.
+std::optional<RunOutcome> run_scene(const RowPlan& row, const EngineTable& engines,
+                                    const std::atomic<bool>& stop) {
+  RunOutcome outcome;
+  const auto engine = engines.find(row.experiment.engine);
+  if (engine == engines.end() || !engine->second.description.found) {
+    outcome.status =
+        fmt::format("skipped: engine {} is not on this machine", row.experiment.engine);
+    return outcome;
+  }
+  try {
+    simulation::World world(row.experiment, engine->second.make(row.experiment));
+    simulation::Expectations expectations(row.experiment, world.ports());
+    const std::int64_t steps = std::llround(row.experiment.duration / row.experiment.deltat);
+    expectations.observe(0.);
+    for (std::int64_t step = 0; step < steps && world.ended().empty(); ++step) {
+      if (stop.load(std::memory_order_relaxed)) return std::nullopt;
+      const simulation::StepStatus status = world.step();
+      if (!status.ok()) {
+        outcome.status = fmt::format("stopped at {:.6g} s: {}", status.time, status.advice);
+        break;
+      }
+      expectations.observe(world.state().time);
+    }
+    outcome.results = expectations.results();
+  } catch (const simulation::ExperimentError& error) {
+    outcome.status = fmt::format("cannot run: {}", error.what());
+  }
+  return outcome;
+}
+
+/// The longest scenes first, so that the last thread to finish is not far behind.
+std::vector<std::size_t> by_length(const std::vector<RowPlan>& rows) {
+  std::vector<std::size_t> order(rows.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  const auto steps = [&](std::size_t i) {
+    return rows[i].experiment.duration / rows[i].experiment.deltat;
+  };
+  std::ranges::stable_sort(order,
+                           [&](std::size_t a, std::size_t b) { return steps(a) > steps(b); });
+  return order;
+}
+
+/// Every run's outcome in its own slot; false when stopped.
+bool run_all(const WallPlan& plan, const EngineTable& engines, const RunOptions& options,
+             const std::atomic<bool>& stop, std::vector<RunOutcome>& outcomes) {
+  const std::vector<std::size_t> order = by_length(plan.study.rows);
+  std::atomic<std::size_t> next{0};
+  std::mutex mutex;
+  Progress progress;
+  progress.total = order.size();
+  const auto work = [&] {
+    for (std::size_t i = next++; i < order.size(); i = next++) {
+      auto outcome = run_scene(plan.study.rows[order[i]], engines, stop);
+      if (!outcome) return;
+      outcomes[order[i]] = std::move(*outcome);
+      const std::lock_guard lock(mutex);
+      ++progress.done;
+      if (options.progress) options.progress(progress);
+    }
+  };
+  {
+    std::vector<std::jthread> workers;
+    for (int i = 1; i < options.jobs; ++i) workers.emplace_back(work);
+    work();
+  }
+  return !stop;
+}
+
+std::string allowed_difference(const ExpectationSpec& spec) {
+  std::string text;
+  if (spec.tolerance > 0.) text = output::rounded(100. * spec.tolerance) + " %";
+  if (spec.within > 0.)
+    text += (text.empty() ? "" : " or ") + output::rounded(spec.within) +
+            (spec.unit.empty() ? "" : " " + spec.unit);
+  return text;
+}
+
+/// The line of that truth among those of its scene, made when it is new.
+WallLine& line_of(WallResult& result, std::size_t scene, const ExpectationSpec& spec) {
+  for (WallLine& line : result.lines) {
+    if (line.scene == scene && line.name == spec.name) return line;
+  }
+  WallLine line{scene,
+                spec.name,
+                spec.formula,
+                spec.source,
+                spec.unit,
+                allowed_difference(spec),
+                spec.tolerance > 0. && spec.expected != 0.,
+                {}};
+  line.cells.resize(result.subjects.size());
+  result.lines.push_back(std::move(line));
+  return result.lines.back();
+}
+
+void add_outcome(WallResult& result, const RowPlan& row, const RunOutcome& outcome) {
+  const auto scene = static_cast<std::size_t>(row.values[0]);
+  for (const ExpectationSpec& spec : row.experiment.expectations) {
+    if (!spec.covers(row.experiment.contact, row.experiment.integrator)) continue;
+    WallCell& cell = line_of(result, scene, spec).cells[static_cast<std::size_t>(row.subject)];
+    cell.expected = spec.expected;
+    cell.status = outcome.status;
+    cell.law = row.experiment.terrain ? row.experiment.contact : "";
+    cell.integrator =
+        contact::find_force_law(row.experiment.contact) ? row.experiment.integrator : "";
+    const auto found = std::ranges::find_if(outcome.results, [&](const ExpectationResult& each) {
+      return each.spec->name == spec.name;
+    });
+    if (outcome.status != "ok" || found == outcome.results.end()) continue;
+    cell.measured = found->measured;
+    cell.error = found->error();
+    cell.ok = found->ok();
+  }
+}
+
+bool skipped(const WallCell& cell) { return cell.status.starts_with("skipped"); }
+
+int count_cells(const WallResult& result, bool ok) {
+  int count = 0;
+  for (const WallLine& line : result.lines)
+    count += static_cast<int>(std::ranges::count_if(line.cells, [&](const WallCell& cell) {
+      return !cell.status.empty() && !skipped(cell) && cell.ok == ok;
+    }));
+  return count;
+}
+
+output::CsvTable results_table(const WallResult& result) {
+  output::CsvTable table;
+  table.header = {"scene",    "truth", "subject", "engine",  "law", "integrator", "measured",
+                  "expected", "unit",  "error",   "allowed", "ok",  "status"};
+  const auto number = [](const std::optional<double>& value) {
+    return value ? output::shortest(*value) : std::string();
+  };
+  for (const WallLine& line : result.lines) {
+    for (std::size_t i = 0; i < line.cells.size(); ++i) {
+      const WallCell& cell = line.cells[i];
+      if (cell.status.empty()) continue;
+      const SubjectInfo& subject = result.subjects[i];
+      table.rows.push_back({result.scenes[line.scene].name, line.name, subject.name, subject.engine,
+                            cell.law, cell.integrator, number(cell.measured), number(cell.expected),
+                            line.unit, number(cell.error), line.allowed,
+                            skipped(cell) ? ""
+                            : cell.ok     ? "true"
+                                          : "false",
+                            cell.status});
+    }
+  }
+  return table;
+}
+
+}  // namespace
+
+int WallResult::passed() const { return count_cells(*this, true); }
+int WallResult::failed() const { return count_cells(*this, false); }
+
+std::optional<WallResult> run_wall(const WallPlan& plan, const EngineTable& engines,
+                                   const RunOptions& options, const std::atomic<bool>& stop) {
+  std::vector<RunOutcome> outcomes(plan.study.rows.size());
+  if (!run_all(plan, engines, options, stop, outcomes)) return std::nullopt;
+  WallResult result{
+      plan.study.name, plan.study.title, plan.study.question, plan.study.file, plan.scenes, {}, {}};
+  for (const SubjectPlan& subject : plan.study.subjects) result.subjects.push_back(subject.info);
+  for (std::size_t i = 0; i < outcomes.size(); ++i)
+    add_outcome(result, plan.study.rows[i], outcomes[i]);
+  return result;
+}
+
+void write_wall_files(const std::filesystem::path& folder, const WallPlan& plan,
+                      const WallResult& result, const Provenance& provenance) {
+  output::write_csv(folder / "results.csv", results_table(result));
+  output::write_file(folder / "experiment.hook", plan.study.printed);
+  output::write_file(folder / "provenance.json", provenance_json(provenance));
+}
+
+}  // namespace hookpoint::studies

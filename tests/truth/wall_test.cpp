@@ -1,0 +1,67 @@
+// The Wall of scenes with a known truth, as a user runs it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "tests/support/command.h"
+
+namespace hookpoint {
+namespace {
+
+using testing::config;
+using testing::Workplace;
+
+// The laws that cost least; the whole Wall is `hookpoint study configs/studies/truths.hook`.
+TEST(Wall, EverySceneShowsItsTruth) {
+  const Workplace work;
+  const auto result =
+      work.hookpoint("study " + config("studies/truths.hook") +
+                     " --quick --only hookpoint --only nominal --only impulse --out here");
+  EXPECT_EQ(result.status, 0) << result.out << result.err;
+  const std::string rows = work.read("here/results.csv");
+  for (const char* scene : {"rolling_sphere", "slide_to_roll", "pendulum", "spinning_disc"})
+    EXPECT_NE(rows.find(scene), std::string::npos) << scene;
+  EXPECT_GT(std::ranges::count(rows, '\n'), 80) << "truths and subjects";
+}
+
+const std::string small_wall =
+    "Wall small {\n"
+    "  Subject hookpoint { engine = dts; contact = hookpoint; }\n"
+    "  Subject lugre { engine = dts; contact = lugre; Fix dt { value = 0.1 ms; } }\n"
+    "  Scene stopping_point {}\n"
+    "  Scene slide_to_roll {}\n"
+    "  Scene pendulum {}\n"
+    "}\n";
+
+TEST(Wall, HasTheSameBytesForAnyNumberOfThreads) {
+  const Workplace work;
+  work.file("small.hook", small_wall);
+  const auto one = work.hookpoint("study small.hook --jobs 1 --out one");
+  const auto two = work.hookpoint("study small.hook --jobs 2 --out two");
+  EXPECT_EQ(one.status, 0) << one.err;
+  EXPECT_EQ(two.status, 0) << two.err;
+  const std::string rows = work.read("one/results.csv");
+  EXPECT_FALSE(rows.empty());
+  EXPECT_EQ(rows, work.read("two/results.csv"));
+}
+
+TEST(Wall, FailsWhereATruthDoes) {
+  const Workplace work;
+  work.file("drop.hook",
+            "Param dt = 1 ms;\n"
+            "World w { gravity = 9.81; deltat = dt; duration = 1 s; integrator = rk4;\n"
+            "  Robot b { Base.mobile { mass = 1; Shape.Box dimensions = 1, 1, 1; } } }\n"
+            "Expect right { of = w.b.velocity.z; equals = -9.81 m/s; tolerance = 0.001 %; }\n"
+            "Expect wrong { of = w.b.velocity.z; equals = -9.9 m/s; tolerance = 0.1 %; }\n");
+  work.file("wall.hook",
+            "Wall one { Subject ours { engine = dts; } Scene drop { file = \"drop.hook\"; } }\n");
+  const auto result = work.hookpoint("study wall.hook --out here");
+  EXPECT_EQ(result.status, 1) << result.err;
+  EXPECT_NE(result.out.find("drop.wrong under ours"), std::string::npos) << result.out;
+  EXPECT_EQ(result.out.find("drop.right under ours"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("1 of 2 verdicts hold"), std::string::npos) << result.out;
+}
+
+}  // namespace
+}  // namespace hookpoint

@@ -1,0 +1,144 @@
+// What an Expect makes of a port, and what it says to a wrong one.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "simulation/expectation.h"
+#include "tests/support/load_text.h"
+
+namespace hookpoint {
+namespace {
+
+using simulation::ExpectationSpec;
+using simulation::Reducer;
+using simulation::Reduction;
+
+ExpectationSpec take(Reduction reduction, double from = 0., std::optional<double> to = {},
+                     double level = 0.) {
+  ExpectationSpec spec;
+  spec.take = reduction;
+  spec.from = from;
+  spec.to = to;
+  spec.level = level;
+  return spec;
+}
+
+/// 3, 1, 4, 1, 5 at 0, 1, 2, 3, 4 s.
+std::optional<double> of_pi(const ExpectationSpec& spec) {
+  Reducer reducer(spec);
+  double time = 0.;
+  for (const double value : {3., 1., 4., 1., 5.}) reducer.observe(time++, value);
+  return reducer.value();
+}
+
+TEST(Reducer, TakesEachNumberOfASeries) {
+  EXPECT_EQ(of_pi(take(Reduction::final)), 5.);
+  EXPECT_EQ(of_pi(take(Reduction::maximum)), 5.);
+  EXPECT_EQ(of_pi(take(Reduction::minimum)), 1.);
+  EXPECT_EQ(of_pi(take(Reduction::range)), 4.);
+  EXPECT_EQ(of_pi(take(Reduction::change)), 2.);
+  EXPECT_NEAR(*of_pi(take(Reduction::mean)), 14. / 5., 1e-15);
+  EXPECT_NEAR(*of_pi(take(Reduction::rms)), std::sqrt(52. / 5.), 1e-15);
+  // sum (t - 2)(y - 2.8)/sum (t - 2)^2 = (-2*3 - 1*1 + 0 + 1*1 + 2*5)/10
+  EXPECT_NEAR(*of_pi(take(Reduction::slope)), 0.4, 1e-15);
+}
+
+TEST(Reducer, SeesOnlyItsWindowEndsIncluded) {
+  EXPECT_EQ(of_pi(take(Reduction::maximum, 1., 3.)), 4.);
+  EXPECT_EQ(of_pi(take(Reduction::final, 1., 3.)), 1.);
+  EXPECT_EQ(of_pi(take(Reduction::change, 2., 4.)), 1.);
+  EXPECT_NEAR(*of_pi(take(Reduction::mean, 1., 3.)), 2., 1e-15);
+  EXPECT_EQ(of_pi(take(Reduction::final, 5.)), std::nullopt);
+  EXPECT_EQ(of_pi(take(Reduction::slope, 4.)), std::nullopt) << "one value has no slope";
+}
+
+TEST(Reducer, FindsTheFirstCrossingOnAStraightLine) {
+  EXPECT_NEAR(*of_pi(take(Reduction::time_at, 0., {}, 2.)), 0.5, 1e-15);
+  EXPECT_NEAR(*of_pi(take(Reduction::time_at, 1., {}, 2.)), 1. + 1. / 3., 1e-15);
+  EXPECT_EQ(of_pi(take(Reduction::time_at, 0., {}, 4.)), 2.) << "met at a step";
+  EXPECT_EQ(of_pi(take(Reduction::time_at, 0., {}, 3.)), 0.) << "met at the start";
+  EXPECT_EQ(of_pi(take(Reduction::time_at, 0., {}, 6.)), std::nullopt) << "never met";
+  EXPECT_EQ(of_pi(take(Reduction::time_at, 0., 3., 4.5)), std::nullopt) << "met after the window";
+}
+
+// Sums of squares of such times and values would leave nothing of the rise.
+TEST(Reducer, KeepsTheSlopeOfASmallRiseFarFromZero) {
+  Reducer slope(take(Reduction::slope));
+  for (int k = 0; k < 1000; ++k) {
+    const double t = 1e7 + 1e-3 * k;
+    slope.observe(t, 1e6 + 1e-3 * (t - 1e7));
+  }
+  EXPECT_NEAR(*slope.value(), 1e-3, 1e-8);
+}
+
+TEST(ExpectationResult, HoldsWithinEitherBound) {
+  ExpectationSpec spec;
+  spec.expected = 10.;
+  spec.tolerance = 0.01;
+  EXPECT_TRUE((simulation::ExpectationResult{&spec, 10.099}.ok()));
+  EXPECT_FALSE((simulation::ExpectationResult{&spec, 10.101}.ok()));
+  EXPECT_FALSE((simulation::ExpectationResult{&spec, {}}.ok())) << "nothing was measured";
+  EXPECT_FALSE((simulation::ExpectationResult{&spec, std::nan("")}.ok()));
+  EXPECT_NEAR(*(simulation::ExpectationResult{&spec, 9.95}.error()), 0.005, 1e-15);
+  spec.within = 0.2;
+  EXPECT_TRUE((simulation::ExpectationResult{&spec, 10.15}.ok()));
+}
+
+TEST(Expect, CoversTheLawsThatItNames) {
+  ExpectationSpec spec;
+  EXPECT_TRUE(spec.covers("lugre", "rk4"));
+  spec.laws = {"hookpoint", "nominal"};
+  spec.integrators = {"rk4"};
+  EXPECT_TRUE(spec.covers("nominal", "rk4"));
+  EXPECT_FALSE(spec.covers("lugre", "rk4"));
+  EXPECT_FALSE(spec.covers("nominal", "cvode"));
+  spec.laws = {};
+  spec.except_laws = {"lugre"};
+  EXPECT_FALSE(spec.covers("lugre", "rk4"));
+}
+
+struct Wrong {
+  const char* name;
+  const char* fields;  ///< of the Expect, on line 2
+  const char* message;
+};
+
+class WrongExpect : public ::testing::TestWithParam<Wrong> {};
+
+TEST_P(WrongExpect, IsToldWhatIsWrong) {
+  const Loaded loaded = load_text(
+      "World w { gravity = 0; Robot b { Base.mobile { mass = 1; Shape.Box dimensions = 1, 1, 1; } "
+      "} }\nExpect e { " +
+      std::string(GetParam().fields) + " }\n");
+  EXPECT_FALSE(loaded.experiment);
+  EXPECT_EQ(loaded.diagnostics, GetParam().message);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, WrongExpect,
+    ::testing::Values(
+        Wrong{"unit", "of = w.b.position.x; equals = 2 s; within = 1 m;",
+              "error 2:42 `equals` is to be in m, not in s\n"},
+        Wrong{"unit_of_a_slope", "of = w.b.position.x; take = slope; equals = 2 m; within = 1 m/s;",
+              "error 2:56 `equals` is to be in m/s, not in m\n"},
+        Wrong{"unit_of_within", "of = w.b.position.x; equals = 2 m; within = 1 s;",
+              "error 2:56 `within` is to be in m, not in s\n"},
+        Wrong{"law", "of = w.b.position.x; equals = 2 m; within = 1 m; laws = hookpiont;",
+              "error 2:68 there is no `hookpiont` among the laws; did you mean `hookpoint`?\n"},
+        Wrong{"integrator", "of = w.b.position.x; equals = 2 m; within = 1 m; integrators = rk5;",
+              "error 2:75 there is no `rk5` among the integrators; did you mean `rk4`?\n"},
+        Wrong{"level", "of = w.b.position.x; take = time_at; equals = 2 s; within = 1 s;",
+              "error 2:40 `time_at` needs the `level` whose first crossing is meant\n"},
+        Wrong{"tolerance", "of = w.b.position.x; equals = 2 m;",
+              "error 2:1 no difference is allowed: give a `tolerance` (relative) or `within`\n"},
+        Wrong{"window", "of = w.b.position.x; equals = 2 m; within = 1 m; from = 2 s; to = 1 s;",
+              "error 2:78 `to` must be later than `from`\n"},
+        Wrong{"port", "of = w.b.positoin.x; equals = 2 m; within = 1 m;",
+              "error 2:17 `w.b.positoin.x`: `b` (Robot) has no object or port `positoin`; did you "
+              "mean `position`?\n"}),
+    [](const auto& wrong) { return wrong.param.name; });
+
+}  // namespace
+}  // namespace hookpoint
