@@ -2,10 +2,10 @@
 
 #include <unistd.h>
 
-#include <cstdlib>
 #include <iostream>
-#include <sstream>
 
+#include "cli/installation.h"
+#include "control/plugin.h"
 #include "reference/engines.h"
 #include "simulation/dts_engine.h"
 #include "simulation/load.h"
@@ -16,16 +16,27 @@
 namespace hookpoint::cli {
 namespace {
 
-/// The project's configs/, then the folders of HOOKPOINT_PATH.
-std::vector<std::filesystem::path> search_path() {
-  std::vector<std::filesystem::path> folders{HOOKPOINT_CONFIGS};
-  if (const char* more = std::getenv("HOOKPOINT_PATH")) {
-    std::stringstream list(more);
-    for (std::string folder; std::getline(list, folder, ':');) {
-      if (!folder.empty()) folders.emplace_back(folder);
-    }
-  }
+/// The project's configs/, the installation's plugins, then the folders of HOOKPOINT_PATH.
+std::vector<std::filesystem::path> search_path(const Installation& installation) {
+  std::vector<std::filesystem::path> folders{installation.configs};
+  if (!installation.plugins.empty()) folders.push_back(installation.plugins);
+  const auto more = folders_of("HOOKPOINT_PATH");
+  folders.insert(folders.end(), more.begin(), more.end());
   return folders;
+}
+
+std::vector<std::filesystem::path> trusted_folders(const Installation& installation) {
+  auto folders = folders_of("HOOKPOINT_TRUSTED_PLUGINS");
+  if (!installation.plugins.empty()) folders.push_back(installation.plugins);
+  return folders;
+}
+
+language::Schema make_schema() {
+  language::Schema schema;
+  simulation::add_experiment_classes(schema);
+  view::add_display_classes(schema);
+  studies::add_study_classes(schema);
+  return schema;
 }
 
 /// Sticking contacts of ODE's exact solver yield by CFM times their friction; its iterative solver
@@ -42,11 +53,13 @@ language::Override override_from(const std::string& setting) {
 
 }  // namespace
 
-Application::Application() : search_path_(search_path()) {
-  simulation::add_experiment_classes(schema_);
-  view::add_display_classes(schema_);
-  studies::add_study_classes(schema_);
-  library_ = std::make_unique<language::Library>(schema_, search_path_);
+Application::Vocabulary::Vocabulary(const std::vector<std::filesystem::path>& search_path)
+    : schema(make_schema()), library(schema, search_path) {}
+
+Application::Application(bool allow_plugins)
+    : trust_(allow_plugins, trusted_folders(find_installation())),
+      search_path_(search_path(find_installation())) {
+  vocabularies_.push_back(std::make_unique<Vocabulary>(search_path_));
   engines_["dts"] = {simulation::describe_dts(), simulation::make_dts, nullptr};
   for (const reference::Peer& peer : reference::peers()) {
     engines_[std::string(peer.name)] = {peer.describe(), peer.make,
@@ -62,12 +75,45 @@ std::unique_ptr<simulation::Engine> Application::make_engine(
                                     "`; `hookpoint engines` lists those it has");
 }
 
+std::string Application::load_library(const std::filesystem::path& library) const {
+  std::string problem = trust_.problem(library);
+  if (!problem.empty()) return problem;
+  return control::load_plugin(library, [this](const control::ComponentClass& type) {
+    return simulation::component_class_problem(schema(), type);
+  });
+}
+
+void Application::take_new_classes() {
+  for (const auto& [name, type] : control::Registry::instance().classes()) {
+    if (schema().find(name) != nullptr) continue;
+    vocabularies_.push_back(std::make_unique<Vocabulary>(search_path_));
+    return;
+  }
+}
+
+bool Application::load_plugins(const std::filesystem::path& file) {
+  language::Diagnostics diagnostics;
+  const bool loaded = library().load_plugins(
+      file, [this](const std::filesystem::path& found) { return load_library(found); },
+      diagnostics);
+  print_diagnostics(diagnostics);
+  take_new_classes();
+  return loaded;
+}
+
+std::string Application::load_plugin(const std::filesystem::path& library) {
+  std::string problem = load_library(library);
+  take_new_classes();
+  return problem;
+}
+
 std::unique_ptr<language::Object> Application::evaluate(const std::filesystem::path& file,
                                                         const std::vector<std::string>& settings) {
+  if (!load_plugins(file)) return nullptr;
   language::EvaluateOptions options;
   for (const std::string& setting : settings) options.overrides.push_back(override_from(setting));
   language::Diagnostics diagnostics;
-  auto root = library_->evaluate(file, options, diagnostics);
+  auto root = library().evaluate(file, options, diagnostics);
   print_diagnostics(diagnostics);
   return root;
 }

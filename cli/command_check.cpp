@@ -23,8 +23,8 @@ std::optional<std::string> read_text(const std::filesystem::path& file) {
 
 }  // namespace
 
-int check(const std::vector<std::filesystem::path>& files) {
-  Application application;
+int check(const std::vector<std::filesystem::path>& files, bool allow_plugins) {
+  Application application(allow_plugins);
   int status = fine;
   for (const std::filesystem::path& file : files) {
     const auto root = application.evaluate(file, {});
@@ -65,32 +65,13 @@ int format(const std::vector<std::filesystem::path>& files, bool check_only) {
   return status;
 }
 
-int print(const std::filesystem::path& file, const std::vector<std::string>& settings) {
-  Application application;
+int print(const std::filesystem::path& file, const std::vector<std::string>& settings,
+          bool allow_plugins) {
+  Application application(allow_plugins);
   const auto root = application.evaluate(file, settings);
   if (!root) return wrong_input;
   std::cout << language::print(*root);
   return fine;
-}
-
-int describe(const std::optional<std::string>& type, bool markdown) {
-  Application application;
-  if (!type) {
-    std::cout << (markdown ? language::describe_markdown(application.schema())
-                           : language::describe_all(application.schema()));
-    return fine;
-  }
-  if (const language::ClassSchema* schema = application.schema().find(*type)) {
-    std::cout << language::describe(*schema);
-    return fine;
-  }
-  std::vector<std::string> names;
-  for (const auto& [name, schema] : application.schema().classes()) names.push_back(name);
-  const std::string nearest = language::nearest_name(*type, names);
-  print_error("there is no class `" + *type + "`" +
-              (nearest.empty() ? "; `hookpoint describe` lists them all"
-                               : "; did you mean `" + nearest + "`?"));
-  return wrong_input;
 }
 
 }  // namespace hookpoint::cli

@@ -4,11 +4,11 @@
 
 namespace hookpoint::cli {
 
-std::optional<bool> holds_study(const std::filesystem::path& file) {
-  Application application;
+std::optional<bool> holds_study(const std::filesystem::path& file, bool allow_plugins) {
+  Application application(allow_plugins);
   const auto root = application.evaluate(file, {});
   if (!root) return std::nullopt;
-  return !root->children_of("Study").empty();
+  return !root->children_of("Study").empty() || !root->children_of("Wall").empty();
 }
 
 }  // namespace hookpoint::cli

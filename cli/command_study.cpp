@@ -9,6 +9,7 @@
 #include "cli/application.h"
 #include "cli/commands.h"
 #include "cli/exit_status.h"
+#include "cli/walls.h"
 #include "output/progress.h"
 #include "reference/engines.h"
 #include "studies/plan.h"
@@ -16,6 +17,7 @@
 #include "studies/run.h"
 #include "studies/terminal_table.h"
 #include "studies/verdict.h"
+#include "studies/wall.h"
 
 namespace hookpoint::cli {
 namespace {
@@ -47,6 +49,7 @@ std::string rerun_command(const StudyArguments& arguments) {
   std::string command = "hookpoint study " + arguments.file.string();
   if (arguments.quick) command += " --quick";
   for (const std::string& subject : arguments.only) command += " --only " + subject;
+  if (arguments.allow_plugins) command += " --allow-plugins";
   return command;
 }
 
@@ -92,6 +95,7 @@ int run_one(Application& application, const StudyPlan& plan, const StudyArgument
   const StudyRun run =
       studies::run_study(plan, application.engines(), options, studies::InterruptGuard::stop());
   bar.reset();
+  for (const std::string& notice : run.notices) std::cerr << "hookpoint: note: " << notice << '\n';
   if (run.interrupted) {
     print_error("interrupted; what is finished is kept in " + run.folder.string() + ": `" +
                 rerun_command(arguments) + " --resume` goes on from there");
@@ -108,17 +112,40 @@ int run_one(Application& application, const StudyPlan& plan, const StudyArgument
   return report.messages.empty() ? fine : missing;
 }
 
+std::vector<std::string> scene_files(const language::Object& root) {
+  std::vector<std::string> files;
+  for (const language::Object* study : root.children_of("Study"))
+    files.push_back(study->word("scene"));
+  for (const language::Object* wall : root.children_of("Wall")) {
+    for (const language::Object* scene : wall->children_of("Scene"))
+      files.push_back(studies::scene_file(*scene));
+  }
+  return files;
+}
+
+/// A scene may name plugins that the study does not. False after errors, which are printed.
+bool load_scene_plugins(Application& application, const language::Object& root,
+                        const std::filesystem::path& file) {
+  for (const std::string& scene : scene_files(root)) {
+    const std::filesystem::path found = application.library().find(scene, file);
+    if (!found.empty() && !application.load_plugins(found)) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 int study(const StudyArguments& arguments) {
-  Application application;
+  Application application(arguments.allow_plugins);
   const auto root = application.evaluate(arguments.file, {});
   if (!root) return wrong_input;
   const auto studies = root->children_of("Study");
-  if (studies.empty()) {
-    print_error(arguments.file.string() + " holds no Study; `hookpoint run` runs a world");
+  if (studies.empty() && root->children_of("Wall").empty()) {
+    print_error(arguments.file.string() +
+                " holds no Study and no Wall; `hookpoint run` runs a world");
     return wrong_input;
   }
+  if (!load_scene_plugins(application, *root, arguments.file)) return wrong_input;
   std::vector<StudyPlan> plans;
   for (const language::Object* object : studies) {
     language::Diagnostics diagnostics;
@@ -132,7 +159,7 @@ int study(const StudyArguments& arguments) {
   int status = fine;
   for (const StudyPlan& plan : plans)
     status = std::max(status, run_one(application, plan, arguments, plans.size()));
-  return status;
+  return std::max(status, run_walls(application, *root, arguments, rerun_command(arguments)));
 }
 
 }  // namespace hookpoint::cli

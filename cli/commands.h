@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "simulation/experiment.h"
+
 namespace hookpoint::cli {
 
 struct RunArguments {
@@ -15,8 +17,29 @@ struct RunArguments {
   std::optional<std::string> duration;  ///< "10 s"
   std::optional<std::filesystem::path> out;
   std::vector<std::string> record;  ///< trails
+  std::optional<std::filesystem::path> movie;   ///< --movie; empty: movie.h5 in the run's folder
+  std::optional<std::filesystem::path> resume;  ///< a movie to go on from, instead of `file`
+  std::optional<std::string> at;                ///< moment of it; none: its last
+  bool allow_plugins = false;       ///< of any folder; here and below: see Application
 };
 int run(const RunArguments& arguments);
+/// run --resume: goes on from a moment of a movie.
+int resume(const RunArguments& arguments);
+/// What --movie adds to the experiment. Throws ExperimentError.
+void add_movie(const RunArguments& arguments, simulation::Experiment& experiment);
+
+struct ReplayArguments {
+  std::filesystem::path movie;
+  std::optional<std::string> at;    ///< "2.5 s"; none: what the movie is
+  std::vector<std::string> record;  ///< trails; none: all
+  bool json = false;
+  bool allow_plugins = false;
+};
+/// replay: every port at a moment of a movie.
+int replay(const ReplayArguments& arguments);
+
+/// recover: the record that a killed run left as a spool.
+int recover(const std::filesystem::path& spool);
 
 struct StudyArguments {
   std::filesystem::path file;
@@ -25,27 +48,46 @@ struct StudyArguments {
   bool quick = false;
   bool resume = false;
   std::vector<std::string> only;  ///< subjects
+  bool allow_plugins = false;
 };
 int study(const StudyArguments& arguments);
 
 /// check: every file's diagnostics.
-int check(const std::vector<std::filesystem::path>& files);
+int check(const std::vector<std::filesystem::path>& files, bool allow_plugins);
 /// fmt: rewrites each file in canonical layout; with `check_only` says which would change.
 int format(const std::vector<std::filesystem::path>& files, bool check_only);
 /// print: the experiment after includes, loops and expressions.
-int print(const std::filesystem::path& file, const std::vector<std::string>& settings);
-/// describe: one class, or the list of all; `markdown` writes the manual's reference page.
-int describe(const std::optional<std::string>& type, bool markdown);
+int print(const std::filesystem::path& file, const std::vector<std::string>& settings,
+          bool allow_plugins);
+struct DescribeArguments {
+  std::optional<std::string> type;             ///< a class; none: the list of all
+  bool markdown = false;                       ///< the manual's reference page
+  bool textmate = false;                       ///< the grammar for editors
+  std::vector<std::filesystem::path> plugins;  ///< whose classes count too
+  bool allow_plugins = false;
+};
+int describe(const DescribeArguments& arguments);
 
 /// dynamics: what the forces do at the file's initial state.
-int dynamics(const std::filesystem::path& file, const std::vector<std::string>& settings,
-             bool json);
+int dynamics(const std::filesystem::path& file, const std::vector<std::string>& settings, bool json,
+             bool allow_plugins);
+
+struct AdviseArguments {
+  std::filesystem::path file;
+  std::vector<std::string> settings;
+  std::optional<std::string> penetration;  ///< at rest, "1 mm"
+  std::optional<std::string> rebound;      ///< speed after over before, "0.2"
+  bool json = false;
+  bool allow_plugins = false;
+};
+/// advise: the ground's constants from what the user wants of it.
+int advise(const AdviseArguments& arguments);
 
 /// engines: every engine, law and integrator.
 int engines(bool json);
 
 /// What FILE.hook without a command means: true when it holds a Study, false for a world; none when
 /// it has errors, which are printed.
-std::optional<bool> holds_study(const std::filesystem::path& file);
+std::optional<bool> holds_study(const std::filesystem::path& file, bool allow_plugins);
 
 }  // namespace hookpoint::cli

@@ -22,11 +22,13 @@ constexpr const char* about =
 struct Request {
   RunArguments run;
   StudyArguments study;
+  ReplayArguments replay;
+  AdviseArguments advise;
   std::vector<std::filesystem::path> files;
   std::filesystem::path file;
   std::vector<std::string> settings;
-  std::optional<std::string> type;
-  bool json = false, check_only = false, markdown = false;
+  DescribeArguments describe;
+  bool json = false, check_only = false, allow_plugins = false;
   std::function<int()> command;
 };
 
@@ -50,11 +52,54 @@ void add_settings(CLI::App* command, std::vector<std::string>& settings) {
       });
 }
 
+constexpr const char* allow_plugins = "--allow-plugins";
+
+void add_plugins(CLI::App* command, bool& allowed) {
+  command->add_flag(allow_plugins, allowed,
+                    "run the code of any plugin that the file names, not only of those in "
+                    "HOOKPOINT_TRUSTED_PLUGINS");
+}
+
+void add_movies(CLI::App* run_app, RunArguments& arguments) {
+  run_app
+      ->add_option("--movie", arguments.movie,
+                   "log the whole state of each step (default: DIR/movie.h5)")
+      ->type_name("[FILE.h5]")
+      ->expected(0, 1);
+  run_app
+      ->add_option("--resume", arguments.resume,
+                   "go on from a moment of this movie, for as long as --for says")
+      ->type_name("MOVIE");
+  run_app->add_option("--at", arguments.at, "which moment: \"2.5 s\" (default: the movie's last)")
+      ->type_name("TIME");
+}
+
+void add_movie_tools(CLI::App& app, Request& request) {
+  CLI::App* replay_app =
+      add_command(app, request, "replay", "a run again as its movie has it",
+                  [&] { return replay(request.replay); });
+  replay_app->add_option("MOVIE", request.replay.movie, "an .h5 file of run --movie")->required();
+  replay_app
+      ->add_option("--at", request.replay.at,
+                   "print the ports at this moment: \"2.5 s\" (default: what the movie is)")
+      ->type_name("TIME");
+  replay_app->add_option("--record", request.replay.record, "only these trails, joined by commas")
+      ->type_name("TRAIL,...")
+      ->delimiter(',');
+  replay_app->add_flag("--json", request.replay.json, "as JSON, 17 significant digits");
+  add_plugins(replay_app, request.replay.allow_plugins);
+  add_command(app, request, "recover", "the MATLAB record of a run that was killed",
+              [&] { return recover(request.file); })
+      ->add_option("FILE", request.file, "NAME.mat.spool")
+      ->required();
+}
+
 void add_run_and_study(CLI::App& app, Request& request) {
   CLI::App* run_app =
       add_command(app, request, "run", "run a world", [&] { return run(request.run); });
-  run_app->add_option("FILE", request.run.file, "a .hook file with a World")->required();
+  run_app->add_option("FILE", request.run.file, "a .hook file with a World, unless --resume");
   add_settings(run_app, request.run.settings);
+  add_plugins(run_app, request.run.allow_plugins);
   run_app
       ->add_option("--for", request.run.duration,
                    "how long: \"10 s\" (default: the World's duration)")
@@ -68,10 +113,12 @@ void add_run_and_study(CLI::App& app, Request& request) {
                    "trails to write to DIR/trace.csv, joined by commas")
       ->type_name("TRAIL,...")
       ->delimiter(',');
+  add_movies(run_app, request.run);
 
   CLI::App* study_app = add_command(app, request, "study", "run the studies of a file",
                                     [&] { return study(request.study); });
   study_app->add_option("FILE", request.study.file, "a .hook file with a Study")->required();
+  add_plugins(study_app, request.study.allow_plugins);
   study_app
       ->add_option("--out", request.study.out, "folder of the results (default: runs/STUDY-HASH)")
       ->type_name("DIR");
@@ -95,34 +142,63 @@ void add_run_and_study(CLI::App& app, Request& request) {
 }
 
 void add_language_tools(CLI::App& app, Request& request) {
-  add_command(app, request, "check", "report what is wrong in files",
-              [&] { return check(request.files); })
-      ->add_option("FILE", request.files, ".hook files")
-      ->required();
+  CLI::App* check_app = add_command(app, request, "check", "report what is wrong in files",
+                                    [&] { return check(request.files, request.allow_plugins); });
+  check_app->add_option("FILE", request.files, ".hook files")->required();
+  add_plugins(check_app, request.allow_plugins);
   CLI::App* fmt = add_command(app, request, "fmt", "rewrite files in canonical layout",
                               [&] { return format(request.files, request.check_only); });
   fmt->add_option("FILE", request.files, ".hook files")->required();
   fmt->add_flag("--check", request.check_only, "only say which would change (exit status 1)");
   CLI::App* print_app =
       add_command(app, request, "print", "the experiment after includes, loops and expressions",
-                  [&] { return print(request.file, request.settings); });
+                  [&] { return print(request.file, request.settings, request.allow_plugins); });
   print_app->add_option("FILE", request.file, "a .hook file")->required();
   add_settings(print_app, request.settings);
+  add_plugins(print_app, request.allow_plugins);
   CLI::App* describe_app = add_command(app, request, "describe", "what a class of the language has",
-                                       [&] { return describe(request.type, request.markdown); });
-  describe_app->add_option("TYPE", request.type,
+                                       [&] { return describe(request.describe); });
+  describe_app->add_option("TYPE", request.describe.type,
                            "a class, e.g. Base.mobile; without it all are listed");
-  describe_app->add_flag("--markdown", request.markdown,
+  describe_app->add_flag("--markdown", request.describe.markdown,
                          "every class as the manual's reference page");
+  describe_app->add_flag("--textmate", request.describe.textmate,
+                         "the words of the language as a TextMate grammar, for editors");
+  describe_app->add_option("--plugin", request.describe.plugins, "with the classes of this plugin")
+      ->type_name("LIBRARY")
+      ->expected(1)
+      ->take_all();
+  add_plugins(describe_app, request.describe.allow_plugins);
+}
+
+void add_advise(CLI::App& app, Request& request) {
+  CLI::App* advise_app = add_command(
+      app, request, "advise", "the ground's constants from weight, penetration and rebound",
+      [&] { return advise(request.advise); });
+  advise_app->add_option("FILE", request.advise.file, "a .hook file with a World")->required();
+  add_settings(advise_app, request.advise.settings);
+  advise_app
+      ->add_option("--penetration", request.advise.penetration,
+                   "allowed at rest: \"1 mm\" (default: the material's nominal_penetration)")
+      ->type_name("DEPTH");
+  advise_app
+      ->add_option("--rebound", request.advise.rebound,
+                   "wanted, of the speed: 0.2 (default: the material's restitution)")
+      ->type_name("RATIO");
+  advise_app->add_flag("--json", request.advise.json, "as JSON, 17 significant digits");
+  add_plugins(advise_app, request.advise.allow_plugins);
 }
 
 void add_inspection(CLI::App& app, Request& request) {
   CLI::App* dynamics_app = add_command(
       app, request, "dynamics", "forces and accelerations at the initial state; no time passes",
-      [&] { return dynamics(request.file, request.settings, request.json); });
+      [&] {
+        return dynamics(request.file, request.settings, request.json, request.allow_plugins);
+      });
   dynamics_app->add_option("FILE", request.file, "a .hook file with a World")->required();
   dynamics_app->add_flag("--json", request.json, "as JSON, 17 significant digits");
   add_settings(dynamics_app, request.settings);
+  add_plugins(dynamics_app, request.allow_plugins);
   add_command(app, request, "engines", "every engine, contact law and integrator", [&] {
     return engines(request.json);
   })->add_flag("--json", request.json, "as JSON");
@@ -143,7 +219,8 @@ std::vector<std::string> with_command(const CLI::App& app, std::vector<std::stri
   const std::vector<std::string> names = command_names(app);
   if (std::find(names.begin(), names.end(), words[0]) != names.end()) return words;
   if (std::filesystem::path(words[0]).extension() == ".hook") {
-    const std::optional<bool> study = holds_study(words[0]);
+    const bool allowed = std::find(words.begin(), words.end(), allow_plugins) != words.end();
+    const std::optional<bool> study = holds_study(words[0], allowed);
     if (!study) return {};
     words.insert(words.begin(), *study ? "study" : "run");
     return words;
@@ -161,8 +238,10 @@ int main_with(int count, char** words) {
   app.set_version_flag("--version", HOOKPOINT_VERSION);
   Request request;
   add_run_and_study(app, request);
+  add_movie_tools(app, request);
   add_language_tools(app, request);
   add_inspection(app, request);
+  add_advise(app, request);
   std::vector<std::string> wanted = with_command(app, {words + 1, words + count});
   if (wanted.empty() && count > 1) return wrong_input;
   std::reverse(wanted.begin(), wanted.end());  // CLI11 takes the words last first

@@ -90,7 +90,8 @@ struct Pack {
   }
   [[gnu::always_inline]] friend LaneMask operator>(const Pack& a, const Pack& b) { return b < a; }
   [[gnu::always_inline]] friend LaneMask operator>=(const Pack& a, const Pack& b) { return b <= a; }
-  [[gnu::always_inline]] friend LaneMask operator==(const Pack& a, const Pack& b) {
+  // Nominally constexpr: clang 14 asks it of what a defaulted constexpr comparison calls.
+  [[gnu::always_inline]] friend constexpr LaneMask operator==(const Pack& a, const Pack& b) {
     return LaneMask(a.lanes == b.lanes);
   }
 

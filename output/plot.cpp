@@ -73,25 +73,29 @@ std::string plot_data(const Plot& plot) {
 }
 
 PlotOutcome draw(const Plot& plot, const std::filesystem::path& folder) {
-  write_file(folder / (plot.name + ".csv"), plot_data(plot));
-  write_file(folder / (plot.name + ".gp"), plot_script(plot));
-  const std::filesystem::path svg = folder / (plot.name + ".svg");
+  return draw_files(plot.name, plot_data(plot), plot_script(plot), folder);
+}
+
+PlotOutcome draw_files(const std::string& name, const std::string& data, const std::string& script,
+                       const std::filesystem::path& folder) {
+  write_file(folder / (name + ".csv"), data);
+  write_file(folder / (name + ".gp"), script);
+  const std::filesystem::path svg = folder / (name + ".svg");
   std::error_code ignored;
   std::filesystem::remove(svg, ignored);  // an older drawing must not pass for this one
-  const CommandResult run =
-      run_shell("cd " + shell_word(folder.string()) + " && LC_ALL=C gnuplot " +
-                shell_word(plot.name + ".gp") + " 2>&1");
+  const CommandResult run = run_shell("cd " + shell_word(folder.string()) +
+                                      " && LC_ALL=C gnuplot " + shell_word(name + ".gp") + " 2>&1");
   constexpr int command_not_found = 127;
   if (run.status == command_not_found)
     return {.drawn = false,
-            .message = "gnuplot is not installed (Debian: gnuplot-nox), so " + plot.name +
+            .message = "gnuplot is not installed (Debian: gnuplot-nox), so " + name +
                        ".svg was not drawn; its data and script are in " + folder.string(),
             .svg = ""};
   if (run.status != 0) {
     std::filesystem::remove(svg, ignored);
     return {.drawn = false,
-            .message = "gnuplot could not draw " + (folder / (plot.name + ".gp")).string() + ": " +
-                       run.output,
+            .message =
+                "gnuplot could not draw " + (folder / (name + ".gp")).string() + ": " + run.output,
             .svg = ""};
   }
   return {.drawn = true, .message = "", .svg = read_file(svg)};

@@ -10,6 +10,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace hookpoint::output {
@@ -65,8 +66,18 @@ struct PlotOutcome {
   std::string svg;      ///< the drawing's text
 };
 
-/// Writes `<folder>/<name>.csv` and `.gp`, and the `.svg` if gnuplot can be run. Throws FileError.
+/// Writes `<folder>/<name>.csv` and `.gp`, and the `.svg` that the script draws if gnuplot can be
+/// run. Throws FileError.
+PlotOutcome draw_files(const std::string& name, const std::string& data, const std::string& script,
+                       const std::filesystem::path& folder);
 PlotOutcome draw(const Plot& plot, const std::filesystem::path& folder);
+
+/// gnuplot's single-quoted string.
+std::string gnuplot_quoted(std::string_view text);
+/// Text in which gnuplot's markup characters stand for themselves, and "m/s^2" as a reader writes
+/// it.
+std::string gnuplot_escaped(std::string_view text);
+std::string typeset(std::string text);
 
 /// An .svg of `draw` made fit to stand inside an HTML page: no prologue, no background, ids
 /// prefixed by `prefix`, and black turned into the page's own text colour, so that it follows a

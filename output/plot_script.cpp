@@ -21,31 +21,6 @@ constexpr double letter = 7.5;      // mean width of a letter at 12 px, for the 
 constexpr const char* note_color = "#777777";
 constexpr std::size_t dense = 60;  // more points than this make a line with few markers
 
-/// gnuplot's single-quoted string.
-std::string in_quotes(std::string_view text) {
-  std::string result = "'";
-  for (const char c : text) result.append(c == '\'' ? 2 : 1, c);
-  return result + "'";
-}
-
-/// Text in which gnuplot's markup characters stand for themselves.
-std::string escaped(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    if (std::string_view("_^{}@&~\\").find(c) != std::string_view::npos) result += '\\';
-    result += c;
-  }
-  return result;
-}
-
-/// "m/s^2" as a reader writes it.
-std::string typeset(std::string text) {
-  for (const auto& [plain, set] : {std::pair{"^2", "²"}, std::pair{"^3", "³"}})
-    for (auto at = text.find(plain); at != std::string::npos; at = text.find(plain, at))
-      text.replace(at, 2, set);
-  return text;
-}
-
 std::string axis_title(const Axis& axis) { return typeset(column_title(axis.label, axis.unit)); }
 
 /// Rows of one curve in the data file.
@@ -134,19 +109,19 @@ class Script {
          << ".gp\n"
          << "set encoding utf8\n"
          << "set terminal svg size " << width << "," << height_
-         << " enhanced font 'Helvetica,13' background '#ffffff' name " << in_quotes(plot_.name)
+         << " enhanced font 'Helvetica,13' background '#ffffff' name " << gnuplot_quoted(plot_.name)
          << "\n"
-         << "set output " << in_quotes(plot_.name + ".svg") << "\n"
+         << "set output " << gnuplot_quoted(plot_.name + ".svg") << "\n"
          << "set datafile separator ','\n"
          << "set lmargin at screen " << rounded(left_margin / width, 5) << "\n"
          << "set rmargin at screen " << rounded(right_, 5) << "\n"
          << "set tmargin at screen " << rounded(top_, 5) << "\n"
          << "set bmargin at screen " << rounded(bottom_margin / height_, 5) << "\n"
-         << "set label " << in_quotes("{/:Bold " + escaped(typeset(plot_.title)) + "}")
+         << "set label " << gnuplot_quoted("{/:Bold " + gnuplot_escaped(typeset(plot_.title)) + "}")
          << " at screen " << rounded(left_margin / width, 5) << ", screen "
          << rounded(1. - 22. / height_, 5) << " left font 'Helvetica,15'\n";
     if (!plot_.subtitle.empty())
-      out_ << "set label " << in_quotes(typeset(plot_.subtitle)) << " at screen "
+      out_ << "set label " << gnuplot_quoted(typeset(plot_.subtitle)) << " at screen "
            << rounded(left_margin / width, 5) << ", screen " << rounded(1. - 43. / height_, 5)
            << " left font 'Helvetica,12' tc rgb '#777777' noenhanced\n";
     out_ << "unset key\n";
@@ -165,15 +140,15 @@ class Script {
     out_ << "set " << axis << "range [" << shortest(scale.range_low) << ":"
          << shortest(scale.range_high) << "]\n"
          << "set " << axis << "tics " << scale.ticks << "\n"
-         << "set " << axis << "label " << in_quotes(axis_title(description)) << " offset " << offset
-         << " noenhanced\n";
+         << "set " << axis << "label " << gnuplot_quoted(axis_title(description)) << " offset "
+         << offset << " noenhanced\n";
   }
 
   /// A strip is a faint band with its meaning where a tick label would stand.
   void set_strip(double from, double to, const std::string& label) {
     out_ << "set object rectangle from graph 0, graph " << rounded(from, 5) << " to graph 1, graph "
          << rounded(to, 5) << " behind fc rgb '#808080' fs transparent solid 0.1 noborder\n"
-         << "set label " << in_quotes(label) << " at graph -0.012, graph "
+         << "set label " << gnuplot_quoted(label) << " at graph -0.012, graph "
          << rounded((from + to) / 2., 5) << " right font 'Helvetica,12'\n";
   }
 
@@ -211,8 +186,8 @@ class Script {
   }
 
   void add_rows(const std::string& which, const std::string& y, const std::string& with) {
-    add(in_quotes(plot_.name + ".csv") + " skip 1 " + which + " using (at($3)):(" + y + ") with " +
-        with);
+    add(gnuplot_quoted(plot_.name + ".csv") + " skip 1 " + which + " using (at($3)):(" + y +
+        ") with " + with);
   }
 
   static int lane_of(const std::vector<int>& lanes, std::size_t series) {
@@ -309,7 +284,7 @@ class Script {
     if (marker != 0)
       out_ << "set label '' at " << beside(lead + 12., height) << " point pt " << marker
            << " ps 0.8 lw 1.4" << pen << "\n";
-    out_ << "set label " << in_quotes(name) << " at " << beside(lead + 32., height)
+    out_ << "set label " << gnuplot_quoted(name) << " at " << beside(lead + 32., height)
          << " left font 'Helvetica,12' noenhanced\n";
   }
 

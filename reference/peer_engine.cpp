@@ -1,5 +1,6 @@
 #include "reference/peer_engine.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -49,7 +50,8 @@ class PeerEngine final : public simulation::Engine {
                     "deltat");
     if (!trouble.empty())
       return fail(StepStatus::Kind::solver_failed, 0, trouble + "; a smaller deltat may help");
-    std::swap(state_.bodies, next_);
+    // Copied, not swapped: whoever reads a value keeps its address.
+    std::ranges::copy(next_, state_.bodies.begin());
     ++state_.step;
     state_.time = static_cast<double>(state_.step) * deltat_;
     if (std::string notice = world_->notice(); !notice.empty()) {

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -57,7 +58,13 @@ struct BodySpec {
   MassSpec mass;
   std::vector<ShapeSpec> shapes;
   std::vector<Vector3d>
-      boundary_points;  ///< p_BP, body axes [m]: ContactPoints, else sampled from the shapes
+      boundary_points;  ///< p_BP, body axes [m]: ContactPoints, then sampled from the shapes
+  /// Of the balls about the first boundary points [m]; beyond its end they are points, radius 0.
+  std::vector<double> boundary_radii;
+
+  double boundary_radius(std::size_t point) const {
+    return point < boundary_radii.size() ? boundary_radii[point] : 0.;
+  }
 };
 
 enum class JointKind { revolute, prismatic };
@@ -92,6 +99,14 @@ struct RobotSpec {
   Vector3d velocity;          ///< v_WB, of the base origin, world axes [m/s]
   Vector3d angular_velocity;  ///< w_WB, world axes [rad/s]
   std::vector<ChainSpec> chains;
+};
+
+/// A ContactPoint that the file names by a trail of its own.
+struct PointSpec {
+  std::string trail;  ///< from the top
+  int robot = 0;
+  int body = 0;   ///< 0 is the base, then the links, chain by chain
+  int point = 0;  ///< index into BodySpec::boundary_points
 };
 
 struct MaterialSpec {
@@ -161,11 +176,49 @@ struct RecordSpec {
   std::vector<output::Channel> channels;  ///< `path`: the port's trail from the top; an open `unit` is the port's
 };
 
+/// A log of the run's whole state, from which it can be resumed.
+struct MovieSpec {
+  std::string name;
+  std::string file;            ///< in the run's folder
+  std::optional<double> rate;  ///< of its instants [Hz]; none: every step
+};
+
+/// A file that the experiment reads.
+struct FileSpec {
+  std::string name;  ///< as written
+  std::string path;  ///< absolute
+};
+
+/// What becomes of a port's values over a time.
+enum class Reduction { final, maximum, minimum, mean, rms, range, change, slope, time_at };
+
+/// What the run must show: a truth that comes with the scene.
+struct ExpectationSpec {
+  std::string name;
+  std::string trail;         ///< of the port, from the top; empty where it does not cover the run
+  Reduction take = Reduction::final;
+  double from = 0.;          ///< [s]
+  std::optional<double> to;  ///< [s]; none: the run's end
+  double level = 0.;         ///< of `time_at`
+  double expected = 0.;      ///< SI
+  double tolerance = 0.;     ///< relative
+  double within = 0.;        ///< absolute
+  std::string unit;          ///< of the expected value
+  std::string formula;       ///< as the file writes it
+  std::string source;        ///< where it comes from
+  std::vector<std::string> laws, except_laws;  ///< no law: all
+  std::vector<std::string> integrators;        ///< none: all
+
+  /// Whether it says something of a run under that law and integrator.
+  bool covers(std::string_view law, std::string_view integrator) const;
+};
+
 struct Experiment {
   std::string world;
   Vector3d gravity{0., 0., -9.81};
   double deltat = 1e-3;
   std::string integrator = "semi_implicit_euler";
+  double relative_tolerance = 1e-6, absolute_tolerance = 1e-8;  ///< of adaptive integrators
   std::string contact = "hookpoint";
   std::string engine = "dts";
   std::string settings = "default";  ///< of a peer: default, recommended, matched
@@ -175,9 +228,13 @@ struct Experiment {
   std::optional<TerrainSpec> terrain;
   std::vector<RobotSpec> robots;
   std::vector<ForceSpec> forces;
+  std::vector<PointSpec> points;
   std::vector<ComponentSpec> components;
   std::vector<WireSpec> wires;                           ///< attachments included
   std::vector<RecordSpec> records;
+  std::vector<ExpectationSpec> expectations;
+  std::vector<MovieSpec> movies;
+  std::vector<FileSpec> files;
   std::shared_ptr<const std::vector<ValueSpec>> values;  ///< shared: copies of an experiment differ
                                                          ///< in what runs, not in what is readable
 };

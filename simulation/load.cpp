@@ -55,6 +55,8 @@ void load_world(const language::Object& world, Loading& loading) {
   experiment.gravity = load_gravity(world, loading);
   experiment.deltat = world.number("deltat");
   experiment.integrator = world.word("integrator");
+  experiment.relative_tolerance = world.number("relative_tolerance");
+  experiment.absolute_tolerance = world.number("absolute_tolerance");
   experiment.contact = world.word("contact");
   experiment.engine = world.word("engine");
   experiment.settings = world.word("settings");
@@ -65,17 +67,21 @@ void load_world(const language::Object& world, Loading& loading) {
 void load_signals(const language::Object& root, Loading& loading) {
   const std::size_t errors_before = loading.diagnostics.error_count();
   load_values(root, loading);
+  load_points(loading);
   load_components(root, loading);
   if (loading.diagnostics.error_count() == errors_before) load_wires(root, loading);
   load_records(root, loading);
+  load_movies(root, loading);
+  load_expectations(root, loading);
 }
 
 }  // namespace
 
 std::optional<Experiment> load_experiment(const language::Object& root,
                                           language::Diagnostics& diagnostics,
-                                          const std::vector<std::filesystem::path>& search_path) {
-  Loading loading{diagnostics, search_path, {}, {}, {}, {}, {}, {}};
+                                          const std::vector<std::filesystem::path>& search_path,
+                                          const std::vector<FileSpec>& given) {
+  Loading loading{diagnostics, search_path, given, {}, {}, {}, {}, {}, {}};
   const std::size_t errors_before = diagnostics.error_count();
   const language::Object* world = find_world(root, loading);
   check_strays(root, loading);

@@ -14,9 +14,11 @@ namespace hookpoint::simulation {
 
 /// The experiment of the one World below `root`; nothing when `diagnostics` got an error. A
 /// terrain's file is looked up beside the .hook file that names it, then along `search_path`. Cost:
-/// linear in the tree, plus the terrain's file.
+/// linear in the tree, plus the terrain's file. `given`: files that are taken instead of being
+/// looked up, by the names that the experiment gives them.
 std::optional<Experiment> load_experiment(
     const language::Object& root, language::Diagnostics& diagnostics,
-    const std::vector<std::filesystem::path>& search_path = {});
+    const std::vector<std::filesystem::path>& search_path = {},
+    const std::vector<FileSpec>& given = {});
 
 }  // namespace hookpoint::simulation

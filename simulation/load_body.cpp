@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <tuple>
 
 #include "contact/boundary_points.h"
+#include "contact/force_law.h"
 #include "simulation/load_parts.h"
 
 namespace hookpoint::simulation {
@@ -55,12 +57,26 @@ std::vector<Vector3d> sample(const Legcone& cone, int density) {
   return contact::legcone_points(cone.length, cone.proximal_radius, cone.distal_radius, density);
 }
 
-void add_shape_points(const ShapeSpec& shape, std::vector<Vector3d>& points) {
+/// A sphere whose surface is not to be sampled: it rolls.
+const Sphere* rolling_sphere(const ShapeSpec& shape) {
+  return shape.boundary_points == 0 ? std::get_if<Sphere>(&shape.geometry) : nullptr;
+}
+
+void add_point(const Vector3d& p_BP, double radius, BodySpec& body) {
+  body.boundary_points.push_back(p_BP);
+  if (radius == 0.) return;
+  body.boundary_radii.resize(body.boundary_points.size(), 0.);
+  body.boundary_radii.back() = radius;
+}
+
+void add_shape_points(const ShapeSpec& shape, BodySpec& body) {
+  if (const Sphere* sphere = rolling_sphere(shape))
+    return add_point(shape.location, sphere->radius, body);
   const auto sampled =
       std::visit([&](const auto& geometry) { return sample(geometry, shape.boundary_points); },
                  shape.geometry);
   for (const Vector3d& p_SP : sampled)
-    points.push_back(shape.location + rotate(shape.orientation, p_SP));
+    add_point(shape.location + rotate(shape.orientation, p_SP), 0., body);
 }
 
 }  // namespace
@@ -76,10 +92,36 @@ BodySpec load_body(const language::Object& object, std::string name, bool must_h
   if (loading.diagnostics.error_count() != errors_before) return body;
   body.mass = load_mass(object, body.shapes, shape_objects, must_have_inertia, loading);
   for (const language::Object* point : object.children_of("ContactPoint")) {
-    body.boundary_points.push_back(vector_of(*point, "location"));
+    add_point(vector_of(*point, "location"), point->number("radius"), body);
   }
-  for (const ShapeSpec& shape : body.shapes) add_shape_points(shape, body.boundary_points);
+  for (const ShapeSpec& shape : body.shapes) add_shape_points(shape, body);
   return body;
+}
+
+std::string missing_port(const Experiment& experiment, const language::Object& object,
+                         const language::FieldSchema& field) {
+  const bool detail = !field.setting && (object.type == "ContactPoint" || object.type == "Chain");
+  const bool has_details =
+      experiment.engine == "dts" && contact::find_force_law(experiment.contact).has_value();
+  if (!detail || has_details) return "";
+  const bool peer = experiment.engine != "dts";
+  return fmt::format(
+      "{} {} does not publish `{}` of a {}: choose engine dts and a force law, such "
+      "as hookpoint",
+      peer ? "engine" : "contact law", peer ? experiment.engine : experiment.contact, field.name,
+      object.type);
+}
+
+void load_points(Loading& loading) {
+  for (const auto& [object, at] : loading.bodies) {
+    int point = 0;
+    for (const language::Object* child : object->children_of("ContactPoint"))
+      loading.experiment.points.push_back({loading.trails.at(child), at.robot, at.body, point++});
+  }
+  // Not in the order of addresses, which is another in each run.
+  std::ranges::sort(loading.experiment.points, {}, [](const PointSpec& point) {
+    return std::tuple(point.robot, point.body, point.point);
+  });
 }
 
 }  // namespace hookpoint::simulation

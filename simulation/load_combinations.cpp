@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "contact/force_law.h"
+#include "integrators/stepper.h"
 #include "simulation/load_parts.h"
 
 namespace hookpoint::simulation {
@@ -8,21 +9,28 @@ namespace {
 
 void check_impulse_law(const language::Object& world, Loading& loading) {
   const Experiment& experiment = loading.experiment;
-  if (world.given("integrator") && experiment.integrator == "rk4") {
+  const integrators::StepperDescription* stepper = integrators::find_stepper(experiment.integrator);
+  if (world.given("integrator") && stepper != nullptr && stepper->order != 1) {
     loading.error(place_of(world, "integrator"),
                   fmt::format("contact law {} advances time from impact to impact and cannot be "
-                              "paired with rk4; leave the "
+                              "paired with {}; leave the "
                               "integrator out or choose a force law",
-                              experiment.contact));
+                              experiment.contact, experiment.integrator));
   }
-  for (std::size_t i = 0; i < experiment.robots.size(); ++i) {
-    if (experiment.robots[i].chains.empty()) continue;
-    loading.error(place_of(world, "contact"),
-                  fmt::format("contact law {} moves single rigid bodies only, and robot `{}` has "
-                              "chains; choose a force law, "
-                              "such as hookpoint",
-                              experiment.contact, experiment.robots[i].name));
-    loading.diagnostics.note(loading.bases[i]->parent->position, "the robot is here");
+}
+
+/// Only a warning: a scene may state tolerances for whichever integrator a study gives it.
+void check_tolerances(const language::Object& world, Loading& loading) {
+  const Experiment& experiment = loading.experiment;
+  const integrators::StepperDescription* stepper = integrators::find_stepper(experiment.integrator);
+  if (stepper == nullptr || stepper->adaptive()) return;
+  for (const char* field : {"relative_tolerance", "absolute_tolerance"}) {
+    if (!world.given(field)) continue;
+    loading.diagnostics.warning(
+        place_of(world, field),
+        fmt::format("{} says nothing to {}, whose steps are all deltat; only cvode_bdf, "
+                    "cvode_adams, arkode and arkode_imex read it",
+                    field, experiment.integrator));
   }
 }
 
@@ -44,7 +52,11 @@ void check_combinations(const language::Object& world, Loading& loading) {
   const Experiment& experiment = loading.experiment;
   if (experiment.engine != "dts") return check_peer(world, loading);
   const contact::LawDescription* law = contact::find_law(experiment.contact);
-  if (law != nullptr && law->is_impulse_law) check_impulse_law(world, loading);
+  if (law != nullptr && law->is_impulse_law) {
+    check_impulse_law(world, loading);
+  } else {
+    check_tolerances(world, loading);
+  }
   if (experiment.settings != "default") {
     loading.error(place_of(world, "settings"),
                   fmt::format("settings = {} is for a peer, and the engine is dts; leave it out or "

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include "contact/ascii_grid.h"
 #include "contact/terrain.h"
 #include "simulation/load_parts.h"
 #include "simulation/material_fields.h"
@@ -38,43 +37,11 @@ int material_index(const language::Object& object, Loading& loading) {
   return entry->second;
 }
 
-GridSpec load_grid(const language::Object& object, TerrainSpec& terrain, Loading& loading) {
-  const language::Position& place = place_of(object, "file");
-  const std::string& name = object.word("file");
-  const std::filesystem::path path = find_file(name, place, loading);
-  if (path.empty()) return {};
-  const contact::AsciiGridResult result = contact::read_ascii_grid(path);
-  if (!result.grid) {
-    loading.error(
-        place, fmt::format("\"{}\" cannot be read as a grid of heights: {}", name, result.message));
-    return {};
-  }
-  const contact::AsciiGrid& grid = *result.grid;
-  const language::Field* spacing = object.find("spacing");
-  terrain.spacing = spacing != nullptr ? spacing->numbers[0] : grid.spacing.value_or(1.);
-  GridSpec surface{grid.columns, grid.rows, grid.heights, 0., 0.};
-  surface.origin_x = grid.origin_x.value_or(-0.5 * (grid.columns - 1) * terrain.spacing);
-  surface.origin_y = grid.origin_y.value_or(-0.5 * (grid.rows - 1) * terrain.spacing);
-  if (object.given("origin")) {
-    surface.origin_x = object.numbers("origin")[0];
-    surface.origin_y = object.numbers("origin")[1];
-  }
-  for (double& height : surface.heights) height += object.number("height");
-  return surface;
-}
-
 PatchSpec load_patch(const language::Object& object, Loading& loading) {
   const std::vector<double>& from = object.numbers("from");
   const std::vector<double>& to = object.numbers("to");
   return {std::min(from[0], to[0]), std::min(from[1], to[1]), std::max(from[0], to[0]),
           std::max(from[1], to[1]), material_index(object, loading)};
-}
-
-void load_plane_extent(const language::Object& object, TerrainSpec& terrain) {
-  terrain.spacing = object.number("spacing");
-  const std::vector<double>& size = object.numbers("size");
-  terrain.size_x = size.front();
-  terrain.size_y = size.back();
 }
 
 }  // namespace
@@ -104,16 +71,7 @@ void load_terrain(const language::Object& world, Loading& loading) {
   TerrainSpec terrain;
   terrain.name = object.name;
   const std::size_t errors_before = loading.diagnostics.error_count();
-  if (object.type == "Terrain.Grid") {
-    terrain.surface = load_grid(object, terrain, loading);
-  } else {
-    load_plane_extent(object, terrain);
-    if (object.type == "Terrain.Slope") {
-      terrain.surface = SlopeSpec{object.number("angle"), object.number("azimuth")};
-    } else {
-      terrain.surface = FlatSpec{object.number("height")};
-    }
-  }
+  load_surface(object, terrain, loading);
   terrain.material = material_index(object, loading);
   for (const language::Object* patch : object.children_of("Patch")) {
     terrain.patches.push_back(load_patch(*patch, loading));

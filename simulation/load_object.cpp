@@ -5,6 +5,20 @@
 #include "simulation/load_parts.h"
 
 namespace hookpoint::simulation {
+namespace {
+
+std::filesystem::path remember(const std::string& name, std::filesystem::path path,
+                               Loading& loading) {
+  const std::string absolute = std::filesystem::absolute(path).string();
+  std::vector<FileSpec>& files = loading.experiment.files;
+  const auto same = [&](const FileSpec& file) {
+    return file.name == name && file.path == absolute;
+  };
+  if (std::ranges::none_of(files, same)) files.push_back({name, absolute});
+  return path;
+}
+
+}  // namespace
 
 std::vector<const language::Object*> collect_all(const language::Object& parent,
                                                  std::string_view type) {
@@ -43,13 +57,16 @@ Quaterniond orientation_of(const language::Object& object, std::string_view fiel
 
 std::filesystem::path find_file(const std::string& name, const language::Position& from,
                                 Loading& loading) {
+  const auto given = std::ranges::find(loading.given, name, &FileSpec::name);
+  if (given != loading.given.end()) return remember(name, given->path, loading);
   std::vector<std::filesystem::path> folders;
   folders.push_back(from.file == nullptr ? ""
                                          : std::filesystem::path(from.file->path).parent_path());
   folders.insert(folders.end(), loading.search_path.begin(), loading.search_path.end());
   for (const std::filesystem::path& folder : folders) {
     std::error_code ignored;
-    if (std::filesystem::is_regular_file(folder / name, ignored)) return folder / name;
+    if (std::filesystem::is_regular_file(folder / name, ignored))
+      return remember(name, folder / name, loading);
   }
   loading.error(from,
                 fmt::format("there is no file \"{}\" beside this one or along the search path "

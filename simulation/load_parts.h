@@ -3,12 +3,14 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "language/diagnostics.h"
 #include "language/object.h"
+#include "language/references.h"
 #include "simulation/experiment.h"
 
 namespace hookpoint::simulation {
@@ -22,6 +24,7 @@ struct BodyIndex {
 struct Loading {
   language::Diagnostics& diagnostics;
   const std::vector<std::filesystem::path>& search_path;
+  const std::vector<FileSpec>& given;  ///< files taken instead of being looked up
   Experiment experiment;
   std::map<const language::Object*, int> materials;  ///< index into Experiment::materials
   std::map<const language::Object*, BodyIndex> bodies;
@@ -48,7 +51,7 @@ Vector3d vector_of(const language::Object& object, std::string_view field);
 Quaterniond orientation_of(const language::Object& object, std::string_view field);
 
 /// `name` beside the file that names it at `from`, then along the search path; empty, after saying
-/// so, if nowhere.
+/// so, if nowhere. The experiment remembers it.
 std::filesystem::path find_file(const std::string& name, const language::Position& from,
                                 Loading& loading);
 
@@ -56,6 +59,8 @@ std::filesystem::path find_file(const std::string& name, const language::Positio
 
 void load_materials(const language::Object& root, Loading& loading);
 void load_terrain(const language::Object& world, Loading& loading);
+/// The shape of a Terrain: its plane, or its heights read from a file or computed.
+void load_surface(const language::Object& object, TerrainSpec& terrain, Loading& loading);
 /// Robots as written; `rest_on` is resolved afterwards.
 void load_robots(const language::Object& world, Loading& loading);
 void load_forces(const language::Object& world, Loading& loading);
@@ -77,12 +82,34 @@ void check_combinations(const language::Object& world, Loading& loading);
 /// Gives every object its trail, none to two; collects the numbers that are readable as they stand
 /// in the file.
 void load_values(const language::Object& root, Loading& loading);
+/// ContactPoints, by their trails.
+void load_points(Loading& loading);
 /// Controllers, sensors, actuators, sources.
 void load_components(const language::Object& root, Loading& loading);
 /// Wires and attachments. Finds second drivers, missing attachments, loops without delay, and
 /// components that cannot start.
 void load_wires(const language::Object& root, Loading& loading);
+/// Why a run of the experiment has no such port though the class has it; "" when it has.
+std::string missing_port(const Experiment& experiment, const language::Object& object,
+                         const language::FieldSchema& field);
+/// A number of a run that a trail of the file names.
+struct NumberPort {
+  language::Target target;
+  std::string trail;  ///< of its port, from the top
+};
+/// The number that `trail`, written at `place`, names from `from`; none after saying what is wrong.
+std::optional<NumberPort> find_number(const language::Object& from, const std::string& trail,
+                                      const language::Position& place, language::Names& names,
+                                      Loading& loading);
+/// What the run must show.
+void load_expectations(const language::Object& root, Loading& loading);
 /// Data files.
 void load_records(const language::Object& root, Loading& loading);
+/// "" or what is wrong with a rate at which something is written, for steps of `deltat` [s].
+std::string rate_problem(double rate, double deltat);
+/// "" or what is wrong with a name of a file in the run's folder.
+std::string file_problem(const std::string& file, const Experiment& experiment);
+/// Logs of the whole state.
+void load_movies(const language::Object& root, Loading& loading);
 
 }  // namespace hookpoint::simulation

@@ -16,6 +16,7 @@ namespace {
 struct RobotPoint {
   Vector3d p_BP;
   int body = 0;
+  double radius = 0.;
 };
 
 std::vector<RobotPoint> points_in_base(const RobotSpec& robot) {
@@ -23,9 +24,10 @@ std::vector<RobotPoint> points_in_base(const RobotSpec& robot) {
   const std::vector<Pose> poses = body_poses(robot);
   const std::vector<const BodySpec*> bodies = bodies_of(robot);
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    for (const Vector3d& p_LP : bodies[i]->boundary_points) {
-      points.push_back(
-          {poses[i].position + rotate(poses[i].orientation, p_LP), static_cast<int>(i)});
+    const std::vector<Vector3d>& of_body = bodies[i]->boundary_points;
+    for (std::size_t k = 0; k < of_body.size(); ++k) {
+      points.push_back({poses[i].position + rotate(poses[i].orientation, of_body[k]),
+                        static_cast<int>(i), bodies[i]->boundary_radius(k)});
     }
   }
   return points;
@@ -47,6 +49,19 @@ double resting_depth(const RobotSpec& robot, int count, const contact::TilePoint
   return contact::static_depth(*law, load, experiment.materials[tile.material].constants);
 }
 
+/// How much the robot has to rise for its deepest boundary point to be at `depth` [m]: a point that
+/// moves straight up stays over its tile.
+double rise_to_depth(const contact::Terrain& ground, const std::vector<RobotPoint>& points,
+                     const RobotSpec& robot, double depth) {
+  double rise = -std::numeric_limits<double>::infinity();
+  for (const RobotPoint& point : points) {
+    const contact::TilePoint tile =
+        ground.query(robot.location + rotate(robot.orientation, point.p_BP));
+    rise = std::max(rise, (tile.depth + point.radius - depth) / tile.normal.z);
+  }
+  return rise;
+}
+
 /// Lays the robot down: its base's z along the tile's normal, so that heights over the tile are z
 /// in base axes.
 void lay_down(const language::Object& base, const contact::Terrain& ground, RobotSpec& robot,
@@ -59,10 +74,11 @@ void lay_down(const language::Object& base, const contact::Terrain& ground, Robo
                     robot.name));
   }
   double lowest = std::numeric_limits<double>::infinity();
-  for (const RobotPoint& point : points) lowest = std::min(lowest, point.p_BP.z);
+  const auto bottom = [](const RobotPoint& point) { return point.p_BP.z - point.radius; };
+  for (const RobotPoint& point : points) lowest = std::min(lowest, bottom(point));
   constexpr double coplanar = 1e-9;  // [m]
   const auto count = std::ranges::count_if(
-      points, [&](const RobotPoint& point) { return point.p_BP.z <= lowest + coplanar; });
+      points, [&](const RobotPoint& point) { return bottom(point) <= lowest + coplanar; });
   const std::vector<double>& at = base.numbers("at");
   const contact::TilePose pose = ground.pose_on_tile(at[0], at[1], base.number("yaw"));
   const double depth = resting_depth(robot, static_cast<int>(count), pose.tile, loading.experiment);
@@ -70,6 +86,10 @@ void lay_down(const language::Object& base, const contact::Terrain& ground, Robo
   robot.location = pose.position;
   robot.location.z -= (depth + lowest) / pose.tile.normal.z;
   robot.orientation = pose.orientation;
+  // Beside its tile uneven ground is higher or lower.
+  if (std::holds_alternative<GridSpec>(ground.description().surface)) {
+    robot.location.z += rise_to_depth(ground, points, robot, depth);
+  }
 }
 
 /// One error a robot: the first of its boundary points that starts off the terrain.

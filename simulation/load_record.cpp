@@ -45,51 +45,39 @@ class RecordLoader {
     if (object_.given("rate")) spec_.rate = object_.number("rate");
     check_rate();
     check_file();
-    for (const std::string& trail : trails_.words) add(trail);
+    for (std::size_t i = 0; i < trails_.words.size(); ++i) add(trails_.words[i], trails_.places[i]);
     loading_.experiment.records.push_back(std::move(spec_));
   }
 
  private:
   void check_rate() const {
     if (!spec_.rate) return;
-    try {
-      const control::Schedule schedule(control::Rational::from(*spec_.rate),
-                                       control::Rational::from(loading_.experiment.deltat));
-    } catch (const std::exception& error) {
-      loading_.error(place_of(object_, "rate"), error.what());
-    }
+    complain("rate", rate_problem(*spec_.rate, loading_.experiment.deltat));
+  }
+  void check_file() const { complain("file", file_problem(spec_.file, loading_.experiment)); }
+  void complain(const char* field, std::string problem) const {
+    if (!problem.empty()) loading_.error(place_of(object_, field), std::move(problem));
   }
 
-  void check_file() const {
-    const auto& records = loading_.experiment.records;
-    if (std::ranges::find(records, spec_.file, &RecordSpec::file) != records.end())
-      loading_.error(place_of(object_, "file"),
-                     fmt::format("another Record writes `{}`; give this one a `file`", spec_.file));
-  }
-
-  void add(const std::string& trail) {
-    language::Unresolved why;
-    const auto target = names_.resolve(object_, trail, true, why);
-    if (!target) return loading_.error(trails_.position, fmt::format("`{}`: {}", trail, why.message));
-    if (target->field == nullptr || !is_number(*target->field))
-      return loading_.error(trails_.position,
-                            fmt::format("`{}` is no number that could be recorded", trail));
-    const auto object = loading_.trails.find(target->object);
-    if (object == loading_.trails.end())
-      return loading_.error(trails_.position, fmt::format("`{}` has no value in a run", trail));
-    const std::string whole = object->second + "." + target->port;
-    const int components = target->part < 0 ? components_of(*target->field) : 1;
+  void add(const std::string& trail, const language::Position& place) {
+    const auto found = find_number(object_, trail, place, names_, loading_);
+    if (!found) return;
+    const language::Target& target = found->target;
+    const int components = target.part < 0 ? components_of(*target.field) : 1;
     for (int i = 0; i < components; ++i)
-      add_channel(whole + (components > 1 ? language::part_name(*target->field, i) : ""),
-                  *target->field);
+      add_channel(found->trail + (components > 1 ? language::part_name(*target.field, i) : ""),
+                  target, place);
   }
 
-  void add_channel(std::string path, const FieldSchema& field) {
+  void add_channel(std::string path, const language::Target& target,
+                   const language::Position& place) {
+    const FieldSchema& field = *target.field;
     if (std::ranges::find(spec_.channels, path, &output::Channel::path) != spec_.channels.end())
-      return loading_.error(trails_.position, fmt::format("`{}` is recorded twice", path));
+      return loading_.error(place, fmt::format("`{}` is recorded twice", path));
     // A unit that the class leaves open is the port's in the run.
-    spec_.channels.push_back({std::move(path), field.unit == "?" ? "" : field.unit, type_of(field),
-                              field.minimum, field.maximum, field.doc});
+    spec_.channels.push_back({std::move(path),
+                              field.unit == "?" ? "" : target.object->unit_of(field),
+                              type_of(field), field.minimum, field.maximum, field.doc});
   }
 
   const language::Object& object_;
@@ -100,6 +88,26 @@ class RecordLoader {
 };
 
 }  // namespace
+
+std::optional<NumberPort> find_number(const language::Object& from, const std::string& trail,
+                                      const language::Position& place, language::Names& names,
+                                      Loading& loading) {
+  const auto fail = [&](const std::string& message) {
+    loading.error(place, message);
+    return std::nullopt;
+  };
+  language::Unresolved why;
+  const auto target = names.resolve(from, trail, true, why);
+  if (!target) return fail(fmt::format("`{}`: {}", trail, why.message));
+  if (target->field == nullptr || !is_number(*target->field))
+    return fail(fmt::format("`{}` is no number that could be recorded", trail));
+  const auto object = loading.trails.find(target->object);
+  if (object == loading.trails.end())
+    return fail(fmt::format("`{}` has no value in a run", trail));
+  const std::string lacking = missing_port(loading.experiment, *target->object, *target->field);
+  if (!lacking.empty()) return fail(lacking);
+  return NumberPort{*target, object->second + "." + target->port};
+}
 
 void load_records(const language::Object& root, Loading& loading) {
   language::Names names;

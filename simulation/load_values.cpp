@@ -55,7 +55,8 @@ class Values {
       if (value != nullptr) {
         add(object, field, value->numbers, writable);
       } else if (writable && field.type != FieldType::numbers) {
-        values_.push_back({loading_.trails[&object] + "." + field.name, unit_of(field), {}, true});
+        values_.push_back(
+            {loading_.trails[&object] + "." + field.name, unit_of(object, field), {}, true});
       }
     }
   }
@@ -90,13 +91,13 @@ class Values {
     for (std::size_t i = 0; i < numbers.size(); ++i) {
       const std::string part =
           list && numbers.size() > 1 ? language::part_name(field, static_cast<int>(i)) : "";
-      values_.push_back({loading_.trails[&object] + "." + field.name + part, unit_of(field),
+      values_.push_back({loading_.trails[&object] + "." + field.name + part, unit_of(object, field),
                          numbers[i], writable});
     }
   }
 
-  static std::string unit_of(const FieldSchema& field) {
-    return field.unit == "?" ? "" : field.unit;
+  static std::string unit_of(const language::Object& object, const FieldSchema& field) {
+    return field.unit == "?" ? "" : object.unit_of(field);
   }
 
   Loading& loading_;

@@ -87,6 +87,8 @@ class Wires {
                             fmt::format("`{}` of this {} is not given, so there is nothing to read",
                                         from.field->name, from.object->type));
     }
+    if (const std::string why = missing_port(experiment_, *from.object, *from.field); !why.empty())
+      return loading_.error(wire.from->trail.empty() ? wire.position : wire.from->position, why);
     for (std::size_t i = 0; i < from.trails.size(); ++i) {
       add({from.object, to.object, &wire, from.field, to.field, wire.position}, from.trails[i],
           to.trails[i]);
@@ -134,7 +136,8 @@ class Wires {
 
   /// Whether the wire's value can have noise in that unit.
   static bool carries(const Driver& driver, const language::Dimension& dimension) {
-    const std::string& unit = driver.field->unit == "?" ? driver.input->unit : driver.field->unit;
+    const std::string& unit = driver.field->unit == "?" ? driver.to->unit_of(*driver.input)
+                                                        : driver.from->unit_of(*driver.field);
     return unit == "?" || language::fits(dimension, language::parse_unit(unit)->dimension);
   }
 
@@ -152,10 +155,7 @@ class Wires {
       for (std::size_t i = 0; i < port.count; ++i) {
         const std::string own =
             experiment_.components[index].trail + "." + port.name + element_suffix(port, i);
-        const bool wired = port.kind == PortKind::output
-                               ? std::ranges::count(experiment_.wires, own, &WireSpec::from) > 0
-                               : drivers_by_input_.contains(own);
-        if (wired) continue;
+        if (is_wired(port, own, target, i)) continue;
         if (target == nullptr) {
           missing.push_back(port.name + element_suffix(port, i));
         } else {
@@ -170,12 +170,32 @@ class Wires {
     }
   }
 
+  /// Whether a wire takes the attachment's place: one into the input; one from the output to the
+  /// port that it would drive, or to anything where there is no such port. A wire from the output
+  /// to somewhere else only listens.
+  bool is_wired(const PortDescription& port, const std::string& own, const language::Object* target,
+                std::size_t i) const {
+    if (port.kind != PortKind::output) return drivers_by_input_.contains(own);
+    const std::string driven = target == nullptr ? "" : attached_trail(*target, port, i);
+    return std::ranges::any_of(experiment_.wires, [&](const WireSpec& wire) {
+      return wire.from == own && (target == nullptr || wire.to == driven);
+    });
+  }
+
+  /// Of the number of `target` that element `i` of `port` reads or drives.
+  std::string attached_trail(const language::Object& target, const PortDescription& port,
+                             std::size_t i) const {
+    const FieldSchema* field = target.schema->find(port.attached);
+    std::string trail = loading_.trails.at(&target) + "." + port.attached;
+    if (port.count > 1 && field != nullptr)
+      trail += language::part_name(*field, static_cast<int>(i));
+    return trail;
+  }
+
   void add_attachment(const language::Object& object, const language::Object& target,
                       const PortDescription& port, std::size_t i, const std::string& own) {
     const FieldSchema* field = target.schema->find(port.attached);
-    std::string other = loading_.trails.at(&target) + "." + port.attached;
-    if (port.count > 1 && field != nullptr)
-      other += language::part_name(*field, static_cast<int>(i));
+    const std::string other = attached_trail(target, port, i);
     if (field == nullptr)
       field = target.schema->find(port.attached.substr(0, port.attached.rfind('.')));
     const char* name = object.given("joint") ? "joint" : "body";
@@ -228,8 +248,22 @@ class Wires {
         return loading_.error(place_of(*loading_.components[i], "rate"), error.what());
       }
     }
-    for (const StartProblem& problem : Components(experiment_).start(experiment_))
-      loading_.error(loading_.components[problem.component]->position, problem.message);
+    Components components(experiment_);
+    for (const StartProblem& problem : components.start(experiment_))
+      loading_.error(place_of_problem(problem, components[problem.component]), problem.message);
+  }
+
+  /// A message that begins with the name of a data file is about the field that names it.
+  const language::Position& place_of_problem(const StartProblem& problem,
+                                             const control::Component& component) const {
+    const language::Object& object = *loading_.components[problem.component];
+    for (const auto& [index, text] : experiment_.components[problem.component].texts) {
+      if (text.empty() || !problem.message.starts_with(text)) continue;
+      for (const PortDescription& port : component.ports()) {
+        if (port.kind == PortKind::text && port.first == index) return place_of(object, port.name);
+      }
+    }
+    return object.position;
   }
 
   Loading& loading_;

@@ -20,9 +20,13 @@ void add_shape_classes(language::Schema& schema);
 void add_ground_classes(language::Schema& schema);
 void add_control_classes(language::Schema& schema);
 void add_record_classes(language::Schema& schema);
+void add_expectation_classes(language::Schema& schema);
 
 /// A component class as the language sees it: its ports, and the fields of the stub around it.
 language::ClassSchema component_schema(const control::ComponentClass& type);
+/// "" or why a class that the program did not come with cannot join the classes of `schema`.
+std::string component_class_problem(const language::Schema& schema,
+                                    const control::ComponentClass& type);
 /// "Controller.", "Sensor.", "Gain", ...: what may stand wherever a controller may.
 std::vector<std::string> component_families();
 

@@ -79,6 +79,7 @@ language::ClassSchema component_schema(const control::ComponentClass& type) {
   language::ClassSchema schema;
   schema.name = type.name;
   schema.doc = type.doc;
+  schema.origin = type.origin;
   schema.top_level = true;
   schema.default_input = type.default_input;
   schema.default_output = type.default_output;
@@ -94,6 +95,23 @@ language::ClassSchema component_schema(const control::ComponentClass& type) {
 void add_control_classes(language::Schema& schema) {
   for (const auto& [name, type] : control::Registry::instance().classes())
     schema.add(component_schema(type));
+}
+
+std::string component_class_problem(const language::Schema& schema,
+                                    const control::ComponentClass& type) {
+  // A family holds either components or classes of another kind: who may stand where goes by it.
+  const std::string family = type.name.substr(0, type.name.find('.'));
+  for (const auto& [name, other] : schema.classes()) {
+    const bool component = control::Registry::instance().find(name) != nullptr;
+    if (name == type.name) return fmt::format("the language has a class '{}'", name);
+    if (!component && (name == family || name.starts_with(family + ".")))
+      return fmt::format("'{}' of the language is no component, so '{}.' is not free", name,
+                         family);
+  }
+  language::Schema joined = schema;
+  joined.add(component_schema(type));
+  const std::vector<std::string> problems = language::schema_problems(joined);
+  return problems.empty() ? "" : problems.front();
 }
 
 std::vector<std::string> component_families() {

@@ -76,6 +76,13 @@ inline FieldSchema object_field(std::string name, std::string refers_to, std::st
   return field;
 }
 
+/// In `unit` where the choice `field` is `word`.
+inline FieldSchema or_unit(std::string unit, std::string field, std::string word,
+                           FieldSchema described) {
+  described.other_unit = {std::move(field), std::move(word), std::move(unit)};
+  return described;
+}
+
 inline FieldSchema required(FieldSchema field) {
   field.required = true;
   return field;
@@ -87,6 +94,11 @@ inline FieldSchema positive(FieldSchema field) {
 }
 inline FieldSchema at_least(double minimum, FieldSchema field) {
   field.minimum = minimum;
+  return field;
+}
+inline FieldSchema between(double minimum, double maximum, FieldSchema field) {
+  field.minimum = minimum;
+  field.maximum = maximum;
   return field;
 }
 inline FieldSchema not_negative(FieldSchema field) { return at_least(0., std::move(field)); }

@@ -5,7 +5,9 @@
 
 namespace hookpoint::simulation {
 
-void add_record_classes(language::Schema& schema) {
+namespace {
+
+language::ClassSchema record_class() {
   language::ClassSchema record;
   record.name = "Record";
   record.doc =
@@ -29,7 +31,30 @@ void add_record_classes(language::Schema& schema) {
           "file",
           "name in the run's folder; if not given, the record's with the format's extension"),
   };
-  schema.add(std::move(record));
+  return record;
+}
+
+language::ClassSchema movie_class() {
+  language::ClassSchema movie;
+  movie.name = "Movie";
+  movie.doc =
+      "a log of the run's whole state, from which any moment of it is seen again and a run goes on";
+  movie.top_level = true;
+  movie.naming = language::Naming::required;
+  movie.fields = {
+      positive(number_field("rate", "Hz", "",
+                            "instants a second; if not given, one each step. What lies between "
+                            "two is computed again, exactly")),
+      text_field("file", "name in the run's folder; if not given, the movie's with .h5"),
+  };
+  return movie;
+}
+
+}  // namespace
+
+void add_record_classes(language::Schema& schema) {
+  schema.add(record_class());
+  schema.add(movie_class());
 }
 
 }  // namespace hookpoint::simulation

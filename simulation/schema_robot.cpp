@@ -19,10 +19,23 @@ std::vector<FieldSchema> mass_fields(const std::string& axes) {
 
 /// What every body publishes of its contact with the ground.
 std::vector<FieldSchema> contact_ports() {
-  return {port_only(
-      Direction::output,
-      vector_field("contact.force", "N", "",
-                   "sum of the ground's forces on the body over the last step, world axes"))};
+  return {port_only(Direction::output,
+                    vector_field(
+                        "contact.force", "N", "",
+                        "sum of the ground's forces on the body over the last step, world axes")),
+          port_only(Direction::output,
+                    number_field("contact.count", "", "",
+                                 "boundary points that carried force in the last step"))};
+}
+
+/// How a body's velocities change, for whom `body` is.
+std::vector<FieldSchema> acceleration_ports(const std::string& body) {
+  return {port_only(Direction::output,
+                    vector_field("linear_acceleration", "m/s^2", "",
+                                 "change of `velocity` of " + body +
+                                     " over the last step by its length, world axes; at first 0")),
+          port_only(Direction::output, vector_field("angular_acceleration", "rad/s^2", "",
+                                                    "the same of `angular_velocity`"))};
 }
 
 /// A base's motion: the initial one when assigned, the present one when read.
@@ -64,7 +77,16 @@ language::ClassSchema robot_class() {
   robot.children = {"Base.", "Chain"};
   append(robot.children, component_families());
   robot.fields = motion_ports("position", "the base's");
+  append(robot.fields, acceleration_ports("the base's origin"));
   append(robot.fields, contact_ports());
+  append(robot.fields,
+         {port_only(Direction::output,
+                    number_field("kinetic_energy", "J", "", "of all its bodies that move")),
+          port_only(Direction::output,
+                    number_field("potential_energy", "J", "",
+                                 "of the same in gravity, zero at the world's origin")),
+          port_only(Direction::output,
+                    vector_field("center_of_mass", "m", "", "of the same, world axes"))});
   return robot;
 }
 
@@ -88,6 +110,7 @@ language::ClassSchema base_class(bool mobile) {
          number_field("yaw", "rad", "0", "with rest_on: turn about the ground's normal")});
   }
   append(base.fields, mass_fields("base"));
+  append(base.fields, acceleration_ports("the base's origin"));
   append(base.fields, contact_ports());
   return base;
 }
@@ -104,33 +127,47 @@ language::ClassSchema chain_class() {
       vector_field("hip_distance", "m", "0,0,0", "the hip's position, base axes"),
       orientation_field("hip_orientation",
                         "hip to base axes: quaternion w,x,y,z, or roll,pitch,yaw angles"),
+      port_only(Direction::output,
+                vector_field("hip_force", "N", "",
+                             "of the chain on the base in the step just taken, world axes; "
+                             "engine dts with a force law only")),
+      port_only(Direction::output,
+                vector_field("hip_moment", "N.m", "", "the same: moment about the hip")),
   };
   return chain;
 }
 
-/// In the units of a revolute joint, by which wires and values are checked; those of a prismatic
-/// joint are written without a unit, in SI.
+/// A number in `unit` for a revolute joint, in `sliding` for a prismatic one.
+FieldSchema joint_field(std::string name, std::string unit, std::string sliding,
+                        std::string default_text, std::string doc) {
+  return or_unit(
+      std::move(sliding), "joint", "prismatic",
+      number_field(std::move(name), std::move(unit), std::move(default_text), std::move(doc)));
+}
+
 std::vector<FieldSchema> joint_fields() {
   return {
       choice_field("joint", {"revolute", "prismatic"}, "revolute",
                    "turns about, or slides along, the link's own z"),
-      with_port(Direction::output, number_field("angle", "rad", "0",
-                                                "joint variable, added to dhangle (prismatic: to "
-                                                "dhoffset, in metres without a unit)")),
       with_port(Direction::output,
-                number_field("rate", "rad/s", "0", "d(angle)/dt (prismatic: m/s without a unit)")),
-      with_port(Direction::both,
-                number_field(
-                    "torque", "N.m", "0",
-                    "of the joint's drive: constant unless wired (prismatic: N without a unit)")),
-      port_only(Direction::output, number_field("acceleration", "rad/s^2", "", "d(rate)/dt")),
-      number_field("lower_limit", "rad", "", "least angle; none if not given"),
-      number_field("upper_limit", "rad", "", "greatest angle; none if not given"),
-      not_negative(number_field("damping", "N.m.s/rad", "0", "torque = -damping rate")),
-      not_negative(number_field("friction", "N.m", "0", "dry friction torque, opposes the rate")),
-      not_negative(number_field("stiffness", "N.m/rad", "0",
-                                "joint spring: torque = -stiffness (angle - rest_angle)")),
-      number_field("rest_angle", "rad", "0", "angle at which the joint spring is slack"),
+                joint_field("angle", "rad", "m", "0",
+                            "joint variable, added to dhangle (prismatic: to dhoffset)")),
+      with_port(Direction::output, joint_field("rate", "rad/s", "m/s", "0", "d(angle)/dt")),
+      with_port(Direction::both, joint_field("torque", "N.m", "N", "0",
+                                             "of the joint's drive: constant unless wired")),
+      port_only(Direction::output, joint_field("acceleration", "rad/s^2", "m/s^2", "",
+                                               "d(rate)/dt, of the step just taken")),
+      port_only(Direction::output,
+                joint_field("total_torque", "N.m", "N", "",
+                            "of the drive, spring, damping, friction and stops together, in the "
+                            "step just taken")),
+      joint_field("lower_limit", "rad", "m", "", "least angle; none if not given"),
+      joint_field("upper_limit", "rad", "m", "", "greatest angle; none if not given"),
+      not_negative(joint_field("damping", "N.m.s/rad", "N.s/m", "0", "torque = -damping rate")),
+      not_negative(joint_field("friction", "N.m", "N", "0", "dry friction, opposes the rate")),
+      not_negative(joint_field("stiffness", "N.m/rad", "N/m", "0",
+                               "joint spring: torque = -stiffness (angle - rest_angle)")),
+      joint_field("rest_angle", "rad", "m", "0", "angle at which the joint spring is slack"),
   };
 }
 
@@ -153,6 +190,7 @@ language::ClassSchema link_class() {
   append(link.fields, mass_fields("link"));
   append(link.fields, joint_fields());
   append(link.fields, motion_ports("location", "the link's"));
+  append(link.fields, acceleration_ports("the link's origin"));
   append(link.fields, contact_ports());
   return link;
 }

@@ -1,4 +1,5 @@
 #include "contact/force_law.h"
+#include "integrators/stepper.h"
 #include "simulation/schema.h"
 #include "simulation/schema_fields.h"
 
@@ -11,6 +12,13 @@ std::vector<std::string> law_names() {
   return names;
 }
 
+std::vector<std::string> integrator_names() {
+  std::vector<std::string> names;
+  for (const integrators::StepperDescription& row : integrators::stepper_table())
+    names.emplace_back(row.name);
+  return names;
+}
+
 language::ClassSchema world_class() {
   language::ClassSchema world;
   world.name = "World";
@@ -18,15 +26,20 @@ language::ClassSchema world_class() {
       "what is simulated: gravity, ground, robots, and how time advances; exactly one a run";
   world.top_level = true;
   world.default_name = "World";
-  world.children = {"Robot", "Material", "Terrain.", "Force", "Push", "Record"};
+  world.children = {"Robot", "Material", "Terrain.", "Force", "Push", "Record", "Movie"};
   append(world.children, component_families());
   world.fields = {
       list_field("gravity", "m/s^2", 1, 3, "9.81",
                  "a number g means 0,0,-g; three numbers are the vector"),
       positive(number_field("deltat", "s", "0.001", "time step")),
       choice_field(
-          "integrator", {"explicit_euler", "semi_implicit_euler", "rk4"}, "semi_implicit_euler",
+          "integrator", integrator_names(), "semi_implicit_euler",
           "how engine dts integrates a contact force law; an impulse law advances time itself"),
+      positive(number_field("relative_tolerance", "", "1e-6",
+                            "local error that an adaptive integrator allows, as a part of each "
+                            "position and velocity")),
+      positive(number_field("absolute_tolerance", "", "1e-8",
+                            "local error allowed whatever the size: m, rad, m/s, rad/s")),
       choice_field("contact", law_names(), "hookpoint",
                    "contact law of engine dts; a peer brings its own contact"),
       choice_field("engine", {"dts", "ode", "ode_quickstep", "bullet"}, "dts",
@@ -38,6 +51,20 @@ language::ClassSchema world_class() {
       not_negative(integer_field("seed", "1", "seed of all random streams")),
       port_only(Direction::output, number_field("time", "s", "", "simulated time, step * deltat")),
       port_only(Direction::output, number_field("step", "", "", "steps taken")),
+      port_only(Direction::output,
+                number_field("impacts", "", "", "impulses so far, of an impulse law")),
+      port_only(Direction::output,
+                number_field("integrator.steps", "", "",
+                             "steps so far, of an adaptive integrator its internal ones")),
+      port_only(Direction::output, number_field("integrator.rejected", "", "",
+                                                "steps that an adaptive integrator took back")),
+      port_only(Direction::output, number_field("integrator.evaluations", "", "",
+                                                "evaluations of accelerations so far")),
+      port_only(Direction::output, number_field("integrator.jacobians", "", "",
+                                                "Jacobian matrices so far")),
+      port_only(Direction::output,
+                number_field("integrator.events", "", "",
+                             "events so far at which an adaptive integrator began anew")),
       port_only(Direction::both, boolean_field("running", "", "false while the run is paused")),
   };
   return world;
@@ -124,6 +151,7 @@ void add_experiment_classes(language::Schema& schema) {
   add_ground_classes(classes);
   add_control_classes(classes);
   add_record_classes(classes);
+  add_expectation_classes(classes);
   for (const auto& [name, type] : classes.classes()) {
     if (schema.find(name) != nullptr) continue;  // the language's own
     language::ClassSchema readable = type;

@@ -16,7 +16,7 @@ Port held_port(std::string trail, std::string unit, double& value, bool writable
 }  // namespace
 
 std::vector<Port> Signals::ports() {
-  std::vector<Port> ports = list_ports(experiment_, engine_);
+  std::vector<Port> ports = list_ports(experiment_, engine_, derived_);
   add_held_ports(ports);
   add_component_ports(ports);
   if (!experiment_.values) return ports;
@@ -31,6 +31,7 @@ std::vector<Port> Signals::ports() {
 void Signals::add_held_ports(std::vector<Port>& ports) {
   const std::string world = experiment_.world + ".";
   ports.push_back(held_port(world + "step", "", held_.step, false));
+  ports.push_back(held_port(world + "impacts", "", held_.impacts, false));
   ports.push_back(held_port(world + "running", "", held_.running, true));
   ports.push_back(held_port("Simulator.quit", "", held_.quit, true));
   for (std::size_t i = 0; i < held_.forces.size(); ++i) {

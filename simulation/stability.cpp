@@ -1,16 +1,20 @@
 #include "simulation/stability.h"
 
 #include <Eigen/Eigenvalues>
+#include <array>
 #include <cmath>
 #include <limits>
 
 #include "dts/impulse_response.h"
 #include "integrators/stability_bound.h"
+#include "integrators/stepper.h"
 #include "simulation/dts_robot.h"
 #include "simulation/ground.h"
 
 namespace hookpoint::simulation {
 namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A contact with the square roots of its stiffness and damping along and across the normal.
 struct Spring {
@@ -68,11 +72,28 @@ Rates largest_rates(DtsRobot& robot, const std::vector<Spring>& springs) {
   return {largest(stiffness), largest(damping)};
 }
 
+/// Of the points given, each under `load` [N]: the least speed up to which the step resolves their
+/// bristles [m/s].
+double resolved_speed(const Experiment& experiment, const contact::ForceLaw& law,
+                      std::span<const ContactPoint* const> points, double load) {
+  const integrators::StepperDescription* stepper = integrators::find_stepper(experiment.integrator);
+  double least = infinity;
+  if (stepper == nullptr || stepper->adaptive()) return least;
+  for (const ContactPoint* point : points) {
+    least =
+        std::min(least, contact::resolved_speed(law, load, experiment.deltat,
+                                                experiment.materials[point->material].constants));
+  }
+  return least;
+}
+
 StabilityBound bound_of(const Experiment& experiment, const std::string& robot, const Rates& rates,
                         bool touching) {
   const integrators::Mode mode{rates.stiffness, rates.damping, 1.};
-  const double step = integrators::largest_stable_step(experiment.integrator, mode).value_or(0.);
-  return {step, rates.stiffness, rates.damping, robot, touching};
+  // An adaptive integrator shortens its own steps.
+  const double step =
+      integrators::largest_stable_step(experiment.integrator, mode).value_or(infinity);
+  return {step, rates.stiffness, rates.damping, robot, touching, infinity};
 }
 
 double weight(const Experiment& experiment, const RobotSpec& robot) {
@@ -93,20 +114,23 @@ StabilityBound robot_bound(const Experiment& experiment, int index,
 
   std::vector<const ContactPoint*> touching;
   for (const ContactPoint& point : robot.contact_points()) {
-    if (point.depth > 0.) touching.push_back(&point);
+    if (point.pending.attached) touching.push_back(&point);
   }
   if (!touching.empty()) {
     std::vector<Spring> springs;
     const double load = weight(experiment, spec) / static_cast<double>(touching.size());
     for (const ContactPoint* point : touching)
       springs.push_back(make_spring(experiment, law, *point, load));
-    return bound_of(experiment, spec.name, largest_rates(robot, springs), true);
+    StabilityBound bound = bound_of(experiment, spec.name, largest_rates(robot, springs), true);
+    bound.resolved_speed = resolved_speed(experiment, law, touching, load);
+    return bound;
   }
-  StabilityBound least{std::numeric_limits<double>::infinity(), 0., 0., spec.name, false};
+  StabilityBound least{infinity, 0., 0., spec.name, false, infinity};
   for (const ContactPoint& point : robot.contact_points()) {
     const Spring spring = make_spring(experiment, law, point, weight(experiment, spec));
-    const StabilityBound bound =
-        bound_of(experiment, spec.name, largest_rates(robot, {spring}), false);
+    StabilityBound bound = bound_of(experiment, spec.name, largest_rates(robot, {spring}), false);
+    const std::array one{&point};
+    bound.resolved_speed = resolved_speed(experiment, law, one, weight(experiment, spec));
     if (bound.step < least.step) least = bound;
   }
   return least;
@@ -115,7 +139,7 @@ StabilityBound robot_bound(const Experiment& experiment, int index,
 }  // namespace
 
 StabilityBound stability_bound(const Experiment& experiment) {
-  StabilityBound least{std::numeric_limits<double>::infinity(), 0., 0., "", false};
+  StabilityBound least{infinity, 0., 0., "", false, infinity};
   const auto ground = make_ground(experiment);
   if (!ground || !contact::find_force_law(experiment.contact) || experiment.engine != "dts")
     return least;

@@ -2,6 +2,7 @@
 // into the contacts.
 #pragma once
 
+#include <limits>
 #include <string>
 
 #include "simulation/experiment.h"
@@ -16,6 +17,9 @@ struct StabilityBound {
   std::string robot;      ///< the robot it belongs to
   bool touching = false;  ///< of the points that touch at the initial state; else of the worst
                           ///< boundary point alone
+  /// Sliding speed up to which deltat resolves the law's bristles; infinite for a law without
+  /// bristles and for an adaptive integrator [m/s].
+  double resolved_speed = std::numeric_limits<double>::infinity();
 };
 
 /// The bound at the experiment's initial state, the smallest of its robots; only for engine dts

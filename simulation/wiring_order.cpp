@@ -79,7 +79,7 @@ class Search {
       if (is_wire(step->first)) order_.loop.push_back(step->first - component_count_);
     }
     std::ranges::reverse(order_.loop);
-    std::ranges::rotate(order_.loop, std::ranges::min_element(order_.loop));
+    std::rotate(order_.loop.begin(), std::ranges::min_element(order_.loop), order_.loop.end());
   }
 
   const Experiment& experiment_;

@@ -135,7 +135,8 @@ std::optional<RowOutcome> execute(const StudyPlan& plan, const RowPlan& row,
     return not_run(plan,
                    fmt::format("skipped: engine {} is not on this machine", row.experiment.engine));
   try {
-    const RunContext context = make_context(row.experiment, plan.settle, plan.duration);
+    RunContext context = make_context(row.experiment, plan.settle, plan.duration);
+    context.make = engine->make;
     const std::int64_t steps = std::llround(plan.duration / row.experiment.deltat);
     simulation::World world(row.experiment, engine->make(row.experiment));
     Watch watch(plan, row, context, steps);
@@ -150,6 +151,7 @@ std::optional<RowOutcome> execute(const StudyPlan& plan, const RowPlan& row,
     }
     RowOutcome outcome;
     if (!status.ok()) outcome.status = failure(status);
+    outcome.notices = world.state().notices;
     const bool cut_short = status.ok() && world.state().step < steps;
     if (cut_short) outcome.status = fmt::format("ended at {:.6g} s: {}", world.state().time, ended);
     watch.finish(outcome, status.ok() && !cut_short);

@@ -12,6 +12,7 @@ namespace hookpoint::studies {
 
 struct RowOutcome {
   std::string status = "ok";
+  std::vector<std::string> notices;             ///< of its engine
   std::vector<std::optional<double>> measured;  ///< one a metric of the plan
   std::vector<Trace> traces;  ///< one a plot of the plan, empty for those not over time
 };

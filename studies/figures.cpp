@@ -6,37 +6,13 @@
 #include <optional>
 
 #include "output/number.h"
+#include "studies/figure_parts.h"
 #include "studies/summary.h"
 
 namespace hookpoint::studies {
 namespace {
 
 constexpr std::size_t thinned_buckets = 400;
-
-std::optional<std::size_t> sweep_index(const StudyResult& study, const std::string& name) {
-  for (std::size_t i = 0; i < study.sweeps.size(); ++i)
-    if (study.sweeps[i].name == name) return i;
-  return {};
-}
-
-std::optional<std::size_t> metric_index(const StudyResult& study, const std::string& name) {
-  for (std::size_t i = 0; i < study.metrics.size(); ++i)
-    if (study.metrics[i].name == name) return i;
-  return {};
-}
-
-bool same(double a, double b) {
-  return std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b));
-}
-
-bool selected(const StudyResult& study, const PlotSpec& spec, const RunResult& row) {
-  return std::all_of(spec.where.begin(), spec.where.end(), [&](const auto& fixed) {
-    const auto sweep = sweep_index(study, fixed.first);
-    const auto& values = fixed.second;
-    return !sweep || std::any_of(values.begin(), values.end(),
-                                 [&](double value) { return same(row.parameters[*sweep], value); });
-  });
-}
 
 /// A series is a subject, or with `series = <sweep>` a subject at one value of that sweep.
 struct SeriesKey {
@@ -162,34 +138,6 @@ void fill(output::Series& series, const Gathered& gathered, const PlotSpec& spec
   }
 }
 
-/// "azimuth, dt": sweeps that neither an axis, a series nor `where` decides and that take several
-/// values.
-std::string undecided(const StudyResult& study, const PlotSpec& spec) {
-  std::string names;
-  for (const SweepColumn& sweep : study.sweeps) {
-    const bool fixed = std::any_of(spec.where.begin(), spec.where.end(), [&](const auto& pair) {
-      return pair.first == sweep.name && pair.second.size() == 1;
-    });
-    if (fixed || sweep.name == spec.x || sweep.name == spec.series || sweep.values.size() < 2)
-      continue;
-    names += (names.empty() ? "" : " and ") + spoken(sweep.name);
-  }
-  return names;
-}
-
-std::string fixed_text(const StudyResult& study, const PlotSpec& spec) {
-  std::string text;
-  for (const auto& [name, values] : spec.where) {
-    const auto sweep = sweep_index(study, name);
-    if (name == spec.x) continue;
-    text += (text.empty() ? "" : ", ") + spoken(name) + " = ";
-    for (std::size_t i = 0; i < values.size(); ++i)
-      text += (i > 0 ? " or " : "") + output::rounded(values[i], 6);
-    if (sweep && !study.sweeps[*sweep].unit.empty()) text += " " + study.sweeps[*sweep].unit;
-  }
-  return text;
-}
-
 std::string caption_of(const StudyResult& study, const PlotSpec& spec, const output::Plot& plot) {
   std::string caption = plot.title + (plot.subtitle.empty() ? "." : " (" + plot.subtitle + ").");
   const bool predicted =
@@ -221,8 +169,14 @@ std::vector<int> subject_styles(const StudyResult& study) {
   std::vector<std::string> families;
   std::vector<int> members(output::style_colors, 0);
   std::vector<int> styles;
+  const bool one_law = std::all_of(
+      study.subjects.begin(), study.subjects.end(), [&](const SubjectInfo& subject) {
+        return !subject.law.empty() && subject.law == study.subjects.front().law;
+      });
   for (const SubjectInfo& subject : study.subjects) {
-    const std::string& family = subject.law.empty() ? subject.engine : subject.law;
+    const std::string& family = one_law               ? subject.integrator
+                                : subject.law.empty() ? subject.engine
+                                                      : subject.law;
     const auto place = std::find(families.begin(), families.end(), family);
     const auto color = (place - families.begin()) % output::style_colors;
     if (place == families.end()) families.push_back(family);
@@ -234,8 +188,10 @@ std::vector<int> subject_styles(const StudyResult& study) {
 
 Figure make_figure(const StudyResult& study, std::size_t plot) {
   const PlotSpec& spec = study.plots[plot];
+  if (!spec.color.empty()) return make_map(study, spec);
   const auto x = sweep_index(study, spec.x);
   const auto y = metric_index(study, spec.y);
+  const auto cost = x ? std::nullopt : metric_index(study, spec.x);
   std::map<SeriesKey, Gathered> gathered;
   for (const RunResult& row : study.rows) {
     if (!selected(study, spec, row)) continue;
@@ -244,6 +200,8 @@ Figure make_figure(const StudyResult& study, std::size_t plot) {
       gather_curve(series, row, plot);
     } else if (x && y && *y < row.metrics.size()) {
       gather_point(series, row.parameters[*x], row, *y);
+    } else if (cost && y && row.metrics[*cost].measured) {
+      gather_point(series, *row.metrics[*cost].measured, row, *y);
     }
   }
   Figure figure;
@@ -254,7 +212,7 @@ Figure make_figure(const StudyResult& study, std::size_t plot) {
     figure.plot.subtitle += (figure.plot.subtitle.empty() ? "" : "; ") + note;
   };
   if (sweep_index(study, spec.series)) add_note("curves by " + spoken(spec.series));
-  if (spec.x != "time" && !undecided(study, spec).empty())
+  if (x && !undecided(study, spec).empty())
     add_note("largest over " + undecided(study, spec));
   const auto axis = [](const std::string& label, const std::string& name, const std::string& unit,
                        bool logarithmic) {

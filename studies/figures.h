@@ -1,9 +1,11 @@
 // From a Plot block and a study's rows to a figure.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "output/heat_map.h"
 #include "output/plot.h"
 #include "studies/result.h"
 
@@ -11,11 +13,12 @@ namespace hookpoint::studies {
 
 struct Figure {
   output::Plot plot;
+  std::optional<output::HeatMap> map;  ///< instead of `plot`, which then has only its name
   std::string caption;  ///< what is drawn, what is held fixed and what stands for what
 };
 
 /// The output::Series::style of each subject: the colour is its family's (its law, or the engine of
-/// a peer), the marker tells members of a family apart.
+/// a peer; its integrator where all have one law), the marker tells members of a family apart.
 std::vector<int> subject_styles(const StudyResult& study);
 
 /// The figure of `study.plots[plot]`. A subject looks the same in every figure. Rows that the

@@ -10,7 +10,7 @@
 namespace hookpoint::studies {
 namespace {
 
-constexpr std::array<MetricDefinition, 15> metrics{{
+constexpr std::array<MetricDefinition, 28> metrics{{
     {"creep_speed", "m/s",
      "least-squares slope of the downhill displacement over [settle, duration]", make_creep_speed,
      false, Regime::holds},
@@ -34,6 +34,40 @@ constexpr std::array<MetricDefinition, 15> metrics{{
     {"impacts", "1/s", "impulses per second after `settle` (event-driven laws)", make_impacts},
     {"energy_gain", "J", "greatest rise of kinetic and gravitational energy above the start's",
      make_energy_gain},
+    {"fell", "",
+     "1 if the base came lower over the ground than half its height at the start, or its z turned "
+     "by more than 60 deg; else 0",
+     make_fell},
+    {"walked_distance", "m",
+     "displacement of the base from `settle` to the end or the fall, along its x at the start",
+     make_walked_distance},
+    {"walking_speed", "m/s", "walked_distance over its time; nothing for a robot that fell",
+     make_walking_speed},
+    {"foot_slip", "",
+     "path of a foot over the ground while in it, mean of the feet, per walked_distance",
+     make_foot_slip},
+    {"body_height_min", "m", "least height of the base over the ground after `settle`",
+     make_body_height_min},
+    {"tilt_max", "rad",
+     "greatest angle after `settle` of the base's z from where it was at the start", make_tilt_max},
+    {"integrator_steps", "", "steps of the integrator, of an adaptive one its internal steps",
+     make_integrator_steps},
+    {"rejected_steps", "", "steps that an adaptive integrator took back", make_rejected_steps},
+    {"evaluations", "", "evaluations of accelerations, those for Jacobians included",
+     make_evaluations},
+    {"jacobians", "", "Jacobian matrices by difference quotients", make_jacobians},
+    {"events", "",
+     "touch-downs, lift-offs, ends of slip, joint limits at which an adaptive "
+     "integrator began anew",
+     make_events},
+    {"self_error", "m",
+     "greatest distance of the body's origin from the same run nearer to its limit: an eighth of "
+     "deltat, a hundredth of the tolerances",
+     make_self_error},
+    {"reference_error", "m",
+     "greatest distance of the body's origin from the run of arkode with tolerances of 1e-10 and "
+     "steps of 0.1 ms or less",
+     make_reference_error},
     {"realtime_factor", "", "simulated time over wall time, median of five stretches, run alone"},
     {"step_time", "s", "wall time of a step, median of five stretches, run alone"},
 }};
@@ -116,33 +150,57 @@ RunContext make_context(const simulation::Experiment& experiment, double settle,
 }
 
 Observer::Observer(const RunContext& context, bool with_points) : context_(context) {
-  if (with_points) points_.resize(context.robot_spec().base.boundary_points.size());
+  if (!with_points) return;
+  std::size_t count = context.robot_spec().base.boundary_points.size();
+  for (const simulation::ChainSpec& chain : context.robot_spec().chains)
+    for (const simulation::LinkSpec& link : chain.links) count += link.body.boundary_points.size();
+  points_.reserve(count);
+  balls_.reserve(count);
 }
 
 Observation Observer::observe(const simulation::WorldState& world) {
   const simulation::BodyState& body = world.bodies[context_.body];
-  const Matrix3d R_WB = rotation_matrix(body.orientation);
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    const Vector3d p_WP = body.position + R_WB * context_.robot_spec().base.boundary_points[i];
-    points_[i] = {p_WP, context_.ground ? context_.ground->query(p_WP).depth
-                                        : -std::numeric_limits<double>::infinity()};
-  }
+  if (points_.capacity() > 0) observe_points(world);
   return {world, body, dot(body.position - context_.start, context_.downhill), points_};
+}
+
+void Observer::observe_points(const simulation::WorldState& world) {
+  points_.clear();
+  for_each_body(context_, world,
+                [this](const simulation::BodySpec& spec, const simulation::BodyState& body) {
+                  const Matrix3d R_WB = rotation_matrix(body.orientation);
+                  for (std::size_t i = 0; i < spec.boundary_points.size(); ++i)
+                    observe_point(body.position + R_WB * spec.boundary_points[i], body.orientation,
+                                  spec.boundary_radius(i));
+                });
+}
+
+void Observer::observe_point(const Vector3d& p_WP, const Quaterniond& R_WB, double radius) {
+  if (!context_.ground) {
+    points_.push_back({p_WP, -std::numeric_limits<double>::infinity()});
+    return;
+  }
+  const contact::TilePoint tile = context_.ground->query(p_WP);
+  const contact::BallFrame frame{R_WB, tile.normal};
+  const std::size_t index = points_.size();
+  if (index == balls_.size()) balls_.push_back({frame, {}});
+  RolledBall& ball = balls_[index];
+  if (radius > 0.) ball.rolled += contact::rolling_displacement(ball.frame, frame, radius);
+  ball.frame = frame;
+  points_.push_back({p_WP - radius * tile.normal - ball.rolled, tile.depth + radius});
 }
 
 double mechanical_energy(const RunContext& context, const simulation::WorldState& world) {
   double energy = 0.;
-  const auto add = [&](const simulation::MassSpec& mass, const simulation::BodyState& body) {
-    const Vector3d p_BC = rotate(body.orientation, mass.center_of_mass);
-    const Vector3d v_WC = body.velocity + cross(body.angular_velocity, p_BC);
-    const Vector3d w_B = rotate(conjugate(body.orientation), body.angular_velocity);
-    energy += 0.5 * mass.mass * dot(v_WC, v_WC) + 0.5 * dot(w_B, mass.inertia * w_B) -
-              mass.mass * dot(context.experiment->gravity, body.position + p_BC);
-  };
-  std::size_t body = context.body;
-  add(context.robot_spec().base.mass, world.bodies[body]);
-  for (const simulation::ChainSpec& chain : context.robot_spec().chains)
-    for (const simulation::LinkSpec& link : chain.links) add(link.body.mass, world.bodies[++body]);
+  for_each_body(context, world,
+                [&](const simulation::BodySpec& spec, const simulation::BodyState& body) {
+                  const simulation::MassSpec& mass = spec.mass;
+                  const Vector3d p_BC = rotate(body.orientation, mass.center_of_mass);
+                  const Vector3d v_WC = body.velocity + cross(body.angular_velocity, p_BC);
+                  const Vector3d w_B = rotate(conjugate(body.orientation), body.angular_velocity);
+                  energy += 0.5 * mass.mass * dot(v_WC, v_WC) + 0.5 * dot(w_B, mass.inertia * w_B) -
+                            mass.mass * dot(context.experiment->gravity, body.position + p_BC);
+                });
   return energy;
 }
 

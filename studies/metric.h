@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "contact/rolling.h"
 #include "contact/terrain.h"
 #include "simulation/engine.h"
 #include "simulation/experiment.h"
@@ -23,7 +24,7 @@ struct RunContext {
   const simulation::Experiment* experiment = nullptr;
   std::optional<contact::Terrain> ground;
   int robot = 0;         ///< index of the robot measured
-  std::size_t body = 0;  ///< index of its base in WorldState::bodies
+  std::size_t body = 0;  ///< index of its base in WorldState::bodies, where its links follow
   double settle = 0.;    ///< [s]
   double duration = 0.;  ///< [s]
   Vector3d start;        ///< p_WB at time 0 [m]
@@ -31,6 +32,7 @@ struct RunContext {
   Vector3d downhill;     ///< unit, in the ground's plane: steepest descent; on the level, along the
                          ///< initial velocity
   double weight = 0.;    ///< m |g| [N], of the whole robot
+  simulation::EngineFactory make = nullptr;  ///< of the run's engine, where a metric may run another
 
   const simulation::RobotSpec& robot_spec() const {
     return experiment->robots[static_cast<std::size_t>(robot)];
@@ -40,9 +42,10 @@ struct RunContext {
 /// Throws simulation::ExperimentError when no robot can move.
 RunContext make_context(const simulation::Experiment& experiment, double settle, double duration);
 
-/// A boundary point of the measured body.
+/// A boundary point of the measured robot: its base's first, then its links', chain by chain.
 struct PointObservation {
-  Vector3d position;  ///< world [m]
+  Vector3d position;  ///< world [m]; of a ball, where it meets the ground, less what rolling made
+                      ///< of that since the start: it moves by slip
   double depth = 0.;  ///< along the ground's normal, > 0 inside [m]; minus infinity without ground
 };
 
@@ -59,6 +62,12 @@ inline bool settled(const RunContext& context, const Observation& observation) {
   return observation.world.time >= context.settle - 0.5 * context.experiment->deltat;
 }
 
+/// A ball at the last observation, and how far it has rolled.
+struct RolledBall {
+  contact::BallFrame frame;
+  Vector3d rolled;  ///< [m]
+};
+
 /// Makes observations of a run; its buffer is sized once.
 class Observer {
  public:
@@ -67,8 +76,13 @@ class Observer {
   Observation observe(const simulation::WorldState& world);
 
  private:
+  void observe_points(const simulation::WorldState& world);
+  /// The next point: a ball of `radius` about p_WP on a body that is turned by R_WB.
+  void observe_point(const Vector3d& p_WP, const Quaterniond& R_WB, double radius);
+
   const RunContext& context_;
-  std::vector<PointObservation> points_;
+  std::vector<PointObservation> points_;  // reserved for all points; no room when nobody asks
+  std::vector<RolledBall> balls_;         // one a point, once they were seen
 };
 
 class Metric {
@@ -105,6 +119,15 @@ struct SignalDefinition {
 std::span<const SignalDefinition> signal_table();
 const SignalDefinition* find_signal(std::string_view name);
 
+/// Calls `visit(body, state)` for the base and the links of the measured robot, chain by chain.
+template <class Visit>
+void for_each_body(const RunContext& context, const simulation::WorldState& world, Visit visit) {
+  std::size_t index = context.body;
+  visit(context.robot_spec().base, world.bodies[index]);
+  for (const simulation::ChainSpec& chain : context.robot_spec().chains)
+    for (const simulation::LinkSpec& link : chain.links) visit(link.body, world.bodies[++index]);
+}
+
 /// Kinetic and gravitational energy of the bodies of the measured robot [J].
 double mechanical_energy(const RunContext& context, const simulation::WorldState& world);
 
@@ -122,5 +145,18 @@ std::unique_ptr<Metric> make_penetration_mean(const RunContext&);
 std::unique_ptr<Metric> make_penetration_rms(const RunContext&);
 std::unique_ptr<Metric> make_contact_breaks(const RunContext&);
 std::unique_ptr<Metric> make_impacts(const RunContext&);
+std::unique_ptr<Metric> make_fell(const RunContext&);
+std::unique_ptr<Metric> make_walked_distance(const RunContext&);
+std::unique_ptr<Metric> make_walking_speed(const RunContext&);
+std::unique_ptr<Metric> make_foot_slip(const RunContext&);
+std::unique_ptr<Metric> make_body_height_min(const RunContext&);
+std::unique_ptr<Metric> make_tilt_max(const RunContext&);
+std::unique_ptr<Metric> make_integrator_steps(const RunContext&);
+std::unique_ptr<Metric> make_rejected_steps(const RunContext&);
+std::unique_ptr<Metric> make_evaluations(const RunContext&);
+std::unique_ptr<Metric> make_jacobians(const RunContext&);
+std::unique_ptr<Metric> make_events(const RunContext&);
+std::unique_ptr<Metric> make_self_error(const RunContext&);
+std::unique_ptr<Metric> make_reference_error(const RunContext&);
 
 }  // namespace hookpoint::studies

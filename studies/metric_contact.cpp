@@ -91,8 +91,12 @@ class SlipDistance : public Metric {
       path_.assign(count, 0.);
       for (const PointObservation& point : observation.points) last_.push_back(point.position);
     }
-    const bool carried =
-        dot(observation.body.contact_force, context_.normal) > loaded * context_.weight;
+    Vector3d force;
+    for_each_body(context_, observation.world,
+                  [&](const simulation::BodySpec&, const simulation::BodyState& body) {
+                    force += body.contact_force;
+                  });
+    const bool carried = dot(force, context_.normal) > loaded * context_.weight;
     for (std::size_t i = 0; i < count; ++i) {
       const PointObservation& point = observation.points[i];
       if (carried && point.depth > -touching_gap)

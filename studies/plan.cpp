@@ -10,6 +10,7 @@
 #include "contact/force_law.h"
 #include "language/names.h"
 #include "simulation/load.h"
+#include "studies/hash.h"
 #include "studies/plan_parts.h"
 
 namespace hookpoint::studies {
@@ -34,22 +35,6 @@ namespace {
 
 using language::Diagnostics;
 using language::Object;
-
-/// FNV-1a, 64 bits.
-class Hash {
- public:
-  void add(std::string_view text) {
-    for (const char c : text) {
-      state_ ^= static_cast<unsigned char>(c);
-      state_ *= 1099511628211ull;
-    }
-    state_ ^= text.size();
-  }
-  std::string text() const { return fmt::format("{:010x}", state_ >> 24); }
-
- private:
-  std::uint64_t state_ = 14695981039346656037ull;
-};
 
 /// Evaluates and loads the scene of each row; keeps the library's warnings from being told once a
 /// row.
@@ -90,7 +75,8 @@ class SceneLoader {
     return true;
   }
 
-  std::vector<Assignment> fixes;  ///< the study's own
+  std::vector<Assignment> fixes;     ///< the study's own
+  std::vector<std::string> plugins;  ///< the scene's
 
  private:
   /// The trail of the scene's World, once.
@@ -104,6 +90,7 @@ class SceneLoader {
       return false;
     }
     world_ = worlds.front()->trail();
+    plugins = tree->plugins;
     return true;
   }
 
@@ -225,6 +212,8 @@ std::optional<StudyPlan> make_plan(const Object& root, const Object& study, cons
   hash.add(fmt::format("{} {} {} {}", plan.name, language::join(options.only, ","), plan.settle,
                        plan.duration));
   if (!plan_rows(plan, study, loader, options, hash)) return std::nullopt;
+  hash.add_files(root.plugins);
+  hash.add_files(loader.plugins);
   plan.hash = hash.text();
   if (plan.rows.empty()) {
     diagnostics.error(study.position,

@@ -59,6 +59,10 @@ class Parts {
   std::vector<Condition> conditions(const Object& owner);
   std::string conditions_words(const std::vector<Condition>& conditions) const;
   std::string truth_words(const Object& block, const TruthPlan& truth);
+  std::string sweep_unit(const Object& block, const char* field);
+  std::string metric_unit(const Object& block, const char* field);
+  void set_time_axes(PlotPlan& plot, const Object& block);
+  void set_map(PlotSpec& spec, const Object& block);
 
   StudyPlan& plan_;
   std::vector<std::string> parameters_;
@@ -256,6 +260,49 @@ void Parts::add_truth(const Object& block) {
   plan_.truths.push_back(std::move(truth));
 }
 
+/// The unit of the sweep that `field` names.
+std::string Parts::sweep_unit(const Object& block, const char* field) {
+  const int sweep = sweep_index(block.word(field));
+  if (sweep >= 0) return plan_.sweeps[static_cast<std::size_t>(sweep)].column.unit;
+  unknown(block.find(field)->position, "Sweep", block.word(field), sweep_names());
+  return "";
+}
+
+/// The unit of the metric that `field` names and the study measures.
+std::string Parts::metric_unit(const Object& block, const char* field) {
+  const MetricDefinition* metric = find_metric(block.word(field));
+  if (metric != nullptr &&
+      std::find(plan_.metrics.begin(), plan_.metrics.end(), metric) != plan_.metrics.end())
+    return std::string(metric->unit);
+  unknown(block.find(field)->position, "Measure of this study", block.word(field), metric_names());
+  return "";
+}
+
+void Parts::set_time_axes(PlotPlan& plot, const Object& block) {
+  PlotSpec& spec = plot.spec;
+  spec.x_unit = "s";
+  plot.signal = find_signal(spec.y);
+  if (plot.signal == nullptr) {
+    std::vector<std::string> names;
+    for (const SignalDefinition& signal : signal_table()) names.emplace_back(signal.name);
+    unknown(block.find("y")->position, "signal", spec.y, names);
+    return;
+  }
+  spec.y_unit = plot.signal->unit;
+  if (!plot.signal->since_settle) return;
+  spec.x_label = "time since settling";
+  spec.y_label = spec.y + " downhill";
+}
+
+void Parts::set_map(PlotSpec& spec, const Object& block) {
+  spec.color = block.word("colour");
+  spec.color_unit = metric_unit(block, "colour");
+  spec.y_unit = sweep_unit(block, "y");
+  if (block.find("outline") == nullptr) return;
+  spec.outline = block.word("outline");
+  metric_unit(block, "outline");
+}
+
 void Parts::add_plot(const Object& block) {
   PlotPlan plot;
   PlotSpec& spec = plot.spec;
@@ -267,27 +314,20 @@ void Parts::add_plot(const Object& block) {
   const std::string& scale = block.word("scale");
   spec.log_x = scale == "log_x" || scale == "log_log";
   spec.log_y = scale == "log" || scale == "log_log";
-  if (spec.x == "time") {
-    spec.x_unit = "s";
-    plot.signal = find_signal(spec.y);
-    std::vector<std::string> names;
-    for (const SignalDefinition& signal : signal_table()) names.emplace_back(signal.name);
-    if (plot.signal == nullptr) unknown(block.find("y")->position, "signal", spec.y, names);
-    if (plot.signal != nullptr) spec.y_unit = plot.signal->unit;
-    if (plot.signal != nullptr && plot.signal->since_settle) spec.x_label = "time since settling";
-    if (plot.signal != nullptr && plot.signal->since_settle) spec.y_label = spec.y + " downhill";
+  const bool over_time = spec.x == "time", map = block.find("colour") != nullptr;
+  if (map ? over_time : block.find("outline") != nullptr)
+    diagnostics_.error(
+        block.position,
+        "`colour` makes a map, whose x and y are sweeps; `outline` belongs to a map");
+  if (over_time) {
+    set_time_axes(plot, block);
   } else {
-    const int sweep = sweep_index(spec.x);
-    if (sweep < 0)
-      unknown(block.find("x")->position, "Sweep", spec.x, sweep_names());
+    const bool metric = sweep_index(spec.x) < 0 && find_metric(spec.x) != nullptr;
+    spec.x_unit = metric && !map ? metric_unit(block, "x") : sweep_unit(block, "x");
+    if (map)
+      set_map(spec, block);
     else
-      spec.x_unit = plan_.sweeps[static_cast<std::size_t>(sweep)].column.unit;
-    const MetricDefinition* metric = find_metric(spec.y);
-    if (metric == nullptr ||
-        std::find(plan_.metrics.begin(), plan_.metrics.end(), metric) == plan_.metrics.end())
-      unknown(block.find("y")->position, "Measure of this study", spec.y, metric_names());
-    else
-      spec.y_unit = metric->unit;
+      spec.y_unit = metric_unit(block, "y");
   }
   if (spec.series != "subject" && sweep_index(spec.series) < 0)
     unknown(block.find("series")->position, "Sweep", spec.series, sweep_names());

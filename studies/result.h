@@ -63,6 +63,9 @@ struct PlotSpec {
   std::string x_unit, y_unit;
   std::string x_label, y_label;    ///< of the axes; "" for the names
   std::string series = "subject";  ///< what makes a curve
+  /// Of a map, where x and y are sweeps: the metric that colours it, and one whose closed form
+  /// divides it; "" for none.
+  std::string color, color_unit, outline;
   bool log_x = false, log_y = false;
   bool show_predicted = true;  ///< dashed line of the closed form beside the points
   /// Sweeps and the values that are drawn ("mu" = 0.8): other rows are left out.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <mutex>
@@ -91,6 +92,29 @@ bool run_rows(const StudyPlan& plan, const EngineTable& engines, const RunOption
   return !cut_short;
 }
 
+/// What a row is called: "creep (dts_hookpoint, slope = 5 deg)".
+std::string name_of(const StudyPlan& plan, const RowPlan& row) {
+  std::string name =
+      plan.name + " (" + plan.subjects[static_cast<std::size_t>(row.subject)].info.name;
+  for (std::size_t i = 0; i < plan.sweeps.size(); ++i) {
+    const SweepPlan& sweep = plan.sweeps[i];
+    name += ", " + sweep.column.name + " = " + sweep.texts[static_cast<std::size_t>(row.values[i])];
+  }
+  return name + ")";
+}
+
+std::vector<std::string> collect_notices(const StudyPlan& plan,
+                                         const std::vector<RowOutcome>& outcomes) {
+  std::vector<std::string> notices;
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    for (const std::string& notice : outcomes[i].notices) {
+      const std::string text = name_of(plan, plan.rows[i]) + ": " + notice;
+      if (std::ranges::find(notices, text) == notices.end()) notices.push_back(text);
+    }
+  }
+  return notices;
+}
+
 /// The timing metrics of the rows that ran to their end, one after the other. False when stopped.
 bool run_timing(const StudyPlan& plan, const EngineTable& engines, const std::atomic<bool>& stop,
                 ProgressMeter& meter, std::vector<RowOutcome>& outcomes) {
@@ -122,6 +146,7 @@ StudyRun run_study(const StudyPlan& plan, const EngineTable& engines, const RunO
   ProgressMeter meter(plan.rows.size() * (timed ? 2 : 1), options);
   run.interrupted = !run_rows(plan, engines, options, store, stop, meter, outcomes) ||
                     (timed && !run_timing(plan, engines, stop, meter, outcomes));
+  run.notices = collect_notices(plan, outcomes);
   if (run.interrupted) return run;
   run.result = assemble(plan, engines, outcomes);
   run.provenance = make_provenance(plan, engines);

@@ -31,8 +31,9 @@ struct RunOptions {
 struct StudyRun {
   StudyResult result;
   Provenance provenance;
-  std::filesystem::path folder;  ///< where the files are
-  bool interrupted = false;      ///< `stop` was set: finished rows are kept, no tables are written
+  std::filesystem::path folder;      ///< where the files are
+  std::vector<std::string> notices;  ///< of engines, each with its run's name, none twice
+  bool interrupted = false;  ///< `stop` was set: finished rows are kept, no tables are written
 };
 
 /// Runs all rows of `plan`, then the timing metrics alone, and writes results.csv, timing.csv (with

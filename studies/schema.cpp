@@ -94,7 +94,7 @@ ClassSchema named(std::string name, std::string doc, std::vector<FieldSchema> fi
   schema.fields = std::move(fields);
   schema.children = std::move(children);
   schema.naming = Naming::required;
-  schema.names_a_subject = schema.name != "Study";
+  schema.names_a_subject = schema.name != "Study" && schema.name != "Wall";
   return schema;
 }
 
@@ -114,6 +114,29 @@ ClassSchema study_class() {
       {"Subject", "Sweep", "Measure", "Truth", "Plot", "Fix"});
   study.top_level = true;
   return study;
+}
+
+ClassSchema wall_class() {
+  ClassSchema wall = named("Wall",
+                           "Scenes that bring their own truths (Expect), each under every subject "
+                           "that its truths cover.",
+                           {text("title", "heading of the report"),
+                            text("question", "what the wall shows, first thing in the report")},
+                           {"Scene", "Subject"});
+  wall.top_level = true;
+  return wall;
+}
+
+ClassSchema scene_class() {
+  FieldSchema quick;
+  quick.name = "quick";
+  quick.type = FieldType::boolean;
+  quick.default_text = "true";
+  quick.doc = "whether it runs under --quick too";
+  return named(
+      "Scene", "A scene of a Wall, by the name of its file in scenes/.",
+      {text("title", "what it shows"), text("file", "if not scenes/NAME.hook"), std::move(quick)},
+      {"Fix"});
 }
 
 ClassSchema truth_class(std::vector<std::string> metrics) {
@@ -140,6 +163,8 @@ void add_study_classes(Schema& schema) {
   std::vector<std::string> metrics;
   for (const MetricDefinition& metric : metric_table()) metrics.emplace_back(metric.name);
   schema.add(study_class());
+  schema.add(wall_class());
+  schema.add(scene_class());
   schema.add(
       named("Subject", "One engine with its law, integrator and settings.",
             {of_world(schema, "engine", "which engine runs the scene"),
@@ -157,11 +182,14 @@ void add_study_classes(Schema& schema) {
   schema.add(named("Measure", "A metric to measure, by its name.", {}));
   schema.add(truth_class(std::move(metrics)));
   schema.add(named(
-      "Plot", "A figure: a metric over a sweep, or a signal over time.",
-      {text("title", "heading; default: the name"), required(words("x", 1, "a sweep, or time")),
+      "Plot", "A figure: a metric over a sweep, two sweeps or another metric, or a signal over time.",
+      {text("title", "heading; default: the name"), required(words("x", 1, "a sweep, a metric (a curve of cost against error), or time")),
        required(
            words("y", 1,
-                 "a metric; over time a signal: displacement, drift, speed, penetration, energy")),
+                 "a metric; over time a signal: displacement, drift, speed, penetration, energy; "
+                 "with `colour` a sweep")),
+       words("colour", 1, "a metric: makes a map over the sweeps x and y, a panel a subject"),
+       words("outline", 1, "in a map: a metric whose closed form draws the line between cells"),
        words("series", 1, "what makes a curve: subject, or a sweep"),
        choice("scale", {"linear", "log", "log_x", "log_log"}, "linear",
               "axes that are logarithmic: log is y")},

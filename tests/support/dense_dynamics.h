@@ -145,6 +145,12 @@ struct DenseWrench {
   Eigen::Vector3d moment, force;
 };
 
+/// Of all bodies together, the angular part about the world's origin.
+struct DenseMomentum {
+  Eigen::Vector3d linear, angular;
+  double kinetic_energy = 0.;
+};
+
 /// One robot in one state: M, its accelerations, and what follows from them.
 class DenseDynamics {
  public:
@@ -168,6 +174,18 @@ class DenseDynamics {
   const Eigen::MatrixXd& mass_matrix() const { return M_; }
   const Eigen::VectorXd& velocity() const { return velocity_; }
   const DenseKinematics<double>& kinematics() const { return still_; }
+
+  DenseMomentum momentum() const {
+    DenseMomentum sum{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
+                      0.5 * velocity_.dot(M_ * velocity_)};
+    for (std::size_t i = 0; i < still_.bodies().size(); ++i) {
+      const auto& body = still_.bodies()[i];
+      const Eigen::Vector3d p = properties(i).mass * (body.J_linear * velocity_);
+      sum.linear += p;
+      sum.angular += body.c.cross(p) + inertia(i) * (body.J_angular * velocity_);
+    }
+    return sum;
+  }
 
   /// v' of M v' = tau + sum J^T (wrenches - what the velocities take).
   Eigen::VectorXd accelerations(const Eigen::Vector3d& gravity, const std::vector<double>& torques,

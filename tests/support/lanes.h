@@ -63,6 +63,10 @@ inline Lanes pow(const Lanes& a, const Lanes& b) {
 inline Lanes sqrt(const Lanes& a) {
   return each([](double x, double) { return std::sqrt(x); }, a);
 }
+inline SineCosine<Lanes> sine_cosine(const Lanes& angle) {
+  return {each([](double x, double) { return std::sin(x); }, angle),
+          each([](double x, double) { return std::cos(x); }, angle)};
+}
 inline Lanes exp(const Lanes& a) {
   return each([](double x, double) { return std::exp(x); }, a);
 }

@@ -37,7 +37,7 @@ INSTANTIATE_TEST_SUITE_P(
     CommandLine, WrongInputTest,
     ::testing::Values(
         WrongInput{"rn " + block, "there is no command `rn`; did you mean `run`?"},
-        WrongInput{"run", "FILE is required"},
+        WrongInput{"run", "run takes a FILE, or --resume MOVIE"},
         WrongInput{"run nowhere.hook", "nowhere.hook:1:1: error: there is no such file"},
         WrongInput{"run .", "this is a folder"},
         WrongInput{"run empty.hook", "empty.hook:1:1: error: the file describes nothing"},

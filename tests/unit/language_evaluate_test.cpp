@@ -165,7 +165,7 @@ TEST(LanguageWires, MustAgreeInUnitAndKind) {
   };
   EXPECT_EQ(messages("Wire FROM w.time TO eye.distance;"), "`time` is in s, `distance` in m\n");
   EXPECT_EQ(messages("Wire FROM w.time TO w.running;"),
-            "`time` and `running` carry different kinds of values\n");
+            "`time` is a number in s, `running` takes true or false\n");
   EXPECT_EQ(messages("Wire FROM w.bot.base.location TO eye.distance;"),
             "`location` carries 3 numbers, `distance` takes 1\n");
   EXPECT_EQ(messages("Wire FROM w.bot.base.location.x TO eye.distance;"), "");

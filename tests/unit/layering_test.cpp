@@ -23,6 +23,7 @@ const std::map<std::string, Folders> may_include{
     {"reference", {"math", "contact", "simulation"}},
     {"studies", {"math", "contact", "integrators", "language", "output", "simulation"}},
     {"view", {"math", "language", "output", "simulation"}},
+    {"examples", {"control"}},
     {"cli",
      {"math", "dts", "contact", "integrators", "language", "control", "output", "simulation", "reference", "studies",
       "view"}},

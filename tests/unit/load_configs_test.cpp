@@ -29,7 +29,7 @@ bool is_included(const std::filesystem::path& module) {
            std::filesystem::path(HOOKPOINT_SOURCE_DIR) / "tests" / "truth")) {
     files.push_back(entry.path());
   }
-  const std::string name = "controllers/" + module.filename().string();
+  const std::string name = module.parent_path().filename() / module.filename();
   return std::ranges::any_of(files, [&](const std::filesystem::path& file) {
     std::ostringstream text;
     text << std::ifstream(file).rdbuf();
@@ -37,12 +37,20 @@ bool is_included(const std::filesystem::path& module) {
   });
 }
 
+/// A robot that lies on its scene's ground.
+bool rests_on_its_scene(const std::filesystem::path& module) {
+  std::ostringstream text;
+  text << std::ifstream(module).rdbuf();
+  return module.parent_path().filename() == "robots" &&
+         text.str().find("rest_on = ground;") != std::string::npos;
+}
+
 class EveryConfig : public testing::TestWithParam<std::filesystem::path> {};
 
 TEST_P(EveryConfig, Loads) {
   const std::string folder = GetParam().parent_path().filename();
-  if (folder == "controllers") {
-    // Wires reach into the robot that a controller is laid down beside: it is checked in the scene
+  if (folder == "controllers" || rests_on_its_scene(GetParam())) {
+    // What reaches into what it is laid down beside (wires into a robot) is checked in the scene
     // that includes it.
     EXPECT_TRUE(is_included(GetParam())) << GetParam() << " stands in no scene";
     return;

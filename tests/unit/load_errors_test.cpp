@@ -127,10 +127,6 @@ const Case cases[] = {
      "error 2:14 contact law impulse advances time from impact to impact and cannot be paired with "
      "rk4; leave the "
      "integrator out or choose a force law\n"},
-    {"impulse_with_chains", "World w {\ncontact = impulse_reversal;\n" + arm + " }",
-     "error 2:11 contact law impulse_reversal moves single rigid bodies only, and robot `arm` has "
-     "chains; choose a "
-     "force law, such as hookpoint\nnote 3:1 the robot is here\n"},
     {"peer_with_chains", "World w {\nengine = ode;\n" + arm + " }",
      "error 2:10 engine ode runs single rigid bodies so far, and robot `arm` has chains; choose "
      "engine dts\nnote 3:1 "

@@ -25,7 +25,8 @@ TEST(StepAllocation, CounterCounts) {
 
 TEST(StepAllocation, BlockUnderEveryLaw) {
   for (const char* law :
-       {"hookpoint", "hookpoint_reset", "hunt_crossley", "impulse", "impulse_reversal"}) {
+       {"hookpoint", "hookpoint_reset", "nominal", "hunt_crossley", "azad_featherstone", "lugre",
+        "elastoplastic", "exponential", "impulse", "impulse_reversal"}) {
     const auto experiment =
         testing::load_scene("scenes/sloped_block.hook", {{"slope", "15 deg"}, {"dt", "0.1 ms"}},
                             {{"world.contact", law}});
@@ -33,8 +34,19 @@ TEST(StepAllocation, BlockUnderEveryLaw) {
   }
 }
 
+TEST(StepAllocation, HexapodUnderTheImpulseLaws) {
+  for (const char* law : {"impulse", "impulse_reversal"}) {
+    simulation::Experiment experiment =
+        testing::load_scene("scenes/standing_hexapod.hook", {}, {{"world.contact", law}});
+    for (simulation::MaterialSpec& material : experiment.materials)
+      material.constants.rebound_speed = 1e-2;
+    EXPECT_EQ(allocations_in_steps(experiment, 100), 0) << law;
+  }
+}
+
 TEST(StepAllocation, HexapodUnderEveryIntegrator) {
-  for (const char* integrator : {"explicit_euler", "semi_implicit_euler", "rk4"}) {
+  for (const char* integrator : {"explicit_euler", "semi_implicit_euler", "rk4", "cvode_bdf",
+                                 "cvode_adams", "arkode", "arkode_imex"}) {
     simulation::Experiment experiment = testing::load_scene("scenes/standing_hexapod.hook", {});
     experiment.integrator = integrator;
     experiment.deltat = 1e-4;

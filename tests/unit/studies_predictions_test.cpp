@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 #include "studies/predictions.h"
 
@@ -138,6 +139,57 @@ TEST(Predictions, AreSilentWhereNoClosedFormHolds) {
   pushed.forces.resize(1);
   EXPECT_FALSE(prediction(pushed, "creep_speed"));
   EXPECT_FALSE(prediction(body(20., 0.8, "hookpoint"), "slip_distance"));
+}
+
+/// A leg whose joints follow as q' = K (goal - q), K = 20 1/s, seen every `period` and `samples`
+/// periods late.
+Experiment late_joints(double period, double samples) {
+  Experiment experiment;
+  experiment.deltat = 1e-4;
+  simulation::RobotSpec robot;
+  robot.mobile = true;
+  robot.base.mass.mass = 1.;
+  robot.chains.resize(1);
+  robot.chains[0].links.resize(3);
+  for (auto& link : robot.chains[0].links) link.damping = 0.5;
+  experiment.robots.push_back(robot);
+  simulation::ComponentSpec pd;
+  pd.trail = "pd";
+  pd.type = "Controller.JointPD";
+  pd.rate = 1. / period;
+  for (std::size_t joint = 0; joint < 3; ++joint) {
+    pd.values.emplace_back(joint, 10.);     // pconstant, the first of the class's parameters
+    pd.values.emplace_back(3 + joint, 0.);  // dconstant
+  }
+  experiment.components.push_back(pd);
+  experiment.wires.push_back({"leg.coxa.angle", "pd.angle[0]", {}, samples * period, 0.});
+  experiment.wires.push_back({"pd.torque[0]", "leg.coxa.torque", {}, 0., 0.});
+  return experiment;
+}
+
+TEST(JointLoopPrediction, IsTheLimitOfDelayedIntegration) {
+  // K T is bounded by 2, 1, 0.618034, 0.284630 for 0, 1, 2, 5 samples of delay.
+  for (const auto& [samples, bound] :
+       {std::pair{0., 2.}, {1., 1.}, {2., 0.618034}, {5., 0.284630}}) {
+    EXPECT_EQ(prediction(late_joints(0.999 * bound / 20., samples), "fell"), 0.) << samples;
+    EXPECT_EQ(prediction(late_joints(1.001 * bound / 20., samples), "fell"), 1.) << samples;
+  }
+  // A part of a sample waits for the next update.
+  EXPECT_EQ(prediction(late_joints(0.999 * 0.618034 / 20., 1.2), "fell"), 0.);
+  EXPECT_EQ(prediction(late_joints(1.001 * 0.618034 / 20., 1.2), "fell"), 1.);
+}
+
+TEST(JointLoopPrediction, SaysNothingOfOtherLoops) {
+  Experiment damped = late_joints(0.01, 2.);
+  damped.components[0].values.emplace_back(3, 0.1);
+  EXPECT_FALSE(prediction(damped, "fell"));
+  Experiment light = late_joints(0.01, 2.);
+  light.robots[0].chains[0].links[1].damping = 0.;
+  EXPECT_FALSE(prediction(light, "fell"));
+  Experiment late = late_joints(0.01, 2.);
+  late.wires[1].delay = 0.01;
+  EXPECT_FALSE(prediction(late, "fell"));
+  EXPECT_FALSE(prediction(body(20., 0.8, "hookpoint"), "fell"));
 }
 
 }  // namespace

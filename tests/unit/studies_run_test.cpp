@@ -321,5 +321,30 @@ TEST_F(StudyRunner, AUnitThatDoesNotFitTheSceneIsAnError) {
   EXPECT_NE(first_error(), "");
 }
 
+constexpr const char* map = "Plot map { x = slope; y = mu; colour = creep_speed; }";
+
+TEST_F(StudyRunner, AMapHasTwoSweepsAndAMetric) {
+  const auto planned = plan(replaced(study, "Plot fig5", std::string(map) + " Plot fig5"));
+  ASSERT_TRUE(planned) << first_error();
+  const PlotSpec& spec = planned->plots.front().spec;
+  EXPECT_EQ(spec.x_unit, "deg");
+  EXPECT_EQ(spec.y_unit, "");
+  EXPECT_EQ(spec.color_unit, "m/s");
+}
+
+TEST_F(StudyRunner, AMapOfWhatIsNotThereIsRefused) {
+  const auto error_of = [&](const char* from, const char* to) {
+    plan(replaced(study, "Plot fig5", replaced(map, from, to) + " Plot fig5"));
+    return first_error();
+  };
+  EXPECT_NE(error_of("y = mu", "y = creep_speed").find("no Sweep is called `creep_speed`"),
+            std::string::npos);
+  EXPECT_NE(error_of("creep_speed", "tilt_max").find("no Measure of this study"),
+            std::string::npos);
+  EXPECT_NE(error_of("x = slope", "x = time").find("x and y are sweeps"), std::string::npos);
+  EXPECT_NE(error_of("y = mu; colour", "y = creep_speed; outline").find("belongs to a map"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace hookpoint::studies

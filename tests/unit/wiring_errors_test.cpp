@@ -66,10 +66,11 @@ const Case cases[] = {
      "error 2:1 `location` carries 3 numbers, `torque` takes 1\n"},
     {"dangling_end", "Controller.PD p { Wire FROM w.bot.leg.two.angle TO current; }",
      "error 2:29 `leg` (Chain) has no object or port `two`; it has hip_distance, "
-     "hip_orientation, one\nnote 1:38 this Chain\n"},
+     "hip_force, hip_moment, hip_orientation, one\nnote 1:38 this Chain\n"},
     {"no_default_port", "Wire FROM w.bot TO w.bot.leg.one.torque;",
      "error 2:11 a Robot has no output of its own: the wire needs FROM and a port; its outputs are "
-     "position, orientation, velocity, angular_velocity, contact.force\n"},
+     "position, orientation, velocity, angular_velocity, linear_acceleration, angular_acceleration, "
+     "contact.force, contact.count, kinetic_energy, potential_energy, center_of_mass\n"},
     {"noise_in_another_unit",
      "Controller.PD p { Wire FROM w.bot.leg.one.angle TO current { noise = 2 mm; } }",
      "error 2:70 `noise` takes the unit of `angle`, rad, not m\n"},

@@ -109,7 +109,7 @@ TEST(WiringStub, TheWiresOwnWins) {
 
 TEST(WiringStub, NoiseWithAUnitHoldsForTheWiresThatCarryIt) {
   Running run(
-      slide("Controller.PD p { noise = 2 deg; pconstant = 1; Wire FROM w.bot.c.l.angle TO "
+      slide("Controller.PD p { noise = 2 mm; pconstant = 1; Wire FROM w.bot.c.l.angle TO "
             "current; Wire TO w.bot.c.l.torque; }"));
   EXPECT_NE(run["p.current"], 0.);
   EXPECT_EQ(run["w.bot.c.l.torque"], run["p.output"]);

@@ -1,0 +1,199 @@
+#include "cli/run_loop.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <iostream>
+
+#include "cli/application.h"
+#include "cli/exit_status.h"
+#include "contact/force_law.h"
+#include "output/number.h"
+#include "output/progress.h"
+#include "simulation/stability.h"
+
+namespace hookpoint::cli {
+namespace {
+
+using simulation::Experiment;
+using simulation::WorldState;
+
+volatile std::sig_atomic_t interrupted = 0;
+void interrupt(int) { interrupted = 1; }
+
+/// The bar appears only for work that takes a while.
+class LazyProgress {
+ public:
+  LazyProgress(std::string label, std::int64_t steps) : label_(std::move(label)), steps_(steps) {}
+  void at(std::int64_t step) {
+    if (step % granularity != 0) return;
+    if (!bar_ && std::chrono::steady_clock::now() - start_ > std::chrono::seconds(2)) {
+      bar_.emplace(label_, static_cast<std::size_t>(steps_), static_cast<std::size_t>(step));
+    } else if (bar_) {
+      bar_->advance(granularity);
+    }
+  }
+
+ private:
+  static constexpr std::int64_t granularity = 1024;
+  std::string label_;
+  std::int64_t steps_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::optional<output::Progress> bar_;
+};
+
+std::string how_computed(const Experiment& experiment) {
+  if (experiment.engine != "dts")
+    return fmt::format("engine {}, settings {}", experiment.engine, experiment.settings);
+  const contact::LawDescription* law = contact::find_law(experiment.contact);
+  const bool own_time = law != nullptr && law->is_impulse_law;
+  return fmt::format("engine dts, contact {}{}", experiment.contact,
+                     own_time ? "" : ", " + experiment.integrator);
+}
+
+int report_failure(const simulation::StepStatus& status) {
+  print_error(
+      fmt::format("the run stopped at {:.6g} s: {}: {}", status.time, status.body, status.advice));
+  return truth_failed;
+}
+
+std::vector<simulation::Port> find_ports(const Experiment& experiment,
+                                         const std::vector<simulation::Port>& ports,
+                                         const std::vector<std::string>& trails) {
+  std::vector<simulation::Port> found;
+  for (const std::string& trail : trails)
+    found.push_back(simulation::find_port(experiment, ports, trail));
+  return found;
+}
+
+}  // namespace
+
+// What cannot be written is found out before anything is.
+RunFiles::RunFiles(const Experiment& experiment, simulation::World& world,
+                   const std::vector<simulation::Port>& ports, const RunRequest& request,
+                   std::int64_t first_step)
+    : ports_(find_ports(experiment, ports, request.trails)),
+      values_(ports_.size()),
+      movies_(experiment, world, request.folder, request.text, first_step),
+      records_(experiment, ports, request.folder, request.text, first_step) {
+  if (!ports_.empty()) {
+    std::vector<output::TraceColumn> columns;
+    for (std::size_t i = 0; i < ports_.size(); ++i)
+      columns.push_back({request.trails[i], ports_[i].unit});
+    trace_.emplace(request.folder / "trace.csv", columns);
+  }
+  if (request.leaves_files || trace_ || !experiment.records.empty())
+    output::write_file(request.folder / "experiment.hook", request.text);
+}
+
+void RunFiles::row(std::int64_t step, double time) {
+  records_.row(step, time);
+  movies_.row(step);
+  if (!trace_) return;
+  for (std::size_t i = 0; i < ports_.size(); ++i) values_[i] = *ports_[i].value;
+  trace_->row(time, values_);
+}
+
+void RunFiles::close() {
+  records_.close();
+  movies_.close();
+  if (trace_) trace_->close();
+}
+
+void tell_stability(const Experiment& experiment) {
+  const simulation::StabilityBound bound = simulation::stability_bound(experiment);
+  if (!std::isfinite(bound.step)) return;
+  const std::string scope =
+      bound.touching ? "resting on its ground" : "touching with its stiffest point";
+  const std::string limit = bound.step > 0. ? fmt::format("{:.4g} s", bound.step)
+                                            : "none, without damping it is unstable at any";
+  std::cerr << fmt::format("largest stable step of {} for {} {}: {} (deltat is {:.4g} s)\n",
+                           experiment.integrator, bound.robot, scope, limit, experiment.deltat);
+  if (experiment.deltat > bound.step) {
+    std::cerr << "hookpoint: warning: deltat is above the largest stable step: contacts will gain "
+                 "energy; make the step smaller, "
+                 "the ground softer, or choose another integrator\n";
+  }
+  if (std::isfinite(bound.resolved_speed)) {
+    std::cerr << fmt::format(
+        "under {} the step resolves how friction builds up to {:.3g} m/s of sliding; above, it is "
+        "steady friction at once\n",
+        experiment.contact, bound.resolved_speed);
+  }
+}
+
+void print_summary(const Experiment& experiment, const WorldState& state) {
+  fmt::print("{} at {} s ({})\n", experiment.world, state.time, how_computed(experiment));
+  std::size_t body = 0, joint = 0;
+  for (const simulation::RobotSpec& robot : experiment.robots) {
+    const simulation::BodyState& base = state.bodies[body++];
+    fmt::print(
+        "  {:<28} location {:13.6g} {:13.6g} {:13.6g} m   velocity {:13.6g} {:13.6g} {:13.6g} "
+        "m/s\n",
+        robot.name + ".base", base.position.x, base.position.y, base.position.z, base.velocity.x,
+        base.velocity.y, base.velocity.z);
+    for (const simulation::ChainSpec& chain : robot.chains) {
+      for (const simulation::LinkSpec& link : chain.links) {
+        const simulation::JointState& values = state.joints[joint++];
+        const bool turns = link.joint == simulation::JointKind::revolute;
+        fmt::print("  {:<28} {} {:13.6g} {}   rate {:13.6g} {}\n",
+                   robot.name + "." + chain.name + "." + link.body.name,
+                   turns ? "angle   " : "travel  ", values.angle, turns ? "rad" : "m  ",
+                   values.rate, turns ? "rad/s" : "m/s");
+        ++body;
+      }
+    }
+  }
+  if (state.impacts > 0) fmt::print("  impacts {}\n", state.impacts);
+}
+
+int print_expectations(const simulation::Expectations& expectations) {
+  int status = fine;
+  for (const simulation::ExpectationResult& result : expectations.results()) {
+    const simulation::ExpectationSpec& spec = *result.spec;
+    const std::string measured = result.measured ? output::rounded(*result.measured) : "never";
+    const std::string difference = result.error() ? output::rounded(*result.error(), 2) : "none";
+    const bool relative = spec.tolerance > 0. && spec.expected != 0.;
+    fmt::print("  {} {:<26} {:>12} {}, closed form {}, {} error {}{}\n", result.ok() ? "✓" : "✗",
+               spec.name, measured, spec.unit, output::rounded(spec.expected),
+               relative ? "relative" : "absolute", difference,
+               spec.source.empty() ? "" : "  (" + spec.source + ")");
+    if (!result.ok()) status = truth_failed;
+  }
+  return status;
+}
+
+int step_through(const Experiment& experiment, simulation::World& world, RunFiles& files,
+                 std::int64_t last, simulation::Expectations* expectations) {
+  const std::int64_t first = world.state().step;
+  LazyProgress progress(experiment.world, last - first);
+  std::signal(SIGINT, interrupt);
+  std::signal(SIGTERM, interrupt);
+  files.row(first, world.state().time);
+  if (expectations != nullptr) expectations->observe(world.state().time);
+  std::size_t told = 0;
+  const auto tell_notices = [&] {
+    for (; told < world.state().notices.size(); ++told)
+      std::cerr << "hookpoint: note: " << world.state().notices[told] << '\n';
+  };
+  for (std::int64_t step = first + 1; step <= last && !interrupted && world.ended().empty();
+       ++step) {
+    const simulation::StepStatus status = world.step();
+    tell_notices();
+    if (!status.ok()) return report_failure(status);
+    files.row(step, world.state().time);
+    if (expectations != nullptr) expectations->observe(world.state().time);
+    progress.at(step - first);
+  }
+  if (const std::string reason = world.ended(); !reason.empty())
+    std::cerr << fmt::format("hookpoint: note: the run ended at {:.6g} s: {}\n", world.state().time,
+                             reason);
+  if (!interrupted) return fine;
+  print_error(fmt::format("interrupted at {:.6g} s; what was recorded up to then is kept",
+                          world.state().time));
+  return truth_failed;
+}
+
+}  // namespace hookpoint::cli

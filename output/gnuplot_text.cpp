@@ -1,0 +1,29 @@
+#include <utility>
+
+#include "output/plot.h"
+
+namespace hookpoint::output {
+
+std::string gnuplot_quoted(std::string_view text) {
+  std::string result = "'";
+  for (const char c : text) result.append(c == '\'' ? 2 : 1, c);
+  return result + "'";
+}
+
+std::string gnuplot_escaped(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    if (std::string_view("_^{}@&~\\").find(c) != std::string_view::npos) result += '\\';
+    result += c;
+  }
+  return result;
+}
+
+std::string typeset(std::string text) {
+  for (const auto& [plain, set] : {std::pair{"^2", "²"}, std::pair{"^3", "³"}})
+    for (auto at = text.find(plain); at != std::string::npos; at = text.find(plain, at))
+      text.replace(at, 2, set);
+  return text;
+}
+
+}  // namespace hookpoint::output

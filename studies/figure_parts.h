@@ -1,0 +1,29 @@
+// What figures of every kind ask of a study and a Plot block.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "studies/figures.h"
+
+namespace hookpoint::studies {
+
+std::optional<std::size_t> sweep_index(const StudyResult& study, const std::string& name);
+std::optional<std::size_t> metric_index(const StudyResult& study, const std::string& name);
+
+/// Whether two values of a sweep are one.
+bool same(double a, double b);
+/// Whether the block's `where` lets the row in.
+bool selected(const StudyResult& study, const PlotSpec& spec, const RunResult& row);
+
+/// "azimuth, dt": sweeps that neither an axis, a series nor `where` decides and that take several
+/// values.
+std::string undecided(const StudyResult& study, const PlotSpec& spec);
+/// "mu = 0.8, dt = 1 ms": what `where` fixes.
+std::string fixed_text(const StudyResult& study, const PlotSpec& spec);
+
+/// The figure of a block with a colour: a map over its x and y.
+Figure make_map(const StudyResult& study, const PlotSpec& spec);
+
+}  // namespace hookpoint::studies

@@ -1,0 +1,37 @@
+// What an engine has to say in a row of a study reaches the user: once, and with the row's name.
+#include <gtest/gtest.h>
+
+#include "tests/support/command.h"
+
+namespace hookpoint {
+namespace {
+
+using testing::Workplace;
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+    ++found;
+  return found;
+}
+
+TEST(StudyNotices, AreToldOnceWithTheRowsName) {
+  const Workplace work;
+  work.file(
+      "slide.hook",
+      "Param v0 = 1 m/s; World w { Terrain.Flat g { size = 2; } Robot block { Base.mobile { "
+      "rest_on = g; velocity = v0, 0, 0; Shape.Box { dimensions = .2, .2, .1; mass = 1; } } } "
+      "}");
+  work.file(
+      "study.hook",
+      "Study slides { scene = \"slide.hook\"; duration = 1 s; settle = 0 s; Sweep v0 { values "
+      "= 0.5 m/s, 9 m/s; } Measure slip_distance; Subject ours { engine = dts; } }");
+  const auto result = work.hookpoint("study study.hook --jobs 2 --out here");
+  EXPECT_EQ(result.status, 0) << result.err;
+  const std::string note = "hookpoint: note: slides (ours, v0 = 9 m/s): block: a boundary point at";
+  EXPECT_EQ(count(result.err, note), 1U) << result.err;
+  EXPECT_EQ(count(result.err, "has left the terrain"), 1U) << result.err;
+}
+
+}  // namespace
+}  // namespace hookpoint
