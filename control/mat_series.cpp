@@ -115,8 +115,11 @@ Variable read_variable(mat_t& file, const std::string& path, const std::string& 
 /// "MAT-File Format" (MAT-file level 5).
 class FirstLook {
  public:
-  explicit FirstLook(const std::string& path)
-      : file_(path, std::ios::binary), end_(std::filesystem::file_size(path)) {}
+  explicit FirstLook(const std::string& path) : file_(path, std::ios::binary) {
+    std::error_code missing;
+    end_ = std::filesystem::file_size(path, missing);
+    if (missing) end_ = 0;
+  }
 
   /// A MAT file v5 or 7.3 begins with a text of 124 bytes, the version and the byte order; anything
   /// else the library would take for a v4 file, which has no mark of its own. The variables of a v5
@@ -140,7 +143,7 @@ class FirstLook {
  private:
   static constexpr std::uint32_t matrix = 14, sparse = 5;
 
-  /// Array flags (a tag and two words), then the dimensions.
+  /// Array flags (a tag and two words), then the dimensions, then the name.
   bool matrix_fits(std::uint64_t begin, std::uint64_t size) {
     if (size < 24) return size == 0;
     if ((word(begin + 8) & 0xFFU) == sparse) return true;
@@ -148,7 +151,9 @@ class FirstLook {
     if (24 + 4 * ranks > size) return false;
     double elements = 1.;
     for (std::uint64_t i = 0; i < ranks; ++i) elements *= word(begin + 24 + 4 * i);
-    return elements <= static_cast<double>(size);
+    const std::uint64_t name = begin + 24 + (4 * ranks + 7) / 8 * 8;
+    const bool named = name + 8 > begin + size || word(name) >> 16U != 0 || word(name + 4) <= size;
+    return named && elements <= static_cast<double>(size);
   }
 
   std::uint32_t word(std::uint64_t at) {
@@ -160,7 +165,7 @@ class FirstLook {
   }
 
   std::ifstream file_;
-  std::uint64_t at_ = 128, end_;
+  std::uint64_t at_ = 128, end_ = 0;
   bool swapped_ = false;
 };
 
