@@ -75,9 +75,8 @@ void add_movies(CLI::App* run_app, RunArguments& arguments) {
 }
 
 void add_movie_tools(CLI::App& app, Request& request) {
-  CLI::App* replay_app =
-      add_command(app, request, "replay", "a run again as its movie has it",
-                  [&] { return replay(request.replay); });
+  CLI::App* replay_app = add_command(app, request, "replay", "a run again as its movie has it",
+                                     [&] { return replay(request.replay); });
   replay_app->add_option("MOVIE", request.replay.movie, "an .h5 file of run --movie")->required();
   replay_app
       ->add_option("--at", request.replay.at,
@@ -172,9 +171,9 @@ void add_language_tools(CLI::App& app, Request& request) {
 }
 
 void add_advise(CLI::App& app, Request& request) {
-  CLI::App* advise_app = add_command(
-      app, request, "advise", "the ground's constants from weight, penetration and rebound",
-      [&] { return advise(request.advise); });
+  CLI::App* advise_app = add_command(app, request, "advise",
+                                     "the ground's constants from weight, penetration and rebound",
+                                     [&] { return advise(request.advise); });
   advise_app->add_option("FILE", request.advise.file, "a .hook file with a World")->required();
   add_settings(advise_app, request.advise.settings);
   advise_app
@@ -183,7 +182,7 @@ void add_advise(CLI::App& app, Request& request) {
       ->type_name("DEPTH");
   advise_app
       ->add_option("--rebound", request.advise.rebound,
-                   "wanted, of the speed: 0.2 (default: the material's restitution)")
+                   "wanted, of the speed: 0.2 (default: the material's restitution, or 0.1)")
       ->type_name("RATIO");
   advise_app->add_flag("--json", request.advise.json, "as JSON, 17 significant digits");
   add_plugins(advise_app, request.advise.allow_plugins);

@@ -19,6 +19,11 @@
 namespace hookpoint::simulation {
 namespace {
 
+/// Wanted where neither the user nor the material says: a blow leaves a tenth of its speed.
+constexpr double usual_rebound = 0.1;
+/// Below it a damper would have to be endlessly strong.
+constexpr double least_rebound = 0.01;
+
 /// How far above its lowest point a robot that does not touch is taken to stand [m].
 constexpr double standing_reach = 1e-3;
 
@@ -57,6 +62,17 @@ double effective_mass(DtsRobot& robot, const ContactPoint& point) {
   const Matrix3d K =
       dts::collision_matrix(robot.model(), robot.workspace(), {point.body, point.position});
   return 1. / dot(point.normal, K * point.normal);
+}
+
+double wanted_rebound(const AdviceWishes& wishes,
+                      const contact::MaterialConstants<double>& material) {
+  if (wishes.rebound && *wishes.rebound < least_rebound)
+    throw ExperimentError(fmt::format(
+        "a damper takes all speed of a blow only when it is endlessly strong: ask for a rebound of "
+        "{} or more",
+        least_rebound));
+  if (wishes.rebound) return *wishes.rebound;
+  return material.restitution >= least_rebound ? material.restitution : usual_rebound;
 }
 
 /// Sets `field` to `value` among the advised constants.
@@ -126,7 +142,7 @@ std::vector<GroundAdvice> advise_robot(const Experiment& experiment, int index,
     ground.depth = contact::static_depth(law, ground.load, spec.constants);
     ground.rebound = contact::restitution(law, ground.mass, wishes.impact_speed, spec.constants);
     ground.wanted_depth = wishes.penetration.value_or(spec.constants.nominal_penetration);
-    ground.wanted_rebound = wishes.rebound.value_or(spec.constants.restitution);
+    ground.wanted_rebound = wanted_rebound(wishes, spec.constants);
     advise_constants(ground, law, spec.constants, wishes.impact_speed);
     ground.survival_present =
         contact::hook_survival_speed(gravity, ground.mass, ground.load / ground.depth);

@@ -14,8 +14,9 @@ namespace hookpoint::simulation {
 
 struct AdviceWishes {
   std::optional<double> penetration;  ///< at rest [m]; none: the material's nominal_penetration
-  std::optional<double> rebound;  ///< rebound speed over impact speed; none: material's restitution
-  double impact_speed = 0.1;      ///< [m/s], for laws whose rebound depends on it
+  std::optional<double> rebound;      ///< rebound speed over impact speed; none: the
+                                      ///< material's restitution, or 0.1 where that is 0
+  double impact_speed = 0.1;          ///< [m/s], for laws whose rebound depends on it
 };
 
 /// A constant of a material, as it is and as it should be. SI.

@@ -107,6 +107,15 @@ TEST(Advice, GroundAsWishedNeedsNoChange) {
   EXPECT_TRUE(advice.changes.empty()) << advice.changes[0];
 }
 
+TEST(Advice, ARebound0IsNotToBeHad) {
+  const Advice unsaid = advice_for(block("deltat = 0.1 ms;", ""), {});
+  EXPECT_NEAR(unsaid.grounds[0].wanted_rebound, 0.1, 0.);
+  EXPECT_LT(advised(unsaid, "normal_damping"), 1e4);
+  const Loaded loaded = load_text(block("deltat = 0.1 ms;", ""));
+  EXPECT_THROW(simulation::advise(*loaded.experiment, {1e-3, 0., 0.1}),
+               simulation::ExperimentError);
+}
+
 TEST(Advice, RefusesWhatHasNoConstants) {
   const Loaded impulse = load_text(block("contact = impulse;", ""));
   ASSERT_TRUE(impulse.experiment) << impulse.diagnostics;
