@@ -102,8 +102,7 @@ std::optional<NumberPort> find_number(const language::Object& from, const std::s
   if (target->field == nullptr || !is_number(*target->field))
     return fail(fmt::format("`{}` is no number that could be recorded", trail));
   const auto object = loading.trails.find(target->object);
-  if (object == loading.trails.end())
-    return fail(fmt::format("`{}` has no value in a run", trail));
+  if (object == loading.trails.end()) return fail(fmt::format("`{}` has no value in a run", trail));
   const std::string lacking = missing_port(loading.experiment, *target->object, *target->field);
   if (!lacking.empty()) return fail(lacking);
   return NumberPort{*target, object->second + "." + target->port};

@@ -199,7 +199,8 @@ TEST(Ports, EveryPortOfEveryClassHasAValue) {
             "Push p { body = b.base; to = 1; } Robot arm { Base.fixed; Chain c { Link l { mass = "
             "1; Shape.Sphere round { radius = 1; } } } }") +
       "Probe probe; Controller.PD pd; Signal.Sine wave;";
-  const std::filesystem::path file = std::filesystem::path(::testing::TempDir()) / "every_port.hook";
+  const std::filesystem::path file =
+      std::filesystem::path(::testing::TempDir()) / "every_port.hook";
   std::ofstream(file) << text;
   language::Library library(experiment_schema(), {});
   language::Diagnostics diagnostics;
