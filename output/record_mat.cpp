@@ -6,6 +6,7 @@
 #include <array>
 #include <memory>
 
+#include "output/hdf5_times.h"
 #include "output/matlab_names.h"
 #include "output/record_formats.h"
 #include "output/record_spool.h"
@@ -156,6 +157,7 @@ void convert(SpoolReader& spool, const std::filesystem::path& target) {
     }
   }
   file.close();
+  if (spool.format() == "mat73") clear_object_times(target);
 }
 
 class MatRecord final : public RecordWriter {
