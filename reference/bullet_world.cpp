@@ -1,5 +1,6 @@
 #include "reference/bullet_world.h"
 
+#include <algorithm>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -14,6 +15,7 @@ namespace hookpoint::reference {
 namespace {
 
 using simulation::BodyState;
+using simulation::JointState;
 
 struct Body {
   std::size_t index;  ///< of the robot
@@ -45,14 +47,14 @@ class BulletWorld final : public PeerWorld {
   BulletWorld(const BulletWorld&) = delete;
   BulletWorld& operator=(const BulletWorld&) = delete;
 
-  std::string advance(const std::vector<simulation::ForceInput>& forces) override {
-    apply_forces(forces);
+  std::string advance(const simulation::WorldInputs& inputs) override {
+    apply_forces(inputs.forces);
     // No substeps: one step of exactly deltat, as every other engine takes.
     world_.stepSimulation(deltat_, 0);
     return {};
   }
 
-  void read(std::vector<BodyState>& bodies) const override {
+  void read(std::span<BodyState> bodies, std::span<JointState> /*joints*/) const override {
     for (const Body& body : bodies_) {
       BodyState& state = bodies[body.index];
       const btTransform& X_WP = body.rigid->getWorldTransform();
@@ -67,6 +69,10 @@ class BulletWorld final : public PeerWorld {
     }
     for (int i = 0; i < dispatcher_.getNumManifolds(); ++i)
       read_contacts(*dispatcher_.getInternalManifoldPointer()[i], bodies);
+  }
+
+  void read_points(std::span<Vector3d> forces) const override {
+    std::ranges::fill(forces, Vector3d{});
   }
 
  private:
@@ -105,7 +111,7 @@ class BulletWorld final : public PeerWorld {
                                                   body.shape->shape.get(), frame.inertia);
     const btTransform X_WB(bullet(robot.orientation), bullet(robot.location));
     info.m_startWorldTransform = X_WB * frame.X_BP;
-    info.m_friction = material_.static_friction;
+    info.m_friction = single_friction(material_);
     info.m_restitution = settings_.restitution ? material_.restitution : 0.;
     body.rigid = std::make_unique<btRigidBody>(info);
     const Vector3d arm = rotate(robot.orientation, robot.base.mass.center_of_mass);
@@ -136,7 +142,7 @@ class BulletWorld final : public PeerWorld {
       }
   }
 
-  void read_contacts(const btPersistentManifold& manifold, std::vector<BodyState>& bodies) const {
+  void read_contacts(const btPersistentManifold& manifold, std::span<BodyState> bodies) const {
     const bool body_is_first = manifold.getBody1() == ground_.get();
     const btCollisionObject* object = body_is_first ? manifold.getBody0() : manifold.getBody1();
     // Impulses of a manifold act on its first body.

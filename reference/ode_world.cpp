@@ -1,5 +1,6 @@
 #include "reference/ode_world.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -17,6 +18,7 @@ namespace hookpoint::reference {
 namespace {
 
 using simulation::BodyState;
+using simulation::JointState;
 
 constexpr int max_contacts =
     64;  // a geometry's; a box on a plane has 4, on a mesh a few a triangle
@@ -55,11 +57,11 @@ class OdeWorld final : public PeerWorld {
     touches_.reserve(max_contacts);
   }
 
-  std::string advance(const std::vector<simulation::ForceInput>& forces) override {
+  std::string advance(const simulation::WorldInputs& inputs) override {
     prepare_ode_for_this_thread();
     const OdeMessages messages;
     try {
-      apply_forces(forces);
+      apply_forces(inputs.forces);
       collide();
       const int taken = take_step();
       listen(messages);
@@ -72,7 +74,7 @@ class OdeWorld final : public PeerWorld {
 
   std::string notice() override { return std::exchange(notice_, {}); }
 
-  void read(std::vector<BodyState>& bodies) const override {
+  void read(std::span<BodyState> bodies, std::span<JointState> /*joints*/) const override {
     for (const Body& body : bodies_) {
       BodyState& state = bodies[body.index];
       const dReal* q = dBodyGetQuaternion(body.id);
@@ -90,6 +92,10 @@ class OdeWorld final : public PeerWorld {
       bodies[touch.body].contact_force += force;
       if (dot(force, touch.normal) > 0.) ++bodies[touch.body].contacts;
     }
+  }
+
+  void read_points(std::span<Vector3d> forces) const override {
+    std::ranges::fill(forces, Vector3d{});
   }
 
  private:
@@ -111,7 +117,7 @@ class OdeWorld final : public PeerWorld {
     // takes its friction directions from the normal alone, which is why its friction box is
     // direction dependent.
     surface_.mode = dContactApprox1;
-    surface_.mu = material.static_friction;
+    surface_.mu = single_friction(material);
     if (settings_.soft_normal) {
       surface_.mode |= dContactSoftERP | dContactSoftCFM;
       surface_.soft_erp = settings_.constraint.normal_error_reduction;

@@ -138,11 +138,10 @@ TEST(PeerEngine, NamesWhatItCannotRun) {
   chains.robots[0].chains.emplace_back();
   expect_refusal(chains, "'block' has chains");
   simulation::Experiment patches = good;
-  patches.terrain->patches.emplace_back();
-  expect_refusal(patches, "patches");
-  simulation::Experiment friction = good;
-  friction.materials[0].constants.kinetic_friction = 0.4;
-  expect_refusal(friction, "static and kinetic friction");
+  patches.materials.push_back(patches.materials[0]);
+  patches.materials[1].constants.kinetic_friction = 0.1;
+  patches.terrain->patches.push_back({0., 0., 1., 1., 1});
+  expect_refusal(patches, "friction of its own");
   simulation::Experiment shapeless = good;
   shapeless.robots[0].base.shapes.clear();
   expect_refusal(shapeless, "no shape");
@@ -152,6 +151,18 @@ TEST(PeerEngine, NamesWhatItCannotRun) {
   simulation::Experiment settings = good;
   settings.settings = "best";
   expect_refusal(settings, "default, recommended or matched");
+}
+
+TEST(PeerEngine, SaysThatItTakesTheKineticOfTwoFrictions) {
+  simulation::Experiment experiment = sloped_block(15. * degree, 0., 0.2, 1e-3);
+  experiment.materials[0].constants.static_friction = 0.8;
+  for (const auto& peer : reference::peers()) {
+    const auto engine = peer.make(experiment);
+    ASSERT_EQ(engine->state().notices.size(), 1u) << peer.name;
+    EXPECT_NE(engine->state().notices[0].find("kinetic"), std::string::npos) << peer.name;
+    ASSERT_TRUE(run_until(*engine, 1e-3, 0.5));
+    EXPECT_GT(norm(engine->state().bodies[0].velocity), 0.1) << peer.name;  // 0.8 would hold it
+  }
 }
 
 TEST(PeerEngine, RunsALegconeInBulletAndNamesItInOde) {
