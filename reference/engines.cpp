@@ -36,18 +36,7 @@ std::vector<EngineGap> ode_gaps() {
   return gaps;
 }
 
-std::vector<EngineGap> bullet_gaps() {
-  std::vector<EngineGap> gaps = shared_gaps();
-  const auto refuse = [&gaps](std::string_view name, const char* instead) {
-    gaps.push_back({std::string(name), EngineGap::Handling::refused, instead});
-  };
-  refuse(feature::chains, "this engine runs single rigid bodies only, use engine dts");
-  refuse(feature::points, "this engine collides shapes only, use engine dts");
-  refuse(feature::tile_friction, "use one material");
-  refuse(feature::tile_softness, "use one material");
-  refuse(feature::tile_restitution, "use one material");
-  return gaps;
-}
+std::vector<EngineGap> bullet_gaps() { return shared_gaps(); }
 
 std::unique_ptr<simulation::Engine> make(std::string_view engine,
                                          const simulation::Experiment& experiment,

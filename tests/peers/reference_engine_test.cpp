@@ -2,6 +2,7 @@
 // with time, body and advice, gaps named, and a table of every setting.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -134,14 +135,6 @@ void expect_refusal(const simulation::Experiment& experiment, const std::string&
 
 TEST(PeerEngine, NamesWhatItCannotRun) {
   const simulation::Experiment good = sloped_block(15. * degree, 0., 0.5, 1e-3);
-  simulation::Experiment chains = good;
-  chains.robots[0].chains.emplace_back();
-  expect_refusal(chains, "'block' has chains");
-  simulation::Experiment patches = good;
-  patches.materials.push_back(patches.materials[0]);
-  patches.materials[1].constants.kinetic_friction = 0.1;
-  patches.terrain->patches.push_back({0., 0., 1., 1., 1});
-  expect_refusal(patches, "friction of its own");
   simulation::Experiment shapeless = good;
   shapeless.robots[0].base.shapes.clear();
   expect_refusal(shapeless, "no shape");
@@ -151,6 +144,22 @@ TEST(PeerEngine, NamesWhatItCannotRun) {
   simulation::Experiment settings = good;
   settings.settings = "best";
   expect_refusal(settings, "default, recommended or matched");
+}
+
+TEST(PeerEngine, NamesTheGapThatAnExperimentMeets) {
+  simulation::Experiment experiment = sloped_block(15. * degree, 0., 0.5, 1e-3);
+  simulation::ChainSpec& leg = experiment.robots[0].chains.emplace_back();
+  leg.name = "leg";
+  leg.links.emplace_back().body.name = "shin";  // without mass
+  for (const auto& peer : reference::peers()) {
+    const auto gaps = peer.describe().gaps;
+    const bool lacks = std::ranges::any_of(
+        gaps, [](const auto& gap) { return gap.feature == "links without mass"; });
+    const std::string message = refusal(peer, experiment);
+    EXPECT_EQ(message.find("leg.shin carries no mass") != std::string::npos, lacks) << message;
+    EXPECT_FALSE(gaps.empty()) << peer.name;
+    for (const auto& gap : gaps) EXPECT_FALSE(gap.feature.empty() || gap.instead.empty());
+  }
 }
 
 TEST(PeerEngine, SaysThatItTakesTheKineticOfTwoFrictions) {
