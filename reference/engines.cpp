@@ -17,13 +17,35 @@ constexpr std::array<Peer, 3> all_peers{{
     {"bullet", describe_bullet, make_bullet},
 }};
 
+using simulation::EngineGap;
+
+/// What both libraries lack.
+std::vector<EngineGap> shared_gaps() {
+  std::vector<EngineGap> gaps = common_gaps();
+  gaps.push_back({std::string(feature::two_frictions), EngineGap::Handling::noticed,
+                  "this engine has one coefficient of friction, and it is the kinetic one"});
+  return gaps;
+}
+
+std::vector<EngineGap> ode_gaps() {
+  std::vector<EngineGap> gaps = shared_gaps();
+  gaps.push_back({std::string(feature::legcone), EngineGap::Handling::refused,
+                  "ODE has no cone; use Cylinder, Sphere or Box"});
+  gaps.push_back({std::string(feature::massless), EngineGap::Handling::refused,
+                  "every body of ODE has a mass; give the link one"});
+  return gaps;
+}
+
+std::vector<EngineGap> bullet_gaps() { return shared_gaps(); }
+
 std::unique_ptr<simulation::Engine> make(std::string_view engine,
                                          const simulation::Experiment& experiment,
                                          OdeSolver solver) {
-  check_supported(experiment, engine);
-  const OdeSettings settings = ode_settings(settings_of(experiment, engine), solver,
-                                            experiment.deltat, ground_material(experiment));
-  return make_peer_engine(experiment, make_ode_world(experiment, settings, solver, engine));
+  const auto notices = check_supported(
+      experiment, solver == OdeSolver::step ? describe_ode() : describe_ode_quickstep());
+  const Settings settings = settings_of(experiment, engine);
+  return make_peer_engine(experiment, make_ode_world(experiment, settings, solver, engine),
+                          notices);
 }
 
 }  // namespace
@@ -39,20 +61,20 @@ std::unique_ptr<simulation::Engine> make_ode_quickstep(const simulation::Experim
 }
 
 std::unique_ptr<simulation::Engine> make_bullet(const simulation::Experiment& experiment) {
-  check_supported(experiment, "bullet");
+  const auto notices = check_supported(experiment, describe_bullet());
   const BulletSettings settings = bullet_settings(settings_of(experiment, "bullet"),
                                                   experiment.deltat, ground_material(experiment));
-  return make_peer_engine(experiment, make_bullet_world(experiment, settings));
+  return make_peer_engine(experiment, make_bullet_world(experiment, settings), notices);
 }
 
 simulation::EngineDescription describe_ode() {
-  return {"ode", HOOKPOINT_ODE_VERSION, "double", true, settings_names()};
+  return {"ode", HOOKPOINT_ODE_VERSION, "double", true, settings_names(), ode_gaps()};
 }
 simulation::EngineDescription describe_ode_quickstep() {
-  return {"ode_quickstep", HOOKPOINT_ODE_VERSION, "double", true, settings_names()};
+  return {"ode_quickstep", HOOKPOINT_ODE_VERSION, "double", true, settings_names(), ode_gaps()};
 }
 simulation::EngineDescription describe_bullet() {
-  return {"bullet", HOOKPOINT_BULLET_VERSION, "double", true, settings_names()};
+  return {"bullet", HOOKPOINT_BULLET_VERSION, "double", true, settings_names(), bullet_gaps()};
 }
 
 ConstraintConstants constraint_constants(std::string_view engine,

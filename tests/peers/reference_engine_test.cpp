@@ -2,6 +2,7 @@
 // with time, body and advice, gaps named, and a table of every setting.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -134,15 +135,6 @@ void expect_refusal(const simulation::Experiment& experiment, const std::string&
 
 TEST(PeerEngine, NamesWhatItCannotRun) {
   const simulation::Experiment good = sloped_block(15. * degree, 0., 0.5, 1e-3);
-  simulation::Experiment chains = good;
-  chains.robots[0].chains.emplace_back();
-  expect_refusal(chains, "'block' has chains");
-  simulation::Experiment patches = good;
-  patches.terrain->patches.emplace_back();
-  expect_refusal(patches, "patches");
-  simulation::Experiment friction = good;
-  friction.materials[0].constants.kinetic_friction = 0.4;
-  expect_refusal(friction, "static and kinetic friction");
   simulation::Experiment shapeless = good;
   shapeless.robots[0].base.shapes.clear();
   expect_refusal(shapeless, "no shape");
@@ -152,6 +144,34 @@ TEST(PeerEngine, NamesWhatItCannotRun) {
   simulation::Experiment settings = good;
   settings.settings = "best";
   expect_refusal(settings, "default, recommended or matched");
+}
+
+TEST(PeerEngine, NamesTheGapThatAnExperimentMeets) {
+  simulation::Experiment experiment = sloped_block(15. * degree, 0., 0.5, 1e-3);
+  simulation::ChainSpec& leg = experiment.robots[0].chains.emplace_back();
+  leg.name = "leg";
+  leg.links.emplace_back().body.name = "shin";  // without mass
+  for (const auto& peer : reference::peers()) {
+    const auto gaps = peer.describe().gaps;
+    const bool lacks = std::ranges::any_of(
+        gaps, [](const auto& gap) { return gap.feature == "links without mass"; });
+    const std::string message = refusal(peer, experiment);
+    EXPECT_EQ(message.find("leg.shin carries no mass") != std::string::npos, lacks) << message;
+    EXPECT_FALSE(gaps.empty()) << peer.name;
+    for (const auto& gap : gaps) EXPECT_FALSE(gap.feature.empty() || gap.instead.empty());
+  }
+}
+
+TEST(PeerEngine, SaysThatItTakesTheKineticOfTwoFrictions) {
+  simulation::Experiment experiment = sloped_block(15. * degree, 0., 0.2, 1e-3);
+  experiment.materials[0].constants.static_friction = 0.8;
+  for (const auto& peer : reference::peers()) {
+    const auto engine = peer.make(experiment);
+    ASSERT_EQ(engine->state().notices.size(), 1u) << peer.name;
+    EXPECT_NE(engine->state().notices[0].find("kinetic"), std::string::npos) << peer.name;
+    ASSERT_TRUE(run_until(*engine, 1e-3, 0.5));
+    EXPECT_GT(norm(engine->state().bodies[0].velocity), 0.1) << peer.name;  // 0.8 would hold it
+  }
 }
 
 TEST(PeerEngine, RunsALegconeInBulletAndNamesItInOde) {
