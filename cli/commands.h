@@ -83,6 +83,14 @@ struct AdviseArguments {
 /// advise: the ground's constants from what the user wants of it.
 int advise(const AdviseArguments& arguments);
 
+struct CompareArguments {
+  std::filesystem::path first, second;  ///< folders that runs or studies left
+  double tolerance = 1e-9;              ///< relative (studies/comparison.h)
+  bool json = false;
+};
+/// compare: what differs between two runs.
+int compare(const CompareArguments& arguments);
+
 /// engines: every engine, law and integrator.
 int engines(bool json);
 

@@ -120,6 +120,7 @@ ColumnGroup place_group(const StudyResult& study, const RegimeTable& table, std:
 /// side as fit.
 std::string print_table(const StudyResult& study, const RegimeTable& table,
                         const TableStyle& style) {
+  if (table.metrics.empty()) return "";  // none says anything in this regime
   const ColumnGroup subjects = subject_group(study, table);
   std::vector<ColumnGroup> metrics;
   for (const std::size_t metric : table.metrics)
