@@ -188,6 +188,7 @@ RunFolder read_run_folder(const fs::path& folder) {
   read_experiment(run);
   read_provenance(run);
   run.results = read_table(folder / "results.csv");
+  if (!run.results) run.results = read_table(folder / "matrix.csv");
   run.timing = read_table(folder / "timing.csv");
   read_trajectories(run);
   return run;

@@ -1,4 +1,4 @@
-// What stands on the folders that runs leave: `compare` of two.
+// What stands on many runs: `compare` of two folders, the page of a `Matrix`.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -162,6 +162,105 @@ TEST(Compare, WhatIsNoRunIsToldWithAdvice) {
     EXPECT_EQ(result.out, "") << arguments;
     EXPECT_NE(result.err.find(says), std::string::npos) << result.err;
   }
+}
+
+/// A flight that single bodies and, of the hexapod, our engine alone can make; one subject whose
+/// engine this build does not know how to find.
+const std::string flights =
+    "Study box { scene = \"scenes/thrown_box.hook\"; duration = 0.1 s;\n"
+    "  Measure energy_gain;\n"
+    "  Subject ours { engine = dts; integrator = rk4; }\n"
+    "  Subject ode { engine = ode; settings = default; }\n"
+    "  Truth energy_gain { below = 1 J; }\n"
+    "  Plot energy { x = time; y = energy; } }\n"
+    "Study table { scene = \"scenes/four_leg_table.hook\"; duration = 0.1 s;\n"
+    "  Measure penetration_max;\n"
+    "  Subject ours { engine = dts; contact = hookpoint; }\n"
+    "  Subject ode { engine = ode; settings = default; }\n"
+    "  Truth penetration_max { below = 10 mm; } }\n";
+
+const std::string matrix =
+    "Matrix both { title = \"Both\"; Part flights { file = \"flights.hook\"; } Part creep { file = "
+    "\"creep.hook\"; } }\n";
+
+void write_matrix(const Workplace& work) {
+  work.file("flights.hook", flights);
+  work.file("creep.hook", sliding("20 deg", 0.2));
+  work.file("matrix.hook", matrix);
+}
+
+TEST(Matrix, HoldsEveryStudysSubjectsByMetricsInOnePage) {
+  const Workplace work;
+  write_matrix(work);
+  const CommandResult result = work.hookpoint("study matrix.hook --jobs 1 --out m");
+  EXPECT_EQ(result.status, 1) << "the Truth of sliding() fails\n" << result.err;
+  const std::string table = work.read("m/matrix.csv");
+  EXPECT_NE(table.find("\nbox,,energy_gain,J,ours,dts,"), std::string::npos) << table;
+  EXPECT_NE(table.find("\nbox,,energy_gain,J,ode,ode,"), std::string::npos);
+  EXPECT_NE(table.find("\ns,slides,slip_acceleration,m/s^2,ours,dts,hookpoint,"),
+            std::string::npos);
+  // Contact points alone do not collide in ODE: a row with the reason, neither passed nor failed.
+  const std::string refused = "\ntable,friction holds,,,ode,ode,,,default,1,0,,,,,,0,0,\"refused: ";
+  EXPECT_NE(table.find(refused), std::string::npos) << table;
+  const std::string page = work.read("m/matrix.html");
+  EXPECT_NE(page.find("id=\"figure-box-energy\""), std::string::npos);
+  EXPECT_NE(page.find("box/energy.svg"), std::string::npos);
+  EXPECT_NE(page.find("Study box {"), std::string::npos) << "the file that makes it";
+  for (const char* outside : {" src=", "@import", "url(http", "href=\"http"})
+    EXPECT_EQ(page.find(outside), std::string::npos) << outside;
+  for (const char* file : {"m/box/report.html", "m/box/energy.svg", "m/table/results.csv"})
+    EXPECT_FALSE(work.read(file).empty()) << file;
+}
+
+TEST(Matrix, HasTheSameTableForAnyNumberOfThreadsAndCompares) {
+  const Workplace work;
+  write_matrix(work);
+  work.hookpoint("study matrix.hook --jobs 1 --out one");
+  work.hookpoint("study matrix.hook --jobs 2 --out two");
+  EXPECT_EQ(work.read("one/matrix.csv"), work.read("two/matrix.csv"));
+  EXPECT_EQ(work.hookpoint("compare one two").status, 0);
+}
+
+TEST(Matrix, OnlyTakesTheSubjectFromThoseStudiesThatHaveIt) {
+  const Workplace work;
+  write_matrix(work);
+  EXPECT_EQ(work.hookpoint("study matrix.hook --only ode --out m").status, 0);
+  EXPECT_TRUE(std::filesystem::exists(work.folder() / "m/box"));
+  EXPECT_FALSE(std::filesystem::exists(work.folder() / "m/s"));
+  EXPECT_EQ(work.hookpoint("study matrix.hook --only nobody --out n").status, 2);
+}
+
+TEST(Matrix, WhatIsWrongIsToldAtItsPart) {
+  const Workplace work;
+  write_matrix(work);
+  const std::pair<const char*, const char*> cases[] = {
+      {"Part nowhere;", "no file \"studies/nowhere.hook\" beside the Matrix or in configs/"},
+      {"Part a { file = \"flights.hook\"; } Part b { file = \"flights.hook\"; }",
+       "a second study is called `box`"},
+      {"Part a { file = \"scenes/thrown_box.hook\"; }", "holds no Study"},
+      {"", "the Matrix has no Part"}};
+  for (const auto& [parts, says] : cases) {
+    work.file("wrong.hook", std::string("Matrix m { ") + parts + " }\n");
+    const CommandResult result = work.hookpoint("study wrong.hook --out m");
+    EXPECT_EQ(result.status, 2) << parts;
+    EXPECT_NE(result.err.find(says), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("wrong.hook:1:"), std::string::npos) << result.err;
+  }
+  EXPECT_FALSE(std::filesystem::exists(work.folder() / "m"));
+}
+
+// A Truth that names a subject claims that it can run; one that covers all does not.
+TEST(Refusal, FailsOnlyATruthThatNamesTheSubject) {
+  const Workplace work;
+  const std::string named = "Truth penetration_max { below = 10 mm; subjects = ode; }";
+  std::string study = flights;
+  study.replace(study.rfind("Truth"), study.rfind("} }") - study.rfind("Truth") + 1, named);
+  work.file("named.hook", study);
+  work.file("all.hook", flights);
+  EXPECT_EQ(work.hookpoint("study named.hook --only ode --out n").status, 1);
+  const CommandResult all = work.hookpoint("study all.hook --only ode --out a");
+  EXPECT_EQ(all.status, 0) << all.err;
+  EXPECT_NE(all.out.find("refused"), std::string::npos) << all.out;
 }
 
 }  // namespace
