@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "contact/predictions.h"
 #include "dts/impulse_response.h"
 #include "integrators/stability_bound.h"
 #include "integrators/stepper.h"
@@ -23,6 +24,12 @@ namespace {
 constexpr double usual_rebound = 0.1;
 /// Below it a damper would have to be endlessly strong.
 constexpr double least_rebound = 0.01;
+
+/// Of the load: what an exponential spring may carry where the ground begins. More, and a robot
+/// stands on what is not there yet.
+constexpr double surface_share = 0.1;
+
+using Aim = ConstantAdvice::Aim;
 
 /// How far above its lowest point a robot that does not touch is taken to stand [m].
 constexpr double standing_reach = 1e-3;
@@ -77,39 +84,72 @@ double wanted_rebound(const AdviceWishes& wishes,
 
 /// Sets `field` to `value` among the advised constants.
 void advise_constant(GroundAdvice& ground, const contact::MaterialConstants<double>& present,
-                     const MaterialField& field, double value, std::string reason) {
+                     ConstantAdvice::Aim aim, const MaterialField& field, double value,
+                     std::string reason) {
   ground.advised.*field.member = value;
   ground.constants.push_back(
-      {field.name, field.unit, present.*field.member, value, std::move(reason)});
+      {aim, field.name, field.unit, present.*field.member, value, std::move(reason)});
+}
+
+/// The vertical speed about rest at which a body just leaves what the law reaches, without its
+/// damper: m v^2/2 = W (d + reach) - U(d) [m/s].
+double survival_speed(const contact::ForceLaw& law, const GroundAdvice& ground,
+                      const contact::MaterialConstants<double>& material) {
+  const double depth = contact::static_depth(law, ground.load, material);
+  const double reach =
+      std::visit([&](const auto& chosen) { return double(chosen.reach(material)); }, law);
+  const double energy =
+      ground.load * (depth + reach) - contact::stored_energy(law, depth, {}, material);
+  return std::sqrt(2. * std::max(0., energy) / ground.mass);
+}
+
+/// The constant that sets the depth; of a law that acts above the tile the force there too, where
+/// it is more than `surface_share`. False for a law without one.
+bool advise_depth(GroundAdvice& ground, const contact::ForceLaw& law,
+                  const contact::MaterialConstants<double>& present) {
+  using Constants = contact::MaterialConstants<double>;
+  const auto stiffness = stiffness_field(law, ground.load, present);
+  if (!stiffness) return false;
+  if (stiffness->member == &Constants::nominal_stiffness)
+    ground.advised.nominal_penetration = ground.wanted_depth;
+  ground.advised.*stiffness->member =
+      stiffness_for_depth(law, *stiffness, ground.load, ground.wanted_depth, ground.advised);
+  if (carries_above_ground(law, ground.load, surface_share, ground.advised)) {
+    ground.advised =
+        exponential_for_depth(ground.load, ground.wanted_depth, surface_share, ground.advised);
+    advise_constant(
+        ground, present, Aim::depth, field_named("exponential_force"),
+        ground.advised.exponential_force,
+        fmt::format("the ground carries {:.3g} % of that where it begins", 100. * surface_share));
+  }
+  advise_constant(
+      ground, present, Aim::depth, *stiffness, ground.advised.*stiffness->member,
+      fmt::format("{:.4g} N rest {:.3g} mm deep", ground.load, 1e3 * ground.wanted_depth));
+  return true;
 }
 
 void advise_constants(GroundAdvice& ground, const contact::ForceLaw& law,
                       const contact::MaterialConstants<double>& present, double speed) {
-  using Constants = contact::MaterialConstants<double>;
   ground.advised = present;
-  const auto stiffness = stiffness_field(law, ground.load, present);
-  if (!stiffness) return;
-  if (stiffness->member == &Constants::nominal_stiffness)
-    ground.advised.nominal_penetration = ground.wanted_depth;
-  advise_constant(
-      ground, present, *stiffness,
-      stiffness_for_depth(law, *stiffness, ground.load, ground.wanted_depth, ground.advised),
-      fmt::format("{:.4g} N rest {:.3g} mm deep", ground.load, 1e3 * ground.wanted_depth));
+  if (!advise_depth(ground, law, present)) return;
   const auto damping = damping_field(law, ground.mass, speed, present);
   if (damping) {
-    advise_constant(ground, present, *damping,
+    advise_constant(ground, present, Aim::rebound, *damping,
                     damping_for_rebound(law, *damping, ground.mass, speed, ground.wanted_rebound,
                                         ground.advised),
                     fmt::format("{:.4g} kg rebound with {:.3g} of the speed", ground.mass,
                                 ground.wanted_rebound));
   }
-  for (const MaterialField& field : material_fields()) {
-    if (field.member == &Constants::tangential_stiffness)
-      advise_constant(ground, present, field, ground.load / ground.wanted_depth,
-                      "a hook gives as much along the ground as the point sinks");
-    if (field.member == &Constants::tangential_damping && damping &&
-        damping->member == &Constants::normal_damping)
-      advise_constant(ground, present, field, ground.advised.normal_damping, "as along the normal");
+  if (reads_tangential_stiffness(law, ground.load, present))
+    advise_constant(ground, present, Aim::friction, field_named("tangential_stiffness"),
+                    ground.load / ground.wanted_depth,
+                    "a hook gives as much along the ground as the point sinks");
+  if (damping && reads_tangential_damping(law, ground.load, present)) {
+    const double zeta = contact::kelvin_voigt_damping_ratio(ground.wanted_rebound);
+    const double stiffness = ground.load / ground.wanted_depth;
+    advise_constant(ground, present, Aim::friction, field_named("tangential_damping"),
+                    2. * zeta * std::sqrt(stiffness * ground.mass),
+                    "a hook swings back as a linear spring rebounds");
   }
 }
 
@@ -144,10 +184,8 @@ std::vector<GroundAdvice> advise_robot(const Experiment& experiment, int index,
     ground.wanted_depth = wishes.penetration.value_or(spec.constants.nominal_penetration);
     ground.wanted_rebound = wanted_rebound(wishes, spec.constants);
     advise_constants(ground, law, spec.constants, wishes.impact_speed);
-    ground.survival_present =
-        contact::hook_survival_speed(gravity, ground.mass, ground.load / ground.depth);
-    ground.survival_advised =
-        contact::hook_survival_speed(gravity, ground.mass, ground.load / ground.wanted_depth);
+    ground.survival_present = survival_speed(law, ground, spec.constants);
+    ground.survival_advised = survival_speed(law, ground, ground.advised);
     grounds.push_back(std::move(ground));
   }
   return grounds;
@@ -156,13 +194,16 @@ std::vector<GroundAdvice> advise_robot(const Experiment& experiment, int index,
 /// The experiment on the advised ground. Of two robots on one material the stiffer advice counts.
 Experiment advised_experiment(const Experiment& experiment,
                               const std::vector<GroundAdvice>& grounds) {
+  const contact::ForceLaw law = *contact::find_force_law(experiment.contact);
+  const auto stiffness = [&](const GroundAdvice& ground) {
+    return contact::linearise(law, ground.load, ground.advised).normal_stiffness;
+  };
   Experiment advised = experiment;
   for (MaterialSpec& material : advised.materials) {
     const GroundAdvice* stiffest = nullptr;
     for (const GroundAdvice& ground : grounds) {
       if (ground.material == material.name &&
-          (stiffest == nullptr ||
-           ground.advised.normal_stiffness > stiffest->advised.normal_stiffness))
+          (stiffest == nullptr || stiffness(ground) > stiffness(*stiffest)))
         stiffest = &ground;
     }
     if (stiffest != nullptr) material.constants = stiffest->advised;

@@ -21,6 +21,9 @@ struct AdviceWishes {
 
 /// A constant of a material, as it is and as it should be. SI.
 struct ConstantAdvice {
+  /// What it is advised for: the depth at rest, the rebound, or friction that suits them.
+  enum class Aim { depth, rebound, friction };
+  Aim aim = Aim::friction;
   std::string name, unit;
   double present = 0., advised = 0.;
   std::string reason;
@@ -39,9 +42,9 @@ struct GroundAdvice {
   double wanted_rebound = 0.;
   std::vector<ConstantAdvice> constants;
   contact::MaterialConstants<double> advised;
-  /// The highest vertical speed at which the robot may bob without a foot losing its hook [m/s]:
-  /// g sqrt(m/k) with k the weight over the depth at rest, so sqrt(g depth), for `nominal`
-  /// sqrt(g d0); with the present and with the advised constants.
+  /// The highest vertical speed at which the robot may bob without a foot losing its hook [m/s], by
+  /// the energy that the law's spring holds at rest: sqrt(g depth) for a linear spring, so g
+  /// sqrt(m/k), for `nominal` sqrt(g d0); with the present and with the advised constants.
   double survival_present = 0., survival_advised = 0.;
 };
 

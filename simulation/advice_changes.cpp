@@ -30,16 +30,18 @@ struct Culprit {
 std::vector<Culprit> culprits() {
   return {
       {"tangential_damping", {&Constants::tangential_damping}},
-      {"normal_damping", {&Constants::normal_damping, &Constants::hysteresis_damping}},
+      {"normal_damping", {&Constants::normal_damping}},
+      {"hysteresis_damping", {&Constants::hysteresis_damping}},
       {"tangential_stiffness", {&Constants::tangential_stiffness}},
       {"normal_stiffness", {&Constants::normal_stiffness, &Constants::nominal_stiffness}},
+      {"exponential_rate", {&Constants::exponential_rate}},
       {"tangential_damping and normal_damping",
        {&Constants::tangential_damping, &Constants::normal_damping,
         &Constants::hysteresis_damping}},
       {"all stiffness and damping",
        {&Constants::tangential_damping, &Constants::normal_damping, &Constants::hysteresis_damping,
         &Constants::tangential_stiffness, &Constants::normal_stiffness,
-        &Constants::nominal_stiffness}},
+        &Constants::nominal_stiffness, &Constants::exponential_rate}},
   };
 }
 
@@ -97,29 +99,31 @@ void advise_step(const Experiment& experiment, const Advice& advice,
       another_integrator(experiment, advice)));
 }
 
-const ConstantAdvice* constant(const GroundAdvice& ground, std::string_view part) {
-  const auto found = std::ranges::find_if(ground.constants, [&](const ConstantAdvice& advised) {
-    return advised.name.find(part) != std::string::npos;
-  });
-  return found == ground.constants.end() ? nullptr : &*found;
+/// "normal_stiffness = 6896 N/m": all constants advised for that aim; "" when there are none.
+std::string settings(const GroundAdvice& ground, ConstantAdvice::Aim aim) {
+  std::string text;
+  for (const ConstantAdvice& constant : ground.constants) {
+    if (constant.aim != aim) continue;
+    text += fmt::format("{}{} = {:.4g} {}", text.empty() ? "" : " and ", constant.name,
+                        constant.advised, constant.unit);
+  }
+  return text;
 }
 
 void advise_ground(const GroundAdvice& ground, std::vector<std::string>& changes) {
-  const ConstantAdvice* stiffness = constant(ground, "stiffness");
-  if (stiffness != nullptr && std::abs(ground.depth / ground.wanted_depth - 1.) > depth_tolerance)
-    changes.push_back(
-        fmt::format("{} sinks {:.3g} mm into {}, {:.3g} mm are allowed: set {} = {:.4g} {}",
-                    ground.robot, 1e3 * ground.depth, ground.material, 1e3 * ground.wanted_depth,
-                    stiffness->name, stiffness->advised, stiffness->unit));
-  const ConstantAdvice* damping = constant(ground, "normal_damping");
-  if (damping == nullptr) damping = constant(ground, "hysteresis_damping");
-  if (damping != nullptr && ground.rebound &&
+  const std::string stiffness = settings(ground, ConstantAdvice::Aim::depth);
+  if (!stiffness.empty() && std::abs(ground.depth / ground.wanted_depth - 1.) > depth_tolerance)
+    changes.push_back(fmt::format("{} {} {:.3g} mm {} {}, {:.3g} mm are allowed: set {}",
+                                  ground.robot, ground.depth < 0. ? "hovers" : "sinks",
+                                  1e3 * std::abs(ground.depth), ground.depth < 0. ? "over" : "into",
+                                  ground.material, 1e3 * ground.wanted_depth, stiffness));
+  const std::string damping = settings(ground, ConstantAdvice::Aim::rebound);
+  if (!damping.empty() && ground.rebound &&
       std::abs(*ground.rebound - ground.wanted_rebound) > rebound_tolerance)
-    changes.push_back(
-        fmt::format("{} rebounds from {} with {:.2g} of its speed, {:.2g} is wanted: set {} = "
-                    "{:.4g} {} (with the advised stiffness)",
-                    ground.robot, ground.material, *ground.rebound, ground.wanted_rebound,
-                    damping->name, damping->advised, damping->unit));
+    changes.push_back(fmt::format(
+        "{} rebounds from {} with {:.2g} of its speed, {:.2g} is wanted: set {} (with "
+        "the advised stiffness)",
+        ground.robot, ground.material, *ground.rebound, ground.wanted_rebound, damping));
 }
 
 void advise_for_advised(const Experiment& experiment, const Advice& advice,

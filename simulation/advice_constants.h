@@ -2,14 +2,18 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
 
 #include "contact/force_law.h"
 #include "simulation/material_fields.h"
 
 namespace hookpoint::simulation {
 
-/// The constant that the law's depth at rest depends on, the one below the nominal depth first;
-/// none for a law that reads neither stiffness.
+/// The field of that name; the first for a name that there is not.
+MaterialField field_named(std::string_view name);
+
+/// The constant that the law's depth at rest depends on: of `nominal` the stiffness below the
+/// nominal depth, of `exponential` the rate.
 std::optional<MaterialField> stiffness_field(const contact::ForceLaw& law, double load,
                                              const contact::MaterialConstants<double>& material);
 
@@ -17,9 +21,26 @@ std::optional<MaterialField> stiffness_field(const contact::ForceLaw& law, doubl
 std::optional<MaterialField> damping_field(const contact::ForceLaw& law, double mass, double speed,
                                            const contact::MaterialConstants<double>& material);
 
+/// Whether the law's friction has a spring that `tangential_stiffness` sets, and a damper that
+/// `tangential_damping` sets.
+bool reads_tangential_stiffness(const contact::ForceLaw& law, double load,
+                                const contact::MaterialConstants<double>& material);
+bool reads_tangential_damping(const contact::ForceLaw& law, double load,
+                              const contact::MaterialConstants<double>& material);
+
 /// The value of `field` with which `load` [N] rests `depth` [m] deep.
 double stiffness_for_depth(const contact::ForceLaw& law, const MaterialField& field, double load,
                            double depth, contact::MaterialConstants<double> material);
+
+/// Whether a point on the tile, not inside the ground, is carried with more than `share` of `load`
+/// [N]: the body then hovers, or nearly so. Only a law that acts above the tile does that.
+bool carries_above_ground(const contact::ForceLaw& law, double load, double share,
+                          const contact::MaterialConstants<double>& material);
+
+/// Force and rate of an exponential spring with which `load` [N] rests `depth` [m] deep and the
+/// tile carries `share` of it.
+contact::MaterialConstants<double> exponential_for_depth(
+    double load, double depth, double share, contact::MaterialConstants<double> material);
 
 /// The value of `field` with which `mass` [kg] that hits at `speed` [m/s] rebounds with `rebound`
 /// of it; 0 when it never rebounds as fast.

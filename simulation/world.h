@@ -22,6 +22,8 @@ class World {
   StepStatus step();
 
   const WorldState& state() const { return engine_->state(); }
+  /// What the next step is taken under.
+  const WorldInputs& inputs() const { return engine_->inputs(); }
   /// Every port of the run. O(ports).
   std::vector<Port> ports() { return signals_.ports(); }
   /// Why a run without windows ends here, or "" while it goes on: `Simulator.quit` is true, or

@@ -89,8 +89,8 @@ class Watch {
                                      : std::nullopt);
     }
   }
-  void observe(const simulation::WorldState& world) {
-    const Observation observation = observer_.observe(world);
+  void observe(const simulation::World& world) {
+    const Observation observation = observer_.observe(world.state(), &world.inputs());
     for (const auto& metric : metrics_)
       if (metric) metric->observe(observation);
     for (auto& recording : recordings_)
@@ -142,12 +142,12 @@ std::optional<RowOutcome> execute(const StudyPlan& plan, const RowPlan& row,
     simulation::World world(row.experiment, engine->make(row.experiment));
     Watch watch(plan, row, context, steps);
     StepStatus status;
-    watch.observe(world.state());
+    watch.observe(world);
     std::string ended = world.ended();
     for (std::int64_t step = 0; step < steps && status.ok() && ended.empty(); ++step) {
       if (stop.load(std::memory_order_relaxed)) return std::nullopt;
       status = world.step();
-      if (status.ok()) watch.observe(world.state());
+      if (status.ok()) watch.observe(world);
       ended = world.ended();
     }
     RowOutcome outcome;

@@ -10,7 +10,7 @@
 namespace hookpoint::studies {
 namespace {
 
-constexpr std::array<MetricDefinition, 28> metrics{{
+constexpr std::array<MetricDefinition, 30> metrics{{
     {"creep_speed", "m/s",
      "least-squares slope of the downhill displacement over [settle, duration]", make_creep_speed,
      false, Regime::holds},
@@ -23,6 +23,11 @@ constexpr std::array<MetricDefinition, 28> metrics{{
      make_slip_distance, true},
     {"stopping_distance", "m", "displacement at the end, if the body rests then",
      make_stopping_distance},
+    {"slip_onset", "rad",
+     "angle of the driving force, weight and external forces, from the ground's normal when the "
+     "speed along the ground first exceeds 1 mm/s; nothing if it never does",
+     make_slip_onset},
+    {"threshold_error", "rad", "slip_onset less atan(mu_s)", make_threshold_error},
     {"direction_error", "rad", "angle between the displacement after `settle` and downhill",
      make_direction_error, false, Regime::slides},
     {"penetration_max", "m", "greatest depth of a boundary point after `settle`",
@@ -158,10 +163,11 @@ Observer::Observer(const RunContext& context, bool with_points) : context_(conte
   balls_.reserve(count);
 }
 
-Observation Observer::observe(const simulation::WorldState& world) {
+Observation Observer::observe(const simulation::WorldState& world,
+                              const simulation::WorldInputs* inputs) {
   const simulation::BodyState& body = world.bodies[context_.body];
   if (points_.capacity() > 0) observe_points(world);
-  return {world, body, dot(body.position - context_.start, context_.downhill), points_};
+  return {world, body, dot(body.position - context_.start, context_.downhill), points_, inputs};
 }
 
 void Observer::observe_points(const simulation::WorldState& world) {
@@ -188,6 +194,12 @@ void Observer::observe_point(const Vector3d& p_WP, const Quaterniond& R_WB, doub
   if (radius > 0.) ball.rolled += contact::rolling_displacement(ball.frame, frame, radius);
   ball.frame = frame;
   points_.push_back({p_WP - radius * tile.normal - ball.rolled, tile.depth + radius});
+}
+
+std::optional<double> static_friction(const RunContext& context) {
+  if (!context.ground) return std::nullopt;
+  const auto material = static_cast<std::size_t>(context.ground->query(context.start).material);
+  return context.experiment->materials[material].constants.static_friction;
 }
 
 double mechanical_energy(const RunContext& context, const simulation::WorldState& world) {

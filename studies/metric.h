@@ -55,6 +55,7 @@ struct Observation {
   const simulation::BodyState& body;
   double displacement = 0.;                  ///< of the body's origin since the start, downhill [m]
   std::span<const PointObservation> points;  ///< empty unless a metric asked for them
+  const simulation::WorldInputs* inputs = nullptr;  ///< of the step to come, where they are known
 };
 
 /// Whether `settle` has come. Half a step before counts: times are multiples of the step, rounded.
@@ -73,7 +74,8 @@ class Observer {
  public:
   Observer(const RunContext& context, bool with_points);
   /// Valid until the next call.
-  Observation observe(const simulation::WorldState& world);
+  Observation observe(const simulation::WorldState& world,
+                      const simulation::WorldInputs* inputs = nullptr);
 
  private:
   void observe_points(const simulation::WorldState& world);
@@ -128,6 +130,12 @@ void for_each_body(const RunContext& context, const simulation::WorldState& worl
     for (const simulation::LinkSpec& link : chain.links) visit(link.body, world.bodies[++index]);
 }
 
+/// Speed along the ground from which a body counts as slipping, and below which as at rest [m/s].
+inline constexpr double onset_speed = 1e-3;
+
+/// Static friction of the ground under the start; none without ground.
+std::optional<double> static_friction(const RunContext& context);
+
 /// Kinetic and gravitational energy of the bodies of the measured robot [J].
 double mechanical_energy(const RunContext& context, const simulation::WorldState& world);
 
@@ -138,6 +146,8 @@ std::unique_ptr<Metric> make_settle_shift(const RunContext&);
 std::unique_ptr<Metric> make_stopping_distance(const RunContext&);
 std::unique_ptr<Metric> make_direction_error(const RunContext&);
 std::unique_ptr<Metric> make_energy_gain(const RunContext&);
+std::unique_ptr<Metric> make_slip_onset(const RunContext&);
+std::unique_ptr<Metric> make_threshold_error(const RunContext&);
 std::unique_ptr<Metric> make_stick_displacement(const RunContext&);
 std::unique_ptr<Metric> make_slip_distance(const RunContext&);
 std::unique_ptr<Metric> make_penetration_max(const RunContext&);

@@ -80,14 +80,13 @@ class SettleShift : public Metric {
 
 class StoppingDistance : public Metric {
  public:
-  static constexpr double rest_speed = 1e-3;  ///< [m/s], as the threshold of slip
   explicit StoppingDistance(const RunContext&) {}
   void observe(const Observation& observation) override {
     displacement_ = observation.displacement;
     speed_ = norm(observation.body.velocity);
   }
   std::optional<double> value() const override {
-    return speed_ < rest_speed ? std::optional(displacement_) : std::nullopt;
+    return speed_ < onset_speed ? std::optional(displacement_) : std::nullopt;
   }
 
  private:

@@ -23,6 +23,13 @@ std::optional<double> predict(std::string_view metric, const RunContext& context
 /// other joint controllers, with a dconstant, without damping, or where torques come late.
 std::optional<double> joint_loop_fails(const RunContext& context);
 
+/// Of `slip_onset`: Coulomb's atan(mu_s), less for a law that creeps faster than `onset_speed`
+/// within the cone [rad]. Nothing for several bodies, without ground, and where an impulse law's
+/// hops are as fast as that.
+std::optional<double> slip_onset(const RunContext& context);
+/// Of `threshold_error`: the same less atan(mu_s) [rad].
+std::optional<double> threshold_error(const RunContext& context);
+
 /// What friction does in the run described by `context`: none unless `predict`'s conditions hold
 /// and the body starts at rest.
 Regime regime_of(const RunContext& context);

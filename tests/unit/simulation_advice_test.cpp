@@ -2,6 +2,7 @@
 // the closed form.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "contact/predictions.h"
@@ -15,9 +16,12 @@ namespace {
 using simulation::Advice;
 using simulation::ConstantAdvice;
 
-std::string block(const std::string& world, const std::string& material) {
+std::string block(const std::string& world, const std::string& material, double upward = 0.) {
   return "World w { gravity = 9.81; duration = 1 s; " + world + " Material m { " + material +
          " } Terrain.Flat g { material = m; } Robot b { Base.mobile { rest_on = g; mass = 2; "
+         "velocity = 0, 0, " +
+         std::to_string(upward) +
+         "; "
          "Shape.Cube dimensions = 1, 1, 0.3; } } }";
 }
 
@@ -43,13 +47,14 @@ TEST(Advice, LinearLawByItsClosedForm) {
   const double zeta = contact::kelvin_voigt_damping_ratio(0.3);
   const double c = 2. * zeta * std::sqrt(k * 0.5);
   EXPECT_NEAR(advised(advice, "normal_damping"), c, 1e-6 * c);
+  EXPECT_NEAR(advised(advice, "tangential_damping"), c, 1e-6 * c);
   EXPECT_EQ(advice.grounds[0].points, 4u);
   EXPECT_NEAR(advice.grounds[0].survival_advised, std::sqrt(9.81 * 2e-3), 1e-12);
 }
 
 // The engine itself, on the advised ground: the block sinks as deep as allowed.
 TEST(Advice, AdvisedGroundCarriesTheBlockAtTheAllowedDepth) {
-  for (const std::string law : {"hookpoint", "hunt_crossley"}) {
+  for (const std::string law : {"hookpoint", "hunt_crossley", "azad_featherstone", "exponential"}) {
     const std::string world = "deltat = 0.1 ms; contact = " + law + ";";
     const std::string friction = "regularisation_speed = 50 mm/s; ";
     const Advice advice = advice_for(block(world, friction), {1.5e-3, 0.2, 0.1});
@@ -105,6 +110,76 @@ TEST(Advice, GroundAsWishedNeedsNoChange) {
                                 "; tangential_damping = " + std::to_string(c) + ";";
   const Advice advice = advice_for(block("deltat = 0.1 ms;", constants), {1e-3, 0.2, 0.1});
   EXPECT_TRUE(advice.changes.empty()) << advice.changes[0];
+}
+
+// d1 exp(d2 d) = W and d1 = W/10 where the tile would carry more than that, so d2 = ln(10)/d; its
+// damper multiplies the whole force, so c is Hunt & Crossley's.
+TEST(Advice, ExponentialSpringByItsClosedForm) {
+  const double load = 2. * 9.81 / 4.;
+  const Advice advice =
+      advice_for(block("deltat = 0.1 ms; contact = exponential;", "exponential_force = 2 N;"),
+                 {2e-3, 0.3, 0.1});
+  EXPECT_NEAR(advised(advice, "exponential_force"), 0.1 * load, 1e-9 * load);
+  EXPECT_NEAR(advised(advice, "exponential_rate"), std::log(10.) / 2e-3, 1e-6);
+  const double a = 0.1 * advised(advice, "hysteresis_damping");
+  EXPECT_NEAR(a - std::log1p(a), -0.3 * a - std::log1p(-0.3 * a), 1e-9 * a);
+  EXPECT_NEAR(advised(advice, "tangential_stiffness"), load / 2e-3, 1e-6);
+  const double zeta = contact::kelvin_voigt_damping_ratio(0.3);
+  EXPECT_NEAR(advised(advice, "tangential_damping"), 2. * zeta * std::sqrt(load / 2e-3 * 0.5),
+              1e-6);
+}
+
+// The advised speed is the one beyond which the engine's block leaves the ground: thrown up from
+// rest a little slower it stays, a little faster it goes.
+TEST(Advice, SurvivalSpeedIsThatAtWhichTheGroundIsLost) {
+  for (const std::string law : {"hookpoint", "hunt_crossley", "exponential"}) {
+    const std::string world = "deltat = 0.02 ms; contact = " + law + ";";
+    const std::string material =
+        "normal_damping = 0; tangential_damping = 0; hysteresis_damping = 0; "
+        "regularisation_speed = 50 mm/s;";
+    const Advice advice = advice_for(block(world, material), {1e-3, 0.3, 0.1});
+    for (const double factor : {0.99, 1.01}) {
+      Running run(block(world, material, factor * advice.grounds.at(0).survival_present));
+      int contacts = 4;
+      for (int i = 0; i < 10'000; ++i) {
+        run.step();
+        contacts = std::min(contacts, run.world().state().bodies.at(0).contacts);
+      }
+      EXPECT_EQ(contacts == 0, factor > 1.) << law << " " << factor;
+    }
+  }
+}
+
+// A force at the tile that is small enough is the user's to choose.
+TEST(Advice, ExponentialSpringKeepsASmallForceAtTheTile) {
+  const double load = 2. * 9.81 / 4.;
+  const Advice advice = advice_for(block("deltat = 0.1 ms; contact = exponential;",
+                                         "exponential_force = 0.1 N; exponential_height = 0.2 mm;"),
+                                   {2e-3, 0.3, 0.1});
+  EXPECT_NEAR(advised(advice, "exponential_rate"), std::log(load / 0.1) / 2.2e-3, 1e-6);
+  for (const ConstantAdvice& constant : advice.grounds[0].constants)
+    EXPECT_NE(constant.name, "exponential_force");
+}
+
+// Above its tile the ground carries what the block weighs: it hovers, whatever the rate.
+TEST(Advice, HoveringBlockIsToldBothConstants) {
+  const Advice advice = advice_for(block("deltat = 0.1 ms; contact = exponential;",
+                                         "exponential_force = 100 N; exponential_height = 1 mm;"),
+                                   {1e-3, 0.3, 0.1});
+  const double rate = std::log(10.) / 1e-3;
+  EXPECT_LT(advice.grounds[0].depth, 0.);
+  EXPECT_NEAR(advised(advice, "exponential_rate"), rate, 1e-6);
+  EXPECT_NEAR(advised(advice, "exponential_force"), 0.4905 * std::exp(-rate * 1e-3), 1e-9);
+  ASSERT_FALSE(advice.changes.empty());
+  EXPECT_NE(advice.changes[0].find("set exponential_force = 0.04905 N and exponential_rate = 2303"),
+            std::string::npos)
+      << advice.changes[0];
+}
+
+TEST(Advice, ALawWithoutATangentialSpringIsAdvisedNone) {
+  const Advice advice = advice_for(block("deltat = 0.1 ms; contact = hunt_crossley;", ""), {});
+  for (const ConstantAdvice& constant : advice.grounds[0].constants)
+    EXPECT_EQ(constant.name.find("tangential"), std::string::npos) << constant.name;
 }
 
 TEST(Advice, ARebound0IsNotToBeHad) {

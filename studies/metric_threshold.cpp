@@ -1,0 +1,57 @@
+// Metrics of the threshold of slip, of a body that is driven over it slowly.
+#include <cmath>
+
+#include "studies/metric.h"
+
+namespace hookpoint::studies {
+namespace {
+
+/// Weight of the robot and external forces on it, as they act in the step to come [N].
+Vector3d driving_force(const RunContext& context, const Observation& observation) {
+  const simulation::Experiment& experiment = *context.experiment;
+  Vector3d force = (context.weight / norm(experiment.gravity)) * experiment.gravity;
+  for (std::size_t i = 0; observation.inputs != nullptr && i < experiment.forces.size(); ++i) {
+    if (experiment.forces[i].robot == context.robot) force += observation.inputs->forces[i].force;
+  }
+  return force;
+}
+
+class SlipOnset : public Metric {
+ public:
+  explicit SlipOnset(const RunContext& context) : context_(context) {}
+  void observe(const Observation& observation) override {
+    if (angle_ || norm(tangential(observation.body.velocity, context_.normal)) <= onset_speed)
+      return;
+    const Vector3d force = driving_force(context_, observation);
+    angle_ = std::atan2(norm(tangential(force, context_.normal)), -dot(force, context_.normal));
+  }
+  std::optional<double> value() const override { return angle_; }
+
+ private:
+  const RunContext& context_;
+  std::optional<double> angle_;
+};
+
+class ThresholdError : public SlipOnset {
+ public:
+  explicit ThresholdError(const RunContext& context)
+      : SlipOnset(context), friction_(static_friction(context)) {}
+  std::optional<double> value() const override {
+    const std::optional<double> onset = SlipOnset::value();
+    return onset && friction_ ? std::optional(*onset - std::atan(*friction_)) : std::nullopt;
+  }
+
+ private:
+  std::optional<double> friction_;
+};
+
+}  // namespace
+
+std::unique_ptr<Metric> make_slip_onset(const RunContext& context) {
+  return std::make_unique<SlipOnset>(context);
+}
+std::unique_ptr<Metric> make_threshold_error(const RunContext& context) {
+  return std::make_unique<ThresholdError>(context);
+}
+
+}  // namespace hookpoint::studies
