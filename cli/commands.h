@@ -16,11 +16,11 @@ struct RunArguments {
   std::vector<std::string> settings;    ///< trail=value
   std::optional<std::string> duration;  ///< "10 s"
   std::optional<std::filesystem::path> out;
-  std::vector<std::string> record;  ///< trails
+  std::vector<std::string> record;              ///< trails
   std::optional<std::filesystem::path> movie;   ///< --movie; empty: movie.h5 in the run's folder
   std::optional<std::filesystem::path> resume;  ///< a movie to go on from, instead of `file`
   std::optional<std::string> at;                ///< moment of it; none: its last
-  bool allow_plugins = false;       ///< of any folder; here and below: see Application
+  bool allow_plugins = false;                   ///< of any folder; here and below: see Application
 };
 int run(const RunArguments& arguments);
 /// run --resume: goes on from a moment of a movie.
@@ -82,6 +82,14 @@ struct AdviseArguments {
 };
 /// advise: the ground's constants from what the user wants of it.
 int advise(const AdviseArguments& arguments);
+
+struct CompareArguments {
+  std::filesystem::path first, second;  ///< folders that runs or studies left
+  double tolerance = 1e-9;              ///< relative (studies/comparison.h)
+  bool json = false;
+};
+/// compare: what differs between two runs.
+int compare(const CompareArguments& arguments);
 
 /// engines: every engine, law and integrator.
 int engines(bool json);

@@ -2,6 +2,7 @@
 // command.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
 #include <functional>
 
 #include "cli/application.h"
@@ -24,6 +25,7 @@ struct Request {
   StudyArguments study;
   ReplayArguments replay;
   AdviseArguments advise;
+  CompareArguments compare;
   std::vector<std::filesystem::path> files;
   std::filesystem::path file;
   std::vector<std::string> settings;
@@ -188,6 +190,28 @@ void add_advise(CLI::App& app, Request& request) {
   add_plugins(advise_app, request.advise.allow_plugins);
 }
 
+void add_compare(CLI::App& app, Request& request) {
+  CLI::App* compare_app = add_command(
+      app, request, "compare", "what differs between two runs: settings, metrics, trajectories",
+      [&] { return compare(request.compare); });
+  const auto doc = "the folder that `run --out` or `study` left";
+  compare_app->add_option("FIRST", request.compare.first, doc)->required();
+  compare_app->add_option("SECOND", request.compare.second, doc)->required();
+  compare_app
+      ->add_option("--tolerance", request.compare.tolerance,
+                   "difference that is none, relative to the value or the channel's greatest "
+                   "(default: 1e-9)")
+      ->type_name("RATIO")
+      ->check([](const std::string& text) {
+        double value = -1.;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        const bool number = error == std::errc{} && end == text.data() + text.size();
+        return number && value >= 0. ? std::string()
+                                     : "--tolerance takes a number from 0 on, not `" + text + "`";
+      });
+  compare_app->add_flag("--json", request.compare.json, "as JSON, every difference");
+}
+
 void add_inspection(CLI::App& app, Request& request) {
   CLI::App* dynamics_app = add_command(
       app, request, "dynamics", "forces and accelerations at the initial state; no time passes",
@@ -241,6 +265,7 @@ int main_with(int count, char** words) {
   add_language_tools(app, request);
   add_inspection(app, request);
   add_advise(app, request);
+  add_compare(app, request);
   std::vector<std::string> wanted = with_command(app, {words + 1, words + count});
   if (wanted.empty() && count > 1) return wrong_input;
   std::reverse(wanted.begin(), wanted.end());  // CLI11 takes the words last first

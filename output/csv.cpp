@@ -1,5 +1,7 @@
 #include "output/csv.h"
 
+#include <utility>
+
 #include "output/number.h"
 
 namespace hookpoint::output {
@@ -41,6 +43,35 @@ std::string CsvTable::text() const {
   append_row(result, header);
   for (const auto& row : rows) append_row(result, row);
   return result;
+}
+
+std::optional<CsvTable> parse_csv(std::string_view text) {
+  CsvTable table;
+  std::vector<std::string> row;
+  std::string field;
+  bool in_quotes = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    const bool doubled = in_quotes && c == '"' && i + 1 < text.size() && text[i + 1] == '"';
+    if (doubled) {
+      field += text[++i];
+    } else if (c == '"') {
+      in_quotes = !in_quotes;
+    } else if (in_quotes || (c != ',' && c != '\n')) {
+      field += c;
+    } else {
+      row.push_back(std::exchange(field, {}));
+      if (c == ',') continue;
+      if (table.header.empty())
+        table.header = std::exchange(row, {});
+      else if (row.size() == table.header.size())
+        table.rows.push_back(std::exchange(row, {}));
+      else
+        return std::nullopt;
+    }
+  }
+  if (in_quotes || table.header.empty()) return std::nullopt;
+  return table;
 }
 
 void write_csv(const std::filesystem::path& path, const CsvTable& table) {

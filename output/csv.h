@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -26,6 +27,11 @@ struct CsvTable {
 
   std::string text() const;
 };
+
+/// The table that `text` holds. Nothing when a quote is left open or a row has not the header's
+/// number of fields; a last line without its end does not count, so that a run that was cut off is
+/// read up to its last whole row.
+std::optional<CsvTable> parse_csv(std::string_view text);
 
 /// The whole table or nothing. Throws FileError.
 void write_csv(const std::filesystem::path& path, const CsvTable& table);

@@ -134,6 +134,7 @@ std::optional<RowOutcome> execute(const StudyPlan& plan, const RowPlan& row,
   if (engine == nullptr || !engine->description.found)
     return not_run(plan,
                    fmt::format("skipped: engine {} is not on this machine", row.experiment.engine));
+  if (!row.refusal.empty()) return not_run(plan, "refused: " + row.refusal);
   try {
     RunContext context = make_context(row.experiment, plan.settle, plan.duration);
     context.make = engine->make;
@@ -157,7 +158,8 @@ std::optional<RowOutcome> execute(const StudyPlan& plan, const RowPlan& row,
     watch.finish(outcome, status.ok() && !cut_short);
     return outcome;
   } catch (const simulation::ExperimentError& error) {
-    return not_run(plan, fmt::format("cannot run: {}", error.what()));
+    const bool peer = row.experiment.engine != "dts";
+    return not_run(plan, fmt::format("{}: {}", peer ? "refused" : "cannot run", error.what()));
   }
 }
 

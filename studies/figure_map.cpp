@@ -26,7 +26,7 @@ std::optional<std::size_t> place_of(const std::vector<double>& values, double va
 
 void fill_cell(output::HeatMapCell& cell, const RunResult& row, std::size_t color,
                std::optional<std::size_t> outline) {
-  if (outcome_of(row) == RunOutcome::skipped) return;
+  if (outcome_of(row) == RunOutcome::skipped || outcome_of(row) == RunOutcome::refused) return;
   cell.run = true;
   const std::optional<double>& value = row.metrics[color].measured;
   const bool larger = value && (!cell.value || std::abs(*value) > std::abs(*cell.value));

@@ -60,18 +60,26 @@ class SceneLoader {
     const auto set = [&](const char* field, const std::string& value) {
       if (!value.empty()) options.overrides.push_back({world_ + "." + field, value});
     };
-    set("engine", subject.engine);
     set("contact", subject.contact);
     set("integrator", subject.integrator);
+    const language::EvaluateOptions ours = options;
+    set("engine", subject.engine);
     set("settings", subject.settings);
     Diagnostics found;
-    const auto tree = library_.evaluate(scene_, options, found);
-    std::optional<simulation::Experiment> experiment;
-    if (tree) experiment = simulation::load_experiment(*tree, found);
-    forward(found, study, where);
-    if (!experiment || found.has_errors()) return false;
-    row.experiment = std::move(*experiment);
-    printed = language::print(*tree);
+    if (evaluate(options, row, printed, found)) {
+      forward(found, study, where);
+      return true;
+    }
+    Diagnostics untold;
+    const bool peer = !subject.engine.empty() && subject.engine != "dts";
+    if (!peer || !evaluate(ours, row, printed, untold)) {
+      forward(found, study, where);
+      return false;
+    }
+    row.refusal = first_error(found);
+    row.experiment.engine = subject.engine;
+    row.experiment.settings = subject.settings;
+    printed += subject.engine + row.refusal;
     return true;
   }
 
@@ -79,6 +87,24 @@ class SceneLoader {
   std::vector<std::string> plugins;  ///< the scene's
 
  private:
+  /// Fills the row's experiment and its text; false after errors.
+  bool evaluate(const language::EvaluateOptions& options, RowPlan& row, std::string& printed,
+                Diagnostics& found) {
+    const auto tree = library_.evaluate(scene_, options, found);
+    std::optional<simulation::Experiment> experiment;
+    if (tree) experiment = simulation::load_experiment(*tree, found);
+    if (!experiment || found.has_errors()) return false;
+    row.experiment = std::move(*experiment);
+    printed = language::print(*tree);
+    return true;
+  }
+
+  static std::string first_error(const Diagnostics& found) {
+    for (const language::Diagnostic& diagnostic : found.all())
+      if (diagnostic.severity == language::Severity::error) return diagnostic.message;
+    return "";
+  }
+
   /// The trail of the scene's World, once.
   bool find_world(const language::EvaluateOptions& options) {
     if (!world_.empty()) return true;

@@ -42,6 +42,7 @@ std::string facts_line(const StudySummary& summary) {
                      " subjects: " + std::to_string(total.finished) + " finished";
   if (total.stopped > 0) text += ", " + std::to_string(total.stopped) + " stopped on the way";
   if (total.skipped > 0) text += ", " + std::to_string(total.skipped) + " skipped";
+  if (total.refused > 0) text += ", " + std::to_string(total.refused) + " refused";
   return paragraph("facts", text + ".");
 }
 
@@ -75,12 +76,6 @@ std::string opening(const StudyResult& study, const ReportContext& context,
     links +=
         (links.empty() ? "" : " · ") + ("<a href=\"" + html(file) + "\">" + html(file) + "</a>");
   return text + paragraph("facts", links);
-}
-
-std::string described_svg(const ReportFigure& figure) {
-  std::string svg = output::inline_svg(figure.svg, figure.name);
-  const std::string description = " role=\"img\" aria-label=\"" + html(figure.caption) + "\"";
-  return svg.insert(std::min(svg.size(), std::string("<svg").size()), description);
 }
 
 std::string figure_list(const std::vector<ReportFigure>& figures) {
@@ -141,48 +136,37 @@ std::string peer_table(const ReportContext& context) {
   return text + "</tbody></table></div>\n";
 }
 
-std::string provenance_table(const ReportContext& context) {
-  if (context.provenance.empty()) return "";
-  std::string text =
-      heading("Provenance") + "<div class=\"scroll\"><table class=\"wide\"><tbody>\n";
-  for (const auto& [name, value] : context.provenance)
-    text += "<tr><td>" + html(name) + "</td><td>" + html(value) + "</td></tr>\n";
-  return text + "</tbody></table></div>\n";
-}
-
 }  // namespace
+
+std::string described_svg(const ReportFigure& figure) {
+  std::string svg = output::inline_svg(figure.svg, figure.name);
+  const std::string description = " role=\"img\" aria-label=\"" + html(figure.caption) + "\"";
+  return svg.insert(std::min(svg.size(), std::string("<svg").size()), description);
+}
 
 std::string report_html(const StudyResult& study, const ReportContext& context,
                         const std::vector<ReportFigure>& figures) {
   const StudySummary summary = summarise(study);
-  std::string page =
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
-      html(title_of(study)) + " - hookpoint</title>\n<style>";
-  page += report_style();
-  page += "</style>\n</head>\n<body>\n<main>\n";
+  std::string page = page_start(title_of(study));
   page += opening(study, context, summary);
   page += results(study, figures);
   page += truths_table(study) + failure_table(study) + stopped_table(study);
   page += heading("Every run") + runs_table(study);
-  page += peer_table(context) + provenance_table(context);
-  page += "</main>\n<script>";
-  page += report_script();
-  return page + "</script>\n</body>\n</html>\n";
+  page += peer_table(context) + provenance_table(context.provenance);
+  return page + page_end_with_script();
 }
 
 ReportOutcome write_report(const StudyResult& study, const ReportContext& context,
                            const std::filesystem::path& folder) {
   ReportOutcome outcome;
-  std::vector<ReportFigure> figures;
   for (std::size_t i = 0; i < study.plots.size(); ++i) {
     const Figure figure = make_figure(study, i);
     const output::PlotOutcome drawn =
         figure.map ? output::draw(*figure.map, folder) : output::draw(figure.plot, folder);
     if (!drawn.drawn) outcome.messages.push_back(drawn.message);
-    figures.push_back({figure.plot.name, figure.caption, drawn.svg, drawn.message});
+    outcome.figures.push_back({figure.plot.name, figure.caption, drawn.svg, drawn.message});
   }
-  output::write_file(folder / "report.html", report_html(study, context, figures));
+  output::write_file(folder / "report.html", report_html(study, context, outcome.figures));
   return outcome;
 }
 

@@ -37,6 +37,9 @@ struct ReportFigure {
   std::string message;  ///< why not
 };
 
+/// A figure's SVG as a page takes it, with its caption for who cannot see it.
+std::string described_svg(const ReportFigure& figure);
+
 /// The page. Pure: the same arguments give the same bytes.
 std::string report_html(const StudyResult& study, const ReportContext& context,
                         const std::vector<ReportFigure>& figures);
@@ -44,6 +47,7 @@ std::string report_html(const StudyResult& study, const ReportContext& context,
 /// What `write_report` could not do; the rest of the folder is written all the same.
 struct ReportOutcome {
   std::vector<std::string> messages;  ///< a figure that was not drawn: exit status 3
+  std::vector<ReportFigure> figures;  ///< as the page has them
 };
 
 /// Draws every Plot of the study into `folder` (`<plot>.svg`, `.csv`, `.gp`) and writes

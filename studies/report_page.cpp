@@ -25,6 +25,8 @@ std::string html(std::string_view text) {
   return escaped;
 }
 
+namespace {
+
 std::string_view report_style() {
   return R"(
 :root { color-scheme: light dark; --paper: #ffffff; --ink: #1c1c1c; --soft: #666666; --rule: #d9d9d9; --band: #f6f6f4;
@@ -74,7 +76,7 @@ figcaption b { color: var(--ink); }
 .filter input, .filter select { font-size: .88rem; padding: .25rem .45rem; color: var(--ink); background: var(--paper);
   border: 1px solid var(--soft); border-radius: 3px; }
 table.runs { font-size: .76rem; }
-table.runs th[data-sorts] { cursor: pointer; }
+table.runs th[data-sorts] { cursor: pointer; } th[data-sorts=up]::after { content: " ▲"; } th[data-sorts=down]::after { content: " ▼"; }
 table.runs th, table.runs td { padding: .18rem .55rem; }
 .tall { max-height: 75vh; overflow: auto; border-bottom: 1px solid var(--rule); }
 .tall thead th { position: sticky; top: 0; background: var(--paper); }
@@ -96,17 +98,20 @@ std::string_view report_script() {
   var body = table.tBodies[0], rows = Array.prototype.slice.call(body.rows);
   var bar = document.querySelector('.filter');
   bar.hidden = false;
-  var words = bar.querySelector('input'), kind = bar.querySelector('select'), shown = bar.querySelector('output');
+  var words = bar.querySelector('input'), shown = bar.querySelector('output');
+  var choices = Array.prototype.slice.call(bar.querySelectorAll('select'));
   function apply() {
     var wanted = words.value.toLowerCase().split(/\s+/).filter(Boolean), count = 0;
     rows.forEach(function (row) {
       var text = row.textContent.toLowerCase();
       var fits = wanted.every(function (word) { return text.indexOf(word) >= 0; }) &&
-        (kind.value === '' || row.dataset.kind.split(' ').indexOf(kind.value) >= 0);
+        choices.every(function (choice) {
+          return choice.value === '' || row.dataset[choice.name].split(' ').indexOf(choice.value) >= 0;
+        });
       row.hidden = !fits;
       if (fits) count++;
     });
-    shown.textContent = count + ' of ' + rows.length + ' runs';
+    shown.textContent = count + ' of ' + rows.length + ' rows';
   }
   function key(row, column) {
     var text = row.cells[column].textContent, number = parseFloat(text);
@@ -115,6 +120,10 @@ std::string_view report_script() {
   table.querySelectorAll('th[data-sorts]').forEach(function (head) {
     head.addEventListener('click', function () {
       var column = head.cellIndex, sign = head.dataset.sorts === 'up' ? -1 : 1;
+      table.querySelectorAll('th[data-sorts]').forEach(function (other) {
+        if (other !== head) { other.dataset.sorts = ''; other.removeAttribute('aria-sort'); }
+      });
+      head.setAttribute('aria-sort', sign > 0 ? 'ascending' : 'descending');
       head.dataset.sorts = sign > 0 ? 'up' : 'down';
       rows.sort(function (a, b) {
         var x = key(a, column), y = key(b, column);
@@ -125,10 +134,36 @@ std::string_view report_script() {
     });
   });
   words.addEventListener('input', apply);
-  kind.addEventListener('change', apply);
+  choices.forEach(function (choice) { choice.addEventListener('change', apply); });
+  document.querySelectorAll('[data-shows]').forEach(function (link) {
+    link.addEventListener('click', function () {
+      var shows = JSON.parse(link.dataset.shows);
+      words.value = '';
+      choices.forEach(function (choice) { choice.value = shows[choice.name] || ''; });
+      apply();
+    });
+  });
   apply();
 })();
 )";
+}
+
+}  // namespace
+
+std::string page_start(const std::string& title, std::string_view more_style) {
+  std::string page =
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
+      html(title) + " - hookpoint</title>\n<style>";
+  page += report_style();
+  page += more_style;
+  return page + "</style>\n</head>\n<body>\n<main>\n";
+}
+
+std::string page_end_with_script() {
+  std::string page = "</main>\n<script>";
+  page += report_script();
+  return page + "</script>\n</body>\n</html>\n";
 }
 
 }  // namespace hookpoint::studies

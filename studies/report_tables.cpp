@@ -39,13 +39,6 @@ std::string number(const std::optional<double>& value) {
 
 std::string unit_of(const std::string& unit) { return unit.empty() ? "" : " [" + html(unit) + "]"; }
 
-/// The subject's marker in its colour, as in the figures.
-std::string swatch(int subject_style) {
-  const output::SeriesStyle style = output::series_style(subject_style);
-  const std::string name = std::array{"■", "●", "▲", "▼", "◆", "⬟"}[(style.filled_marker - 5) / 2];
-  return "<span class=\"swatch\" style=\"color:" + style.color + "\">" + name + "</span>";
-}
-
 bool fails_or_stopped(const RunResult& row) {
   return outcome_of(row) == RunOutcome::stopped ||
          std::any_of(row.metrics.begin(), row.metrics.end(),
@@ -108,6 +101,8 @@ std::string metric_cells(const StudyResult& study, const MetricSummary& summary,
 std::string finished_cell(const SubjectSummary& subject) {
   if (subject.rows() > 0 && subject.skipped == subject.rows())
     return "<td class=\"soft\">skipped</td>";
+  if (subject.rows() > 0 && subject.refused == subject.rows())
+    return "<td class=\"soft\">refused</td>";
   const std::string count = std::to_string(subject.finished) + "/" + std::to_string(subject.rows());
   return subject.stopped > 0 ? "<td class=\"bad\">✗ " + count + "</td>" : "<td>" + count + "</td>";
 }
@@ -144,6 +139,8 @@ std::string kinds_of(const RunResult& row) {
       return kinds + "stopped";
     case RunOutcome::skipped:
       return kinds + "skipped";
+    case RunOutcome::refused:
+      return kinds + "refused";
   }
   return kinds;
 }
@@ -187,6 +184,12 @@ std::string run_row(const StudyResult& study, const std::vector<MetricShape>& sh
 }
 
 }  // namespace
+
+std::string swatch(int subject_style) {
+  const output::SeriesStyle style = output::series_style(subject_style);
+  const std::string name = std::array{"■", "●", "▲", "▼", "◆", "⬟"}[(style.filled_marker - 5) / 2];
+  return "<span class=\"swatch\" style=\"color:" + style.color + "\">" + name + "</span>";
+}
 
 std::vector<std::vector<std::size_t>> page_portions(const StudyResult& study,
                                                     const RegimeTable& table) {
@@ -304,12 +307,22 @@ std::string runs_table(const StudyResult& study) {
   text +=
       "<div class=\"filter\" hidden><label>Filter <input type=\"search\" placeholder=\"words\" "
       "size=\"24\"></label>"
-      "<label>Show <select><option value=\"\">all</option><option value=\"fails\">truth "
+      "<label>Show <select name=\"kind\"><option value=\"\">all</option><option "
+      "value=\"fails\">truth "
       "fails</option>"
       "<option value=\"stopped\">stopped</option><option value=\"skipped\">skipped</option>"
+      "<option value=\"refused\">refused</option>"
       "<option value=\"finished\">finished</option></select></label><output></output></div>\n";
   return text + "<div class=\"scroll tall\" tabindex=\"0\"><table class=\"runs\">\n" +
          runs_head(study, shapes) + "<tbody>\n" + rows + "</tbody></table></div>\n";
+}
+
+std::string provenance_table(const std::vector<std::pair<std::string, std::string>>& lines) {
+  if (lines.empty()) return "";
+  std::string text = "<h2>Provenance</h2>\n<div class=\"scroll\"><table class=\"wide\"><tbody>\n";
+  for (const auto& [name, value] : lines)
+    text += "<tr><td>" + html(name) + "</td><td>" + html(value) + "</td></tr>\n";
+  return text + "</tbody></table></div>\n";
 }
 
 }  // namespace hookpoint::studies

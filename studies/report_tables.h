@@ -2,12 +2,16 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "studies/result.h"
 #include "studies/summary.h"
 
 namespace hookpoint::studies {
+
+/// The subject's marker in its colour, as in the figures. `subject_style`: of `subject_styles`.
+std::string swatch(int subject_style);
 
 /// Subjects by some metrics of one regime: the worst measurement beside its closed form and the
 /// verdicts; median and range where there is none.
@@ -29,5 +33,8 @@ std::string stopped_table(const StudyResult& study);
 
 /// Every run as a row. Above 5000 rows only those that failed or stopped, and a line that says so.
 std::string runs_table(const StudyResult& study);
+
+/// Versions, flags, host and date, line by line; "" when there are none.
+std::string provenance_table(const std::vector<std::pair<std::string, std::string>>& lines);
 
 }  // namespace hookpoint::studies

@@ -94,7 +94,8 @@ ClassSchema named(std::string name, std::string doc, std::vector<FieldSchema> fi
   schema.fields = std::move(fields);
   schema.children = std::move(children);
   schema.naming = Naming::required;
-  schema.names_a_subject = schema.name != "Study" && schema.name != "Wall";
+  schema.names_a_subject =
+      schema.name != "Study" && schema.name != "Wall" && schema.name != "Matrix";
   return schema;
 }
 
@@ -127,15 +128,35 @@ ClassSchema wall_class() {
   return wall;
 }
 
-ClassSchema scene_class() {
+ClassSchema matrix_class() {
+  ClassSchema matrix = named("Matrix",
+                             "Studies of other files, run one after the other and told in one page "
+                             "of subjects, scenes and metrics.",
+                             {text("title", "heading of the page"),
+                              text("question", "what the matrix shows, first thing in the page")},
+                             {"Part"});
+  matrix.top_level = true;
+  return matrix;
+}
+
+FieldSchema runs_under_quick() {
   FieldSchema quick;
   quick.name = "quick";
   quick.type = FieldType::boolean;
   quick.default_text = "true";
   quick.doc = "whether it runs under --quick too";
+  return quick;
+}
+
+ClassSchema part_class() {
+  return named("Part", "The studies of a file in a Matrix, by the name of the file in studies/.",
+               {text("file", "if not studies/NAME.hook"), runs_under_quick()});
+}
+
+ClassSchema scene_class() {
   return named(
       "Scene", "A scene of a Wall, by the name of its file in scenes/.",
-      {text("title", "what it shows"), text("file", "if not scenes/NAME.hook"), std::move(quick)},
+      {text("title", "what it shows"), text("file", "if not scenes/NAME.hook"), runs_under_quick()},
       {"Fix"});
 }
 
@@ -165,6 +186,8 @@ void add_study_classes(Schema& schema) {
   schema.add(study_class());
   schema.add(wall_class());
   schema.add(scene_class());
+  schema.add(matrix_class());
+  schema.add(part_class());
   schema.add(
       named("Subject", "One engine with its law, integrator and settings.",
             {of_world(schema, "engine", "which engine runs the scene"),
@@ -182,8 +205,10 @@ void add_study_classes(Schema& schema) {
   schema.add(named("Measure", "A metric to measure, by its name.", {}));
   schema.add(truth_class(std::move(metrics)));
   schema.add(named(
-      "Plot", "A figure: a metric over a sweep, two sweeps or another metric, or a signal over time.",
-      {text("title", "heading; default: the name"), required(words("x", 1, "a sweep, a metric (a curve of cost against error), or time")),
+      "Plot",
+      "A figure: a metric over a sweep, two sweeps or another metric, or a signal over time.",
+      {text("title", "heading; default: the name"),
+       required(words("x", 1, "a sweep, a metric (a curve of cost against error), or time")),
        required(
            words("y", 1,
                  "a metric; over time a signal: displacement, drift, speed, penetration, energy; "

@@ -67,6 +67,9 @@ void count(SubjectSummary& summary, const RunResult& row) {
     case RunOutcome::skipped:
       ++summary.skipped;
       break;
+    case RunOutcome::refused:
+      ++summary.refused;
+      break;
   }
 }
 
@@ -83,9 +86,12 @@ std::string row_text(const StudyResult& study, const RunResult& row, bool named)
 
 }  // namespace
 
-RunOutcome outcome_of(const RunResult& row) {
-  if (row.status == "ok") return RunOutcome::finished;
-  return row.status.starts_with("skipped") ? RunOutcome::skipped : RunOutcome::stopped;
+RunOutcome outcome_of(const RunResult& row) { return outcome_of(row.status); }
+
+RunOutcome outcome_of(const std::string& status) {
+  if (status == "ok") return RunOutcome::finished;
+  if (status.starts_with("skipped")) return RunOutcome::skipped;
+  return status.starts_with("refused") ? RunOutcome::refused : RunOutcome::stopped;
 }
 
 StudySummary summarise(const StudyResult& study, std::optional<Regime> regime) {
@@ -144,7 +150,7 @@ std::vector<std::size_t> stopped_rows(const StudyResult& study) {
 std::vector<Failure> failures_of(const StudyResult& study) {
   std::vector<Failure> failures;
   for (std::size_t row = 0; row < study.rows.size(); ++row) {
-    if (outcome_of(study.rows[row]) != RunOutcome::finished) continue;
+    if (outcome_of(study.rows[row]) == RunOutcome::stopped) continue;
     for (std::size_t metric = 0; metric < study.rows[row].metrics.size(); ++metric)
       if (!study.rows[row].metrics[metric].ok.value_or(true))
         failures.push_back({static_cast<int>(row), static_cast<int>(metric)});

@@ -9,10 +9,13 @@
 
 namespace hookpoint::studies {
 
-enum class RunOutcome { finished, stopped, skipped };
+enum class RunOutcome { finished, stopped, skipped, refused };
 
-/// "ok" finished; a status that begins with "skipped" never ran; anything else stopped on the way.
+/// "ok" finished; a status that begins with "skipped" (the engine is not on this machine) or
+/// "refused" (a peer cannot run the scene, and says why) never ran; anything else stopped on the
+/// way.
 RunOutcome outcome_of(const RunResult& row);
+RunOutcome outcome_of(const std::string& status);
 
 /// One subject, one metric, over all rows of the sweep.
 struct MetricSummary {
@@ -28,9 +31,9 @@ struct MetricSummary {
 };
 
 struct SubjectSummary {
-  int finished = 0, stopped = 0, skipped = 0;  ///< rows
-  std::vector<MetricSummary> metrics;          ///< one a StudyResult::metrics
-  int rows() const { return finished + stopped + skipped; }
+  int finished = 0, stopped = 0, skipped = 0, refused = 0;  ///< rows
+  std::vector<MetricSummary> metrics;                       ///< one a StudyResult::metrics
+  int rows() const { return finished + stopped + skipped + refused; }
 };
 
 struct StudySummary {

@@ -86,6 +86,7 @@ ColumnGroup metric_group(const StudyResult& study, const RegimeTable& table, std
 
 Cell finished_cell(const SubjectSummary& subject) {
   if (subject.skipped == subject.rows()) return {"skipped", Tone::faint};
+  if (subject.refused == subject.rows()) return {"refused", Tone::faint};
   const std::string text = std::to_string(subject.finished) + "/" + std::to_string(subject.rows());
   return {text, subject.stopped > 0 ? Tone::bad : Tone::plain};
 }
@@ -120,6 +121,7 @@ ColumnGroup place_group(const StudyResult& study, const RegimeTable& table, std:
 /// side as fit.
 std::string print_table(const StudyResult& study, const RegimeTable& table,
                         const TableStyle& style) {
+  if (table.metrics.empty()) return "";  // none says anything in this regime
   const ColumnGroup subjects = subject_group(study, table);
   std::vector<ColumnGroup> metrics;
   for (const std::size_t metric : table.metrics)
@@ -205,6 +207,7 @@ std::string counts(const StudySummary& summary, const TableStyle& style) {
     text +=
         ", " + toned(std::to_string(total.stopped) + " stopped on the way", Tone::bad, style.color);
   if (total.skipped > 0) text += ", " + std::to_string(total.skipped) + " skipped";
+  if (total.refused > 0) text += ", " + std::to_string(total.refused) + " refused";
   if (summary.passed + summary.failed == 0) return text + "; no truth to hold\n";
   const std::string verdict = std::to_string(summary.passed) + " of " +
                               std::to_string(summary.passed + summary.failed) + " verdicts hold";

@@ -4,11 +4,12 @@
 #include <cmath>
 
 #include "studies/predictions.h"
+#include "studies/summary.h"
 
 namespace hookpoint::studies {
 namespace {
 
-bool skipped(const std::string& status) { return status.substr(0, 7) == "skipped"; }
+bool has(const RunResult& run, RunOutcome outcome) { return outcome_of(run) == outcome; }
 
 bool near(double measured, double expected, const TruthPlan& truth) {
   return std::abs(measured - expected) <=
@@ -38,7 +39,8 @@ bool applies(const StudyPlan& plan, const TruthPlan& truth, const RowPlan& row) 
 std::optional<bool> judge(const StudyPlan& plan, const StudyResult& result, std::size_t row,
                           const TruthPlan& truth) {
   const RunResult& run = result.rows[row];
-  if (skipped(run.status) || !applies(plan, truth, plan.rows[row])) return std::nullopt;
+  if (has(run, RunOutcome::skipped) || !applies(plan, truth, plan.rows[row])) return std::nullopt;
+  if (has(run, RunOutcome::refused) && truth.subjects.empty()) return std::nullopt;
   const MetricValue& metric = run.metrics[truth.metric];
   if (truth.predicted && !metric.predicted) return std::nullopt;
   if (!metric.measured) return false;
@@ -71,7 +73,8 @@ RunResult run_result(const StudyPlan& plan, const EngineTable& engines, const Ro
   try {
     const RunContext context = make_context(row.experiment, plan.settle, plan.duration);
     run.regime = regime_of(context);
-    if (skipped(run.status) || engine == engines.end()) return run;
+    const bool ran = !has(run, RunOutcome::skipped) && !has(run, RunOutcome::refused);
+    if (!ran || engine == engines.end()) return run;
     const auto mixing = engine->second.friction_mixing != nullptr
                             ? engine->second.friction_mixing(row.experiment)
                             : std::nullopt;
@@ -120,7 +123,7 @@ bool all_truths_hold(const StudyResult& result) {
   return std::all_of(result.rows.begin(), result.rows.end(), [](const RunResult& run) {
     const bool judged = std::none_of(run.metrics.begin(), run.metrics.end(),
                                      [](const MetricValue& value) { return value.ok == false; });
-    return judged && (run.status == "ok" || skipped(run.status));
+    return judged && !has(run, RunOutcome::stopped);
   });
 }
 

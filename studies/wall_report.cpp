@@ -6,6 +6,7 @@
 
 #include "output/number.h"
 #include "studies/report_page.h"
+#include "studies/report_tables.h"
 #include "studies/terminal_blocks.h"
 
 namespace hookpoint::studies {
@@ -98,13 +99,6 @@ std::string verdict(const WallResult& wall) {
                      passed + failed, counted);
 }
 
-std::string provenance_table(const ReportContext& context) {
-  std::string text = "<h2>Provenance</h2>\n<div class=\"scroll\"><table class=\"wide\"><tbody>\n";
-  for (const auto& [name, value] : context.provenance)
-    text += "<tr><td>" + html(name) + "</td><td>" + html(value) + "</td></tr>\n";
-  return text + "</tbody></table></div>\n";
-}
-
 /// The largest error of a line as a part of what is allowed decides which subject is named.
 const WallCell* worst_cell(const WallLine& line) {
   const WallCell* worst = nullptr;
@@ -139,15 +133,10 @@ std::string failures(const WallResult& wall, const TableStyle& style) {
 
 std::string wall_html(const WallResult& wall, const ReportContext& context) {
   const std::string title = wall.title.empty() ? wall.name : wall.title;
-  std::string page =
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
-      html(title) + " - hookpoint</title>\n<style>";
-  page += report_style();
-  page +=
+  std::string page = page_start(
+      title,
       "main { max-width: none; } table.summary tbody th.scene { font-weight: 600; padding-top: "
-      ".9rem; } td.form { text-align: left; white-space: normal; max-width: 24rem; "
-      "}\n</style>\n</head>\n<body>\n<main>\n";
+      ".9rem; } td.form { text-align: left; white-space: normal; max-width: 24rem; }\n");
   page += "<p class=\"kicker\">Wall · " + html(wall.file) + "</p>\n<h1>" + html(title) + "</h1>\n";
   if (!wall.question.empty()) page += "<p class=\"question\">" + html(wall.question) + "</p>\n";
   page += verdict(wall) + "<pre>" + html(context.command) + "</pre>\n";
@@ -155,7 +144,7 @@ std::string wall_html(const WallResult& wall, const ReportContext& context) {
       "<p class=\"note soft\">Each cell: what was measured and, small, how far it is from the "
       "closed form. A dot: the truth says nothing of that law; where a law fails by its own "
       "equation, its predicted failure is a truth of its own.</p>\n";
-  page += wall_table(wall) + provenance_table(context);
+  page += wall_table(wall) + provenance_table(context.provenance);
   return page + "</main>\n</body>\n</html>\n";
 }
 

@@ -55,7 +55,7 @@ INSTANTIATE_TEST_SUITE_P(
         WrongInput{
             "run " + config("paper/fig7_two_joint_arm.hook") + " --set SimpleWorld.engine=ode",
             "ode"},
-        WrongInput{"study " + block, "holds no Study"},
+        WrongInput{"study " + block, "holds no Study, no Wall and no Matrix"},
         WrongInput{"study " + config("studies/creep.hook") + " --jobs 0",
                    "--jobs takes a whole number"},
         WrongInput{"study " + config("studies/creep.hook") + " --only nobody", "nobody"},

@@ -61,6 +61,21 @@ TEST_F(Csv, AbandonedFileLeavesTheOldOneAlone) {
   EXPECT_EQ(content(path), "old\n");
 }
 
+TEST_F(Csv, ATableReadsBackAsItWas) {
+  const CsvTable table{{"name [m]", "status"}, {{"1e-09", "a, \"b\"\nc"}, {"", ""}}};
+  const auto read = parse_csv(table.text());
+  ASSERT_TRUE(read.has_value());
+  EXPECT_EQ(read->header, table.header);
+  EXPECT_EQ(read->rows, table.rows);
+}
+
+TEST_F(Csv, WhatIsNoTableIsNotRead) {
+  EXPECT_FALSE(parse_csv("").has_value());
+  EXPECT_FALSE(parse_csv("a,b\n1\n").has_value()) << "a row is short";
+  EXPECT_FALSE(parse_csv("a,b\n1,\"2\n").has_value()) << "a quote is open";
+  EXPECT_EQ(parse_csv("a,b\n1,2\n3,")->rows.size(), 1u) << "cut off";
+}
+
 TEST_F(Csv, UnwritablePlaceIsSaid) {
   write_file(folder_ / "file", "not a folder");
   try {

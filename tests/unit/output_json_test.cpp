@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "output/json.h"
+#include "output/json_reader.h"
 
 namespace hookpoint::output {
 namespace {
@@ -35,6 +36,29 @@ TEST(Json, WhatIsNotFiniteIsNull) {
   const double infinite = std::numeric_limits<double>::infinity();
   json.numbers({infinite, -infinite, std::numeric_limits<double>::quiet_NaN(), 1e300});
   EXPECT_EQ(json.text(), "[null, null, null, 1.0000000000000001e+300]\n");
+}
+
+TEST(Json, LeavesReadBackByTheirPaths) {
+  JsonWriter json;
+  json.begin_object().member("name", "a \"b\"\n\x01 \u00b5").key("list").begin_array();
+  json.value(1).begin_object().member("x", -2.5e-3).end_object().end_array();
+  json.key("none").begin_array().end_array().member("yes", true).key("no").null().end_object();
+  const auto leaves = json_leaves(json.text());
+  ASSERT_TRUE(leaves.has_value());
+  const std::vector<std::pair<std::string, std::string>> wanted{
+      {"name", "a \"b\"\n\x01 \u00b5"},
+      {"list[0]", "1"},
+      {"list[1].x", "-0.0025000000000000001"},
+      {"yes", "true"},
+      {"no", "null"}};
+  EXPECT_EQ(*leaves, wanted);
+}
+
+TEST(Json, WhatIsNoDocumentIsNotRead) {
+  for (const char* text :
+       {"", "{", "{\"a\" 1}", "{\"a\": 1", "[1,]", "inf", "tru", "1 2", "\"open", "\"\\x\""})
+    EXPECT_FALSE(json_leaves(text).has_value()) << text;
+  EXPECT_FALSE(json_leaves(std::string(100000, '[')).has_value()) << "deep";
 }
 
 TEST(Json, EscapesWhatItMust) {

@@ -117,6 +117,18 @@ TEST(Figures, DrawOnlyTheRowsThatTheBlockChooses) {
   EXPECT_EQ(figure.plot.series[1].measured.x, (std::vector{10., 20.}));
 }
 
+TEST(Tables, ARegimeOfWhichNoMetricSaysAnythingHasNone) {
+  StudyResult study = synthetic_study();
+  study.metrics = {{"creep_speed", "m/s", false, Regime::holds}};
+  for (RunResult& row : study.rows) {
+    row.regime = Regime::slides;
+    row.metrics.resize(1);
+    row.metrics[0].ok.reset();
+  }
+  EXPECT_FALSE(contains(terminal_table(study), "creep speed [m/s]"));
+  EXPECT_TRUE(contains(report_html(study, {}, {}), "Every run"));
+}
+
 TEST(Figures, LongCurvesKeepTheirEnvelope) {
   StudyResult study = synthetic_study();
   for (RunResult& row : study.rows) {

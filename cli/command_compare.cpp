@@ -1,0 +1,27 @@
+#include <unistd.h>
+
+#include <iostream>
+
+#include "cli/application.h"
+#include "cli/commands.h"
+#include "cli/exit_status.h"
+#include "studies/comparison.h"
+
+namespace hookpoint::cli {
+
+int compare(const CompareArguments& arguments) {
+  try {
+    const auto first = studies::read_run_folder(arguments.first);
+    const auto second = studies::read_run_folder(arguments.second);
+    const auto comparison = studies::compare_runs(first, second, arguments.tolerance);
+    std::cout << (arguments.json
+                      ? studies::comparison_json(comparison)
+                      : studies::comparison_text(comparison, {isatty(STDOUT_FILENO) != 0}));
+    return comparison.same() ? fine : truth_failed;
+  } catch (const studies::RunFolderError& error) {
+    print_error(error.what());
+    return wrong_input;
+  }
+}
+
+}  // namespace hookpoint::cli

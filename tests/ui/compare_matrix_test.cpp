@@ -1,0 +1,267 @@
+// What stands on many runs: `compare` of two folders, the page of a `Matrix`.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <string>
+
+#include "output/json_reader.h"
+#include "tests/support/command.h"
+
+namespace hookpoint {
+namespace {
+
+using testing::CommandResult;
+using testing::Workplace;
+
+constexpr double pi = 3.14159265358979323846;
+
+std::map<std::string, std::string> leaves(const std::string& json) {
+  const auto all = output::json_leaves(json);
+  EXPECT_TRUE(all.has_value()) << json;
+  return all ? std::map<std::string, std::string>(all->begin(), all->end())
+             : std::map<std::string, std::string>();
+}
+
+/// A body that falls from 100 m for 1 s under gravity `g`.
+std::string falling(const std::string& gravity, const std::string& step = "1 ms") {
+  return "World w { gravity = " + gravity + "; deltat = " + step +
+         "; duration = 1 s; integrator = rk4;\n"
+         "  Robot ball { Base.mobile { location = 0, 0, 100; Shape.Sphere { radius = 0.1; mass = "
+         "1 kg; } } } }\n";
+}
+
+void run(const Workplace& work, const std::string& name, const std::string& text) {
+  work.file(name + ".hook", text);
+  const auto result =
+      work.hookpoint("run " + name + ".hook --record w.ball.base.location.z --out " + name);
+  ASSERT_EQ(result.status, 0) << result.err;
+}
+
+TEST(Compare, ARunIsTheSameAsItself) {
+  const Workplace work;
+  run(work, "a", falling("9.81"));
+  run(work, "b", falling("9.81"));
+  const CommandResult result = work.hookpoint("compare a b --tolerance 0");
+  EXPECT_EQ(result.status, 0) << result.out;
+  EXPECT_NE(result.out.find("settings: the same"), std::string::npos) << result.out;
+  EXPECT_EQ(result.out, work.hookpoint("compare a b --tolerance 0").out);
+}
+
+// (g2 - g1) t^2/2 passes 1e-5 of 100 m at sqrt(2e-3/0.01) = 0.44721 s.
+TEST(Compare, TrajectoriesPartWhereTheClosedFormSays) {
+  const Workplace work;
+  run(work, "a", falling("9.81"));
+  run(work, "b", falling("9.82"));
+  const CommandResult result = work.hookpoint("compare a b --tolerance 1e-5 --json");
+  EXPECT_EQ(result.status, 1) << result.err;
+  auto found = leaves(result.out);
+  EXPECT_EQ(found["settings.experiment[0].trail"], "w.gravity");
+  EXPECT_EQ(found["settings.experiment[0].second"], "9.82");
+  EXPECT_EQ(found.count("settings.experiment[1].trail"), 0u) << "nothing else differs";
+  const std::string channel = "trajectories[0].channels[0].";
+  EXPECT_EQ(found[channel + "channel"], "w.ball.base.location.z [m]");
+  EXPECT_DOUBLE_EQ(std::stod(found[channel + "parts_at"]), 0.448);
+  EXPECT_NEAR(std::stod(found[channel + "greatest"]), 0.005, 1e-12);
+  EXPECT_DOUBLE_EQ(std::stod(found[channel + "greatest_at"]), 1.);
+  EXPECT_EQ(work.hookpoint("compare a b --tolerance 1e-4").status, 0);
+}
+
+// Steps of 3 ms and 10 ms meet at 0 and every 30 ms.
+TEST(Compare, RowsOfOtherStepsMeetWhereTheirTimesDo) {
+  const Workplace work;
+  run(work, "a", falling("9.81", "3 ms"));
+  run(work, "b", falling("9.81", "10 ms"));
+  auto found = leaves(work.hookpoint("compare a b --json").out);
+  EXPECT_EQ(found["trajectories[0].instants"], "34");
+  EXPECT_EQ(found["trajectories[0].interpolated"], "false");
+  EXPECT_EQ(found["trajectories[0].channels[0].parts_at"], "null");
+}
+
+// Linear between the rows of the second at 0 and 0.7 s, the parabola lies below by g/2 t (0.7 - t).
+TEST(Compare, WithoutCommonTimesTheSecondIsTakenLinearly) {
+  const Workplace work;
+  run(work, "a", falling("9.81", "0.2 s"));
+  run(work, "b", falling("9.81", "0.7 s"));
+  auto found = leaves(work.hookpoint("compare a b --json").out);
+  EXPECT_EQ(found["trajectories[0].interpolated"], "true");
+  EXPECT_EQ(found["trajectories[0].instants"], "4");
+  EXPECT_NEAR(std::stod(found["trajectories[0].channels[0].greatest"]), 9.81 / 2. * 0.4 * 0.3,
+              1e-12);
+}
+
+TEST(Compare, SettingsAreComparedByTrailNotByLine) {
+  const Workplace work;
+  run(work, "a", falling("9.81"));
+  std::string moved = falling("9.81");
+  moved.replace(moved.find("gravity = 9.81; "), 16, "");
+  moved.insert(moved.find("integrator"), "gravity = 9.81;\n");
+  run(work, "b", "// the same in another order\n" + moved);
+  const CommandResult result = work.hookpoint("compare a b");
+  EXPECT_EQ(result.status, 0);
+  EXPECT_NE(result.out.find("settings: the same"), std::string::npos) << result.out;
+}
+
+std::string sliding(const std::string& slopes, double mu) {
+  return "Study s { scene = \"scenes/sloped_block.hook\"; duration = 0.4 s; settle = 0.1 s;\n"
+         "  Sweep slope { values = " +
+         slopes + "; }\n  Fix mu { value = " + std::to_string(mu) +
+         "; }\n  Measure slip_acceleration;\n"
+         "  Subject ours { engine = dts; contact = hookpoint; }\n"
+         "  Truth slip_acceleration { above = 2.2 m/s^2; }\n"
+         "  Plot d { x = time; y = drift; }\n}\n";
+}
+
+void study(const Workplace& work, const std::string& name, const std::string& text) {
+  work.file(name + ".hook", text);
+  ASSERT_LE(work.hookpoint("study " + name + ".hook --jobs 1 --out " + name).status, 1);
+}
+
+TEST(Compare, StudiesAreJoinedByTheirSweepsNotByTheirRows) {
+  const Workplace work;
+  study(work, "a", sliding("20 deg, 25 deg", 0.2));
+  study(work, "b", sliding("15 deg, 20 deg, 25 deg", 0.1));
+  const CommandResult result = work.hookpoint("compare a b --json");
+  EXPECT_EQ(result.status, 1) << result.err;
+  auto found = leaves(result.out);
+  EXPECT_EQ(found["metrics[0].metric"], "slip_acceleration [m/s^2]");
+  EXPECT_EQ(found["metrics[0].rows"], "2");
+  EXPECT_EQ(found["metrics[0].differences[0].row"], "slope = 20 deg, ours");
+  // g cos(20 deg) (0.2 - 0.1), the laws' own error of 0.2 % allowed.
+  EXPECT_NEAR(std::stod(found["metrics[0].differences[0].absolute"]),
+              0.1 * 9.81 * std::cos(pi / 9.), 0.005);
+  EXPECT_EQ(found["only_second[0]"], "row slope = 15 deg, ours");
+  EXPECT_EQ(found["trajectories[0].trajectory"], "d, slope = 20 deg, ours");
+  // At 20 deg g (sin - mu cos) is 1.51 with 0.2 and 2.43 with 0.1: the Truth holds with the latter.
+  EXPECT_EQ(found["changed[0].what"], "slip_acceleration_ok");
+  EXPECT_EQ(found["changed[0].first"], "false");
+  EXPECT_EQ(found["changed[0].second"], "true");
+  EXPECT_EQ(found.count("changed[1].what"), 0u) << "at 25 deg it holds with both";
+}
+
+TEST(Compare, WhatIsNoRunIsToldWithAdvice) {
+  const Workplace work;
+  run(work, "a", falling("9.81"));
+  study(work, "s", sliding("20 deg", 0.2));
+  study(
+      work, "t",
+      "Study s { scene = \"scenes/sloped_block.hook\"; duration = 0.1 s;\n"
+      "  Sweep mu { values = 0.1, 0.2; } Measure creep_speed; Subject ours { engine = dts; } }\n");
+  std::filesystem::create_directory(work.folder() / "empty");
+  const std::pair<const char*, const char*> cases[] = {
+      {"a nowhere", "there is no folder nowhere; compare takes the folder that"},
+      {"a empty", "empty has no experiment.hook; compare takes the folder that"},
+      {"a a.hook", "a.hook is a file"},
+      {"a .", "holds several runs; compare one of ./a, ./s, ./t"},
+      {"a s", "a is a single run and s a study"},
+      {"s t", "one run has several with ours; it varies mu, subject, and both vary subject only"},
+      {"a a --tolerance -1", "--tolerance takes a number from 0 on"}};
+  for (const auto& [arguments, says] : cases) {
+    const CommandResult result = work.hookpoint(std::string("compare ") + arguments);
+    EXPECT_EQ(result.status, 2) << arguments;
+    EXPECT_EQ(result.out, "") << arguments;
+    EXPECT_NE(result.err.find(says), std::string::npos) << result.err;
+  }
+}
+
+/// A flight that single bodies and, of the hexapod, our engine alone can make; one subject whose
+/// engine this build does not know how to find.
+const std::string flights =
+    "Study box { scene = \"scenes/thrown_box.hook\"; duration = 0.1 s;\n"
+    "  Measure energy_gain;\n"
+    "  Subject ours { engine = dts; integrator = rk4; }\n"
+    "  Subject ode { engine = ode; settings = default; }\n"
+    "  Truth energy_gain { below = 1 J; }\n"
+    "  Plot energy { x = time; y = energy; } }\n"
+    "Study table { scene = \"scenes/four_leg_table.hook\"; duration = 0.1 s;\n"
+    "  Measure penetration_max;\n"
+    "  Subject ours { engine = dts; contact = hookpoint; }\n"
+    "  Subject ode { engine = ode; settings = default; }\n"
+    "  Truth penetration_max { below = 10 mm; } }\n";
+
+const std::string matrix =
+    "Matrix both { title = \"Both\"; Part flights { file = \"flights.hook\"; } Part creep { file = "
+    "\"creep.hook\"; } }\n";
+
+void write_matrix(const Workplace& work) {
+  work.file("flights.hook", flights);
+  work.file("creep.hook", sliding("20 deg", 0.2));
+  work.file("matrix.hook", matrix);
+}
+
+TEST(Matrix, HoldsEveryStudysSubjectsByMetricsInOnePage) {
+  const Workplace work;
+  write_matrix(work);
+  const CommandResult result = work.hookpoint("study matrix.hook --jobs 1 --out m");
+  EXPECT_EQ(result.status, 1) << "the Truth of sliding() fails\n" << result.err;
+  const std::string table = work.read("m/matrix.csv");
+  EXPECT_NE(table.find("\nbox,,energy_gain,J,ours,dts,"), std::string::npos) << table;
+  EXPECT_NE(table.find("\nbox,,energy_gain,J,ode,ode,"), std::string::npos);
+  EXPECT_NE(table.find("\ns,slides,slip_acceleration,m/s^2,ours,dts,hookpoint,"),
+            std::string::npos);
+  // Contact points alone do not collide in ODE: a row with the reason, neither passed nor failed.
+  const std::string refused = "\ntable,friction holds,,,ode,ode,,,default,1,0,,,,,,0,0,\"refused: ";
+  EXPECT_NE(table.find(refused), std::string::npos) << table;
+  const std::string page = work.read("m/matrix.html");
+  EXPECT_NE(page.find("id=\"figure-box-energy\""), std::string::npos);
+  EXPECT_NE(page.find("box/energy.svg"), std::string::npos);
+  EXPECT_NE(page.find("Study box {"), std::string::npos) << "the file that makes it";
+  for (const char* outside : {" src=", "@import", "url(http", "href=\"http"})
+    EXPECT_EQ(page.find(outside), std::string::npos) << outside;
+  for (const char* file : {"m/box/report.html", "m/box/energy.svg", "m/table/results.csv"})
+    EXPECT_FALSE(work.read(file).empty()) << file;
+}
+
+TEST(Matrix, HasTheSameTableForAnyNumberOfThreadsAndCompares) {
+  const Workplace work;
+  write_matrix(work);
+  work.hookpoint("study matrix.hook --jobs 1 --out one");
+  work.hookpoint("study matrix.hook --jobs 2 --out two");
+  EXPECT_EQ(work.read("one/matrix.csv"), work.read("two/matrix.csv"));
+  EXPECT_EQ(work.hookpoint("compare one two").status, 0);
+}
+
+TEST(Matrix, OnlyTakesTheSubjectFromThoseStudiesThatHaveIt) {
+  const Workplace work;
+  write_matrix(work);
+  EXPECT_EQ(work.hookpoint("study matrix.hook --only ode --out m").status, 0);
+  EXPECT_TRUE(std::filesystem::exists(work.folder() / "m/box"));
+  EXPECT_FALSE(std::filesystem::exists(work.folder() / "m/s"));
+  EXPECT_EQ(work.hookpoint("study matrix.hook --only nobody --out n").status, 2);
+}
+
+TEST(Matrix, WhatIsWrongIsToldAtItsPart) {
+  const Workplace work;
+  write_matrix(work);
+  const std::pair<const char*, const char*> cases[] = {
+      {"Part nowhere;", "no file \"studies/nowhere.hook\" beside the Matrix or in configs/"},
+      {"Part a { file = \"flights.hook\"; } Part b { file = \"flights.hook\"; }",
+       "a second study is called `box`"},
+      {"Part a { file = \"scenes/thrown_box.hook\"; }", "holds no Study"},
+      {"", "the Matrix has no Part"}};
+  for (const auto& [parts, says] : cases) {
+    work.file("wrong.hook", std::string("Matrix m { ") + parts + " }\n");
+    const CommandResult result = work.hookpoint("study wrong.hook --out m");
+    EXPECT_EQ(result.status, 2) << parts;
+    EXPECT_NE(result.err.find(says), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("wrong.hook:1:"), std::string::npos) << result.err;
+  }
+  EXPECT_FALSE(std::filesystem::exists(work.folder() / "m"));
+}
+
+// A Truth that names a subject claims that it can run; one that covers all does not.
+TEST(Refusal, FailsOnlyATruthThatNamesTheSubject) {
+  const Workplace work;
+  const std::string named = "Truth penetration_max { below = 10 mm; subjects = ode; }";
+  std::string study = flights;
+  study.replace(study.rfind("Truth"), study.rfind("} }") - study.rfind("Truth") + 1, named);
+  work.file("named.hook", study);
+  work.file("all.hook", flights);
+  EXPECT_EQ(work.hookpoint("study named.hook --only ode --out n").status, 1);
+  const CommandResult all = work.hookpoint("study all.hook --only ode --out a");
+  EXPECT_EQ(all.status, 0) << all.err;
+  EXPECT_NE(all.out.find("refused"), std::string::npos) << all.out;
+}
+
+}  // namespace
+}  // namespace hookpoint
