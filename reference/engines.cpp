@@ -1,7 +1,10 @@
 #include "reference/engines.h"
 
+#include <algorithm>
 #include <array>
+#include <iterator>
 #include <stdexcept>
+#include <vector>
 
 #include "reference/bullet_world.h"
 #include "reference/experiment_checks.h"
@@ -11,11 +14,12 @@
 namespace hookpoint::reference {
 namespace {
 
-constexpr std::array<Peer, 3> all_peers{{
+constexpr std::array all_peers = std::to_array<Peer>({
     {"ode", describe_ode, make_ode},
     {"ode_quickstep", describe_ode_quickstep, make_ode_quickstep},
     {"bullet", describe_bullet, make_bullet},
-}};
+    {"mujoco", describe_mujoco, make_mujoco},
+});
 
 using simulation::EngineGap;
 
@@ -59,7 +63,17 @@ std::unique_ptr<simulation::Engine> make(std::string_view engine,
 
 }  // namespace
 
-std::span<const Peer> peers() { return all_peers; }
+std::span<const Peer> known_peers() { return all_peers; }
+
+std::span<const Peer> peers() {
+  static const std::vector<Peer> found = [] {
+    std::vector<Peer> result;
+    std::ranges::copy_if(all_peers, std::back_inserter(result),
+                         [](const Peer& peer) { return peer.describe().found; });
+    return result;
+  }();
+  return found;
+}
 
 std::unique_ptr<simulation::Engine> make_ode(const simulation::Experiment& experiment) {
   return make("ode", experiment, OdeSolver::step);

@@ -23,9 +23,15 @@ std::unique_ptr<simulation::Engine> make_ode_quickstep(const simulation::Experim
 /// Bullet's btDiscreteDynamicsWorld with its sequential impulse solver (`engine = bullet`).
 std::unique_ptr<simulation::Engine> make_bullet(const simulation::Experiment& experiment);
 
+/// MuJoCo (`engine = mujoco`), whose contacts are soft constraints of a convex problem. Where the
+/// build has no MuJoCo its description says `found = false`, and this throws.
+std::unique_ptr<simulation::Engine> make_mujoco(const simulation::Experiment& experiment);
+
 simulation::EngineDescription describe_ode();
 simulation::EngineDescription describe_ode_quickstep();
 simulation::EngineDescription describe_bullet();
+
+simulation::EngineDescription describe_mujoco();
 
 /// A peer as a registry wants it.
 struct Peer {
@@ -34,6 +40,8 @@ struct Peer {
   simulation::EngineFactory make;
 };
 /// Every peer of this folder, in the order of its documentation.
+std::span<const Peer> known_peers();
+/// Those whose library this build has; the others describe themselves as not found.
 std::span<const Peer> peers();
 
 /// One line of the table that a report prints beside a peer's results.

@@ -1,5 +1,6 @@
 #include "reference/settings.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <stdexcept>
@@ -30,6 +31,9 @@ constexpr ConstraintConstants ode_defaults{0.2, 1e-10, 0., 1e-10, 0.};
 // btContactSolverInfo.h: m_erp2, m_globalCfm, m_frictionERP (used with anchors only),
 // m_frictionCFM.
 constexpr ConstraintConstants bullet_defaults{0.2, 0., 0., 0., 0.};
+
+// mjmodel.h, mjMINIMP and 1 - mjMAXIMP: MuJoCo takes no impedance beyond.
+constexpr double least_impedance = 1e-4;
 
 std::vector<SettingRow> ode_table(OdeSolver solver) {
   const auto at = [solver](Settings settings) { return ode_settings(settings, solver, 1., {}); };
@@ -91,6 +95,34 @@ std::vector<SettingRow> bullet_table() {
       {"linear and angular damping", "0", "0", "0", "btRigidBodyConstructionInfo"},
   };
 }
+
+std::vector<SettingRow> mujoco_table() {
+  const auto at = [](Settings settings) { return mujoco_settings(settings, 1., {}); };
+  const MujocoSettings first = at(Settings::default_), second = at(Settings::recommended);
+  const MujocoSettings third = at(Settings::matched);
+  const auto cone = [](const MujocoSettings& settings) {
+    return std::string(settings.elliptic ? "elliptic" : "pyramidal");
+  };
+  const MujocoRow row;
+  const std::string reference = text(row.reference[0]) + ", " + text(row.reference[1]);
+  const std::string impedance =
+      text(row.impedance[0]) + ", " + text(row.impedance[1]) + ", " + text(row.impedance[2]);
+  const std::string slip = "manual, Modeling, choice of algorithm: what to do against slip";
+  return {
+      {"solver", "Newton", "same", "same", "XML reference, option"},
+      {"integrator", "Euler, semi-implicit", "same", "same", "XML reference, option"},
+      {"friction cone", cone(first), cone(second), cone(third), slip},
+      {"impratio [1]", text(first.friction_impedance), text(second.friction_impedance),
+       "(c_t + dt k_t)/(c + dt k)", "Menagerie, unitree_a1/a1.xml (recommended)"},
+      {"tolerance [1]", text(first.tolerance), text(second.tolerance), text(third.tolerance), slip},
+      {"solref", reference, reference, "-d k R, -d/dt; R = 1/(dt (c + dt k))",
+       "XML reference, geom; manual, Computation, Constraint model (matched)"},
+      {"solimp", impedance, impedance, "d = A/(A + R), constant",
+       "as solref; A is the body's inverse weight"},
+      {"restitution", "none", "none", "0: the damper's", "MuJoCo has no such coefficient"},
+  };
+}
+
 
 }  // namespace
 
@@ -155,10 +187,42 @@ BulletSettings bullet_settings(Settings settings, double dt,
   return result;
 }
 
+MujocoSettings mujoco_settings(Settings settings, double dt,
+                               const contact::MaterialConstants<double>& material) {
+  MujocoSettings result;
+  if (settings == Settings::default_) return result;
+  // The manual's advice where slip matters (Modeling, choice of algorithm): elliptic cones, a large
+  // impratio, Newton's method with a tolerance such as 1e-10. The impratio is that of the
+  // maintainers' legged robots (MuJoCo Menagerie, unitree_a1/a1.xml).
+  result.elliptic = true;
+  result.tolerance = 1e-10;
+  result.friction_impedance = 100.;
+  if (settings == Settings::recommended) return result;
+  result.spring = true;
+  result.friction_impedance = (material.tangential_damping + dt * material.tangential_stiffness) /
+                              (material.normal_damping + dt * material.normal_stiffness);
+  return result;
+}
+
+MujocoRow mujoco_row(const MujocoSettings& settings, double dt,
+                     const contact::MaterialConstants<double>& material, double inverse_weight) {
+  MujocoRow row;
+  if (!settings.spring) return row;
+  // The spring and damper taken implicitly, f = -k (r + dt (v + dt a)) - c (v + dt a), is a row
+  // with R = 1/(dt (c + dt k)), B = 1/dt and K d = k R.
+  const double softness = 1. / (dt * (material.normal_damping + dt * material.normal_stiffness));
+  const double d = std::clamp(inverse_weight / (inverse_weight + softness), least_impedance,
+                              1. - least_impedance);
+  row.reference = {-d * material.normal_stiffness * softness, -d / dt};
+  row.impedance = {d, d, 0., 0.5, 1.};
+  return row;
+}
+
 std::vector<SettingRow> settings_table(std::string_view engine) {
   if (engine == "ode") return ode_table(OdeSolver::step);
   if (engine == "ode_quickstep") return ode_table(OdeSolver::quickstep);
   if (engine == "bullet") return bullet_table();
+  if (engine == "mujoco") return mujoco_table();
   throw std::invalid_argument("no peer called '" + std::string(engine) + "'");
 }
 
