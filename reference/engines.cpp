@@ -19,6 +19,7 @@ constexpr std::array all_peers = std::to_array<Peer>({
     {"ode_quickstep", describe_ode_quickstep, make_ode_quickstep},
     {"bullet", describe_bullet, make_bullet},
     {"mujoco", describe_mujoco, make_mujoco},
+    {"dart", describe_dart, make_dart},
 });
 
 using simulation::EngineGap;
@@ -105,6 +106,7 @@ ConstraintConstants constraint_constants(std::string_view engine,
   const Settings settings = settings_of(experiment, engine);
   const auto material = ground_material(experiment);
   if (engine == "bullet") return bullet_settings(settings, experiment.deltat, material).constraint;
+  if (engine == "dart") return dart_settings(settings, experiment.deltat, material).constraint;
   if (engine == "ode")
     return ode_settings(settings, OdeSolver::step, experiment.deltat, material).constraint;
   if (engine == "ode_quickstep")

@@ -71,4 +71,15 @@ struct MujocoRow {
 MujocoRow mujoco_row(const MujocoSettings& settings, double dt,
                      const contact::MaterialConstants<double>& material, double inverse_weight);
 
+struct DartSettings {
+  ConstraintConstants constraint;
+  double correction_speed = 1e-3;  ///< at most, of what pushes a penetration out [m/s]
+  bool own_mixing = false;   ///< rows have the mixings of `constraint`, beside DART's relative one
+  bool tessellated = false;  ///< spheres and cylinders collide as meshes
+  bool restitution = true;   ///< the material's restitution is passed on
+};
+/// `dt` [s] and `material` enter at `matched` only.
+DartSettings dart_settings(Settings settings, double dt,
+                           const contact::MaterialConstants<double>& material);
+
 }  // namespace hookpoint::reference
