@@ -1,7 +1,10 @@
 #include "reference/engines.h"
 
+#include <algorithm>
 #include <array>
+#include <iterator>
 #include <stdexcept>
+#include <vector>
 
 #include "reference/bullet_world.h"
 #include "reference/experiment_checks.h"
@@ -11,11 +14,13 @@
 namespace hookpoint::reference {
 namespace {
 
-constexpr std::array<Peer, 3> all_peers{{
+constexpr std::array all_peers = std::to_array<Peer>({
     {"ode", describe_ode, make_ode},
     {"ode_quickstep", describe_ode_quickstep, make_ode_quickstep},
     {"bullet", describe_bullet, make_bullet},
-}};
+    {"mujoco", describe_mujoco, make_mujoco},
+    {"dart", describe_dart, make_dart},
+});
 
 using simulation::EngineGap;
 
@@ -50,7 +55,17 @@ std::unique_ptr<simulation::Engine> make(std::string_view engine,
 
 }  // namespace
 
-std::span<const Peer> peers() { return all_peers; }
+std::span<const Peer> known_peers() { return all_peers; }
+
+std::span<const Peer> peers() {
+  static const std::vector<Peer> found = [] {
+    std::vector<Peer> result;
+    std::ranges::copy_if(all_peers, std::back_inserter(result),
+                         [](const Peer& peer) { return peer.describe().found; });
+    return result;
+  }();
+  return found;
+}
 
 std::unique_ptr<simulation::Engine> make_ode(const simulation::Experiment& experiment) {
   return make("ode", experiment, OdeSolver::step);
@@ -82,6 +97,7 @@ ConstraintConstants constraint_constants(std::string_view engine,
   const Settings settings = settings_of(experiment, engine);
   const auto material = ground_material(experiment);
   if (engine == "bullet") return bullet_settings(settings, experiment.deltat, material).constraint;
+  if (engine == "dart") return dart_settings(settings, experiment.deltat, material).constraint;
   if (engine == "ode")
     return ode_settings(settings, OdeSolver::step, experiment.deltat, material).constraint;
   if (engine == "ode_quickstep")

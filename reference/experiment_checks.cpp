@@ -39,11 +39,13 @@ void add_robot(const simulation::Experiment& experiment, int index, std::vector<
 
 void add_material(const simulation::Experiment& experiment, int index,
                   std::vector<FeatureUse>& uses) {
-  const auto material = material_at(experiment, index);
-  if (material.static_friction == material.kinetic_friction) return;
-  uses.push_back({feature::two_frictions,
-                  "material '" + experiment.materials[static_cast<std::size_t>(index)].name +
-                      "' has different static and kinetic friction"});
+  if (static_cast<std::size_t>(index) >= experiment.materials.size()) return;
+  const simulation::MaterialSpec& material = experiment.materials[static_cast<std::size_t>(index)];
+  const std::string name = "material '" + material.name + "'";
+  if (material.constants.static_friction != material.constants.kinetic_friction)
+    uses.push_back({feature::two_frictions, name + " has different static and kinetic friction"});
+  if (material.constants.restitution > 0.)
+    uses.push_back({feature::restitution, name + " has a restitution"});
 }
 
 void add_patch(const simulation::Experiment& experiment, int patch, std::vector<FeatureUse>& uses) {
