@@ -42,7 +42,7 @@ language::ClassSchema world_class() {
                             "local error allowed whatever the size: m, rad, m/s, rad/s")),
       choice_field("contact", law_names(), "hookpoint",
                    "contact law of engine dts; a peer brings its own contact"),
-      choice_field("engine", {"dts", "ode", "ode_quickstep", "bullet"}, "dts",
+      choice_field("engine", {"dts", "ode", "ode_quickstep", "bullet", "mujoco", "dart", "simbody"}, "dts",
                    "who computes the motion: the decoupled tree-structure engine or a peer"),
       choice_field("settings", {"default", "recommended", "matched"}, "default",
                    "how a peer is set up: its first example, its maintainers' practice, or nearest "
