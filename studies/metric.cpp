@@ -10,7 +10,7 @@
 namespace hookpoint::studies {
 namespace {
 
-constexpr std::array<MetricDefinition, 30> metrics{{
+constexpr auto metrics = std::to_array<MetricDefinition>({
     {"creep_speed", "m/s",
      "least-squares slope of the downhill displacement over [settle, duration]", make_creep_speed,
      false, Regime::holds},
@@ -37,6 +37,20 @@ constexpr std::array<MetricDefinition, 30> metrics{{
     {"penetration_rms", "m", "root mean square of the same depths", make_penetration_rms, true},
     {"contact_breaks", "1/s", "contacts lost per second after `settle`", make_contact_breaks},
     {"impacts", "1/s", "impulses per second after `settle` (event-driven laws)", make_impacts},
+    {"support_force", "N",
+     "mean force of the ground along its normal after `settle`, on all bodies", make_support_force},
+    {"rebound", "",
+     "greatest speed away from the ground over the greatest towards it, of the body's origin",
+     make_rebound},
+    {"energy_drift", "J",
+     "greatest change of kinetic and gravitational energy since the start, either way",
+     make_energy_drift},
+    {"momentum_drift", "kg.m/s",
+     "greatest distance of the momentum from that of a free flight, p0 + m g t",
+     make_momentum_drift},
+    {"angular_momentum_drift", "kg.m^2/s",
+     "greatest change of the angular momentum about the centre of mass",
+     make_angular_momentum_drift},
     {"energy_gain", "J", "greatest rise of kinetic and gravitational energy above the start's",
      make_energy_gain},
     {"fell", "",
@@ -69,13 +83,17 @@ constexpr std::array<MetricDefinition, 30> metrics{{
      "greatest distance of the body's origin from the same run nearer to its limit: an eighth of "
      "deltat, a hundredth of the tolerances",
      make_self_error},
+    {"truth_error", "m",
+     "greatest distance of the downhill displacement from that of a rigid block under Coulomb "
+     "friction",
+     make_truth_error},
     {"reference_error", "m",
      "greatest distance of the body's origin from the run of arkode with tolerances of 1e-10 and "
      "steps of 0.1 ms or less",
      make_reference_error},
     {"realtime_factor", "", "simulated time over wall time, median of five stretches, run alone"},
     {"step_time", "s", "wall time of a step, median of five stretches, run alone"},
-}};
+});
 
 double deepest(const RunContext&, const Observation& observation) {
   double depth = 0.;

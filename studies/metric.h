@@ -32,7 +32,8 @@ struct RunContext {
   Vector3d downhill;     ///< unit, in the ground's plane: steepest descent; on the level, along the
                          ///< initial velocity
   double weight = 0.;    ///< m |g| [N], of the whole robot
-  simulation::EngineFactory make = nullptr;  ///< of the run's engine, where a metric may run another
+  simulation::EngineFactory make =
+      nullptr;  ///< of the run's engine, where a metric may run another
 
   const simulation::RobotSpec& robot_spec() const {
     return experiment->robots[static_cast<std::size_t>(robot)];
@@ -168,5 +169,11 @@ std::unique_ptr<Metric> make_jacobians(const RunContext&);
 std::unique_ptr<Metric> make_events(const RunContext&);
 std::unique_ptr<Metric> make_self_error(const RunContext&);
 std::unique_ptr<Metric> make_reference_error(const RunContext&);
+std::unique_ptr<Metric> make_truth_error(const RunContext&);
+std::unique_ptr<Metric> make_energy_drift(const RunContext&);
+std::unique_ptr<Metric> make_momentum_drift(const RunContext&);
+std::unique_ptr<Metric> make_angular_momentum_drift(const RunContext&);
+std::unique_ptr<Metric> make_rebound(const RunContext&);
+std::unique_ptr<Metric> make_support_force(const RunContext&);
 
 }  // namespace hookpoint::studies

@@ -5,6 +5,7 @@
 #include "contact/force_law.h"
 #include "simulation/world.h"
 #include "studies/metric.h"
+#include "studies/predictions.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -56,8 +57,26 @@ class DistanceFromLimit : public Metric {
   std::optional<double> error_;
 };
 
+class TruthError : public Metric {
+ public:
+  explicit TruthError(const RunContext& context) : slide_(rigid_slide(context)) {}
+  void observe(const Observation& observation) override {
+    if (!slide_) return;
+    const double apart = observation.displacement - slide_->displacement(observation.world.time);
+    error_ = std::max(error_.value_or(0.), std::abs(apart));
+  }
+  std::optional<double> value() const override { return error_; }
+
+ private:
+  std::optional<RigidSlide> slide_;
+  std::optional<double> error_;
+};
+
 }  // namespace
 
+std::unique_ptr<Metric> make_truth_error(const RunContext& context) {
+  return std::make_unique<TruthError>(context);
+}
 std::unique_ptr<Metric> make_integrator_steps(const RunContext&) {
   return std::make_unique<IntegratorCount>(&simulation::IntegratorState::steps);
 }

@@ -196,7 +196,10 @@ std::optional<double> predict(std::string_view metric, const RunContext& context
   if (metric == "fell") return joint_loop_fails(context);
   if (metric == "slip_onset") return slip_onset(context);
   if (metric == "threshold_error") return threshold_error(context);
-  if (!applies(context)) return std::nullopt;
+  if (metric == "rebound") return rebound(context);
+  if (metric == "support_force") return support_force(context);
+  if (!applies(context))
+    return metric == "slip_acceleration" ? rolling_acceleration(context) : std::nullopt;
   const BodyOnPlane body = body_on_plane(context);
   if (metric == "creep_speed") return creep_speed(context, body, friction_mixing);
   if (metric == "slip_acceleration") return slip_acceleration(body);
@@ -206,6 +209,20 @@ std::optional<double> predict(std::string_view metric, const RunContext& context
   if (metric == "direction_error" && !body.sticks() && body.speed == 0.) return 0.;
   if (metric.substr(0, 11) == "penetration") return penetration(metric, context, body);
   return std::nullopt;
+}
+
+double RigidSlide::displacement(double time) const {
+  const bool rests = speed > 0. && acceleration < 0. && time > -speed / acceleration;
+  const double moving = rests ? -speed / acceleration : time;
+  return (speed + 0.5 * acceleration * moving) * moving;
+}
+
+std::optional<RigidSlide> rigid_slide(const RunContext& context) {
+  if (!applies(context)) return std::nullopt;
+  const BodyOnPlane body = body_on_plane(context);
+  if (body.speed == 0.) return RigidSlide{0., body.sticks() ? 0. : body.slip_acceleration()};
+  if (body.sine > 1e-9) return std::nullopt;
+  return RigidSlide{body.speed, -body.material.kinetic_friction * body.gravity};
 }
 
 Regime regime_of(const RunContext& context) {

@@ -30,6 +30,25 @@ std::optional<double> slip_onset(const RunContext& context);
 /// Of `threshold_error`: the same less atan(mu_s) [rad].
 std::optional<double> threshold_error(const RunContext& context);
 
+/// A rigid block on a plane under Coulomb friction: displacement v t + a t^2/2 until it rests.
+struct RigidSlide {
+  double speed = 0.;         ///< initial [m/s]
+  double acceleration = 0.;  ///< along the displacement [m/s^2]
+  double displacement(double time) const;
+};
+/// Nothing where `predict`'s conditions do not hold.
+std::optional<RigidSlide> rigid_slide(const RunContext& context);
+
+/// Of `slip_acceleration` for a ball let go on a plane: 5/7 g sin while friction carries 2/7 of the
+/// pull, else g (sin - mu_k cos) [m/s^2].
+std::optional<double> rolling_acceleration(const RunContext& context);
+/// Of `rebound` for a body with one boundary point that hits a plane without gravity: our force
+/// laws by their own equations, impulse laws and peers the material's restitution, peers at
+/// `matched` the spring-damper that they were given.
+std::optional<double> rebound(const RunContext& context);
+/// Of `support_force`: the weight along the normal [N].
+std::optional<double> support_force(const RunContext& context);
+
 /// What friction does in the run described by `context`: none unless `predict`'s conditions hold
 /// and the body starts at rest.
 Regime regime_of(const RunContext& context);
