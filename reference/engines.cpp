@@ -26,19 +26,9 @@ using simulation::EngineGap;
 
 /// What both libraries lack.
 std::vector<EngineGap> shared_gaps() {
-  using enum EngineGap::Handling;
   std::vector<EngineGap> gaps = common_gaps();
-  const auto add = [&gaps](std::string_view name, EngineGap::Handling handling,
-                           const char* instead) {
-    gaps.push_back({std::string(name), handling, instead});
-  };
-  add(feature::two_frictions, noticed,
-      "this engine has one coefficient of friction, and it is the kinetic one");
-  add(feature::chains, refused, "this engine runs single rigid bodies only, use engine dts");
-  add(feature::points, refused, "this engine collides shapes only, use engine dts");
-  add(feature::tile_friction, refused, "use one material");
-  add(feature::tile_softness, refused, "use one material");
-  add(feature::tile_restitution, refused, "use one material");
+  gaps.push_back({std::string(feature::two_frictions), EngineGap::Handling::noticed,
+                  "this engine has one coefficient of friction, and it is the kinetic one"});
   return gaps;
 }
 
@@ -46,6 +36,8 @@ std::vector<EngineGap> ode_gaps() {
   std::vector<EngineGap> gaps = shared_gaps();
   gaps.push_back({std::string(feature::legcone), EngineGap::Handling::refused,
                   "ODE has no cone; use Cylinder, Sphere or Box"});
+  gaps.push_back({std::string(feature::massless), EngineGap::Handling::refused,
+                  "every body of ODE has a mass; give the link one"});
   return gaps;
 }
 
@@ -56,8 +48,7 @@ std::unique_ptr<simulation::Engine> make(std::string_view engine,
                                          OdeSolver solver) {
   const auto notices = check_supported(
       experiment, solver == OdeSolver::step ? describe_ode() : describe_ode_quickstep());
-  const OdeSettings settings = ode_settings(settings_of(experiment, engine), solver,
-                                            experiment.deltat, ground_material(experiment));
+  const Settings settings = settings_of(experiment, engine);
   return make_peer_engine(experiment, make_ode_world(experiment, settings, solver, engine),
                           notices);
 }

@@ -23,6 +23,8 @@ void add_robot(const simulation::Experiment& experiment, int index, std::vector<
       const std::string joint = name + ", joint of " + chain.name + "." + link.body.name;
       if (link.joint == simulation::JointKind::prismatic)
         uses.push_back({feature::prismatic, joint + " is prismatic"});
+      if (!(link.body.mass.mass > 0.))
+        uses.push_back({feature::massless, joint + " carries no mass"});
       if (link.lower_limit || link.upper_limit)
         uses.push_back({feature::joint_limits, joint + " has a limit"});
     }

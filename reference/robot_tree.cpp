@@ -27,24 +27,6 @@ BodyState initial_base(const simulation::RobotSpec& robot) {
   return state;
 }
 
-/// A link on a body that stands and moves as `parent` does: w_L = w_P + dq/dt z, v_L = v_P + w_P x
-/// p_PL of a turning joint; of a sliding one dq/dt z is added to v_L.
-BodyState initial_link(const BodyState& parent, const TreeBody& body) {
-  const LinkSpec& link = *body.link;
-  const Pose joint =
-      body.turns() ? Pose{{}, exponential(link.angle * z_axis)} : Pose{link.angle * z_axis, {}};
-  const Pose X_WL = Pose{parent.position, parent.orientation} * body.X_PL0 * joint;
-  const Vector3d motion = link.rate * rotate(X_WL.orientation, z_axis);
-  BodyState state;
-  state.position = X_WL.position;
-  state.orientation = X_WL.orientation;
-  state.angular_velocity = parent.angular_velocity;
-  state.velocity =
-      parent.velocity + cross(parent.angular_velocity, state.position - parent.position);
-  (body.turns() ? state.angular_velocity : state.velocity) += motion;
-  return state;
-}
-
 constexpr double friction_speed = 0.05;  // v_f [rad/s, m/s], docs/joints.md
 constexpr double stop_stiffness = 1000., stop_damping = 1.;
 
@@ -75,7 +57,8 @@ RobotTree robot_tree(const simulation::Experiment& experiment) {
                       true,
                       before * pose_at_zero(link),
                       {}};
-        body.initial = initial_link(tree.bodies[static_cast<std::size_t>(parent)].initial, body);
+        body.initial = link_state(tree.bodies[static_cast<std::size_t>(parent)].initial, body,
+                                  link.angle, link.rate);
         parent = static_cast<int>(tree.bodies.size());
         tree.bodies.push_back(body);
         before = {};
@@ -83,6 +66,23 @@ RobotTree robot_tree(const simulation::Experiment& experiment) {
     }
   }
   return tree;
+}
+
+// w_L = w_P + dq/dt z, v_L = v_P + w_P x p_PL of a turning joint; of a sliding one dq/dt z is added
+// to v_L.
+BodyState link_state(const BodyState& parent, const TreeBody& link, double angle, double rate) {
+  const Pose joint =
+      link.turns() ? Pose{{}, exponential(angle * z_axis)} : Pose{angle * z_axis, {}};
+  const Pose X_WL = Pose{parent.position, parent.orientation} * link.X_PL0 * joint;
+  const Vector3d motion = rate * rotate(X_WL.orientation, z_axis);
+  BodyState state;
+  state.position = X_WL.position;
+  state.orientation = X_WL.orientation;
+  state.angular_velocity = parent.angular_velocity;
+  state.velocity =
+      parent.velocity + cross(parent.angular_velocity, state.position - parent.position);
+  (link.turns() ? state.angular_velocity : state.velocity) += motion;
+  return state;
 }
 
 double joint_passive_force(const LinkSpec& link, double angle, double rate) {

@@ -39,6 +39,11 @@ struct RobotTree {
 /// `experiment` must outlive the tree.
 RobotTree robot_tree(const simulation::Experiment& experiment);
 
+/// How a link stands and moves on a body that stands and moves as `parent` does, at a joint
+/// position [rad, m] and rate [rad/s, m/s]. No contact.
+simulation::BodyState link_state(const simulation::BodyState& parent, const TreeBody& link,
+                                 double angle, double rate);
+
 /// What the joint exerts by itself at an angle [rad, m] and a rate [rad/s, m/s], in N m or N: the
 /// law of docs/joints.md, spring, damper, regularised dry friction and one-sided stops. Every peer
 /// has it as an explicit torque, from the state at the step's start.

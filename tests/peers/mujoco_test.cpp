@@ -122,17 +122,15 @@ TEST_F(Mujoco, TurnsAWarningIntoANotice) {
 }
 
 TEST_F(Mujoco, PassesOnWhatItsCompilerRefuses) {
-  simulation::Experiment experiment = empty_world(0.5, 1e-3, "default");
-  experiment.robots.push_back(block());
-  simulation::ChainSpec chain;
-  chain.links.emplace_back().body.name = "massless";
-  experiment.robots[0].chains.push_back(chain);
+  simulation::Experiment experiment = sloped_block(0., 0., 0.5, 1e-3);
+  // No body has that: I_zz <= I_xx + I_yy.
+  experiment.robots[0].base.mass.inertia = {1., 1., 5., 0., 0., 0.};
   try {
     reference::make_mujoco(experiment);
-    FAIL() << "a massless link was taken";
+    FAIL() << "an impossible inertia was taken";
   } catch (const simulation::ExperimentError& error) {
     EXPECT_NE(std::string(error.what()).find("engine mujoco: "), std::string::npos);
-    EXPECT_NE(std::string(error.what()).find("mass"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("inertia"), std::string::npos) << error.what();
   }
 }
 
