@@ -78,6 +78,25 @@ TEST_F(Mujoco, PyramidLetsABlockSlideTooFastAcrossItsFacesAndTheConeDoesNot) {
     EXPECT_NEAR(speed(45., settings), cone, 0.001 * cone) << settings;
 }
 
+// In its convex contact problem a sliding contact pushes with mu B v beside its spring, so it
+// leaves the ground and falls back; the impulses still are those of the weight.
+TEST_F(Mujoco, HopsWhileItSlidesAndCarriesItsWeightInTheMean) {
+  for (const char* settings : {"default", "recommended", "matched"}) {
+    const auto engine = reference::make_mujoco(sloped_block(15. * degree, 0., 0.2, 1e-3, settings));
+    ASSERT_TRUE(run_until(*engine, 1e-3, 1.));
+    int airborne = 0;
+    double load = 0.;
+    for (int i = 0; i < 1000; ++i) {
+      ASSERT_TRUE(engine->step().ok());
+      const simulation::BodyState& body = engine->state().bodies[0];
+      if (body.contacts == 0) ++airborne;
+      load += dot(body.contact_force, slope_axes(15. * degree, 0.).normal) / 1000.;
+    }
+    EXPECT_GT(airborne, 200) << settings;
+    EXPECT_NEAR(load, g * std::cos(15. * degree), 0.01 * g) << settings;
+  }
+}
+
 TEST_F(Mujoco, SlidesOnEachTileByItsOwnFriction) {
   simulation::Experiment experiment = sloped_block(15. * degree, 0., 0.8, 1e-3, "recommended");
   experiment.materials.push_back(experiment.materials[0]);
