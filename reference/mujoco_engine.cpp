@@ -18,6 +18,7 @@ std::vector<EngineGap> gaps() {
   };
   add(feature::two_frictions, noticed,
       "this engine has one coefficient of friction, and it is the kinetic one");
+  add(feature::massless, refused, "every body of MuJoCo that moves has a mass; give the link one");
   add(feature::restitution, noticed,
       "MuJoCo has no coefficient of restitution: how a body rebounds follows from its contact's "
       "damping");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "reference/experiment_checks.h"
 #include "reference/ground.h"
@@ -12,29 +13,39 @@
 namespace hookpoint::reference {
 namespace {
 
-/// A contact of a body at rest on a plane.
-struct Contact {
+/// A body at rest on a plane, of which each contact carries the same friction.
+struct Load {
   double inverse_weight = 0.;           ///< A [1/kg]
-  double normal = 0., tangential = 0.;  ///< loads [N]
-  double along = 0., across = 0.;  ///< parts of the tangential direction along the two tangents
+  double normal = 0., tangential = 0.;  ///< of a contact, in the mean [N]
+  /// Least and largest normal load of a contact over the mean one.
+  double least = 1., largest = 1.;
+  double along = 0., across = 0.;  ///< parts of the pull along the two tangents
   double friction = 0.;            ///< mu
 };
 
-/// Where friction holds a load, per unit of normal force: the depth's share q, the same for each
-/// row of the pyramid, and the speeds.
+/// Rows of a pyramid at rest carry f = max(0, q -+ w) for a depth q and a speed w along each
+/// tangent, in units of the mean normal load.
 struct Pyramid {
-  double depth = 0.;               ///< P over sum f, of the rows f = max(0, P - B mu v . t)/R
-  double along = 0., across = 0.;  ///< B mu v / R over sum f
+  double depth = 0., along = 0., across = 0.;
 };
 
-/// Rows in opposite pairs carry t = f_t/mu each way: both while t < 2 q, then the difference is
-/// t = 2 w; else the one that is left carries t = q + w. All rows together carry 1.
-std::optional<Pyramid> pyramid_at_rest(double t, double u) {
-  const double most = std::max(t, u), least = std::min(t, u);
-  const double q = most <= 0.5 ? 0.25 : 0.5 * (1. - most);
-  if (least > 2. * q) return std::nullopt;  // beyond the pyramid
+/// Opposite rows carry a load t = f_t/mu together: both while t <= 2 q, and then w = t/2; else the
+/// one that is left, and w = t - q. All rows together carry 1.
+std::optional<Pyramid> pyramid_at_rest(double t, double u, double least, double largest) {
+  if (t + u >= 1.) return std::nullopt;  // beyond the pyramid
+  const double q = std::min(0.25, 0.5 * (1. - std::max(t, u)));
   const auto speed = [q](double load) { return load <= 2. * q ? 0.5 * load : load - q; };
-  return Pyramid{q, speed(t), speed(u)};
+  const Pyramid mean{q, speed(t), speed(u)};
+  // A contact with another normal load has another depth: rows each way carry max(2 q, q + w). The
+  // mean is the mean of all only if the same rows carry everywhere.
+  const int lost = (mean.along > q ? 1 : 0) + (mean.across > q ? 1 : 0);
+  for (const double normal : {least, largest}) {
+    const double depth = q + (normal - 1.) / (4. - lost);
+    if (!(depth > 0.) || (mean.along > q) != (mean.along > depth) ||
+        (mean.across > q) != (mean.across > depth))
+      return std::nullopt;
+  }
+  return mean;
 }
 
 /// The impedance at a depth (XML reference, solimp).
@@ -62,66 +73,85 @@ Reference reference_of(const MujocoRow& row, double dt) {
 struct Rest {
   double speed, depth;
 };
-std::optional<Rest> rest(const Contact& contact, const MujocoSettings& settings,
+std::optional<Rest> rest(const Load& load, const MujocoSettings& settings,
                          const Reference& reference, double d) {
-  const double softness = (1. - d) / d * contact.inverse_weight;
+  const double softness = (1. - d) / d * load.inverse_weight;
+  const double mu = load.friction;
   if (settings.elliptic) {
-    if (contact.tangential > contact.friction * contact.normal) return std::nullopt;
-    return Rest{softness / settings.friction_impedance * contact.tangential / reference.damping,
-                softness * contact.normal / (reference.stiffness * d)};
+    if (load.tangential > mu * load.least * load.normal) return std::nullopt;
+    return Rest{softness / settings.friction_impedance * load.tangential / reference.damping,
+                softness * load.normal / (reference.stiffness * d)};
   }
-  const double mu = contact.friction;
   const double row = 2. * mu * mu / settings.friction_impedance * (1. + mu * mu) * softness;
-  const double load = contact.tangential / (mu * contact.normal);
+  const double part = load.tangential / (mu * load.normal);
   const auto pyramid =
-      pyramid_at_rest(load * std::abs(contact.along), load * std::abs(contact.across));
+      pyramid_at_rest(part * load.along, part * load.across, load.least, load.largest);
   if (!pyramid) return std::nullopt;
-  const double downhill =
-      pyramid->along * std::abs(contact.along) + pyramid->across * std::abs(contact.across);
-  return Rest{downhill * row * contact.normal / (reference.damping * mu),
-              pyramid->depth * row * contact.normal / (reference.stiffness * d)};
+  const double downhill = pyramid->along * load.along + pyramid->across * load.across;
+  return Rest{downhill * row * load.normal / (reference.damping * mu),
+              pyramid->depth * row * load.normal / (reference.stiffness * d)};
 }
 
-/// How many boundary points of the base lie lowest along `normal`.
-double footprint(const simulation::RobotSpec& robot, const Vector3d& normal) {
-  const auto height = [&](const Vector3d& point) {
-    return dot(rotate(robot.orientation, point), normal);
-  };
+/// The boundary points of the base that lie lowest along `normal`, from the centre of mass.
+std::vector<Vector3d> footprint(const simulation::RobotSpec& robot, const Vector3d& normal) {
+  std::vector<Vector3d> points;
   double lowest = std::numeric_limits<double>::infinity();
-  for (const Vector3d& point : robot.base.boundary_points) lowest = std::min(lowest, height(point));
-  return static_cast<double>(
-      std::ranges::count_if(robot.base.boundary_points,
-                            [&](const Vector3d& point) { return height(point) - lowest < 1e-6; }));
+  for (const Vector3d& point : robot.base.boundary_points) {
+    points.push_back(rotate(robot.orientation, point - robot.base.mass.center_of_mass));
+    lowest = std::min(lowest, dot(points.back(), normal));
+  }
+  std::erase_if(points, [&](const Vector3d& point) { return dot(point, normal) - lowest > 1e-6; });
+  return points;
 }
 
-std::optional<Contact> contact_at_rest(const simulation::Experiment& experiment) {
+/// Normal loads over their mean on a footprint: a + b x + c y at (x, y), x along `downhill`, whose
+/// moment about the centre of mass is that of the friction, `tangent` times the normal force.
+void spread(const std::vector<Vector3d>& points, const Vector3d& normal, const Vector3d& downhill,
+            double tangent, Load& load) {
+  const Vector3d aside = cross(normal, downhill);
+  const auto count = static_cast<double>(points.size());
+  Symmetric3d sums;
+  for (const Vector3d& point : points) {
+    const double x = dot(point, downhill), y = dot(point, aside);
+    sums += Symmetric3d{1., x * x, y * y, x, y, x * y};
+  }
+  const double height = -dot(points.front(), normal);
+  const Vector3d plane = inverse(sums) * Vector3d{count, count * tangent * height, 0.};
+  for (const Vector3d& point : points) {
+    const double part = plane.x + plane.y * dot(point, downhill) + plane.z * dot(point, aside);
+    load.least = std::min(load.least, part);
+    load.largest = std::max(load.largest, part);
+  }
+}
+
+std::optional<Load> load_at_rest(const simulation::Experiment& experiment) {
   if (!experiment.terrain || experiment.robots.size() != 1) return std::nullopt;
   const simulation::RobotSpec& robot = experiment.robots[0];
   const Ground ground = ground_of(*experiment.terrain);
   const auto* plane = std::get_if<GroundPlane>(&ground);
   if (plane == nullptr || !robot.chains.empty()) return std::nullopt;
-  const double contacts = footprint(robot, plane->normal);
+  const std::vector<Vector3d> points = footprint(robot, plane->normal);
   const auto& shapes = robot.base.shapes;
   // MuJoCo finds the four corners of a box, whatever points are sampled on it.
-  const bool box = shapes.size() == 1 && contacts == 4. &&
+  const bool box = shapes.size() == 1 && points.size() == 4 &&
                    std::holds_alternative<simulation::Box>(shapes[0].geometry);
-  if (contacts == 0. || (!touches_by_points(experiment, 0) && !box)) return std::nullopt;
+  if (points.size() < 3 || (!touches_by_points(experiment, 0) && !box)) return std::nullopt;
 
-  Contact contact;
-  const double mass = robot.base.mass.mass;
-  contact.inverse_weight = 1. / mass;
-  contact.normal = -dot(experiment.gravity, plane->normal) * mass / contacts;
-  const Vector3d pull =
-      mass / contacts *
-      (experiment.gravity - dot(experiment.gravity, plane->normal) * plane->normal);
-  contact.tangential = norm(pull);
-  contact.friction = single_friction(ground_material(experiment));
-  if (!(contact.tangential > 0. && contact.normal > 0. && contact.friction > 0.))
-    return std::nullopt;
+  Load load;
+  const double share = robot.base.mass.mass / static_cast<double>(points.size());
+  load.inverse_weight = 1. / robot.base.mass.mass;
+  const double press = -dot(experiment.gravity, plane->normal);
+  const Vector3d pull = experiment.gravity + press * plane->normal;
+  load.normal = share * press;
+  load.tangential = share * norm(pull);
+  load.friction = single_friction(ground_material(experiment));
+  if (!(load.tangential > 0. && load.normal > 0. && load.friction > 0.)) return std::nullopt;
+  const Vector3d downhill = (1. / norm(pull)) * pull;
   const auto [first, second] = mujoco_tangents(plane->normal);
-  contact.along = dot(pull, first) / contact.tangential;
-  contact.across = dot(pull, second) / contact.tangential;
-  return contact;
+  load.along = std::abs(dot(downhill, first));
+  load.across = std::abs(dot(downhill, second));
+  spread(points, plane->normal, downhill, load.tangential / load.normal, load);
+  return load;
 }
 
 }  // namespace
@@ -134,21 +164,21 @@ std::array<Vector3d, 2> mujoco_tangents(const Vector3d& normal) {
 }
 
 std::optional<double> mujoco_friction_mixing(const simulation::Experiment& experiment) {
-  const auto contact = contact_at_rest(experiment);
-  if (!contact) return std::nullopt;
+  const auto load = load_at_rest(experiment);
+  if (!load) return std::nullopt;
   const auto material = ground_material(experiment);
   const MujocoSettings settings =
       mujoco_settings(settings_of(experiment, "mujoco"), experiment.deltat, material);
-  const MujocoRow row = mujoco_row(settings, experiment.deltat, material, contact->inverse_weight);
+  const MujocoRow row = mujoco_row(settings, experiment.deltat, material, load->inverse_weight);
   const Reference reference = reference_of(row, experiment.deltat);
   double depth = 0.;
   std::optional<Rest> found;
   for (int i = 0; i < 20; ++i) {  // d changes by a few percent with depth: each turn gains a digit
-    found = rest(*contact, settings, reference, impedance_at(row.impedance, depth));
+    found = rest(*load, settings, reference, impedance_at(row.impedance, depth));
     if (!found) return std::nullopt;
     depth = found->depth;
   }
-  return found->speed / contact->tangential;
+  return found->speed / load->tangential;
 }
 
 }  // namespace hookpoint::reference

@@ -17,9 +17,9 @@ std::array<Vector3d, 2> mujoco_tangents(const Vector3d& normal);
 /// Downhill speed of a single body that sticks to a plane over the friction of each of its contacts
 /// [m/(N s)]. At rest the rows of a contact say B v + K d r + R f = 0 with r = 0 in a friction row,
 /// so it creeps: an elliptic contact at R f_t/B. A pyramid's rows, along normal +- mu tangent, mix
-/// both; those that pull are left out. Nothing where the closed form does not hold: other robots
-/// and grounds, a load beyond the pyramid. Equal depths are assumed: the impedance d depends on
-/// depth.
+/// both, and one that would pull is left out. Nothing where that has no closed form: other robots
+/// and grounds, and where a contact slips or lacks a row that another one has (the friction's
+/// moment takes load off the uphill contacts). The impedance d is taken at the mean depth.
 std::optional<double> mujoco_friction_mixing(const simulation::Experiment& experiment);
 
 }  // namespace hookpoint::reference

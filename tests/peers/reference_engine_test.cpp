@@ -134,16 +134,9 @@ bool refuses(const reference::Peer& peer, std::string_view feature) {
   });
 }
 
-/// Every peer refuses `experiment`, naming `named`; where that is for a `feature`, just those that
-/// say so of themselves.
-void expect_refusal(const simulation::Experiment& experiment, const std::string& named,
-                    std::string_view feature = {}) {
+void expect_refusal(const simulation::Experiment& experiment, const std::string& named) {
   for (const auto& peer : reference::peers()) {
     const std::string message = refusal(peer, experiment);
-    if (!feature.empty() && !refuses(peer, feature)) {
-      EXPECT_EQ(message, "") << peer.name;
-      continue;
-    }
     EXPECT_NE(message.find("engine " + std::string(peer.name)), std::string::npos) << message;
     EXPECT_NE(message.find(named), std::string::npos) << message;
   }
