@@ -7,6 +7,7 @@
 #include "cli/installation.h"
 #include "control/plugin.h"
 #include "reference/engines.h"
+#include "reference/mujoco_friction.h"
 #include "simulation/dts_engine.h"
 #include "simulation/load.h"
 #include "simulation/schema.h"
@@ -39,10 +40,15 @@ language::Schema make_schema() {
   return schema;
 }
 
-/// Sticking contacts of ODE's exact solver yield by CFM times their friction; its iterative solver
-/// and Bullet have no closed form.
+/// Sticking contacts of ODE's exact solver yield by CFM times their friction, those of MuJoCo by
+/// their regularisation; ODE's iterative solver and Bullet have no closed form.
 std::optional<double> ode_friction_mixing(const simulation::Experiment& experiment) {
   return reference::constraint_constants("ode", experiment).tangential_mixing;
+}
+auto friction_mixing_of(std::string_view peer) {
+  return peer == "ode"      ? ode_friction_mixing
+         : peer == "mujoco" ? reference::mujoco_friction_mixing
+                            : nullptr;
 }
 
 /// "trail=value" cut at the first '='.
@@ -61,9 +67,8 @@ Application::Application(bool allow_plugins)
       search_path_(search_path(find_installation())) {
   vocabularies_.push_back(std::make_unique<Vocabulary>(search_path_));
   engines_["dts"] = {simulation::describe_dts(), simulation::make_dts, nullptr};
-  for (const reference::Peer& peer : reference::peers()) {
-    engines_[std::string(peer.name)] = {peer.describe(), peer.make,
-                                        peer.name == "ode" ? ode_friction_mixing : nullptr};
+  for (const reference::Peer& peer : reference::known_peers()) {
+    engines_[std::string(peer.name)] = {peer.describe(), peer.make, friction_mixing_of(peer.name)};
   }
 }
 

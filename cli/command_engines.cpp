@@ -13,6 +13,11 @@
 namespace hookpoint::cli {
 namespace {
 
+std::string handling_name(simulation::EngineGap::Handling handling) {
+  using enum simulation::EngineGap::Handling;
+  return handling == refused ? "refused" : handling == noticed ? "noticed" : "stated";
+}
+
 void print_json(const Application& application) {
   output::JsonWriter json;
   json.begin_object().key("engines").begin_array();
@@ -25,6 +30,14 @@ void print_json(const Application& application) {
         .member("found", d.found);
     json.key("settings").begin_array();
     for (const std::string& setting : d.settings) json.value(setting);
+    json.end_array().key("gaps").begin_array();
+    for (const simulation::EngineGap& gap : d.gaps) {
+      json.begin_object()
+          .member("feature", gap.feature)
+          .member("handling", handling_name(gap.handling))
+          .member("instead", gap.instead)
+          .end_object();
+    }
     json.end_array().end_object();
   }
   json.end_array().key("laws").begin_array();

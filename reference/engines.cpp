@@ -1,7 +1,10 @@
 #include "reference/engines.h"
 
+#include <algorithm>
 #include <array>
+#include <iterator>
 #include <stdexcept>
+#include <vector>
 
 #include "reference/bullet_world.h"
 #include "reference/experiment_checks.h"
@@ -11,24 +14,58 @@
 namespace hookpoint::reference {
 namespace {
 
-constexpr std::array<Peer, 3> all_peers{{
+constexpr std::array all_peers = std::to_array<Peer>({
     {"ode", describe_ode, make_ode},
     {"ode_quickstep", describe_ode_quickstep, make_ode_quickstep},
     {"bullet", describe_bullet, make_bullet},
-}};
+    {"mujoco", describe_mujoco, make_mujoco},
+    {"dart", describe_dart, make_dart},
+});
+
+using simulation::EngineGap;
+
+/// What both libraries lack.
+std::vector<EngineGap> shared_gaps() {
+  std::vector<EngineGap> gaps = common_gaps();
+  gaps.push_back({std::string(feature::two_frictions), EngineGap::Handling::noticed,
+                  "this engine has one coefficient of friction, and it is the kinetic one"});
+  return gaps;
+}
+
+std::vector<EngineGap> ode_gaps() {
+  std::vector<EngineGap> gaps = shared_gaps();
+  gaps.push_back({std::string(feature::legcone), EngineGap::Handling::refused,
+                  "ODE has no cone; use Cylinder, Sphere or Box"});
+  gaps.push_back({std::string(feature::massless), EngineGap::Handling::refused,
+                  "every body of ODE has a mass; give the link one"});
+  return gaps;
+}
+
+std::vector<EngineGap> bullet_gaps() { return shared_gaps(); }
 
 std::unique_ptr<simulation::Engine> make(std::string_view engine,
                                          const simulation::Experiment& experiment,
                                          OdeSolver solver) {
-  check_supported(experiment, engine);
-  const OdeSettings settings = ode_settings(settings_of(experiment, engine), solver,
-                                            experiment.deltat, ground_material(experiment));
-  return make_peer_engine(experiment, make_ode_world(experiment, settings, solver, engine));
+  const auto notices = check_supported(
+      experiment, solver == OdeSolver::step ? describe_ode() : describe_ode_quickstep());
+  const Settings settings = settings_of(experiment, engine);
+  return make_peer_engine(experiment, make_ode_world(experiment, settings, solver, engine),
+                          notices);
 }
 
 }  // namespace
 
-std::span<const Peer> peers() { return all_peers; }
+std::span<const Peer> known_peers() { return all_peers; }
+
+std::span<const Peer> peers() {
+  static const std::vector<Peer> found = [] {
+    std::vector<Peer> result;
+    std::ranges::copy_if(all_peers, std::back_inserter(result),
+                         [](const Peer& peer) { return peer.describe().found; });
+    return result;
+  }();
+  return found;
+}
 
 std::unique_ptr<simulation::Engine> make_ode(const simulation::Experiment& experiment) {
   return make("ode", experiment, OdeSolver::step);
@@ -39,20 +76,20 @@ std::unique_ptr<simulation::Engine> make_ode_quickstep(const simulation::Experim
 }
 
 std::unique_ptr<simulation::Engine> make_bullet(const simulation::Experiment& experiment) {
-  check_supported(experiment, "bullet");
+  const auto notices = check_supported(experiment, describe_bullet());
   const BulletSettings settings = bullet_settings(settings_of(experiment, "bullet"),
                                                   experiment.deltat, ground_material(experiment));
-  return make_peer_engine(experiment, make_bullet_world(experiment, settings));
+  return make_peer_engine(experiment, make_bullet_world(experiment, settings), notices);
 }
 
 simulation::EngineDescription describe_ode() {
-  return {"ode", HOOKPOINT_ODE_VERSION, "double", true, settings_names()};
+  return {"ode", HOOKPOINT_ODE_VERSION, "double", true, settings_names(), ode_gaps()};
 }
 simulation::EngineDescription describe_ode_quickstep() {
-  return {"ode_quickstep", HOOKPOINT_ODE_VERSION, "double", true, settings_names()};
+  return {"ode_quickstep", HOOKPOINT_ODE_VERSION, "double", true, settings_names(), ode_gaps()};
 }
 simulation::EngineDescription describe_bullet() {
-  return {"bullet", HOOKPOINT_BULLET_VERSION, "double", true, settings_names()};
+  return {"bullet", HOOKPOINT_BULLET_VERSION, "double", true, settings_names(), bullet_gaps()};
 }
 
 ConstraintConstants constraint_constants(std::string_view engine,
@@ -60,6 +97,7 @@ ConstraintConstants constraint_constants(std::string_view engine,
   const Settings settings = settings_of(experiment, engine);
   const auto material = ground_material(experiment);
   if (engine == "bullet") return bullet_settings(settings, experiment.deltat, material).constraint;
+  if (engine == "dart") return dart_settings(settings, experiment.deltat, material).constraint;
   if (engine == "ode")
     return ode_settings(settings, OdeSolver::step, experiment.deltat, material).constraint;
   if (engine == "ode_quickstep")

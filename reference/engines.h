@@ -23,9 +23,19 @@ std::unique_ptr<simulation::Engine> make_ode_quickstep(const simulation::Experim
 /// Bullet's btDiscreteDynamicsWorld with its sequential impulse solver (`engine = bullet`).
 std::unique_ptr<simulation::Engine> make_bullet(const simulation::Experiment& experiment);
 
+/// MuJoCo (`engine = mujoco`), whose contacts are soft constraints of a convex problem. Where the
+/// build has no MuJoCo its description says `found = false`, and this throws.
+std::unique_ptr<simulation::Engine> make_mujoco(const simulation::Experiment& experiment);
+
 simulation::EngineDescription describe_ode();
 simulation::EngineDescription describe_ode_quickstep();
 simulation::EngineDescription describe_bullet();
+
+/// DART's World with its boxed LCP (Dantzig's method, Gauss-Seidel where that fails) and FCL
+/// (`engine = dart`). Throws simulation::ExperimentError also where the build has no DART.
+std::unique_ptr<simulation::Engine> make_dart(const simulation::Experiment& experiment);
+simulation::EngineDescription describe_dart();
+simulation::EngineDescription describe_mujoco();
 
 /// A peer as a registry wants it.
 struct Peer {
@@ -34,6 +44,8 @@ struct Peer {
   simulation::EngineFactory make;
 };
 /// Every peer of this folder, in the order of its documentation.
+std::span<const Peer> known_peers();
+/// Those whose library this build has; the others describe themselves as not found.
 std::span<const Peer> peers();
 
 /// One line of the table that a report prints beside a peer's results.
@@ -60,6 +72,9 @@ struct ConstraintConstants {
   double tangential_mixing = 0.;
   /// Penetration that nothing pushes out [m].
   double surface_layer = 0.;
+  /// A mixing of impulses that is a part of each row's own diagonal of J M^-1 J^T [1]: a sticking
+  /// contact creeps at this times (J M^-1 J^T)_ii dt f_t. DART has it.
+  double relative_mixing = 0.;
 };
 /// What the engine called `engine` uses for `experiment` (its settings, step and terrain's
 /// material). A prediction made of these holds as far as the solver converges, so not for few

@@ -1,61 +1,142 @@
 #include "reference/experiment_checks.h"
 
-#include <string>
+#include <algorithm>
+#include <variant>
+
+#include "reference/touching_points.h"
 
 namespace hookpoint::reference {
 namespace {
+
+using simulation::EngineGap;
 
 [[noreturn]] void refuse(std::string_view engine, const std::string& what) {
   throw simulation::ExperimentError("engine " + std::string(engine) + ": " + what);
 }
 
-void check_robot(const simulation::RobotSpec& robot, bool on_terrain, std::string_view engine) {
+void add_robot(const simulation::Experiment& experiment, int index, std::vector<FeatureUse>& uses) {
+  const simulation::RobotSpec& robot = experiment.robots[static_cast<std::size_t>(index)];
   const std::string name = "robot '" + robot.name + "'";
-  if (!robot.chains.empty())
-    refuse(engine, name + " has chains; this engine runs single rigid bodies only, use engine dts");
-  if (!robot.mobile) return;
-  if (!(robot.base.mass.mass > 0.)) refuse(engine, name + " is mobile and needs a mass above 0");
-  if (on_terrain && robot.base.shapes.empty())
-    refuse(engine, name + " has no shape; contact points alone do not collide in this engine");
+  if (!robot.chains.empty()) uses.push_back({feature::chains, name + " has chains"});
+  for (const simulation::ChainSpec& chain : robot.chains)
+    for (const simulation::LinkSpec& link : chain.links) {
+      const std::string joint = name + ", joint of " + chain.name + "." + link.body.name;
+      if (link.joint == simulation::JointKind::prismatic)
+        uses.push_back({feature::prismatic, joint + " is prismatic"});
+      if (!(link.body.mass.mass > 0.))
+        uses.push_back({feature::massless, joint + " carries no mass"});
+      if (link.lower_limit || link.upper_limit)
+        uses.push_back({feature::joint_limits, joint + " has a limit"});
+    }
+  if (touches_by_points(experiment, index)) {
+    uses.push_back({feature::points, name + " touches by its boundary points"});
+    return;
+  }
+  for (const simulation::ShapeSpec& shape : robot.base.shapes)
+    if (std::holds_alternative<simulation::Legcone>(shape.geometry))
+      uses.push_back({feature::legcone, name + " has a Legcone"});
 }
 
-void check_terrain(const simulation::TerrainSpec& terrain, std::string_view engine) {
-  const std::string problem = contact::Terrain::problem(terrain);
-  if (!problem.empty()) refuse(engine, "terrain '" + terrain.name + "': " + problem);
-  if (!terrain.patches.empty())
-    refuse(engine,
-           "terrain '" + terrain.name +
-               "' has patches; materials of single tiles are not supported, use one material");
+void add_material(const simulation::Experiment& experiment, int index,
+                  std::vector<FeatureUse>& uses) {
+  if (static_cast<std::size_t>(index) >= experiment.materials.size()) return;
+  const simulation::MaterialSpec& material = experiment.materials[static_cast<std::size_t>(index)];
+  const std::string name = "material '" + material.name + "'";
+  if (material.constants.static_friction != material.constants.kinetic_friction)
+    uses.push_back({feature::two_frictions, name + " has different static and kinetic friction"});
+  if (material.constants.restitution > 0.)
+    uses.push_back({feature::restitution, name + " has a restitution"});
 }
 
-void check_material(const simulation::MaterialSpec& material, std::string_view engine) {
-  const auto& constants = material.constants;
-  if (constants.static_friction != constants.kinetic_friction)
-    refuse(engine,
-           "material '" + material.name +
-               "' has different static and kinetic friction; this engine has one coefficient, "
-               "set them equal");
+void add_patch(const simulation::Experiment& experiment, int patch, std::vector<FeatureUse>& uses) {
+  const auto own = material_at(experiment, patch);
+  const auto ground = ground_material(experiment);
+  const std::string name = "a patch of terrain '" + experiment.terrain->name + "'";
+  if (own.static_friction != ground.static_friction ||
+      own.kinetic_friction != ground.kinetic_friction)
+    uses.push_back({feature::tile_friction, name + " has a friction of its own"});
+  if (own.normal_stiffness != ground.normal_stiffness ||
+      own.normal_damping != ground.normal_damping ||
+      own.tangential_stiffness != ground.tangential_stiffness ||
+      own.tangential_damping != ground.tangential_damping)
+    uses.push_back({feature::tile_softness, name + " has a stiffness or damping of its own"});
+  if (own.restitution != ground.restitution)
+    uses.push_back({feature::tile_restitution, name + " has a restitution of its own"});
+}
+
+void check_robot(const simulation::Experiment& experiment, int index, std::string_view engine) {
+  const simulation::RobotSpec& robot = experiment.robots[static_cast<std::size_t>(index)];
+  const std::string name = "robot '" + robot.name + "'";
+  if (robot.mobile && !(robot.base.mass.mass > 0.))
+    refuse(engine, name + " is mobile and needs a mass above 0");
+  if (!experiment.terrain || !robot.chains.empty() || !robot.mobile) return;
+  if (robot.base.shapes.empty() && robot.base.boundary_points.empty())
+    refuse(engine, name + " has no shape and no ContactPoint: nothing of it meets the ground");
 }
 
 }  // namespace
 
-void check_supported(const simulation::Experiment& experiment, std::string_view engine) {
-  if (!(experiment.deltat > 0.)) refuse(engine, "deltat must be above 0");
-  for (const auto& robot : experiment.robots)
-    check_robot(robot, experiment.terrain.has_value(), engine);
-  for (const auto& force : experiment.forces)
-    if (force.body != 0) refuse(engine, "force '" + force.name + "' acts on a link");
-  if (!experiment.terrain) return;
-  check_terrain(*experiment.terrain, engine);
-  const auto index = static_cast<std::size_t>(experiment.terrain->material);
-  if (index < experiment.materials.size()) check_material(experiment.materials[index], engine);
+std::vector<FeatureUse> features_used(const simulation::Experiment& experiment) {
+  std::vector<FeatureUse> uses;
+  for (std::size_t i = 0; i < experiment.robots.size(); ++i)
+    add_robot(experiment, static_cast<int>(i), uses);
+  if (!experiment.terrain) return uses;
+  const simulation::TerrainSpec& terrain = *experiment.terrain;
+  if (std::holds_alternative<simulation::GridSpec>(terrain.surface))
+    uses.push_back({feature::height_field, "terrain '" + terrain.name + "' is a grid of heights"});
+  add_material(experiment, terrain.material, uses);
+  for (const simulation::PatchSpec& patch : terrain.patches) {
+    add_material(experiment, patch.material, uses);
+    add_patch(experiment, patch.material, uses);
+  }
+  return uses;
+}
+
+std::vector<EngineGap> common_gaps() {
+  using enum EngineGap::Handling;
+  return {
+      {std::string(feature::law), stated,
+       "the engine has its own; `contact` and `integrator` are not read, and a material's "
+       "stiffness "
+       "and damping only at `settings = matched`"},
+      {std::string(feature::hips), refused, "choose engine dts"},
+      {std::string(feature::saving), refused,
+       "the library keeps to itself what its solver remembers; choose engine dts"},
+  };
+}
+
+std::vector<std::string> check_supported(const simulation::Experiment& experiment,
+                                         const simulation::EngineDescription& engine) {
+  if (!(experiment.deltat > 0.)) refuse(engine.name, "deltat must be above 0");
+  for (std::size_t i = 0; i < experiment.robots.size(); ++i)
+    check_robot(experiment, static_cast<int>(i), engine.name);
+  if (experiment.terrain) {
+    const std::string problem = contact::Terrain::problem(*experiment.terrain);
+    if (!problem.empty())
+      refuse(engine.name, "terrain '" + experiment.terrain->name + "': " + problem);
+  }
+  std::vector<std::string> notices;
+  for (const FeatureUse& use : features_used(experiment)) {
+    const auto gap = std::ranges::find(engine.gaps, use.feature, &EngineGap::feature);
+    if (gap == engine.gaps.end() || gap->handling == EngineGap::Handling::stated) continue;
+    if (gap->handling == EngineGap::Handling::refused)
+      refuse(engine.name, use.where + "; " + gap->instead);
+    std::string notice = "engine " + engine.name + ": " + use.where + "; " + gap->instead;
+    if (std::ranges::find(notices, notice) == notices.end()) notices.push_back(std::move(notice));
+  }
+  return notices;
+}
+
+contact::MaterialConstants<double> material_at(const simulation::Experiment& experiment,
+                                               int material) {
+  const auto index = static_cast<std::size_t>(material);
+  return index < experiment.materials.size() ? experiment.materials[index].constants
+                                             : contact::MaterialConstants<double>{};
 }
 
 contact::MaterialConstants<double> ground_material(const simulation::Experiment& experiment) {
-  if (!experiment.terrain) return {};
-  const auto index = static_cast<std::size_t>(experiment.terrain->material);
-  return index < experiment.materials.size() ? experiment.materials[index].constants
-                                             : contact::MaterialConstants<double>{};
+  return experiment.terrain ? material_at(experiment, experiment.terrain->material)
+                            : contact::MaterialConstants<double>{};
 }
 
 }  // namespace hookpoint::reference

@@ -1,19 +1,60 @@
-// What a peer refuses, in one voice: every gap is named, with what to change.
+// What a peer refuses or does otherwise, in one voice: every gap is data (EngineDescription::gaps),
+// and whatever an experiment needs of it is named, with what to change.
 #pragma once
 
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "simulation/engine.h"
 #include "simulation/experiment.h"
 
 namespace hookpoint::reference {
 
-/// Throws ExperimentError when `experiment` holds what no peer of this folder runs yet: chains,
-/// materials of single tiles, a mobile body without mass or, on a terrain, without shapes, two
-/// coefficients of friction.
-void check_supported(const simulation::Experiment& experiment, std::string_view engine);
+/// Features that a gap may name.
+namespace feature {
+inline constexpr std::string_view chains = "robots with chains";
+inline constexpr std::string_view points = "boundary points that touch";
+inline constexpr std::string_view prismatic = "prismatic joints";
+inline constexpr std::string_view massless = "links without mass";
+inline constexpr std::string_view joint_limits = "joint limits";
+inline constexpr std::string_view two_frictions = "static friction that differs from kinetic";
+inline constexpr std::string_view restitution = "restitution";
+inline constexpr std::string_view tile_friction = "friction of single tiles";
+inline constexpr std::string_view tile_softness = "stiffness and damping of single tiles";
+inline constexpr std::string_view tile_restitution = "restitution of single tiles";
+inline constexpr std::string_view height_field = "height fields";
+inline constexpr std::string_view legcone = "a single body with the shape Legcone";
+inline constexpr std::string_view law = "contact laws and integrators";
+inline constexpr std::string_view hips = "hip_force and hip_moment of a Chain";
+inline constexpr std::string_view saving = "movies and resumed runs";
+}  // namespace feature
 
-/// The ground's material; the constants' defaults where there is no terrain.
+/// A feature that an experiment needs, and where.
+struct FeatureUse {
+  std::string_view feature;
+  std::string where;  ///< "robot 'hexapod' has chains"
+};
+std::vector<FeatureUse> features_used(const simulation::Experiment& experiment);
+
+/// The gaps that every peer has: its own law and integrator, no hips, nothing to resume from.
+std::vector<simulation::EngineGap> common_gaps();
+
+/// What the user should know of the experiment's run in that engine, one line a gap that it meets
+/// and that is `noticed`. Throws ExperimentError where the gap is `refused`, or where no peer can
+/// run the experiment: a mobile body without mass or, on a terrain, with nothing that touches.
+std::vector<std::string> check_supported(const simulation::Experiment& experiment,
+                                         const simulation::EngineDescription& engine);
+
+/// A material by its index; the constants' defaults where the experiment has none.
+contact::MaterialConstants<double> material_at(const simulation::Experiment& experiment,
+                                               int material);
+/// The ground's material where no patch lies; the constants' defaults where there is no terrain.
 contact::MaterialConstants<double> ground_material(const simulation::Experiment& experiment);
+
+/// The one coefficient of friction of an engine that has no other: the kinetic one.
+inline double single_friction(const contact::MaterialConstants<double>& material) {
+  return material.kinetic_friction;
+}
 
 }  // namespace hookpoint::reference

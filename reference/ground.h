@@ -24,6 +24,8 @@ struct GroundMesh {
 };
 using Ground = std::variant<GroundPlane, GroundMesh>;
 
-Ground ground_of(const simulation::TerrainSpec& terrain);
+/// `lowered_by` [m]: a plane along its normal, a grid's vertices straight down, for balls about
+/// points that are to meet the ground where the points do (touching_points.h).
+Ground ground_of(const simulation::TerrainSpec& terrain, double lowered_by = 0.);
 
 }  // namespace hookpoint::reference

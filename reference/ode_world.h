@@ -10,7 +10,7 @@
 namespace hookpoint::reference {
 
 std::unique_ptr<PeerWorld> make_ode_world(const simulation::Experiment& experiment,
-                                          const OdeSettings& settings, OdeSolver solver,
+                                          Settings settings, OdeSolver solver,
                                           std::string_view engine);
 
 }  // namespace hookpoint::reference

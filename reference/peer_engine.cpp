@@ -4,12 +4,17 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <utility>
+
+#include "reference/experiment_checks.h"
+#include "reference/touching_points.h"
 
 namespace hookpoint::reference {
 namespace {
 
 using simulation::BodyState;
+using simulation::JointState;
 using simulation::StepStatus;
 
 bool finite(const Vector3d& a) {
@@ -23,37 +28,39 @@ bool finite(const BodyState& body) {
 
 class PeerEngine final : public simulation::Engine {
  public:
-  PeerEngine(const simulation::Experiment& experiment, std::unique_ptr<PeerWorld> world)
-      : world_(std::move(world)),
-        deltat_(experiment.deltat),
-        inputs_(simulation::initial_inputs(experiment)) {
-    for (const auto& robot : experiment.robots) {
-      trails_.push_back(robot.name + "." + (robot.base.name.empty() ? "base" : robot.base.name));
-      BodyState body;
-      body.position = robot.location;
-      body.orientation = robot.orientation;
-      body.velocity = robot.velocity;
-      body.angular_velocity = robot.angular_velocity;
-      state_.bodies.push_back(body);
+  PeerEngine(const simulation::Experiment& experiment, std::unique_ptr<PeerWorld> world,
+             std::vector<std::string> notices)
+      : experiment_(experiment),
+        world_(std::move(world)),
+        tree_(robot_tree(experiment_)),
+        inputs_(simulation::initial_inputs(experiment_)),
+        acting_(inputs_),
+        touching_(touching_points(experiment_, tree_)),
+        point_forces_(touching_.size()) {
+    if (experiment_.terrain) ground_.emplace(*experiment_.terrain);
+    for (const TreeBody& body : tree_.bodies) {
+      state_.bodies.push_back(body.initial);
+      if (body.link != nullptr) state_.joints.push_back({body.link->angle, body.link->rate});
     }
-    next_ = state_.bodies;
+    next_bodies_ = state_.bodies;
+    next_joints_ = state_.joints;
+    state_.points.resize(experiment_.points.size());
+    state_.notices = std::move(notices);
   }
 
   StepStatus step() override {
     if (!failure_.ok()) return failure_;
-    const std::string trouble = world_->advance(inputs_.forces);
-    world_->read(next_);
-    for (std::size_t i = 0; i < next_.size(); ++i)
-      if (!finite(next_[i]))
+    take_inputs();
+    const std::string trouble = world_->advance(acting_);
+    world_->read(next_bodies_, next_joints_);
+    for (std::size_t i = 0; i < next_bodies_.size(); ++i)
+      if (!finite(next_bodies_[i]) || !joint_finite(tree_.bodies[i]))
         return fail(StepStatus::Kind::not_finite, i,
                     "the state is not finite; look for an extreme force, mass or speed, or reduce "
                     "deltat");
     if (!trouble.empty())
       return fail(StepStatus::Kind::solver_failed, 0, trouble + "; a smaller deltat may help");
-    // Copied, not swapped: whoever reads a value keeps its address.
-    std::ranges::copy(next_, state_.bodies.begin());
-    ++state_.step;
-    state_.time = static_cast<double>(state_.step) * deltat_;
+    publish();
     if (std::string notice = world_->notice(); !notice.empty()) {
       std::array<char, 32> time{};
       std::snprintf(time.data(), time.size(), "%g s: ", state_.time);
@@ -64,29 +71,99 @@ class PeerEngine final : public simulation::Engine {
 
   const simulation::WorldState& state() const override { return state_; }
   simulation::WorldInputs& inputs() override { return inputs_; }
+  void publish_details() override {
+    has_details_ = true;
+    publish_points();
+  }
 
  private:
+  void take_inputs() {
+    acting_.forces = inputs_.forces;
+    for (const TreeBody& body : tree_.bodies) {
+      if (body.link == nullptr) continue;
+      const auto joint = static_cast<std::size_t>(body.joint);
+      const JointState& now = state_.joints[joint];
+      acting_.joint_torques[joint] =
+          inputs_.joint_torques[joint] + joint_passive_force(*body.link, now.angle, now.rate);
+    }
+  }
+
+  bool joint_finite(const TreeBody& body) const {
+    if (body.link == nullptr) return true;
+    const JointState& joint = next_joints_[static_cast<std::size_t>(body.joint)];
+    return std::isfinite(joint.angle) && std::isfinite(joint.rate);
+  }
+
+  /// Copied, not swapped: whoever reads a value keeps its address.
+  void publish() {
+    for (std::size_t i = 0; i < next_joints_.size(); ++i) {
+      next_joints_[i].acceleration =
+          (next_joints_[i].rate - state_.joints[i].rate) / experiment_.deltat;
+      next_joints_[i].torque = acting_.joint_torques[i];
+    }
+    for (std::size_t i = 0; i < next_bodies_.size(); ++i)
+      next_bodies_[i].orientation =
+          simulation::continued(next_bodies_[i].orientation, state_.bodies[i].orientation);
+    std::ranges::copy(next_bodies_, state_.bodies.begin());
+    std::ranges::copy(next_joints_, state_.joints.begin());
+    ++state_.step;
+    state_.time = static_cast<double>(state_.step) * experiment_.deltat;
+    if (has_details_) publish_points();
+  }
+
+  /// Where the named points are now, and the force of the step that led there.
+  void publish_points() {
+    world_->read_points(point_forces_);
+    for (std::size_t i = 0; i < experiment_.points.size(); ++i) {
+      const simulation::PointSpec& spec = experiment_.points[i];
+      const std::size_t body = tree_.index(spec.robot, spec.body);
+      const auto at = std::ranges::find_if(touching_, [&](const TouchingPoint& point) {
+        return point.body == body && point.point == spec.point;
+      });
+      // As in our engine, the points of a fixed base, and all where there is no ground, are left
+      // out.
+      if (at == touching_.end() || !ground_) continue;
+      const Meeting meeting = meet(*ground_, *at, state_.bodies[body]);
+      const Vector3d& force = point_forces_[static_cast<std::size_t>(at - touching_.begin())];
+      const double mu = single_friction(material_at(experiment_, meeting.material));
+      state_.points[i] = {meeting.position, force, meeting.position, meeting.depth,
+                          slides(force, meeting.normal, mu)};
+    }
+  }
+
   /// The library's own state is lost with the failure, so every later step repeats it.
   StepStatus fail(StepStatus::Kind kind, std::size_t body, std::string advice) {
-    failure_ = {kind, state_.time, body < trails_.size() ? trails_[body] : std::string(),
-                std::move(advice)};
+    std::string trail;
+    if (body < tree_.bodies.size()) {
+      const TreeBody& failed = tree_.bodies[body];
+      trail = experiment_.robots[static_cast<std::size_t>(failed.robot)].name + "." +
+              (failed.body->name.empty() ? "base" : failed.body->name);
+    }
+    failure_ = {kind, state_.time, std::move(trail), std::move(advice)};
     return failure_;
   }
 
+  const simulation::Experiment experiment_;
   std::unique_ptr<PeerWorld> world_;
-  double deltat_;
+  const RobotTree tree_;
   simulation::WorldInputs inputs_;
-  std::vector<std::string> trails_;
+  simulation::WorldInputs acting_;  ///< with what the joints exert by themselves
+  std::optional<contact::Terrain> ground_;
+  const std::vector<TouchingPoint> touching_;
+  std::vector<Vector3d> point_forces_;
   simulation::WorldState state_;
-  std::vector<BodyState> next_;
+  std::vector<BodyState> next_bodies_;
+  std::vector<JointState> next_joints_;
+  bool has_details_ = false;
   StepStatus failure_;
 };
 
 }  // namespace
 
 std::unique_ptr<simulation::Engine> make_peer_engine(const simulation::Experiment& experiment,
-                                                     std::unique_ptr<PeerWorld> world) {
-  return std::make_unique<PeerEngine>(experiment, std::move(world));
+                                                     std::unique_ptr<PeerWorld> world,
+                                                     std::vector<std::string> notices) {
+  return std::make_unique<PeerEngine>(experiment, std::move(world), std::move(notices));
 }
 
 }  // namespace hookpoint::reference

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -9,22 +10,31 @@
 
 namespace hookpoint::reference {
 
-/// One library's world. Body i is the base of robot i.
+/// One library's world. Bodies and joints are numbered as they are published (robot_tree.h).
 class PeerWorld {
  public:
   virtual ~PeerWorld() = default;
-  /// Advances by one step under `forces`, one a ForceSpec of the experiment. Empty on success, else
-  /// the library's trouble in a few words.
-  virtual std::string advance(const std::vector<simulation::ForceInput>& forces) = 0;
+  /// Advances by one step under `inputs.forces`, one a ForceSpec of the experiment, and
+  /// `inputs.joint_torques`, one a joint: the drive's and what the joint exerts by itself at the
+  /// step's start (joint_passive_force), together. Empty on success, else the library's trouble in
+  /// a few words.
+  virtual std::string advance(const simulation::WorldInputs& inputs) = 0;
   /// What the user should know of the step just taken, else empty. Said once.
   virtual std::string notice() { return {}; }
-  /// Writes the motion and last contact force of every body; fixed bodies are left as they are.
-  /// After a failure too: what is not finite then tells which body it was.
-  virtual void read(std::vector<simulation::BodyState>& bodies) const = 0;
+  /// Writes the motion and last contact force of every body, and each joint's angle and rate; fixed
+  /// bodies are left as they are. After a failure too: what is not finite then tells which body it
+  /// was.
+  virtual void read(std::span<simulation::BodyState> bodies,
+                    std::span<simulation::JointState> joints) const = 0;
+  /// Writes the ground's force on each of touching_points(), world axes [N], in the last step.
+  virtual void read_points(std::span<Vector3d> forces) const = 0;
 };
 
-/// An engine around `world`, with the published state of `experiment` at time 0.
+/// An engine around `world`, with the published state of `experiment` at time 0 and `notices`
+/// (check_supported) already said. The joints' own torques, accelerations, and the named
+/// ContactPoints are its work, alike for every library.
 std::unique_ptr<simulation::Engine> make_peer_engine(const simulation::Experiment& experiment,
-                                                     std::unique_ptr<PeerWorld> world);
+                                                     std::unique_ptr<PeerWorld> world,
+                                                     std::vector<std::string> notices);
 
 }  // namespace hookpoint::reference

@@ -1,7 +1,9 @@
 #include "reference/settings.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
+#include <limits>
 #include <stdexcept>
 
 namespace hookpoint::reference {
@@ -30,6 +32,9 @@ constexpr ConstraintConstants ode_defaults{0.2, 1e-10, 0., 1e-10, 0.};
 // btContactSolverInfo.h: m_erp2, m_globalCfm, m_frictionERP (used with anchors only),
 // m_frictionCFM.
 constexpr ConstraintConstants bullet_defaults{0.2, 0., 0., 0., 0.};
+
+// mjmodel.h, mjMINIMP and 1 - mjMAXIMP: MuJoCo takes no impedance beyond.
+constexpr double least_impedance = 1e-4;
 
 std::vector<SettingRow> ode_table(OdeSolver solver) {
   const auto at = [solver](Settings settings) { return ode_settings(settings, solver, 1., {}); };
@@ -89,6 +94,66 @@ std::vector<SettingRow> bullet_table() {
       {"restitution", "material's", "material's", "0: the damper's", "btCollisionObject.h"},
       {"sleeping", "off", "off", "off", "a resting body is what is measured"},
       {"linear and angular damping", "0", "0", "0", "btRigidBodyConstructionInfo"},
+  };
+}
+
+std::vector<SettingRow> mujoco_table() {
+  const auto at = [](Settings settings) { return mujoco_settings(settings, 1., {}); };
+  const MujocoSettings first = at(Settings::default_), second = at(Settings::recommended);
+  const MujocoSettings third = at(Settings::matched);
+  const auto cone = [](const MujocoSettings& settings) {
+    return std::string(settings.elliptic ? "elliptic" : "pyramidal");
+  };
+  const MujocoRow row;
+  const std::string reference = text(row.reference[0]) + ", " + text(row.reference[1]);
+  const std::string impedance =
+      text(row.impedance[0]) + ", " + text(row.impedance[1]) + ", " + text(row.impedance[2]);
+  const std::string slip = "manual, Modeling, choice of algorithm: what to do against slip";
+  return {
+      {"solver", "Newton", "same", "same", "XML reference, option"},
+      {"integrator", "Euler, semi-implicit", "same", "same", "XML reference, option"},
+      {"friction cone", cone(first), cone(second), cone(third), slip},
+      {"impratio [1]", text(first.friction_impedance), text(second.friction_impedance),
+       "(c_t + dt k_t)/(c + dt k)", "Menagerie, unitree_a1/a1.xml (recommended)"},
+      {"tolerance [1]", text(first.tolerance), text(second.tolerance), text(third.tolerance), slip},
+      {"solref", reference, reference, "-d k R, -d/dt; R = 1/(dt (c + dt k))",
+       "XML reference, geom; manual, Computation, Constraint model (matched)"},
+      {"solimp", impedance, impedance, "d = A/(A + R), constant",
+       "as solref; A is the body's inverse weight"},
+      {"restitution", "none", "none", "0: the damper's", "MuJoCo has no such coefficient"},
+  };
+}
+
+// dart/constraint/ContactConstraint.hpp: what its getters say at first, an ERP of 0.01, no faster
+// than 1 mm/s, and a CFM of 1e-5 of each row's own diagonal.
+constexpr ConstraintConstants dart_defaults{0.01, 0., 0., 0., 0., 1e-5};
+
+std::vector<SettingRow> dart_table() {
+  const auto at = [](Settings settings) { return dart_settings(settings, 1., {}); };
+  const DartSettings first = at(Settings::default_), second = at(Settings::recommended);
+  const DartSettings third = at(Settings::matched);
+  const std::string contact = "dart/constraint/ContactConstraint.hpp";
+  return {
+      {"solver", "boxed LCP: Dantzig, then Gauss-Seidel", "same", "same",
+       "dart/constraint/BoxedLcpConstraintSolver.hpp"},
+      {"spheres and cylinders collide", "as such", "as meshes", "as such",
+       "FCLCollisionDetector.hpp recommends meshes (recommended), and has them by itself"},
+      {"normal ERP [1]", text(first.constraint.normal_error_reduction),
+       text(second.constraint.normal_error_reduction), "dt k/(dt k + c)",
+       contact + " (default); ODE manual, How to use ERP and CFM (matched)"},
+      {"error reduction speed, at most [m/s]", text(first.correction_speed),
+       text(second.correction_speed), "none", contact},
+      {"CFM, part of each row's diagonal [1]", text(first.constraint.relative_mixing),
+       text(second.constraint.relative_mixing), text(third.constraint.relative_mixing), contact},
+      {"normal CFM [m/(N s)]", text(first.constraint.normal_mixing),
+       text(second.constraint.normal_mixing), "1/(dt k + c)",
+       "a BoxedLcpSolver of ours before the library's (matched)"},
+      {"friction CFM [m/(N s)]", text(first.constraint.tangential_mixing),
+       text(second.constraint.tangential_mixing), "1/(dt k_t + c_t)", "as normal CFM"},
+      {"friction directions", "horizontal, and along the fall", "same", "same",
+       "DART_DEFAULT_FRICTION_DIR, the world's z"},
+      {"restitution", "material's", "material's", "0: the damper's",
+       "dart/dynamics/ShapeFrame.hpp"},
   };
 }
 
@@ -155,10 +220,64 @@ BulletSettings bullet_settings(Settings settings, double dt,
   return result;
 }
 
+MujocoSettings mujoco_settings(Settings settings, double dt,
+                               const contact::MaterialConstants<double>& material) {
+  MujocoSettings result;
+  if (settings == Settings::default_) return result;
+  // The manual's advice where slip matters (Modeling, choice of algorithm): elliptic cones, a large
+  // impratio, Newton's method with a tolerance such as 1e-10. The impratio is that of the
+  // maintainers' legged robots (MuJoCo Menagerie, unitree_a1/a1.xml).
+  result.elliptic = true;
+  result.tolerance = 1e-10;
+  result.friction_impedance = 100.;
+  if (settings == Settings::recommended) return result;
+  result.spring = true;
+  result.friction_impedance = (material.tangential_damping + dt * material.tangential_stiffness) /
+                              (material.normal_damping + dt * material.normal_stiffness);
+  return result;
+}
+
+MujocoRow mujoco_row(const MujocoSettings& settings, double dt,
+                     const contact::MaterialConstants<double>& material, double inverse_weight) {
+  MujocoRow row;
+  if (!settings.spring) return row;
+  // The spring and damper taken implicitly, f = -k (r + dt (v + dt a)) - c (v + dt a), is a row
+  // with R = 1/(dt (c + dt k)), B = 1/dt and K d = k R.
+  const double softness = 1. / (dt * (material.normal_damping + dt * material.normal_stiffness));
+  const double d = std::clamp(inverse_weight / (inverse_weight + softness), least_impedance,
+                              1. - least_impedance);
+  row.reference = {-d * material.normal_stiffness * softness, -d / dt};
+  row.impedance = {d, d, 0., 0.5, 1.};
+  return row;
+}
+
+DartSettings dart_settings(Settings settings, double dt,
+                           const contact::MaterialConstants<double>& material) {
+  DartSettings result;
+  result.constraint = dart_defaults;
+  // FCLCollisionDetector.hpp on its PrimitiveShape: meshes until FCL has all contacts of
+  // primitives. They are what a detector starts with too, but a ball of 16 sides does not roll.
+  result.tessellated = settings == Settings::recommended;
+  if (settings != Settings::matched) return result;
+  const ImplicitSpring normal =
+      implicit_spring(material.normal_stiffness, material.normal_damping, dt);
+  const ImplicitSpring tangential =
+      implicit_spring(material.tangential_stiffness, material.tangential_damping, dt);
+  constexpr double least_relative_mixing = 1e-9;  // ContactConstraint.hpp
+  result.constraint = {normal.error_reduction, normal.mixing, 0., tangential.mixing, 0.,
+                       least_relative_mixing};
+  result.correction_speed = std::numeric_limits<double>::max();
+  result.own_mixing = true;
+  result.restitution = false;
+  return result;
+}
+
 std::vector<SettingRow> settings_table(std::string_view engine) {
   if (engine == "ode") return ode_table(OdeSolver::step);
   if (engine == "ode_quickstep") return ode_table(OdeSolver::quickstep);
   if (engine == "bullet") return bullet_table();
+  if (engine == "dart") return dart_table();
+  if (engine == "mujoco") return mujoco_table();
   throw std::invalid_argument("no peer called '" + std::string(engine) + "'");
 }
 

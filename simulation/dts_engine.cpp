@@ -164,8 +164,8 @@ class DtsEngine final : public Engine, public Resumable {
   void copy_details() {
     for (std::size_t i = 0; i < state_.points.size(); ++i) {
       const PointSpec& point = experiment_.points[i];
-      state_.points[i] = parts_[static_cast<std::size_t>(point.robot)].robot->point_state(
-          point.body, point.point);
+      state_.points[i] =
+          parts_[static_cast<std::size_t>(point.robot)].robot->point_state(point.body, point.point);
     }
     std::size_t chain = 0;
     for (const Part& part : parts_) {
@@ -191,6 +191,6 @@ std::unique_ptr<Engine> make_dts(const Experiment& experiment) {
   return std::make_unique<DtsEngine>(experiment);
 }
 
-EngineDescription describe_dts() { return {"dts", HOOKPOINT_VERSION, "double", true, {}}; }
+EngineDescription describe_dts() { return {"dts", HOOKPOINT_VERSION, "double", true, {}, {}}; }
 
 }  // namespace hookpoint::simulation

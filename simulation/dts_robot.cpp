@@ -6,6 +6,7 @@
 #include "dts/external_forces.h"
 #include "dts/forward_dynamics.h"
 #include "integrators/rotation_rate.h"
+#include "simulation/kinematics.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -37,12 +38,6 @@ void for_each_link(const RobotSpec& robot, const Action& action) {
   for (const ChainSpec& chain : robot.chains) {
     for (const LinkSpec& link : chain.links) action(link);
   }
-}
-
-/// Of the two quaternions of one rotation the one nearer to `last`, so that a record has no jumps.
-Quaterniond continued(const Quaterniond& q, const Quaterniond& last) {
-  const double cosine = q.w * last.w + q.x * last.x + q.y * last.y + q.z * last.z;
-  return cosine < 0. ? Quaterniond{-q.w, -q.x, -q.y, -q.z} : q;
 }
 
 StepStatus explain(integrators::Status status, double time, std::string body) {

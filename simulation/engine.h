@@ -32,11 +32,11 @@ struct JointState {
 
 /// A ContactPoint as the law left it, world axes.
 struct PointState {
-  Vector3d position;   ///< p_WP [m]
-  Vector3d force;      ///< on the robot [N]
-  Vector3d hook;       ///< anchor on the ground; the point itself while it is free [m]
-  double depth = 0.;   ///< along the ground's normal, > 0 inside [m]
-  double sliding = 0.; ///< 1 while it slips, else 0
+  Vector3d position;    ///< p_WP [m]
+  Vector3d force;       ///< on the robot [N]
+  Vector3d hook;        ///< anchor on the ground; the point itself while it is free [m]
+  double depth = 0.;    ///< along the ground's normal, > 0 inside [m]
+  double sliding = 0.;  ///< 1 while it slips, else 0
 };
 
 /// What a chain does to the base, at its hip, world axes, in the step just taken.
@@ -61,7 +61,7 @@ struct WorldState {
   // Once Engine::publish_details was called; empty where the engine has none.
   std::vector<PointState> points;  ///< one a PointSpec
   std::vector<ChainState> chains;  ///< robots in order
-  std::uint64_t impacts = 0;  ///< impulses applied so far (event-driven laws)
+  std::uint64_t impacts = 0;       ///< impulses applied so far (event-driven laws)
   IntegratorState integrator;
   std::vector<std::string>
       notices;  ///< what the user should know, each said once: a robot has left the terrain
@@ -112,6 +112,18 @@ class Engine {
   virtual Resumable* resumable() { return nullptr; }
 };
 
+/// What an engine does not do as ours does.
+struct EngineGap {
+  enum class Handling {
+    refused,  ///< an experiment that needs it ends with an ExperimentError
+    noticed,  ///< it runs otherwise, and a notice of the run says so
+    stated    ///< of every run of the engine: said here and in its documentation
+  };
+  std::string feature;  ///< "prismatic joints"
+  Handling handling = Handling::refused;
+  std::string instead;  ///< what happens, or what to do
+};
+
 /// What `hookpoint engines` and the provenance file say of an engine.
 struct EngineDescription {
   std::string name;       ///< as in `engine = ode`
@@ -119,6 +131,7 @@ struct EngineDescription {
   std::string precision;  ///< "double"
   bool found = true;
   std::vector<std::string> settings;  ///< names that `settings =` accepts
+  std::vector<EngineGap> gaps;
 };
 
 /// Builds a world from an experiment. Throws ExperimentError when the engine cannot run it, saying

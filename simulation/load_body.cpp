@@ -101,10 +101,11 @@ BodySpec load_body(const language::Object& object, std::string name, bool must_h
 std::string missing_port(const Experiment& experiment, const language::Object& object,
                          const language::FieldSchema& field) {
   const bool detail = !field.setting && (object.type == "ContactPoint" || object.type == "Chain");
-  const bool has_details =
-      experiment.engine == "dts" && contact::find_force_law(experiment.contact).has_value();
-  if (!detail || has_details) return "";
   const bool peer = experiment.engine != "dts";
+  // A peer publishes ContactPoints, but no hips.
+  const bool published = peer ? object.type == "ContactPoint"
+                              : contact::find_force_law(experiment.contact).has_value();
+  if (!detail || published) return "";
   return fmt::format(
       "{} {} does not publish `{}` of a {}: choose engine dts and a force law, such "
       "as hookpoint",

@@ -34,23 +34,11 @@ void check_tolerances(const language::Object& world, Loading& loading) {
   }
 }
 
-void check_peer(const language::Object& world, Loading& loading) {
-  const Experiment& experiment = loading.experiment;
-  for (std::size_t i = 0; i < experiment.robots.size(); ++i) {
-    if (experiment.robots[i].chains.empty()) continue;
-    loading.error(place_of(world, "engine"),
-                  fmt::format("engine {} runs single rigid bodies so far, and robot `{}` has "
-                              "chains; choose engine dts",
-                              experiment.engine, experiment.robots[i].name));
-    loading.diagnostics.note(loading.bases[i]->parent->position, "the robot is here");
-  }
-}
-
 }  // namespace
 
 void check_combinations(const language::Object& world, Loading& loading) {
   const Experiment& experiment = loading.experiment;
-  if (experiment.engine != "dts") return check_peer(world, loading);
+  if (experiment.engine != "dts") return;  // what a peer lacks, it says itself
   const contact::LawDescription* law = contact::find_law(experiment.contact);
   if (law != nullptr && law->is_impulse_law) {
     check_impulse_law(world, loading);

@@ -2,6 +2,7 @@
 // with time, body and advice, gaps named, and a table of every setting.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "reference/engines.h"
+#include "reference/experiment_checks.h"
 #include "tests/support/reference_scenes.h"
 
 #ifdef __SANITIZE_ADDRESS__
@@ -124,6 +126,14 @@ std::string refusal(const reference::Peer& peer, const simulation::Experiment& e
   return "";
 }
 
+/// Whether the peer says of itself that it refuses `feature`.
+bool refuses(const reference::Peer& peer, std::string_view feature) {
+  const auto gaps = peer.describe().gaps;
+  return std::ranges::any_of(gaps, [feature](const simulation::EngineGap& gap) {
+    return gap.feature == feature && gap.handling == simulation::EngineGap::Handling::refused;
+  });
+}
+
 void expect_refusal(const simulation::Experiment& experiment, const std::string& named) {
   for (const auto& peer : reference::peers()) {
     const std::string message = refusal(peer, experiment);
@@ -134,15 +144,6 @@ void expect_refusal(const simulation::Experiment& experiment, const std::string&
 
 TEST(PeerEngine, NamesWhatItCannotRun) {
   const simulation::Experiment good = sloped_block(15. * degree, 0., 0.5, 1e-3);
-  simulation::Experiment chains = good;
-  chains.robots[0].chains.emplace_back();
-  expect_refusal(chains, "'block' has chains");
-  simulation::Experiment patches = good;
-  patches.terrain->patches.emplace_back();
-  expect_refusal(patches, "patches");
-  simulation::Experiment friction = good;
-  friction.materials[0].constants.kinetic_friction = 0.4;
-  expect_refusal(friction, "static and kinetic friction");
   simulation::Experiment shapeless = good;
   shapeless.robots[0].base.shapes.clear();
   expect_refusal(shapeless, "no shape");
@@ -154,12 +155,40 @@ TEST(PeerEngine, NamesWhatItCannotRun) {
   expect_refusal(settings, "default, recommended or matched");
 }
 
-TEST(PeerEngine, RunsALegconeInBulletAndNamesItInOde) {
+TEST(PeerEngine, NamesTheGapThatAnExperimentMeets) {
+  simulation::Experiment experiment = sloped_block(15. * degree, 0., 0.5, 1e-3);
+  simulation::ChainSpec& leg = experiment.robots[0].chains.emplace_back();
+  leg.name = "leg";
+  leg.links.emplace_back().body.name = "shin";  // without mass
+  for (const auto& peer : reference::peers()) {
+    const auto gaps = peer.describe().gaps;
+    const bool lacks = std::ranges::any_of(
+        gaps, [](const auto& gap) { return gap.feature == "links without mass"; });
+    const std::string message = refusal(peer, experiment);
+    EXPECT_EQ(message.find("leg.shin carries no mass") != std::string::npos, lacks) << message;
+    EXPECT_FALSE(gaps.empty()) << peer.name;
+    for (const auto& gap : gaps) EXPECT_FALSE(gap.feature.empty() || gap.instead.empty());
+  }
+}
+
+TEST(PeerEngine, SaysThatItTakesTheKineticOfTwoFrictions) {
+  simulation::Experiment experiment = sloped_block(15. * degree, 0., 0.2, 1e-3);
+  experiment.materials[0].constants.static_friction = 0.8;
+  for (const auto& peer : reference::peers()) {
+    const auto engine = peer.make(experiment);
+    ASSERT_EQ(engine->state().notices.size(), 1u) << peer.name;
+    EXPECT_NE(engine->state().notices[0].find("kinetic"), std::string::npos) << peer.name;
+    ASSERT_TRUE(run_until(*engine, 1e-3, 0.5));
+    EXPECT_GT(norm(engine->state().bodies[0].velocity), 0.1) << peer.name;  // 0.8 would hold it
+  }
+}
+
+TEST(PeerEngine, RunsALegconeOrNamesIt) {
   simulation::Experiment experiment = sloped_block(0., 0., 0.5, 1e-3);
   experiment.robots[0].base.shapes[0].geometry = simulation::Legcone{0.3, 0.05, 0.05};
   experiment.robots[0].base.shapes[0].location = {-0.15, 0., 0.};
   for (const auto& peer : reference::peers()) {
-    if (peer.name != "bullet") {
+    if (refuses(peer, reference::feature::legcone)) {
       EXPECT_NE(refusal(peer, experiment).find("Legcone"), std::string::npos) << peer.name;
       continue;
     }
@@ -183,7 +212,7 @@ TEST(PeerEngine, DescribesItselfAndEverySetting) {
       EXPECT_FALSE(row.source.empty()) << row.quantity;
     }
   }
-  EXPECT_THROW(reference::settings_table("mujoco"), std::invalid_argument);
+  EXPECT_THROW(reference::settings_table("no_engine"), std::invalid_argument);
 }
 
 }  // namespace

@@ -179,7 +179,9 @@ TEST(PeerMotion, FoldsAGridsCellsAlongTheLanguagesDiagonal) {
     const auto engine = peer.make(experiment);
     ASSERT_TRUE(engine->step().ok() && engine->step().ok());
     const Vector3d force = engine->state().bodies[0].contact_force;
-    EXPECT_NEAR(force.x, 0., 1e-9) << peer.name;
+    // MuJoCo finds the nearest points to 1 um (mpr_tolerance), so a normal to sqrt(2 um/r).
+    const double off = peer.name == "mujoco" ? std::sqrt(2e-6 / 0.02) : 0.;
+    EXPECT_NEAR(force.x, 0., 1e-9 + off * norm(force)) << peer.name;
     EXPECT_LT(force.y, -0.1) << peer.name;  // of the plane z = y, whose normal leans to -y
     EXPECT_GT(force.z, 0.1) << peer.name;
   }

@@ -7,8 +7,6 @@ namespace hookpoint {
 namespace {
 
 const std::string block = "Robot block { Base.mobile { mass = 1; Shape.Box dimensions = 1,1,1; } }";
-const std::string arm =
-    "Robot arm { Base.fixed { } Chain leg { Link one { mass = 1; Shape.Sphere radius = 1; } } }";
 
 std::string diagnostics_of(const std::string& text) {
   const Loaded loaded = load_text(text);
@@ -127,10 +125,6 @@ const Case cases[] = {
      "error 2:14 contact law impulse advances time from impact to impact and cannot be paired with "
      "rk4; leave the "
      "integrator out or choose a force law\n"},
-    {"peer_with_chains", "World w {\nengine = ode;\n" + arm + " }",
-     "error 2:10 engine ode runs single rigid bodies so far, and robot `arm` has chains; choose "
-     "engine dts\nnote 3:1 "
-     "the robot is here\n"},
     {"settings_of_dts", "World w {\nsettings = matched; }",
      "error 2:12 settings = matched is for a peer, and the engine is dts; leave it out or choose "
      "another engine\n"},

@@ -1,0 +1,44 @@
+// MuJoCo as a peer: what it lacks, and its factory.
+#include "reference/engines.h"
+#include "reference/experiment_checks.h"
+#include "reference/mujoco_world.h"
+#include "reference/settings.h"
+
+namespace hookpoint::reference {
+namespace {
+
+using simulation::EngineGap;
+
+std::vector<EngineGap> gaps() {
+  using enum EngineGap::Handling;
+  std::vector<EngineGap> result = common_gaps();
+  const auto add = [&result](std::string_view name, EngineGap::Handling handling,
+                             const char* instead) {
+    result.push_back({std::string(name), handling, instead});
+  };
+  add(feature::two_frictions, noticed,
+      "this engine has one coefficient of friction, and it is the kinetic one");
+  add(feature::massless, refused, "every body of MuJoCo that moves has a mass; give the link one");
+  add(feature::restitution, noticed,
+      "MuJoCo has no coefficient of restitution: how a body rebounds follows from its contact's "
+      "damping");
+  add(feature::tile_softness, noticed,
+      "the ratio of tangential to normal constants (impratio) is one for a world, the ground's");
+  return result;
+}
+
+}  // namespace
+
+simulation::EngineDescription describe_mujoco() {
+  const std::string version = mujoco_version();
+  return {"mujoco", version, "double", !version.empty(), settings_names(), gaps()};
+}
+
+std::unique_ptr<simulation::Engine> make_mujoco(const simulation::Experiment& experiment) {
+  const auto notices = check_supported(experiment, describe_mujoco());
+  const MujocoSettings settings = mujoco_settings(settings_of(experiment, "mujoco"),
+                                                  experiment.deltat, ground_material(experiment));
+  return make_peer_engine(experiment, make_mujoco_world(experiment, settings), notices);
+}
+
+}  // namespace hookpoint::reference

@@ -1,0 +1,184 @@
+#include "reference/mujoco_friction.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "reference/experiment_checks.h"
+#include "reference/ground.h"
+#include "reference/settings.h"
+#include "reference/touching_points.h"
+
+namespace hookpoint::reference {
+namespace {
+
+/// A body at rest on a plane, of which each contact carries the same friction.
+struct Load {
+  double inverse_weight = 0.;           ///< A [1/kg]
+  double normal = 0., tangential = 0.;  ///< of a contact, in the mean [N]
+  /// Least and largest normal load of a contact over the mean one.
+  double least = 1., largest = 1.;
+  double along = 0., across = 0.;  ///< parts of the pull along the two tangents
+  double friction = 0.;            ///< mu
+};
+
+/// Rows of a pyramid at rest carry f = max(0, q -+ w) for a depth q and a speed w along each
+/// tangent, in units of the mean normal load.
+struct Pyramid {
+  double depth = 0., along = 0., across = 0.;
+};
+
+/// Opposite rows carry a load t = f_t/mu together: both while t <= 2 q, and then w = t/2; else the
+/// one that is left, and w = t - q. All rows together carry 1.
+std::optional<Pyramid> pyramid_at_rest(double t, double u, double least, double largest) {
+  if (t + u >= 1.) return std::nullopt;  // beyond the pyramid
+  const double q = std::min(0.25, 0.5 * (1. - std::max(t, u)));
+  const auto speed = [q](double load) { return load <= 2. * q ? 0.5 * load : load - q; };
+  const Pyramid mean{q, speed(t), speed(u)};
+  // A contact with another normal load has another depth: rows each way carry max(2 q, q + w). The
+  // mean is the mean of all only if the same rows carry everywhere.
+  const int lost = (mean.along > q ? 1 : 0) + (mean.across > q ? 1 : 0);
+  for (const double normal : {least, largest}) {
+    const double depth = q + (normal - 1.) / (4. - lost);
+    if (!(depth > 0.) || (mean.along > q) != (mean.along > depth) ||
+        (mean.across > q) != (mean.across > depth))
+      return std::nullopt;
+  }
+  return mean;
+}
+
+/// The impedance at a depth (XML reference, solimp).
+double impedance_at(const std::array<double, 5>& solimp, double depth) {
+  const auto [d0, width_d, width, midpoint, power] = solimp;
+  if (d0 == width_d || width <= 0.) return d0;
+  const double x = std::min(1., depth / width);
+  const double y = x <= midpoint
+                       ? midpoint * std::pow(x / midpoint, power)
+                       : 1. - (1. - midpoint) * std::pow((1. - x) / (1. - midpoint), power);
+  return d0 + y * (width_d - d0);
+}
+
+struct Reference {
+  double stiffness, damping;  ///< K [1/s^2], B [1/s]
+};
+Reference reference_of(const MujocoRow& row, double dt) {
+  const double d = row.impedance[1];
+  if (row.reference[0] < 0.) return {-row.reference[0] / (d * d), -row.reference[1] / d};
+  const double time = std::max(row.reference[0], 2. * dt) * d;
+  return {1. / (time * time * row.reference[1] * row.reference[1]), 2. / time};
+}
+
+/// Downhill speed at impedance `d`, and the depth at which the normal load is carried.
+struct Rest {
+  double speed, depth;
+};
+std::optional<Rest> rest(const Load& load, const MujocoSettings& settings,
+                         const Reference& reference, double d) {
+  const double softness = (1. - d) / d * load.inverse_weight;
+  const double mu = load.friction;
+  if (settings.elliptic) {
+    if (load.tangential > mu * load.least * load.normal) return std::nullopt;
+    return Rest{softness / settings.friction_impedance * load.tangential / reference.damping,
+                softness * load.normal / (reference.stiffness * d)};
+  }
+  const double row = 2. * mu * mu / settings.friction_impedance * (1. + mu * mu) * softness;
+  const double part = load.tangential / (mu * load.normal);
+  const auto pyramid =
+      pyramid_at_rest(part * load.along, part * load.across, load.least, load.largest);
+  if (!pyramid) return std::nullopt;
+  const double downhill = pyramid->along * load.along + pyramid->across * load.across;
+  return Rest{downhill * row * load.normal / (reference.damping * mu),
+              pyramid->depth * row * load.normal / (reference.stiffness * d)};
+}
+
+/// The boundary points of the base that lie lowest along `normal`, from the centre of mass.
+std::vector<Vector3d> footprint(const simulation::RobotSpec& robot, const Vector3d& normal) {
+  std::vector<Vector3d> points;
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const Vector3d& point : robot.base.boundary_points) {
+    points.push_back(rotate(robot.orientation, point - robot.base.mass.center_of_mass));
+    lowest = std::min(lowest, dot(points.back(), normal));
+  }
+  std::erase_if(points, [&](const Vector3d& point) { return dot(point, normal) - lowest > 1e-6; });
+  return points;
+}
+
+/// Normal loads over their mean on a footprint: a + b x + c y at (x, y), x along `downhill`, whose
+/// moment about the centre of mass is that of the friction, `tangent` times the normal force.
+void spread(const std::vector<Vector3d>& points, const Vector3d& normal, const Vector3d& downhill,
+            double tangent, Load& load) {
+  const Vector3d aside = cross(normal, downhill);
+  const auto count = static_cast<double>(points.size());
+  Symmetric3d sums;
+  for (const Vector3d& point : points) {
+    const double x = dot(point, downhill), y = dot(point, aside);
+    sums += Symmetric3d{1., x * x, y * y, x, y, x * y};
+  }
+  const double height = -dot(points.front(), normal);
+  const Vector3d plane = inverse(sums) * Vector3d{count, count * tangent * height, 0.};
+  for (const Vector3d& point : points) {
+    const double part = plane.x + plane.y * dot(point, downhill) + plane.z * dot(point, aside);
+    load.least = std::min(load.least, part);
+    load.largest = std::max(load.largest, part);
+  }
+}
+
+std::optional<Load> load_at_rest(const simulation::Experiment& experiment) {
+  if (!experiment.terrain || experiment.robots.size() != 1) return std::nullopt;
+  const simulation::RobotSpec& robot = experiment.robots[0];
+  const Ground ground = ground_of(*experiment.terrain);
+  const auto* plane = std::get_if<GroundPlane>(&ground);
+  if (plane == nullptr || !robot.chains.empty()) return std::nullopt;
+  const std::vector<Vector3d> points = footprint(robot, plane->normal);
+  const auto& shapes = robot.base.shapes;
+  // MuJoCo finds the four corners of a box, whatever points are sampled on it.
+  const bool box = shapes.size() == 1 && points.size() == 4 &&
+                   std::holds_alternative<simulation::Box>(shapes[0].geometry);
+  if (points.size() < 3 || (!touches_by_points(experiment, 0) && !box)) return std::nullopt;
+
+  Load load;
+  const double share = robot.base.mass.mass / static_cast<double>(points.size());
+  load.inverse_weight = 1. / robot.base.mass.mass;
+  const double press = -dot(experiment.gravity, plane->normal);
+  const Vector3d pull = experiment.gravity + press * plane->normal;
+  load.normal = share * press;
+  load.tangential = share * norm(pull);
+  load.friction = single_friction(ground_material(experiment));
+  if (!(load.tangential > 0. && load.normal > 0. && load.friction > 0.)) return std::nullopt;
+  const Vector3d downhill = (1. / norm(pull)) * pull;
+  const auto [first, second] = mujoco_tangents(plane->normal);
+  load.along = std::abs(dot(downhill, first));
+  load.across = std::abs(dot(downhill, second));
+  spread(points, plane->normal, downhill, load.tangential / load.normal, load);
+  return load;
+}
+
+}  // namespace
+
+std::array<Vector3d, 2> mujoco_tangents(const Vector3d& normal) {
+  const Vector3d axis = std::abs(normal.y) < 0.5 ? Vector3d{0., 1., 0.} : Vector3d{0., 0., 1.};
+  const Vector3d across = axis - dot(axis, normal) * normal;
+  const Vector3d first = (1. / norm(across)) * across;
+  return {first, cross(normal, first)};
+}
+
+std::optional<double> mujoco_friction_mixing(const simulation::Experiment& experiment) {
+  const auto load = load_at_rest(experiment);
+  if (!load) return std::nullopt;
+  const auto material = ground_material(experiment);
+  const MujocoSettings settings =
+      mujoco_settings(settings_of(experiment, "mujoco"), experiment.deltat, material);
+  const MujocoRow row = mujoco_row(settings, experiment.deltat, material, load->inverse_weight);
+  const Reference reference = reference_of(row, experiment.deltat);
+  double depth = 0.;
+  std::optional<Rest> found;
+  for (int i = 0; i < 20; ++i) {  // d changes by a few percent with depth: each turn gains a digit
+    found = rest(*load, settings, reference, impedance_at(row.impedance, depth));
+    if (!found) return std::nullopt;
+    depth = found->depth;
+  }
+  return found->speed / load->tangential;
+}
+
+}  // namespace hookpoint::reference

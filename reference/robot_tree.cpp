@@ -1,0 +1,96 @@
+#include "reference/robot_tree.h"
+
+#include <algorithm>
+
+namespace hookpoint::reference {
+namespace {
+
+using simulation::BodyState;
+using simulation::LinkSpec;
+using simulation::Pose;
+
+const Vector3d x_axis{1., 0., 0.}, z_axis{0., 0., 1.};
+
+Pose pose_at_zero(const LinkSpec& link) {
+  const Pose screw_x{link.a * x_axis, exponential(link.alpha * x_axis)};
+  const Pose screw_z{link.d * z_axis, exponential(link.theta * z_axis)};
+  return screw_x * screw_z;
+}
+
+BodyState initial_base(const simulation::RobotSpec& robot) {
+  BodyState state;
+  state.position = robot.location;
+  state.orientation = robot.orientation;
+  if (!robot.mobile) return state;
+  state.velocity = robot.velocity;
+  state.angular_velocity = robot.angular_velocity;
+  return state;
+}
+
+constexpr double friction_speed = 0.05;  // v_f [rad/s, m/s], docs/joints.md
+constexpr double stop_stiffness = 1000., stop_damping = 1.;
+
+double stop(double depth, double depth_rate) {
+  return depth > 0. ? std::max(0., stop_stiffness * depth + stop_damping * depth_rate) : 0.;
+}
+
+}  // namespace
+
+RobotTree robot_tree(const simulation::Experiment& experiment) {
+  RobotTree tree;
+  for (std::size_t i = 0; i < experiment.robots.size(); ++i) {
+    const simulation::RobotSpec& robot = experiment.robots[i];
+    const auto base = static_cast<int>(tree.bodies.size());
+    const auto number = static_cast<int>(i);
+    tree.bases.push_back(tree.bodies.size());
+    tree.bodies.push_back(
+        {&robot.base, nullptr, number, -1, -1, robot.mobile, {}, initial_base(robot)});
+    for (const simulation::ChainSpec& chain : robot.chains) {
+      int parent = base;
+      Pose before{chain.hip_distance, chain.hip_orientation};
+      for (const LinkSpec& link : chain.links) {
+        TreeBody body{&link.body,
+                      &link,
+                      number,
+                      parent,
+                      static_cast<int>(tree.joints++),
+                      true,
+                      before * pose_at_zero(link),
+                      {}};
+        body.initial = link_state(tree.bodies[static_cast<std::size_t>(parent)].initial, body,
+                                  link.angle, link.rate);
+        parent = static_cast<int>(tree.bodies.size());
+        tree.bodies.push_back(body);
+        before = {};
+      }
+    }
+  }
+  return tree;
+}
+
+// w_L = w_P + dq/dt z, v_L = v_P + w_P x p_PL of a turning joint; of a sliding one dq/dt z is added
+// to v_L.
+BodyState link_state(const BodyState& parent, const TreeBody& link, double angle, double rate) {
+  const Pose joint =
+      link.turns() ? Pose{{}, exponential(angle * z_axis)} : Pose{angle * z_axis, {}};
+  const Pose X_WL = Pose{parent.position, parent.orientation} * link.X_PL0 * joint;
+  const Vector3d motion = rate * rotate(X_WL.orientation, z_axis);
+  BodyState state;
+  state.position = X_WL.position;
+  state.orientation = X_WL.orientation;
+  state.angular_velocity = parent.angular_velocity;
+  state.velocity =
+      parent.velocity + cross(parent.angular_velocity, state.position - parent.position);
+  (link.turns() ? state.angular_velocity : state.velocity) += motion;
+  return state;
+}
+
+double joint_passive_force(const LinkSpec& link, double angle, double rate) {
+  double force = -link.damping * rate - link.stiffness * (angle - link.rest_angle) -
+                 link.friction * std::clamp(rate / friction_speed, -1., 1.);
+  if (link.lower_limit) force += stop(*link.lower_limit - angle, -rate);
+  if (link.upper_limit) force -= stop(angle - *link.upper_limit, rate);
+  return force;
+}
+
+}  // namespace hookpoint::reference

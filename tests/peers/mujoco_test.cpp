@@ -1,0 +1,170 @@
+// What is particular to MuJoCo: creep by regularisation, a pyramid in place of the cone, warnings
+// and refusals that it would print, and robots that stand and walk.
+#include <gtest/gtest.h>
+
+#include "reference/engines.h"
+#include "reference/mujoco_friction.h"
+#include "tests/support/reference_scenes.h"
+#include "tests/support/run_text.h"
+
+namespace hookpoint {
+namespace {
+
+using namespace reference_scenes;
+
+/// Tests of an engine that this build may lack.
+class Mujoco : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!reference::describe_mujoco().found) GTEST_SKIP() << "this build has no MuJoCo";
+  }
+};
+
+double creep(const simulation::Experiment& experiment, double angle, double azimuth) {
+  const auto engine = reference::make_mujoco(experiment);
+  return creep_speed(*engine, slope_axes(angle, azimuth).downhill, experiment.deltat, 1., 2.);
+}
+
+simulation::Experiment block_with_corners(double angle, double azimuth, double mu,
+                                          const char* settings) {
+  simulation::Experiment experiment = sloped_block(angle, azimuth, mu, 1e-3, settings);
+  for (const double x : {-0.1, 0.1})
+    for (const double y : {-0.1, 0.1})
+      for (const double z : {-0.05, 0.05})
+        experiment.robots[0].base.boundary_points.push_back({x, y, z});
+  return experiment;
+}
+
+TEST_F(Mujoco, CreepsAsItsRegularisationSays) {
+  int predicted = 0;
+  for (const char* settings : {"default", "recommended", "matched"})
+    for (const double slope : {5., 15., 25.})
+      for (const double azimuth : {0., 30., 45., 90.}) {
+        const simulation::Experiment experiment =
+            block_with_corners(slope * degree, azimuth * degree, 0.8, settings);
+        const auto mixing = reference::mujoco_friction_mixing(experiment);
+        if (!mixing) continue;
+        ++predicted;
+        const double expected = *mixing * g * std::sin(slope * degree) / 4.;
+        EXPECT_NEAR(creep(experiment, slope * degree, azimuth * degree), expected, 0.01 * expected)
+            << settings << " " << slope << " " << azimuth;
+      }
+  // All but the default at 25 deg across its pyramid, where two of the corners have fewer rows.
+  EXPECT_EQ(predicted, 34);
+}
+
+TEST_F(Mujoco, CreepsAtTheMatchedDampersSpeed) {
+  for (const double deltat : {1e-4, 1e-3, 1e-2}) {
+    const double expected = g * std::sin(15. * degree) / 4. / (deltat * 1e5 + 300.);
+    EXPECT_NEAR(creep(sloped_block(15. * degree, 0.3, 0.5, deltat, "matched"), 15. * degree, 0.3),
+                expected, 1e-6 * expected);
+  }
+}
+
+// tan 15 deg = 0.268 > mu = 0.2. The pyramid's corners are on the cone, its faces mu/sqrt(2) away,
+// and at 45 deg a block slides across a face, at g (sin - mu/sqrt(2) cos): 86 % too fast. (The
+// tangents of a tilted contact are not quite at 45 deg to the fall.)
+TEST_F(Mujoco, PyramidLetsABlockSlideTooFastAcrossItsFacesAndTheConeDoesNot) {
+  const double s = std::sin(15. * degree), c = std::cos(15. * degree);
+  const double cone = 1.5 * g * (s - 0.2 * c), face = 1.5 * g * (s - 0.2 * c / std::sqrt(2.));
+  EXPECT_NEAR(face / cone, 1.86, 0.005);
+  const auto speed = [](double azimuth, const char* settings) {
+    const double turn = azimuth * degree;
+    return creep(sloped_block(15. * degree, turn, 0.2, 1e-3, settings), 15. * degree, turn);
+  };
+  EXPECT_NEAR(speed(45., "default"), face, 0.005 * face);
+  EXPECT_NEAR(speed(0., "default"), cone, 0.001 * cone);
+  for (const char* settings : {"recommended", "matched"})
+    EXPECT_NEAR(speed(45., settings), cone, 0.001 * cone) << settings;
+}
+
+TEST_F(Mujoco, SlidesOnEachTileByItsOwnFriction) {
+  simulation::Experiment experiment = sloped_block(15. * degree, 0., 0.8, 1e-3, "recommended");
+  experiment.materials.push_back(experiment.materials[0]);
+  experiment.materials[1].constants.static_friction = 0.;
+  experiment.materials[1].constants.kinetic_friction = 0.;
+  experiment.terrain->patches.push_back({-100., 1., 100., 3., 1});
+  simulation::RobotSpec other = experiment.robots[0];
+  other.name = "other";
+  other.location.y = 2.;
+  experiment.robots.push_back(other);
+  const auto engine = reference::make_mujoco(experiment);
+  ASSERT_TRUE(run_until(*engine, 1e-3, 1.));
+  EXPECT_LT(norm(engine->state().bodies[0].velocity), 1e-4);
+  // Without friction at all: MuJoCo's least coefficient, 1e-5, would cost 4e-5 of it.
+  const double expected = g * std::sin(15. * degree);
+  EXPECT_NEAR(norm(engine->state().bodies[1].velocity), expected, 1e-6 * expected);
+}
+
+TEST_F(Mujoco, SaysThatItHasNoRestitution) {
+  simulation::Experiment experiment = sloped_block(0., 0., 0.5, 1e-3);
+  experiment.materials[0].constants.restitution = 0.5;
+  const auto notices = reference::make_mujoco(experiment)->state().notices;
+  ASSERT_EQ(notices.size(), 1u);
+  EXPECT_NE(notices[0].find("restitution"), std::string::npos);
+}
+
+// Beyond its room for contacts MuJoCo drops some: it warns once on the terminal and in a file of
+// the current folder, which must stay as they are.
+TEST_F(Mujoco, TurnsAWarningIntoANotice) {
+  simulation::Experiment experiment = sloped_block(0., 0., 0.5, 1e-3);
+  simulation::BodySpec& base = experiment.robots[0].base;
+  base.shapes.clear();
+  for (int i = 0; i < 300; ++i) base.boundary_points.push_back({1e-4 * i, 0., -0.0501});
+  const auto engine = reference::make_mujoco(experiment);
+  testing::internal::CaptureStderr();
+  testing::internal::CaptureStdout();
+  for (int i = 0; i < 5; ++i) ASSERT_TRUE(engine->step().ok());
+  EXPECT_EQ(testing::internal::GetCapturedStderr() + testing::internal::GetCapturedStdout(), "");
+  EXPECT_FALSE(std::filesystem::exists("MUJOCO_LOG.TXT"));
+  ASSERT_EQ(engine->state().notices.size(), 1u);
+  EXPECT_NE(engine->state().notices[0].find("MuJoCo warned"), std::string::npos);
+}
+
+TEST_F(Mujoco, PassesOnWhatItsCompilerRefuses) {
+  simulation::Experiment experiment = sloped_block(0., 0., 0.5, 1e-3);
+  // No body has that: I_zz <= I_xx + I_yy.
+  experiment.robots[0].base.mass.inertia = {1., 1., 5., 0., 0., 0.};
+  try {
+    reference::make_mujoco(experiment);
+    FAIL() << "an impossible inertia was taken";
+  } catch (const simulation::ExperimentError& error) {
+    EXPECT_NE(std::string(error.what()).find("engine mujoco: "), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("inertia"), std::string::npos) << error.what();
+  }
+}
+
+Loaded hexapod(const std::string& scene, const std::string& settings) {
+  Loaded loaded =
+      load_file(std::filesystem::path(HOOKPOINT_SOURCE_DIR) / "configs/scenes" / (scene + ".hook"));
+  if (loaded.experiment) loaded.experiment->settings = settings;
+  return loaded;
+}
+
+TEST_F(Mujoco, CarriesAStandingHexapod) {
+  for (const char* settings : {"default", "recommended", "matched"}) {
+    Running run(hexapod("standing_hexapod", settings), reference::make_mujoco);
+    run.step(8000);  // 4 s
+    double load = 0.;
+    for (int i = 0; i < 200; ++i) {
+      run.step();
+      for (const simulation::BodyState& body : run.world().state().bodies)
+        load += body.contact_force.z / 200.;
+    }
+    EXPECT_NEAR(load, 41.398, 1e-3 * 41.398) << settings;
+    EXPECT_GT(run["hexapod.base.location.z"], 0.05) << settings;
+  }
+}
+
+TEST_F(Mujoco, LetsAHexapodWalk) {
+  for (const char* settings : {"default", "recommended", "matched"}) {
+    Running run(hexapod("walking_hexapod", settings), reference::make_mujoco);
+    run.step(12000);  // 6 s
+    EXPECT_GT(run["hexapod.base.location.z"], 0.08) << settings;
+    EXPECT_NEAR(run["hexapod.base.location.x"], 0.09 * 6., 0.1) << settings;
+    EXPECT_NEAR(run["hexapod.base.location.y"], 0., 0.02) << settings;
+  }
+}
+
+}  // namespace
+}  // namespace hookpoint

@@ -1,0 +1,70 @@
+// Robots with chains for the peers' tests, built without the language.
+#pragma once
+
+#include <random>
+
+#include "tests/support/reference_scenes.h"
+
+namespace hookpoint::reference_scenes {
+
+/// A mass with nothing on its frame's axes, so that no structure is there by accident.
+inline simulation::MassSpec skew_mass(double mass) {
+  return {mass,
+          {0.03, 0.005, -0.004},
+          {1e-3 * mass, 1.6e-3 * mass, 1.8e-3 * mass, 1e-4 * mass, -1.5e-4 * mass, 2e-4 * mass}};
+}
+
+/// `chains` legs of `links` links, every third joint prismatic, at angles and rates of their own.
+inline simulation::RobotSpec skew_robot(int chains, int links, bool mobile) {
+  simulation::RobotSpec robot;
+  robot.name = "robot";
+  robot.mobile = mobile;
+  robot.base.mass = {2., {0.01, -0.02, 0.015}, {0.03, 0.04, 0.05, 0.001, -0.002, 0.003}};
+  robot.location = {0.3, -0.2, 1.};
+  robot.orientation = exponential(Vector3d{0.3, -0.5, 0.7});
+  for (int k = 0; k < chains; ++k) {
+    const double turn = 0.7 + 1.1 * k;
+    simulation::ChainSpec& leg = robot.chains.emplace_back();
+    leg.name = "leg" + std::to_string(k);
+    leg.hip_distance = {0.15 * std::cos(turn), 0.12 * std::sin(turn), 0.01};
+    leg.hip_orientation = exponential(Vector3d{0.2, -0.1, turn});
+    for (int n = 0; n < links; ++n) {
+      const double s = double(n + 1) / links;
+      simulation::LinkSpec& link = leg.links.emplace_back();
+      link.body.name = "link" + std::to_string(n);
+      link.a = 0.04 + 0.03 * s;
+      link.alpha = 1.3 - 2.1 * s;
+      link.d = 0.02 - 0.03 * s;
+      link.theta = 0.4 * s;
+      link.joint =
+          (k + n) % 3 == 2 ? simulation::JointKind::prismatic : simulation::JointKind::revolute;
+      link.angle = link.joint == simulation::JointKind::revolute ? 0.3 - 0.5 * s : 0.02;
+      link.body.mass = skew_mass(0.12 + 0.05 * n);
+    }
+  }
+  return robot;
+}
+
+/// Sets every joint in motion, and a mobile base too.
+inline void set_in_motion(simulation::RobotSpec& robot) {
+  robot.velocity = {0.4, -0.3, 0.2};
+  robot.angular_velocity = {1., -0.7, 0.5};
+  double rate = 1.;
+  for (simulation::ChainSpec& chain : robot.chains)
+    for (simulation::LinkSpec& link : chain.links) {
+      rate = -0.9 * rate + 0.3;
+      link.rate = link.joint == simulation::JointKind::revolute ? rate : 0.1 * rate;
+    }
+}
+
+/// That robot alone in the world, with a torque on every joint.
+inline simulation::Experiment robot_world(const simulation::RobotSpec& robot, double deltat) {
+  simulation::Experiment experiment = empty_world(0.5, deltat, "default");
+  experiment.robots.push_back(robot);
+  double torque = 0.5;
+  for (simulation::ChainSpec& chain : experiment.robots[0].chains)
+    for (simulation::LinkSpec& link : chain.links) link.torque = torque = 0.4 - torque;
+  return experiment;
+}
+
+}  // namespace hookpoint::reference_scenes
