@@ -249,7 +249,8 @@ std::string matrix_html(const MatrixResult& matrix, const ReportContext& context
   std::string page = page_start(
       title,
       "main { max-width: 1400px; } table.overview td { text-align: center; } "
-      "table.overview th { vertical-align: top; } table.overview thead th { text-align: center; } "
+      "table.overview th { vertical-align: top; } table.overview thead th { text-align: center; "
+      "white-space: normal; vertical-align: bottom; } "
       "td.links a { text-decoration: underline; margin-right: .3rem; } "
       "details pre { max-width: none; } summary { cursor: pointer; font-size: .88rem; }\n");
   page += tag("p", "kicker", "Matrix · " + html(matrix.file)) + "\n<h1>" + html(title) + "</h1>\n";
