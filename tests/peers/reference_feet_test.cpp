@@ -191,6 +191,25 @@ TEST(PeerFeet, SlideOnTheTilesOfAGridAsOnAPlane) {
   }
 }
 
+// A ball about a point rolls as the sphere that it is: 5/7 g sin.
+TEST(PeerFeet, RollOnTheirBalls) {
+  const SlopeAxes axes = slope_axes(angle, 0.);
+  for (const auto& peer : reference::peers()) {
+    simulation::Experiment experiment = sledge(angle, 0., 0.5, true);
+    simulation::RobotSpec& robot = experiment.robots[0];
+    robot.base.boundary_points = {{}};
+    robot.base.boundary_radii = {0.1};
+    robot.base.mass.inertia = {0.0032, 0.0032, 0.0032, 0., 0., 0.};
+    robot.chains[0].hip_orientation = exponential(Vector3d{90. * degree, 0., 0.});
+    robot.chains[0].links[0].damping = 0.1;  // turns with the ball after 6 ms
+    robot.chains[0].links[0].body.mass.inertia = {0.0008, 0.0008, 0.0008, 0., 0., 0.};
+    robot.location = 0.1 * axes.normal;
+    const auto engine = peer.make(experiment);
+    const double expected = 5. / 7. * g * std::sin(angle);
+    EXPECT_NEAR(speed_after(*engine, axes.downhill, 1.), expected, 1e-3 * expected) << peer.name;
+  }
+}
+
 TEST(PeerFeet, PublishTheirContactPoints) {
   for (const auto& peer : reference::peers())
     for (const double mu : {0.5, 0.2}) {
