@@ -32,11 +32,11 @@ struct ContactPoint {
   contact::Memory<double> pending;    ///< to be committed when the step from this state is taken
   /// Of a ball: how it stood when `before`, `committed` and `pending` were made.
   contact::BallFrame before_frame, committed_frame, pending_frame;
-  Vector3d position;  ///< where it touches: p_WP less radius times the normal [m]
-  Vector3d normal;    ///< of the tile under p_WP
-  double depth = 0.;  ///< > 0 inside the ground [m]
-  int material = 0;   ///< of the tile under it
-  Vector3d force;     ///< on the robot, world axes [N]
+  Vector3d position;    ///< where it touches: p_WP less radius times the normal [m]
+  Vector3d normal;      ///< of the tile under p_WP
+  double depth = 0.;    ///< > 0 inside the ground [m]
+  int material = 0;     ///< of the tile under it
+  Vector3d force;       ///< on the robot, world axes [N]
   bool inside = false;  ///< depth > 0 at the accepted state before this one
 
   /// The depth that the law gets from an adaptive integrator: a point stays on its side of the
@@ -53,6 +53,12 @@ struct ContactPoint {
   }
   /// The committed memory as a ball that now stands in `now` has carried it along.
   contact::Memory<double> carried(const contact::BallFrame& now) const;
+};
+
+/// The smallest box, along its body's axes, that holds the boundary points of a body.
+struct PointsBox {
+  Vector3d center;  ///< body axes [m]
+  Vector3d half;    ///< half its edges [m]
 };
 
 /// The boundary points of all bodies that can move.
@@ -73,7 +79,8 @@ contact::BallFrame ball_frame(const ContactPoint& point, const dts::BodyMotion<d
 
 /// Layout of positions: p_WB (3), R_WB as w x y z (4) of a mobile base, then joint positions; of
 /// velocities: w_WB (3), v_WB (3), then joint rates (dts/configuration.h), then, of a law with
-/// bristles, those of each boundary point: they are integrated like velocities and move no position.
+/// bristles, those of each boundary point: they are integrated like velocities and move no
+/// position.
 class DtsRobot final : public integrators::System {
  public:
   /// `ground` may be null: no contact. All that is referred to outlives the robot.
@@ -155,6 +162,12 @@ class DtsRobot final : public integrators::System {
   void evaluate_forces(bool trial);
   void apply_external_forces();
   void apply_contact_forces(bool trial);
+  template <class Law>
+  void apply_contact_force(const Law& law, std::size_t i, bool trial);
+  void bound_points();
+  /// Whether no boundary point of the body is within the law's reach.
+  bool passed_over(std::size_t body, bool trial);
+  void commit_points();
   void take_inputs();
   void set_joint_torques();
 
@@ -179,6 +192,9 @@ class DtsRobot final : public integrators::System {
   /// on (as the law let go of some), and its rates at the state evaluated last.
   std::vector<double> bristles_, next_bristles_, bristle_rates_;
   std::vector<std::size_t> first_points_;  ///< of each body, into points_; one more at the end
+  std::vector<PointsBox> boxes_;  ///< of each body; infinite where no body may be passed over
+  std::vector<int> passed_;       ///< of each body: 0, or 1 and the commits since it is passed over
+  double reach_ = 0.;             ///< farthest above any ground where the law still acts [m]
   std::string notice_;
   std::vector<dts::JointProperties<double>> joints_;
   std::vector<double> joint_torques_;
