@@ -32,7 +32,8 @@ struct RunContext {
   Vector3d downhill;     ///< unit, in the ground's plane: steepest descent; on the level, along the
                          ///< initial velocity
   double weight = 0.;    ///< m |g| [N], of the whole robot
-  simulation::EngineFactory make = nullptr;  ///< of the run's engine, where a metric may run another
+  simulation::EngineFactory make =
+      nullptr;  ///< of the run's engine, where a metric may run another
 
   const simulation::RobotSpec& robot_spec() const {
     return experiment->robots[static_cast<std::size_t>(robot)];
@@ -94,6 +95,8 @@ class Metric {
   virtual void observe(const Observation& observation) = 0;
   /// Nothing when it does not apply.
   virtual std::optional<double> value() const = 0;
+  /// Of a run that the engine broke off; nothing but for a metric of just that.
+  virtual std::optional<double> value_of_broken_run() const { return std::nullopt; }
 };
 
 struct MetricDefinition {
@@ -136,6 +139,8 @@ inline constexpr double onset_speed = 1e-3;
 /// Static friction of the ground under the start; none without ground.
 std::optional<double> static_friction(const RunContext& context);
 
+/// Kinetic energy of the bodies of the measured robot [J].
+double kinetic_energy(const RunContext& context, const simulation::WorldState& world);
 /// Kinetic and gravitational energy of the bodies of the measured robot [J].
 double mechanical_energy(const RunContext& context, const simulation::WorldState& world);
 
@@ -155,6 +160,8 @@ std::unique_ptr<Metric> make_penetration_mean(const RunContext&);
 std::unique_ptr<Metric> make_penetration_rms(const RunContext&);
 std::unique_ptr<Metric> make_contact_breaks(const RunContext&);
 std::unique_ptr<Metric> make_impacts(const RunContext&);
+std::unique_ptr<Metric> make_unrest(const RunContext&);
+std::unique_ptr<Metric> make_restless(const RunContext&);
 std::unique_ptr<Metric> make_fell(const RunContext&);
 std::unique_ptr<Metric> make_walked_distance(const RunContext&);
 std::unique_ptr<Metric> make_walking_speed(const RunContext&);

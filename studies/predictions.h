@@ -30,6 +30,10 @@ std::optional<double> slip_onset(const RunContext& context);
 /// Of `threshold_error`: the same less atan(mu_s) [rad].
 std::optional<double> threshold_error(const RunContext& context);
 
+/// Of `restless`: 1 where deltat is above the largest stable step (simulation/stability.h), else 0;
+/// nothing where there is no such step: an adaptive integrator, an impulse law, a peer.
+std::optional<double> restless(const RunContext& context);
+
 /// What friction does in the run described by `context`: none unless `predict`'s conditions hold
 /// and the body starts at rest.
 Regime regime_of(const RunContext& context);
