@@ -182,8 +182,10 @@ void add_study_classes(Schema& schema) {
   schema.add(named("Measure", "A metric to measure, by its name.", {}));
   schema.add(truth_class(std::move(metrics)));
   schema.add(named(
-      "Plot", "A figure: a metric over a sweep, two sweeps or another metric, or a signal over time.",
-      {text("title", "heading; default: the name"), required(words("x", 1, "a sweep, a metric (a curve of cost against error), or time")),
+      "Plot",
+      "A figure: a metric over a sweep, two sweeps or another metric, or a signal over time.",
+      {text("title", "heading; default: the name"),
+       required(words("x", 1, "a sweep, a metric (a curve of cost against error), or time")),
        required(
            words("y", 1,
                  "a metric; over time a signal: displacement, drift, speed, penetration, energy; "
@@ -191,8 +193,9 @@ void add_study_classes(Schema& schema) {
        words("colour", 1, "a metric: makes a map over the sweeps x and y, a panel a subject"),
        words("outline", 1, "in a map: a metric whose closed form draws the line between cells"),
        words("series", 1, "what makes a curve: subject, or a sweep"),
+       words("subjects", 100, "subjects that are drawn; default: all"),
        choice("scale", {"linear", "log", "log_x", "log_log"}, "linear",
-              "axes that are logarithmic: log is y")},
+              "axes that are logarithmic: log is y; of a map log is the colour")},
       {"Only"}));
   schema.add(named("Fix", "A value of a Param of the scene.",
                    {required(number("value", "?", "the value"))}));

@@ -61,6 +61,9 @@ void count(SubjectSummary& summary, const RunResult& row) {
     case RunOutcome::finished:
       ++summary.finished;
       break;
+    case RunOutcome::foretold:
+      ++summary.foretold;
+      break;
     case RunOutcome::stopped:
       ++summary.stopped;
       break;
@@ -85,7 +88,12 @@ std::string row_text(const StudyResult& study, const RunResult& row, bool named)
 
 RunOutcome outcome_of(const RunResult& row) {
   if (row.status == "ok") return RunOutcome::finished;
-  return row.status.starts_with("skipped") ? RunOutcome::skipped : RunOutcome::stopped;
+  if (row.status.starts_with("skipped")) return RunOutcome::skipped;
+  const auto judged = [&](bool verdict) {
+    return std::any_of(row.metrics.begin(), row.metrics.end(),
+                       [&](const MetricValue& value) { return value.ok == verdict; });
+  };
+  return judged(true) && !judged(false) ? RunOutcome::foretold : RunOutcome::stopped;
 }
 
 StudySummary summarise(const StudyResult& study, std::optional<Regime> regime) {

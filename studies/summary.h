@@ -9,9 +9,11 @@
 
 namespace hookpoint::studies {
 
-enum class RunOutcome { finished, stopped, skipped };
+enum class RunOutcome { finished, foretold, stopped, skipped };
 
-/// "ok" finished; a status that begins with "skipped" never ran; anything else stopped on the way.
+/// "ok" finished; a status that begins with "skipped" never ran; anything else stopped on the way,
+/// as foretold where all Truths about the row hold: only a metric of runs that break off has a
+/// value then.
 RunOutcome outcome_of(const RunResult& row);
 
 /// One subject, one metric, over all rows of the sweep.
@@ -28,9 +30,9 @@ struct MetricSummary {
 };
 
 struct SubjectSummary {
-  int finished = 0, stopped = 0, skipped = 0;  ///< rows
-  std::vector<MetricSummary> metrics;          ///< one a StudyResult::metrics
-  int rows() const { return finished + stopped + skipped; }
+  int finished = 0, foretold = 0, stopped = 0, skipped = 0;  ///< rows
+  std::vector<MetricSummary> metrics;                        ///< one a StudyResult::metrics
+  int rows() const { return finished + foretold + stopped + skipped; }
 };
 
 struct StudySummary {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "studies/predictions.h"
+#include "studies/summary.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -120,7 +121,7 @@ bool all_truths_hold(const StudyResult& result) {
   return std::all_of(result.rows.begin(), result.rows.end(), [](const RunResult& run) {
     const bool judged = std::none_of(run.metrics.begin(), run.metrics.end(),
                                      [](const MetricValue& value) { return value.ok == false; });
-    return judged && (run.status == "ok" || skipped(run.status));
+    return judged && outcome_of(run) != RunOutcome::stopped;
   });
 }
 
