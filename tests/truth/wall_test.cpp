@@ -1,4 +1,4 @@
-// The Wall of scenes with a known truth, as a user runs it.
+// The Wall of scenes with a known truth, and maps of parameters, as a user runs them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -44,6 +44,19 @@ TEST(Wall, HasTheSameBytesForAnyNumberOfThreads) {
   const std::string rows = work.read("one/results.csv");
   EXPECT_FALSE(rows.empty());
   EXPECT_EQ(rows, work.read("two/results.csv"));
+}
+
+// In every cell of the maps: the largest stable step, and atan(mu).
+TEST(Maps, AreAsTheirClosedFormsSay) {
+  const Workplace work;
+  const auto stability =
+      work.hookpoint("study " + config("studies/stability_map.hook") + " --quick --out stability");
+  EXPECT_EQ(stability.status, 0) << stability.out << stability.err;
+  EXPECT_NE(stability.out.find("broke off as foretold; 18 of 18 verdicts hold"), std::string::npos)
+      << stability.out;
+  const auto threshold = work.hookpoint("study " + config("studies/threshold_map.hook") +
+                                        " --quick --only hookpoint --out threshold");
+  EXPECT_EQ(threshold.status, 0) << threshold.out << threshold.err;
 }
 
 TEST(Wall, FailsWhereATruthDoes) {
