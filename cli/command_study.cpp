@@ -4,13 +4,12 @@
 
 #include <algorithm>
 #include <iostream>
-#include <thread>
 
 #include "cli/application.h"
 #include "cli/commands.h"
 #include "cli/exit_status.h"
+#include "cli/study_run.h"
 #include "cli/walls.h"
-#include "output/progress.h"
 #include "reference/engines.h"
 #include "studies/plan.h"
 #include "studies/report.h"
@@ -53,17 +52,6 @@ std::string rerun_command(const StudyArguments& arguments) {
   return command;
 }
 
-studies::RunOptions run_options(const StudyArguments& arguments, const std::string& study,
-                                std::size_t studies_in_file) {
-  studies::RunOptions options;
-  options.jobs = arguments.jobs > 0
-                     ? arguments.jobs
-                     : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  options.resume = arguments.resume;
-  if (arguments.out) options.folder = studies_in_file > 1 ? *arguments.out / study : *arguments.out;
-  return options;
-}
-
 std::size_t terminal_width() {
   winsize size{};
   if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return 120;
@@ -83,24 +71,13 @@ std::vector<std::string> result_files(const StudyRun& run) {
 int run_one(Application& application, const StudyPlan& plan, const StudyArguments& arguments,
             std::size_t studies_in_file) {
   studies::InterruptGuard guard;
-  std::optional<output::Progress> bar;
-  std::size_t shown = 0;
-  studies::RunOptions options = run_options(arguments, plan.name, studies_in_file);
-  options.progress = [&](const studies::Progress& progress) {
-    if (!bar) bar.emplace(plan.name, progress.total, progress.resumed);
-    shown = std::max(shown, progress.resumed);
-    if (progress.done > shown) bar->advance(progress.done - shown);
-    shown = std::max(shown, progress.done);
-  };
-  const StudyRun run =
-      studies::run_study(plan, application.engines(), options, studies::InterruptGuard::stop());
-  bar.reset();
+  RunBar bar(plan.name);
+  const StudyRun run = studies::run_study(plan, application.engines(),
+                                          run_options(arguments, plan.name, studies_in_file, bar),
+                                          studies::InterruptGuard::stop());
+  bar.end();
   for (const std::string& notice : run.notices) std::cerr << "hookpoint: note: " << notice << '\n';
-  if (run.interrupted) {
-    print_error("interrupted; what is finished is kept in " + run.folder.string() + ": `" +
-                rerun_command(arguments) + " --resume` goes on from there");
-    return truth_failed;
-  }
+  if (run.interrupted) return interrupted(run.folder, rerun_command(arguments));
   const studies::ReportContext context{rerun_command(arguments), peer_settings(run.result),
                                        studies::provenance_lines(run.provenance),
                                        result_files(run)};

@@ -98,6 +98,13 @@ std::string verdict(const WallResult& wall) {
                      passed + failed, counted);
 }
 
+std::string warning_list(const WallResult& wall) {
+  if (wall.warnings.empty()) return "";
+  std::string text = "<h2>Steps above the stability bound</h2>\n<ul>\n";
+  for (const std::string& warning : wall.warnings) text += "<li>" + html(warning) + "</li>\n";
+  return text + "</ul>\n";
+}
+
 std::string provenance_table(const ReportContext& context) {
   std::string text = "<h2>Provenance</h2>\n<div class=\"scroll\"><table class=\"wide\"><tbody>\n";
   for (const auto& [name, value] : context.provenance)
@@ -155,7 +162,7 @@ std::string wall_html(const WallResult& wall, const ReportContext& context) {
       "<p class=\"note soft\">Each cell: what was measured and, small, how far it is from the "
       "closed form. A dot: the truth says nothing of that law; where a law fails by its own "
       "equation, its predicted failure is a truth of its own.</p>\n";
-  page += wall_table(wall) + provenance_table(context);
+  page += wall_table(wall) + warning_list(wall) + provenance_table(context);
   return page + "</main>\n</body>\n</html>\n";
 }
 
