@@ -1,15 +1,13 @@
 #include "cli/study_runs.h"
 
-#include <fmt/format.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <iostream>
-#include <thread>
 
 #include "cli/exit_status.h"
-#include "output/progress.h"
+#include "cli/run_bar.h"
 #include "reference/engines.h"
 #include "studies/run.h"
 #include "studies/terminal_table.h"
@@ -41,17 +39,6 @@ std::vector<studies::PeerSetting> peer_settings(const studies::StudyResult& resu
     }
   }
   return settings;
-}
-
-studies::RunOptions run_options(const StudyArguments& arguments,
-                                const std::filesystem::path& folder) {
-  studies::RunOptions options;
-  options.jobs = arguments.jobs > 0
-                     ? arguments.jobs
-                     : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  options.resume = arguments.resume;
-  options.folder = folder;
-  return options;
 }
 
 std::size_t terminal_width() {
@@ -109,24 +96,13 @@ StudyOutcome run_one_study(Application& application, const StudyPlan& plan,
                            const StudyArguments& arguments, const std::filesystem::path& folder,
                            const std::string& command, bool print_table) {
   studies::InterruptGuard guard;
-  std::optional<output::Progress> bar;
-  std::size_t shown = 0;
-  studies::RunOptions options = run_options(arguments, folder);
-  options.progress = [&](const studies::Progress& progress) {
-    if (!bar) bar.emplace(plan.name, progress.total, progress.resumed);
-    shown = std::max(shown, progress.resumed);
-    if (progress.done > shown) bar->advance(progress.done - shown);
-    shown = std::max(shown, progress.done);
-  };
+  RunBar bar(plan.name);
   StudyRun run =
-      studies::run_study(plan, application.engines(), options, studies::InterruptGuard::stop());
-  bar.reset();
+      studies::run_study(plan, application.engines(), run_options(arguments, folder, bar),
+                         studies::InterruptGuard::stop());
+  bar.end();
   for (const std::string& notice : run.notices) std::cerr << "hookpoint: note: " << notice << '\n';
-  if (run.interrupted) {
-    print_error("interrupted; what is finished is kept in " + run.folder.string() + ": `" +
-                command + " --resume` goes on from there");
-    return {truth_failed, std::nullopt, {}};
-  }
+  if (run.interrupted) return {interrupted(run.folder, command), std::nullopt, {}};
   const studies::ReportContext context{command, peer_settings(run.result),
                                        studies::provenance_lines(run.provenance),
                                        result_files(run)};

@@ -111,6 +111,8 @@ class DtsRobot final : public integrators::System {
 
   const dts::Model<double>& model() const { return model_; }
   const dts::State<double>& state() const { return state_; }
+  /// What the joints do by themselves, chain by chain.
+  const std::vector<dts::JointProperties<double>>& joints() const { return joints_; }
   const std::vector<ContactPoint>& contact_points() const { return points_; }
   /// Whether a boundary point has left the terrain, whose edge tile then goes on, and what to tell
   /// the user.

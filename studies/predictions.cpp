@@ -196,6 +196,7 @@ std::optional<double> impacts(const RunContext& context, const BodyOnPlane& body
 std::optional<double> predict(std::string_view metric, const RunContext& context,
                               std::optional<double> friction_mixing) {
   if (metric == "fell") return joint_loop_fails(context);
+  if (metric == "restless") return restless(context);
   if (metric == "slip_onset") return slip_onset(context);
   if (metric == "threshold_error") return threshold_error(context);
   if (metric == "rebound") return rebound(context);

@@ -49,6 +49,10 @@ std::optional<double> rebound(const RunContext& context);
 /// Of `support_force`: the weight along the normal [N].
 std::optional<double> support_force(const RunContext& context);
 
+/// Of `restless`: 1 where deltat is above the largest stable step (simulation/stability.h), else 0;
+/// nothing where there is no such step: an adaptive integrator, an impulse law, a peer.
+std::optional<double> restless(const RunContext& context);
+
 /// What friction does in the run described by `context`: none unless `predict`'s conditions hold
 /// and the body starts at rest.
 Regime regime_of(const RunContext& context);

@@ -123,7 +123,7 @@ bool all_truths_hold(const StudyResult& result) {
   return std::all_of(result.rows.begin(), result.rows.end(), [](const RunResult& run) {
     const bool judged = std::none_of(run.metrics.begin(), run.metrics.end(),
                                      [](const MetricValue& value) { return value.ok == false; });
-    return judged && !has(run, RunOutcome::stopped);
+    return judged && outcome_of(run) != RunOutcome::stopped;
   });
 }
 
