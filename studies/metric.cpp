@@ -10,7 +10,7 @@
 namespace hookpoint::studies {
 namespace {
 
-constexpr std::array<MetricDefinition, 28> metrics{{
+constexpr std::array<MetricDefinition, 29> metrics{{
     {"creep_speed", "m/s",
      "least-squares slope of the downhill displacement over [settle, duration]", make_creep_speed,
      false, Regime::holds},
@@ -34,6 +34,7 @@ constexpr std::array<MetricDefinition, 28> metrics{{
     {"impacts", "1/s", "impulses per second after `settle` (event-driven laws)", make_impacts},
     {"energy_gain", "J", "greatest rise of kinetic and gravitational energy above the start's",
      make_energy_gain},
+    {"spin_max", "rad/s", "greatest angular speed of the body after `settle`", make_spin_max},
     {"fell", "",
      "1 if the base came lower over the ground than half its height at the start, or its z turned "
      "by more than 60 deg; else 0",

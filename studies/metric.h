@@ -138,6 +138,7 @@ std::unique_ptr<Metric> make_settle_shift(const RunContext&);
 std::unique_ptr<Metric> make_stopping_distance(const RunContext&);
 std::unique_ptr<Metric> make_direction_error(const RunContext&);
 std::unique_ptr<Metric> make_energy_gain(const RunContext&);
+std::unique_ptr<Metric> make_spin_max(const RunContext&);
 std::unique_ptr<Metric> make_stick_displacement(const RunContext&);
 std::unique_ptr<Metric> make_slip_distance(const RunContext&);
 std::unique_ptr<Metric> make_penetration_max(const RunContext&);
