@@ -153,6 +153,7 @@ std::unique_ptr<Metric> make_direction_error(const RunContext&);
 std::unique_ptr<Metric> make_energy_gain(const RunContext&);
 std::unique_ptr<Metric> make_slip_onset(const RunContext&);
 std::unique_ptr<Metric> make_threshold_error(const RunContext&);
+std::unique_ptr<Metric> make_spin_max(const RunContext&);
 std::unique_ptr<Metric> make_stick_displacement(const RunContext&);
 std::unique_ptr<Metric> make_slip_distance(const RunContext&);
 std::unique_ptr<Metric> make_penetration_max(const RunContext&);

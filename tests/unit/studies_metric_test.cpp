@@ -270,5 +270,13 @@ TEST(EnergyGain, IsTheGreatestRiseAboveTheStart) {
               1e-12);
 }
 
+TEST(SpinMax, IsTheGreatestAngularSpeedAfterSettle) {
+  const auto turned = [](const RunContext&, WorldState& world) {
+    const auto rows = static_cast<double>(world.step);
+    world.bodies[0].angular_velocity = {0., -0.3 * (10. - rows), 0.4 * (10. - rows)};
+  };
+  EXPECT_NEAR(*measure(block_on_slope(0., 0.), "spin_max", 0.03, 0.12, turned), 3.5, 1e-12);
+}
+
 }  // namespace
 }  // namespace hookpoint::studies
