@@ -60,7 +60,8 @@ const ParsedFile& FileStore::load(const std::filesystem::path& path) {
     file->source.path = path.string();
     read(path, *file);
     index_lines(file->source);
-    if (!file->report.has_errors()) parse(*file);
+    file->reader = schema_.find_reader(path.extension().string());
+    if (!file->report.has_errors() && file->reader == nullptr) parse(*file);
   }
   return *file;
 }

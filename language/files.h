@@ -15,8 +15,8 @@ namespace hookpoint::language {
 
 class FileStore {
  public:
-  explicit FileStore(std::vector<std::filesystem::path> search_path)
-      : search_path_(std::move(search_path)) {}
+  FileStore(const Schema& schema, std::vector<std::filesystem::path> search_path)
+      : schema_(schema), search_path_(std::move(search_path)) {}
 
   /// See Library::find.
   std::filesystem::path find(const std::filesystem::path& path,
@@ -30,6 +30,7 @@ class FileStore {
   const ParsedFile& override_text(const std::string& trail, const std::string& value);
 
  private:
+  const Schema& schema_;
   std::vector<std::filesystem::path> search_path_;
   std::mutex mutex_;
   std::map<std::string, std::unique_ptr<ParsedFile>> files_, overrides_;

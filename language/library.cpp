@@ -9,7 +9,7 @@ namespace hookpoint::language {
 
 struct Library::Implementation {
   Implementation(const Schema& schema, std::vector<std::filesystem::path> search_path)
-      : prepared(schema), files(std::move(search_path)) {}
+      : prepared(schema), files(schema, std::move(search_path)) {}
   PreparedSchema prepared;
   FileStore files;
 };

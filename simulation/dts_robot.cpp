@@ -18,7 +18,14 @@ dts::MassProperties<double> mass_properties(const MassSpec& mass) {
 dts::LinkDescription describe_link(const LinkSpec& link) {
   const auto type =
       link.joint == JointKind::revolute ? dts::JointType::revolute : dts::JointType::prismatic;
-  return {link.a, link.alpha, link.d, link.theta, type, mass_properties(link.body.mass)};
+  return {link.a,
+          link.alpha,
+          link.d,
+          link.theta,
+          type,
+          mass_properties(link.body.mass),
+          link.joint_location,
+          link.joint_orientation};
 }
 
 dts::JointProperties<double> joint_properties(const LinkSpec& link) {
