@@ -25,7 +25,7 @@ constexpr auto metrics = std::to_array<MetricDefinition>({
      make_stopping_distance},
     {"slip_onset", "rad",
      "angle of the driving force, weight and external forces, from the ground's normal when the "
-     "speed along the ground first exceeds 1 mm/s; nothing if it never does",
+     "speed along the ground first exceeds 1 mm/s for 10 ms on end; nothing if it never does",
      make_slip_onset},
     {"threshold_error", "rad", "slip_onset less atan(mu_s)", make_threshold_error},
     {"direction_error", "rad", "angle between the displacement after `settle` and downhill",
