@@ -2,6 +2,8 @@
 // as ours, conserved momentum, and the traps of each library.
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "dts/joint_forces.h"
 #include "reference/engines.h"
 #include "reference/robot_tree.h"
@@ -49,13 +51,13 @@ TEST(RobotTree, HasTheJointsOfOurEngine) {
     if (i % 3 != 0) link.lower_limit = -0.4;
     if (i % 2 != 0) link.upper_limit = 0.5;
     const double angle = unit(random), rate = 0.2 * unit(random);
-    dts::JointProperties<double> joint;
-    joint.damping = link.damping;
-    joint.friction = link.friction;
-    joint.stiffness = link.stiffness;
-    joint.rest_position = link.rest_angle;
-    if (link.lower_limit) joint.lower_limit = *link.lower_limit;
-    if (link.upper_limit) joint.upper_limit = *link.upper_limit;
+    constexpr double none = std::numeric_limits<double>::infinity();
+    const dts::JointProperties<double> joint{.damping = 0.1,
+                                             .friction = 0.3,
+                                             .stiffness = 20.,
+                                             .rest_position = 0.2,
+                                             .lower_limit = link.lower_limit.value_or(-none),
+                                             .upper_limit = link.upper_limit.value_or(none)};
     EXPECT_NEAR(reference::joint_passive_force(link, angle, rate),
                 dts::passive_joint_torque(joint, angle, rate), 1e-11);
   }
