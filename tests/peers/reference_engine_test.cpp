@@ -26,7 +26,7 @@ namespace {
 using namespace reference_scenes;
 
 /// The block's motion over 0.3 s, thrown at the ground so that the solver has work. Every other
-/// pair of runs falls on the tiles of a grid.
+/// pair of runs falls on the tiles of a grid, and every third block carries a pendulum.
 std::vector<double> trace(const reference::Peer& peer, int run) {
   simulation::Experiment experiment = sloped_block(15. * degree, 0.1 * run, 0.5, 1e-3);
   experiment.robots[0].location += Vector3d{0., 0., 0.02};
@@ -35,6 +35,14 @@ std::vector<double> trace(const reference::Peer& peer, int run) {
     experiment.terrain->spacing = 0.07;
     experiment.terrain->surface =
         simulation::GridSpec{20, 20, std::vector<double>(400, 0.), -0.7, -0.7};
+  }
+  if (run % 3 == 2) {
+    for (const double x : {-0.1, 0.1})
+      for (const double y : {-0.1, 0.1})
+        experiment.robots[0].base.boundary_points.push_back({x, y, -0.05});
+    simulation::LinkSpec& link = experiment.robots[0].chains.emplace_back().links.emplace_back();
+    link.alpha = 1.;
+    link.body.mass = {0.3, {0.1, 0., 0.}, {1e-3, 1e-3, 1e-3, 0., 0., 0.}};
   }
   const auto engine = peer.make(experiment);
   std::vector<double> values;
