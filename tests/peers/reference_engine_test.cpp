@@ -197,6 +197,17 @@ TEST(PeerEngine, RunsALegconeInBulletAndNamesItInOde) {
   }
 }
 
+// With a mixing of 0 four corners on a plane are a singular system (docs/reference_engines.md).
+TEST(PeerEngine, NeverRunsOdeWithoutMixing) {
+  for (const char* engine : {"ode", "ode_quickstep"})
+    for (const char* settings : {"default", "recommended", "matched"}) {
+      const auto constants = reference::constraint_constants(
+          engine, sloped_block(15. * degree, 0., 0.5, 1e-3, settings));
+      EXPECT_GE(constants.normal_mixing, 1e-10) << engine << settings;
+      EXPECT_GE(constants.tangential_mixing, 1e-10) << engine << settings;
+    }
+}
+
 TEST(PeerEngine, DescribesItselfAndEverySetting) {
   for (const auto& peer : reference::peers()) {
     const auto description = peer.describe();

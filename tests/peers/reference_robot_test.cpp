@@ -259,14 +259,23 @@ TEST(PeerRobot, SpinsAsFastAndAsFarAsItIsMade) {
   }
 }
 
-// A library that puts a resting robot to sleep leaves it asleep under a torque.
+// A library that puts what rests to sleep leaves it asleep under a torque or a force.
 TEST(PeerRobot, DoesNotSleep) {
   for (const auto& peer : reference::peers()) {
-    const auto engine = peer.make(one_joint(simulation::JointKind::revolute));
-    ASSERT_TRUE(run_until(*engine, 1e-3, 4.));
-    engine->inputs().joint_torques[0] = 1e-6;
-    ASSERT_TRUE(engine->step().ok());
-    EXPECT_NEAR(engine->state().joints[0].acceleration, 1e-6 / 0.23, 1e-9) << peer.name;
+    simulation::Experiment experiment = one_joint(simulation::JointKind::revolute);
+    experiment.robots.push_back(block());
+    experiment.forces.emplace_back().robot = 1;
+    simulation::Experiment alone = experiment;
+    alone.robots.erase(alone.robots.begin());
+    alone.forces[0].robot = 0;
+    const auto both = peer.make(experiment), block_only = peer.make(alone);
+    ASSERT_TRUE(run_until(*both, 1e-3, 4.) && run_until(*block_only, 1e-3, 4.));
+    both->inputs().joint_torques[0] = 1e-6;
+    both->inputs().forces[0].force = block_only->inputs().forces[0].force = {1e-6, 0., 0.};
+    ASSERT_TRUE(both->step().ok() && block_only->step().ok());
+    EXPECT_NEAR(both->state().joints[0].acceleration, 1e-6 / 0.23, 1e-9) << peer.name;
+    EXPECT_NEAR(both->state().bodies[2].velocity.x, 1e-9, 1e-15) << peer.name;
+    EXPECT_NEAR(block_only->state().bodies[0].velocity.x, 1e-9, 1e-15) << peer.name;
   }
 }
 
