@@ -27,7 +27,7 @@ namespace {
 using namespace reference_scenes;
 
 /// The block's motion over 0.3 s, thrown at the ground so that the solver has work. Every other
-/// pair of runs falls on the tiles of a grid.
+/// pair of runs falls on the tiles of a grid, and every third block carries a pendulum.
 std::vector<double> trace(const reference::Peer& peer, int run) {
   simulation::Experiment experiment = sloped_block(15. * degree, 0.1 * run, 0.5, 1e-3);
   experiment.robots[0].location += Vector3d{0., 0., 0.02};
@@ -36,6 +36,14 @@ std::vector<double> trace(const reference::Peer& peer, int run) {
     experiment.terrain->spacing = 0.07;
     experiment.terrain->surface =
         simulation::GridSpec{20, 20, std::vector<double>(400, 0.), -0.7, -0.7};
+  }
+  if (run % 3 == 2) {
+    for (const double x : {-0.1, 0.1})
+      for (const double y : {-0.1, 0.1})
+        experiment.robots[0].base.boundary_points.push_back({x, y, -0.05});
+    simulation::LinkSpec& link = experiment.robots[0].chains.emplace_back().links.emplace_back();
+    link.alpha = 1.;
+    link.body.mass = {0.3, {0.1, 0., 0.}, {1e-3, 1e-3, 1e-3, 0., 0., 0.}};
   }
   const auto engine = peer.make(experiment);
   std::vector<double> values;
@@ -196,6 +204,17 @@ TEST(PeerEngine, RunsALegconeOrNamesIt) {
     ASSERT_TRUE(run_until(*engine, 1e-3, 1.));
     EXPECT_NEAR(engine->state().bodies[0].position.z, 0.05, 5e-4);
   }
+}
+
+// With a mixing of 0 four corners on a plane are a singular system (docs/reference_engines.md).
+TEST(PeerEngine, NeverRunsOdeWithoutMixing) {
+  for (const char* engine : {"ode", "ode_quickstep"})
+    for (const char* settings : {"default", "recommended", "matched"}) {
+      const auto constants = reference::constraint_constants(
+          engine, sloped_block(15. * degree, 0., 0.5, 1e-3, settings));
+      EXPECT_GE(constants.normal_mixing, 1e-10) << engine << settings;
+      EXPECT_GE(constants.tangential_mixing, 1e-10) << engine << settings;
+    }
 }
 
 TEST(PeerEngine, DescribesItselfAndEverySetting) {

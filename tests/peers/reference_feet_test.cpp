@@ -175,17 +175,10 @@ TEST(PeerFeet, HaveTheFrictionOfTheirTile) {
 }
 
 TEST(PeerFeet, SlideOnTheTilesOfAGridAsOnAPlane) {
-  simulation::GridSpec grid;
-  grid.columns = grid.rows = 17;
-  grid.origin_x = grid.origin_y = -4.;
-  for (int row = 0; row < grid.rows; ++row)
-    for (int column = 0; column < grid.columns; ++column)
-      grid.heights.push_back(-std::tan(angle) * (grid.origin_x + 0.5 * column));
   const Vector3d downhill = slope_axes(angle, 0.).downhill;
   for (const auto& peer : reference::peers()) {
     simulation::Experiment experiment = sledge(angle, 0., 0.2, true);
-    experiment.terrain->spacing = 0.5;
-    experiment.terrain->surface = grid;
+    experiment.terrain = tilted_grid(angle);
     const auto engine = peer.make(experiment);
     EXPECT_NEAR(speed_after(*engine, downhill, 1.), coulomb, 0.01 * coulomb) << peer.name;
   }

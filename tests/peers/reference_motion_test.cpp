@@ -152,15 +152,7 @@ TEST(PeerMotion, RollsASphere) {
 
 TEST(PeerMotion, RollsASphereOverTheTilesOfAGrid) {
   const double angle = 15. * degree, expected = 5. / 7. * g * std::sin(angle);
-  simulation::GridSpec grid;
-  grid.columns = grid.rows = 17;
-  grid.origin_x = grid.origin_y = -4.;
-  for (int row = 0; row < grid.rows; ++row)
-    for (int column = 0; column < grid.columns; ++column)
-      grid.heights.push_back(-std::tan(angle) * (grid.origin_x + 0.5 * column));
-  simulation::TerrainSpec terrain;
-  terrain.spacing = 0.5;
-  terrain.surface = grid;
+  const simulation::TerrainSpec terrain = tilted_grid(angle);
   for (const auto& peer : reference::peers())
     EXPECT_NEAR(rolling_speed(peer, terrain, angle), expected, 5e-3 * expected) << peer.name;
 }

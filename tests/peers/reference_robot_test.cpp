@@ -2,6 +2,8 @@
 // as ours, conserved momentum, and the traps of each library.
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "dts/joint_forces.h"
 #include "reference/engines.h"
 #include "reference/robot_tree.h"
@@ -49,13 +51,13 @@ TEST(RobotTree, HasTheJointsOfOurEngine) {
     if (i % 3 != 0) link.lower_limit = -0.4;
     if (i % 2 != 0) link.upper_limit = 0.5;
     const double angle = unit(random), rate = 0.2 * unit(random);
-    dts::JointProperties<double> joint;
-    joint.damping = link.damping;
-    joint.friction = link.friction;
-    joint.stiffness = link.stiffness;
-    joint.rest_position = link.rest_angle;
-    if (link.lower_limit) joint.lower_limit = *link.lower_limit;
-    if (link.upper_limit) joint.upper_limit = *link.upper_limit;
+    constexpr double none = std::numeric_limits<double>::infinity();
+    const dts::JointProperties<double> joint{.damping = 0.1,
+                                             .friction = 0.3,
+                                             .stiffness = 20.,
+                                             .rest_position = 0.2,
+                                             .lower_limit = link.lower_limit.value_or(-none),
+                                             .upper_limit = link.upper_limit.value_or(none)};
     EXPECT_NEAR(reference::joint_passive_force(link, angle, rate),
                 dts::passive_joint_torque(joint, angle, rate), 1e-11);
   }
@@ -257,14 +259,23 @@ TEST(PeerRobot, SpinsAsFastAndAsFarAsItIsMade) {
   }
 }
 
-// A library that puts a resting robot to sleep leaves it asleep under a torque.
+// A library that puts what rests to sleep leaves it asleep under a torque or a force.
 TEST(PeerRobot, DoesNotSleep) {
   for (const auto& peer : reference::peers()) {
-    const auto engine = peer.make(one_joint(simulation::JointKind::revolute));
-    ASSERT_TRUE(run_until(*engine, 1e-3, 4.));
-    engine->inputs().joint_torques[0] = 1e-6;
-    ASSERT_TRUE(engine->step().ok());
-    EXPECT_NEAR(engine->state().joints[0].acceleration, 1e-6 / 0.23, 1e-9) << peer.name;
+    simulation::Experiment experiment = one_joint(simulation::JointKind::revolute);
+    experiment.robots.push_back(block());
+    experiment.forces.emplace_back().robot = 1;
+    simulation::Experiment alone = experiment;
+    alone.robots.erase(alone.robots.begin());
+    alone.forces[0].robot = 0;
+    const auto both = peer.make(experiment), block_only = peer.make(alone);
+    ASSERT_TRUE(run_until(*both, 1e-3, 4.) && run_until(*block_only, 1e-3, 4.));
+    both->inputs().joint_torques[0] = 1e-6;
+    both->inputs().forces[0].force = block_only->inputs().forces[0].force = {1e-6, 0., 0.};
+    ASSERT_TRUE(both->step().ok() && block_only->step().ok());
+    EXPECT_NEAR(both->state().joints[0].acceleration, 1e-6 / 0.23, 1e-9) << peer.name;
+    EXPECT_NEAR(both->state().bodies[2].velocity.x, 1e-9, 1e-15) << peer.name;
+    EXPECT_NEAR(block_only->state().bodies[0].velocity.x, 1e-9, 1e-15) << peer.name;
   }
 }
 

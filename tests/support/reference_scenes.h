@@ -66,6 +66,20 @@ inline simulation::Experiment sloped_block(double angle, double azimuth, double 
   return experiment;
 }
 
+/// A slope that falls along +x, as tiles of a grid with cells of 0.5 m, 8 m wide.
+inline simulation::TerrainSpec tilted_grid(double angle) {
+  simulation::GridSpec grid;
+  grid.columns = grid.rows = 17;
+  grid.origin_x = grid.origin_y = -4.;
+  for (int row = 0; row < grid.rows; ++row)
+    for (int column = 0; column < grid.columns; ++column)
+      grid.heights.push_back(-std::tan(angle) * (grid.origin_x + 0.5 * column));
+  simulation::TerrainSpec terrain;
+  terrain.spacing = 0.5;
+  terrain.surface = grid;
+  return terrain;
+}
+
 /// Steps until `time` [s]; false when a step fails.
 inline bool run_until(simulation::Engine& engine, double deltat, double time) {
   const auto last = static_cast<std::int64_t>(std::llround(time / deltat));

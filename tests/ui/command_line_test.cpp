@@ -52,9 +52,9 @@ INSTANTIATE_TEST_SUITE_P(
                    "did you mean `block.base.location.x`?"},
         WrongInput{"run " + block + " --set world.contact=impulse --set world.integrator=rk4",
                    "cannot be paired with rk4"},
-        WrongInput{
-            "run " + config("paper/fig7_two_joint_arm.hook") + " --set SimpleWorld.engine=ode",
-            "ode"},
+        WrongInput{"run " + config("paper/fig7_two_joint_arm.hook") +
+                       " --set SimpleWorld.engine=ode --movie",
+                   "engine `ode` cannot be saved"},
         WrongInput{"study " + block, "holds no Study, no Wall and no Matrix"},
         WrongInput{"study " + config("studies/creep.hook") + " --jobs 0",
                    "--jobs takes a whole number"},
