@@ -168,8 +168,9 @@ void DtsRobot::apply_contact_forces(bool trial) {
           const auto& material = experiment_->materials[tile.material].constants;
           const contact::BallFrame frame = ball_frame(point, body, tile);
           const contact::Memory<double> memory = point.carried(frame);
-          if (!trial) point.inside = tile.depth > 0.;
-          const double depth = adaptive_ ? point.depth_on_side(tile.depth) : tile.depth;
+          const double reach = law.reach(material);
+          if (!trial) point.inside = tile.depth > -reach;
+          const double depth = adaptive_ ? point.depth_on_side(tile.depth, reach) : tile.depth;
           contact::PointKinematics<double> kinematics{position, touching.velocity, tile.normal,
                                                       depth, bristle_at(bristles_, i)};
           if (!trial) kinematics = contact::held_point(law, kinematics, memory, material, dt);

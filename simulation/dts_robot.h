@@ -32,19 +32,20 @@ struct ContactPoint {
   contact::Memory<double> pending;    ///< to be committed when the step from this state is taken
   /// Of a ball: how it stood when `before`, `committed` and `pending` were made.
   contact::BallFrame before_frame, committed_frame, pending_frame;
-  Vector3d position;  ///< where it touches: p_WP less radius times the normal [m]
-  Vector3d normal;    ///< of the tile under p_WP
-  double depth = 0.;  ///< > 0 inside the ground [m]
-  int material = 0;   ///< of the tile under it
-  Vector3d force;     ///< on the robot, world axes [N]
-  bool inside = false;  ///< depth > 0 at the accepted state before this one
+  Vector3d position;    ///< where it touches: p_WP less radius times the normal [m]
+  Vector3d normal;      ///< of the tile under p_WP
+  double depth = 0.;    ///< > 0 inside the ground [m]
+  int material = 0;     ///< of the tile under it
+  Vector3d force;       ///< on the robot, world axes [N]
+  bool inside = false;  ///< the law reached it at the accepted state before this one
 
   /// The depth that the law gets from an adaptive integrator: a point stays on its side of the
-  /// surface until the event at which it crosses has been reached, so that no step meets a jump.
-  double depth_on_side(double depth_now) const;
-  /// Changes sign where the point leaves its side, a hair behind the surface: there it is on the
+  /// surface where the law begins, `reach` above the ground [m], until the event at which it
+  /// crosses has been reached, so that no step meets a jump.
+  double depth_on_side(double depth_now, double reach) const;
+  /// Changes sign where the point leaves its side, a hair behind that surface: there it is on the
   /// other side, and the event is not met again at its own restart.
-  double side_event(double depth_now) const;
+  double side_event(double depth_now, double reach) const;
 
   /// The step from the refreshed state is taken.
   void commit() {
@@ -73,7 +74,8 @@ contact::BallFrame ball_frame(const ContactPoint& point, const dts::BodyMotion<d
 
 /// Layout of positions: p_WB (3), R_WB as w x y z (4) of a mobile base, then joint positions; of
 /// velocities: w_WB (3), v_WB (3), then joint rates (dts/configuration.h), then, of a law with
-/// bristles, those of each boundary point: they are integrated like velocities and move no position.
+/// bristles, those of each boundary point: they are integrated like velocities and move no
+/// position.
 class DtsRobot final : public integrators::System {
  public:
   /// `ground` may be null: no contact. All that is referred to outlives the robot.
@@ -133,6 +135,7 @@ class DtsRobot final : public integrators::System {
                     std::span<double> du) const override;
   void commit(double time, double dt, std::span<const double> q,
               std::span<const double> v) override;
+  void begin_anew(std::span<double> v) override;
   /// Events: each boundary point's depth and, while it slips, its speed along its stretch; each
   /// joint limit.
   std::size_t event_count() const override;
