@@ -11,9 +11,8 @@
 #include "output/json.h"
 
 namespace hookpoint::cli {
-namespace {
 
-void print_json(const Application& application) {
+std::string engines_json(const Application& application) {
   output::JsonWriter json;
   json.begin_object().key("engines").begin_array();
   for (const auto& [name, engine] : application.engines()) {
@@ -44,8 +43,10 @@ void print_json(const Application& application) {
         .end_object();
   }
   json.end_array().end_object();
-  std::cout << json.text();
+  return json.text();
 }
+
+namespace {
 
 void print_table(const Application& application) {
   fmt::print("{:<16} {:<10} {:<9} {:<6} {}\n", "engine", "version", "precision", "found",
@@ -69,7 +70,7 @@ void print_table(const Application& application) {
 int engines(bool json) {
   const Application application;
   if (json) {
-    print_json(application);
+    std::cout << engines_json(application);
   } else {
     print_table(application);
   }

@@ -112,27 +112,6 @@ int run_one(Application& application, const StudyPlan& plan, const StudyArgument
   return report.messages.empty() ? fine : missing;
 }
 
-std::vector<std::string> scene_files(const language::Object& root) {
-  std::vector<std::string> files;
-  for (const language::Object* study : root.children_of("Study"))
-    files.push_back(study->word("scene"));
-  for (const language::Object* wall : root.children_of("Wall")) {
-    for (const language::Object* scene : wall->children_of("Scene"))
-      files.push_back(studies::scene_file(*scene));
-  }
-  return files;
-}
-
-/// A scene may name plugins that the study does not. False after errors, which are printed.
-bool load_scene_plugins(Application& application, const language::Object& root,
-                        const std::filesystem::path& file) {
-  for (const std::string& scene : scene_files(root)) {
-    const std::filesystem::path found = application.library().find(scene, file);
-    if (!found.empty() && !application.load_plugins(found)) return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 int study(const StudyArguments& arguments) {
@@ -145,7 +124,7 @@ int study(const StudyArguments& arguments) {
                 " holds no Study and no Wall; `hookpoint run` runs a world");
     return wrong_input;
   }
-  if (!load_scene_plugins(application, *root, arguments.file)) return wrong_input;
+  if (!application.load_scene_plugins(*root, arguments.file)) return wrong_input;
   std::vector<StudyPlan> plans;
   for (const language::Object* object : studies) {
     language::Diagnostics diagnostics;

@@ -11,16 +11,18 @@
 
 namespace hookpoint::cli {
 
+class Application;
+
 struct RunArguments {
   std::filesystem::path file;
   std::vector<std::string> settings;    ///< trail=value
   std::optional<std::string> duration;  ///< "10 s"
   std::optional<std::filesystem::path> out;
-  std::vector<std::string> record;  ///< trails
+  std::vector<std::string> record;              ///< trails
   std::optional<std::filesystem::path> movie;   ///< --movie; empty: movie.h5 in the run's folder
   std::optional<std::filesystem::path> resume;  ///< a movie to go on from, instead of `file`
   std::optional<std::string> at;                ///< moment of it; none: its last
-  bool allow_plugins = false;       ///< of any folder; here and below: see Application
+  bool allow_plugins = false;                   ///< of any folder; here and below: see Application
 };
 int run(const RunArguments& arguments);
 /// run --resume: goes on from a moment of a movie.
@@ -85,6 +87,8 @@ int advise(const AdviseArguments& arguments);
 
 /// engines: every engine, law and integrator.
 int engines(bool json);
+/// The same as JSON.
+std::string engines_json(const Application& application);
 
 /// What FILE.hook without a command means: true when it holds a Study, false for a world; none when
 /// it has errors, which are printed.
