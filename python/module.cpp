@@ -1,4 +1,5 @@
 // import hookpoint: what Python sees.
+#include <dlfcn.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -117,12 +118,21 @@ void add_functions(py::module_& module) {
       "dicts.");
 }
 
+/// Plugins find what they need of hookpoint among the global names, where python3 does not put
+/// those of a module.
+void share_names() {
+  Dl_info self;
+  if (dladdr(reinterpret_cast<const void*>(&share_names), &self) != 0)
+    dlopen(self.dli_fname, RTLD_LAZY | RTLD_NOLOAD | RTLD_GLOBAL);
+}
+
 }  // namespace
 }  // namespace hookpoint::python
 
 PYBIND11_MODULE(hookpoint, module) {
   module.doc() = "Dynamics of legged robots under comparable contact models (docs/python.md).";
   module.attr("__version__") = HOOKPOINT_VERSION;
+  hookpoint::python::share_names();
   hookpoint::python::add_errors(module);
   hookpoint::python::add_world(module);
   hookpoint::python::add_functions(module);

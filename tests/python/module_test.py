@@ -179,6 +179,19 @@ class World(unittest.TestCase):
         for column, values in enumerate(trace.values()):
             np.testing.assert_array_equal(table[:, column], values)
 
+    def test_a_plugin_brings_its_class_if_it_may(self):
+        plugin = os.environ["HOOKPOINT_PLUGIN"]
+        text = f'Plugin "{plugin}";\n' + FALLING + \
+            "Test.Doubler twice { Wire FROM w.ball.base.location.z TO in; }"
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "doubled.hook"
+            file.write_text(text)
+            with self.assertRaisesRegex(hookpoint.FileError, "is refused"):
+                hookpoint.load(file)
+            world = hookpoint.load(file, allow_plugins=True)
+        world.step(10)
+        self.assertEqual(world["twice.output"], 2 * world["ball.base.location.z"])
+
 
 class Study(unittest.TestCase):
     def test_the_table_is_that_of_results_csv(self):
@@ -205,6 +218,15 @@ class Study(unittest.TestCase):
         self.assertLess(table["creep_speed [m/s]"][sticks & (table["subject"] == "hookpoint")].max(), 1e-9)
         self.assertTrue(all(truth["failed"] == 0 for truth in result["truths"]))
         self.assertTrue(any("realtime_factor" in title for title in result["timing"]))
+
+    def test_ctrl_c_stops_a_study(self):
+        timer = threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT))
+        timer.start()
+        with tempfile.TemporaryDirectory() as folder:
+            with self.assertRaises(KeyboardInterrupt):
+                hookpoint.study(CONFIGS / "studies" / "creep.hook", out=folder)
+            self.assertFalse((pathlib.Path(folder) / "results.csv").exists())
+            self.assertTrue(list((pathlib.Path(folder) / "rows").iterdir()))
 
     def test_mistakes_are_exceptions(self):
         with self.assertRaisesRegex(hookpoint.Error, "holds no Study"):
