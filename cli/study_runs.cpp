@@ -12,7 +12,6 @@
 #include "studies/run.h"
 #include "studies/terminal_table.h"
 #include "studies/verdict.h"
-#include "studies/wall.h"
 
 namespace hookpoint::cli {
 namespace {
@@ -52,17 +51,6 @@ std::vector<std::string> result_files(const StudyRun& run) {
   std::vector<std::string> files{"results.csv"};
   if (std::filesystem::exists(run.folder / "timing.csv")) files.emplace_back("timing.csv");
   files.insert(files.end(), {"experiment.hook", "scene.hook", "provenance.json"});
-  return files;
-}
-
-std::vector<std::string> scene_files(const language::Object& root) {
-  std::vector<std::string> files;
-  for (const language::Object* study : root.children_of("Study"))
-    files.push_back(study->word("scene"));
-  for (const language::Object* wall : root.children_of("Wall")) {
-    for (const language::Object* scene : wall->children_of("Scene"))
-      files.push_back(studies::scene_file(*scene));
-  }
   return files;
 }
 
@@ -117,15 +105,6 @@ StudyOutcome run_one_study(Application& application, const StudyPlan& plan,
                      : report.messages.empty()             ? fine
                                                            : missing;
   return {status, std::move(run.result), report.figures};
-}
-
-bool load_scene_plugins(Application& application, const language::Object& root,
-                        const std::filesystem::path& file) {
-  for (const std::string& scene : scene_files(root)) {
-    const std::filesystem::path found = application.library().find(scene, file);
-    if (!found.empty() && !application.load_plugins(found)) return false;
-  }
-  return true;
 }
 
 }  // namespace hookpoint::cli

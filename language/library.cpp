@@ -19,6 +19,10 @@ Library::Library(const Schema& schema, std::vector<std::filesystem::path> search
 
 Library::~Library() = default;
 
+void Library::give(const std::filesystem::path& path, std::string text) {
+  implementation_->files.give(path, std::move(text));
+}
+
 std::unique_ptr<Object> Library::evaluate(const std::filesystem::path& file,
                                           const EvaluateOptions& options,
                                           Diagnostics& diagnostics) {
