@@ -62,7 +62,9 @@ void add_patch(const simulation::Experiment& experiment, int patch, std::vector<
       own.normal_damping != ground.normal_damping ||
       own.tangential_stiffness != ground.tangential_stiffness ||
       own.tangential_damping != ground.tangential_damping)
-    uses.push_back({feature::tile_softness, name + " has a stiffness or damping of its own"});
+    uses.push_back(
+        {experiment.settings == "matched" ? feature::tile_softness : feature::unmatched_softness,
+         name + " has a stiffness or damping of its own"});
   if (own.restitution != ground.restitution)
     uses.push_back({feature::tile_restitution, name + " has a restitution of its own"});
 }
@@ -102,6 +104,8 @@ std::vector<EngineGap> common_gaps() {
        "the engine has its own; `contact` and `integrator` are not read, and a material's "
        "stiffness "
        "and damping only at `settings = matched`"},
+      {std::string(feature::unmatched_softness), noticed,
+       "without `settings = matched` the engine gives all ground the softness of its own"},
       {std::string(feature::hips), refused, "choose engine dts"},
       {std::string(feature::saving), refused,
        "the library keeps to itself what its solver remembers; choose engine dts"},

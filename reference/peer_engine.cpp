@@ -7,7 +7,6 @@
 #include <optional>
 #include <utility>
 
-#include "reference/experiment_checks.h"
 #include "reference/touching_points.h"
 
 namespace hookpoint::reference {
@@ -125,9 +124,7 @@ class PeerEngine final : public simulation::Engine {
       if (at == touching_.end() || !ground_) continue;
       const Meeting meeting = meet(*ground_, *at, state_.bodies[body]);
       const Vector3d& force = point_forces_[static_cast<std::size_t>(at - touching_.begin())];
-      const double mu = single_friction(material_at(experiment_, meeting.material));
-      state_.points[i] = {meeting.position, force, meeting.position, meeting.depth,
-                          slides(force, meeting.normal, mu)};
+      state_.points[i] = point_state(meeting, state_.bodies[body], force);
     }
   }
 

@@ -43,14 +43,21 @@ RobotTree robot_tree(const simulation::Experiment& experiment) {
     const auto base = static_cast<int>(tree.bodies.size());
     const auto number = static_cast<int>(i);
     tree.bases.push_back(tree.bodies.size());
-    tree.bodies.push_back(
-        {&robot.base, nullptr, number, -1, -1, robot.mobile, {}, initial_base(robot)});
+    tree.bodies.push_back({std::make_shared<simulation::BodySpec>(robot.base),
+                           nullptr,
+                           number,
+                           -1,
+                           -1,
+                           robot.mobile,
+                           {},
+                           initial_base(robot)});
     for (const simulation::ChainSpec& chain : robot.chains) {
       int parent = base;
       Pose before{chain.hip_distance, chain.hip_orientation};
       for (const LinkSpec& link : chain.links) {
-        TreeBody body{&link.body,
-                      &link,
+        const auto copy = std::make_shared<LinkSpec>(link);
+        TreeBody body{std::shared_ptr<const simulation::BodySpec>(copy, &copy->body),
+                      copy,
                       number,
                       parent,
                       static_cast<int>(tree.joints++),

@@ -2,6 +2,7 @@
 // what a peer builds its bodies and joints from.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "simulation/engine.h"
@@ -10,8 +11,9 @@
 namespace hookpoint::reference {
 
 struct TreeBody {
-  const simulation::BodySpec* body = nullptr;  ///< of the experiment, as all pointers here
-  const simulation::LinkSpec* link = nullptr;  ///< null: a base
+  std::shared_ptr<const simulation::BodySpec> body;  ///< copies: an experiment may end before
+  std::shared_ptr<const simulation::LinkSpec>
+      link;  ///< the world that was built of it; null: a base
   int robot = 0;
   int parent = -1;     ///< index in this list of the body that carries it; -1: a base
   int joint = -1;      ///< index among all joints, as published; -1: a base
@@ -36,7 +38,6 @@ struct RobotTree {
   }
 };
 
-/// `experiment` must outlive the tree.
 RobotTree robot_tree(const simulation::Experiment& experiment);
 
 /// How a link stands and moves on a body that stands and moves as `parent` does, at a joint

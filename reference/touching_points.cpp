@@ -32,9 +32,14 @@ Meeting meet(const contact::Terrain& ground, const TouchingPoint& point,
           tile.material};
 }
 
-double slides(const Vector3d& force, const Vector3d& normal, double mu) {
-  const double pressing = dot(force, normal);
-  return pressing > 0. && norm(force - pressing * normal) >= 0.999 * mu * pressing ? 1. : 0.;
+simulation::PointState point_state(const Meeting& meeting, const simulation::BodyState& body,
+                                   const Vector3d& force) {
+  constexpr double slip_speed = 1e-3;
+  const Vector3d& n = meeting.normal;
+  const Vector3d velocity =
+      body.velocity + cross(body.angular_velocity, meeting.position - body.position);
+  const bool slides = dot(force, n) > 0. && norm(velocity - dot(velocity, n) * n) > slip_speed;
+  return {meeting.position, force, meeting.position, meeting.depth, slides ? 1. : 0.};
 }
 
 }  // namespace hookpoint::reference

@@ -40,7 +40,10 @@ struct Meeting {
 Meeting meet(const contact::Terrain& ground, const TouchingPoint& point,
              const simulation::BodyState& body);
 
-/// 1 where the contact is at its limit of friction, else 0: |f_t| >= 0.999 mu N with N > 0.
-double slides(const Vector3d& force, const Vector3d& normal, double mu);
+/// How a named ContactPoint is published, under the force of the step that led to `body`. It slides
+/// where it carries and its material moves along the tile faster than 1 mm/s: no library says which
+/// of its contacts slip, and ODE's forces are not at their own limits there (docs).
+simulation::PointState point_state(const Meeting& meeting, const simulation::BodyState& body,
+                                   const Vector3d& force);
 
 }  // namespace hookpoint::reference

@@ -28,6 +28,11 @@ bool ExpectationSpec::covers(std::string_view law, std::string_view integrator) 
          (integrators.empty() || holds(integrators, integrator));
 }
 
+bool ExpectationSpec::covers(const Experiment& experiment) const {
+  if (experiment.engine != "dts") return laws.empty() && integrators.empty();
+  return covers(experiment.contact, experiment.integrator);
+}
+
 /// Where the straight line between two samples crosses the level.
 void Reducer::find_crossing(double time, double value) {
   if (crossing_) return;
@@ -97,7 +102,7 @@ bool ExpectationResult::ok() const {
 
 Expectations::Expectations(const Experiment& experiment, const std::vector<Port>& ports) {
   for (const ExpectationSpec& spec : experiment.expectations) {
-    if (!spec.covers(experiment.contact, experiment.integrator)) continue;
+    if (!spec.covers(experiment)) continue;
     watched_.push_back({&spec, find_port(experiment, ports, spec.trail).value, Reducer(spec)});
   }
 }

@@ -192,6 +192,8 @@ struct FileSpec {
 /// What becomes of a port's values over a time.
 enum class Reduction { final, maximum, minimum, mean, rms, range, change, slope, time_at };
 
+struct Experiment;
+
 /// What the run must show: a truth that comes with the scene.
 struct ExpectationSpec {
   std::string name;
@@ -209,8 +211,11 @@ struct ExpectationSpec {
   std::vector<std::string> laws, except_laws;  ///< no law: all
   std::vector<std::string> integrators;        ///< none: all
 
-  /// Whether it says something of a run under that law and integrator.
+  /// Whether it says something of a run under that law and integrator of our engine.
   bool covers(std::string_view law, std::string_view integrator) const;
+  /// Whether it says something of a run of `experiment`. A peer has neither our laws nor our
+  /// integrators, so what names some says nothing of it.
+  bool covers(const Experiment& experiment) const;
 };
 
 struct Experiment {

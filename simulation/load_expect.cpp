@@ -47,7 +47,7 @@ class ExpectationLoader {
     spec_.integrators = known_words("integrators", integrator_names());
     // Under another law the port may not exist.
     const Experiment& experiment = loading_.experiment;
-    if (spec_.covers(experiment.contact, experiment.integrator)) find_number_port();
+    if (spec_.covers(experiment)) find_number_port();
     loading_.experiment.expectations.push_back(std::move(spec_));
   }
 

@@ -62,6 +62,8 @@ BodyOnPlane body_on_plane(const RunContext& context) {
   if (!body.peer) body.law = contact::find_force_law(experiment.contact);
   const int material = context.ground->query(context.start).material;
   body.material = experiment.materials[static_cast<std::size_t>(material)].constants;
+  // A peer has one coefficient of friction, the kinetic (reference/experiment_checks.h).
+  if (body.peer) body.material.static_friction = body.material.kinetic_friction;
 
   const Quaterniond& R_WB = context.robot_spec().orientation;
   double lowest = std::numeric_limits<double>::infinity();

@@ -124,7 +124,7 @@ WallLine& line_of(WallResult& result, std::size_t scene, const ExpectationSpec& 
 void add_outcome(WallResult& result, const RowPlan& row, const RunOutcome& outcome) {
   const auto scene = static_cast<std::size_t>(row.values[0]);
   for (const ExpectationSpec& spec : row.experiment.expectations) {
-    if (!spec.covers(row.experiment.contact, row.experiment.integrator)) continue;
+    if (!spec.covers(row.experiment)) continue;
     WallCell& cell = line_of(result, scene, spec).cells[static_cast<std::size_t>(row.subject)];
     cell.expected = spec.expected;
     cell.status = outcome.status;

@@ -99,6 +99,17 @@ TEST(Expect, CoversTheLawsThatItNames) {
   EXPECT_FALSE(spec.covers("lugre", "rk4"));
 }
 
+TEST(Expect, SaysNothingOfAPeerWhereItNamesLawsOrIntegrators) {
+  ExpectationSpec spec;
+  simulation::Experiment experiment;
+  spec.integrators = {experiment.integrator};
+  EXPECT_TRUE(spec.covers(experiment));
+  experiment.engine = "ode";
+  EXPECT_FALSE(spec.covers(experiment));
+  spec.integrators = {};
+  EXPECT_TRUE(spec.covers(experiment));
+}
+
 struct Wrong {
   const char* name;
   const char* fields;  ///< of the Expect, on line 2
