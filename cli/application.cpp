@@ -6,6 +6,7 @@
 
 #include "cli/installation.h"
 #include "control/plugin.h"
+#include "reference/creep.h"
 #include "reference/engines.h"
 #include "reference/mujoco_friction.h"
 #include "simulation/dts_engine.h"
@@ -42,14 +43,17 @@ language::Schema make_schema() {
 }
 
 /// Sticking contacts of ODE's exact solver yield by CFM times their friction, those of MuJoCo by
-/// their regularisation; ODE's iterative solver and Bullet have no closed form.
+/// their regularisation, those of DART by a part of their rows' own diagonal, and Simbody's are a
+/// function of speed; ODE's iterative solver and Bullet have no closed form.
 std::optional<double> ode_friction_mixing(const simulation::Experiment& experiment) {
   return reference::constraint_constants("ode", experiment).tangential_mixing;
 }
 auto friction_mixing_of(std::string_view peer) {
-  return peer == "ode"      ? ode_friction_mixing
-         : peer == "mujoco" ? reference::mujoco_friction_mixing
-                            : nullptr;
+  return peer == "ode"       ? ode_friction_mixing
+         : peer == "mujoco"  ? reference::mujoco_friction_mixing
+         : peer == "dart"    ? reference::dart_friction_mixing
+         : peer == "simbody" ? reference::simbody_friction_mixing
+                             : nullptr;
 }
 
 std::vector<std::string> scene_files(const language::Object& root) {

@@ -103,6 +103,8 @@ TEST(PeerRobot, AcceleratesFromRestAsOurs) {
       // QuickStep iterates on the joints too: 9 % with 20 iterations, 1e-4 with 100.
       const bool iterates = peer.name == "ode_quickstep";
       if (iterates) experiment.settings = "recommended";
+      // Simbody integrates along the step: its mean acceleration is of the middle's geometry.
+      if (peer.name == "simbody") experiment.deltat = 1e-3;
       EXPECT_LT(acceleration_error(peer.make, experiment), iterates ? 1e-3 : 1e-8)
           << peer.name << (mobile ? "" : ", fixed base");
     }
@@ -196,7 +198,7 @@ simulation::Experiment one_joint(simulation::JointKind joint) {
   simulation::LinkSpec& link = robot.chains[0].links.emplace_back();
   link.body.name = "link";
   link.joint = joint;
-  link.body.mass = {2., {0.3, 0., 0.}, {0.01, 0.02, 0.05, 0., 0., 0.}};
+  link.body.mass = {2., {0.3, 0., 0.}, {0.03, 0.04, 0.05, 0., 0., 0.}};
   simulation::Experiment experiment = empty_world(0.5, 1e-3, "default");
   experiment.gravity = {};
   experiment.robots.push_back(robot);
@@ -225,7 +227,9 @@ TEST(PeerRobot, IsDrivenByJointTorquesAndForcesOnLinks) {
           turns ? (own + 0.5 * 3. + 0.7) / (0.05 + 2. * 0.3 * 0.3) : (own + 1.5) / 2.;
       EXPECT_NEAR(joint.acceleration, expected, 1e-5 * expected) << peer.name;
       EXPECT_NEAR(joint.rate, 0.5 + 1e-3 * expected, 1e-7) << peer.name;
-      EXPECT_NEAR(joint.angle, 1e-3 * joint.rate, 1e-7) << peer.name;
+      // Simbody's steps are finer: the angle goes with the mean rate.
+      const double rate = peer.name == "simbody" ? 0.5 * (0.5 + joint.rate) : joint.rate;
+      EXPECT_NEAR(joint.angle, 1e-3 * rate, 1e-7) << peer.name;
       EXPECT_EQ(joint.torque, own) << peer.name;
     }
 }

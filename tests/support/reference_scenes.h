@@ -1,11 +1,16 @@
 // Scenes of the peers' tests, built without the language: a block on a slope, a free body.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <string>
+#include <string_view>
 
+#include "reference/engines.h"
+#include "reference/experiment_checks.h"
 #include "simulation/engine.h"
 
 namespace hookpoint::reference_scenes {
@@ -95,6 +100,18 @@ inline double creep_speed(simulation::Engine& engine, const Vector3d& downhill, 
   const double start = dot(engine.state().bodies[0].position, downhill);
   run_until(engine, deltat, to);
   return (dot(engine.state().bodies[0].position, downhill) - start) / (to - from);
+}
+
+/// How the peer handles `feature` where it does not do as our engine does.
+inline std::optional<simulation::EngineGap::Handling> gap_of(const reference::Peer& peer,
+                                                             std::string_view feature) {
+  const auto gaps = peer.describe().gaps;
+  const auto gap = std::ranges::find(gaps, feature, &simulation::EngineGap::feature);
+  if (gap == gaps.end()) return std::nullopt;
+  return gap->handling;
+}
+inline bool refuses(const reference::Peer& peer, std::string_view feature) {
+  return gap_of(peer, feature) == simulation::EngineGap::Handling::refused;
 }
 
 }  // namespace hookpoint::reference_scenes
