@@ -77,7 +77,7 @@ int run_one(Application& application, const StudyPlan& plan, const StudyArgument
                                           studies::InterruptGuard::stop());
   bar.end();
   for (const std::string& notice : run.notices) std::cerr << "hookpoint: note: " << notice << '\n';
-  if (run.interrupted) return interrupted(run.folder, rerun_command(arguments));
+  if (run.interrupted) return interrupted(run.folder, rerun_command(arguments), arguments);
   const studies::ReportContext context{rerun_command(arguments), peer_settings(run.result),
                                        studies::provenance_lines(run.provenance),
                                        result_files(run)};

@@ -32,11 +32,11 @@ struct ContactPoint {
   contact::Memory<double> pending;    ///< to be committed when the step from this state is taken
   /// Of a ball: how it stood when `before`, `committed` and `pending` were made.
   contact::BallFrame before_frame, committed_frame, pending_frame;
-  Vector3d position;  ///< where it touches: p_WP less radius times the normal [m]
-  Vector3d normal;    ///< of the tile under p_WP
-  double depth = 0.;  ///< > 0 inside the ground [m]
-  int material = 0;   ///< of the tile under it
-  Vector3d force;     ///< on the robot, world axes [N]
+  Vector3d position;    ///< where it touches: p_WP less radius times the normal [m]
+  Vector3d normal;      ///< of the tile under p_WP
+  double depth = 0.;    ///< > 0 inside the ground [m]
+  int material = 0;     ///< of the tile under it
+  Vector3d force;       ///< on the robot, world axes [N]
   bool inside = false;  ///< depth > 0 at the accepted state before this one
 
   /// The depth that the law gets from an adaptive integrator: a point stays on its side of the
@@ -73,7 +73,8 @@ contact::BallFrame ball_frame(const ContactPoint& point, const dts::BodyMotion<d
 
 /// Layout of positions: p_WB (3), R_WB as w x y z (4) of a mobile base, then joint positions; of
 /// velocities: w_WB (3), v_WB (3), then joint rates (dts/configuration.h), then, of a law with
-/// bristles, those of each boundary point: they are integrated like velocities and move no position.
+/// bristles, those of each boundary point: they are integrated like velocities and move no
+/// position.
 class DtsRobot final : public integrators::System {
  public:
   /// `ground` may be null: no contact. All that is referred to outlives the robot.
