@@ -27,9 +27,11 @@ studies::RunOptions run_options(const StudyArguments& arguments,
   return options;
 }
 
-int interrupted(const std::filesystem::path& folder, const std::string& command) {
+int interrupted(const std::filesystem::path& folder, const std::string& command,
+                const StudyArguments& arguments) {
+  const std::string out = arguments.out ? " --out " + arguments.out->string() : "";
   print_error("interrupted; what is finished is kept in " + folder.string() + ": `" + command +
-              " --resume` goes on from there");
+              out + " --resume` goes on from there");
   return truth_failed;
 }
 

@@ -29,7 +29,9 @@ class RunBar {
 studies::RunOptions run_options(const StudyArguments& arguments,
                                 const std::filesystem::path& folder, RunBar& bar);
 
-/// Says that what is finished is kept in `folder`, and how to go on. The exit status.
-int interrupted(const std::filesystem::path& folder, const std::string& command);
+/// Says that what is finished is kept in `folder`, and how to go on: `command` with the folder that
+/// the arguments name. The exit status.
+int interrupted(const std::filesystem::path& folder, const std::string& command,
+                const StudyArguments& arguments);
 
 }  // namespace hookpoint::cli

@@ -90,7 +90,7 @@ StudyOutcome run_one_study(Application& application, const StudyPlan& plan,
                          studies::InterruptGuard::stop());
   bar.end();
   for (const std::string& notice : run.notices) std::cerr << "hookpoint: note: " << notice << '\n';
-  if (run.interrupted) return {interrupted(run.folder, command), std::nullopt, {}};
+  if (run.interrupted) return {interrupted(run.folder, command, arguments), std::nullopt, {}};
   const studies::ReportContext context{command, peer_settings(run.result),
                                        studies::provenance_lines(run.provenance),
                                        result_files(run)};

@@ -27,7 +27,7 @@ int run_one(Application& application, const studies::WallPlan& plan,
   const auto result =
       studies::run_wall(plan, application.engines(), options, studies::InterruptGuard::stop());
   bar.end();
-  if (!result) return interrupted(folder, command);
+  if (!result) return interrupted(folder, command, arguments);
   const studies::Provenance provenance =
       studies::make_provenance(plan.study, application.engines());
   studies::write_wall_files(folder, plan, *result, provenance);
