@@ -172,9 +172,11 @@ void DtsRobot::apply_contact_forces(bool trial) {
           contact::PointKinematics<double> kinematics{position, touching.velocity, tile.normal,
                                                       depth, bristle_at(bristles_, i)};
           if (!trial) kinematics = contact::held_point(law, kinematics, memory, material, dt);
-          const auto reaction = semi_implicit_ ? contact::semi_implicit_reaction(
-                                                     law, kinematics, memory, material, dt)
-                                               : law.evaluate(kinematics, memory, material, dt);
+          contact::Reaction<double> reaction;
+          if (depth > -law.reach(material))  // beyond it the law gives and remembers nothing
+            reaction = semi_implicit_
+                           ? contact::semi_implicit_reaction(law, kinematics, memory, material, dt)
+                           : law.evaluate(kinematics, memory, material, dt);
           if (reaction.next.attached)
             dts::add_external_force(workspace_, point.body, reaction.force, position);
           put_bristle(reaction.bristle_rate, i, bristle_rates_);
