@@ -175,7 +175,7 @@ void DtsRobot::apply_contact_forces(bool trial) {
                                                       depth, bristle_at(bristles_, i)};
           if (!trial) kinematics = contact::held_point(law, kinematics, memory, material, dt);
           contact::Reaction<double> reaction;
-          if (depth > -law.reach(material))  // beyond it the law gives and remembers nothing
+          if (depth > -reach)  // beyond it the law gives and remembers nothing
             reaction = semi_implicit_
                            ? contact::semi_implicit_reaction(law, kinematics, memory, material, dt)
                            : law.evaluate(kinematics, memory, material, dt);

@@ -195,8 +195,9 @@ double robot_ledger(simulation::Experiment plate, const char* law, const char* i
 // It bounces, slides and comes to stick, over 10 to 80 touch-downs and lift-offs.
 TEST(RobotLedger, ClosesWithCvodeThroughBouncesAndSlip) {
   const auto plate = *load_text(plate_with_arm).experiment;
-  EXPECT_LE(robot_ledger(plate, "azad_featherstone", "cvode_adams", 1e-13), 1e-10);
-  for (const char* law : {"hunt_crossley", "lugre", "elastoplastic", "exponential"})
+  for (const char* law : {"azad_featherstone", "lugre"})
+    EXPECT_LE(robot_ledger(plate, law, "cvode_adams", 1e-13), 1e-10) << law;
+  for (const char* law : {"hunt_crossley", "elastoplastic", "exponential"})
     EXPECT_LE(robot_ledger(plate, law, "cvode_adams", 3e-13), 1e-10) << law;
   for (const char* law :
        {"hunt_crossley", "azad_featherstone", "lugre", "elastoplastic", "exponential"})
