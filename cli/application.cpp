@@ -45,6 +45,12 @@ std::optional<double> ode_friction_mixing(const simulation::Experiment& experime
   return reference::constraint_constants("ode", experiment).tangential_mixing;
 }
 
+/// Nothing pushes out what ODE's normal rows let into the surface layer.
+double ode_normal_mixing(const simulation::Experiment& experiment) {
+  const auto constants = reference::constraint_constants("ode", experiment);
+  return constants.surface_layer > 0. ? constants.normal_mixing : 0.;
+}
+
 /// "trail=value" cut at the first '='.
 language::Override override_from(const std::string& setting) {
   const std::size_t equals = setting.find('=');
@@ -65,6 +71,7 @@ Application::Application(bool allow_plugins)
     engines_[std::string(peer.name)] = {peer.describe(), peer.make,
                                         peer.name == "ode" ? ode_friction_mixing : nullptr};
   }
+  engines_["ode"].normal_mixing = ode_normal_mixing;
 }
 
 std::unique_ptr<simulation::Engine> Application::make_engine(
