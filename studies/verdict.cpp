@@ -78,8 +78,10 @@ RunResult run_result(const StudyPlan& plan, const EngineTable& engines, const Ro
     const auto mixing = engine->second.friction_mixing != nullptr
                             ? engine->second.friction_mixing(row.experiment)
                             : std::nullopt;
+    const double sinking =
+        engine->second.normal_mixing != nullptr ? engine->second.normal_mixing(row.experiment) : 0.;
     for (std::size_t i = 0; i < plan.metrics.size(); ++i)
-      run.metrics[i].predicted = predict(plan.metrics[i]->name, context, mixing);
+      run.metrics[i].predicted = predict(plan.metrics[i]->name, context, mixing, sinking);
   } catch (const simulation::ExperimentError&) {
     return run;  // the row's status says already why it could not run
   }

@@ -68,6 +68,9 @@ TEST(CreepPrediction, OdeGivesWayByItsMixing) {
   experiment.engine = "ode";
   // CFM 1e-10 times 1 kg * 9.81 * sin 15 deg / 4 = 0.634756 N: the 6e-11 m/s measured elsewhere.
   EXPECT_NEAR(*prediction(experiment, "creep_speed", 1e-10), 6.34756e-11, 1e-15);
+  // Contacts that sink at 1e-10 too tilt the block: (h/l)^2 = 1/4 more at its origin.
+  EXPECT_NEAR(*predict("creep_speed", make_context(experiment, 5., 20.), 1e-10, 1e-10),
+              1.25 * 6.34756e-11, 1e-15);
   EXPECT_FALSE(prediction(experiment, "creep_speed"));
 }
 
