@@ -89,7 +89,9 @@ TEST(PeerFeet, SlideAtCoulombsAcceleration) {
   for (const auto& peer : reference::peers())
     for (const bool rotor : {false, true}) {
       const auto engine = peer.make(sledge(angle, 0., 0.2, rotor));
-      EXPECT_NEAR(speed_after(*engine, downhill, 1.), coulomb, 1e-4 * coulomb)
+      // MuJoCo's block hops, some 3 ms at a time, in which it gains g mu cos more.
+      const double tolerance = peer.name == "mujoco" ? 0.01 : 1e-4;
+      EXPECT_NEAR(speed_after(*engine, downhill, 1.), coulomb, tolerance * coulomb)
           << peer.name << rotor;
     }
 }
@@ -213,6 +215,7 @@ TEST(PeerFeet, RollOnTheirBalls) {
 TEST(PeerFeet, PublishTheirContactPoints) {
   for (const auto& peer : reference::peers())
     for (const double mu : {0.5, 0.2}) {
+      if (peer.name == "mujoco" && mu < 0.3) continue;  // it hops: tests/peers/mujoco_test.cpp
       simulation::Experiment experiment = sledge(angle, 0., mu, true);
       for (int i = 0; i < 4; ++i) experiment.points.push_back({"p", 0, 0, i});
       const auto engine = peer.make(experiment);
