@@ -47,13 +47,13 @@ std::optional<Pyramid> pyramid_at_rest(double t, double u, double least, double 
 
 /// The impedance at a depth (XML reference, solimp).
 double impedance_at(const std::array<double, 5>& solimp, double depth) {
-  const auto [d0, width_d, width, midpoint, power] = solimp;
-  if (d0 == width_d || width <= 0.) return d0;
+  const auto [at_surface, at_width, width, midpoint, power] = solimp;
+  if (at_surface == at_width || width <= 0.) return at_surface;
   const double x = std::min(1., depth / width);
   const double y = x <= midpoint
                        ? midpoint * std::pow(x / midpoint, power)
                        : 1. - (1. - midpoint) * std::pow((1. - x) / (1. - midpoint), power);
-  return d0 + y * (width_d - d0);
+  return at_surface + y * (at_width - at_surface);
 }
 
 struct Reference {
