@@ -112,11 +112,15 @@ TEST(PeerRobot, AcceleratesFromRestAsOurs) {
 
 // In joint coordinates the first step of a robot in motion has our accelerations too; ODE's bodies
 // feel how their joints turn only in the step after.
-TEST(BulletRobot, AcceleratesInMotionAsOurs) {
-  for (const bool mobile : {true, false}) {
-    simulation::RobotSpec robot = skew_robot(3, 4, mobile);
-    set_in_motion(robot);
-    EXPECT_LT(acceleration_error(reference::make_bullet, robot_world(robot, 1e-3)), 1e-8);
+TEST(PeerRobot, AcceleratesInMotionAsOursInJointCoordinates) {
+  for (const auto& peer : reference::peers()) {
+    if (peer.name != "bullet" && peer.name != "mujoco") continue;
+    for (const bool mobile : {true, false}) {
+      simulation::RobotSpec robot = skew_robot(3, 4, mobile);
+      set_in_motion(robot);
+      EXPECT_LT(acceleration_error(peer.make, robot_world(robot, 1e-3)), 1e-8)
+          << peer.name << (mobile ? "" : ", fixed base");
+    }
   }
 }
 
