@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <locale>
 #include <sstream>
 
@@ -13,7 +14,8 @@ namespace {
 
 constexpr double cell_width = 46., cell_height = 40.;  // [px]
 constexpr double left_margin = 100., panel_gap = 40., right_margin = 120.;
-constexpr double top_margin = 92., bottom_margin = 84.;
+constexpr double top_margin = 92., bottom_margin = 84., band_gap = 96.;
+constexpr double widest = 1700.;  // of a drawing whose panels stand side by side
 
 std::string axis_title(const Axis& axis) { return typeset(column_title(axis.label, axis.unit)); }
 
@@ -25,9 +27,14 @@ class Script {
         rows_(map.y_values.size()),
         panel_width_(cell_width * static_cast<double>(columns_)),
         panel_height_(cell_height * static_cast<double>(rows_)) {
-    const double panels = static_cast<double>(std::max<std::size_t>(1, map.panels.size()));
-    width_ = left_margin + panels * panel_width_ + (panels - 1.) * panel_gap + right_margin;
-    height_ = top_margin + panel_height_ + bottom_margin;
+    const std::size_t panels = std::max<std::size_t>(1, map.panels.size());
+    const double room = widest - left_margin - right_margin + panel_gap;
+    const double fit = std::max(1., std::floor(room / (panel_width_ + panel_gap)));
+    across_ = std::min(panels, static_cast<std::size_t>(fit));
+    bands_ = (panels + across_ - 1) / across_;
+    const auto across = static_cast<double>(across_), bands = static_cast<double>(bands_);
+    width_ = left_margin + across * (panel_width_ + panel_gap) - panel_gap + right_margin;
+    height_ = top_margin + bands * (panel_height_ + band_gap) - band_gap + bottom_margin;
     out_.imbue(std::locale::classic());
   }
 
@@ -99,14 +106,17 @@ class Script {
   std::size_t draw_panel(std::size_t index, std::size_t first) {
     const HeatMapPanel& panel = map_.panels[index];
     assert(panel.cells.size() == columns_ * rows_);
-    const double left = left_margin + static_cast<double>(index) * (panel_width_ + panel_gap);
+    const std::size_t column = index % across_, bands_below = bands_ - 1 - index / across_;
+    const double left = left_margin + static_cast<double>(column) * (panel_width_ + panel_gap);
+    const double bottom =
+        bottom_margin + static_cast<double>(bands_below) * (panel_height_ + band_gap);
     const auto screen = [](double pixels, double whole) { return rounded(pixels / whole, 5); };
     out_ << "set lmargin at screen " << screen(left, width_) << "\nset rmargin at screen "
          << screen(left + panel_width_, width_) << "\nset bmargin at screen "
-         << screen(bottom_margin, height_) << "\nset tmargin at screen "
-         << screen(bottom_margin + panel_height_, height_) << "\nset title "
-         << gnuplot_quoted(panel.title) << " noenhanced offset 0,-0.4\n";
-    if (index == 0)
+         << screen(bottom, height_) << "\nset tmargin at screen "
+         << screen(bottom + panel_height_, height_) << "\nset title " << gnuplot_quoted(panel.title)
+         << " noenhanced offset 0,-0.4\n";
+    if (column == 0)
       out_ << "set ytics (" << ticks(map_.y_values) << ")\nset ylabel "
            << gnuplot_quoted(axis_title(map_.y)) << " noenhanced\n";
     else
@@ -175,8 +185,9 @@ class Script {
 
   const HeatMap& map_;
   std::size_t columns_, rows_;
-  double panel_width_, panel_height_;  // [px]
-  double width_ = 0., height_ = 0.;    // of the drawing [px]
+  double panel_width_, panel_height_;   // [px]
+  std::size_t across_ = 1, bands_ = 1;  // panels in a row, rows of panels
+  double width_ = 0., height_ = 0.;     // of the drawing [px]
   std::ostringstream out_;
 };
 

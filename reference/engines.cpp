@@ -93,16 +93,27 @@ simulation::EngineDescription describe_bullet() {
   return {"bullet", HOOKPOINT_BULLET_VERSION, "double", true, settings_names(), bullet_gaps()};
 }
 
+namespace {
+
+ConstraintConstants ode_constants(const simulation::Experiment& experiment, Settings settings,
+                                  OdeSolver solver) {
+  ConstraintConstants constants =
+      ode_settings(settings, solver, experiment.deltat, ground_material(experiment)).constraint;
+  if (experiment.constraint_mixing && settings != Settings::matched)
+    constants.normal_mixing = constants.tangential_mixing = *experiment.constraint_mixing;
+  return constants;
+}
+
+}  // namespace
+
 ConstraintConstants constraint_constants(std::string_view engine,
                                          const simulation::Experiment& experiment) {
   const Settings settings = settings_of(experiment, engine);
   const auto material = ground_material(experiment);
   if (engine == "bullet") return bullet_settings(settings, experiment.deltat, material).constraint;
   if (engine == "dart") return dart_settings(settings, experiment.deltat, material).constraint;
-  if (engine == "ode")
-    return ode_settings(settings, OdeSolver::step, experiment.deltat, material).constraint;
-  if (engine == "ode_quickstep")
-    return ode_settings(settings, OdeSolver::quickstep, experiment.deltat, material).constraint;
+  if (engine == "ode") return ode_constants(experiment, settings, OdeSolver::step);
+  if (engine == "ode_quickstep") return ode_constants(experiment, settings, OdeSolver::quickstep);
   throw std::invalid_argument("no peer called '" + std::string(engine) + "'");
 }
 

@@ -107,6 +107,7 @@ class OdeWorld final : public PeerWorld {
     prepare_ode_for_this_thread();
     create_world(experiment.gravity,
                  ode_settings(settings, solver, deltat_, ground_material(experiment)));
+    if (experiment.constraint_mixing) dWorldSetCFM(world_.get(), *experiment.constraint_mixing);
     for (const simulation::MaterialSpec& material : experiment.materials)
       surfaces_.push_back(surface_of(material.constants,
                                      ode_settings(settings, solver, deltat_, material.constants)));

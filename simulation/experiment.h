@@ -230,6 +230,7 @@ struct Experiment {
   std::string contact = "hookpoint";
   std::string engine = "dts";
   std::string settings = "default";  ///< of a peer: default, recommended, matched
+  std::optional<double> constraint_mixing;  ///< CFM of ODE's world, if not its own [m/(N s)]
   double duration = 10.;
   std::uint64_t seed = 1;
   std::vector<MaterialSpec> materials;

@@ -60,6 +60,8 @@ void load_world(const language::Object& world, Loading& loading) {
   experiment.contact = world.word("contact");
   experiment.engine = world.word("engine");
   experiment.settings = world.word("settings");
+  if (world.given("constraint_mixing"))
+    experiment.constraint_mixing = world.number("constraint_mixing");
   experiment.duration = world.number("duration");
   experiment.seed = static_cast<std::uint64_t>(world.number("seed"));
 }

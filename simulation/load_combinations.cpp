@@ -38,6 +38,12 @@ void check_tolerances(const language::Object& world, Loading& loading) {
 
 void check_combinations(const language::Object& world, Loading& loading) {
   const Experiment& experiment = loading.experiment;
+  if (experiment.constraint_mixing && !experiment.engine.starts_with("ode")) {
+    loading.error(place_of(world, "constraint_mixing"),
+                  fmt::format("constraint_mixing is a constant of ODE, and the engine is {}; leave "
+                              "it out or choose engine ode or ode_quickstep",
+                              experiment.engine));
+  }
   if (experiment.engine != "dts") return;  // what a peer lacks, it says itself
   const contact::LawDescription* law = contact::find_law(experiment.contact);
   if (law != nullptr && law->is_impulse_law) {

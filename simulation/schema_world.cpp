@@ -48,6 +48,10 @@ language::ClassSchema world_class() {
       choice_field("settings", {"default", "recommended", "matched"}, "default",
                    "how a peer is set up: its first example, its maintainers' practice, or nearest "
                    "to the penalty law"),
+      not_negative(number_field("constraint_mixing", "m/N/s", "",
+                                "CFM of ODE's world instead of the library's 1e-10: a contact "
+                                "gives way at it times its force; 0 makes four corners singular; "
+                                "at settings = matched contacts have their own")),
       positive(number_field("duration", "s", "10", "simulated time of a run")),
       not_negative(integer_field("seed", "1", "seed of all random streams")),
       port_only(Direction::output, number_field("time", "s", "", "simulated time, step * deltat")),

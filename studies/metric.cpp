@@ -87,6 +87,9 @@ constexpr auto metrics = std::to_array<MetricDefinition>({
      "touch-downs, lift-offs, ends of slip, joint limits at which an adaptive "
      "integrator began anew",
      make_events},
+    {"notices", "",
+     "warnings that the engine gave, each once: 1 for ODE where its solver reported failures",
+     make_notices},
     {"self_error", "m",
      "greatest distance of the body's origin from the same run nearer to its limit: an eighth of "
      "deltat, a hundredth of the tolerances",

@@ -174,6 +174,7 @@ std::unique_ptr<Metric> make_rejected_steps(const RunContext&);
 std::unique_ptr<Metric> make_evaluations(const RunContext&);
 std::unique_ptr<Metric> make_jacobians(const RunContext&);
 std::unique_ptr<Metric> make_events(const RunContext&);
+std::unique_ptr<Metric> make_notices(const RunContext&);
 std::unique_ptr<Metric> make_self_error(const RunContext&);
 std::unique_ptr<Metric> make_reference_error(const RunContext&);
 std::unique_ptr<Metric> make_truth_error(const RunContext&);

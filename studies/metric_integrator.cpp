@@ -57,6 +57,17 @@ class DistanceFromLimit : public Metric {
   std::optional<double> error_;
 };
 
+class Notices : public Metric {
+ public:
+  void observe(const Observation& observation) override {
+    count_ = static_cast<double>(observation.world.notices.size());
+  }
+  std::optional<double> value() const override { return count_; }
+
+ private:
+  double count_ = 0.;
+};
+
 class TruthError : public Metric {
  public:
   explicit TruthError(const RunContext& context) : slide_(rigid_slide(context)) {}
@@ -74,6 +85,7 @@ class TruthError : public Metric {
 
 }  // namespace
 
+std::unique_ptr<Metric> make_notices(const RunContext&) { return std::make_unique<Notices>(); }
 std::unique_ptr<Metric> make_truth_error(const RunContext& context) {
   return std::make_unique<TruthError>(context);
 }

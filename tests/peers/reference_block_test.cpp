@@ -30,6 +30,15 @@ TEST(OdeBlock, CreepsAtMixingTimesTangentialForce) {
   }
 }
 
+TEST(OdeBlock, CreepsAtTheMixingThatTheExperimentAsksFor) {
+  auto experiment = sloped_block(angle, 0., 0.5, 1e-3);
+  experiment.constraint_mixing = 1e-6;
+  EXPECT_EQ(constraint_constants("ode", experiment).tangential_mixing, 1e-6);
+  const auto engine = reference::make_ode(experiment);
+  const double speed = creep_speed(*engine, slope_axes(angle, 0.).downhill, 1e-3, 1., 3.);
+  EXPECT_NEAR(speed, 1e-6 * f_t, 1e-8 * f_t);
+}
+
 TEST(OdeBlock, CreepsAtTheMatchedDampersSpeed) {
   for (const auto make : {reference::make_ode, reference::make_ode_quickstep})
     for (const double deltat : {1e-4, 1e-3, 1e-2}) {

@@ -55,6 +55,8 @@ INSTANTIATE_TEST_SUITE_P(
         WrongInput{"run " + config("paper/fig7_two_joint_arm.hook") +
                        " --set SimpleWorld.engine=ode --movie",
                    "engine `ode` cannot be saved"},
+        WrongInput{"run " + block + " --set world.constraint_mixing=0",
+                   "constraint_mixing is a constant of ODE, and the engine is dts"},
         WrongInput{"study " + block, "holds no Study, no Wall and no Matrix"},
         WrongInput{"study " + config("studies/creep.hook") + " --jobs 0",
                    "--jobs takes a whole number"},

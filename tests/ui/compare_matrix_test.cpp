@@ -164,8 +164,7 @@ TEST(Compare, WhatIsNoRunIsToldWithAdvice) {
   }
 }
 
-/// A flight that single bodies and, of the hexapod, our engine alone can make; one subject whose
-/// engine this build does not know how to find.
+/// A box in flight; and a block with a constant of ODE, which Bullet refuses.
 const std::string flights =
     "Study box { scene = \"scenes/thrown_box.hook\"; duration = 0.1 s;\n"
     "  Measure energy_gain;\n"
@@ -173,10 +172,10 @@ const std::string flights =
     "  Subject ode { engine = ode; settings = default; }\n"
     "  Truth energy_gain { below = 1 J; }\n"
     "  Plot energy { x = time; y = energy; } }\n"
-    "Study table { scene = \"scenes/four_leg_table.hook\"; duration = 0.1 s;\n"
+    "Study block { scene = \"scenes/ode_cfm_block.hook\"; duration = 0.1 s;\n"
     "  Measure penetration_max;\n"
-    "  Subject ours { engine = dts; contact = hookpoint; }\n"
     "  Subject ode { engine = ode; settings = default; }\n"
+    "  Subject bullet { engine = bullet; settings = default; }\n"
     "  Truth penetration_max { below = 10 mm; } }\n";
 
 const std::string matrix =
@@ -199,8 +198,9 @@ TEST(Matrix, HoldsEveryStudysSubjectsByMetricsInOnePage) {
   EXPECT_NE(table.find("\nbox,,energy_gain,J,ode,ode,"), std::string::npos);
   EXPECT_NE(table.find("\ns,slides,slip_acceleration,m/s^2,ours,dts,hookpoint,"),
             std::string::npos);
-  // Contact points alone do not collide in ODE: a row with the reason, neither passed nor failed.
-  const std::string refused = "\ntable,friction holds,,,ode,ode,,,default,1,0,,,,,,0,0,\"refused: ";
+  // A row with the reason, neither passed nor failed.
+  const std::string refused =
+      "\nblock,friction holds,,,bullet,bullet,,,default,1,0,,,,,,0,0,\"refused: constraint_mixing ";
   EXPECT_NE(table.find(refused), std::string::npos) << table;
   const std::string page = work.read("m/matrix.html");
   EXPECT_NE(page.find("id=\"figure-box-energy\""), std::string::npos);
@@ -208,7 +208,7 @@ TEST(Matrix, HoldsEveryStudysSubjectsByMetricsInOnePage) {
   EXPECT_NE(page.find("Study box {"), std::string::npos) << "the file that makes it";
   for (const char* outside : {" src=", "@import", "url(http", "href=\"http"})
     EXPECT_EQ(page.find(outside), std::string::npos) << outside;
-  for (const char* file : {"m/box/report.html", "m/box/energy.svg", "m/table/results.csv"})
+  for (const char* file : {"m/box/report.html", "m/box/energy.svg", "m/block/results.csv"})
     EXPECT_FALSE(work.read(file).empty()) << file;
 }
 
@@ -252,13 +252,14 @@ TEST(Matrix, WhatIsWrongIsToldAtItsPart) {
 // A Truth that names a subject claims that it can run; one that covers all does not.
 TEST(Refusal, FailsOnlyATruthThatNamesTheSubject) {
   const Workplace work;
-  const std::string named = "Truth penetration_max { below = 10 mm; subjects = ode; }";
-  std::string study = flights;
+  const std::string named = "Truth penetration_max { below = 10 mm; subjects = bullet; }";
+  const std::string all_subjects = flights.substr(flights.find("Study block"));
+  std::string study = all_subjects;
   study.replace(study.rfind("Truth"), study.rfind("} }") - study.rfind("Truth") + 1, named);
   work.file("named.hook", study);
-  work.file("all.hook", flights);
-  EXPECT_EQ(work.hookpoint("study named.hook --only ode --out n").status, 1);
-  const CommandResult all = work.hookpoint("study all.hook --only ode --out a");
+  work.file("all.hook", all_subjects);
+  EXPECT_EQ(work.hookpoint("study named.hook --only bullet --out n").status, 1);
+  const CommandResult all = work.hookpoint("study all.hook --only bullet --out a");
   EXPECT_EQ(all.status, 0) << all.err;
   EXPECT_NE(all.out.find("refused"), std::string::npos) << all.out;
 }

@@ -77,6 +77,17 @@ TEST(HeatMapScript, ALogarithmicColourBeginsAtItsFloor) {
   EXPECT_NE(script.find("shade(v) = v < 1e-09 ? 1e-09 : v"), std::string::npos);
 }
 
+TEST(HeatMapScript, PanelsThatDoNotFitSideBySideStandInRows) {
+  HeatMap map = sample();
+  // 92 px each and 40 between them: 11 in the 1480 px beside the margins.
+  for (int i = 1; i < 12; ++i) map.panels.push_back(map.panels[0]);
+  const std::string script = heat_map_script(map);
+  EXPECT_NE(script.find("svg size 1632,512 "), std::string::npos) << script.substr(0, 300);
+  EXPECT_EQ(count(script, "set ytics ("), 2U);
+  EXPECT_EQ(count(script, "unset colorbox"), 11U);
+  EXPECT_EQ(count(heat_map_script(sample()), "set ytics ("), 1U);
+}
+
 TEST(HeatMap, IsDrawnWithItsNumbersAndItsCross) {
   const std::filesystem::path folder =
       std::filesystem::temp_directory_path() / ("hookpoint_map_" + std::to_string(getpid()));

@@ -279,5 +279,61 @@ TEST(SpinMax, IsTheGreatestAngularSpeedAfterSettle) {
   EXPECT_NEAR(*measure(block_on_slope(0., 0.), "spin_max", 0.03, 0.12, turned), 3.5, 1e-12);
 }
 
+/// A flight of 1 s: p0 + v t + g t^2/2, at a constant spin of 3 rad/s (inertia 1).
+void fly(const RunContext& context, WorldState& world) {
+  const Vector3d v0{1., 2., 5.}, g = context.experiment->gravity;
+  world.bodies[0].position += world.time * v0 + 0.5 * world.time * world.time * g;
+  world.bodies[0].velocity = v0 + world.time * g;
+  world.bodies[0].angular_velocity = {0., 0., 3.};
+}
+
+TEST(Conservation, AFreeFlightDriftsInNothing) {
+  for (const char* metric : {"energy_drift", "momentum_drift", "angular_momentum_drift"})
+    EXPECT_NEAR(*measure(block_on_slope(0., 0.), metric, 0., 1., fly), 0., 1e-12) << metric;
+}
+
+TEST(Conservation, DriftsAreTheGreatestChangesEitherWay) {
+  // Half way the body loses 1 m/s of its 2 m/s along y and 1 rad/s of its spin, and has them again
+  // at the end: 1.5 J and 2.5 J, 1 kg m/s, 1 kg m^2/s.
+  const auto slowed = [](const RunContext& context, WorldState& world) {
+    fly(context, world);
+    if (world.step != 50) return;
+    world.bodies[0].velocity.y -= 1.;
+    world.bodies[0].angular_velocity.z -= 1.;
+  };
+  const Experiment experiment = block_on_slope(0., 0.);
+  EXPECT_NEAR(*measure(experiment, "energy_drift", 0., 1., slowed), 1.5 + 2.5, 1e-12);
+  EXPECT_NEAR(*measure(experiment, "momentum_drift", 0., 1., slowed), 1., 1e-12);
+  EXPECT_NEAR(*measure(experiment, "angular_momentum_drift", 0., 1., slowed), 1., 1e-12);
+}
+
+TEST(Rebound, IsSpeedAfterOverSpeedBefore) {
+  const auto bounce = [](const RunContext& context, WorldState& world) {
+    world.bodies[0].velocity = (world.step < 50 ? -2. : 0.5) * context.normal + context.downhill;
+  };
+  EXPECT_NEAR(*measure(block_on_slope(0.3, 0.), "rebound", 0., 1., bounce), 0.25, 1e-14);
+  EXPECT_FALSE(
+      measure(block_on_slope(0.3, 0.), "rebound", 0., 1., downhill([](double) { return 0.; })));
+}
+
+TEST(SupportForce, IsTheMeanAlongTheNormalAfterSettle) {
+  const auto shaken = [](const RunContext& context, WorldState& world) {
+    const double force = world.time < 0.495 ? 100. : world.step % 2 == 0 ? 9. : 11.;
+    world.bodies[0].contact_force = force * context.normal + 5. * context.downhill;
+  };
+  EXPECT_NEAR(*measure(block_on_slope(0.3, 0.), "support_force", 0.5, 0.99, shaken), 10., 1e-12);
+}
+
+TEST(TruthError, IsTheDistanceFromTheRigidBlock) {
+  // Without friction the block slides with g sin. This one lags behind by 3 mm at 0.7 s.
+  const auto lagging = downhill([](double t) {
+    return 0.5 * 9.81 * std::sin(0.3) * t * t - (std::abs(t - 0.7) < 1e-9 ? 3e-3 : 0.);
+  });
+  Experiment experiment = block_on_slope(0.3, 0.);
+  auto& constants = experiment.materials[0].constants;
+  constants.static_friction = constants.kinetic_friction = 0.;
+  EXPECT_NEAR(*measure(experiment, "truth_error", 0., 1., lagging), 3e-3, 1e-12);
+}
+
 }  // namespace
 }  // namespace hookpoint::studies

@@ -235,5 +235,50 @@ TEST(JointLoopPrediction, SaysNothingOfOtherLoops) {
   EXPECT_FALSE(prediction(body(20., 0.8, "hookpoint"), "fell"));
 }
 
+Experiment ball(double slope, double mu) {
+  Experiment experiment = body(slope, mu, "hookpoint", true);
+  experiment.robots[0].base.boundary_radii = {0.05};
+  return experiment;
+}
+
+TEST(BallPrediction, RollsAtFiveSeventhsUpToItsThresholdAndSkidsAbove) {
+  // 2/7 tan 20 deg = 0.10399 is what friction must be.
+  EXPECT_NEAR(*prediction(ball(20., 0.1041), "slip_acceleration"), 2.396584, 1e-6);
+  EXPECT_NEAR(*prediction(ball(20., 0.1038), "slip_acceleration"),
+              9.81 * (0.3420201 - 0.1038 * 0.9396926), 1e-6);
+}
+
+TEST(BallPrediction, ReboundsByWhatItsEngineKnows) {
+  Experiment experiment = ball(0., 0.5);
+  experiment.gravity = {};
+  experiment.robots[0].velocity = {0., 0., -1.};
+  auto& constants = experiment.materials[0].constants;
+  constants.restitution = 0.7;
+  constants.normal_stiffness = 1e4;
+  constants.normal_damping = 100.;  // zeta = 0.5: e = exp(-2 pi/(3 sqrt 3)) = 0.298436
+  EXPECT_NEAR(*prediction(experiment, "rebound"), 0.298436, 1e-6);
+  experiment.contact = "impulse";
+  EXPECT_EQ(prediction(experiment, "rebound"), 0.7);
+  experiment.engine = "ode";
+  EXPECT_EQ(prediction(experiment, "rebound"), 0.7);
+  experiment.settings = "matched";
+  EXPECT_NEAR(*prediction(experiment, "rebound"), 0.298436, 1e-6);
+  experiment.gravity = {0., 0., -9.81};
+  EXPECT_FALSE(prediction(experiment, "rebound"));
+}
+
+TEST(SupportPrediction, IsTheWeightAlongTheNormal) {
+  EXPECT_NEAR(*prediction(body(60., 2., "hookpoint"), "support_force"), 9.81 / 2., 1e-12);
+}
+
+TEST(RigidSlide, BrakesUntilItRests) {
+  Experiment experiment = body(0., 0.5, "hookpoint");
+  experiment.robots[0].velocity = {1., 0., 0.};
+  const auto slide = rigid_slide(make_context(experiment, 0., 1.));
+  ASSERT_TRUE(slide.has_value());
+  EXPECT_NEAR(slide->displacement(0.1), 0.1 - 0.5 * 4.905 * 0.01, 1e-12);
+  EXPECT_NEAR(slide->displacement(9.), 1. / (2. * 4.905), 1e-12);
+}
+
 }  // namespace
 }  // namespace hookpoint::studies
