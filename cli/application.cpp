@@ -6,12 +6,14 @@
 
 #include "cli/installation.h"
 #include "control/plugin.h"
+#include "reference/creep.h"
 #include "reference/engines.h"
 #include "reference/mujoco_friction.h"
 #include "simulation/dts_engine.h"
 #include "simulation/load.h"
 #include "simulation/schema.h"
 #include "studies/schema.h"
+#include "studies/wall.h"
 #include "view/schema.h"
 
 namespace hookpoint::cli {
@@ -41,14 +43,39 @@ language::Schema make_schema() {
 }
 
 /// Sticking contacts of ODE's exact solver yield by CFM times their friction, those of MuJoCo by
-/// their regularisation; ODE's iterative solver and Bullet have no closed form.
+/// their regularisation, those of DART by a part of their rows' own diagonal, and Simbody's are a
+/// function of speed; ODE's iterative solver and Bullet have no closed form.
 std::optional<double> ode_friction_mixing(const simulation::Experiment& experiment) {
-  return reference::constraint_constants("ode", experiment).tangential_mixing;
+  const auto constants = reference::constraint_constants("ode", experiment);
+  // A body let go falls g dt^2 in its first step. Where that is most of the surface layer some
+  // contacts end within it and some below it, and which is the solver's secret.
+  const double fall = norm(experiment.gravity) * experiment.deltat * experiment.deltat;
+  if (constants.surface_layer > 0. && fall > 0.5 * constants.surface_layer) return std::nullopt;
+  return constants.tangential_mixing;
+}
+
+/// Nothing pushes out what ODE's normal rows let into the surface layer.
+double ode_normal_mixing(const simulation::Experiment& experiment) {
+  const auto constants = reference::constraint_constants("ode", experiment);
+  return constants.surface_layer > 0. ? constants.normal_mixing : 0.;
 }
 auto friction_mixing_of(std::string_view peer) {
-  return peer == "ode"      ? ode_friction_mixing
-         : peer == "mujoco" ? reference::mujoco_friction_mixing
-                            : nullptr;
+  return peer == "ode"       ? ode_friction_mixing
+         : peer == "mujoco"  ? reference::mujoco_friction_mixing
+         : peer == "dart"    ? reference::dart_friction_mixing
+         : peer == "simbody" ? reference::simbody_friction_mixing
+                             : nullptr;
+}
+
+std::vector<std::string> scene_files(const language::Object& root) {
+  std::vector<std::string> files;
+  for (const language::Object* study : root.children_of("Study"))
+    files.push_back(study->word("scene"));
+  for (const language::Object* wall : root.children_of("Wall")) {
+    for (const language::Object* scene : wall->children_of("Scene"))
+      files.push_back(studies::scene_file(*scene));
+  }
+  return files;
 }
 
 /// "trail=value" cut at the first '='.
@@ -62,14 +89,16 @@ language::Override override_from(const std::string& setting) {
 Application::Vocabulary::Vocabulary(const std::vector<std::filesystem::path>& search_path)
     : schema(make_schema()), library(schema, search_path) {}
 
-Application::Application(bool allow_plugins)
+Application::Application(bool allow_plugins, Told tell)
     : trust_(allow_plugins, trusted_folders(find_installation())),
+      tell_(std::move(tell)),
       search_path_(search_path(find_installation())) {
-  vocabularies_.push_back(std::make_unique<Vocabulary>(search_path_));
+  add_vocabulary();
   engines_["dts"] = {simulation::describe_dts(), simulation::make_dts, nullptr};
   for (const reference::Peer& peer : reference::known_peers()) {
     engines_[std::string(peer.name)] = {peer.describe(), peer.make, friction_mixing_of(peer.name)};
   }
+  engines_["ode"].normal_mixing = ode_normal_mixing;
 }
 
 std::unique_ptr<simulation::Engine> Application::make_engine(
@@ -91,9 +120,18 @@ std::string Application::load_library(const std::filesystem::path& library) cons
 void Application::take_new_classes() {
   for (const auto& [name, type] : control::Registry::instance().classes()) {
     if (schema().find(name) != nullptr) continue;
-    vocabularies_.push_back(std::make_unique<Vocabulary>(search_path_));
-    return;
+    return add_vocabulary();
   }
+}
+
+void Application::add_vocabulary() {
+  vocabularies_.push_back(std::make_unique<Vocabulary>(search_path_));
+  for (const auto& [path, text] : given_) library().give(path, text);
+}
+
+void Application::give(const std::filesystem::path& path, const std::string& text) {
+  given_.emplace(path, text);
+  library().give(path, text);
 }
 
 bool Application::load_plugins(const std::filesystem::path& file) {
@@ -101,7 +139,7 @@ bool Application::load_plugins(const std::filesystem::path& file) {
   const bool loaded = library().load_plugins(
       file, [this](const std::filesystem::path& found) { return load_library(found); },
       diagnostics);
-  print_diagnostics(diagnostics);
+  tell_(diagnostics);
   take_new_classes();
   return loaded;
 }
@@ -112,6 +150,27 @@ std::string Application::load_plugin(const std::filesystem::path& library) {
   return problem;
 }
 
+std::vector<std::string> Application::world_settings(const std::filesystem::path& file,
+                                                     const std::string& field,
+                                                     const std::string& value) {
+  language::Diagnostics untold;
+  std::vector<std::string> settings;
+  const auto root = library().evaluate(file, {}, untold);
+  if (!root) return settings;
+  for (const language::Object* world : root->children_of("World"))
+    settings.push_back(world->name + "." + field + "=" + value);
+  return settings;
+}
+
+bool Application::load_scene_plugins(const language::Object& root,
+                                     const std::filesystem::path& file) {
+  for (const std::string& scene : scene_files(root)) {
+    const std::filesystem::path found = library().find(scene, file);
+    if (!found.empty() && !load_plugins(found)) return false;
+  }
+  return true;
+}
+
 std::unique_ptr<language::Object> Application::evaluate(const std::filesystem::path& file,
                                                         const std::vector<std::string>& settings) {
   if (!load_plugins(file)) return nullptr;
@@ -119,14 +178,14 @@ std::unique_ptr<language::Object> Application::evaluate(const std::filesystem::p
   for (const std::string& setting : settings) options.overrides.push_back(override_from(setting));
   language::Diagnostics diagnostics;
   auto root = library().evaluate(file, options, diagnostics);
-  print_diagnostics(diagnostics);
+  tell_(diagnostics);
   return root;
 }
 
 std::optional<simulation::Experiment> Application::load(const language::Object& root) const {
   language::Diagnostics diagnostics;
   auto experiment = simulation::load_experiment(root, diagnostics, search_path_);
-  print_diagnostics(diagnostics);
+  tell_(diagnostics);
   return experiment;
 }
 

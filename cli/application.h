@@ -3,6 +3,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,10 +17,17 @@
 
 namespace hookpoint::cli {
 
+/// Prints to stderr in colour when that is a terminal.
+void print_diagnostics(const language::Diagnostics& diagnostics);
+/// "hookpoint: error: message" on stderr.
+void print_error(const std::string& message);
+
 class Application {
  public:
+  /// Who is told what is wrong with a file, if anything.
+  using Told = std::function<void(const language::Diagnostics&)>;
   /// `allow_plugins`: those of any folder, not of the trusted ones alone.
-  explicit Application(bool allow_plugins = false);
+  explicit Application(bool allow_plugins = false, Told tell = print_diagnostics);
 
   const language::Schema& schema() const { return vocabularies_.back()->schema; }
   language::Library& library() { return vocabularies_.back()->library; }
@@ -27,17 +36,27 @@ class Application {
   /// simulation::ExperimentError.
   std::unique_ptr<simulation::Engine> make_engine(const simulation::Experiment& experiment) const;
 
-  /// Loads the plugins that `file` and its Includes name; their classes join the schema. Prints
+  /// Loads the plugins that `file` and its Includes name; their classes join the schema. Tells
   /// what is wrong and is then false. `evaluate` begins with it; who asks the library must have
   /// asked this before.
   bool load_plugins(const std::filesystem::path& file);
   /// Loads one. "" or what is wrong, as a predicate.
   std::string load_plugin(const std::filesystem::path& library);
 
-  /// Evaluates `file` and prints its diagnostics on stderr; null when it has errors.
+  /// The settings that give `field` of the file's World this value: "w.duration=5 s". Of a file
+  /// that is wrong none; evaluating it tells why.
+  std::vector<std::string> world_settings(const std::filesystem::path& file,
+                                          const std::string& field, const std::string& value);
+  /// Loads the plugins of the scenes that the file's studies run, which the file itself need not
+  /// name. False after errors, which are told.
+  bool load_scene_plugins(const language::Object& root, const std::filesystem::path& file);
+
+  /// From now on `text` is the file `path`, which need not exist.
+  void give(const std::filesystem::path& path, const std::string& text);
+  /// Evaluates `file` and tells its diagnostics; null when it has errors.
   std::unique_ptr<language::Object> evaluate(const std::filesystem::path& file,
                                              const std::vector<std::string>& settings);
-  /// The experiment of an evaluated file's world; its diagnostics are printed, empty when it has
+  /// The experiment of an evaluated file's world; its diagnostics are told, empty when it has
   /// errors.
   std::optional<simulation::Experiment> load(const language::Object& root) const;
   /// Both in one.
@@ -54,16 +73,14 @@ class Application {
   };
   std::string load_library(const std::filesystem::path& library) const;
   void take_new_classes();
+  void add_vocabulary();
 
   PluginTrust trust_;
+  Told tell_;
+  std::map<std::filesystem::path, std::string> given_;
   std::vector<std::filesystem::path> search_path_;
   std::vector<std::unique_ptr<Vocabulary>> vocabularies_;
   studies::EngineTable engines_;
 };
-
-/// Prints to stderr in colour when that is a terminal.
-void print_diagnostics(const language::Diagnostics& diagnostics);
-/// "hookpoint: error: message" on stderr.
-void print_error(const std::string& message);
 
 }  // namespace hookpoint::cli

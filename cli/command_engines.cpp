@@ -11,6 +11,7 @@
 #include "output/json.h"
 
 namespace hookpoint::cli {
+
 namespace {
 
 std::string handling_name(simulation::EngineGap::Handling handling) {
@@ -18,7 +19,9 @@ std::string handling_name(simulation::EngineGap::Handling handling) {
   return handling == refused ? "refused" : handling == noticed ? "noticed" : "stated";
 }
 
-void print_json(const Application& application) {
+}  // namespace
+
+std::string engines_json(const Application& application) {
   output::JsonWriter json;
   json.begin_object().key("engines").begin_array();
   for (const auto& [name, engine] : application.engines()) {
@@ -57,8 +60,10 @@ void print_json(const Application& application) {
         .end_object();
   }
   json.end_array().end_object();
-  std::cout << json.text();
+  return json.text();
 }
+
+namespace {
 
 void print_table(const Application& application) {
   fmt::print("{:<16} {:<10} {:<9} {:<6} {}\n", "engine", "version", "precision", "found",
@@ -82,7 +87,7 @@ void print_table(const Application& application) {
 int engines(bool json) {
   const Application application;
   if (json) {
-    print_json(application);
+    std::cout << engines_json(application);
   } else {
     print_table(application);
   }

@@ -10,18 +10,14 @@
 namespace hookpoint::cli {
 namespace {
 
-/// `--for` is the World's duration. What is wrong with the file is told when it is evaluated with
-/// these settings.
+/// `--for` is the World's duration.
 std::vector<std::string> settings_with_duration(Application& application,
                                                 const RunArguments& arguments) {
   std::vector<std::string> settings = arguments.settings;
   if (!arguments.duration) return settings;
-  language::Diagnostics untold;
-  const auto root = application.library().evaluate(arguments.file, {}, untold);
-  if (!root) return settings;
-  for (const language::Object* world : root->children_of("World")) {
-    settings.push_back(world->name + ".duration=" + *arguments.duration);
-  }
+  for (std::string& setting :
+       application.world_settings(arguments.file, "duration", *arguments.duration))
+    settings.push_back(std::move(setting));
   return settings;
 }
 

@@ -19,7 +19,7 @@ int study(const StudyArguments& arguments) {
                 " holds no Study, no Wall and no Matrix; `hookpoint run` runs a world");
     return wrong_input;
   }
-  if (!load_scene_plugins(application, *root, arguments.file)) return wrong_input;
+  if (!application.load_scene_plugins(*root, arguments.file)) return wrong_input;
   const auto plans =
       plan_studies(application, *root, arguments.file, {arguments.quick, arguments.only});
   if (!plans) return wrong_input;

@@ -11,6 +11,8 @@
 
 namespace hookpoint::cli {
 
+class Application;
+
 struct RunArguments {
   std::filesystem::path file;
   std::vector<std::string> settings;    ///< trail=value
@@ -93,6 +95,8 @@ int compare(const CompareArguments& arguments);
 
 /// engines: every engine, law and integrator.
 int engines(bool json);
+/// The same as JSON.
+std::string engines_json(const Application& application);
 
 /// What FILE.hook without a command means: true when it holds a Study, false for a world; none when
 /// it has errors, which are printed.

@@ -60,7 +60,7 @@ bool plan_part(Application& application, const language::Object& part,
     return false;
   }
   const auto root = application.evaluate(file, {});
-  if (!root || !load_scene_plugins(application, *root, file)) return false;
+  if (!root || !application.load_scene_plugins(*root, file)) return false;
   if (root->children_of("Study").empty()) {
     print_problem(part, "\"" + name + "\" holds no Study");
     return false;

@@ -1,20 +1,17 @@
 #include "cli/study_runs.h"
 
-#include <fmt/format.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <iostream>
-#include <thread>
 
 #include "cli/exit_status.h"
-#include "output/progress.h"
+#include "cli/run_bar.h"
 #include "reference/engines.h"
 #include "studies/run.h"
 #include "studies/terminal_table.h"
 #include "studies/verdict.h"
-#include "studies/wall.h"
 
 namespace hookpoint::cli {
 namespace {
@@ -43,17 +40,6 @@ std::vector<studies::PeerSetting> peer_settings(const studies::StudyResult& resu
   return settings;
 }
 
-studies::RunOptions run_options(const StudyArguments& arguments,
-                                const std::filesystem::path& folder) {
-  studies::RunOptions options;
-  options.jobs = arguments.jobs > 0
-                     ? arguments.jobs
-                     : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  options.resume = arguments.resume;
-  options.folder = folder;
-  return options;
-}
-
 std::size_t terminal_width() {
   winsize size{};
   if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return 120;
@@ -65,17 +51,6 @@ std::vector<std::string> result_files(const StudyRun& run) {
   std::vector<std::string> files{"results.csv"};
   if (std::filesystem::exists(run.folder / "timing.csv")) files.emplace_back("timing.csv");
   files.insert(files.end(), {"experiment.hook", "scene.hook", "provenance.json"});
-  return files;
-}
-
-std::vector<std::string> scene_files(const language::Object& root) {
-  std::vector<std::string> files;
-  for (const language::Object* study : root.children_of("Study"))
-    files.push_back(study->word("scene"));
-  for (const language::Object* wall : root.children_of("Wall")) {
-    for (const language::Object* scene : wall->children_of("Scene"))
-      files.push_back(studies::scene_file(*scene));
-  }
   return files;
 }
 
@@ -109,24 +84,13 @@ StudyOutcome run_one_study(Application& application, const StudyPlan& plan,
                            const StudyArguments& arguments, const std::filesystem::path& folder,
                            const std::string& command, bool print_table) {
   studies::InterruptGuard guard;
-  std::optional<output::Progress> bar;
-  std::size_t shown = 0;
-  studies::RunOptions options = run_options(arguments, folder);
-  options.progress = [&](const studies::Progress& progress) {
-    if (!bar) bar.emplace(plan.name, progress.total, progress.resumed);
-    shown = std::max(shown, progress.resumed);
-    if (progress.done > shown) bar->advance(progress.done - shown);
-    shown = std::max(shown, progress.done);
-  };
+  RunBar bar(plan.name);
   StudyRun run =
-      studies::run_study(plan, application.engines(), options, studies::InterruptGuard::stop());
-  bar.reset();
+      studies::run_study(plan, application.engines(), run_options(arguments, folder, bar),
+                         studies::InterruptGuard::stop());
+  bar.end();
   for (const std::string& notice : run.notices) std::cerr << "hookpoint: note: " << notice << '\n';
-  if (run.interrupted) {
-    print_error("interrupted; what is finished is kept in " + run.folder.string() + ": `" +
-                command + " --resume` goes on from there");
-    return {truth_failed, std::nullopt, {}};
-  }
+  if (run.interrupted) return {interrupted(run.folder, command, arguments), std::nullopt, {}};
   const studies::ReportContext context{command, peer_settings(run.result),
                                        studies::provenance_lines(run.provenance),
                                        result_files(run)};
@@ -141,15 +105,6 @@ StudyOutcome run_one_study(Application& application, const StudyPlan& plan,
                      : report.messages.empty()             ? fine
                                                            : missing;
   return {status, std::move(run.result), report.figures};
-}
-
-bool load_scene_plugins(Application& application, const language::Object& root,
-                        const std::filesystem::path& file) {
-  for (const std::string& scene : scene_files(root)) {
-    const std::filesystem::path found = application.library().find(scene, file);
-    if (!found.empty() && !application.load_plugins(found)) return false;
-  }
-  return true;
 }
 
 }  // namespace hookpoint::cli

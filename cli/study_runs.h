@@ -38,9 +38,4 @@ StudyOutcome run_one_study(Application& application, const studies::StudyPlan& p
 /// "hookpoint study FILE ..." as it was called, for another `file`.
 std::string rerun_command(const StudyArguments& arguments, const std::filesystem::path& file);
 
-/// Loads the plugins that the scenes of `root`'s studies and walls name beside its own. False after
-/// errors, which are printed.
-bool load_scene_plugins(Application& application, const language::Object& root,
-                        const std::filesystem::path& file);
-
 }  // namespace hookpoint::cli

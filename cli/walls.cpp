@@ -1,15 +1,13 @@
 #include "cli/walls.h"
 
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <iostream>
-#include <thread>
 
 #include "cli/exit_status.h"
+#include "cli/run_bar.h"
 #include "output/file.h"
-#include "output/progress.h"
 #include "studies/wall.h"
 #include "studies/wall_report.h"
 
@@ -18,34 +16,18 @@ namespace {
 
 constexpr std::size_t table_width = 120;
 
-studies::RunOptions wall_options(const StudyArguments& arguments,
-                                 std::optional<output::Progress>& bar, const std::string& name) {
-  studies::RunOptions options;
-  options.jobs = arguments.jobs > 0
-                     ? arguments.jobs
-                     : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  options.progress = [&bar, name](const studies::Progress& progress) {
-    if (!bar) bar.emplace(name, progress.total, 0);
-    bar->advance(1);
-  };
-  return options;
-}
-
 int run_one(Application& application, const studies::WallPlan& plan,
             const StudyArguments& arguments, const std::string& command, bool alone) {
   const studies::InterruptGuard guard;
-  std::optional<output::Progress> bar;
+  RunBar bar(plan.study.name);
+  std::filesystem::path out;
+  if (arguments.out) out = alone ? *arguments.out : *arguments.out / plan.study.name;
+  const studies::RunOptions options = run_options(arguments, out, bar);
+  const std::filesystem::path folder = studies::wall_folder(plan, options);
   const auto result =
-      studies::run_wall(plan, application.engines(), wall_options(arguments, bar, plan.study.name),
-                        studies::InterruptGuard::stop());
-  bar.reset();
-  if (!result) {
-    print_error("interrupted; a Wall keeps nothing of a run that did not end");
-    return truth_failed;
-  }
-  std::filesystem::path folder =
-      std::filesystem::path("runs") / fmt::format("{}-{}", plan.study.name, plan.study.hash);
-  if (arguments.out) folder = alone ? *arguments.out : *arguments.out / plan.study.name;
+      studies::run_wall(plan, application.engines(), options, studies::InterruptGuard::stop());
+  bar.end();
+  if (!result) return interrupted(folder, command, arguments);
   const studies::Provenance provenance =
       studies::make_provenance(plan.study, application.engines());
   studies::write_wall_files(folder, plan, *result, provenance);

@@ -37,7 +37,7 @@ Vector3<Real> held_deflection(const Vector3<Real>& z, const MaterialConstants<Re
   return select(force > limit, (limit / positive_or_one(force)) * z, z);
 }
 
-/// Relaxation time of a slipping bristle without damping, which would have none [s].
+/// Least relaxation time of a slipping bristle, which without damping or load would have none [s].
 inline constexpr double shortest_relaxation = 1e-6;
 
 /// Friction on the ground [N], the rate of the bristle [m/s], and whether it slips.

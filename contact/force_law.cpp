@@ -84,6 +84,10 @@ double stored_energy(const ForceLaw& law, double depth, const Vector3d& stretch,
       [&](const auto& chosen) { return chosen.stored_energy(depth, stretch, material); }, law);
 }
 
+double reach(const ForceLaw& law, const MaterialConstants<double>& material) {
+  return std::visit([&](const auto& chosen) { return chosen.reach(material); }, law);
+}
+
 std::size_t bristle_states(const ForceLaw& law) {
   return std::visit([](const auto& chosen) { return chosen.bristle_states; }, law);
 }

@@ -53,6 +53,8 @@ LinearContact linearise(const ForceLaw& law, double load,
 double stored_energy(const ForceLaw& law, double depth, const Vector3d& stretch,
                      const MaterialConstants<double>& material);
 
+/// Height above the ground up to which the law acts [m].
+double reach(const ForceLaw& law, const MaterialConstants<double>& material);
 /// How many numbers of Bristle the law integrates: 0, 3 or 4.
 std::size_t bristle_states(const ForceLaw& law);
 /// Sliding speed [m/s] up to which a step dt [s] resolves the law's bristle under a load [N];

@@ -33,15 +33,16 @@ LoadedBristle<Real> loaded_bristle(const PointKinematics<Real>& point,
 }
 
 /// z' = v - alpha k_t |v| z/g(v) (Canudas de Wit et al. 1995 with alpha = 1, Dupont et al. 2002),
-/// no faster than to be relaxed after a step `dt` [s], where it then ends at its steady value; dt =
-/// 0 does not bound it [m/s].
+/// no faster than to be relaxed after a step `dt` [s], where it then ends at its steady value, nor
+/// in `shortest_relaxation`: as the load vanishes the relaxation would have no bound [m/s].
 template <class Real>
 Vector3<Real> bristle_rate(const LoadedBristle<Real>& bristle, const Real& alpha,
                            const MaterialConstants<Real>& material, const Real& dt) {
   const Real drag = material.tangential_stiffness * bristle.speed;  // k_t |v|
   const Vector3<Real> numerator =
       bristle.steady * bristle.velocity - (alpha * drag) * bristle.deflection;
-  return (1. / positive_or_one(Real(max(bristle.steady, drag * dt)))) * numerator;
+  const Real least_time = max(dt, Real(shortest_relaxation));
+  return (1. / positive_or_one(Real(max(bristle.steady, drag * least_time)))) * numerator;
 }
 
 /// f = k_t z + sigma1(v) z' + sigma2 v where the ground carries load, and

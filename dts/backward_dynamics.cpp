@@ -19,7 +19,7 @@ template <class Real>
   // u = tau - S^T pA;  pa = pA + Ia c + U u / D
   pass.u = torque - along(link.joint, pA);
   const Wrench<Real> pa = pA + free.Ia * pass.c + (pass.u * pass.D_inverse) * free.U;
-  return {inward(link, pass, free.Ia), inward(link, pass, pa)};
+  return {inward_screws(link, pass, free.Ia), inward_screws(link, pass, pa)};
 }
 
 }  // namespace
@@ -41,6 +41,9 @@ void backward_dynamics(const Model<Real>& model,
                     ? pass_inward(link, group.leaf, pA, torque, passes[n])
                     : pass_inward(link, eliminate(link.joint, carried.IA + link.inertia), pA,
                                   torque, passes[n]);
+      if (link.placed) {
+        carried = {inward(link.placement, carried.IA), inward(link.placement, carried.pA)};
+      }
     }
   }
 }

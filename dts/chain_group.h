@@ -33,9 +33,18 @@ struct Elimination {
   Real D_inverse{};  ///< 1 / (S^T IA S)
 };
 
+/// The part of a link's fixed transform that its screws cannot take up.
+template <class Real>
+struct Placement {
+  Vector3<Real> shift;      ///< preceding link's axes [m]
+  Real sine{}, cosine{1.};  ///< of a turn about z that follows it
+};
+
 template <class Real>
 struct LinkConstants {
   JointType joint = JointType::revolute;
+  bool placed = false;  ///< there is a placement ahead of the screws
+  Placement<Real> placement;
   bool twisted = false;  ///< alpha or a differs from 0, so that there is a screw about x
   Screw<Real> twist;     ///< by alpha and a, about the preceding frame's x
   Real d{}, theta{};

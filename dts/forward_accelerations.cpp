@@ -25,7 +25,8 @@ void forward_accelerations(const Model<Real>& model, Workspace<Real>& workspace)
       const LinkConstants<Lanes<Real>>& link = group.links[n];
       const LinkPass<Lanes<Real>>& pass = passes[n];
       // a' = X a + c;  ddq = (u - U^T a') / D;  a = a' + S ddq
-      a = outward(link, pass, a) + pass.c;
+      if (link.placed) a = outward(link.placement, a);
+      a = outward_screws(link, pass, a) + pass.c;
       const Lanes<Real> acceleration = pass.D_inverse * (pass.u - dot(pass.U, a));
       scatter(acceleration, at_link(group, n, std::span(workspace.joint_accelerations)));
       a = with_joint_motion(link.joint, a, acceleration);

@@ -1,16 +1,19 @@
 #include "dts/forward_kinematics.h"
 
+#include <algorithm>
+
 #include "dts/joint.h"
 #include "math/sine_cosine.h"
 
 namespace hookpoint::dts {
 namespace {
 
-/// Fills `pass` from the joint's position and rate and the preceding frame's angular velocity `w`,
-/// in its axes.
+/// Fills `pass` from the joint's position and rate and the angular velocity `w` of the frame ahead
+/// of the link's screws, in its axes.
 template <class Real>
-void link_pass(const LinkConstants<Real>& link, const Real& q, const Real& rate,
-               const Vector3<Real>& w, LinkPass<Real>& pass) {
+[[gnu::always_inline]] inline void link_pass(const LinkConstants<Real>& link, const Real& q,
+                                             const Real& rate, const Vector3<Real>& w,
+                                             LinkPass<Real>& pass) {
   const bool revolute = link.joint == JointType::revolute;
   const auto [sine, cosine] = polynomial_sine_cosine(revolute ? link.theta + q : link.theta);
   const Real d = revolute ? link.d : link.d + q;
@@ -35,10 +38,30 @@ void link_pass(const LinkConstants<Real>& link, const Real& q, const Real& rate,
   }
 }
 
+/// Adds what the shift of the link's placement gives its acceleration, w x (w x r), `w` as above.
+template <class Real>
+void add_centripetal(const LinkConstants<Real>& link, const Vector3<Real>& w,
+                     LinkPass<Real>& pass) {
+  const auto& [shift, sine, cosine] = link.placement;
+  const Vector3<Real> centripetal = cross(w, cross(w, rotate_z(-sine, cosine, shift)));
+  pass.c.linear += rotate_z(-pass.turn.sine, pass.turn.cosine,
+                            rotate_x(-link.twist.sine, link.twist.cosine, centripetal));
+}
+
+/// The motion of the frame that a placement leads to, which moves with the link before it.
+template <class Real>
+BodyMotion<Real> placed_motion(const Placement<Real>& at, const BodyMotion<Real>& before) {
+  const Vector3<Real> r = before.R_WB * at.shift;
+  return {times_rotation_z(before.R_WB, at.sine, at.cosine), before.p_WB + r,
+          before.v_WB + cross(before.w_WB, r), before.w_WB};
+}
+
 /// The link's world motion from that of the preceding frame.
 template <class Real>
-BodyMotion<Real> link_motion(const LinkConstants<Real>& link, const Screw<Real>& turn,
-                             const Real& rate, const BodyMotion<Real>& before) {
+[[gnu::always_inline]] inline BodyMotion<Real> link_motion(const LinkConstants<Real>& link,
+                                                           const Screw<Real>& turn,
+                                                           const Real& rate,
+                                                           const BodyMotion<Real>& before) {
   const Matrix3<Real> R_WY = times_rotation_x(before.R_WB, link.twist.sine, link.twist.cosine);
   const Vector3<Real> x_Y{R_WY.xx, R_WY.yx, R_WY.zx};
   const Vector3<Real> z{R_WY.xz, R_WY.yz, R_WY.zz};
@@ -54,6 +77,30 @@ template <class Real>
 BodyMotion<Real> hip_motion(const HipConstants<Real>& hip, const BodyMotion<Real>& base) {
   const Vector3<Real> r = base.R_WB * hip.p_BH;
   return {base.R_WB * hip.R_BH, base.p_WB + r, base.v_WB + cross(base.w_WB, r), base.w_WB};
+}
+
+/// From the base out along the chains of a group: `body` is the motion of their hips, `w` its
+/// angular velocity in their axes. `placed`: some link has a placement.
+template <bool placed, class Real>
+void group_kinematics(const ChainGroup<Real>& group, const State<Real>& state,
+                      BodyMotion<Lanes<Real>> body, Vector3<Lanes<Real>> w,
+                      Workspace<Real>& workspace) {
+  const std::span<LinkPass<Lanes<Real>>> passes = workspace.passes(group);
+  for (std::size_t n = 0; n < group.link_count(); ++n) {
+    const LinkConstants<Lanes<Real>>& link = group.links[n];
+    const Lanes<Real> q = gather(at_link(group, n, std::span(state.joint_positions)));
+    const Lanes<Real> rate = gather(at_link(group, n, std::span(state.joint_rates)));
+    if constexpr (placed) {
+      w = rotate_z(-link.placement.sine, link.placement.cosine, w);
+      body = placed_motion(link.placement, body);
+    }
+    link_pass(link, q, rate, w, passes[n]);
+    if constexpr (placed) add_centripetal(link, w, passes[n]);
+    body = link_motion(link, passes[n].turn, rate, body);
+    scatter(body, at_body(group, n, std::span(workspace.bodies)));
+    passes[n].R_WB = body.R_WB;
+    w = passes[n].w;
+  }
 }
 
 }  // namespace
@@ -72,18 +119,13 @@ void forward_kinematics(const Model<Real>& model, const State<Real>& state,
   const BodyMotion<Lanes<Real>> base_lanes = in_all_lanes<Lanes<Real>>(base);
   const Vector3<Lanes<Real>> w_base = in_all_lanes<Lanes<Real>>(workspace.base.w);
   for (const ChainGroup<Real>& group : model.groups()) {
-    BodyMotion<Lanes<Real>> body = hip_motion(group.hip, base_lanes);
-    Vector3<Lanes<Real>> w = transpose_times(group.hip.R_BH, w_base);
-    const std::span<LinkPass<Lanes<Real>>> passes = workspace.passes(group);
-    for (std::size_t n = 0; n < group.link_count(); ++n) {
-      const LinkConstants<Lanes<Real>>& link = group.links[n];
-      const Lanes<Real> q = gather(at_link(group, n, std::span(state.joint_positions)));
-      const Lanes<Real> rate = gather(at_link(group, n, std::span(state.joint_rates)));
-      link_pass(link, q, rate, w, passes[n]);
-      body = link_motion(link, passes[n].turn, rate, body);
-      scatter(body, at_body(group, n, std::span(workspace.bodies)));
-      passes[n].R_WB = body.R_WB;
-      w = passes[n].w;
+    const BodyMotion<Lanes<Real>> hips = hip_motion(group.hip, base_lanes);
+    const Vector3<Lanes<Real>> w = transpose_times(group.hip.R_BH, w_base);
+    const bool placed = std::ranges::any_of(group.links, &LinkConstants<Lanes<Real>>::placed);
+    if (placed) {
+      group_kinematics<true>(group, state, hips, w, workspace);
+    } else {
+      group_kinematics<false>(group, state, hips, w, workspace);
     }
   }
 }

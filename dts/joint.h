@@ -65,18 +65,50 @@ constexpr Elimination<Real> eliminate(JointType joint, const ArticulatedInertia<
           D_inverse};
 }
 
-/// An inertia or a wrench of a link, as the preceding frame sees it.
+// Across a placement, inwards and outwards. Not inlined: few robots have one, and the recursions of
+// the others are a sixth slower with this code in their midst (docs/urdf.md).
+template <class Real>
+[[gnu::noinline]] constexpr ArticulatedInertia<Real> inward(const Placement<Real>& at,
+                                                            const ArticulatedInertia<Real>& A) {
+  return shift(at.shift, rotate_z(at.sine, at.cosine, A));
+}
+template <class Real>
+[[gnu::noinline]] constexpr Wrench<Real> inward(const Placement<Real>& at, const Wrench<Real>& f) {
+  const Vector3<Real> force = rotate_z(at.sine, at.cosine, f.force);
+  return {rotate_z(at.sine, at.cosine, f.moment) + cross(at.shift, force), force};
+}
+template <class Real>
+[[gnu::noinline]] constexpr Motion<Real> outward(const Placement<Real>& at, const Motion<Real>& a) {
+  return {rotate_z(-at.sine, at.cosine, a.angular),
+          rotate_z(-at.sine, at.cosine, a.linear + cross(a.angular, at.shift))};
+}
+
+/// An inertia or a wrench of a link, as the frame ahead of its screws sees it.
 template <class Real, class Quantity>
-constexpr Quantity inward(const LinkConstants<Real>& link, const LinkPass<Real>& pass,
-                          const Quantity& x) {
+constexpr Quantity inward_screws(const LinkConstants<Real>& link, const LinkPass<Real>& pass,
+                                 const Quantity& x) {
   const Quantity y = inward_z(pass.turn, x);
   return link.twisted ? inward_x(link.twist, y) : y;
 }
-/// A motion of the preceding frame, as the link would have it with its joint locked.
+/// A motion of the frame ahead of a link's screws, as the link would have it with its joint locked.
+template <class Real>
+constexpr Motion<Real> outward_screws(const LinkConstants<Real>& link, const LinkPass<Real>& pass,
+                                      const Motion<Real>& a) {
+  return outward_z(pass.turn, link.twisted ? outward_x(link.twist, a) : a);
+}
+
+/// An inertia or a wrench of a link, as the preceding link sees it.
+template <class Real, class Quantity>
+constexpr Quantity inward(const LinkConstants<Real>& link, const LinkPass<Real>& pass,
+                          const Quantity& x) {
+  const Quantity y = inward_screws(link, pass, x);
+  return link.placed ? inward(link.placement, y) : y;
+}
+/// A motion of the preceding link, as the link would have it with its joint locked.
 template <class Real>
 constexpr Motion<Real> outward(const LinkConstants<Real>& link, const LinkPass<Real>& pass,
                                const Motion<Real>& a) {
-  return outward_z(pass.turn, link.twisted ? outward_x(link.twist, a) : a);
+  return outward_screws(link, pass, link.placed ? outward(link.placement, a) : a);
 }
 
 /// Inertias of chains about their hips, as the base sees them: H' = H + [p]x M, I' = I - H [p]x +

@@ -100,6 +100,13 @@ constexpr Matrix3<Real> rotate_z(const Real& sine, const Real& cosine, const Mat
           m.zz};
 }
 
+/// R A R^T of all blocks, R = Rot_z.
+template <class Real>
+constexpr ArticulatedInertia<Real> rotate_z(const Real& sine, const Real& cosine,
+                                            const ArticulatedInertia<Real>& A) {
+  return {rotate_z(sine, cosine, A.I), rotate_z(sine, cosine, A.H), rotate_z(sine, cosine, A.M)};
+}
+
 /// About an origin `shift` further back along z: H' = H + [r]x M, I' = I - H [r]x + [r]x H'^T with
 /// r = shift z.
 template <class Real>
@@ -146,8 +153,7 @@ constexpr ArticulatedInertia<Real> shift(const Vector3<Real>& p,
 template <class Real>
 constexpr ArticulatedInertia<Real> inward_z(const Screw<Real>& s,
                                             const ArticulatedInertia<Real>& A) {
-  return shift_z(s.shift, {rotate_z(s.sine, s.cosine, A.I), rotate_z(s.sine, s.cosine, A.H),
-                           rotate_z(s.sine, s.cosine, A.M)});
+  return shift_z(s.shift, rotate_z(s.sine, s.cosine, A));
 }
 template <class Real>
 constexpr ArticulatedInertia<Real> inward_x(const Screw<Real>& s,

@@ -1,6 +1,7 @@
 #include "dts/model.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "dts/joint.h"
 #include "dts/rigid_body.h"
@@ -20,21 +21,64 @@ Screw<double> twist_of(const LinkDescription& link) {
   return {alpha.sine, alpha.cosine, link.a};
 }
 
-/// The hip with the first link's screw about x, which never moves against it; `first` is left with
-/// none.
+bool is_placed(const LinkDescription& link) {
+  return link.joint_position != Vector3d{} || link.joint_orientation != Quaterniond{};
+}
+
+/// A link's fixed transform and screw about x as one: R, and the shift in the preceding link's
+/// axes.
+struct Ahead {
+  Vector3d shift;
+  Matrix3d R;
+};
+Ahead ahead_of(const LinkDescription& link) {
+  const Matrix3d R = rotation_matrix(normalized(link.joint_orientation));
+  const Screw<double> twist = twist_of(link);
+  return {link.joint_position + R * Vector3d{twist.shift, 0., 0.},
+          times_rotation_x(R, twist.sine, twist.cosine)};
+}
+
+/// R = Rot_z(turn) Rot_x(alpha) Rot_z(theta): the first goes into the placement, the others into
+/// the link's screws. Well conditioned for any alpha, since each angle is that of what the others
+/// leave.
+Placement<double> split_placement(LinkDescription& link) {
+  const auto [shift, R] = ahead_of(link);
+  const double turn = R.xz == 0. && R.yz == 0. ? 0. : std::atan2(R.xz, -R.yz);
+  const SineCosine<double> z = sine_cosine(turn);
+  const Matrix3d rest{z.cosine * R.xx + z.sine * R.yx,
+                      z.cosine * R.xy + z.sine * R.yy,
+                      z.cosine * R.xz + z.sine * R.yz,
+                      z.cosine * R.yx - z.sine * R.xx,
+                      z.cosine * R.yy - z.sine * R.xy,
+                      z.cosine * R.yz - z.sine * R.xz,
+                      R.zx,
+                      R.zy,
+                      R.zz};
+  link.a = 0.;
+  link.alpha = std::atan2(-rest.yz, rest.zz);
+  link.theta += std::atan2(-rest.xy, rest.xx);
+  return {shift, z.sine, z.cosine};
+}
+
+/// The hip with all that never moves against it: the first link's fixed transform and screw about
+/// x, of which `first` is left with none.
 HipConstants<double> merged_hip(const ChainDescription& description, LinkDescription& first) {
   const Matrix3d R = rotation_matrix(normalized(description.hip_orientation));
-  const Screw<double> twist = twist_of(first);
-  const Vector3d hip_to_H = R * Vector3d{twist.shift, 0., 0.};
+  const Ahead ahead = ahead_of(first);
+  const Vector3d hip_to_H = R * ahead.shift;
   first.a = first.alpha = 0.;
-  return {description.hip_position + hip_to_H, times_rotation_x(R, twist.sine, twist.cosine),
-          hip_to_H};
+  first.joint_position = {};
+  first.joint_orientation = {};
+  return {description.hip_position + hip_to_H, R * ahead.R, hip_to_H};
 }
 
 /// Puts a link of a chain into lane `lane`.
 template <class Real>
-void set_link(LinkConstants<Lanes<Real>>& links, std::size_t lane, const LinkDescription& link) {
+void set_link(LinkConstants<Lanes<Real>>& links, std::size_t lane, LinkDescription link) {
   links.joint = link.joint;
+  links.placed = links.placed || is_placed(link);
+  const Placement<double> placement = is_placed(link) ? split_placement(link) : Placement<double>{};
+  set_lane(links.placement, lane, in_all_lanes<Real>(placement));
   links.twisted = links.twisted || link.alpha != 0. || link.a != 0.;
   set_lane(links.twist, lane, in_all_lanes<Real>(twist_of(link)));
   links.d.lanes[lane] = link.d;

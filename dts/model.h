@@ -23,11 +23,14 @@ struct MassProperties {
 
 /// Link i's own four numbers place its frame after the preceding one: Rot_x(alpha) Trans_x(a)
 /// Rot_z(theta) Trans_z(d). The joint variable adds to theta (revolute) or to d (prismatic). SI,
-/// radians.
+/// radians. Ahead of them may stand any fixed transform, for axes that four numbers cannot place or
+/// place badly (common normals of near-parallel axes lie far away).
 struct LinkDescription {
   double a = 0., alpha = 0., d = 0., theta = 0.;
   JointType joint = JointType::revolute;
   MassProperties<double> mass;
+  Vector3d joint_position;        ///< of the fixed transform, preceding link's axes [m]
+  Quaterniond joint_orientation;  ///< of the fixed transform
 };
 
 struct ChainDescription {

@@ -55,6 +55,7 @@ Status AdaptiveStepper::integrate(double dt) {
     committed = arrival.time;
     if (event || system_->far(u_)) {
       count();
+      if (event) system_->begin_anew(v_);
       start_from(q_, v_);
       begin(arrival.time, dt);
     }

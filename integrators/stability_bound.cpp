@@ -25,11 +25,15 @@ double rk4_amplification(std::complex<double> z) {
 
 }  // namespace
 
+double explicit_euler_bound(std::complex<double> eigenvalue) {
+  // |1 + lambda dt| = 1. Decay below round-off of the modulus is none.
+  constexpr double least_decay = 1e-12;
+  const double modulus = std::abs(eigenvalue), decay = -eigenvalue.real() / modulus;
+  return decay > least_decay ? 2. * decay / modulus : 0.;
+}
+
 double explicit_euler_bound(const Mode& mode) {
-  if (without_forces(mode)) return infinity;
-  const double discriminant = mode.damping * mode.damping - 4. * mode.stiffness * mode.mass;
-  if (discriminant < 0.) return mode.damping / mode.stiffness;
-  return 4. * mode.mass / (mode.damping + std::sqrt(discriminant));
+  return without_forces(mode) ? infinity : explicit_euler_bound(fastest_eigenvalue(mode));
 }
 
 double semi_implicit_euler_bound(const Mode& mode) {
@@ -39,9 +43,7 @@ double semi_implicit_euler_bound(const Mode& mode) {
   return 4. * mode.mass / (root + mode.damping);
 }
 
-double rk4_bound(const Mode& mode) {
-  if (without_forces(mode)) return infinity;
-  const std::complex<double> eigenvalue = fastest_eigenvalue(mode);
+double rk4_bound(std::complex<double> eigenvalue) {
   const double modulus = std::abs(eigenvalue);
   const std::complex<double> direction = eigenvalue / modulus;
   // The region |R| <= 1 ends between 2.6 and 3.4 from the origin in the left half plane; march out,
@@ -58,6 +60,10 @@ double rk4_bound(const Mode& mode) {
     (unstable(middle) ? high : low) = middle;
   }
   return low / modulus;
+}
+
+double rk4_bound(const Mode& mode) {
+  return without_forces(mode) ? infinity : rk4_bound(fastest_eigenvalue(mode));
 }
 
 std::optional<double> largest_stable_step(std::string_view integrator, const Mode& mode) {

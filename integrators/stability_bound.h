@@ -3,6 +3,7 @@
 // (docs/contact.md).
 #pragma once
 
+#include <complex>
 #include <optional>
 #include <string_view>
 
@@ -24,6 +25,12 @@ double semi_implicit_euler_bound(const Mode& mode);
 /// Where |R(lambda dt)| first exceeds 1 for an eigenvalue lambda of the mode, R(z) = 1 + z + z^2/2
 /// + z^3/6 + z^4/24; 2 sqrt(2)/w without damping, 2.785.../|lambda| for real eigenvalues [s].
 double rk4_bound(const Mode& mode);
+
+/// The same for one eigenvalue of a linear system with many modes [1/s]: explicit Euler's -2 Re/|
+/// |^2, 0 where it does not decay; RK4's. There is none such of semi-implicit Euler, which treats
+/// position and velocity unlike.
+double explicit_euler_bound(std::complex<double> eigenvalue);
+double rk4_bound(std::complex<double> eigenvalue);
 
 /// The bound of the integrator of that name [s]; infinity for a mode without forces; none for an
 /// unknown name.

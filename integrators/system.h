@@ -51,6 +51,10 @@ class System {
   virtual void commit(double /*t*/, double /*dt*/, std::span<const double> /*q*/,
                       std::span<const double> /*v*/) {}
 
+  /// After an event's commit: `v` as the motion goes on with it. A system may drop from it what the
+  /// event has ended (the bristle of a point that has left the ground).
+  virtual void begin_anew(std::span<double> /*v*/) {}
+
   /// How many event functions there are; the number is the same for life.
   virtual std::size_t event_count() const { return 0; }
   /// The event functions at (t, q, v): the integration stops where one changes sign (a point enters

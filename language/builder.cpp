@@ -189,8 +189,15 @@ void Builder::lay_assignment(FileScope& scope, const Item& item) {
 void Builder::add_field(const FileScope& scope, const ClassSchema& schema, const Item& item,
                         std::vector<Field>& fields) {
   const ExpressionEvaluator evaluate = evaluator(scope);
-  const std::string name(evaluate.text(item.place));
-  const Position place = position(scope, item.place);
+  add_field(schema, std::string(evaluate.text(item.place)), position(scope, item.place), fields,
+            [&](const FieldSchema& field) {
+              return make_field(schema_.context(schema, field, evaluate, report_), item.value);
+            });
+}
+
+void Builder::add_field(const ClassSchema& schema, const std::string& name, const Position& place,
+                        std::vector<Field>& fields,
+                        const std::function<std::optional<Field>(const FieldSchema&)>& make) {
   const FieldSchema* field = schema.find(name);
   if (field == nullptr) {
     std::vector<std::string> names;
@@ -211,8 +218,7 @@ void Builder::add_field(const FileScope& scope, const ClassSchema& schema, const
     report_.note(at->position, "first given here");
     return;
   }
-  std::optional<Field> made =
-      make_field(schema_.context(schema, *field, evaluate, report_), item.value);
+  std::optional<Field> made = make(*field);
   if (!made) {
     // It stays as an empty shell, so that a wrong value is not called missing as well.
     made.emplace().schema = field;

@@ -3,6 +3,7 @@
 // objects are known.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <set>
@@ -65,6 +66,10 @@ class Builder {
   void close_object() { open_.pop_back(); }
   void add_field(const FileScope& scope, const ClassSchema& schema, const Item& item,
                  std::vector<Field>& fields);
+  /// The field called `name`, as `make` makes it, if there may be one.
+  void add_field(const ClassSchema& schema, const std::string& name, const Position& place,
+                 std::vector<Field>& fields,
+                 const std::function<std::optional<Field>(const FieldSchema&)>& make);
   bool define(FileScope& scope, std::string_view name, std::vector<Value> values,
               const Position& place);
   void leave_out(const FileScope& scope, const Item& item);
@@ -86,6 +91,10 @@ class Builder {
   bool check_arguments(const FileScope& scope);
   bool check_argument(Given& given, const std::vector<Value>& defaults, const Item& item,
                       const FileScope& scope);
+
+  // builder_foreign.cpp
+  void lay_foreign_file(const FileScope& scope);
+  void lay_foreign(const FileScope& scope, const ForeignObject& foreign);
 
   ExpressionEvaluator evaluator(const FileScope& scope) {
     return {scope.file, scope.variables, report_, budget_};

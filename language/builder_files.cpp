@@ -26,6 +26,7 @@ std::string_view kind_name(ValueKind kind) {
 void Builder::lay_file(FileScope& scope) {
   report_.order_file(scope.file.source);
   report_.append(scope.file.report);
+  if (scope.file.reader != nullptr) return lay_foreign_file(scope);
   if (check_arguments(scope)) lay_items(scope, scope.file.syntax.top, true);
 }
 

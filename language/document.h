@@ -52,6 +52,8 @@ class Library {
   Library(const Library&) = delete;
   Library& operator=(const Library&) = delete;
 
+  /// From now on `text` is the file `path`, which need not exist.
+  void give(const std::filesystem::path& path, std::string text);
   /// Parses, evaluates and checks `file`. Null when `diagnostics` got an error. Thread-safe: parsed
   /// files are kept under a lock and only read afterwards. The tree and the diagnostics point into
   /// the Library and the Schema. Cost: linear in the size of the laid-down tree.

@@ -25,9 +25,21 @@ std::string unit_after(const FieldSchema& field) {
 class FieldMaker {
  public:
   FieldMaker(const FieldContext& context, Range value)
-      : schema_(context.schema), context_(context), value_(value), report_(context.report) {}
+      : schema_(context.schema), context_(context), value_(value), report_(context.report) {
+    const std::vector<Expression>& expressions = context.evaluator.syntax().expressions;
+    const Span first = expressions[value.begin].span, last = expressions[value.end - 1].span;
+    field_.position =
+        context.evaluator.position({first.offset, last.offset + last.length - first.offset});
+  }
+  FieldMaker(const FieldContext& context, std::vector<Value> values, const Position& position)
+      : schema_(context.schema),
+        context_(context),
+        report_(context.report),
+        values_(std::move(values)) {
+    field_.position = position;
+  }
 
-  std::optional<Field> run(const Syntax& syntax);
+  std::optional<Field> run();
 
  private:
   bool make_numbers();
@@ -42,8 +54,10 @@ class FieldMaker {
   bool check_count(std::size_t count, int least, int most, std::string_view noun);
   /// The values of the list; nothing after an error.
   bool evaluate();
-  /// The word that is all of expression i, "" when there is more: not a variable's value.
-  std::string_view bare_word(std::uint32_t i) const;
+  /// The trail that is all of the one expression, else null: no variable's value.
+  const Trail* lone_trail() const;
+  /// The word that is all of the one expression, else "".
+  std::string_view bare_word() const;
   std::string choices_text() const { return "expected one of " + join(schema_.choices, ", "); }
   bool fail(const Position& place, std::string message) {
     report_.error(place, std::move(message));
@@ -52,20 +66,14 @@ class FieldMaker {
 
   const FieldSchema& schema_;
   const FieldContext& context_;
-  Range value_;
+  Range value_;  ///< empty where the values are known already
   Report& report_;
   std::vector<Value> values_;
-  const Syntax* syntax_ = nullptr;
   Field field_;
 };
 
-std::optional<Field> FieldMaker::run(const Syntax& syntax) {
-  syntax_ = &syntax;
+std::optional<Field> FieldMaker::run() {
   field_.schema = &schema_;
-  const Span first = syntax.expressions[value_.begin].span,
-             last = syntax.expressions[value_.end - 1].span;
-  field_.position =
-      context_.evaluator.position({first.offset, last.offset + last.length - first.offset});
   bool good = false;
   switch (schema_.type) {
     case FieldType::number:
@@ -97,13 +105,19 @@ std::optional<Field> FieldMaker::run(const Syntax& syntax) {
 }
 
 bool FieldMaker::evaluate() {
+  if (value_.empty()) return true;
   std::optional<std::vector<Value>> values = context_.evaluator.evaluate_list(value_);
   if (values) values_ = std::move(*values);
   return values.has_value();
 }
 
-std::string_view FieldMaker::bare_word(std::uint32_t i) const {
-  const Trail* trail = context_.evaluator.lone_trail(syntax_->expressions[i]);
+const Trail* FieldMaker::lone_trail() const {
+  if (value_.size() != 1) return nullptr;
+  return context_.evaluator.lone_trail(context_.evaluator.syntax().expressions[value_.begin]);
+}
+
+std::string_view FieldMaker::bare_word() const {
+  const Trail* trail = lone_trail();
   return trail != nullptr && trail->parts.size() == 1 ? context_.evaluator.text(trail->span) : "";
 }
 
@@ -243,8 +257,8 @@ bool FieldMaker::make_text() {
 }
 
 bool FieldMaker::make_choice() {
-  const std::string_view word = bare_word(value_.begin);
-  if (value_.size() == 1 && std::ranges::find(schema_.choices, word) != schema_.choices.end()) {
+  const std::string_view word = bare_word();
+  if (std::ranges::find(schema_.choices, word) != schema_.choices.end()) {
     field_.words.emplace_back(word);
     return true;
   }
@@ -283,8 +297,8 @@ bool FieldMaker::make_words() {
 bool FieldMaker::make_reference() {
   const std::string wanted =
       schema_.type == FieldType::port ? "the trail of a port" : "the name of an object";
-  if (value_.size() == 1) {
-    const Trail* trail = context_.evaluator.lone_trail(syntax_->expressions[value_.begin]);
+  if (value_.size() == 1 || values_.size() == 1) {
+    const Trail* trail = lone_trail();
     std::optional<std::string> text;
     if (trail != nullptr) {
       text = context_.evaluator.trail_text(*trail);
@@ -305,7 +319,12 @@ bool FieldMaker::make_reference() {
 }  // namespace
 
 std::optional<Field> make_field(const FieldContext& context, Range value) {
-  return FieldMaker(context, value).run(context.evaluator.syntax());
+  return FieldMaker(context, value).run();
+}
+
+std::optional<Field> make_field(const FieldContext& context, std::vector<Value> values,
+                                const Position& position) {
+  return FieldMaker(context, std::move(values), position).run();
 }
 
 std::string number_text(double value) {

@@ -21,6 +21,10 @@ struct FieldContext {
 /// resolved. `given` is not set.
 std::optional<Field> make_field(const FieldContext& context, Range value);
 
+/// The same of values that are known already, at `position`.
+std::optional<Field> make_field(const FieldContext& context, std::vector<Value> values,
+                                const Position& position);
+
 /// The shortest text that reads back to the same double.
 std::string number_text(double value);
 /// The values that a numeric field takes, as a user is told: "greater than 0 kg", "from 0 to 1", ""

@@ -50,19 +50,39 @@ std::vector<std::string> FileStore::searched(const std::filesystem::path& path,
   return folders;
 }
 
-const ParsedFile& FileStore::load(const std::filesystem::path& path) {
+std::unique_ptr<ParsedFile>& FileStore::place_of(const std::filesystem::path& path) {
   std::error_code ignored;
   const std::string key = std::filesystem::weakly_canonical(path, ignored).string();
+  return files_[key.empty() ? path.string() : key];
+}
+
+void FileStore::take(ParsedFile& file) const {
+  index_lines(file.source);
+  const std::filesystem::path path = file.source.path;
+  file.reader = schema_.find_reader(path.extension().string());
+  if (!file.report.has_errors() && file.reader == nullptr) parse(file);
+}
+
+const ParsedFile& FileStore::load(const std::filesystem::path& path) {
   const std::lock_guard lock(mutex_);
-  std::unique_ptr<ParsedFile>& file = files_[key.empty() ? path.string() : key];
+  std::unique_ptr<ParsedFile>& file = place_of(path);
   if (file == nullptr) {
     file = std::make_unique<ParsedFile>();
     file->source.path = path.string();
     read(path, *file);
-    index_lines(file->source);
-    if (!file->report.has_errors()) parse(*file);
+    take(*file);
   }
   return *file;
+}
+
+void FileStore::give(const std::filesystem::path& path, std::string text) {
+  const std::lock_guard lock(mutex_);
+  std::unique_ptr<ParsedFile>& file = place_of(path);
+  if (file != nullptr) return;
+  file = std::make_unique<ParsedFile>();
+  file->source.path = path.string();
+  file->source.text = std::move(text);
+  take(*file);
 }
 
 const ParsedFile& FileStore::override_text(const std::string& trail, const std::string& value) {

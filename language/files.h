@@ -15,8 +15,8 @@ namespace hookpoint::language {
 
 class FileStore {
  public:
-  explicit FileStore(std::vector<std::filesystem::path> search_path)
-      : search_path_(std::move(search_path)) {}
+  FileStore(const Schema& schema, std::vector<std::filesystem::path> search_path)
+      : schema_(schema), search_path_(std::move(search_path)) {}
 
   /// See Library::find.
   std::filesystem::path find(const std::filesystem::path& path,
@@ -26,10 +26,18 @@ class FileStore {
                                     const std::filesystem::path& from) const;
   /// The file, parsed; when it cannot be read its report says so. Thread-safe.
   const ParsedFile& load(const std::filesystem::path& path);
+  /// `text` as the file `path`, which need not exist. Replaces nothing that was read. Thread-safe.
+  void give(const std::filesystem::path& path, std::string text);
   /// `trail=value` as a file of its own, named <--set trail>. Thread-safe.
   const ParsedFile& override_text(const std::string& trail, const std::string& value);
 
  private:
+  /// Under the lock: where the file is kept, null before it is.
+  std::unique_ptr<ParsedFile>& place_of(const std::filesystem::path& path);
+  /// Parses what has been read.
+  void take(ParsedFile& file) const;
+
+  const Schema& schema_;
   std::vector<std::filesystem::path> search_path_;
   std::mutex mutex_;
   std::map<std::string, std::unique_ptr<ParsedFile>> files_, overrides_;

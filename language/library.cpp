@@ -9,7 +9,7 @@ namespace hookpoint::language {
 
 struct Library::Implementation {
   Implementation(const Schema& schema, std::vector<std::filesystem::path> search_path)
-      : prepared(schema), files(std::move(search_path)) {}
+      : prepared(schema), files(schema, std::move(search_path)) {}
   PreparedSchema prepared;
   FileStore files;
 };
@@ -18,6 +18,10 @@ Library::Library(const Schema& schema, std::vector<std::filesystem::path> search
     : implementation_(std::make_unique<Implementation>(schema, std::move(search_path))) {}
 
 Library::~Library() = default;
+
+void Library::give(const std::filesystem::path& path, std::string text) {
+  implementation_->files.give(path, std::move(text));
+}
 
 std::unique_ptr<Object> Library::evaluate(const std::filesystem::path& file,
                                           const EvaluateOptions& options,

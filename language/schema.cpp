@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "language/foreign.h"
+
 namespace hookpoint::language {
 namespace {
 
@@ -68,6 +70,15 @@ void Schema::add(ClassSchema schema) {
 const ClassSchema* Schema::find(std::string_view name) const {
   const auto found = classes_.find(name);
   return found == classes_.end() ? nullptr : &found->second;
+}
+
+void Schema::add_reader(std::string extension, ForeignReader reader) {
+  readers_.emplace(std::move(extension), std::move(reader));
+}
+
+const ForeignReader* Schema::find_reader(const std::string& extension) const {
+  const auto found = readers_.find(extension);
+  return found == readers_.end() ? nullptr : &found->second;
 }
 
 }  // namespace hookpoint::language

@@ -3,6 +3,7 @@
 // annotations and plot labels all come from here.
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <map>
 #include <optional>
@@ -79,6 +80,15 @@ struct ClassSchema {
   const FieldSchema* find(std::string_view field) const;
 };
 
+struct ForeignField;
+struct ForeignObject;
+struct SourceFile;
+class Report;
+/// Reads a file that is not in the language (foreign.h): the objects that an Include of it with
+/// these arguments lays down. What is wrong goes to the report.
+using ForeignReader = std::function<std::vector<ForeignObject>(
+    const SourceFile& file, const std::map<std::string, ForeignField>& arguments, Report& report)>;
+
 /// All classes. Every folder that owns objects of the language adds its own; the command joins
 /// them.
 class Schema {
@@ -89,9 +99,14 @@ class Schema {
   void add(ClassSchema schema);
   const ClassSchema* find(std::string_view name) const;
   const std::map<std::string, ClassSchema, std::less<>>& classes() const { return classes_; }
+  /// Files whose names end in `extension` (".urdf") are read by `reader`.
+  void add_reader(std::string extension, ForeignReader reader);
+  /// Null for files in the language itself.
+  const ForeignReader* find_reader(const std::string& extension) const;
 
  private:
   std::map<std::string, ClassSchema, std::less<>> classes_;
+  std::map<std::string, ForeignReader> readers_;
 };
 
 /// What is wrong with a schema itself, one line each: units and defaults that do not parse, names

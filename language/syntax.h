@@ -8,6 +8,7 @@
 
 #include "language/dimension.h"
 #include "language/report.h"
+#include "language/schema.h"
 #include "language/source.h"
 
 namespace hookpoint::language {
@@ -135,7 +136,8 @@ struct Syntax {
 struct ParsedFile {
   SourceFile source;
   Syntax syntax;
-  Report report;  ///< its syntax errors
+  Report report;                          ///< its syntax errors
+  const ForeignReader* reader = nullptr;  ///< of a file in another format, which has no syntax
 };
 
 /// Parses `file.source` into `file.syntax`, all errors into `file.report`. Cost: linear.

@@ -83,7 +83,9 @@ class Script {
         first = false;
       }
     }
-    if (greatest <= least) greatest = least + 1.;
+    if (map_.color.logarithmic) least = std::max(least, map_.color.floor);
+    if (greatest <= least) greatest = map_.color.logarithmic ? 10. * least : least + 1.;
+    if (map_.color.logarithmic) out_ << "set logscale cb\nset format cb '10^{%T}'\n";
     out_ << "set palette defined (0 '#f6b26b', 0.5 '#f7f3e8', 1 '#7fb8e6')\nset cbrange ["
          << shortest(least) << ":" << shortest(greatest)
          << "]\nset border 0\nset xrange [-0.5:" << shortest(static_cast<double>(columns_) - 0.5)
@@ -133,13 +135,16 @@ class Script {
     const std::string from = gnuplot_quoted(map_.name + ".csv") +
                              " skip 1 every ::" + std::to_string(first) +
                              "::" + std::to_string(first + count - 1);
-    out_ << "given(v) = strlen(v) > 0\nplot " << from
-         << " using 5:6:($5-0.48):($5+0.48):($6-0.48):($6+0.48):(given(strcol(4)) ? $4 : NaN) with "
-            "boxxyerror fs solid noborder lc palette, \\\n  "
-         << from
-         << " using 5:6:(given(strcol(4)) ? sprintf('%.3g', $4) : '') with labels tc rgb '#222222' "
-            "font 'Helvetica,11', \\\n  "
-         << from
+    const bool logarithmic = map_.color.logarithmic;
+    out_ << "given(v) = strlen(v) > 0\nshade(v) = "
+         << (logarithmic
+                 ? "v < " + shortest(map_.color.floor) + " ? " + shortest(map_.color.floor) + " : v"
+                 : "v")
+         << "\nplot " << from
+         << " using 5:6:($5-0.48):($5+0.48):($6-0.48):($6+0.48):(given(strcol(4)) ? shade($4) : "
+            "NaN) with boxxyerror fs solid noborder lc palette, \\\n  "
+         << from << " using 5:6:(given(strcol(4)) ? sprintf('" << (logarithmic ? "%.0e" : "%.3g")
+         << "', $4) : '') with labels tc rgb '#222222' font 'Helvetica,11', \\\n  " << from
          << " using 5:(given(strcol(4)) ? NaN : $6) with points pt 2 ps 1 lw 2 lc rgb '#D55E00'\n";
   }
 

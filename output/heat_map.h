@@ -29,7 +29,7 @@ struct HeatMap {
   std::string name;  ///< file name without extension
   std::string title;
   std::string subtitle;
-  Axis x, y, color;  ///< names and units
+  Axis x, y, color;  ///< names and units; a logarithmic colour begins at its floor
   std::vector<double> x_values, y_values;
   std::vector<HeatMapPanel> panels;  ///< side by side, of one scale of colours
 };

@@ -96,7 +96,6 @@ void BulletRobot::add_colliders(btMultiBodyDynamicsWorld& world) {
     const auto link = static_cast<int>(i) - 1;
     auto collider = std::make_unique<btMultiBodyLinkCollider>(multibody_.get(), link);
     collider->setCollisionShape(&marker_);
-    collider->setActivationState(DISABLE_DEACTIVATION);
     world.addCollisionObject(collider.get(), 0, 0);
     if (i == 0) {
       multibody_->setBaseCollider(collider.get());

@@ -206,12 +206,15 @@ class BulletWorld final : public PeerWorld {
     points_->attach(objects);
   }
 
-  /// Contacts of points; and contacts of shapes get the material of their tile.
+  /// Contacts of shapes get the material of their tile, and those of points are made.
   void after_collision() {
     if (!points_) return;
+    if (!terrain_->description().patches.empty()) paint_contacts();
     read_motion(now_, joints_now_);
     points_->collide(now_);
-    if (terrain_->description().patches.empty()) return;
+  }
+
+  void paint_contacts() {
     for (int i = 0; i < dispatcher_.getNumManifolds(); ++i) {
       btPersistentManifold& manifold = *dispatcher_.getInternalManifoldPointer()[i];
       for (int k = 0; k < manifold.getNumContacts(); ++k) {

@@ -99,18 +99,31 @@ bool DartShapesFilter::meets(const dart::dynamics::ShapeFrame* shape,
   return other == ground && std::ranges::find(shapes, shape) != shapes.end();
 }
 
+dart::collision::CollisionObject* DartGroundDetector::ground_object(int material) {
+  return claimCollisionObject(ground->materials[static_cast<std::size_t>(material)]).get();
+}
+
 bool DartGroundDetector::collide(dart::collision::CollisionGroup* group,
                                  const dart::collision::CollisionOption& option,
                                  dart::collision::CollisionResult* result) {
+  // A corner laid on the plane is a rounding error off it.
+  constexpr double rounding = 1e-9;
   FCLCollisionDetector::collide(group, option, result);
+  // The tile under the contact has the friction.
+  for (std::size_t i = 0; i < result->getNumContacts(); ++i) {
+    dart::collision::Contact& contact = result->getContact(i);
+    const bool first = contact.collisionObject1->getShapeFrame()->asShapeNode()->getSkeleton() ==
+                       ground->materials[0]->getSkeleton();
+    auto*& object = first ? contact.collisionObject1 : contact.collisionObject2;
+    object = ground_object(ground->terrain.query(vector(contact.point)).material);
+  }
   for (const DartBall& ball : balls) {
     const Eigen::Isometry3d& X_WB = ball.node->getBodyNodePtr()->getWorldTransform();
     const Meeting meeting = meet(ground->terrain, ball.place, pose_of(X_WB));
-    if (!(meeting.depth >= 0.)) continue;
+    if (!(meeting.depth >= -rounding)) continue;
     dart::collision::Contact contact;
     contact.collisionObject1 = claimCollisionObject(ball.node).get();
-    const auto material = static_cast<std::size_t>(meeting.material);
-    contact.collisionObject2 = claimCollisionObject(ground->materials[material]).get();
+    contact.collisionObject2 = ground_object(meeting.material);
     contact.point = eigen(meeting.position);
     contact.normal = eigen(meeting.normal);
     contact.penetrationDepth = meeting.depth;

@@ -79,6 +79,9 @@ class DartGroundDetector final : public dart::collision::FCLCollisionDetector {
   bool collide(dart::collision::CollisionGroup* group,
                const dart::collision::CollisionOption& option,
                dart::collision::CollisionResult* result) override;
+
+ private:
+  dart::collision::CollisionObject* ground_object(int material);
 };
 
 }  // namespace hookpoint::reference

@@ -22,9 +22,8 @@ std::vector<EngineGap> gaps() {
   add(feature::two_frictions, noticed,
       "this engine has one coefficient of friction, and it is the kinetic one");
   add(feature::legcone, refused, "DART has no truncated cone; use Cylinder, Sphere or Box");
-  add(feature::tile_friction, refused, "use one material");
-  add(feature::tile_softness, refused, "use one material");
-  add(feature::tile_restitution, refused, "use one material");
+  add(feature::tile_softness, noticed,
+      "at `settings = matched` the constants of the terrain's own material hold on every tile");
   return gaps;
 }
 

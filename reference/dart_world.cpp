@@ -20,6 +20,7 @@
 #include "reference/dart_contact.h"
 #include "reference/dart_shapes.h"
 #include "reference/experiment_checks.h"
+#include "reference/extremes.h"
 #include "reference/robot_tree.h"
 #include "reference/touching_points.h"
 
@@ -36,15 +37,6 @@ struct ShapeUse {
   int point = -1;  ///< index among the touching points; -1: a shape
 };
 using ShapeUses = std::unordered_map<const dart::dynamics::ShapeFrame*, ShapeUse>;
-
-/// Speeds whose fourth power is still a number. The library's assertions end the process where its
-/// equations of motion are not finite, so it is not let go there.
-constexpr double extreme_speed = 1e50;
-
-bool moderate(const Vector3d& a) {
-  return std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)}) < extreme_speed &&
-         !std::isnan(a.x + a.y + a.z);
-}
 
 class DartWorld final : public PeerWorld {
  public:
@@ -244,7 +236,8 @@ class DartWorld final : public PeerWorld {
     return result;
   }
 
-  /// False where the library would not survive the step; `refused_` then says whose.
+  /// False where an assertion of the library would end the process: its equations of motion would
+  /// not be finite. `refused_` then says whose.
   bool apply(const simulation::WorldInputs& inputs) {
     for (std::size_t i = 0; i < forced_.size(); ++i) {
       const simulation::ForceInput& force = inputs.forces[i];

@@ -20,6 +20,7 @@ constexpr std::array all_peers = std::to_array<Peer>({
     {"bullet", describe_bullet, make_bullet},
     {"mujoco", describe_mujoco, make_mujoco},
     {"dart", describe_dart, make_dart},
+    {"simbody", describe_simbody, make_simbody},
 });
 
 using simulation::EngineGap;

@@ -35,6 +35,11 @@ simulation::EngineDescription describe_bullet();
 /// (`engine = dart`). Throws simulation::ExperimentError also where the build has no DART.
 std::unique_ptr<simulation::Engine> make_dart(const simulation::Experiment& experiment);
 simulation::EngineDescription describe_dart();
+
+/// Simbody with its compliant contact and CPodes, an implicit integrator of steps of its own
+/// (`engine = simbody`). Throws simulation::ExperimentError also where the build has no Simbody.
+std::unique_ptr<simulation::Engine> make_simbody(const simulation::Experiment& experiment);
+simulation::EngineDescription describe_simbody();
 simulation::EngineDescription describe_mujoco();
 
 /// A peer as a registry wants it.

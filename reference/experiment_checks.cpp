@@ -32,9 +32,12 @@ void add_robot(const simulation::Experiment& experiment, int index, std::vector<
     uses.push_back({feature::points, name + " touches by its boundary points"});
     return;
   }
-  for (const simulation::ShapeSpec& shape : robot.base.shapes)
+  for (const simulation::ShapeSpec& shape : robot.base.shapes) {
     if (std::holds_alternative<simulation::Legcone>(shape.geometry))
       uses.push_back({feature::legcone, name + " has a Legcone"});
+    if (std::holds_alternative<simulation::Cylinder>(shape.geometry))
+      uses.push_back({feature::cylinder, name + " has a Cylinder"});
+  }
 }
 
 void add_material(const simulation::Experiment& experiment, int index,

@@ -27,6 +27,7 @@ inline constexpr std::string_view unmatched_softness =
 inline constexpr std::string_view tile_restitution = "restitution of single tiles";
 inline constexpr std::string_view height_field = "height fields";
 inline constexpr std::string_view legcone = "a single body with the shape Legcone";
+inline constexpr std::string_view cylinder = "a single body with the shape Cylinder";
 inline constexpr std::string_view law = "contact laws and integrators";
 inline constexpr std::string_view hips = "hip_force and hip_moment of a Chain";
 inline constexpr std::string_view saving = "movies and resumed runs";

@@ -2,13 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <vector>
 
 #include "reference/experiment_checks.h"
-#include "reference/ground.h"
+#include "reference/resting_body.h"
 #include "reference/settings.h"
-#include "reference/touching_points.h"
 
 namespace hookpoint::reference {
 namespace {
@@ -50,13 +47,13 @@ std::optional<Pyramid> pyramid_at_rest(double t, double u, double least, double 
 
 /// The impedance at a depth (XML reference, solimp).
 double impedance_at(const std::array<double, 5>& solimp, double depth) {
-  const auto [d0, width_d, width, midpoint, power] = solimp;
-  if (d0 == width_d || width <= 0.) return d0;
+  const auto [at_surface, at_width, width, midpoint, power] = solimp;
+  if (at_surface == at_width || width <= 0.) return at_surface;
   const double x = std::min(1., depth / width);
   const double y = x <= midpoint
                        ? midpoint * std::pow(x / midpoint, power)
                        : 1. - (1. - midpoint) * std::pow((1. - x) / (1. - midpoint), power);
-  return d0 + y * (width_d - d0);
+  return at_surface + y * (at_width - at_surface);
 }
 
 struct Reference {
@@ -92,65 +89,41 @@ std::optional<Rest> rest(const Load& load, const MujocoSettings& settings,
               pyramid->depth * row * load.normal / (reference.stiffness * d)};
 }
 
-/// The boundary points of the base that lie lowest along `normal`, from the centre of mass.
-std::vector<Vector3d> footprint(const simulation::RobotSpec& robot, const Vector3d& normal) {
-  std::vector<Vector3d> points;
-  double lowest = std::numeric_limits<double>::infinity();
-  for (const Vector3d& point : robot.base.boundary_points) {
-    points.push_back(rotate(robot.orientation, point - robot.base.mass.center_of_mass));
-    lowest = std::min(lowest, dot(points.back(), normal));
-  }
-  std::erase_if(points, [&](const Vector3d& point) { return dot(point, normal) - lowest > 1e-6; });
-  return points;
-}
-
-/// Normal loads over their mean on a footprint: a + b x + c y at (x, y), x along `downhill`, whose
-/// moment about the centre of mass is that of the friction, `tangent` times the normal force.
-void spread(const std::vector<Vector3d>& points, const Vector3d& normal, const Vector3d& downhill,
-            double tangent, Load& load) {
-  const Vector3d aside = cross(normal, downhill);
-  const auto count = static_cast<double>(points.size());
+/// Normal loads over their mean on the touching points: a + b x + c y at (x, y), x downhill, whose
+/// moment about the centre of mass is that of the friction.
+void spread(const RestingBody& body, Load& load) {
+  const Vector3d aside = cross(body.normal, body.downhill);
+  const auto count = static_cast<double>(body.arms.size());
   Symmetric3d sums;
-  for (const Vector3d& point : points) {
-    const double x = dot(point, downhill), y = dot(point, aside);
+  for (const Vector3d& arm : body.arms) {
+    const double x = dot(arm, body.downhill), y = dot(arm, aside);
     sums += Symmetric3d{1., x * x, y * y, x, y, x * y};
   }
-  const double height = -dot(points.front(), normal);
-  const Vector3d plane = inverse(sums) * Vector3d{count, count * tangent * height, 0.};
-  for (const Vector3d& point : points) {
-    const double part = plane.x + plane.y * dot(point, downhill) + plane.z * dot(point, aside);
+  const double height = -dot(body.arms.front(), body.normal);
+  const Vector3d plane =
+      inverse(sums) * Vector3d{count, count * height * body.pull / body.press, 0.};
+  for (const Vector3d& arm : body.arms) {
+    const double part = plane.x + plane.y * dot(arm, body.downhill) + plane.z * dot(arm, aside);
     load.least = std::min(load.least, part);
     load.largest = std::max(load.largest, part);
   }
 }
 
 std::optional<Load> load_at_rest(const simulation::Experiment& experiment) {
-  if (!experiment.terrain || experiment.robots.size() != 1) return std::nullopt;
-  const simulation::RobotSpec& robot = experiment.robots[0];
-  const Ground ground = ground_of(*experiment.terrain);
-  const auto* plane = std::get_if<GroundPlane>(&ground);
-  if (plane == nullptr || !robot.chains.empty()) return std::nullopt;
-  const std::vector<Vector3d> points = footprint(robot, plane->normal);
-  const auto& shapes = robot.base.shapes;
-  // MuJoCo finds the four corners of a box, whatever points are sampled on it.
-  const bool box = shapes.size() == 1 && points.size() == 4 &&
-                   std::holds_alternative<simulation::Box>(shapes[0].geometry);
-  if (points.size() < 3 || (!touches_by_points(experiment, 0) && !box)) return std::nullopt;
-
+  const auto body = resting_body(experiment);
+  const double friction = single_friction(ground_material(experiment));
+  if (!body || body->arms.size() < 3 || !(body->press > 0.) || !(friction > 0.))
+    return std::nullopt;
   Load load;
-  const double share = robot.base.mass.mass / static_cast<double>(points.size());
-  load.inverse_weight = 1. / robot.base.mass.mass;
-  const double press = -dot(experiment.gravity, plane->normal);
-  const Vector3d pull = experiment.gravity + press * plane->normal;
-  load.normal = share * press;
-  load.tangential = share * norm(pull);
-  load.friction = single_friction(ground_material(experiment));
-  if (!(load.tangential > 0. && load.normal > 0. && load.friction > 0.)) return std::nullopt;
-  const Vector3d downhill = (1. / norm(pull)) * pull;
-  const auto [first, second] = mujoco_tangents(plane->normal);
-  load.along = std::abs(dot(downhill, first));
-  load.across = std::abs(dot(downhill, second));
-  spread(points, plane->normal, downhill, load.tangential / load.normal, load);
+  const auto count = static_cast<double>(body->arms.size());
+  load.inverse_weight = 1. / body->mass->mass;
+  load.normal = body->press / count;
+  load.tangential = body->pull / count;
+  load.friction = friction;
+  const auto [first, second] = mujoco_tangents(body->normal);
+  load.along = std::abs(dot(body->downhill, first));
+  load.across = std::abs(dot(body->downhill, second));
+  spread(*body, load);
   return load;
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "reference/touching_points.h"
+#include "simulation/names.h"
 
 namespace hookpoint::reference {
 namespace {
@@ -32,6 +33,7 @@ class PeerEngine final : public simulation::Engine {
       : experiment_(experiment),
         world_(std::move(world)),
         tree_(robot_tree(experiment_)),
+        trails_(simulation::body_trails(experiment_)),
         inputs_(simulation::initial_inputs(experiment_)),
         acting_(inputs_),
         touching_(touching_points(experiment_, tree_)),
@@ -130,19 +132,14 @@ class PeerEngine final : public simulation::Engine {
 
   /// The library's own state is lost with the failure, so every later step repeats it.
   StepStatus fail(StepStatus::Kind kind, std::size_t body, std::string advice) {
-    std::string trail;
-    if (body < tree_.bodies.size()) {
-      const TreeBody& failed = tree_.bodies[body];
-      trail = experiment_.robots[static_cast<std::size_t>(failed.robot)].name + "." +
-              (failed.body->name.empty() ? "base" : failed.body->name);
-    }
-    failure_ = {kind, state_.time, std::move(trail), std::move(advice)};
+    failure_ = {kind, state_.time, trails_[body], std::move(advice)};
     return failure_;
   }
 
   const simulation::Experiment experiment_;
   std::unique_ptr<PeerWorld> world_;
   const RobotTree tree_;
+  const std::vector<std::string> trails_;
   simulation::WorldInputs inputs_;
   simulation::WorldInputs acting_;  ///< with what the joints exert by themselves
   std::optional<contact::Terrain> ground_;

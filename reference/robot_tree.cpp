@@ -14,7 +14,7 @@ const Vector3d x_axis{1., 0., 0.}, z_axis{0., 0., 1.};
 Pose pose_at_zero(const LinkSpec& link) {
   const Pose screw_x{link.a * x_axis, exponential(link.alpha * x_axis)};
   const Pose screw_z{link.d * z_axis, exponential(link.theta * z_axis)};
-  return screw_x * screw_z;
+  return Pose{link.joint_location, link.joint_orientation} * screw_x * screw_z;
 }
 
 BodyState initial_base(const simulation::RobotSpec& robot) {

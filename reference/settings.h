@@ -82,4 +82,13 @@ struct DartSettings {
 DartSettings dart_settings(Settings settings, double dt,
                            const contact::MaterialConstants<double>& material);
 
+struct SimbodySettings {
+  double stiffness = 1e7;             ///< plane strain modulus of each of the two surfaces [Pa]
+  double dissipation = 2.;            ///< of Hunt and Crossley, of each surface [s/m]
+  double transition_velocity = 0.01;  ///< where friction is full [m/s]
+  double accuracy = 1e-5;             ///< of the integrator: about the relative error of a step
+  bool penalty = false;  ///< contacts are the material's k, c, c_t and mu, without Hertz
+};
+SimbodySettings simbody_settings(Settings settings);
+
 }  // namespace hookpoint::reference

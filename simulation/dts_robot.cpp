@@ -19,7 +19,14 @@ dts::MassProperties<double> mass_properties(const MassSpec& mass) {
 dts::LinkDescription describe_link(const LinkSpec& link) {
   const auto type =
       link.joint == JointKind::revolute ? dts::JointType::revolute : dts::JointType::prismatic;
-  return {link.a, link.alpha, link.d, link.theta, type, mass_properties(link.body.mass)};
+  return {link.a,
+          link.alpha,
+          link.d,
+          link.theta,
+          type,
+          mass_properties(link.body.mass),
+          link.joint_location,
+          link.joint_orientation};
 }
 
 dts::JointProperties<double> joint_properties(const LinkSpec& link) {
@@ -177,13 +184,14 @@ void DtsRobot::apply_contact_force(const Law& law, std::size_t i, bool trial) {
   const auto& material = experiment_->materials[tile.material].constants;
   const contact::BallFrame frame = ball_frame(point, body, tile);
   const contact::Memory<double> memory = point.carried(frame);
-  if (!trial) point.inside = tile.depth > 0.;
-  const double depth = adaptive_ ? point.depth_on_side(tile.depth) : tile.depth;
+  const double reach = law.reach(material);
+  if (!trial) point.inside = tile.depth > -reach;
+  const double depth = adaptive_ ? point.depth_on_side(tile.depth, reach) : tile.depth;
   contact::PointKinematics<double> kinematics{position, touching.velocity, tile.normal, depth,
                                               bristle_at(bristles_, i)};
   if (!trial) kinematics = contact::held_point(law, kinematics, memory, material, dt);
   contact::Reaction<double> reaction;
-  if (depth > -law.reach(material))  // beyond it the law gives and remembers nothing
+  if (depth > -reach)  // beyond it the law gives and remembers nothing
     reaction = semi_implicit_
                    ? contact::semi_implicit_reaction(law, kinematics, memory, material, dt)
                    : law.evaluate(kinematics, memory, material, dt);

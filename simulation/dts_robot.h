@@ -37,14 +37,15 @@ struct ContactPoint {
   double depth = 0.;    ///< > 0 inside the ground [m]
   int material = 0;     ///< of the tile under it
   Vector3d force;       ///< on the robot, world axes [N]
-  bool inside = false;  ///< depth > 0 at the accepted state before this one
+  bool inside = false;  ///< the law reached it at the accepted state before this one
 
   /// The depth that the law gets from an adaptive integrator: a point stays on its side of the
-  /// surface until the event at which it crosses has been reached, so that no step meets a jump.
-  double depth_on_side(double depth_now) const;
-  /// Changes sign where the point leaves its side, a hair behind the surface: there it is on the
+  /// surface where the law begins, `reach` above the ground [m], until the event at which it
+  /// crosses has been reached, so that no step meets a jump.
+  double depth_on_side(double depth_now, double reach) const;
+  /// Changes sign where the point leaves its side, a hair behind that surface: there it is on the
   /// other side, and the event is not met again at its own restart.
-  double side_event(double depth_now) const;
+  double side_event(double depth_now, double reach) const;
 
   /// The step from the refreshed state is taken.
   void commit() {
@@ -118,6 +119,8 @@ class DtsRobot final : public integrators::System {
 
   const dts::Model<double>& model() const { return model_; }
   const dts::State<double>& state() const { return state_; }
+  /// What the joints do by themselves, chain by chain.
+  const std::vector<dts::JointProperties<double>>& joints() const { return joints_; }
   const std::vector<ContactPoint>& contact_points() const { return points_; }
   /// Whether a boundary point has left the terrain, whose edge tile then goes on, and what to tell
   /// the user.
@@ -138,6 +141,7 @@ class DtsRobot final : public integrators::System {
                     std::span<double> du) const override;
   void commit(double time, double dt, std::span<const double> q,
               std::span<const double> v) override;
+  void begin_anew(std::span<double> v) override;
   /// Events: each boundary point's depth and, while it slips, its speed along its stretch; each
   /// joint limit.
   std::size_t event_count() const override;

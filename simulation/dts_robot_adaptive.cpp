@@ -18,12 +18,14 @@ constexpr double surface = 1e-11;
 
 }  // namespace
 
-double ContactPoint::depth_on_side(double depth_now) const {
-  return inside ? std::max(depth_now, std::numeric_limits<double>::min()) : std::min(depth_now, 0.);
+double ContactPoint::depth_on_side(double depth_now, double reach) const {
+  const double within = depth_now + reach;
+  return (inside ? std::max(within, std::numeric_limits<double>::min()) : std::min(within, 0.)) -
+         reach;
 }
 
-double ContactPoint::side_event(double depth_now) const {
-  return depth_now + (inside ? surface : -surface);
+double ContactPoint::side_event(double depth_now, double reach) const {
+  return depth_now + reach + (inside ? surface : -surface);
 }
 
 // The law is evaluated at the accepted state from the memory of the internal step's start, over
@@ -36,6 +38,11 @@ void DtsRobot::commit(double /*time*/, double dt, std::span<const double> q,
   settle_at(q, v);
   law_step_ = left;
   for (ContactPoint& point : points_) point.commit();
+}
+
+// What the law let go of when the event's state was committed.
+void DtsRobot::begin_anew(std::span<double> v) {
+  std::ranges::copy(next_bristles_, v.last(next_bristles_.size()).begin());
 }
 
 std::size_t DtsRobot::event_count() const {
@@ -52,7 +59,8 @@ void DtsRobot::event_values(double /*time*/, std::span<const double> q, std::spa
   auto value = values.begin();
   for (const ContactPoint& point : points_) {
     const TouchingPlace touching = touching_place(point, workspace_.bodies[point.body], *ground_);
-    *value++ = point.side_event(touching.tile.depth);
+    const auto& material = experiment_->materials[touching.tile.material].constants;
+    *value++ = point.side_event(touching.tile.depth, contact::reach(law_, material));
     // Where slip reverses the point sticks: an integrator that stepped across would go on pushing.
     const bool slips = point.committed.sliding;
     *value++ = slips ? dot(touching.velocity, point.committed.stretch) : 1.;

@@ -131,7 +131,7 @@ struct EngineDescription {
   std::string precision;  ///< "double"
   bool found = true;
   std::vector<std::string> settings;  ///< names that `settings =` accepts
-  std::vector<EngineGap> gaps;
+  std::vector<EngineGap> gaps{};
 };
 
 /// Builds a world from an experiment. Throws ExperimentError when the engine cannot run it, saying

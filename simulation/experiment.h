@@ -70,9 +70,12 @@ struct BodySpec {
 enum class JointKind { revolute, prismatic };
 
 /// A link: its own MDH numbers place its frame after the preceding one, Rot_x(alpha) Trans_x(a)
-/// Rot_z(theta) Trans_z(d); the joint turns about (slides along) the link's own z.
+/// Rot_z(theta) Trans_z(d); the joint turns about (slides along) the link's own z. Any fixed
+/// transform may stand ahead of them.
 struct LinkSpec {
   BodySpec body;
+  Vector3d joint_location;        ///< of the fixed transform, preceding link's axes [m]
+  Quaterniond joint_orientation;  ///< of the fixed transform
   double a = 0., alpha = 0., d = 0., theta = 0.;
   JointKind joint = JointKind::revolute;
   double angle = 0., rate = 0.,

@@ -18,7 +18,7 @@ Pose joint_pose(const LinkSpec& link) {
   const double d = link.d + (turns ? 0. : link.angle);
   const Pose screw_x{{link.a, 0., 0.}, exponential(Vector3d{link.alpha, 0., 0.})};
   const Pose screw_z{{0., 0., d}, exponential(Vector3d{0., 0., theta})};
-  return screw_x * screw_z;
+  return Pose{link.joint_location, link.joint_orientation} * screw_x * screw_z;
 }
 
 std::vector<Pose> body_poses(const RobotSpec& robot) {

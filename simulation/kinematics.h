@@ -20,8 +20,8 @@ Pose operator*(const Pose& X_AB, const Pose& X_BC);
 /// jumps.
 Quaterniond continued(const Quaterniond& q, const Quaterniond& last);
 
-/// The link's frame in the one before it, at its initial joint angle: Rot_x(alpha) Trans_x(a)
-/// Rot_z(theta) Trans_z(d).
+/// The link's frame in the one before it, at its initial joint angle: its fixed transform, then
+/// Rot_x(alpha) Trans_x(a) Rot_z(theta) Trans_z(d).
 Pose joint_pose(const LinkSpec& link);
 
 /// X_BL of every body in the base's frame: the base itself, then the links chain by chain.

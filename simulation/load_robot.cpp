@@ -32,6 +32,8 @@ void check_limits(const language::Object& object, const LinkSpec& link, Loading&
 LinkSpec load_link(const language::Object& object, std::string name, Loading& loading) {
   LinkSpec link;
   link.body = load_body(object, std::move(name), false, loading);
+  link.joint_location = vector_of(object, "joint_location");
+  link.joint_orientation = orientation_of(object, "joint_orientation");
   link.a = object.number("dhlength");
   link.alpha = object.number("dhtwist");
   link.d = object.number("dhoffset");

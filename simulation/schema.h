@@ -10,7 +10,7 @@
 
 namespace hookpoint::simulation {
 
-/// World, Simulator, Robot and what stands inside them, Controllers.
+/// World, Simulator, Robot and what stands inside them, Controllers; and robots written as URDF.
 void add_experiment_classes(language::Schema& schema);
 
 // The parts of it, one a file.

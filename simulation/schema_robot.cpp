@@ -176,12 +176,18 @@ language::ClassSchema link_class() {
   link.name = "Link";
   link.doc =
       "a segment and the joint that carries it, in modified Denavit-Hartenberg form: "
-      "Rot_x(dhtwist) Trans_x(dhlength) Rot_z(dhangle) Trans_z(dhoffset) from the preceding frame";
+      "Rot_x(dhtwist) Trans_x(dhlength) Rot_z(dhangle) Trans_z(dhoffset) from the preceding frame, "
+      "ahead of which may stand any fixed transform";
   link.naming = language::Naming::required;
   link.top_level = true;
   link.children = {"Shape.", "ContactPoint"};
   append(link.children, component_families());
   link.fields = {
+      vector_field("joint_location", "m", "0,0,0",
+                   "of a fixed transform ahead of the dh numbers, preceding link's axes"),
+      orientation_field("joint_orientation",
+                        "of that transform, to the preceding link's axes: quaternion w,x,y,z, or "
+                        "roll,pitch,yaw angles"),
       number_field("dhlength", "m", "0", "a: along the preceding frame's x"),
       number_field("dhtwist", "rad", "0", "alpha: about the preceding frame's x"),
       number_field("dhoffset", "m", "0", "d: along the link's own z"),

@@ -2,6 +2,7 @@
 #include "integrators/stepper.h"
 #include "simulation/schema.h"
 #include "simulation/schema_fields.h"
+#include "simulation/urdf.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -148,6 +149,7 @@ void add_world_classes(language::Schema& schema) {
 }
 
 void add_experiment_classes(language::Schema& schema) {
+  schema.add_reader(".urdf", include_urdf);
   language::Schema classes;
   add_world_classes(classes);
   add_robot_classes(classes);

@@ -16,6 +16,9 @@ struct EngineEntry {
   /// [m/(N s)] (ODE: CFM); nothing where no closed form holds. Null for an engine without such
   /// constraints.
   std::optional<double> (*friction_mixing)(const simulation::Experiment&) = nullptr;
+  /// Normal speed per newton at which a contact gives way for good [m/(N s)] (ODE: CFM within its
+  /// surface layer). Null or 0 for an engine that pushes penetration out.
+  double (*normal_mixing)(const simulation::Experiment&) = nullptr;
 };
 
 using EngineTable = std::map<std::string, EngineEntry>;

@@ -96,9 +96,12 @@ class Watch {
     for (auto& recording : recordings_)
       if (recording) recording->observe(context_, observation);
   }
-  void finish(RowOutcome& outcome, bool complete) {
+  /// `broken`: the engine could not go on. Otherwise a run that is not complete was ended.
+  void finish(RowOutcome& outcome, bool complete, bool broken) {
     for (const auto& metric : metrics_) {
-      const auto value = metric && complete ? metric->value() : std::nullopt;
+      std::optional<double> value;
+      if (metric && complete) value = metric->value();
+      if (metric && broken) value = metric->value_of_broken_run();
       outcome.measured.push_back(value && std::isfinite(*value) ? value : std::nullopt);
     }
     for (auto& recording : recordings_)
@@ -155,7 +158,7 @@ std::optional<RowOutcome> execute(const StudyPlan& plan, const RowPlan& row,
     outcome.notices = world.state().notices;
     const bool cut_short = status.ok() && world.state().step < steps;
     if (cut_short) outcome.status = fmt::format("ended at {:.6g} s: {}", world.state().time, ended);
-    watch.finish(outcome, status.ok() && !cut_short);
+    watch.finish(outcome, status.ok() && !cut_short, !status.ok());
     return outcome;
   } catch (const simulation::ExperimentError& error) {
     const bool peer = row.experiment.engine != "dts";

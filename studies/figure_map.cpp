@@ -34,6 +34,24 @@ void fill_cell(output::HeatMapCell& cell, const RunResult& row, std::size_t colo
   if (outline) cell.predicted = row.metrics[*outline].predicted;
 }
 
+/// Below, a logarithmic colour says nothing more.
+constexpr double least_drawn = 1e-9;
+
+/// Numbers too small to be read in a cell get a unit with a prefix: 5e-05 rad is 50 urad.
+void prefix_unit(output::HeatMap& map) {
+  double greatest = 0.;
+  for (const output::HeatMapPanel& panel : map.panels)
+    for (const output::HeatMapCell& cell : panel.cells)
+      greatest = std::max(greatest, std::abs(cell.value.value_or(0.)));
+  const bool plain = map.color.unit.find_first_of("^/.") == std::string::npos;
+  if (map.color.unit.empty() || !plain || greatest == 0. || greatest >= 0.01) return;
+  const bool micro = greatest < 1e-4;
+  map.color.unit = (micro ? "u" : "m") + map.color.unit;
+  for (output::HeatMapPanel& panel : map.panels)
+    for (output::HeatMapCell& cell : panel.cells)
+      if (cell.value) *cell.value *= micro ? 1e6 : 1e3;
+}
+
 std::string caption_of(const PlotSpec& spec, const output::HeatMap& map) {
   std::string caption = map.title + (map.subtitle.empty() ? "." : " (" + map.subtitle + ").");
   caption += " Number and colour of a cell: " + map.color.label +
@@ -55,7 +73,10 @@ Figure make_map(const StudyResult& study, const PlotSpec& spec) {
     map.subtitle += (map.subtitle.empty() ? "" : "; ") + ("largest over " + undecided(study, spec));
   map.x = {.label = spoken(spec.x), .unit = spec.x_unit};
   map.y = {.label = spoken(spec.y), .unit = spec.y_unit};
-  map.color = {.label = spoken(spec.color), .unit = spec.color_unit};
+  map.color = {.label = spoken(spec.color),
+               .unit = spec.color_unit,
+               .logarithmic = spec.log_y,
+               .floor = least_drawn};
   map.x_values = drawn_values(study, spec, spec.x);
   map.y_values = drawn_values(study, spec, spec.y);
   const auto x = sweep_index(study, spec.x), y = sweep_index(study, spec.y);
@@ -76,6 +97,7 @@ Figure make_map(const StudyResult& study, const PlotSpec& spec) {
                                  [](const output::HeatMapCell& cell) { return cell.run; });
     if (any) map.panels.push_back(std::move(panel));
   }
+  if (!map.color.logarithmic) prefix_unit(map);
   figure.caption = caption_of(spec, map);
   return figure;
 }

@@ -25,6 +25,9 @@ bool same(double a, double b) {
 }
 
 bool selected(const StudyResult& study, const PlotSpec& spec, const RunResult& row) {
+  if (!spec.subjects.empty() &&
+      std::ranges::find(spec.subjects, row.subject) == spec.subjects.end())
+    return false;
   return std::all_of(spec.where.begin(), spec.where.end(), [&](const auto& fixed) {
     const auto sweep = sweep_index(study, fixed.first);
     const auto& values = fixed.second;

@@ -14,7 +14,7 @@ std::optional<std::size_t> metric_index(const StudyResult& study, const std::str
 
 /// Whether two values of a sweep are one.
 bool same(double a, double b);
-/// Whether the block's `where` lets the row in.
+/// Whether the block's `subjects` and `where` let the row in.
 bool selected(const StudyResult& study, const PlotSpec& spec, const RunResult& row);
 
 /// "azimuth, dt": sweeps that neither an axis, a series nor `where` decides and that take several

@@ -25,7 +25,7 @@ constexpr auto metrics = std::to_array<MetricDefinition>({
      make_stopping_distance},
     {"slip_onset", "rad",
      "angle of the driving force, weight and external forces, from the ground's normal when the "
-     "speed along the ground first exceeds 1 mm/s; nothing if it never does",
+     "speed along the ground first exceeds 1 mm/s for 10 ms on end; nothing if it never does",
      make_slip_onset},
     {"threshold_error", "rad", "slip_onset less atan(mu_s)", make_threshold_error},
     {"direction_error", "rad", "angle between the displacement after `settle` and downhill",
@@ -53,6 +53,14 @@ constexpr auto metrics = std::to_array<MetricDefinition>({
      make_angular_momentum_drift},
     {"energy_gain", "J", "greatest rise of kinetic and gravitational energy above the start's",
      make_energy_gain},
+    {"unrest", "m/s",
+     "greatest sqrt(2 T/m) after `settle`, T the kinetic energy of the robot, m its mass",
+     make_unrest},
+    {"restless", "",
+     "1 if unrest is above 1 mm/s or the engine broke the run off: what should rest does not; else "
+     "0",
+     make_restless},
+    {"spin_max", "rad/s", "greatest angular speed of the body after `settle`", make_spin_max},
     {"fell", "",
      "1 if the base came lower over the ground than half its height at the start, or its z turned "
      "by more than 60 deg; else 0",
@@ -228,7 +236,7 @@ std::optional<double> static_friction(const RunContext& context) {
   return context.experiment->materials[material].constants.static_friction;
 }
 
-double mechanical_energy(const RunContext& context, const simulation::WorldState& world) {
+double kinetic_energy(const RunContext& context, const simulation::WorldState& world) {
   double energy = 0.;
   for_each_body(context, world,
                 [&](const simulation::BodySpec& spec, const simulation::BodyState& body) {
@@ -236,8 +244,17 @@ double mechanical_energy(const RunContext& context, const simulation::WorldState
                   const Vector3d p_BC = rotate(body.orientation, mass.center_of_mass);
                   const Vector3d v_WC = body.velocity + cross(body.angular_velocity, p_BC);
                   const Vector3d w_B = rotate(conjugate(body.orientation), body.angular_velocity);
-                  energy += 0.5 * mass.mass * dot(v_WC, v_WC) + 0.5 * dot(w_B, mass.inertia * w_B) -
-                            mass.mass * dot(context.experiment->gravity, body.position + p_BC);
+                  energy += 0.5 * mass.mass * dot(v_WC, v_WC) + 0.5 * dot(w_B, mass.inertia * w_B);
+                });
+  return energy;
+}
+
+double mechanical_energy(const RunContext& context, const simulation::WorldState& world) {
+  double energy = kinetic_energy(context, world);
+  for_each_body(context, world,
+                [&](const simulation::BodySpec& spec, const simulation::BodyState& body) {
+                  const Vector3d p_BC = rotate(body.orientation, spec.mass.center_of_mass);
+                  energy -= spec.mass.mass * dot(context.experiment->gravity, body.position + p_BC);
                 });
   return energy;
 }

@@ -95,6 +95,8 @@ class Metric {
   virtual void observe(const Observation& observation) = 0;
   /// Nothing when it does not apply.
   virtual std::optional<double> value() const = 0;
+  /// Of a run that the engine broke off; nothing but for a metric of just that.
+  virtual std::optional<double> value_of_broken_run() const { return std::nullopt; }
 };
 
 struct MetricDefinition {
@@ -137,6 +139,8 @@ inline constexpr double onset_speed = 1e-3;
 /// Static friction of the ground under the start; none without ground.
 std::optional<double> static_friction(const RunContext& context);
 
+/// Kinetic energy of the bodies of the measured robot [J].
+double kinetic_energy(const RunContext& context, const simulation::WorldState& world);
 /// Kinetic and gravitational energy of the bodies of the measured robot [J].
 double mechanical_energy(const RunContext& context, const simulation::WorldState& world);
 
@@ -149,6 +153,7 @@ std::unique_ptr<Metric> make_direction_error(const RunContext&);
 std::unique_ptr<Metric> make_energy_gain(const RunContext&);
 std::unique_ptr<Metric> make_slip_onset(const RunContext&);
 std::unique_ptr<Metric> make_threshold_error(const RunContext&);
+std::unique_ptr<Metric> make_spin_max(const RunContext&);
 std::unique_ptr<Metric> make_stick_displacement(const RunContext&);
 std::unique_ptr<Metric> make_slip_distance(const RunContext&);
 std::unique_ptr<Metric> make_penetration_max(const RunContext&);
@@ -156,6 +161,8 @@ std::unique_ptr<Metric> make_penetration_mean(const RunContext&);
 std::unique_ptr<Metric> make_penetration_rms(const RunContext&);
 std::unique_ptr<Metric> make_contact_breaks(const RunContext&);
 std::unique_ptr<Metric> make_impacts(const RunContext&);
+std::unique_ptr<Metric> make_unrest(const RunContext&);
+std::unique_ptr<Metric> make_restless(const RunContext&);
 std::unique_ptr<Metric> make_fell(const RunContext&);
 std::unique_ptr<Metric> make_walked_distance(const RunContext&);
 std::unique_ptr<Metric> make_walking_speed(const RunContext&);

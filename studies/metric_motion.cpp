@@ -130,6 +130,20 @@ class EnergyGain : public Metric {
   double gain_ = 0.;
 };
 
+class SpinMax : public Metric {
+ public:
+  explicit SpinMax(const RunContext& context) : context_(context) {}
+  void observe(const Observation& observation) override {
+    if (settled(context_, observation))
+      greatest_ = std::max(greatest_, norm(observation.body.angular_velocity));
+  }
+  std::optional<double> value() const override { return greatest_; }
+
+ private:
+  const RunContext& context_;
+  double greatest_ = 0.;
+};
+
 }  // namespace
 
 std::unique_ptr<Metric> make_creep_speed(const RunContext& context) {
@@ -149,6 +163,9 @@ std::unique_ptr<Metric> make_direction_error(const RunContext& context) {
 }
 std::unique_ptr<Metric> make_energy_gain(const RunContext& context) {
   return std::make_unique<EnergyGain>(context);
+}
+std::unique_ptr<Metric> make_spin_max(const RunContext& context) {
+  return std::make_unique<SpinMax>(context);
 }
 
 }  // namespace hookpoint::studies

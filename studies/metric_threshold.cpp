@@ -16,20 +16,33 @@ Vector3d driving_force(const RunContext& context, const Observation& observation
   return force;
 }
 
+/// Faster than `onset_speed` for `lasting` on end; a solver's twitch of a step is no slip.
 class SlipOnset : public Metric {
  public:
+  static constexpr double lasting = 0.01;  ///< [s]
   explicit SlipOnset(const RunContext& context) : context_(context) {}
   void observe(const Observation& observation) override {
-    if (angle_ || norm(tangential(observation.body.velocity, context_.normal)) <= onset_speed)
+    if (slips_) return;
+    if (norm(tangential(observation.body.velocity, context_.normal)) <= onset_speed) {
+      since_.reset();
       return;
-    const Vector3d force = driving_force(context_, observation);
-    angle_ = std::atan2(norm(tangential(force, context_.normal)), -dot(force, context_.normal));
+    }
+    if (!since_) {
+      since_ = observation.world.time;
+      const Vector3d force = driving_force(context_, observation);
+      angle_ = std::atan2(norm(tangential(force, context_.normal)), -dot(force, context_.normal));
+    }
+    slips_ = observation.world.time - *since_ >= lasting - 1e-9;
   }
-  std::optional<double> value() const override { return angle_; }
+  std::optional<double> value() const override {
+    return slips_ ? std::optional(angle_) : std::nullopt;
+  }
 
  private:
   const RunContext& context_;
-  std::optional<double> angle_;
+  std::optional<double> since_;  // [s]
+  double angle_ = 0.;            // when that began [rad]
+  bool slips_ = false;
 };
 
 class ThresholdError : public SlipOnset {

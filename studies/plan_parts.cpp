@@ -59,6 +59,7 @@ class Parts {
   std::vector<Condition> conditions(const Object& owner);
   std::string conditions_words(const std::vector<Condition>& conditions) const;
   std::string truth_words(const Object& block, const TruthPlan& truth);
+  std::vector<int> named_subjects(const Object& block);
   std::string sweep_unit(const Object& block, const char* field);
   std::string metric_unit(const Object& block, const char* field);
   void set_time_axes(PlotPlan& plot, const Object& block);
@@ -245,19 +246,25 @@ void Parts::add_truth(const Object& block) {
   if (truth.predicted && truth.value)
     diagnostics_.error(block.find("value")->position,
                        "a Truth equals the prediction or a value, not both");
-  if (block.find("subjects") != nullptr) {
-    std::vector<std::string> names;
-    for (const SubjectPlan& subject : plan_.subjects) names.push_back(subject.info.name);
-    for (const std::string& word : block.find("subjects")->words) {
-      const auto subject = std::find(names.begin(), names.end(), word);
-      if (subject == names.end()) unknown(block.find("subjects")->position, "Subject", word, names);
-      truth.subjects.push_back(static_cast<int>(subject - names.begin()));
-    }
-  }
+  truth.subjects = named_subjects(block);
   truth.only = conditions(block);
   truth.name = block.name;
   truth.words = truth_words(block, truth);
   plan_.truths.push_back(std::move(truth));
+}
+
+/// The subjects that the block's `subjects` names; empty without.
+std::vector<int> Parts::named_subjects(const Object& block) {
+  std::vector<int> subjects;
+  if (block.find("subjects") == nullptr) return subjects;
+  std::vector<std::string> names;
+  for (const SubjectPlan& subject : plan_.subjects) names.push_back(subject.info.name);
+  for (const std::string& word : block.find("subjects")->words) {
+    const auto subject = std::find(names.begin(), names.end(), word);
+    if (subject == names.end()) unknown(block.find("subjects")->position, "Subject", word, names);
+    subjects.push_back(static_cast<int>(subject - names.begin()));
+  }
+  return subjects;
 }
 
 /// The unit of the sweep that `field` names.
@@ -331,6 +338,7 @@ void Parts::add_plot(const Object& block) {
   }
   if (spec.series != "subject" && sweep_index(spec.series) < 0)
     unknown(block.find("series")->position, "Sweep", spec.series, sweep_names());
+  spec.subjects = named_subjects(block);
   plot.only = conditions(block);
   for (const Condition& condition : plot.only) {
     const SweepPlan& sweep = plan_.sweeps[static_cast<std::size_t>(condition.sweep)];

@@ -12,9 +12,10 @@ namespace hookpoint::studies {
 /// The closed form of `metric` for the run described by `context`, or nothing where there is none
 /// (docs/studies.md lists them). But for `fell` they hold for one rigid body on a plane that starts
 /// at rest, or on the level at a speed. `friction_mixing`: tangential speed per newton of a peer's
-/// sticking contact [m/(N s)], where its constraints have one.
+/// sticking contact [m/(N s)], where its constraints have one; `normal_mixing`: the normal speed
+/// per newton at which it sinks for good.
 std::optional<double> predict(std::string_view metric, const RunContext& context,
-                              std::optional<double> friction_mixing);
+                              std::optional<double> friction_mixing, double normal_mixing = 0.);
 
 /// 1 where the joint loops of a walking robot are unstable while a leg is in the air, 0 where they
 /// are stable: proportional control by a Controller.JointPD whose sensors are sampled and late, of
@@ -48,6 +49,10 @@ std::optional<double> rolling_acceleration(const RunContext& context);
 std::optional<double> rebound(const RunContext& context);
 /// Of `support_force`: the weight along the normal [N].
 std::optional<double> support_force(const RunContext& context);
+
+/// Of `restless`: 1 where deltat is above the largest stable step (simulation/stability.h), else 0;
+/// nothing where there is no such step: an adaptive integrator, an impulse law, a peer.
+std::optional<double> restless(const RunContext& context);
 
 /// What friction does in the run described by `context`: none unless `predict`'s conditions hold
 /// and the body starts at rest.

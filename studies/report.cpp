@@ -40,6 +40,7 @@ std::string facts_line(const StudySummary& summary) {
   std::string text = std::to_string(total.rows()) + " runs of " +
                      std::to_string(summary.subjects.size()) +
                      " subjects: " + std::to_string(total.finished) + " finished";
+  if (total.foretold > 0) text += ", " + std::to_string(total.foretold) + " broke off as foretold";
   if (total.stopped > 0) text += ", " + std::to_string(total.stopped) + " stopped on the way";
   if (total.skipped > 0) text += ", " + std::to_string(total.skipped) + " skipped";
   if (total.refused > 0) text += ", " + std::to_string(total.refused) + " refused";

@@ -126,7 +126,7 @@ std::string verdict_cell(const MetricValue& value) {
   return *value.ok ? "<td class=\"good\">✓</td>" : "<td class=\"bad fails\">✗</td>";
 }
 
-/// Words for the filter: fails, stopped, skipped, ok.
+/// Words for the filter: fails, stopped, foretold, skipped, finished.
 std::string kinds_of(const RunResult& row) {
   std::string kinds;
   if (std::any_of(row.metrics.begin(), row.metrics.end(),
@@ -135,6 +135,8 @@ std::string kinds_of(const RunResult& row) {
   switch (outcome_of(row)) {
     case RunOutcome::finished:
       return kinds + "finished";
+    case RunOutcome::foretold:
+      return kinds + "foretold";
     case RunOutcome::stopped:
       return kinds + "stopped";
     case RunOutcome::skipped:
@@ -312,7 +314,8 @@ std::string runs_table(const StudyResult& study) {
       "fails</option>"
       "<option value=\"stopped\">stopped</option><option value=\"skipped\">skipped</option>"
       "<option value=\"refused\">refused</option>"
-      "<option value=\"finished\">finished</option></select></label><output></output></div>\n";
+      "<option value=\"finished\">finished</option><option value=\"foretold\">broke off as "
+      "foretold</option></select></label><output></output></div>\n";
   return text + "<div class=\"scroll tall\" tabindex=\"0\"><table class=\"runs\">\n" +
          runs_head(study, shapes) + "<tbody>\n" + rows + "</tbody></table></div>\n";
 }

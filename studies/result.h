@@ -68,6 +68,7 @@ struct PlotSpec {
   std::string color, color_unit, outline;
   bool log_x = false, log_y = false;
   bool show_predicted = true;  ///< dashed line of the closed form beside the points
+  std::vector<int> subjects;   ///< that are drawn, indices; empty: all
   /// Sweeps and the values that are drawn ("mu" = 0.8): other rows are left out.
   std::vector<std::pair<std::string, std::vector<double>>> where;
 };

@@ -3,14 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <csignal>
-#include <mutex>
-#include <thread>
+#include <numeric>
 
 #include "studies/execute.h"
 #include "studies/results_csv.h"
-#include "studies/row_store.h"
+#include "studies/row_runner.h"
 #include "studies/verdict.h"
 
 namespace hookpoint::studies {
@@ -27,69 +25,6 @@ void request_interrupt(int signal) {
 const EngineEntry* find_engine(const EngineTable& engines, const std::string& name) {
   const auto entry = engines.find(name);
   return entry == engines.end() ? nullptr : &entry->second;
-}
-
-/// Counts finished rows and tells the caller, one thread at a time.
-class ProgressMeter {
- public:
-  ProgressMeter(std::size_t total, const RunOptions& options) : options_(options) {
-    progress_.total = total;
-  }
-  void advance(bool resumed) {
-    const std::lock_guard lock(mutex_);
-    ++progress_.done;
-    if (resumed) ++progress_.resumed;
-    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
-    const auto worked = static_cast<double>(progress_.done - progress_.resumed);
-    const auto left = static_cast<double>(progress_.total - progress_.done);
-    progress_.seconds_left = worked > 0. ? elapsed.count() / worked * left : 0.;
-    if (options_.progress) options_.progress(progress_);
-  }
-
- private:
-  const RunOptions& options_;
-  std::mutex mutex_;
-  Progress progress_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
-/// All rows by `jobs` workers, each outcome into its own slot. False when stopped.
-bool run_rows(const StudyPlan& plan, const EngineTable& engines, const RunOptions& options,
-              const RowStore& store, const std::atomic<bool>& stop, ProgressMeter& meter,
-              std::vector<RowOutcome>& outcomes) {
-  std::atomic<std::size_t> next{0};
-  std::atomic<bool> cut_short{false};
-  std::exception_ptr failure;
-  std::mutex failure_mutex;
-  const auto work = [&] {
-    try {
-      for (std::size_t i = next++; i < plan.rows.size() && !cut_short; i = next++) {
-        auto outcome =
-            options.resume ? store.load(i, plan.metrics.size(), plan.plots.size()) : std::nullopt;
-        const bool resumed = outcome.has_value();
-        if (!resumed)
-          outcome = execute(plan, plan.rows[i],
-                            find_engine(engines, plan.rows[i].experiment.engine), stop);
-        if (!outcome) {
-          cut_short = true;
-          return;
-        }
-        if (!resumed) store.save(i, *outcome);
-        outcomes[i] = std::move(*outcome);
-        meter.advance(resumed);
-      }
-    } catch (...) {
-      const std::lock_guard lock(failure_mutex);
-      failure = std::current_exception();
-      cut_short = true;
-    }
-  };
-  {
-    std::vector<std::jthread> workers;
-    for (int i = 0; i < std::max(1, options.jobs); ++i) workers.emplace_back(work);
-  }
-  if (failure) std::rethrow_exception(failure);
-  return !cut_short;
 }
 
 /// What a row is called: "creep (dts_hookpoint, slope = 5 deg)".
@@ -144,7 +79,14 @@ StudyRun run_study(const StudyPlan& plan, const EngineTable& engines, const RunO
   const bool timed = std::any_of(plan.metrics.begin(), plan.metrics.end(),
                                  [](const MetricDefinition* metric) { return metric->timing(); });
   ProgressMeter meter(plan.rows.size() * (timed ? 2 : 1), options);
-  run.interrupted = !run_rows(plan, engines, options, store, stop, meter, outcomes) ||
+  std::vector<std::size_t> order(plan.rows.size());
+  std::iota(order.begin(), order.end(), 0);
+  const RowWork work{[&](std::size_t row) {
+                       return execute(plan, plan.rows[row],
+                                      find_engine(engines, plan.rows[row].experiment.engine), stop);
+                     },
+                     [&](std::size_t) { return plan.metrics.size(); }, plan.plots.size()};
+  run.interrupted = !run_rows(order, work, options, store, meter, outcomes) ||
                     (timed && !run_timing(plan, engines, stop, meter, outcomes));
   run.notices = collect_notices(plan, outcomes);
   if (run.interrupted) return run;

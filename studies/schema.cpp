@@ -216,8 +216,9 @@ void add_study_classes(Schema& schema) {
        words("colour", 1, "a metric: makes a map over the sweeps x and y, a panel a subject"),
        words("outline", 1, "in a map: a metric whose closed form draws the line between cells"),
        words("series", 1, "what makes a curve: subject, or a sweep"),
+       words("subjects", 100, "subjects that are drawn; default: all"),
        choice("scale", {"linear", "log", "log_x", "log_log"}, "linear",
-              "axes that are logarithmic: log is y")},
+              "axes that are logarithmic: log is y; of a map log is the colour")},
       {"Only"}));
   schema.add(named("Fix", "A value of a Param of the scene.",
                    {required(number("value", "?", "the value"))}));

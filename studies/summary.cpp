@@ -61,6 +61,9 @@ void count(SubjectSummary& summary, const RunResult& row) {
     case RunOutcome::finished:
       ++summary.finished;
       break;
+    case RunOutcome::foretold:
+      ++summary.foretold;
+      break;
     case RunOutcome::stopped:
       ++summary.stopped;
       break;
@@ -86,7 +89,15 @@ std::string row_text(const StudyResult& study, const RunResult& row, bool named)
 
 }  // namespace
 
-RunOutcome outcome_of(const RunResult& row) { return outcome_of(row.status); }
+RunOutcome outcome_of(const RunResult& row) {
+  const RunOutcome outcome = outcome_of(row.status);
+  if (outcome != RunOutcome::stopped) return outcome;
+  const auto judged = [&](bool verdict) {
+    return std::any_of(row.metrics.begin(), row.metrics.end(),
+                       [&](const MetricValue& value) { return value.ok == verdict; });
+  };
+  return judged(true) && !judged(false) ? RunOutcome::foretold : RunOutcome::stopped;
+}
 
 RunOutcome outcome_of(const std::string& status) {
   if (status == "ok") return RunOutcome::finished;

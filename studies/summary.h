@@ -9,11 +9,12 @@
 
 namespace hookpoint::studies {
 
-enum class RunOutcome { finished, stopped, skipped, refused };
+enum class RunOutcome { finished, foretold, stopped, skipped, refused };
 
 /// "ok" finished; a status that begins with "skipped" (the engine is not on this machine) or
 /// "refused" (a peer cannot run the scene, and says why) never ran; anything else stopped on the
-/// way.
+/// way: as foretold where all Truths about the row hold, which only a metric of runs that break off
+/// can do.
 RunOutcome outcome_of(const RunResult& row);
 RunOutcome outcome_of(const std::string& status);
 
@@ -31,9 +32,9 @@ struct MetricSummary {
 };
 
 struct SubjectSummary {
-  int finished = 0, stopped = 0, skipped = 0, refused = 0;  ///< rows
-  std::vector<MetricSummary> metrics;                       ///< one a StudyResult::metrics
-  int rows() const { return finished + stopped + skipped + refused; }
+  int finished = 0, foretold = 0, stopped = 0, skipped = 0, refused = 0;  ///< rows
+  std::vector<MetricSummary> metrics;  ///< one a StudyResult::metrics
+  int rows() const { return finished + foretold + stopped + skipped + refused; }
 };
 
 struct StudySummary {

@@ -203,6 +203,7 @@ std::string counts(const StudySummary& summary, const TableStyle& style) {
   const auto& total = summary.total;
   std::string text =
       std::to_string(total.rows()) + " runs: " + std::to_string(total.finished) + " finished";
+  if (total.foretold > 0) text += ", " + std::to_string(total.foretold) + " broke off as foretold";
   if (total.stopped > 0)
     text +=
         ", " + toned(std::to_string(total.stopped) + " stopped on the way", Tone::bad, style.color);

@@ -78,8 +78,10 @@ RunResult run_result(const StudyPlan& plan, const EngineTable& engines, const Ro
     const auto mixing = engine->second.friction_mixing != nullptr
                             ? engine->second.friction_mixing(row.experiment)
                             : std::nullopt;
+    const double sinking =
+        engine->second.normal_mixing != nullptr ? engine->second.normal_mixing(row.experiment) : 0.;
     for (std::size_t i = 0; i < plan.metrics.size(); ++i)
-      run.metrics[i].predicted = predict(plan.metrics[i]->name, context, mixing);
+      run.metrics[i].predicted = predict(plan.metrics[i]->name, context, mixing, sinking);
   } catch (const simulation::ExperimentError&) {
     return run;  // the row's status says already why it could not run
   }
@@ -123,7 +125,7 @@ bool all_truths_hold(const StudyResult& result) {
   return std::all_of(result.rows.begin(), result.rows.end(), [](const RunResult& run) {
     const bool judged = std::none_of(run.metrics.begin(), run.metrics.end(),
                                      [](const MetricValue& value) { return value.ok == false; });
-    return judged && !has(run, RunOutcome::stopped);
+    return judged && outcome_of(run) != RunOutcome::stopped;
   });
 }
 

@@ -22,6 +22,8 @@ struct WallScene {
 struct WallPlan {
   StudyPlan study;  ///< name, subjects, hash; a row a run, its one value the index of the scene
   std::vector<WallScene> scenes;
+  /// Runs whose step is above the largest stable one: "rimless_wheel under lugre: ...".
+  std::vector<std::string> warnings;
 };
 
 /// What one subject made of one truth.
@@ -46,22 +48,27 @@ struct WallResult {
   std::string name, title, question, file;
   std::vector<WallScene> scenes;
   std::vector<SubjectInfo> subjects;
-  std::vector<WallLine> lines;  ///< scenes in order, their truths in order
+  std::vector<WallLine> lines;        ///< scenes in order, their truths in order
+  std::vector<std::string> warnings;  ///< the plan's
   int passed() const;
   int failed() const;
 };
 
 /// The file that a Scene of a Wall means, as an Include would name it.
 std::string scene_file(const language::Object& scene);
+/// Where a Wall's files go: `options.folder`, or runs/<wall>-<hash>.
+std::filesystem::path wall_folder(const WallPlan& plan, const RunOptions& options);
 /// The plan of `wall`, an object of `root`. Nothing when `diagnostics` got an error: a scene that
-/// is not there, has no Expect, or that no subject covers. Every run's scene is loaded here.
+/// is not there, has no Expect, or that no subject covers. A run whose step is above its law's
+/// stability bound gets a warning. Every run's scene is loaded here.
 std::optional<WallPlan> make_wall_plan(const language::Object& root, const language::Object& wall,
                                        const std::string& file, language::Library& library,
                                        const PlanOptions& options,
                                        language::Diagnostics& diagnostics);
 
 /// Runs all, by `options.jobs` threads, with the same result for any number of them; nothing when
-/// `stop` was set. A run that diverges or cannot run is a cell with that status.
+/// `stop` was set. Finished runs are kept in rows/ of the Wall's folder; with `options.resume` they
+/// are not run again. A run that diverges or cannot run is a cell with that status.
 std::optional<WallResult> run_wall(const WallPlan& plan, const EngineTable& engines,
                                    const RunOptions& options, const std::atomic<bool>& stop);
 

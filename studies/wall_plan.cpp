@@ -6,6 +6,7 @@
 
 #include "language/names.h"
 #include "simulation/load.h"
+#include "simulation/stability.h"
 #include "studies/hash.h"
 #include "studies/wall.h"
 
@@ -115,7 +116,9 @@ class WallPlanner {
     std::optional<simulation::Experiment> experiment;
     if (tree) experiment = simulation::load_experiment(*tree, found);
     tell(found, block, subject.info.name);
-    if (experiment) add_row(std::move(*experiment), language::print(*tree), index);
+    if (!experiment) return;
+    hash_.add_files(tree->plugins);
+    add_row(block, std::move(*experiment), language::print(*tree), index);
   }
 
   /// Before the scene is loaded under a law that it may not be made for.
@@ -132,16 +135,31 @@ class WallPlanner {
   }
 
   /// Without ground all laws are the same: the first subject of each integrator runs.
-  void add_row(simulation::Experiment experiment, const std::string& printed, std::size_t index) {
+  void add_row(const Object& block, simulation::Experiment experiment, const std::string& printed,
+               std::size_t index) {
     if (!experiment.terrain && experiment.engine == "dts" &&
         !covered_.insert(experiment.integrator).second)
       return;
     hash_.add(printed);
+    warn_of_step(block, experiment, index);
     RowPlan row;
     row.values = {static_cast<int>(plan_.scenes.size()) - 1};
     row.subject = static_cast<int>(index);
     row.experiment = std::move(experiment);
     plan_.study.rows.push_back(std::move(row));
+  }
+
+  void warn_of_step(const Object& block, const simulation::Experiment& experiment,
+                    std::size_t index) {
+    const double bound = simulation::stability_bound(experiment).step;
+    if (experiment.deltat <= bound) return;
+    const std::string what = fmt::format(
+        "deltat {:.4g} s is above the largest stable step {:.4g} s of {} under the law {}",
+        experiment.deltat, bound, experiment.integrator, experiment.contact);
+    const std::string& subject = plan_.study.subjects[index].info.name;
+    diagnostics_.warning(block.position, what);
+    diagnostics_.note(block.position, "with subject = " + subject);
+    plan_.warnings.push_back(block.name + " under " + subject + ": " + what);
   }
 
   void tell(const Diagnostics& found, const Object& block, const std::string& subject) {

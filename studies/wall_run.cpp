@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
-#include <thread>
 
 #include "contact/force_law.h"
 #include "output/csv.h"
@@ -12,6 +10,7 @@
 #include "output/number.h"
 #include "simulation/expectation.h"
 #include "simulation/world.h"
+#include "studies/row_runner.h"
 #include "studies/wall.h"
 
 namespace hookpoint::studies {
@@ -20,15 +19,19 @@ namespace {
 using simulation::ExpectationResult;
 using simulation::ExpectationSpec;
 
-struct RunOutcome {
-  std::string status = "ok";
-  std::vector<ExpectationResult> results;
-};
+std::vector<const ExpectationSpec*> covering(const RowPlan& row) {
+  std::vector<const ExpectationSpec*> specs;
+  for (const ExpectationSpec& spec : row.experiment.expectations) {
+    if (spec.covers(row.experiment)) specs.push_back(&spec);
+  }
+  return specs;
+}
 
-/// Nothing when `stop` was set meanwhile.
-std::optional<RunOutcome> run_scene(const RowPlan& row, const EngineTable& engines,
+/// A value for each truth that covers the run; nothing when `stop` was set meanwhile.
+std::optional<RowOutcome> run_scene(const RowPlan& row, const EngineTable& engines,
                                     const std::atomic<bool>& stop) {
-  RunOutcome outcome;
+  RowOutcome outcome;
+  outcome.measured.resize(covering(row).size());
   const auto engine = engines.find(row.experiment.engine);
   if (engine == engines.end() || !engine->second.description.found) {
     outcome.status =
@@ -45,11 +48,12 @@ std::optional<RunOutcome> run_scene(const RowPlan& row, const EngineTable& engin
       const simulation::StepStatus status = world.step();
       if (!status.ok()) {
         outcome.status = fmt::format("stopped at {:.6g} s: {}", status.time, status.advice);
-        break;
+        return outcome;
       }
       expectations.observe(world.state().time);
     }
-    outcome.results = expectations.results();
+    const std::vector<ExpectationResult> results = expectations.results();
+    for (std::size_t i = 0; i < results.size(); ++i) outcome.measured[i] = results[i].measured;
   } catch (const simulation::ExperimentError& error) {
     outcome.status = fmt::format("cannot run: {}", error.what());
   }
@@ -66,32 +70,6 @@ std::vector<std::size_t> by_length(const std::vector<RowPlan>& rows) {
   std::ranges::stable_sort(order,
                            [&](std::size_t a, std::size_t b) { return steps(a) > steps(b); });
   return order;
-}
-
-/// Every run's outcome in its own slot; false when stopped.
-bool run_all(const WallPlan& plan, const EngineTable& engines, const RunOptions& options,
-             const std::atomic<bool>& stop, std::vector<RunOutcome>& outcomes) {
-  const std::vector<std::size_t> order = by_length(plan.study.rows);
-  std::atomic<std::size_t> next{0};
-  std::mutex mutex;
-  Progress progress;
-  progress.total = order.size();
-  const auto work = [&] {
-    for (std::size_t i = next++; i < order.size(); i = next++) {
-      auto outcome = run_scene(plan.study.rows[order[i]], engines, stop);
-      if (!outcome) return;
-      outcomes[order[i]] = std::move(*outcome);
-      const std::lock_guard lock(mutex);
-      ++progress.done;
-      if (options.progress) options.progress(progress);
-    }
-  };
-  {
-    std::vector<std::jthread> workers;
-    for (int i = 1; i < options.jobs; ++i) workers.emplace_back(work);
-    work();
-  }
-  return !stop;
 }
 
 std::string allowed_difference(const ExpectationSpec& spec) {
@@ -121,23 +99,21 @@ WallLine& line_of(WallResult& result, std::size_t scene, const ExpectationSpec& 
   return result.lines.back();
 }
 
-void add_outcome(WallResult& result, const RowPlan& row, const RunOutcome& outcome) {
+void add_outcome(WallResult& result, const RowPlan& row, const RowOutcome& outcome) {
   const auto scene = static_cast<std::size_t>(row.values[0]);
-  for (const ExpectationSpec& spec : row.experiment.expectations) {
-    if (!spec.covers(row.experiment)) continue;
-    WallCell& cell = line_of(result, scene, spec).cells[static_cast<std::size_t>(row.subject)];
-    cell.expected = spec.expected;
+  const std::vector<const ExpectationSpec*> specs = covering(row);
+  for (std::size_t i = 0; i < specs.size(); ++i) {
+    WallCell& cell = line_of(result, scene, *specs[i]).cells[static_cast<std::size_t>(row.subject)];
+    cell.expected = specs[i]->expected;
     cell.status = outcome.status;
     cell.law = row.experiment.terrain ? row.experiment.contact : "";
     cell.integrator =
         contact::find_force_law(row.experiment.contact) ? row.experiment.integrator : "";
-    const auto found = std::ranges::find_if(outcome.results, [&](const ExpectationResult& each) {
-      return each.spec->name == spec.name;
-    });
-    if (outcome.status != "ok" || found == outcome.results.end()) continue;
-    cell.measured = found->measured;
-    cell.error = found->error();
-    cell.ok = found->ok();
+    if (outcome.status != "ok") continue;
+    const ExpectationResult found{specs[i], outcome.measured[i]};
+    cell.measured = found.measured;
+    cell.error = found.error();
+    cell.ok = found.ok();
   }
 }
 
@@ -181,15 +157,25 @@ output::CsvTable results_table(const WallResult& result) {
 int WallResult::passed() const { return count_cells(*this, true); }
 int WallResult::failed() const { return count_cells(*this, false); }
 
+std::filesystem::path wall_folder(const WallPlan& plan, const RunOptions& options) {
+  if (!options.folder.empty()) return options.folder;
+  return std::filesystem::path("runs") / fmt::format("{}-{}", plan.study.name, plan.study.hash);
+}
+
 std::optional<WallResult> run_wall(const WallPlan& plan, const EngineTable& engines,
                                    const RunOptions& options, const std::atomic<bool>& stop) {
-  std::vector<RunOutcome> outcomes(plan.study.rows.size());
-  if (!run_all(plan, engines, options, stop, outcomes)) return std::nullopt;
+  const std::vector<RowPlan>& rows = plan.study.rows;
+  const RowStore store(wall_folder(plan, options) / "rows", plan.study.hash, options.resume);
+  std::vector<RowOutcome> outcomes(rows.size());
+  ProgressMeter meter(rows.size(), options);
+  const RowWork work{[&](std::size_t row) { return run_scene(rows[row], engines, stop); },
+                     [&](std::size_t row) { return covering(rows[row]).size(); }, 0};
+  if (!run_rows(by_length(rows), work, options, store, meter, outcomes)) return std::nullopt;
   WallResult result{
-      plan.study.name, plan.study.title, plan.study.question, plan.study.file, plan.scenes, {}, {}};
+      plan.study.name, plan.study.title, plan.study.question, plan.study.file, plan.scenes, {}, {},
+      plan.warnings};
   for (const SubjectPlan& subject : plan.study.subjects) result.subjects.push_back(subject.info);
-  for (std::size_t i = 0; i < outcomes.size(); ++i)
-    add_outcome(result, plan.study.rows[i], outcomes[i]);
+  for (std::size_t i = 0; i < outcomes.size(); ++i) add_outcome(result, rows[i], outcomes[i]);
   return result;
 }
 

@@ -12,6 +12,7 @@
 #include "control/rational.h"
 #include "control/table.h"
 #include "language/units.h"
+#include "simulation/urdf.h"
 #include "tests/fuzz/fuzz.h"
 
 namespace hookpoint {
@@ -73,9 +74,21 @@ void read_rational(const std::string& bytes) {
                 "a fraction far from its number");
 }
 
+void read_urdf(const std::string& bytes) {
+  language::SourceFile file{"robot.urdf", bytes, {}};
+  language::index_lines(file);
+  language::Report report;
+  const auto objects = simulation::include_urdf(file, {}, report);
+  fuzz::require(!objects.empty() || report.has_errors(), "neither a robot nor a mistake");
+  language::Diagnostics diagnostics;
+  report.deliver(diagnostics);
+  for (const language::Diagnostic& diagnostic : diagnostics.all())
+    fuzz::require(diagnostic.position.offset <= bytes.size(), "a place outside the file");
+}
+
 void run(char kind, const std::string& bytes) {
-  constexpr void (*readers[])(const std::string&) = {read_csv, read_mat, read_grid, read_unit,
-                                                     read_rational};
+  constexpr void (*readers[])(const std::string&) = {read_csv,  read_mat,      read_grid,
+                                                     read_unit, read_rational, read_urdf};
   try {
     readers[static_cast<unsigned char>(kind) % std::size(readers)](bytes);
   } catch (const std::exception&) {

@@ -27,15 +27,24 @@ namespace {
 using namespace reference_scenes;
 
 /// The block's motion over 0.3 s, thrown at the ground so that the solver has work. Every other
-/// pair of runs falls on the tiles of a grid.
+/// pair of runs falls on the tiles of a grid, where the peer has grids, and every third block
+/// carries a pendulum.
 std::vector<double> trace(const reference::Peer& peer, int run) {
   simulation::Experiment experiment = sloped_block(15. * degree, 0.1 * run, 0.5, 1e-3);
   experiment.robots[0].location += Vector3d{0., 0., 0.02};
   experiment.robots[0].angular_velocity = {0.3, -0.5, 0.2 * run};
-  if (run / 2 % 2 == 1) {
+  if (run / 2 % 2 == 1 && !refuses(peer, reference::feature::height_field)) {
     experiment.terrain->spacing = 0.07;
     experiment.terrain->surface =
         simulation::GridSpec{20, 20, std::vector<double>(400, 0.), -0.7, -0.7};
+  }
+  if (run % 3 == 2) {
+    for (const double x : {-0.1, 0.1})
+      for (const double y : {-0.1, 0.1})
+        experiment.robots[0].base.boundary_points.push_back({x, y, -0.05});
+    simulation::LinkSpec& link = experiment.robots[0].chains.emplace_back().links.emplace_back();
+    link.alpha = 1.;
+    link.body.mass = {0.3, {0.1, 0., 0.}, {1e-3, 1e-3, 1e-3, 0., 0., 0.}};
   }
   const auto engine = peer.make(experiment);
   std::vector<double> values;
@@ -126,14 +135,6 @@ std::string refusal(const reference::Peer& peer, const simulation::Experiment& e
   return "";
 }
 
-/// Whether the peer says of itself that it refuses `feature`.
-bool refuses(const reference::Peer& peer, std::string_view feature) {
-  const auto gaps = peer.describe().gaps;
-  return std::ranges::any_of(gaps, [feature](const simulation::EngineGap& gap) {
-    return gap.feature == feature && gap.handling == simulation::EngineGap::Handling::refused;
-  });
-}
-
 void expect_refusal(const simulation::Experiment& experiment, const std::string& named) {
   for (const auto& peer : reference::peers()) {
     const std::string message = refusal(peer, experiment);
@@ -175,6 +176,7 @@ TEST(PeerEngine, SaysThatItTakesTheKineticOfTwoFrictions) {
   simulation::Experiment experiment = sloped_block(15. * degree, 0., 0.2, 1e-3);
   experiment.materials[0].constants.static_friction = 0.8;
   for (const auto& peer : reference::peers()) {
+    if (!gap_of(peer, reference::feature::two_frictions)) continue;  // it takes both
     const auto engine = peer.make(experiment);
     ASSERT_EQ(engine->state().notices.size(), 1u) << peer.name;
     EXPECT_NE(engine->state().notices[0].find("kinetic"), std::string::npos) << peer.name;
@@ -196,6 +198,17 @@ TEST(PeerEngine, RunsALegconeOrNamesIt) {
     ASSERT_TRUE(run_until(*engine, 1e-3, 1.));
     EXPECT_NEAR(engine->state().bodies[0].position.z, 0.05, 5e-4);
   }
+}
+
+// With a mixing of 0 four corners on a plane are a singular system (docs/reference_engines.md).
+TEST(PeerEngine, NeverRunsOdeWithoutMixing) {
+  for (const char* engine : {"ode", "ode_quickstep"})
+    for (const char* settings : {"default", "recommended", "matched"}) {
+      const auto constants = reference::constraint_constants(
+          engine, sloped_block(15. * degree, 0., 0.5, 1e-3, settings));
+      EXPECT_GE(constants.normal_mixing, 1e-10) << engine << settings;
+      EXPECT_GE(constants.tangential_mixing, 1e-10) << engine << settings;
+    }
 }
 
 TEST(PeerEngine, DescribesItselfAndEverySetting) {

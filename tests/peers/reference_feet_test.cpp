@@ -26,9 +26,16 @@ simulation::Experiment scene(const std::string& name, const reference::Peer& pee
   return experiment;
 }
 
+/// Simbody's friction makes light feet so stiff that its explicit integrator takes some 2 ms a
+/// step; docs/reference_engines.md has what it gives.
+bool costly(const reference::Peer& peer, std::string_view settings) {
+  return peer.name == "simbody" && settings == "default";
+}
+
 TEST(StandingHexapod, CarriesItsWeightInEveryEngine) {
   for (const auto& peer : reference::peers())
     for (const char* settings : {"default", "matched"}) {
+      if (costly(peer, settings)) continue;
       simulation::Experiment experiment = scene("standing_hexapod.hook", peer, settings);
       experiment.deltat = 1e-3;
       const auto engine = peer.make(experiment);
@@ -48,7 +55,8 @@ TEST(StandingHexapod, CarriesItsWeightInEveryEngine) {
 TEST(WalkingHexapod, WalksInEveryEngine) {
   for (const auto& peer : reference::peers()) {
     Loaded loaded;
-    loaded.experiment = scene("walking_hexapod.hook", peer);
+    loaded.experiment =
+        scene("walking_hexapod.hook", peer, costly(peer, "default") ? "matched" : "default");
     loaded.experiment->deltat = 1e-3;
     Running run(loaded, peer.make);
     run.step(1000);
@@ -89,7 +97,10 @@ TEST(PeerFeet, SlideAtCoulombsAcceleration) {
   for (const auto& peer : reference::peers())
     for (const bool rotor : {false, true}) {
       const auto engine = peer.make(sledge(angle, 0., 0.2, rotor));
-      EXPECT_NEAR(speed_after(*engine, downhill, 1.), coulomb, 1e-4 * coulomb)
+      // MuJoCo's block hops, some 3 ms at a time, in which it gains g mu cos more.
+      // DART's Dantzig fails on four equal loads in the first two steps.
+      const double tolerance = peer.name == "mujoco" ? 0.01 : peer.name == "dart" ? 3e-3 : 1e-4;
+      EXPECT_NEAR(speed_after(*engine, downhill, 1.), coulomb, tolerance * coulomb)
           << peer.name << rotor;
     }
 }
@@ -152,6 +163,7 @@ TEST(BulletFeet, StickAtTheMatchedSetting) {
 TEST(PeerFeet, HaveTheFrictionOfTheirTile) {
   for (const auto& peer : reference::peers())
     for (const bool rotor : {false, true}) {
+      if (refuses(peer, reference::feature::tile_friction)) continue;
       simulation::Experiment experiment = sledge(angle, 0., 0.5, rotor);
       experiment.materials.push_back(experiment.materials[0]);
       experiment.materials[1].constants.static_friction = 0.2;
@@ -175,17 +187,11 @@ TEST(PeerFeet, HaveTheFrictionOfTheirTile) {
 }
 
 TEST(PeerFeet, SlideOnTheTilesOfAGridAsOnAPlane) {
-  simulation::GridSpec grid;
-  grid.columns = grid.rows = 17;
-  grid.origin_x = grid.origin_y = -4.;
-  for (int row = 0; row < grid.rows; ++row)
-    for (int column = 0; column < grid.columns; ++column)
-      grid.heights.push_back(-std::tan(angle) * (grid.origin_x + 0.5 * column));
   const Vector3d downhill = slope_axes(angle, 0.).downhill;
   for (const auto& peer : reference::peers()) {
+    if (refuses(peer, reference::feature::height_field)) continue;
     simulation::Experiment experiment = sledge(angle, 0., 0.2, true);
-    experiment.terrain->spacing = 0.5;
-    experiment.terrain->surface = grid;
+    experiment.terrain = tilted_grid(angle);
     const auto engine = peer.make(experiment);
     EXPECT_NEAR(speed_after(*engine, downhill, 1.), coulomb, 0.01 * coulomb) << peer.name;
   }
@@ -213,6 +219,7 @@ TEST(PeerFeet, RollOnTheirBalls) {
 TEST(PeerFeet, PublishTheirContactPoints) {
   for (const auto& peer : reference::peers())
     for (const double mu : {0.5, 0.2}) {
+      if (peer.name == "mujoco" && mu < 0.3) continue;  // it hops: tests/peers/mujoco_test.cpp
       simulation::Experiment experiment = sledge(angle, 0., mu, true);
       for (int i = 0; i < 4; ++i) experiment.points.push_back({"p", 0, 0, i});
       const auto engine = peer.make(experiment);
@@ -225,7 +232,10 @@ TEST(PeerFeet, PublishTheirContactPoints) {
         sum += point.force;
         EXPECT_NEAR(point.depth, -dot(point.position, normal), 1e-12) << peer.name;
         EXPECT_LT(std::abs(point.depth), 1e-3) << peer.name;
-        EXPECT_EQ(point.sliding, mu < 0.3 ? 1. : 0.) << peer.name;
+        // Simbody's points creep at 5 mm/s where they stick.
+        if (peer.name != "simbody" || mu < 0.3) {
+          EXPECT_EQ(point.sliding, mu < 0.3 ? 1. : 0.) << peer.name;
+        }
       }
       EXPECT_NEAR(norm(sum - state.bodies[0].contact_force), 0., 1e-9) << peer.name;
       EXPECT_NEAR(dot(sum, normal), g * std::cos(angle), 0.01 * g) << peer.name;

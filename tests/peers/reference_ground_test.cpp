@@ -46,6 +46,7 @@ TEST(PeerGround, EveryTileOfRoughGroundIsWhereOursIs) {
   std::mt19937 generator(5);
   std::uniform_int_distribution<int> cell(-18, 17);
   for (const auto& peer : reference::peers()) {
+    if (refuses(peer, reference::feature::height_field)) continue;
     for (int n = 0; n < 12; ++n) {
       // The centroid of a lower or an upper triangle.
       const double s = n % 2 == 0 ? 2. / 3. : 1. / 3.;

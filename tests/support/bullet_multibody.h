@@ -34,6 +34,8 @@ class BulletMultibody {
         const Principal here = principal(link.mass);
         const Matrix3d turn_x = rotation_matrix(exponential(Vector3d{link.alpha, 0., 0.}));
         const Matrix3d turn_z = rotation_matrix(exponential(Vector3d{0., 0., link.theta}));
+        p_PF += R_PF * link.joint_position;
+        R_PF = R_PF * rotation_matrix(link.joint_orientation);
         const Matrix3d R_PL = R_PF * turn_x * turn_z;
         const Vector3d p_PL =
             p_PF + R_PF * (Vector3d{link.a, 0., 0.} + turn_x * Vector3d{0., 0., link.d});

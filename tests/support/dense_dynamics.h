@@ -62,6 +62,8 @@ class DenseKinematics {
         const bool revolute = link.joint == dts::JointType::revolute;
         const Scalar theta = revolute ? Scalar(link.theta + q[joint]) : Scalar(link.theta);
         const Scalar d = revolute ? Scalar(link.d) : Scalar(link.d + q[joint]);
+        origin = origin + axes * eigen(link.joint_position).cast<Scalar>();
+        axes = axes * eigen(link.joint_orientation).cast<Scalar>();
         axes = axes * Matrix(about(0, Scalar(link.alpha)));
         origin = origin + axes.col(0) * Scalar(link.a);
         axes = axes * Matrix(about(2, theta));

@@ -21,6 +21,8 @@ inline simulation::ChainSpec chain_spec(const dts::ChainDescription& chain, std:
   for (std::size_t n = 0; n < chain.links.size(); ++n) {
     const dts::LinkDescription& link = chain.links[n];
     simulation::LinkSpec& added = spec.links.emplace_back();
+    added.joint_location = link.joint_position;
+    added.joint_orientation = link.joint_orientation;
     added.a = link.a;
     added.alpha = link.alpha;
     added.d = link.d;

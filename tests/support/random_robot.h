@@ -45,6 +45,7 @@ class RandomRobots {
     link.theta = degenerate && chance(0.5) ? 0. : uniform(-3., 3.);
     link.joint = chance(prismatic) ? dts::JointType::prismatic : dts::JointType::revolute;
     link.mass = mass_properties();
+    if (chance(0.3)) place(link, degenerate);
     return link;
   }
 
@@ -82,6 +83,13 @@ class RandomRobots {
   }
 
  private:
+  /// Gives the link a fixed transform: any, or a small turn after which axes are near-parallel.
+  void place(dts::LinkDescription& link, bool degenerate) {
+    link.joint_position = vector(0.5);
+    if (degenerate) link.alpha = 0.;
+    link.joint_orientation = degenerate ? exponential(vector(1e-6)) : orientation();
+  }
+
   std::mt19937_64 engine_;
 };
 

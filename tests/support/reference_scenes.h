@@ -1,11 +1,16 @@
 // Scenes of the peers' tests, built without the language: a block on a slope, a free body.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <string>
+#include <string_view>
 
+#include "reference/engines.h"
+#include "reference/experiment_checks.h"
 #include "simulation/engine.h"
 
 namespace hookpoint::reference_scenes {
@@ -66,6 +71,20 @@ inline simulation::Experiment sloped_block(double angle, double azimuth, double 
   return experiment;
 }
 
+/// A slope that falls along +x, as tiles of a grid with cells of 0.5 m, 8 m wide.
+inline simulation::TerrainSpec tilted_grid(double angle) {
+  simulation::GridSpec grid;
+  grid.columns = grid.rows = 17;
+  grid.origin_x = grid.origin_y = -4.;
+  for (int row = 0; row < grid.rows; ++row)
+    for (int column = 0; column < grid.columns; ++column)
+      grid.heights.push_back(-std::tan(angle) * (grid.origin_x + 0.5 * column));
+  simulation::TerrainSpec terrain;
+  terrain.spacing = 0.5;
+  terrain.surface = grid;
+  return terrain;
+}
+
 /// Steps until `time` [s]; false when a step fails.
 inline bool run_until(simulation::Engine& engine, double deltat, double time) {
   const auto last = static_cast<std::int64_t>(std::llround(time / deltat));
@@ -81,6 +100,18 @@ inline double creep_speed(simulation::Engine& engine, const Vector3d& downhill, 
   const double start = dot(engine.state().bodies[0].position, downhill);
   run_until(engine, deltat, to);
   return (dot(engine.state().bodies[0].position, downhill) - start) / (to - from);
+}
+
+/// How the peer handles `feature` where it does not do as our engine does.
+inline std::optional<simulation::EngineGap::Handling> gap_of(const reference::Peer& peer,
+                                                             std::string_view feature) {
+  const auto gaps = peer.describe().gaps;
+  const auto gap = std::ranges::find(gaps, feature, &simulation::EngineGap::feature);
+  if (gap == gaps.end()) return std::nullopt;
+  return gap->handling;
+}
+inline bool refuses(const reference::Peer& peer, std::string_view feature) {
+  return gap_of(peer, feature) == simulation::EngineGap::Handling::refused;
 }
 
 }  // namespace hookpoint::reference_scenes

@@ -1,4 +1,4 @@
-// The Wall of scenes with a known truth, as a user runs it.
+// The Wall of scenes with a known truth, and maps of parameters, as a user runs them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -44,6 +44,65 @@ TEST(Wall, HasTheSameBytesForAnyNumberOfThreads) {
   const std::string rows = work.read("one/results.csv");
   EXPECT_FALSE(rows.empty());
   EXPECT_EQ(rows, work.read("two/results.csv"));
+}
+
+TEST(Wall, ResumesWithWhatIsMissing) {
+  const Workplace work;
+  work.file("small.hook", small_wall);
+  ASSERT_EQ(work.hookpoint("study small.hook --out here").status, 0);
+  const std::string whole = work.read("here/results.csv");
+  // A row that is there is taken as it is; one that is not is run.
+  std::string row = work.read("here/rows/00000.row");
+  const std::size_t value = row.find("value ") + 6;
+  row.replace(value, row.find('\n', value) - value, "0.125");
+  work.file("here/rows/00000.row", row);
+  std::filesystem::remove(work.folder() / "here/rows/00001.row");
+  const auto resumed = work.hookpoint("study small.hook --out here --resume");
+  EXPECT_EQ(resumed.status, 1) << resumed.err;
+  const std::string changed = work.read("here/results.csv");
+  EXPECT_NE(changed.find(",0.125,"), std::string::npos) << changed;
+  const auto after_first = [](const std::string& rows) {
+    return rows.substr(rows.find('\n', rows.find('\n') + 1));
+  };
+  EXPECT_EQ(after_first(changed), after_first(whole));
+  // Without --resume all is run again; rows of another plan are not taken.
+  EXPECT_EQ(work.hookpoint("study small.hook --out here").status, 0);
+  EXPECT_EQ(work.read("here/results.csv"), whole);
+  work.file("here/rows/00000.row", row);
+  EXPECT_EQ(work.hookpoint("study small.hook --out here --resume --only lugre").status, 0);
+}
+
+TEST(Wall, WarnsOfAStepAboveTheStabilityBound) {
+  const Workplace work;
+  work.file("coarse.hook",
+            "Wall coarse {\n"
+            "  Subject ours { engine = dts; contact = hookpoint; }\n"
+            "  Subject fine { engine = dts; contact = hookpoint; integrator = explicit_euler; }\n"
+            "  Scene stopping_point { Fix dt { value = 5 ms; } }\n"
+            "}\n");
+  const auto result = work.hookpoint("study coarse.hook --out here");
+  // k = 50 kN/m, c = 300 N s/m: (sqrt(c^2 + 4 k m) - c)/k is 4.77 ms, explicit Euler's c/k 6 ms.
+  EXPECT_NE(result.err.find("deltat 0.005 s is above the largest stable step 0.00477 s of "
+                            "semi_implicit_euler under the law hookpoint"),
+            std::string::npos)
+      << result.err;
+  EXPECT_NE(result.err.find("coarse.hook:4:3: warning"), std::string::npos) << result.err;
+  EXPECT_EQ(result.err.find("of explicit_euler"), std::string::npos) << result.err;
+  EXPECT_NE(work.read("here/report.html").find("stopping_point under ours: deltat"),
+            std::string::npos);
+}
+
+// In every cell of the maps: the largest stable step, and atan(mu).
+TEST(Maps, AreAsTheirClosedFormsSay) {
+  const Workplace work;
+  const auto stability =
+      work.hookpoint("study " + config("studies/stability_map.hook") + " --quick --out stability");
+  EXPECT_EQ(stability.status, 0) << stability.out << stability.err;
+  EXPECT_NE(stability.out.find("broke off as foretold; 18 of 18 verdicts hold"), std::string::npos)
+      << stability.out;
+  const auto threshold = work.hookpoint("study " + config("studies/threshold_map.hook") +
+                                        " --quick --only hookpoint --out threshold");
+  EXPECT_EQ(threshold.status, 0) << threshold.out << threshold.err;
 }
 
 TEST(Wall, FailsWhereATruthDoes) {

@@ -27,6 +27,7 @@ const std::map<std::string, Folders> may_include{
     {"cli",
      {"math", "dts", "contact", "integrators", "language", "control", "output", "simulation", "reference", "studies",
       "view"}},
+    {"python", {"language", "output", "simulation", "studies", "cli"}},
 };
 
 std::string folder_of_include(const std::string& line) {

@@ -65,6 +65,18 @@ TEST(HeatMapScript, ExplainsOnlyWhatIsThere) {
   EXPECT_EQ(heat_map_script(map).find("no value"), std::string::npos);
 }
 
+TEST(HeatMapScript, ALogarithmicColourBeginsAtItsFloor) {
+  HeatMap map = sample();
+  map.panels[0].cells[0].value = 1e-16;
+  EXPECT_EQ(heat_map_script(map).find("logscale cb"), std::string::npos);
+  map.color.logarithmic = true;
+  map.color.floor = 1e-9;
+  const std::string script = heat_map_script(map);
+  EXPECT_NE(script.find("logscale cb"), std::string::npos);
+  EXPECT_NE(script.find("set cbrange [1e-09:1]"), std::string::npos);
+  EXPECT_NE(script.find("shade(v) = v < 1e-09 ? 1e-09 : v"), std::string::npos);
+}
+
 TEST(HeatMapScript, PanelsThatDoNotFitSideBySideStandInRows) {
   HeatMap map = sample();
   // 92 px each and 40 between them: 11 in the 1480 px beside the margins.

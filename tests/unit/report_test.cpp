@@ -44,6 +44,20 @@ TEST(Summary, CountsRunsAndVerdicts) {
   EXPECT_EQ(stopped_rows(synthetic_study()).size(), 6u);
 }
 
+TEST(Summary, ARunThatBreaksOffAsATruthSaysIsNoFailure) {
+  StudyResult study = synthetic_study();
+  for (RunResult& row : study.rows)
+    if (row.status.starts_with("not_finite")) row.metrics[0] = {1., 1., true};
+  const StudySummary summary = summarise(study);
+  EXPECT_EQ(summary.total.stopped, 0);
+  EXPECT_EQ(summary.total.foretold, 6);
+  EXPECT_EQ(summary.total.rows(), 108);
+  EXPECT_TRUE(stopped_rows(study).empty());
+  study.rows[0].status = "not_finite at 1 s";
+  study.rows[0].metrics = {{0., 0., true}, {1., 2., false}, {}};
+  EXPECT_EQ(outcome_of(study.rows[0]), RunOutcome::stopped);
+}
+
 /// Slope 30 slides; creep says something where friction holds only.
 StudyResult two_regimes() {
   StudyResult study = synthetic_study();

@@ -8,6 +8,7 @@
 #include "contact/predictions.h"
 #include "simulation/advice.h"
 #include "simulation/engine.h"
+#include "simulation/stability.h"
 #include "tests/support/run_text.h"
 
 namespace hookpoint {
@@ -79,6 +80,65 @@ TEST(Advice, NamesTheConstantThatMakesTheStepTooLarge) {
                  {});
   EXPECT_NE(stiff.changes.at(0).find("multiply normal_stiffness"), std::string::npos)
       << stiff.changes[0];
+}
+
+double bound(const std::string& text) {
+  const Loaded loaded = load_text(text);
+  EXPECT_TRUE(loaded.experiment) << loaded.diagnostics;
+  return simulation::stability_bound(*loaded.experiment).step;
+}
+
+/// A point of 1 kg on its ground, and on it whatever `chain` says.
+std::string point(const std::string& integrator, const std::string& material,
+                  const std::string& chain = "") {
+  return "World w { gravity = 9.81; integrator = " + integrator + "; Material m { " + material +
+         " } Terrain.Flat g { material = m; } Robot b { Base.mobile { rest_on = g; mass = 1; "
+         "inertia = 1, 1, 1, 0, 0, 0; ContactPoint tip { location = 0, 0, 0; } } " +
+         chain + " } }";
+}
+
+// Normal and tangential mode each have a bound of their own; the stiffer need not be the worse.
+TEST(StabilityBound, IsThatOfTheWorstModeNotOfAMixture) {
+  const std::string slack_damper =
+      "normal_stiffness = 1e5; normal_damping = 300; tangential_stiffness = 4e4; "
+      "tangential_damping = 20;";
+  EXPECT_NEAR(bound(point("explicit_euler", slack_damper)), 20. / 4e4, 1e-12);
+  EXPECT_NEAR(bound(point("semi_implicit_euler", slack_damper)),
+              (std::sqrt(300. * 300. + 4. * 1e5) - 300.) / 1e5, 1e-12);
+  EXPECT_EQ(bound(point("explicit_euler", "normal_damping = 0; tangential_damping = 0;")), 0.);
+}
+
+// A second mass on a vertical spring: w^2 are the roots of (k1 + k2 - m1 x)(k2 - m2 x) = k2^2.
+TEST(StabilityBound, CountsTheSpringsOfJoints) {
+  const double k1 = 2e4, k2 = 5e4, m2 = 0.25;
+  const std::string chain =
+      "Chain c { Link l { joint = prismatic; stiffness = 50 kN/m; mass = 0.25; "
+      "center_of_mass = 0, 0, 0; inertia = 1, 1, 1, 0, 0, 0; } }";
+  const double half = 0.5 * ((k1 + k2) * m2 + k2) / m2;
+  const double w = std::sqrt(half + std::sqrt(half * half - k1 * k2 / m2));
+  const std::string ground =
+      "normal_stiffness = 2e4; normal_damping = 0; tangential_stiffness = 2e4; "
+      "tangential_damping = 0;";
+  EXPECT_NEAR(bound(point("semi_implicit_euler", ground, chain)), 2. / w, 1e-9);
+  EXPECT_NEAR(bound(point("rk4", ground, chain)), 2. * std::sqrt(2.) / w, 1e-9);
+}
+
+// A damper alone, on soft ground: its rate is b (1/m1 + 1/m2), and 2 or 2.785 of its times are
+// borne.
+TEST(StabilityBound, CountsTheDampersAndDryFrictionOfJoints) {
+  const std::string ground =
+      "normal_stiffness = 1; normal_damping = 0; tangential_stiffness = 1; "
+      "tangential_damping = 0;";
+  const auto chain = [](const std::string& what) {
+    return "Chain c { Link l { joint = prismatic; " + what +
+           " mass = 0.25; center_of_mass = 0, 0, 0; inertia = 1, 1, 1, 0, 0, 0; } }";
+  };
+  const double rate = 100. * (1. + 1. / 0.25);
+  for (const std::string what : {"damping = 100;", "friction = 5;"}) {  // over 0.05 m/s: 100 N s/m
+    EXPECT_NEAR(bound(point("semi_implicit_euler", ground, chain(what))), 2. / rate,
+                1e-6 * 2. / rate);
+    EXPECT_NEAR(bound(point("rk4", ground, chain(what))), 2.785293563405282 / rate, 1e-5 / rate);
+  }
 }
 
 // The factor that is advised makes the step stable, and little more than that.

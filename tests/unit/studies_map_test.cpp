@@ -1,6 +1,8 @@
 // From a study's rows to a map, on the made-up study whose numbers are formulas.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "studies/figures.h"
 #include "tests/support/synthetic_study.h"
 
@@ -44,6 +46,37 @@ TEST(StudyMap, AStoppedRunHasNoValueButItsCell) {
   EXPECT_TRUE(cell(map.panels[4], 0, 2).run);
   EXPECT_FALSE(cell(map.panels[4], 0, 2).value);
   EXPECT_TRUE(cell(map.panels[4], 0, 1).value);
+}
+
+TEST(StudyMap, DrawsOnlyTheSubjectsThatItsBlockNames) {
+  StudyResult study = testing::synthetic_study();
+  PlotSpec spec = testing::synthetic_plot("map", "Creep", "slope", "deg");
+  spec.y = "dt";
+  spec.color = "creep_speed";
+  spec.subjects = {1};
+  study.plots = {spec};
+  const Figure figure = make_figure(study, 0);
+  ASSERT_EQ(figure.map->panels.size(), 1U);
+  EXPECT_EQ(figure.map->panels[0].title, "dts impulse");
+}
+
+TEST(StudyMap, SmallNumbersGetAUnitThatACellCanShow) {
+  StudyResult study = testing::synthetic_study();
+  PlotSpec spec = testing::synthetic_plot("map", "Depth", "slope", "deg");
+  spec.y = "dt";
+  spec.color = "penetration_max";
+  spec.color_unit = "m";
+  spec.log_y = false;
+  study.plots = {spec};
+  const Figure small = make_figure(study, 0);
+  EXPECT_EQ(small.map->color.unit, "um");
+  EXPECT_NEAR(*cell(small.map->panels[0], 0, 0).value, 12.26 * std::cos(5. / 57.3), 1e-12);
+  study.plots[0].log_y = true;  // a logarithmic colour shows any number
+  EXPECT_EQ(make_figure(study, 0).map->color.unit, "m");
+  for (RunResult& row : study.rows)
+    if (row.metrics[1].measured) *row.metrics[1].measured *= 1e3;
+  study.plots[0].log_y = false;
+  EXPECT_EQ(make_figure(study, 0).map->color.unit, "m");
 }
 
 TEST(StudyMap, DrawsOnlyWhatItsBlockNames) {

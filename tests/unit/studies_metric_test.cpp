@@ -54,6 +54,70 @@ std::optional<double> measure(const Experiment& experiment, std::string_view nam
   return metric->value();
 }
 
+/// The same for a body with a pull that grows by `rate` [N/s] along x from 0.
+std::optional<double> measure_pulled(
+    std::string_view name, double rate,
+    const std::function<void(const RunContext&, WorldState&)>& move) {
+  Experiment experiment = block_on_slope(0., 0.);
+  experiment.materials[0].constants.static_friction = 0.5;
+  experiment.forces.resize(2);
+  experiment.forces[1].robot = 1;  // another robot's: no concern of this one
+  const RunContext context = make_context(experiment, 0., 1.);
+  const auto metric = find_metric(name)->make(context);
+  Observer observer(context, false);
+  WorldState world;
+  world.bodies.resize(1);
+  simulation::WorldInputs inputs;
+  inputs.forces.resize(2);
+  inputs.forces[1].force = {0., 100., 0.};
+  for (int step = 0; step <= 100; ++step) {
+    world.time = step * experiment.deltat;
+    inputs.forces[0].force = {rate * world.time, 0., 1.};
+    move(context, world);
+    metric->observe(observer.observe(world, &inputs));
+  }
+  return metric->value();
+}
+
+TEST(SlipOnset, IsTheAngleOfTheDrivingForceWhenTheBodyFirstMoves) {
+  // 2 mm/s from t = 0.5 s on; upward motion is no slip. Weight less a lift of 1 N.
+  const auto moves = [](const RunContext&, WorldState& world) {
+    world.bodies[0].velocity = {0., world.time > 0.495 ? 2e-3 : 0.5e-3, 1.};
+    if (world.time > 0.7) world.bodies[0].velocity = {};
+    if (std::abs(world.time - 0.3) < 0.005) world.bodies[0].velocity.x = 1.;  // a twitch
+  };
+  const double angle = std::atan2(8. * 0.5, 8.81);
+  EXPECT_NEAR(*measure_pulled("slip_onset", 8., moves), angle, 1e-12);
+  EXPECT_NEAR(*measure_pulled("threshold_error", 8., moves), angle - std::atan(0.5), 1e-12);
+}
+
+TEST(SlipOnset, SaysNothingOfABodyThatHolds) {
+  const auto holds = [](const RunContext&, WorldState&) {};
+  EXPECT_FALSE(measure_pulled("slip_onset", 8., holds));
+  EXPECT_FALSE(measure_pulled("threshold_error", 8., holds));
+}
+
+TEST(Unrest, IsTheSpeedOfAllKineticEnergyAfterSettle) {
+  // Inertia 1: a turn of 0.8 rad/s is 0.32 J, as much as 0.8 m/s of the mass 1.
+  const auto dies = [](const RunContext&, WorldState& world) {
+    world.bodies[0].velocity = {world.time < 0.495 ? 5. : 0., 0., 0.};
+    world.bodies[0].angular_velocity = {0., 0.8 * (1. - world.time), 0.};
+  };
+  EXPECT_NEAR(*measure(block_on_slope(0., 0.), "unrest", 0.5, 1., dies), 0.4, 1e-12);
+  EXPECT_EQ(measure(block_on_slope(0., 0.), "restless", 0.5, 1., dies), 1.);
+  const auto rests = [](const RunContext&, WorldState& world) {
+    world.bodies[0].velocity = {0., 0., 0.9e-3};
+  };
+  EXPECT_EQ(measure(block_on_slope(0., 0.), "restless", 0.5, 1., rests), 0.);
+}
+
+TEST(Restless, IsARunThatTheEngineBrokeOff) {
+  const Experiment experiment = block_on_slope(0., 0.);
+  const RunContext context = make_context(experiment, 0., 1.);
+  EXPECT_EQ(find_metric("restless")->make(context)->value_of_broken_run(), 1.);
+  EXPECT_FALSE(find_metric("unrest")->make(context)->value_of_broken_run());
+}
+
 /// Moves the body downhill by s(t).
 auto downhill(std::function<double(double)> s) {
   return [s](const RunContext& context, WorldState& world) {
@@ -205,6 +269,14 @@ TEST(EnergyGain, IsTheGreatestRiseAboveTheStart) {
   };
   EXPECT_NEAR(*measure(block_on_slope(0., 0.), "energy_gain", 0., 0.1, lifted), 9.81 * 0.01 + 2.,
               1e-12);
+}
+
+TEST(SpinMax, IsTheGreatestAngularSpeedAfterSettle) {
+  const auto turned = [](const RunContext&, WorldState& world) {
+    const auto rows = static_cast<double>(world.step);
+    world.bodies[0].angular_velocity = {0., -0.3 * (10. - rows), 0.4 * (10. - rows)};
+  };
+  EXPECT_NEAR(*measure(block_on_slope(0., 0.), "spin_max", 0.03, 0.12, turned), 3.5, 1e-12);
 }
 
 /// A flight of 1 s: p0 + v t + g t^2/2, at a constant spin of 3 rad/s (inertia 1).

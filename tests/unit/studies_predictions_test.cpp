@@ -68,6 +68,9 @@ TEST(CreepPrediction, OdeGivesWayByItsMixing) {
   experiment.engine = "ode";
   // CFM 1e-10 times 1 kg * 9.81 * sin 15 deg / 4 = 0.634756 N: the 6e-11 m/s measured elsewhere.
   EXPECT_NEAR(*prediction(experiment, "creep_speed", 1e-10), 6.34756e-11, 1e-15);
+  // Contacts that sink at 1e-10 too tilt the block: (h/l)^2 = 1/4 more at its origin.
+  EXPECT_NEAR(*predict("creep_speed", make_context(experiment, 5., 20.), 1e-10, 1e-10),
+              1.25 * 6.34756e-11, 1e-15);
   EXPECT_FALSE(prediction(experiment, "creep_speed"));
 }
 
@@ -165,6 +168,46 @@ Experiment late_joints(double period, double samples) {
   experiment.wires.push_back({"leg.coxa.angle", "pd.angle[0]", {}, samples * period, 0.});
   experiment.wires.push_back({"pd.torque[0]", "leg.coxa.torque", {}, 0., 0.});
   return experiment;
+}
+
+TEST(ThresholdPrediction, IsCoulombsAngleWhereALawHolds) {
+  for (const std::string law : {"hookpoint", "lugre", "exponential", "nominal"})
+    EXPECT_NEAR(*prediction(body(0., 0.8, law, true), "slip_onset"), 0.674740942223553, 1e-14);
+  EXPECT_EQ(prediction(body(0., 0.8, "hookpoint", true), "threshold_error"), 0.);
+  Experiment peer = body(0., 0.8, "hookpoint", true);
+  peer.engine = "bullet";
+  EXPECT_NEAR(*prediction(peer, "slip_onset"), 0.674740942223553, 1e-14);
+}
+
+TEST(ThresholdPrediction, RegularisedFrictionGivesWayBefore) {
+  // phi(1 mm/s/v_s) mu = 0.8/sqrt(2) with v_s = 1 mm/s.
+  EXPECT_NEAR(*prediction(body(0., 0.8, "hunt_crossley", true), "slip_onset"),
+              std::atan(0.8 / std::sqrt(2.)), 1e-9);
+  EXPECT_NEAR(*prediction(body(0., 0.8, "hunt_crossley", true), "threshold_error"),
+              std::atan(0.8 / std::sqrt(2.)) - std::atan(0.8), 1e-9);
+}
+
+TEST(ThresholdPrediction, SaysNothingOfHopsAsFastAsSlip) {
+  Experiment hopping = body(0., 0.8, "impulse", true);
+  EXPECT_FALSE(prediction(hopping, "slip_onset"));  // 2 u0 mu = 3.2 mm/s
+  hopping.materials[0].constants.rebound_speed = 0.5e-3;
+  EXPECT_TRUE(prediction(hopping, "slip_onset"));
+}
+
+TEST(RestlessPrediction, IsWhetherTheStepIsAboveTheBound) {
+  // A point on k = 1e5 N/m, c = 300 N s/m, m = 1 kg: explicit Euler is stable up to c/k = 3 ms.
+  Experiment point = body(0., 0.8, "hookpoint", true);
+  point.engine = "dts";
+  point.integrator = "explicit_euler";
+  point.gravity = {0., 0., -9.81};
+  point.robots[0].location = {0., 0., -1e-5};
+  point.robots[0].base.mass.inertia = {1., 1., 1., 0., 0., 0.};
+  point.deltat = 2.99e-3;
+  EXPECT_EQ(prediction(point, "restless"), 0.);
+  point.deltat = 3.01e-3;
+  EXPECT_EQ(prediction(point, "restless"), 1.);
+  point.integrator = "arkode";
+  EXPECT_FALSE(prediction(point, "restless"));
 }
 
 TEST(JointLoopPrediction, IsTheLimitOfDelayedIntegration) {

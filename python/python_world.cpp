@@ -1,0 +1,169 @@
+#include "python/python_world.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+
+#include "python/errors.h"
+
+namespace hookpoint::python {
+namespace {
+
+namespace py = pybind11;
+
+/// Whether the ends of a wire named by these trails are one port, or one is a part of the other.
+bool same_port(const std::string& a, const std::string& b) {
+  const std::string& shorter = a.size() < b.size() ? a : b;
+  const std::string& longer = a.size() < b.size() ? b : a;
+  return longer.starts_with(shorter) &&
+         (longer.size() == shorter.size() || longer[shorter.size()] == '.');
+}
+
+py::array_t<double> array_of(const std::vector<double>& numbers) {
+  return py::array_t<double>(static_cast<py::ssize_t>(numbers.size()), numbers.data());
+}
+
+}  // namespace
+
+QuietApplication::QuietApplication(bool allow_plugins)
+    : told_(std::make_shared<language::Diagnostics>()),
+      application_(std::make_unique<cli::Application>(
+          allow_plugins,
+          [told = told_](const language::Diagnostics& diagnostics) { *told = diagnostics; })) {}
+
+void QuietApplication::fail() const { throw_diagnostics(*told_); }
+
+void QuietApplication::pass_on_warnings() const {
+  for (const language::Diagnostic& diagnostic : told_->all()) {
+    if (diagnostic.severity == language::Severity::warning &&
+        PyErr_WarnEx(PyExc_UserWarning, diagnostic.message.c_str(), 1) != 0)
+      throw py::error_already_set();
+  }
+}
+
+PythonWorld::PythonWorld(const Source& source) : application_(source.allow_plugins) {
+  if (source.text) application_->give(source.file, *source.text);
+  if (!application_->load_plugins(source.file)) application_.fail();
+  std::vector<std::string> settings = source.settings;
+  if (source.engine) {
+    for (std::string& setting : application_->world_settings(source.file, "engine", *source.engine))
+      settings.push_back(std::move(setting));
+  }
+  const auto root = application_->evaluate(source.file, settings);
+  if (!root) application_.fail();
+  experiment_ = application_->load(*root);
+  if (!experiment_) application_.fail();
+  application_.pass_on_warnings();
+  text_ = language::print(*root);
+  world_ =
+      std::make_unique<simulation::World>(*experiment_, application_->make_engine(*experiment_));
+  ports_ = world_->ports();
+}
+
+/// The rows of a run as they come.
+struct PythonWorld::Recording {
+  std::vector<const double*> from;
+  std::int64_t every = 1, since = 0;
+  std::vector<double> time;
+  std::vector<std::vector<double>> columns;  ///< one a trail
+
+  void row(double now) {
+    time.push_back(now);
+    for (std::size_t i = 0; i < from.size(); ++i) columns[i].push_back(*from[i]);
+  }
+};
+
+simulation::StepStatus PythonWorld::advance(std::int64_t count, Recording& recording) {
+  using Clock = std::chrono::steady_clock;
+  constexpr std::chrono::milliseconds patience{50};
+  const py::gil_scoped_release others_run;
+  Clock::time_point looked = Clock::now();
+  for (std::int64_t i = 0; i < count && world_->ended().empty(); ++i) {
+    const simulation::StepStatus status = world_->step();
+    if (!status.ok()) return status;
+    if (++recording.since == recording.every) {
+      recording.since = 0;
+      recording.row(time());
+    }
+    if (Clock::now() - looked < patience) continue;
+    looked = Clock::now();
+    const py::gil_scoped_acquire ours;
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  }
+  return {};
+}
+
+void PythonWorld::step(std::int64_t count) {
+  if (count < 0) throw_error("step takes a number of steps that is not negative");
+  Recording none;
+  none.every = count + 1;
+  const simulation::StepStatus status = advance(count, none);
+  if (!status.ok()) throw_failure(status);
+}
+
+py::dict PythonWorld::run(std::optional<double> duration, const std::vector<std::string>& trails,
+                          std::int64_t every) {
+  if (every < 1) throw_error("`every` is a number of steps, 1 or more");
+  const double left = duration ? *duration : experiment_->duration - time();
+  const double steps = std::round(left / experiment_->deltat);
+  if (!(steps >= 0. && steps < 1e15))
+    throw_error("`duration` is a time in seconds that is not negative");
+  Recording recording;
+  recording.every = every;
+  for (const std::string& trail : trails) recording.from.push_back(port(trail).value);
+  recording.columns.resize(trails.size());
+  recording.row(time());
+  // Whatever ends the run, what was recorded up to then stays.
+  const auto keep = [&] {
+    py::dict kept;
+    kept["time"] = array_of(recording.time);
+    for (std::size_t i = 0; i < trails.size(); ++i)
+      kept[py::str(trails[i])] = array_of(recording.columns[i]);
+    recorded_ = kept;
+  };
+  try {
+    const simulation::StepStatus status = advance(static_cast<std::int64_t>(steps), recording);
+    keep();
+    if (!status.ok()) throw_failure(status);
+  } catch (py::error_already_set&) {
+    keep();
+    throw;
+  }
+  return recorded_;
+}
+
+const simulation::Port& PythonWorld::port(const std::string& trail) {
+  const auto known = found_.find(trail);
+  if (known != found_.end()) return known->second;
+  return found_.emplace(trail, simulation::find_port(*experiment_, ports_, trail)).first->second;
+}
+
+double PythonWorld::read(const std::string& trail) { return *port(trail).value; }
+
+void PythonWorld::write(const std::string& trail, double value) {
+  const simulation::Port& to = port(trail);
+  if (to.writable == nullptr) {
+    throw_error(fmt::format("`{}` can be read, not written: inputs can, such as a joint's torque",
+                            to.trail));
+  }
+  if (!std::isfinite(value)) throw_error(fmt::format("`{}` takes a finite number", to.trail));
+  for (const simulation::WireSpec& wire : experiment_->wires) {
+    if (same_port(wire.to, to.trail)) {
+      throw_error(
+          fmt::format("`{}` is driven by a wire from `{}`: write that, or leave the wire "
+                      "out of the file",
+                      to.trail, wire.from));
+    }
+  }
+  *to.writable = value;
+}
+
+py::list PythonWorld::ports() {
+  py::list all;
+  for (const simulation::Port& port : ports_)
+    all.append(py::make_tuple(port.trail, port.unit, port.writable != nullptr));
+  return all;
+}
+
+}  // namespace hookpoint::python

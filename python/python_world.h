@@ -1,0 +1,83 @@
+// A world as Python holds it: loaded from a file, stepped, read and written by trail.
+#pragma once
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "cli/application.h"
+#include "simulation/world.h"
+
+namespace hookpoint::python {
+
+/// An Application that keeps what it has to tell, for an exception.
+class QuietApplication {
+ public:
+  explicit QuietApplication(bool allow_plugins);
+  cli::Application& operator*() { return *application_; }
+  cli::Application* operator->() { return application_.get(); }
+  /// Throws hookpoint.FileError with what was told.
+  [[noreturn]] void fail() const;
+  /// Warnings among what was told become warnings of Python.
+  void pass_on_warnings() const;
+
+ private:
+  std::shared_ptr<language::Diagnostics> told_;
+  std::unique_ptr<cli::Application> application_;
+};
+
+/// What a .hook file is, and what is changed in it before it is evaluated.
+struct Source {
+  std::filesystem::path file;
+  std::optional<std::string> text;    ///< the file's, if it is none on disk
+  std::vector<std::string> settings;  ///< trail=value
+  std::optional<std::string> engine;
+  bool allow_plugins = false;
+};
+
+class PythonWorld {
+ public:
+  /// At time 0. Throws hookpoint.FileError, or hookpoint.Error when the engine cannot run it.
+  explicit PythonWorld(const Source& source);
+
+  /// Takes `count` steps, fewer when the run ends. Lets other threads run.
+  void step(std::int64_t count);
+  /// Runs for `duration` [s], or to the file's own; returns the values of `trails` at the present
+  /// instant and after every `every` steps, and "time".
+  pybind11::dict run(std::optional<double> duration, const std::vector<std::string>& trails,
+                     std::int64_t every);
+  double read(const std::string& trail);
+  void write(const std::string& trail, double value);
+  /// A tuple (trail, unit, writable) a port.
+  pybind11::list ports();
+
+  double time() const { return world_->state().time; }
+  std::int64_t steps() const { return world_->state().step; }
+  const simulation::Experiment& experiment() const { return *experiment_; }
+  const std::string& text() const { return text_; }
+  std::string ended() const { return world_->ended(); }
+  const std::vector<std::string>& notices() const { return world_->state().notices; }
+  const pybind11::dict& recorded() const { return recorded_; }
+
+ private:
+  struct Recording;
+  const simulation::Port& port(const std::string& trail);
+  /// Steps without the GIL, looking for signals now and then. The status of the last.
+  simulation::StepStatus advance(std::int64_t count, Recording& recording);
+
+  QuietApplication application_;
+  std::optional<simulation::Experiment> experiment_;
+  std::string text_;
+  std::unique_ptr<simulation::World> world_;
+  std::vector<simulation::Port> ports_;
+  std::unordered_map<std::string, simulation::Port> found_;
+  pybind11::dict recorded_;
+};
+
+}  // namespace hookpoint::python

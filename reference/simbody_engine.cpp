@@ -1,0 +1,62 @@
+// `engine = simbody`, in a build with Simbody and in one without.
+#include "reference/engines.h"
+#include "reference/experiment_checks.h"
+#include "reference/settings.h"
+
+#ifdef HOOKPOINT_SIMBODY_VERSION
+#include "reference/simbody_world.h"
+#endif
+
+namespace hookpoint::reference {
+namespace {
+
+using simulation::EngineGap;
+
+std::vector<EngineGap> gaps() {
+  using enum EngineGap::Handling;
+  std::vector<EngineGap> gaps = common_gaps();
+  const auto add = [&gaps](std::string_view name, EngineGap::Handling handling,
+                           const char* instead) {
+    gaps.push_back({std::string(name), handling, instead});
+  };
+  add(feature::height_field, refused,
+      "Simbody's balls and bricks meet half-spaces only; use Terrain.Flat or Terrain.Slope");
+  add(feature::restitution, noticed,
+      "Simbody has no coefficient of restitution: how a body rebounds follows from its contact's "
+      "dissipation");
+  add(feature::legcone, refused, "Simbody has no cone; use Sphere or Box");
+  add(feature::cylinder, refused, "a half-space meets no cylinder in Simbody; use Sphere or Box");
+  add(feature::tile_friction, refused, "use one material");
+  add(feature::tile_softness, refused, "use one material");
+  add(feature::tile_restitution, refused, "use one material");
+  return gaps;
+}
+
+}  // namespace
+
+#ifdef HOOKPOINT_SIMBODY_VERSION
+
+simulation::EngineDescription describe_simbody() {
+  return {"simbody", HOOKPOINT_SIMBODY_VERSION, "double", true, settings_names(), gaps()};
+}
+
+std::unique_ptr<simulation::Engine> make_simbody(const simulation::Experiment& experiment) {
+  const auto notices = check_supported(experiment, describe_simbody());
+  const SimbodySettings settings = simbody_settings(settings_of(experiment, "simbody"));
+  return make_peer_engine(experiment, make_simbody_world(experiment, settings), notices);
+}
+
+#else
+
+simulation::EngineDescription describe_simbody() {
+  return {"simbody", "", "double", false, settings_names(), gaps()};
+}
+
+std::unique_ptr<simulation::Engine> make_simbody(const simulation::Experiment&) {
+  throw simulation::ExperimentError(
+      "engine simbody: this build has no Simbody; install libsimbody-dev and build again");
+}
+
+#endif
+
+}  // namespace hookpoint::reference

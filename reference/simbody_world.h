@@ -1,0 +1,14 @@
+// The experiment as a Simbody world.
+#pragma once
+
+#include <memory>
+
+#include "reference/peer_engine.h"
+#include "reference/settings.h"
+
+namespace hookpoint::reference {
+
+std::unique_ptr<PeerWorld> make_simbody_world(const simulation::Experiment& experiment,
+                                              const SimbodySettings& settings);
+
+}  // namespace hookpoint::reference

@@ -1,0 +1,58 @@
+// What a URDF file's elements and attributes say, every mistake at its place.
+#pragma once
+
+#include <optional>
+#include <pugixml.hpp>
+#include <string>
+#include <string_view>
+
+#include "language/report.h"
+#include "language/source.h"
+#include "math/vector3.h"
+
+namespace hookpoint::simulation {
+
+class UrdfXml {
+ public:
+  UrdfXml(const language::SourceFile& file, language::Report& report)
+      : file_(file), report_(report) {}
+
+  /// The document's element, of this name; none after an error.
+  pugi::xml_node open(const char* name);
+  /// The only child of that name, or none; a second is an error.
+  pugi::xml_node only(const pugi::xml_node& parent, const char* name);
+  /// The attribute `name`, which must be there.
+  std::string name_of(const pugi::xml_node& node);
+  /// A number, `otherwise` where it is not given; 0 after an error.
+  double number(const pugi::xml_node& node, const char* attribute, std::optional<double> otherwise);
+  double positive(const pugi::xml_node& node, const char* attribute);
+  /// Three numbers, `otherwise` where they are not given or after an error.
+  Vector3d vector(const pugi::xml_node& node, const char* attribute, const Vector3d& otherwise);
+
+  /// Of an element's name; of its attribute, if it is given.
+  language::Position place(const pugi::xml_node& node) const;
+  language::Position place(const pugi::xml_node& node, std::string_view attribute) const;
+  /// False, for the caller to return.
+  bool fail(const language::Position& at, std::string message) {
+    report_.error(at, std::move(message));
+    good_ = false;
+    return false;
+  }
+  void note(const language::Position& at, std::string message) {
+    report_.note(at, std::move(message));
+  }
+  /// No error so far.
+  bool good() const { return good_; }
+  /// So many errors that nobody reads more.
+  bool full() const { return report_.full(); }
+
+ private:
+  std::optional<double> parse(std::string_view text, const language::Position& at);
+
+  const language::SourceFile& file_;
+  language::Report& report_;
+  pugi::xml_document document_;
+  bool good_ = true;
+};
+
+}  // namespace hookpoint::simulation

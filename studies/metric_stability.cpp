@@ -1,0 +1,41 @@
+// Metrics of a robot that should come to rest: whether its contacts and its integrator let it.
+#include <algorithm>
+#include <cmath>
+
+#include "studies/metric.h"
+
+namespace hookpoint::studies {
+namespace {
+
+class Unrest : public Metric {
+ public:
+  explicit Unrest(const RunContext& context)
+      : context_(context), mass_(context.weight / norm(context.experiment->gravity)) {}
+  void observe(const Observation& observation) override {
+    if (settled(context_, observation))
+      energy_ = std::max(energy_, kinetic_energy(context_, observation.world));
+  }
+  std::optional<double> value() const override { return std::sqrt(2. * energy_ / mass_); }
+
+ private:
+  const RunContext& context_;
+  double mass_, energy_ = 0.;
+};
+
+class Restless : public Unrest {
+ public:
+  using Unrest::Unrest;
+  std::optional<double> value() const override { return *Unrest::value() > onset_speed ? 1. : 0.; }
+  std::optional<double> value_of_broken_run() const override { return 1.; }
+};
+
+}  // namespace
+
+std::unique_ptr<Metric> make_unrest(const RunContext& context) {
+  return std::make_unique<Unrest>(context);
+}
+std::unique_ptr<Metric> make_restless(const RunContext& context) {
+  return std::make_unique<Restless>(context);
+}
+
+}  // namespace hookpoint::studies

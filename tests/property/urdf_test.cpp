@@ -1,0 +1,377 @@
+// Robots read from URDF: where their links stand and how they accelerate, against URDF's own
+// definitions; what is refused, in which words and at which line; files that are no URDF at all.
+#include <gtest/gtest.h>
+
+#include "dts/configuration.h"
+#include "dts/energy.h"
+#include "dts/forward_dynamics.h"
+#include "simulation/dts_robot.h"
+#include "tests/support/command.h"
+#include "tests/support/load_text.h"
+#include "tests/support/urdf_robot.h"
+
+namespace hookpoint::tests {
+namespace {
+
+/// The World around an Include of robot.urdf, which is `urdf`; `arguments` are the Include's.
+Loaded load_urdf(const std::string& urdf, const std::string& arguments = "") {
+  const testing::Workplace place;
+  place.file("robot.urdf", urdf);
+  return load_file(
+      place.file("scene.hook", "World w { Include \"robot.urdf\" (name = r" + arguments + "); }"));
+}
+
+Eigen::Vector3d eigen(const Vector3d& a) { return {a.x, a.y, a.z}; }
+Eigen::Matrix3d eigen(const Matrix3d& m) {
+  return (Eigen::Matrix3d() << m.xx, m.xy, m.xz, m.yx, m.yy, m.yz, m.zx, m.zy, m.zz).finished();
+}
+
+/// A random robot as the numbers say it, and as it was read, in one random state.
+struct Pair {
+  UrdfNumbers numbers;
+  simulation::RobotSpec spec;
+  Eigen::Isometry3d root;
+  std::vector<double> q;          // one a moving joint, the file's order
+  dts::State<double> state;       // the same in the order of chains
+  std::vector<std::size_t> body;  // of each link: the body that it became or is fixed to
+  std::vector<std::size_t> link;  // of each body: the link that names it
+};
+
+/// Links that move become bodies, chain by chain; a chain's joints follow one another in the file.
+Pair random_pair(RandomUrdf& random, const UrdfNumbers& numbers) {
+  Pair pair{numbers, {}, Eigen::Isometry3d::Identity(), {}, {}, {0}, {0}};
+  const Loaded loaded = load_urdf(numbers.text());
+  EXPECT_TRUE(loaded.experiment) << loaded.diagnostics;
+  if (!loaded.experiment) return pair;
+  pair.spec = loaded.experiment->robots.at(0);
+  pair.root.linear() = UrdfNumbers::rotation(random.vector(3.));
+  pair.root.translation() = random.vector(2.);
+  const Eigen::Quaterniond q(pair.root.linear());
+  const Eigen::Vector3d p = pair.root.translation();
+  pair.state.base_orientation = {q.w(), q.x(), q.y(), q.z()};
+  pair.state.base_position = {p.x(), p.y(), p.z()};
+  for (const UrdfNumbers::Joint& joint : numbers.joints) {
+    pair.body.push_back(pair.body[joint.parent]);
+    if (!joint.moves()) continue;
+    pair.body.back() = pair.link.size();
+    pair.link.push_back(joint.child);
+    pair.q.push_back(random.uniform(-3., 3.));
+  }
+  pair.state.joint_positions = pair.q;
+  pair.state.joint_rates.assign(pair.q.size(), 0.);
+  return pair;
+}
+
+/// Axes of a body: those of its link, turned by the least rotation from z to the joint's axis.
+Eigen::Matrix3d link_axes(const Eigen::Matrix3d& R_WB, const UrdfNumbers::Joint& joint) {
+  const Eigen::Quaterniond turn =
+      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), joint.axis);
+  return R_WB * turn.toRotationMatrix().transpose();
+}
+
+class RandomRobot : public ::testing::TestWithParam<double> {};
+
+TEST_P(RandomRobot, StandsWhereItsNumbersSay) {
+  RandomUrdf random(7);
+  for (int i = 0; i < 15; ++i) {
+    const Pair pair = random_pair(random, random.robot(3, 4, GetParam()));
+    ASSERT_EQ(pair.spec.chains.size(), 3u);
+    const dts::Model<double> model(simulation::describe_robot(pair.spec));
+    dts::Workspace<double> workspace(model);
+    dts::forward_kinematics(model, pair.state, workspace);
+    const auto truth = pair.numbers.poses(pair.root, pair.q);
+    for (std::size_t body = 0; body < model.body_count(); ++body) {
+      const std::size_t link = pair.link[body];
+      const dts::BodyMotion<double>& here = workspace.bodies[body];
+      EXPECT_LE((eigen(here.p_WB) - truth[link].translation()).norm(), 1e-12);
+      const Eigen::Matrix3d R =
+          body == 0 ? eigen(here.R_WB) : link_axes(eigen(here.R_WB), pair.numbers.joints[link - 1]);
+      EXPECT_LE((R - truth[link].linear()).norm(), 1e-12) << "body " << body;
+    }
+  }
+}
+
+TEST_P(RandomRobot, AcceleratesAsItsOwnLinksTellOneByOne) {
+  RandomUrdf random(8);
+  for (int i = 0; i < 15; ++i) {
+    const Pair pair = random_pair(random, random.robot(2, 3, GetParam()));
+    const dts::Model<double> model(simulation::describe_robot(pair.spec));
+    dts::Workspace<double> workspace(model);
+    const Eigen::Vector3d g = random.vector(10.);
+    const std::vector<double> torques(pair.q.size(), 0.7);
+    dts::forward_dynamics(model, pair.state, {g.x(), g.y(), g.z()}, torques, workspace);
+    std::vector<double> found(dts::velocity_count(model));
+    dts::get_acceleration(model, workspace, std::span<double>(found));
+
+    const UrdfNumbers::Still still = pair.numbers.at_rest(pair.root, pair.q, g);
+    Eigen::VectorXd force = still.gravity;
+    force.tail(Eigen::Index(torques.size())).array() += 0.7;
+    const Eigen::VectorXd truth = still.M.fullPivLu().solve(force);
+    const Eigen::Map<const Eigen::VectorXd> a(found.data(), Eigen::Index(found.size()));
+    EXPECT_LE((a - truth).lpNorm<Eigen::Infinity>(), 1e-10 * truth.lpNorm<Eigen::Infinity>());
+
+    // Energy in motion sees every element of M.
+    dts::State<double> moving = pair.state;
+    Eigen::VectorXd v(Eigen::Index(found.size()));
+    for (double& x : v) x = random.uniform(-2., 2.);
+    dts::set_velocity(model, std::span<const double>(v.data(), std::size_t(v.size())), moving);
+    dts::forward_kinematics(model, moving, workspace);
+    const double energy = 0.5 * v.dot(still.M * v);
+    EXPECT_NEAR(dts::kinetic_energy(model, workspace), energy, 1e-12 * energy);
+  }
+}
+
+// 1e-6: a rounded file; 1e-9 and 0: common normals are far away, or anywhere.
+INSTANTIATE_TEST_SUITE_P(Tilts, RandomRobot, ::testing::Values(2., 0.5, 1e-6, 1e-9, 0.));
+
+const std::string inertial =
+    "<inertial><mass value=\"1\"/><inertia ixx=\"1\" iyy=\"1\" izz=\"1\" ixy=\"0\" ixz=\"0\" "
+    "iyz=\"0\"/></inertial>";
+const std::string base = "<link name=\"b\">" + inertial + "</link>";
+const std::string link_l = "<link name=\"l\">" + inertial + "</link>\n";
+std::string joint(const std::string& name, const std::string& type, const std::string& inside,
+                  const std::string& parent = "b", const std::string& child = "l") {
+  return "<joint name=\"" + name + "\" type=\"" + type + "\">\n<parent link=\"" + parent +
+         "\"/><child link=\"" + child + "\"/>" + inside + "</joint>\n";
+}
+std::string robot(const std::string& inside) {
+  return "<robot name=\"r\">\n" + base + "\n" + inside + "</robot>";
+}
+
+TEST(Urdf, LimitsDampingAndFrictionComeAlong) {
+  const Loaded loaded = load_urdf(
+      robot(link_l + joint("knee", "revolute",
+                           "<limit lower=\"-0.5\" upper=\"1.25\" effort=\"9\" velocity=\"9\"/>"
+                           "<dynamics damping=\"0.3\" friction=\"0.2\"/>")),
+      ", knee = -10 deg, location = 1,2,3, yaw_is_none = 1");
+  EXPECT_EQ(loaded.diagnostics,
+            "error 1:77 the robot takes no argument `yaw_is_none`; it takes name, base, shapes, "
+            "fields of its base, and the names of its moving joints\n");
+  const Loaded good = load_urdf(
+      robot(link_l + joint("knee", "revolute",
+                           "<limit lower=\"-0.5\" upper=\"1.25\" effort=\"9\" velocity=\"9\"/>"
+                           "<dynamics damping=\"0.3\" friction=\"0.2\"/>")),
+      ", knee = -10 deg, location = 1,2,3");
+  ASSERT_TRUE(good.experiment) << good.diagnostics;
+  const simulation::RobotSpec& read = good.experiment->robots.at(0);
+  EXPECT_EQ(read.location, (Vector3d{1., 2., 3.}));
+  EXPECT_TRUE(read.mobile);
+  EXPECT_EQ(read.chains.at(0).name, "knee");
+  const simulation::LinkSpec& link = read.chains[0].links.at(0);
+  EXPECT_EQ(link.body.name, "l");
+  EXPECT_EQ(link.lower_limit, -0.5);
+  EXPECT_EQ(link.upper_limit, 1.25);
+  EXPECT_EQ(link.damping, 0.3);
+  EXPECT_EQ(link.friction, 0.2);
+  EXPECT_DOUBLE_EQ(link.angle, -10. * M_PI / 180.);
+}
+
+const std::string looks =
+    "<link name=\"l\"><visual><geometry><sphere radius=\"0.3\"/></geometry></visual>"
+    "<collision><origin xyz=\"0 0 1\" rpy=\"0 0 0.5\"/><geometry><box size=\"1 2 3\"/></geometry>"
+    "</collision><collision><geometry><cylinder radius=\"0.1\" length=\"0.4\"/></geometry>"
+    "</collision></link>";
+
+TEST(Urdf, CollisionGeometryBecomesShapesOfTheBodyThatItIsFixedTo) {
+  const std::string text =
+      robot(looks + joint("weld", "fixed", "<origin xyz=\"1 0 0\" rpy=\"0 0 0.5\"/>"));
+  const Loaded loaded = load_urdf(text, ", base = fixed");
+  ASSERT_TRUE(loaded.experiment) << loaded.diagnostics;
+  const simulation::RobotSpec& read = loaded.experiment->robots.at(0);
+  EXPECT_FALSE(read.mobile);
+  EXPECT_TRUE(read.chains.empty());
+  ASSERT_EQ(read.base.shapes.size(), 2u);
+  const simulation::ShapeSpec& box = read.base.shapes[0];
+  EXPECT_EQ(std::get<simulation::Box>(box.geometry).dimensions, (Vector3d{1., 2., 3.}));
+  EXPECT_EQ(box.location, (Vector3d{1., 0., 1.}));
+  EXPECT_NEAR(box.orientation.w, std::cos(0.5), 1e-15);
+  EXPECT_NEAR(box.orientation.z, std::sin(0.5), 1e-15);
+  const auto& cylinder = std::get<simulation::Cylinder>(read.base.shapes[1].geometry);
+  EXPECT_EQ(cylinder.radius, 0.1);
+  EXPECT_EQ(cylinder.length, 0.4);
+
+  const Loaded visual = load_urdf(text, ", shapes = visual");
+  ASSERT_TRUE(visual.experiment) << visual.diagnostics;
+  const auto& shapes = visual.experiment->robots.at(0).base.shapes;
+  ASSERT_EQ(shapes.size(), 1u);
+  EXPECT_EQ(std::get<simulation::Sphere>(shapes[0].geometry).radius, 0.3);
+}
+
+struct Case {
+  const char* name;
+  std::string text, diagnostics;
+};
+class WrongUrdf : public ::testing::TestWithParam<Case> {};
+
+TEST_P(WrongUrdf, IsRefusedInTheseWordsAtThisLine) {
+  const Loaded loaded = load_urdf(GetParam().text);
+  EXPECT_FALSE(loaded.experiment);
+  std::istringstream lines(loaded.diagnostics);
+  std::string text;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.find("included here") == std::string::npos) text += line + '\n';
+  }
+  EXPECT_EQ(text, GetParam().diagnostics);
+}
+
+const Case cases[] = {
+    {"floating", robot(link_l + joint("j", "floating", "")),
+     "error 4:17 a floating joint is not supported: only the base moves freely (argument base = "
+     "mobile), links turn or slide about one axis\n"},
+    {"planar", robot(link_l + joint("j", "planar", "")),
+     "error 4:17 a planar joint is not supported: only the base moves freely (argument base = "
+     "mobile), links turn or slide about one axis\n"},
+    {"unknown_type", robot(link_l + joint("j", "ball", "")),
+     "error 4:17 `ball` is no type of joint: expected revolute, continuous, prismatic or fixed\n"},
+    {"mimic", robot(link_l + joint("j", "continuous", "\n<mimic joint=\"k\"/>")),
+     "error 6:2 joint `j` mimics another: joints that are geared together are not supported\n"},
+    {"branching",
+     robot(link_l + "<link name=\"m\">" + inertial + "</link><link name=\"n\">" + inertial +
+           "</link>\n" + joint("j", "continuous", "") + joint("k", "continuous", "", "l", "m") +
+           joint("i", "continuous", "", "l", "n")),
+     "error 9:2 joint `i` is the second that link `l` (with what is fixed to it) carries: only the "
+     "base branches, its chains do not\n"},
+    {"no_inertial", robot("<link name=\"l\"/>\n" + joint("j", "continuous", "")),
+     "error 3:2 link `l` moves but has no <inertial>: give it, or a link that is fixed to it, a "
+     "mass and an inertia\n"},
+    {"mesh",
+     robot("<link name=\"l\">" + inertial +
+           "<collision><geometry>\n<mesh filename=\"x.stl\"/></geometry></collision></link>" +
+           joint("j", "continuous", "")),
+     "error 4:2 a mesh cannot touch the ground here: put boxes, cylinders or spheres in its place, "
+     "or take those of <visual> with the argument shapes = visual\n"},
+    {"two_roots", robot(link_l),
+     "error 3:2 no joint carries link `l`, and none `b`: a robot has one root\n"},
+    {"two_parents", robot(link_l + joint("j", "continuous", "") + joint("k", "fixed", "")),
+     "error 6:2 link `l` is the child of a second joint: links form a tree\nnote 4:2 the first is "
+     "here\n"},
+    {"loop", robot(link_l + joint("j", "fixed", "", "l", "b") + joint("k", "fixed", "")),
+     "error 1:2 the joints form a loop: no link is the root\n"},
+    {"loop_apart",
+     robot(link_l + "<link name=\"m\"/>\n" + joint("j", "fixed", "", "l", "m") +
+           joint("k", "fixed", "", "m", "l")),
+     "error 1:2 some joints form a loop that the root does not carry\n"},
+    {"no_such_link", robot(link_l + joint("j", "fixed", "", "b", "ll")),
+     "error 5:26 there is no link `ll`; did you mean `l`?\n"},
+    {"no_limit", robot(link_l + joint("j", "revolute", "")),
+     "error 4:2 joint `j` lacks <limit lower=\"...\" upper=\"...\"/>; without limits its type is "
+     "continuous\n"},
+    {"wrong_limits", robot(link_l + joint("j", "revolute", "\n<limit upper=\"-1\"/>")),
+     "error 6:2 lower = 0 is not below upper = -1 (each is 0 where it is not given)\n"},
+    {"no_number",
+     robot("<link name=\"l\"><inertial><mass value=\"one\"/><inertia ixx=\"1\" iyy=\"1\" "
+           "izz=\"1e999\" ixy=\"0\" ixz=\"0\"/></inertial></link>\n" +
+           joint("j", "continuous", "<origin xyz=\"1 2\"/>")),
+     "error 3:32 `one` is no number\nerror 3:46 <inertia> lacks iyz=\"...\"\nerror 3:70 `1e999` is "
+     "no number\nerror 5:44 xyz takes three numbers: \"x y z\"\n"},
+    {"negative_damping", robot(link_l + joint("j", "continuous", "\n<dynamics damping=\"-1\"/>")),
+     "error 6:11 `damping` must be at least 0, not -1\n"},
+    {"zero_axis", robot(link_l + joint("j", "continuous", "<axis xyz=\"0 0 0\"/>")),
+     "error 5:42 an axis of length 0 has no direction\n"},
+    {"impossible_inertia",
+     robot("<link name=\"l\"><inertial><mass value=\"1\"/>\n<inertia ixx=\"9\" iyy=\"1\" "
+           "izz=\"1\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial></link>\n" +
+           joint("j", "continuous", "")),
+     "error 3:17 inertia breaks the triangle inequality: no principal moment may exceed the sum of "
+     "the other two; the order is Ixx,Iyy,Izz,Ixy,Ixz,Iyz about the centre of mass\n"},
+    {"two_links", robot(link_l + link_l + joint("j", "continuous", "")),
+     "error 4:2 a second link `l`\nnote 3:2 the first is here\n"},
+    {"same_names",
+     robot(link_l + "<link name=\"m\">" + inertial + "</link>\n" + joint("j.1", "continuous", "") +
+           joint("j-1", "continuous", "", "b", "m")),
+     "error 7:2 the name `j_1` is taken\nnote 5:2 `j_1` is this Chain\n"},
+    {"no_xml", "<robot name=\"r\">\n<link name=\"l\"></robot>",
+     "error 2:18 this is not XML: Start-end tags mismatch\n"},
+    {"no_urdf", "<sdf/>", "error 1:2 this is no URDF: expected <robot>\n"},
+    {"empty", "", "error 1:1 this is not XML: No document element found\n"},
+    {"xacro", robot("<xacro:property name=\"x\" value=\"1\"/>"),
+     "error 3:2 macros of xacro are not expanded here: `xacro FILE > robot.urdf` does it\n"},
+};
+INSTANTIATE_TEST_SUITE_P(Cases, WrongUrdf, ::testing::ValuesIn(cases),
+                         [](const auto& of) { return of.param.name; });
+
+std::string quadruped() {
+  std::ostringstream text;
+  text << std::ifstream(HOOKPOINT_SOURCE_DIR "/configs/robots/quadruped.urdf").rdbuf();
+  return text.str();
+}
+
+TEST(Urdf, HostileFilesAreRefusedOrRead) {
+  const std::string whole = quadruped();
+  ASSERT_GT(whole.size(), 5000u);
+  for (std::size_t length = 0; length + 9 < whole.size(); length += 97)
+    EXPECT_FALSE(load_urdf(whole.substr(0, length)).experiment) << length;
+  std::mt19937 random(3);
+  for (int i = 0; i < 150; ++i) {
+    std::string text = whole;
+    for (int k = 0; k < 4; ++k) text[random() % text.size()] = char(random());
+    const Loaded loaded = load_urdf(text);
+    EXPECT_NE(loaded.experiment.has_value(), !loaded.diagnostics.empty()) << i;
+  }
+  std::string deep = "<robot>", noise(20000, ' ');
+  for (int i = 0; i < 100000; ++i) deep += "<a>";
+  EXPECT_FALSE(load_urdf(deep).experiment);
+  for (char& c : noise) c = char(random());
+  EXPECT_FALSE(load_urdf(noise).experiment);
+}
+
+TEST(Urdf, ManyLinksTakeNoLongerThanTheirNumber) {
+  std::string many = base, loose = base;
+  for (int i = 0; i < 20000; ++i) {
+    const std::string name = "l" + std::to_string(i);
+    many += "<link name=\"" + name + "\"/>";
+    many += joint("j" + name, "fixed", "", i == 0 ? "b" : "l" + std::to_string(i - 1), name);
+    loose += joint("j" + name, "fixed", "", "b", "m" + std::to_string(i));
+  }
+  EXPECT_TRUE(load_urdf("<robot>" + many + "</robot>").experiment);
+  EXPECT_FALSE(load_urdf("<robot>" + loose + "</robot>").experiment);
+}
+
+TEST(Urdf, PrintsAsAFileThatMeansTheSame) {
+  const testing::Workplace place;
+  place.file("scene.hook", "Include \"scenes/standing_quadruped_urdf.hook\";");
+  const testing::CommandResult printed = place.hookpoint("print scene.hook");
+  ASSERT_EQ(printed.status, 0) << printed.err;
+  place.file("printed.hook", printed.out);
+  const std::string run = " --for 20ms --out ";
+  const std::string record = " --record world.walker.rear_left.rear_left_shank.location.z";
+  ASSERT_EQ(place.hookpoint("run scene.hook" + run + "a" + record).status, 0);
+  ASSERT_EQ(place.hookpoint("run printed.hook" + run + "b" + record).status, 0);
+  EXPECT_FALSE(place.read("a/trace.csv").empty());
+  EXPECT_EQ(place.read("a/trace.csv"), place.read("b/trace.csv"));
+}
+
+TEST(Urdf, AMistakeEndsTheCommandWithStatus2AndItsPlace) {
+  const testing::Workplace place;
+  place.file("robot.urdf", robot(link_l + joint("j", "planar", "")));
+  place.file("scene.hook", "World w { Include \"robot.urdf\"; }");
+  const testing::CommandResult checked = place.hookpoint("check scene.hook");
+  EXPECT_EQ(checked.status, 2);
+  EXPECT_NE(checked.err.find("robot.urdf:4:17: error: a planar joint"), std::string::npos)
+      << checked.err;
+}
+
+TEST(Urdf, TheQuadrupedStandsOnItsFourFeet) {
+  const testing::Workplace place;
+  place.file("scene.hook", "Include \"scenes/standing_quadruped_urdf.hook\";");
+  std::string record;
+  for (const char* leg : {"front_left", "front_right", "rear_left", "rear_right"})
+    record += std::string(",world.walker.") + leg + "." + leg + "_shank.contact.force.z";
+  const testing::CommandResult ran =
+      place.hookpoint("run scene.hook --for 3s --out run --record " + record.substr(1));
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  std::istringstream trace(place.read("run/trace.csv"));
+  std::string row;
+  for (std::string line; std::getline(trace, line);) row = line;
+  std::istringstream last(row);
+  double sum = 0.;
+  std::getline(last, row, ',');  // the time
+  for (std::string cell; std::getline(last, cell, ',');) {
+    EXPECT_GT(std::stod(cell), 10.);
+    sum += std::stod(cell);
+  }
+  EXPECT_NEAR(sum, 9.81 * (6.5 + 0.5 + 4 * (0.4 + 0.8 + 0.25 + 0.05)), 0.01);
+}
+
+}  // namespace
+}  // namespace hookpoint::tests

@@ -1,0 +1,249 @@
+"""import hookpoint: closed forms, the command's own bytes, and what is refused."""
+import csv
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import tempfile
+import threading
+import time
+import unittest
+
+import numpy as np
+
+import hookpoint
+
+SOURCE = pathlib.Path(os.environ["HOOKPOINT_SOURCE_DIR"])
+PROGRAM = os.environ["HOOKPOINT_PROGRAM"]
+CONFIGS = SOURCE / "configs"
+
+FALLING = """Param height = 1 m;
+World w {
+  gravity = 10; deltat = 1 ms; duration = 0.5 s;
+  Robot ball { Base.mobile { location = 0, 0, height; mass = 2; Shape.Sphere radius = 0.1; } }
+}
+"""
+
+WHEEL = """World w {
+  gravity = 0; deltat = 1 ms; duration = 10 s;
+  Robot wheel {
+    Base.fixed;
+    Chain axle { Link disc { mass = 2; inertia = 1, 1, 0.25, 0, 0, 0; } }
+  }
+}
+"""
+
+STIFF = """World w {
+  gravity = 0; deltat = 1 ms; duration = 10 s; integrator = explicit_euler;
+  Robot wheel {
+    Base.fixed;
+    Chain axle { Link disc { mass = 2; inertia = 1, 1, 0.25, 0, 0, 0; angle = 1; stiffness = 1e9; } }
+  }
+}
+"""
+
+
+def read_csv(path):
+    return list(csv.reader(path.read_text().splitlines()))
+
+
+class World(unittest.TestCase):
+    def test_falls_as_its_integrator_must(self):
+        world = hookpoint.loads(FALLING)
+        self.assertEqual((world.name, world.engine, world.time, world.steps), ("w", "dts", 0.0, 0))
+        trace = world.run(record=["w.ball.base.location.z", "ball.base.velocity.z"])
+        self.assertEqual(list(trace), ["time", "w.ball.base.location.z", "ball.base.velocity.z"])
+        n = np.arange(501)
+        self.assertEqual(trace["time"].dtype, np.float64)
+        np.testing.assert_allclose(trace["time"], n * 1e-3, atol=1e-12)
+        np.testing.assert_allclose(trace["ball.base.velocity.z"], -10 * n * 1e-3, atol=1e-12)
+        # Semi-implicit Euler: the velocity first, then the position by the new one.
+        np.testing.assert_allclose(trace["w.ball.base.location.z"], 1 - 10e-6 * n * (n + 1) / 2, atol=1e-12)
+        self.assertEqual(world.steps, 500)
+        self.assertIs(world.recorded["time"], trace["time"])
+
+    def test_goes_on_where_it_was_and_thins_its_rows(self):
+        world = hookpoint.loads(FALLING)
+        world.step(3)
+        self.assertAlmostEqual(world.time, 0.003)
+        trace = world.run(0.02, record=["ball.base.velocity.z"], every=5)
+        np.testing.assert_allclose(trace["time"], [0.003, 0.008, 0.013, 0.018, 0.023], atol=1e-12)
+        np.testing.assert_allclose(trace["ball.base.velocity.z"], -10 * trace["time"], atol=1e-12)
+        self.assertEqual(len(world.run(0.0)["time"]), 1)
+
+    def test_a_written_torque_turns_the_wheel(self):
+        world = hookpoint.loads(WHEEL)
+        world["w.wheel.axle.disc.torque"] = 0.5
+        world.step(1000)
+        self.assertAlmostEqual(world["wheel.axle.disc.rate"], 0.5 / 0.25 * 1.0, places=12)
+        world.write("wheel.axle.disc.torque", 0)
+        world.step(1000)
+        self.assertAlmostEqual(world.read("wheel.axle.disc.rate"), 2.0, places=12)
+
+    def test_only_inputs_that_no_wire_drives_can_be_written(self):
+        world = hookpoint.loads(WHEEL)
+        with self.assertRaisesRegex(hookpoint.Error, "can be read, not written"):
+            world["wheel.axle.disc.rate"] = 1
+        with self.assertRaisesRegex(hookpoint.Error, "did you mean|nearest|torque"):
+            world["wheel.axle.disc.torqe"] = 1
+        with self.assertRaisesRegex(hookpoint.Error, "finite"):
+            world["wheel.axle.disc.torque"] = float("nan")
+        wired = hookpoint.loads(WHEEL + "Signal.Step push { Wire TO w.wheel.axle.disc.torque; }")
+        with self.assertRaisesRegex(hookpoint.Error, "driven by a wire from `push"):
+            wired["w.wheel.axle.disc.torque"] = 1
+        self.assertIn(("w.wheel.axle.disc.torque", "N.m", True), world.ports())
+        self.assertIn(("w.wheel.axle.disc.rate", "rad/s", False), world.ports())
+
+    def test_settings_are_text_numbers_or_lists(self):
+        world = hookpoint.loads(
+            FALLING,
+            set={"height": "25 cm", "w.gravity": (0, 0, -5), "w.deltat": 2e-3, "w.seed": 7,
+                 "w.ball.base.velocity": np.array([1.5, 0, 0])})
+        self.assertEqual(world["ball.base.location.z"], 0.25)
+        self.assertEqual(world.deltat, 2e-3)
+        world.step()
+        self.assertAlmostEqual(world["ball.base.velocity.z"], -0.01, places=15)
+        self.assertEqual(world["ball.base.velocity.x"], 1.5)
+        self.assertIn("seed = 7;", world.text)
+
+    def test_another_engine_runs_the_same_file(self):
+        for engine in ("ode", "bullet"):
+            world = hookpoint.loads(FALLING, engine=engine)
+            self.assertEqual(world.engine, engine)
+            world.run(0.1)
+            self.assertAlmostEqual(world["ball.base.velocity.z"], -1.0, places=3)
+
+    def test_wrong_files_say_where(self):
+        with self.assertRaises(hookpoint.FileError) as caught:
+            hookpoint.loads("World w {\n  deltat = 3 kg;\n  gravty = 9.81;\n}", name="bad.hook")
+        self.assertIn("bad.hook:2:12: error:", str(caught.exception))
+        first, second = caught.exception.diagnostics
+        self.assertEqual((first["severity"], first["file"], first["line"], first["column"]), ("error", "bad.hook", 2, 12))
+        self.assertIn("did you mean `gravity`", second["message"])
+        self.assertTrue(issubclass(hookpoint.FileError, hookpoint.Error))
+        with self.assertRaisesRegex(hookpoint.FileError, "no such file"):
+            hookpoint.load("nowhere.hook")
+        with self.assertRaisesRegex(hookpoint.FileError, "no Param `hight`"):
+            hookpoint.loads(FALLING, set={"hight": 3})
+
+    def test_a_run_that_diverges_keeps_what_it_recorded(self):
+        world = hookpoint.loads(STIFF)
+        with self.assertRaises(hookpoint.RunError) as caught:
+            world.run(record=["wheel.axle.disc.angle"])
+        self.assertGreater(caught.exception.time, 0.05)
+        self.assertIn("wheel", caught.exception.body)
+        angles = world.recorded["wheel.axle.disc.angle"]
+        self.assertGreater(len(angles), 50)
+        # Explicit Euler of a spring: a complex eigenvalue 1 + i omega dt.
+        self.assertAlmostEqual(angles[2], (1 + 1j * np.sqrt(1e9 / 0.25) * 1e-3).__pow__(2).real)
+
+    def test_ctrl_c_stops_a_run_and_keeps_what_it_recorded(self):
+        world = hookpoint.loads(FALLING)
+        handler = signal.getsignal(signal.SIGINT)
+        timer = threading.Timer(0.2, os.kill, (os.getpid(), signal.SIGINT))
+        timer.start()
+        with self.assertRaises(KeyboardInterrupt):
+            world.run(1e6, record=["w.time"])
+        self.assertEqual(world.recorded["w.time"][-1], world.recorded["time"][-1])
+        self.assertAlmostEqual(world.time, world.recorded["time"][-1])
+        self.assertIs(signal.getsignal(signal.SIGINT), handler)
+
+    def test_other_threads_run_meanwhile(self):
+        world = hookpoint.loads(FALLING)
+        counted, done = [0], threading.Event()
+
+        def count():
+            while not done.is_set():
+                counted[0] += 1
+                time.sleep(0)
+
+        thread = threading.Thread(target=count)
+        thread.start()
+        counted[0] = 0
+        world.step(200000)
+        during = counted[0]
+        done.set()
+        thread.join()
+        self.assertGreater(during, 100)
+
+    def test_gives_the_bytes_of_the_command(self):
+        scene = CONFIGS / "scenes" / "sloped_block.hook"
+        trails = ["world.block.base.location.x", "world.block.base.contact.force.z"]
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run([PROGRAM, "run", scene, "--set", "slope=15 deg", "--for", "0.2 s", "--out", folder,
+                            "--record", ",".join(trails)], check=True, capture_output=True)
+            rows = read_csv(pathlib.Path(folder) / "trace.csv")
+        trace = hookpoint.load(scene, set={"slope": "15 deg"}).run(0.2, record=trails)
+        table = np.array(rows[1:], dtype=float)
+        for column, values in enumerate(trace.values()):
+            np.testing.assert_array_equal(table[:, column], values)
+
+    def test_a_plugin_brings_its_class_if_it_may(self):
+        plugin = os.environ["HOOKPOINT_PLUGIN"]
+        text = f'Plugin "{plugin}";\n' + FALLING + \
+            "Test.Doubler twice { Wire FROM w.ball.base.location.z TO in; }"
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "doubled.hook"
+            file.write_text(text)
+            with self.assertRaisesRegex(hookpoint.FileError, "is refused"):
+                hookpoint.load(file)
+            world = hookpoint.load(file, allow_plugins=True)
+        world.step(10)
+        self.assertEqual(world["twice.output"], 2 * world["ball.base.location.z"])
+
+
+class Study(unittest.TestCase):
+    def test_the_table_is_that_of_results_csv(self):
+        study = CONFIGS / "studies" / "creep.hook"
+        subjects = ["hookpoint", "hunt_crossley"]
+        with tempfile.TemporaryDirectory() as folder:
+            result = hookpoint.study(study, quick=True, only=subjects, out=folder)["creep"]
+            rows = read_csv(pathlib.Path(folder) / "results.csv")
+        table = result["table"]
+        self.assertEqual(list(table), rows[0])
+        self.assertEqual(len(table["subject"]), len(rows) - 1)
+        for column, title in enumerate(rows[0]):
+            for row, value in zip(rows[1:], table[title]):
+                if isinstance(value, str):
+                    self.assertEqual(str(value), row[column])
+                else:
+                    self.assertEqual(repr(float(value)), repr(float(row[column] or "nan")))
+        self.assertEqual(table["slope [deg]"].dtype, np.float64)
+        # A regularised law creeps by its closed form; hooks hold.
+        sticks = (table["mu"] == 0.8) & (table["status"] == "ok")
+        laws = sticks & (table["subject"] == "hunt_crossley")
+        np.testing.assert_allclose(table["creep_speed [m/s]"][laws],
+                                   table["creep_speed_predicted [m/s]"][laws], rtol=0.01)
+        self.assertLess(table["creep_speed [m/s]"][sticks & (table["subject"] == "hookpoint")].max(), 1e-9)
+        self.assertTrue(all(truth["failed"] == 0 for truth in result["truths"]))
+        self.assertTrue(any("realtime_factor" in title for title in result["timing"]))
+
+    def test_ctrl_c_stops_a_study(self):
+        timer = threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT))
+        timer.start()
+        with tempfile.TemporaryDirectory() as folder:
+            with self.assertRaises(KeyboardInterrupt):
+                hookpoint.study(CONFIGS / "studies" / "creep.hook", out=folder)
+            self.assertFalse((pathlib.Path(folder) / "results.csv").exists())
+            self.assertTrue(list((pathlib.Path(folder) / "rows").iterdir()))
+
+    def test_mistakes_are_exceptions(self):
+        with self.assertRaisesRegex(hookpoint.Error, "holds no Study"):
+            hookpoint.study(CONFIGS / "scenes" / "sloped_block.hook")
+        with self.assertRaises(hookpoint.FileError):
+            hookpoint.study(CONFIGS / "studies" / "creep.hook", only=["nobody"])
+
+
+class Module(unittest.TestCase):
+    def test_lists_what_it_has(self):
+        listed = hookpoint.engines()
+        self.assertIn("dts", [engine["name"] for engine in listed["engines"]])
+        self.assertIn("hunt_crossley", [law["name"] for law in listed["laws"]])
+        self.assertIn("rk4", [row["name"] for row in listed["integrators"]])
+        command = subprocess.run([PROGRAM, "engines", "--json"], check=True, capture_output=True, text=True)
+        self.assertEqual(json.loads(command.stdout), listed)
+
+
+if __name__ == "__main__":
+    unittest.main()
