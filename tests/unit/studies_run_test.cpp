@@ -91,7 +91,7 @@ class StudyRunner : public ::testing::Test {
     simulation::add_experiment_classes(schema_);
     add_study_classes(schema_);
     write("scene.hook", scene);
-    engines_["dts"] = {{"dts", "test", "double", true, {}}, make, nullptr};
+    engines_["dts"] = {{"dts", "test", "double", true, {}, {}}, make, nullptr};
     engines_["ode"] = engines_["dts"];
     Slider::steps_taken = 0;
   }
