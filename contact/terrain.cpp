@@ -75,6 +75,10 @@ Terrain::Terrain(TerrainDescription description) : description_(std::move(descri
     }
     return;
   }
+  if (const auto* slope = std::get_if<SlopeSurface>(&description_.surface)) {
+    gradient_x_ = -std::tan(slope->angle) * std::cos(slope->azimuth);
+    gradient_y_ = -std::tan(slope->angle) * std::sin(slope->azimuth);
+  }
   // An unbounded plane is tiled from the world's origin in all directions; a bounded one from its
   // lower left corner.
   unbounded_x_ = description_.size_x == 0.;
@@ -101,10 +105,8 @@ Terrain::Plane Terrain::plane_of(const Tile& tile, double x, double y) const {
   if (const auto* flat = std::get_if<FlatSurface>(&description_.surface)) {
     return {flat->height, 0., 0.};
   }
-  if (const auto* slope = std::get_if<SlopeSurface>(&description_.surface)) {
-    const double gradient_x = -std::tan(slope->angle) * std::cos(slope->azimuth);
-    const double gradient_y = -std::tan(slope->angle) * std::sin(slope->azimuth);
-    return {gradient_x * x + gradient_y * y, gradient_x, gradient_y};
+  if (std::holds_alternative<SlopeSurface>(description_.surface)) {
+    return {gradient_x_ * x + gradient_y_ * y, gradient_x_, gradient_y_};
   }
   const auto& grid = *std::get_if<GridSurface>(&description_.surface);
   const double spacing = description_.spacing;
@@ -145,18 +147,34 @@ int Terrain::material_of(const Tile& tile) const {
   return tile_materials_[static_cast<std::size_t>(index)];
 }
 
-TilePoint Terrain::query(const Vector3d& point) const {
-  const Tile tile = tile_at(point.x, point.y);
-  const Plane plane = plane_of(tile, point.x, point.y);
+TilePoint Terrain::point_on(const Plane& plane, const Vector3d& point) const {
   const double n_z = 1. / std::sqrt(1. + plane.gradient_x * plane.gradient_x +
                                     plane.gradient_y * plane.gradient_y);
   TilePoint result;
   result.normal = {-plane.gradient_x * n_z, -plane.gradient_y * n_z, n_z};
   result.depth = (plane.height - point.z) * n_z;
   result.height = plane.height;
+  result.material = description_.material;
+  return result;
+}
+
+TilePoint Terrain::query(const Vector3d& point) const {
+  const bool one_tile = unbounded_x_ && unbounded_y_ && description_.patches.empty();
+  if (one_tile) return point_on(plane_of({}, point.x, point.y), point);
+  const Tile tile = tile_at(point.x, point.y);
+  TilePoint result = point_on(plane_of(tile, point.x, point.y), point);
   result.material = material_of(tile);
   result.outside = tile.outside;
   return result;
+}
+
+// The corner that lies deepest is as far below the centre as the normal's part along each edge
+// says.
+double Terrain::deepest(const Vector3d& center, const Matrix3d& R_WB, const Vector3d& half) const {
+  if (!unbounded_x_ || !unbounded_y_) return std::numeric_limits<double>::infinity();
+  const TilePoint tile = point_on(plane_of({}, center.x, center.y), center);
+  const Vector3d n = transpose_times(R_WB, tile.normal);
+  return tile.depth + std::abs(n.x) * half.x + std::abs(n.y) * half.y + std::abs(n.z) * half.z;
 }
 
 std::string Terrain::outside_message(const Vector3d& point) const {

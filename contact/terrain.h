@@ -79,6 +79,11 @@ class Terrain {
   TilePoint query(const Vector3d& point) const;
   TilePoint query(double x, double y, double z) const { return query(Vector3d{x, y, z}); }
 
+  /// A depth that no point of a box exceeds but by rounding (under 1 nm within 1000 km): the depth
+  /// of its deepest corner in a plane without edges; infinite for any other terrain, where only
+  /// `query` knows. `center` p_WC [m], `R_WB` the box's axes, `half` half its edges [m]. O(1).
+  double deepest(const Vector3d& center, const Matrix3d& R_WB, const Vector3d& half) const;
+
   /// What to tell the user, once, when a point has left the terrain.
   std::string outside_message(const Vector3d& point) const;
 
@@ -101,6 +106,7 @@ class Terrain {
     double gradient_x = 0., gradient_y = 0.;
   };
 
+  TilePoint point_on(const Plane& plane, const Vector3d& point) const;
   Tile tile_at(double x, double y) const;
   Plane plane_of(const Tile& tile, double x, double y) const;
   int painted_material(const Tile& tile) const;
@@ -110,7 +116,8 @@ class Terrain {
   double origin_x_ = 0., origin_y_ = 0.;  ///< world position of vertex (0,0) [m]
   double columns_ = 0., rows_ = 0.;       ///< cells along x and y; infinite for an unbounded plane
   bool unbounded_x_ = false, unbounded_y_ = false;
-  std::vector<int> tile_materials_;  ///< of a grid with patches: two a cell, row by row
+  double gradient_x_ = 0., gradient_y_ = 0.;  ///< of a slope
+  std::vector<int> tile_materials_;           ///< of a grid with patches: two a cell, row by row
 };
 
 }  // namespace hookpoint::contact

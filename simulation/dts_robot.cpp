@@ -1,6 +1,7 @@
 #include "simulation/dts_robot.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "dts/configuration.h"
 #include "dts/external_forces.h"
@@ -125,7 +126,11 @@ DtsRobot::DtsRobot(const Experiment& experiment, int index, const contact::Terra
   for (std::vector<double>* positions : {&q_, &q_before_}) positions->resize(position_size());
   for (std::vector<double>* velocities : {&v_, &v_before_, &a_})
     velocities->resize(velocity_size());
-  refresh();
+  passed_.resize(model_.body_count());
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  boxes_.resize(model_.body_count(), {{}, {infinity, infinity, infinity}});
+  refresh();  // of all points, for those who ask for the initial state
+  bound_points();
   accelerate();
 }
 
@@ -152,50 +157,58 @@ void DtsRobot::take_inputs() {
   }
 }
 
-// A trial state is evaluated with the memory that the step's start committed, and leaves no trace
-// but its forces.
 void DtsRobot::apply_contact_forces(bool trial) {
-  // An integrator that chooses its steps resolves a bristle by itself.
-  const double dt = bristle_states_ > 0 && adaptive_ ? 0. : law_step_;
+  if (points_.empty()) return;
   std::visit(
       [&](const auto& law) {
-        for (std::size_t i = 0; i < points_.size(); ++i) {
-          ContactPoint& point = points_[i];
-          const dts::BodyMotion<double>& body = workspace_.bodies[point.body];
-          const TouchingPlace touching = touching_place(point, body, *ground_);
-          const contact::TilePoint& tile = touching.tile;
-          const Vector3d& position = touching.position;
-          const auto& material = experiment_->materials[tile.material].constants;
-          const contact::BallFrame frame = ball_frame(point, body, tile);
-          const contact::Memory<double> memory = point.carried(frame);
-          const double reach = law.reach(material);
-          if (!trial) point.inside = tile.depth > -reach;
-          const double depth = adaptive_ ? point.depth_on_side(tile.depth, reach) : tile.depth;
-          contact::PointKinematics<double> kinematics{position, touching.velocity, tile.normal,
-                                                      depth, bristle_at(bristles_, i)};
-          if (!trial) kinematics = contact::held_point(law, kinematics, memory, material, dt);
-          contact::Reaction<double> reaction;
-          if (depth > -reach)  // beyond it the law gives and remembers nothing
-            reaction = semi_implicit_
-                           ? contact::semi_implicit_reaction(law, kinematics, memory, material, dt)
-                           : law.evaluate(kinematics, memory, material, dt);
-          if (reaction.next.attached)
-            dts::add_external_force(workspace_, point.body, reaction.force, position);
-          put_bristle(reaction.bristle_rate, i, bristle_rates_);
-          if (trial) continue;
-          put_bristle(reaction.bristle, i, next_bristles_);
-          if (tile.outside && notice_.empty())
-            notice_ = experiment_->robots[index_].name + ": " + ground_->outside_message(position);
-          point.pending = reaction.next;
-          point.pending_frame = frame;
-          point.position = position;
-          point.normal = tile.normal;
-          point.depth = tile.depth;
-          point.material = tile.material;
-          point.force = reaction.force;
+        for (std::size_t body = 0; body < passed_.size(); ++body) {
+          if (passed_over(body, trial)) continue;
+          for (std::size_t i = first_points_[body]; i < first_points_[body + 1]; ++i)
+            apply_contact_force(law, i, trial);
         }
       },
       law_);
+}
+
+// A trial state is evaluated with the memory that the step's start committed, and leaves no trace
+// but its forces.
+template <class Law>
+void DtsRobot::apply_contact_force(const Law& law, std::size_t i, bool trial) {
+  // An integrator that chooses its steps resolves a bristle by itself.
+  const double dt = bristle_states_ > 0 && adaptive_ ? 0. : law_step_;
+  ContactPoint& point = points_[i];
+  const dts::BodyMotion<double>& body = workspace_.bodies[point.body];
+  const TouchingPlace touching = touching_place(point, body, *ground_);
+  const contact::TilePoint& tile = touching.tile;
+  const Vector3d& position = touching.position;
+  const auto& material = experiment_->materials[tile.material].constants;
+  const contact::BallFrame frame = ball_frame(point, body, tile);
+  const contact::Memory<double> memory = point.carried(frame);
+  const double reach = law.reach(material);
+  if (!trial) point.inside = tile.depth > -reach;
+  const double depth = adaptive_ ? point.depth_on_side(tile.depth, reach) : tile.depth;
+  contact::PointKinematics<double> kinematics{position, touching.velocity, tile.normal, depth,
+                                              bristle_at(bristles_, i)};
+  if (!trial) kinematics = contact::held_point(law, kinematics, memory, material, dt);
+  contact::Reaction<double> reaction;
+  if (depth > -reach)  // beyond it the law gives and remembers nothing
+    reaction = semi_implicit_
+                   ? contact::semi_implicit_reaction(law, kinematics, memory, material, dt)
+                   : law.evaluate(kinematics, memory, material, dt);
+  if (reaction.next.attached)
+    dts::add_external_force(workspace_, point.body, reaction.force, position);
+  put_bristle(reaction.bristle_rate, i, bristle_rates_);
+  if (trial) return;
+  put_bristle(reaction.bristle, i, next_bristles_);
+  if (tile.outside && notice_.empty())
+    notice_ = experiment_->robots[index_].name + ": " + ground_->outside_message(position);
+  point.pending = reaction.next;
+  point.pending_frame = frame;
+  point.position = position;
+  point.normal = tile.normal;
+  point.depth = tile.depth;
+  point.material = tile.material;
+  point.force = reaction.force;
 }
 
 void DtsRobot::set_joint_torques() {
@@ -239,11 +252,7 @@ StepStatus DtsRobot::step(integrators::Stepper& stepper, double time, double dt)
   q_before_ = q_;
   write_velocities(v_before_, bristles_);
   write_velocities(v_, next_bristles_);
-  for (ContactPoint& point : points_) {
-    point.before = point.committed;
-    point.before_frame = point.committed_frame;
-    point.commit();
-  }
+  commit_points();
   law_step_before_ = law_step_;
   law_step_ = dt;
   const integrators::Status status = stepper.step(*this, time, dt, q_, v_);
@@ -260,6 +269,7 @@ void DtsRobot::undo() {
     point.committed = point.before;
     point.committed_frame = point.before_frame;
   }
+  std::ranges::fill(passed_, 0);
   law_step_ = law_step_before_;
   settle_at(q_before_, v_before_);
 }
@@ -304,9 +314,12 @@ void DtsRobot::publish(std::span<BodyState> bodies, std::span<JointState> joints
                                     : continued(quaternion_from(body.R_WB), bodies[i].orientation);
     bodies[i] = {body.p_WB, R_WB, body.v_WB, body.w_WB, {}, 0};
   }
-  for (const ContactPoint& point : points_) {
-    bodies[point.body].contact_force += point.force;
-    if (dot(point.force, point.normal) > 0.) ++bodies[point.body].contacts;
+  for (std::size_t body = 0; body < bodies.size(); ++body) {
+    if (passed_[body] > 0) continue;
+    for (std::size_t i = first_points_[body]; i < first_points_[body + 1]; ++i) {
+      bodies[body].contact_force += points_[i].force;
+      if (dot(points_[i].force, points_[i].normal) > 0.) ++bodies[body].contacts;
+    }
   }
   for (std::size_t i = 0; i < joints.size(); ++i) {
     joints[i] = {state_.joint_positions[i], state_.joint_rates[i],

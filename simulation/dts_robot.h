@@ -56,6 +56,12 @@ struct ContactPoint {
   contact::Memory<double> carried(const contact::BallFrame& now) const;
 };
 
+/// The smallest box, along its body's axes, that holds the boundary points of a body.
+struct PointsBox {
+  Vector3d center;  ///< body axes [m]
+  Vector3d half;    ///< half its edges [m]
+};
+
 /// The boundary points of all bodies that can move.
 std::vector<ContactPoint> boundary_points(const RobotSpec& robot);
 
@@ -160,6 +166,12 @@ class DtsRobot final : public integrators::System {
   void evaluate_forces(bool trial);
   void apply_external_forces();
   void apply_contact_forces(bool trial);
+  template <class Law>
+  void apply_contact_force(const Law& law, std::size_t i, bool trial);
+  void bound_points();
+  /// Whether no boundary point of the body is within the law's reach.
+  bool passed_over(std::size_t body, bool trial);
+  void commit_points();
   void take_inputs();
   void set_joint_torques();
 
@@ -184,6 +196,9 @@ class DtsRobot final : public integrators::System {
   /// on (as the law let go of some), and its rates at the state evaluated last.
   std::vector<double> bristles_, next_bristles_, bristle_rates_;
   std::vector<std::size_t> first_points_;  ///< of each body, into points_; one more at the end
+  std::vector<PointsBox> boxes_;  ///< of each body; infinite where no body may be passed over
+  std::vector<int> passed_;       ///< of each body: 0, or 1 and the commits since it is passed over
+  double reach_ = 0.;             ///< farthest above any ground where the law still acts [m]
   std::string notice_;
   std::vector<dts::JointProperties<double>> joints_;
   std::vector<double> joint_torques_;

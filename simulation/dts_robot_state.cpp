@@ -77,6 +77,7 @@ void DtsRobot::save(std::span<double> numbers, std::span<const BodyState> bodies
 void DtsRobot::restore(std::span<const double> numbers, std::span<BodyState> bodies) {
   StateRestorer restorer(numbers);
   exchange(*this, restorer);
+  std::ranges::fill(passed_, 0);
   refresh();
   for (std::size_t i = 1; i < bodies.size(); ++i) {
     double sign = 1.;

@@ -73,6 +73,10 @@ constexpr auto metrics = std::to_array<MetricDefinition>({
     {"foot_slip", "",
      "path of a foot over the ground while in it, mean of the feet, per walked_distance",
      make_foot_slip},
+    {"cost_of_transport", "",
+     "work of the joints' torques, taken positive whichever way it goes, per weight and "
+     "walked_distance",
+     make_cost_of_transport},
     {"body_height_min", "m", "least height of the base over the ground after `settle`",
      make_body_height_min},
     {"tilt_max", "rad",
@@ -100,10 +104,11 @@ constexpr auto metrics = std::to_array<MetricDefinition>({
      make_truth_error},
     {"reference_error", "m",
      "greatest distance of the body's origin from the run of arkode with tolerances of 1e-10 and "
-     "steps of 0.1 ms or less",
+     "steps of 0.1 ms or less, for a peer only where there is no ground",
      make_reference_error},
-    {"realtime_factor", "", "simulated time over wall time, median of five stretches, run alone"},
-    {"step_time", "s", "wall time of a step, median of five stretches, run alone"},
+    {"realtime_factor", "",
+     "simulated time over processor time, median of five stretches, run alone"},
+    {"step_time", "s", "processor time of a step, median of five stretches, run alone"},
 });
 
 double deepest(const RunContext&, const Observation& observation) {

@@ -167,6 +167,7 @@ std::unique_ptr<Metric> make_fell(const RunContext&);
 std::unique_ptr<Metric> make_walked_distance(const RunContext&);
 std::unique_ptr<Metric> make_walking_speed(const RunContext&);
 std::unique_ptr<Metric> make_foot_slip(const RunContext&);
+std::unique_ptr<Metric> make_cost_of_transport(const RunContext&);
 std::unique_ptr<Metric> make_body_height_min(const RunContext&);
 std::unique_ptr<Metric> make_tilt_max(const RunContext&);
 std::unique_ptr<Metric> make_integrator_steps(const RunContext&);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "contact/force_law.h"
+#include "simulation/dts_engine.h"
 #include "simulation/world.h"
 #include "studies/metric.h"
 #include "studies/predictions.h"
@@ -120,7 +121,13 @@ std::unique_ptr<Metric> make_reference_error(const RunContext& context) {
   nearer.absolute_tolerance = 1e-12;
   const auto steps = std::ceil(nearer.deltat / longest_step - 1e-9);
   RunContext own = context;
-  if (nearer.engine != "dts" || !contact::find_force_law(nearer.contact)) own.make = nullptr;
+  if (!context.ground) {  // Newton and Euler alone: every engine means the same motion
+    nearer.engine = "dts";
+    nearer.contact = "hookpoint";
+    own.make = simulation::make_dts;
+  } else if (nearer.engine != "dts" || !contact::find_force_law(nearer.contact)) {
+    own.make = nullptr;
+  }
   return std::make_unique<DistanceFromLimit>(own, std::move(nearer),
                                              static_cast<std::int64_t>(steps));
 }

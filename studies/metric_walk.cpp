@@ -160,6 +160,40 @@ class FootSlip : public WalkedDistance {
   double path_ = 0.;
 };
 
+/// A torque is held over the step that led to the state it is published with.
+class CostOfTransport : public WalkedDistance {
+ public:
+  explicit CostOfTransport(const RunContext& context) : WalkedDistance(context) {
+    const auto& robots = context.experiment->robots;
+    for (std::size_t i = 0; i <= static_cast<std::size_t>(context.robot); ++i) {
+      first_ += angles_.size();
+      std::size_t joints = 0;
+      for (const simulation::ChainSpec& chain : robots[i].chains) joints += chain.links.size();
+      angles_.assign(joints, 0.);
+    }
+  }
+  std::optional<double> value() const override {
+    if (fallen() || angles_.empty() || std::abs(distance()) < least_walk) return std::nullopt;
+    return work_ / (context().weight * std::abs(distance()));
+  }
+
+ private:
+  void watch(const Observation& observation) override {
+    WalkedDistance::watch(observation);
+    for (std::size_t i = 0; i < angles_.size(); ++i) {
+      const simulation::JointState& joint = observation.world.joints[first_ + i];
+      if (watching_) work_ += std::abs(joint.torque * (joint.angle - angles_[i]));
+      angles_[i] = joint.angle;
+    }
+    watching_ = true;
+  }
+
+  std::size_t first_ = 0;       ///< of the robot's joints among all that are published
+  std::vector<double> angles_;  ///< at the step before
+  bool watching_ = false;
+  double work_ = 0.;
+};
+
 class BodyHeightMin : public WalkMetric {
  public:
   using WalkMetric::WalkMetric;
@@ -199,6 +233,9 @@ std::unique_ptr<Metric> make_walking_speed(const RunContext& context) {
 }
 std::unique_ptr<Metric> make_foot_slip(const RunContext& context) {
   return std::make_unique<FootSlip>(context);
+}
+std::unique_ptr<Metric> make_cost_of_transport(const RunContext& context) {
+  return std::make_unique<CostOfTransport>(context);
 }
 std::unique_ptr<Metric> make_body_height_min(const RunContext& context) {
   return std::make_unique<BodyHeightMin>(context);

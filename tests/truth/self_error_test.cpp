@@ -3,6 +3,7 @@
 // whole.
 #include <gtest/gtest.h>
 
+#include "reference/engines.h"
 #include "simulation/dts_engine.h"
 #include "simulation/world.h"
 #include "studies/metric.h"
@@ -15,21 +16,35 @@ constexpr const char* falling = R"(
 World w { gravity = 9.81; Robot r { Base.mobile { mass = 1 kg; inertia = 1, 1, 1, 0, 0, 0; } } }
 )";
 
+constexpr const char* over_ground = R"(
+World w {
+  gravity = 9.81;
+  Material stone {}
+  Terrain.Flat ground { material = stone; }
+  Robot r { Base.mobile { location = 0, 0, 20; Shape.Sphere { radius = 0.1; mass = 1 kg; } } }
+}
+)";
+
 std::optional<double> measure(const char* name, simulation::Experiment experiment,
-                              const std::string& integrator, double deltat) {
-  experiment.integrator = integrator;
+                              simulation::EngineFactory make, double deltat) {
   experiment.deltat = deltat;
   studies::RunContext context = studies::make_context(experiment, 0., 1.);
-  context.make = simulation::make_dts;
+  context.make = make;
   const auto metric = studies::find_metric(name)->make(context);
   studies::Observer observer(context, false);
-  simulation::World world(experiment, simulation::make_dts(experiment));
+  simulation::World world(experiment, make(experiment));
   metric->observe(observer.observe(world.state()));
   for (int i = 0; i < std::lround(1. / deltat); ++i) {
     EXPECT_TRUE(world.step().ok());
     metric->observe(observer.observe(world.state()));
   }
   return metric->value();
+}
+
+std::optional<double> measure(const char* name, simulation::Experiment experiment,
+                              const std::string& integrator, double deltat) {
+  experiment.integrator = integrator;
+  return measure(name, std::move(experiment), simulation::make_dts, deltat);
 }
 
 TEST(SelfError, IsTheDistanceFromTheLimitOfSmallSteps) {
@@ -43,6 +58,17 @@ TEST(SelfError, IsTheDistanceFromTheLimitOfSmallSteps) {
   }
   EXPECT_LE(measure("self_error", experiment, "rk4", 0.01).value(), 1e-13);
   EXPECT_LE(measure("self_error", experiment, "arkode", 0.01).value(), 1e-9);
+}
+
+TEST(ReferenceError, IsThatOfAPeerTooWhereNothingTouches) {
+  simulation::Experiment experiment = *load_text(falling).experiment;
+  // ODE's step is semi-implicit Euler's, too.
+  experiment.engine = "ode";
+  EXPECT_NEAR(measure("reference_error", experiment, reference::make_ode, 0.01).value(),
+              9.81 * 0.01 / 2., 1e-9);
+  experiment = *load_text(over_ground).experiment;
+  experiment.engine = "ode";
+  EXPECT_FALSE(measure("reference_error", experiment, reference::make_ode, 0.01));
 }
 
 TEST(IntegratorMetrics, CountWhatFixedStepsCost) {

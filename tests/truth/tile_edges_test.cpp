@@ -126,5 +126,40 @@ std::vector<std::string> force_laws() {
 INSTANTIATE_TEST_SUITE_P(Laws, TileEdges, ::testing::ValuesIn(force_laws()),
                          [](const auto& tested) { return tested.param; });
 
+/// A hexapod that falls on its side, rolls over and comes to rest: bodies come to the ground and
+/// leave it. All that is published of its bodies, every step.
+std::vector<double> tumbling_hexapod(const std::string& law, const std::string& integrator,
+                                     double extent) {
+  simulation::Experiment experiment =
+      testing::load_scene("scenes/walking_hexapod.hook", {{"dt", "0.25 ms"}},
+                          {{"world.contact", law}, {"world.integrator", integrator}});
+  experiment.terrain->size_x = experiment.terrain->size_y = extent;
+  experiment.robots[0].location.z = 0.3;
+  experiment.robots[0].angular_velocity = {12., 3., 0.};
+  const auto engine = simulation::make_dts(experiment);
+  std::vector<double> published;
+  for (int step = 0; step < 4000; ++step) {
+    EXPECT_TRUE(engine->step().ok());
+    for (const simulation::BodyState& body : engine->state().bodies) {
+      for (const Vector3d& v :
+           {body.position, body.velocity, body.angular_velocity, body.contact_force})
+        published.insert(published.end(), {v.x, v.y, v.z});
+      published.push_back(body.contacts);
+    }
+  }
+  return published;
+}
+
+// Bodies far above a plane without edges are passed over; one that ends 1 km away is asked about
+// every point. Nothing may differ.
+TEST(EndlessPlane, BodiesPassedOverChangeNoBit) {
+  for (const char* integrator : {"semi_implicit_euler", "rk4"}) {
+    for (const char* law : {"hookpoint", "exponential"}) {
+      const auto passed_over = tumbling_hexapod(law, integrator, 0.);
+      EXPECT_EQ(passed_over, tumbling_hexapod(law, integrator, 2000.)) << integrator << law;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace hookpoint

@@ -59,6 +59,7 @@ std::optional<double> measure(std::string_view name, double angle, const Move& m
   const Axes axes(context);
   WorldState world;
   world.bodies.resize(3);
+  world.joints.resize(2);
   for (int step = 0; step <= 300; ++step) {
     world.step = step;
     world.time = step * experiment.deltat;
@@ -147,6 +148,19 @@ TEST(FootSlip, IsThePathInTheGroundPerWayWalked) {
 
 TEST(FootSlip, NeedsAWay) {
   EXPECT_FALSE(measure("foot_slip", 0.3, [](const Axes&, WorldState&) {}));
+}
+
+TEST(CostOfTransport, IsTheWorkWhicheverWayPerWeightAndWay) {
+  // One joint turns to and fro by 0.01 rad a step against 3 N m: 200 steps after settle, 6 J. The
+  // other exerts 5 N m and does not turn. 1 kg goes 0.6 m.
+  const auto working = [](const Axes& axes, WorldState& world) {
+    stroll(axes, world);
+    world.joints[0].angle = world.step % 2 == 0 ? 0. : 0.01;
+    world.joints[0].torque = 3.;
+    world.joints[1].torque = 5.;
+  };
+  EXPECT_NEAR(*measure("cost_of_transport", 0.3, working), 6. / (9.81 * 0.6), 1e-12);
+  EXPECT_FALSE(measure("cost_of_transport", 0.3, [](const Axes&, WorldState&) {}));
 }
 
 TEST(Points, AreThoseOfTheLinksToo) {
