@@ -316,9 +316,8 @@ std::string runs_table(const StudyResult& study) {
       "<option value=\"refused\">refused</option>"
       "<option value=\"finished\">finished</option><option value=\"foretold\">broke off as "
       "foretold</option></select></label><output></output></div>\n";
-      return text +
-      "<div class=\"scroll tall\" tabindex=\"0\"><table class=\"runs\">\n" +
-      runs_head(study, shapes) + "<tbody>\n" + rows + "</tbody></table></div>\n";
+  return text + "<div class=\"scroll tall\" tabindex=\"0\"><table class=\"runs\">\n" +
+         runs_head(study, shapes) + "<tbody>\n" + rows + "</tbody></table></div>\n";
 }
 
 std::string provenance_table(const std::vector<std::pair<std::string, std::string>>& lines) {
