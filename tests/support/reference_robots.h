@@ -36,7 +36,7 @@ inline simulation::RobotSpec skew_robot(int chains, int links, bool mobile) {
       link.alpha = 1.3 - 2.1 * s;
       link.d = 0.02 - 0.03 * s;
       link.theta = 0.4 * s;
-      if (n == 1) {
+      if (k == 0 && n == 1) {
         link.joint_location = {0.01, -0.02, 0.005};
         link.joint_orientation = exponential(Vector3d{-0.2, 0.3, 0.1});
       }
