@@ -14,17 +14,11 @@ using simulation::EngineGap;
 
 std::vector<EngineGap> gaps() {
   using enum EngineGap::Handling;
-  std::vector<EngineGap> gaps = common_gaps();
-  const auto add = [&gaps](std::string_view name, EngineGap::Handling handling,
-                           const char* instead) {
-    gaps.push_back({std::string(name), handling, instead});
-  };
-  add(feature::two_frictions, noticed,
-      "this engine has one coefficient of friction, and it is the kinetic one");
-  add(feature::legcone, refused, "DART has no truncated cone; use Cylinder, Sphere or Box");
-  add(feature::tile_softness, noticed,
-      "at `settings = matched` the constants of the terrain's own material hold on every tile");
-  return gaps;
+  return common_gaps_and(
+      {single_friction_gap,
+       {feature::legcone, refused, "DART has no truncated cone; use Cylinder, Sphere or Box"},
+       {feature::tile_softness, noticed,
+        "at `settings = matched` the constants of the terrain's own material hold on every tile"}});
 }
 
 }  // namespace

@@ -26,23 +26,15 @@ constexpr std::array all_peers = std::to_array<Peer>({
 using simulation::EngineGap;
 
 /// What both libraries lack.
-std::vector<EngineGap> shared_gaps() {
-  std::vector<EngineGap> gaps = common_gaps();
-  gaps.push_back({std::string(feature::two_frictions), EngineGap::Handling::noticed,
-                  "this engine has one coefficient of friction, and it is the kinetic one"});
-  return gaps;
-}
-
 std::vector<EngineGap> ode_gaps() {
-  std::vector<EngineGap> gaps = shared_gaps();
-  gaps.push_back({std::string(feature::legcone), EngineGap::Handling::refused,
-                  "ODE has no cone; use Cylinder, Sphere or Box"});
-  gaps.push_back({std::string(feature::massless), EngineGap::Handling::refused,
-                  "every body of ODE has a mass; give the link one"});
-  return gaps;
+  using enum EngineGap::Handling;
+  return common_gaps_and(
+      {single_friction_gap,
+       {feature::legcone, refused, "ODE has no cone; use Cylinder, Sphere or Box"},
+       {feature::massless, refused, "every body of ODE has a mass; give the link one"}});
 }
 
-std::vector<EngineGap> bullet_gaps() { return shared_gaps(); }
+std::vector<EngineGap> bullet_gaps() { return common_gaps_and({single_friction_gap}); }
 
 std::unique_ptr<simulation::Engine> make(std::string_view engine,
                                          const simulation::Experiment& experiment,

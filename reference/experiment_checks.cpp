@@ -97,9 +97,9 @@ std::vector<FeatureUse> features_used(const simulation::Experiment& experiment) 
   return uses;
 }
 
-std::vector<EngineGap> common_gaps() {
+std::vector<EngineGap> common_gaps_and(std::initializer_list<OwnGap> own) {
   using enum EngineGap::Handling;
-  return {
+  std::vector<EngineGap> gaps = {
       {std::string(feature::law), stated,
        "the engine has its own; `contact` and `integrator` are not read, and a material's "
        "stiffness "
@@ -110,6 +110,9 @@ std::vector<EngineGap> common_gaps() {
       {std::string(feature::saving), refused,
        "the library keeps to itself what its solver remembers; choose engine dts"},
   };
+  for (const OwnGap& gap : own)
+    gaps.push_back({std::string(gap.feature), gap.handling, gap.instead});
+  return gaps;
 }
 
 std::vector<std::string> check_supported(const simulation::Experiment& experiment,

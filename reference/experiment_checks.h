@@ -2,6 +2,7 @@
 // and whatever an experiment needs of it is named, with what to change.
 #pragma once
 
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -40,8 +41,19 @@ struct FeatureUse {
 };
 std::vector<FeatureUse> features_used(const simulation::Experiment& experiment);
 
-/// The gaps that every peer has: its own law and integrator, no hips, nothing to resume from.
-std::vector<simulation::EngineGap> common_gaps();
+/// A gap of one engine.
+struct OwnGap {
+  std::string_view feature;
+  simulation::EngineGap::Handling handling;
+  const char* instead;  ///< what the engine does, or what to use
+};
+inline constexpr OwnGap single_friction_gap{
+    feature::two_frictions, simulation::EngineGap::Handling::noticed,
+    "this engine has one coefficient of friction, and it is the kinetic one"};
+
+/// The gaps that every peer has (its own law and integrator, no hips, nothing to resume from), then
+/// those of one engine.
+std::vector<simulation::EngineGap> common_gaps_and(std::initializer_list<OwnGap> own);
 
 /// What the user should know of the experiment's run in that engine, one line a gap that it meets
 /// and that is `noticed`. Throws ExperimentError where the gap is `refused`, or where no peer can

@@ -11,20 +11,16 @@ using simulation::EngineGap;
 
 std::vector<EngineGap> gaps() {
   using enum EngineGap::Handling;
-  std::vector<EngineGap> result = common_gaps();
-  const auto add = [&result](std::string_view name, EngineGap::Handling handling,
-                             const char* instead) {
-    result.push_back({std::string(name), handling, instead});
-  };
-  add(feature::two_frictions, noticed,
-      "this engine has one coefficient of friction, and it is the kinetic one");
-  add(feature::massless, refused, "every body of MuJoCo that moves has a mass; give the link one");
-  add(feature::restitution, noticed,
-      "MuJoCo has no coefficient of restitution: how a body rebounds follows from its contact's "
-      "damping");
-  add(feature::tile_softness, noticed,
-      "the ratio of tangential to normal constants (impratio) is one for a world, the ground's");
-  return result;
+  return common_gaps_and(
+      {single_friction_gap,
+       {feature::massless, refused,
+        "every body of MuJoCo that moves has a mass; give the link one"},
+       {feature::restitution, noticed,
+        "MuJoCo has no coefficient of restitution: how a body rebounds follows from its contact's "
+        "damping"},
+       {feature::tile_softness, noticed,
+        "the ratio of tangential to normal constants (impratio) is one for a world, the "
+        "ground's"}});
 }
 
 }  // namespace

@@ -14,22 +14,17 @@ using simulation::EngineGap;
 
 std::vector<EngineGap> gaps() {
   using enum EngineGap::Handling;
-  std::vector<EngineGap> gaps = common_gaps();
-  const auto add = [&gaps](std::string_view name, EngineGap::Handling handling,
-                           const char* instead) {
-    gaps.push_back({std::string(name), handling, instead});
-  };
-  add(feature::height_field, refused,
-      "Simbody's balls and bricks meet half-spaces only; use Terrain.Flat or Terrain.Slope");
-  add(feature::restitution, noticed,
-      "Simbody has no coefficient of restitution: how a body rebounds follows from its contact's "
-      "dissipation");
-  add(feature::legcone, refused, "Simbody has no cone; use Sphere or Box");
-  add(feature::cylinder, refused, "a half-space meets no cylinder in Simbody; use Sphere or Box");
-  add(feature::tile_friction, refused, "use one material");
-  add(feature::tile_softness, refused, "use one material");
-  add(feature::tile_restitution, refused, "use one material");
-  return gaps;
+  return common_gaps_and(
+      {{feature::height_field, refused,
+        "Simbody's balls and bricks meet half-spaces only; use Terrain.Flat or Terrain.Slope"},
+       {feature::restitution, noticed,
+        "Simbody has no coefficient of restitution: how a body rebounds follows from its contact's "
+        "dissipation"},
+       {feature::legcone, refused, "Simbody has no cone; use Sphere or Box"},
+       {feature::cylinder, refused, "a half-space meets no cylinder in Simbody; use Sphere or Box"},
+       {feature::tile_friction, refused, "use one material"},
+       {feature::tile_softness, refused, "use one material"},
+       {feature::tile_restitution, refused, "use one material"}});
 }
 
 }  // namespace

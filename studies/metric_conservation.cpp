@@ -2,6 +2,7 @@
 // a rebound and a support leave of them.
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "studies/metric.h"
 
@@ -37,55 +38,38 @@ Momentum momentum_of(const RunContext& context, const simulation::WorldState& wo
   return sum;
 }
 
-class EnergyDrift : public Metric {
+double magnitude(double difference) { return std::abs(difference); }
+double magnitude(const Vector3d& difference) { return norm(difference); }
+
+/// Greatest change since the start of what `quantity(context, world)` gives.
+template <class Quantity>
+class Drift : public Metric {
  public:
-  explicit EnergyDrift(const RunContext& context) : context_(context) {}
+  Drift(const RunContext& context, Quantity quantity) : context_(context), quantity_(quantity) {}
   void observe(const Observation& observation) override {
-    const double energy = mechanical_energy(context_, observation.world);
-    if (!start_) start_ = energy;
-    drift_ = std::max(drift_, std::abs(energy - *start_));
-  }
-  std::optional<double> value() const override { return drift_; }
-
- private:
-  const RunContext& context_;
-  std::optional<double> start_;
-  double drift_ = 0.;
-};
-
-/// Gravity alone changes the momentum of what nothing touches: p = p0 + m g t.
-class MomentumDrift : public Metric {
- public:
-  explicit MomentumDrift(const RunContext& context) : context_(context) {}
-  void observe(const Observation& observation) override {
-    const Momentum now = momentum_of(context_, observation.world);
-    if (!start_) start_ = now.linear;
-    const Vector3d fallen = now.mass * observation.world.time * context_.experiment->gravity;
-    drift_ = std::max(drift_, norm(now.linear - *start_ - fallen));
-  }
-  std::optional<double> value() const override { return drift_; }
-
- private:
-  const RunContext& context_;
-  std::optional<Vector3d> start_;
-  double drift_ = 0.;
-};
-
-class AngularMomentumDrift : public Metric {
- public:
-  explicit AngularMomentumDrift(const RunContext& context) : context_(context) {}
-  void observe(const Observation& observation) override {
-    const Vector3d now = momentum_of(context_, observation.world).angular;
+    const auto now = quantity_(context_, observation.world);
     if (!start_) start_ = now;
-    drift_ = std::max(drift_, norm(now - *start_));
+    drift_ = std::max(drift_, magnitude(now - *start_));
   }
   std::optional<double> value() const override { return drift_; }
 
  private:
   const RunContext& context_;
-  std::optional<Vector3d> start_;
+  Quantity quantity_;
+  std::optional<std::invoke_result_t<Quantity, const RunContext&, const simulation::WorldState&>>
+      start_;
   double drift_ = 0.;
 };
+
+/// Gravity alone changes the momentum of what nothing touches: p - m g t = p0.
+Vector3d momentum_less_fall(const RunContext& context, const simulation::WorldState& world) {
+  const Momentum now = momentum_of(context, world);
+  return now.linear - now.mass * world.time * context.experiment->gravity;
+}
+
+Vector3d angular_momentum(const RunContext& context, const simulation::WorldState& world) {
+  return momentum_of(context, world).angular;
+}
 
 /// Speed away from the ground after the contact over the speed towards it before.
 class Rebound : public Metric {
@@ -129,13 +113,13 @@ class SupportForce : public Metric {
 }  // namespace
 
 std::unique_ptr<Metric> make_energy_drift(const RunContext& context) {
-  return std::make_unique<EnergyDrift>(context);
+  return std::make_unique<Drift<decltype(&mechanical_energy)>>(context, &mechanical_energy);
 }
 std::unique_ptr<Metric> make_momentum_drift(const RunContext& context) {
-  return std::make_unique<MomentumDrift>(context);
+  return std::make_unique<Drift<decltype(&momentum_less_fall)>>(context, &momentum_less_fall);
 }
 std::unique_ptr<Metric> make_angular_momentum_drift(const RunContext& context) {
-  return std::make_unique<AngularMomentumDrift>(context);
+  return std::make_unique<Drift<decltype(&angular_momentum)>>(context, &angular_momentum);
 }
 std::unique_ptr<Metric> make_rebound(const RunContext& context) {
   return std::make_unique<Rebound>(context);
