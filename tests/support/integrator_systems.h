@@ -41,7 +41,7 @@ class Pendulum final : public OneCoordinate {
 
 /// A free body with principal moments (A, A, C) about its own axes; q = orientation w,x,y,z, v =
 /// w_WB.
-class FreeBody final : public integrators::System {
+class FreeBody : public integrators::System {
  public:
   static constexpr double A = 1., C = 2.2;
   mutable double farthest = 0.;  ///< greatest |u| that was asked for [rad]

@@ -3,42 +3,22 @@
 // against what the integrators do just below and above.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
 #include <vector>
 
-#include "integrators/rotation_rate.h"
 #include "integrators/stability_bound.h"
 #include "integrators/stepper.h"
+#include "tests/support/integrator_systems.h"
 
 namespace hookpoint::integrators {
 namespace {
 
-/// A system of one coordinate in a vector space.
-class OneCoordinate : public System {
- public:
-  std::size_t position_size() const override { return 1; }
-  std::size_t velocity_size() const override { return 1; }
-  void retract(std::span<const double> q0, std::span<const double> u,
-               std::span<double> q_out) const override {
-    q_out[0] = q0[0] + u[0];
-  }
-  void tangent_rate(std::span<const double>, std::span<const double> v,
-                    std::span<double> du) const override {
-    du[0] = v[0];
-  }
-};
-
-class Pendulum final : public OneCoordinate {
- public:
-  Status accelerations(Stage, double, std::span<const double> q, std::span<const double>,
-                       std::span<double> a) override {
-    a[0] = -std::sin(q[0]);
-    return Status::ok;
-  }
-};
+using testing::OneCoordinate;
+using testing::Pendulum;
 
 /// x' ' = -2 t x' - 2 x: x = exp(-t^2). Its rates depend on time, which the stages must be given.
 class TimeVarying final : public OneCoordinate {
@@ -50,37 +30,15 @@ class TimeVarying final : public OneCoordinate {
   }
 };
 
-/// A free body with principal moments (A, A, C) about its own axes; q = orientation w,x,y,z, v =
-/// w_WB.
-class FreeBody final : public System {
+/// The free body whose rates may be taken for those of its tangent coordinates, which they are not.
+class FreeBody final : public testing::FreeBody {
  public:
-  static constexpr double A = 1., C = 2.2;
   bool rate_on_group = true;
 
-  std::size_t position_size() const override { return 4; }
-  std::size_t velocity_size() const override { return 3; }
-  Status accelerations(Stage, double, std::span<const double> q, std::span<const double> v,
-                       std::span<double> a) override {
-    const Matrix3d R = rotation_matrix(Quaterniond{q[0], q[1], q[2], q[3]});
-    const Vector3d w{v[0], v[1], v[2]};
-    const Vector3d in_body = transpose_times(R, w);
-    const Vector3d L{A * in_body.x, A * in_body.y, C * in_body.z};
-    const Vector3d torque = -cross(in_body, L);
-    const Vector3d dw = R * Vector3d{torque.x / A, torque.y / A, torque.z / C};
-    a[0] = dw.x, a[1] = dw.y, a[2] = dw.z;
-    return Status::ok;
-  }
-  void retract(std::span<const double> q0, std::span<const double> u,
-               std::span<double> q_out) const override {
-    const Quaterniond q =
-        rotation_retract(Quaterniond{q0[0], q0[1], q0[2], q0[3]}, Vector3d{u[0], u[1], u[2]});
-    q_out[0] = q.w, q_out[1] = q.x, q_out[2] = q.y, q_out[3] = q.z;
-  }
   void tangent_rate(std::span<const double> u, std::span<const double> v,
                     std::span<double> du) const override {
-    const Vector3d w{v[0], v[1], v[2]};
-    const Vector3d rate = rate_on_group ? rotation_tangent_rate(Vector3d{u[0], u[1], u[2]}, w) : w;
-    du[0] = rate.x, du[1] = rate.y, du[2] = rate.z;
+    if (rate_on_group) return testing::FreeBody::tangent_rate(u, v, du);
+    std::ranges::copy(v, du.begin());
   }
 };
 
@@ -129,22 +87,10 @@ double free_body_error(std::string_view name, int steps, bool rate_on_group = tr
   body.rate_on_group = rate_on_group;
   const auto stepper = make_stepper(name, body);
   const double duration = 2.;
-  const Quaterniond start = from_roll_pitch_yaw(0.3, -0.7, 1.9);
-  const Vector3d w_body{1.1, -0.4, 1.7};
-  const Vector3d w = rotate(start, w_body);
-  std::array q{start.w, start.x, start.y, start.z};
-  std::array v{w.x, w.y, w.z};
+  std::vector<double> q = FreeBody::start_orientation(), v = FreeBody::start_velocity();
   run(*stepper, body, duration, steps, q, v);
-  // R(t) = exp(t L/A) R(0) exp(t (1 - C/A) w3 e3): precession about L and spin about the symmetry
-  // axis.
-  const Vector3d L = rotate(
-      start, Vector3d{FreeBody::A * w_body.x, FreeBody::A * w_body.y, FreeBody::C * w_body.z});
-  const Quaterniond exact =
-      exponential((duration / FreeBody::A) * L) * start *
-      exponential(Vector3d{0., 0., duration * (1. - FreeBody::C / FreeBody::A) * w_body.z});
-  const Quaterniond error = conjugate(exact) * Quaterniond{q[0], q[1], q[2], q[3]};
   EXPECT_NEAR(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3], 1., 1e-14);
-  return std::hypot(error.x, error.y, error.z);
+  return FreeBody::angle_from_exact(duration, q);
 }
 
 TEST(IntegratorOrder, IsAsTheTableSaysOnAPendulum) {
