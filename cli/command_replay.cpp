@@ -89,14 +89,7 @@ int replay(const ReplayArguments& arguments) {
     print_error("--json and --record tell of a moment: give it with --at, e.g. --at \"2.5 s\"");
     return wrong_input;
   }
-  try {
-    return show(arguments);
-  } catch (const output::MovieError& error) {
-    print_error(error.what());
-  } catch (const simulation::ExperimentError& error) {
-    print_error(error.what());
-  }
-  return wrong_input;
+  return use_movie([&] { return show(arguments); });
 }
 
 }  // namespace hookpoint::cli

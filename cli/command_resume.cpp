@@ -57,14 +57,7 @@ int resume(const RunArguments& arguments) {
         "--set");
     return wrong_input;
   }
-  try {
-    return go_on(arguments);
-  } catch (const output::MovieError& error) {
-    print_error(error.what());
-  } catch (const simulation::ExperimentError& error) {
-    print_error(error.what());
-  }
-  return wrong_input;
+  return use_movie([&] { return go_on(arguments); });
 }
 
 }  // namespace hookpoint::cli

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "cli/exit_status.h"
 #include "language/units.h"
 #include "simulation/load.h"
 
@@ -72,6 +73,17 @@ double seconds(const std::string& text, const char* option) {
     throw output::MovieError(
         fmt::format("{} takes a time such as \"2.5 s\" or \"300 ms\", not `{}`", option, text));
   return value * given->numerator / given->denominator;
+}
+
+int use_movie(const std::function<int()>& work) {
+  try {
+    return work();
+  } catch (const output::MovieError& error) {
+    print_error(error.what());
+  } catch (const simulation::ExperimentError& error) {
+    print_error(error.what());
+  }
+  return wrong_input;
 }
 
 }  // namespace hookpoint::cli

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 
 #include "cli/application.h"
@@ -33,5 +34,9 @@ class OpenedMovie {
 
 /// "2.5 s", "300 ms", "2.5" as seconds. `option`: for the message. Throws output::MovieError.
 double seconds(const std::string& text, const char* option);
+
+/// The exit status of `work`, which uses a movie; one that cannot be used is told, and is wrong
+/// input.
+int use_movie(const std::function<int()>& work);
 
 }  // namespace hookpoint::cli
