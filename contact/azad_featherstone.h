@@ -24,19 +24,14 @@ struct AzadFeatherstone {
            max(Real(0.), material.normal_stiffness * inside + material.normal_damping * depth_rate);
   }
 
-  /// Force on the robot, bristle rate and next memory of one point; friction by clipped_bristle,
-  /// with mu_s while it sticks and mu_k from a slip on until the trial falls below mu_k N. O(1),
-  /// pure, no branch on state.
+  /// Force on the robot, bristle rate and next memory of one point; friction by
+  /// stick_slip_reaction. O(1), pure, no branch on state.
   template <class Real>
   static Reaction<Real> evaluate(const PointKinematics<Real>& point, const Memory<Real>& memory,
                                  const MaterialConstants<Real>& material, const Real& dt) {
-    const Mask<Real> inside = point.depth > Real(0.);
-    const Real N = normal_force(point.depth, Real(-dot(point.velocity, point.normal)), material);
-    const Mask<Real> sliding = inside && memory.attached && memory.sliding;
-    const Real mu = select(sliding, material.kinetic_friction, material.static_friction);
-    const Vector3<Real> u = tangential(point.bristle.deflection, point.normal);
-    const BristleFriction<Real> friction = clipped_bristle(point, u, material, Real(mu * N), dt);
-    return bristle_reaction(point, inside, N, u, friction);
+    return stick_slip_reaction(
+        point, memory, material, dt,
+        normal_force(point.depth, Real(-dot(point.velocity, point.normal)), material));
   }
 
   /// Penetration under a steady normal load [N] on one point: (N/k)^(2/3) [m].

@@ -99,6 +99,21 @@ Reaction<Real> bristle_reaction(const PointKinematics<Real>& point, const Mask<R
   return reaction;
 }
 
+/// The reaction of a point with normal force `normal_force` N [N] and a clipped bristle: mu is mu_s
+/// while it sticks, and mu_k from a slip on until the trial falls below mu_k N.
+template <class Real>
+Reaction<Real> stick_slip_reaction(const PointKinematics<Real>& point, const Memory<Real>& memory,
+                                   const MaterialConstants<Real>& material, const Real& dt,
+                                   const Real& normal_force) {
+  const Mask<Real> inside = point.depth > Real(0.);
+  const Mask<Real> sliding = inside && memory.attached && memory.sliding;
+  const Real mu = select(sliding, material.kinetic_friction, material.static_friction);
+  const Vector3<Real> u = tangential(point.bristle.deflection, point.normal);
+  const BristleFriction<Real> friction =
+      clipped_bristle(point, u, material, Real(mu * normal_force), dt);
+  return bristle_reaction(point, inside, normal_force, u, friction);
+}
+
 /// The point as an accepted state goes on: with its bristle where the law holds it. Once a step.
 template <class Law, class Real>
 PointKinematics<Real> held_point(const Law& law, PointKinematics<Real> point,

@@ -50,6 +50,14 @@ const LawDescription* find_law(std::string_view name) {
 
 std::optional<ForceLaw> find_force_law(std::string_view name) { return force_law_named(name); }
 
+ForceLaw flow(const ForceLaw& law) {
+  if (std::holds_alternative<Hookpoint>(law)) return ReturnFlow<Hookpoint>{};
+  if (std::holds_alternative<HookpointReset>(law)) return ThrowFlow<HookpointReset>{};
+  if (std::holds_alternative<Nominal>(law)) return ReturnFlow<Nominal>{};
+  if (std::holds_alternative<AzadFeatherstone>(law)) return ReturnFlow<AzadFeatherstone>{};
+  return law;
+}
+
 double static_depth(const ForceLaw& law, double load, const MaterialConstants<double>& material) {
   return std::visit([&](const auto& chosen) { return chosen.static_depth(load, material); }, law);
 }
@@ -96,6 +104,12 @@ double resolved_speed(const ForceLaw& law, double load, double dt,
                       const MaterialConstants<double>& material) {
   return std::visit([&](const auto& chosen) { return chosen.resolved_speed(load, dt, material); },
                     law);
+}
+
+double switching_value(const ForceLaw& law, const PointKinematics<double>& point,
+                       const Memory<double>& memory, const MaterialConstants<double>& material) {
+  return std::visit(
+      [&](const auto& chosen) { return switching_value(chosen, point, memory, material); }, law);
 }
 
 Reaction<double> evaluate(const ForceLaw& law, const PointKinematics<double>& point,

@@ -11,6 +11,7 @@
 #include "contact/azad_featherstone.h"
 #include "contact/elastoplastic.h"
 #include "contact/exponential.h"
+#include "contact/hook_flow.h"
 #include "contact/hookpoint.h"
 #include "contact/hookpoint_reset.h"
 #include "contact/hunt_crossley.h"
@@ -19,8 +20,12 @@
 
 namespace hookpoint::contact {
 
-using ForceLaw = std::variant<Hookpoint, HookpointReset, Nominal, HuntCrossley, AzadFeatherstone,
-                              Lugre, Elastoplastic, Exponential>;
+/// The laws that a name can ask for, then the forms that some of them have as differential
+/// equations.
+using ForceLaw =
+    std::variant<Hookpoint, HookpointReset, Nominal, HuntCrossley, AzadFeatherstone, Lugre,
+                 Elastoplastic, Exponential, ReturnFlow<Hookpoint>, ThrowFlow<HookpointReset>,
+                 ReturnFlow<Nominal>, ReturnFlow<AzadFeatherstone>>;
 
 /// One row of the table.
 struct LawDescription {
@@ -38,6 +43,10 @@ const LawDescription* find_law(std::string_view name);
 
 /// The force law of a name; none for an impulse law or an unknown name.
 std::optional<ForceLaw> find_force_law(std::string_view name);
+
+/// The law as a differential equation, for an integrator that chooses its own steps: of laws whose
+/// memory is moved once a step, the limit of small steps (hook_flow.h); any other law is one.
+ForceLaw flow(const ForceLaw& law);
 
 /// The named prediction of the law held by `law`; arguments, units and meaning as in the law's own
 /// file.
@@ -61,6 +70,11 @@ std::size_t bristle_states(const ForceLaw& law);
 /// infinite for a law without one.
 double resolved_speed(const ForceLaw& law, double load, double dt,
                       const MaterialConstants<double>& material);
+
+/// Changes sign where an attached point has to be looked at before its motion goes on
+/// (hook_flow.h); `memory` committed.
+double switching_value(const ForceLaw& law, const PointKinematics<double>& point,
+                       const Memory<double>& memory, const MaterialConstants<double>& material);
 
 /// Evaluates the law held by `law`; a loop over many points visits once and calls `Law::evaluate`
 /// inside instead.

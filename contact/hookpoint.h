@@ -18,8 +18,9 @@ struct Hookpoint : SpringDamperPredictions {
   template <class Real>
   static Reaction<Real> evaluate(const PointKinematics<Real>& point, const Memory<Real>& memory,
                                  const MaterialConstants<Real>& material, const Real& dt) {
-    return return_mapped_reaction(point, memory, material, dt,
-                                  spring_damper_normal_force(point, material));
+    return return_mapped_reaction(
+        point, memory, material, dt,
+        normal_force(point.depth, Real(-dot(point.velocity, point.normal)), material));
   }
 };
 

@@ -20,15 +20,15 @@ struct HookpointReset : SpringDamperPredictions {
   template <class Real>
   static Reaction<Real> evaluate(const PointKinematics<Real>& point, const Memory<Real>& memory,
                                  const MaterialConstants<Real>& material, const Real& dt) {
-    const Real normal_force = spring_damper_normal_force(point, material);
+    const Real N = normal_force(point.depth, Real(-dot(point.velocity, point.normal)), material);
     const HookTrial<Real> trial = hook_trial(point, memory, material, dt);
-    const Mask<Real> slips = trial_slips(trial, normal_force, material);
+    const Mask<Real> slips = trial_slips(trial, N, material);
 
-    const Vector3<Real> kinetic = kinetic_friction_force(trial, normal_force, material);
+    const Vector3<Real> kinetic = kinetic_friction_force(trial, N, material);
     const Vector3<Real> friction = select(slips, kinetic, trial.force);
     const Vector3<Real> stretch = select(slips, Vector3<Real>{}, trial.stretch);
     const Vector3<Real> hook = select(slips, trial.surface, trial.hook);
-    return hook_reaction(point, trial, normal_force, friction, stretch, hook, slips);
+    return hook_reaction(point, trial, N, friction, stretch, hook, slips);
   }
 
   /// Mean friction of a point that slides at `speed` [m/s] under normal force N [N], as dt -> 0

@@ -22,7 +22,8 @@ template <class Real>
 LoadedBristle<Real> loaded_bristle(const PointKinematics<Real>& point,
                                    const MaterialConstants<Real>& material) {
   LoadedBristle<Real> bristle;
-  bristle.normal_force = spring_damper_normal_force(point, material);
+  bristle.normal_force =
+      spring_damper_normal_force(point.depth, Real(-dot(point.velocity, point.normal)), material);
   bristle.deflection = tangential(point.bristle.deflection, point.normal);
   bristle.held = held_deflection(bristle.deflection, material,
                                  Real(material.static_friction * bristle.normal_force));

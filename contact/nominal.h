@@ -29,16 +29,23 @@ struct Nominal : SpringDamperPredictions {
                (half_square + (beyond - blended));
   }
 
-  /// Force on the robot and next memory of one point: N = max(0, spring_force(d) + c d'), friction
-  /// by return_mapped_reaction, whose needs are this law's.
+  /// N = max(0, spring_force(d) + c d') inside the ground, 0 outside [N].
+  template <class Real>
+  static Real normal_force(const Real& depth, const Real& depth_rate,
+                           const MaterialConstants<Real>& material) {
+    const Real force =
+        max(Real(0.), spring_force(depth, material) + material.normal_damping * depth_rate);
+    return select(depth > Real(0.), force, Real(0.));
+  }
+
+  /// Force on the robot and next memory of one point: friction by return_mapped_reaction, whose
+  /// needs are this law's.
   template <class Real>
   static Reaction<Real> evaluate(const PointKinematics<Real>& point, const Memory<Real>& memory,
                                  const MaterialConstants<Real>& material, const Real& dt) {
-    const Real depth_rate = -dot(point.velocity, point.normal);
-    const Real force =
-        max(Real(0.), spring_force(point.depth, material) + material.normal_damping * depth_rate);
-    const Real normal_force = select(point.depth > Real(0.), force, Real(0.));
-    return return_mapped_reaction(point, memory, material, dt, normal_force);
+    return return_mapped_reaction(
+        point, memory, material, dt,
+        normal_force(point.depth, Real(-dot(point.velocity, point.normal)), material));
   }
 
   /// Penetration under a steady normal load N [N] on one point, the inverse of spring_force [m];

@@ -10,14 +10,13 @@
 namespace hookpoint::contact {
 
 /// N = max(0, k delta + c delta') inside the ground, 0 outside [N]: the damper never pulls the
-/// point down.
+/// point down. `depth` delta [m], `depth_rate` delta' [m/s].
 template <class Real>
-Real spring_damper_normal_force(const PointKinematics<Real>& point,
+Real spring_damper_normal_force(const Real& depth, const Real& depth_rate,
                                 const MaterialConstants<Real>& material) {
-  const Real depth_rate = -dot(point.velocity, point.normal);
   const Real force =
-      max(Real(0.), material.normal_stiffness * point.depth + material.normal_damping * depth_rate);
-  return select(point.depth > Real(0.), force, Real(0.));
+      max(Real(0.), material.normal_stiffness * depth + material.normal_damping * depth_rate);
+  return select(depth > Real(0.), force, Real(0.));
 }
 
 /// The hook before it is decided whether the point slips. World axes.
@@ -102,8 +101,13 @@ Reaction<Real> hook_reaction(const PointKinematics<Real>& point, const HookTrial
   return reaction;
 }
 
-/// Predictions that every law with a linear spring-damper and a hook shares.
+/// What every law with a linear spring-damper and a hook shares.
 struct SpringDamperPredictions : WithoutBristle {
+  template <class Real>
+  static Real normal_force(const Real& depth, const Real& depth_rate,
+                           const MaterialConstants<Real>& material) {
+    return spring_damper_normal_force(depth, depth_rate, material);
+  }
   /// Penetration under a steady normal load [N] on one point: N/k [m].
   static double static_depth(double load, const MaterialConstants<double>& material) {
     return load / material.normal_stiffness;

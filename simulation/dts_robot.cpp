@@ -63,6 +63,11 @@ bool is_adaptive(const std::string& integrator) {
   return stepper != nullptr && stepper->adaptive();
 }
 
+contact::ForceLaw law_of(const Experiment& experiment) {
+  const auto law = contact::find_force_law(experiment.contact).value_or(contact::Hookpoint{});
+  return is_adaptive(experiment.integrator) ? contact::flow(law) : law;
+}
+
 std::size_t joints_before(const Experiment& experiment, int robot) {
   std::size_t joints = 0;
   for (int i = 0; i < robot; ++i)
@@ -103,9 +108,9 @@ DtsRobot::DtsRobot(const Experiment& experiment, int index, const contact::Terra
       ground_(ground),
       inputs_(&inputs),
       first_joint_(joints_before(experiment, index)),
-      law_(contact::find_force_law(experiment.contact).value_or(contact::Hookpoint{})),
-      bristle_states_(contact::bristle_states(law_)),
       adaptive_(is_adaptive(experiment.integrator)),
+      law_(law_of(experiment)),
+      bristle_states_(contact::bristle_states(law_)),
       semi_implicit_(experiment.integrator == "semi_implicit_euler"),
       law_step_(experiment.deltat),
       law_step_before_(experiment.deltat),

@@ -142,8 +142,8 @@ class DtsRobot final : public integrators::System {
   void commit(double time, double dt, std::span<const double> q,
               std::span<const double> v) override;
   void begin_anew(std::span<double> v) override;
-  /// Events: each boundary point's depth and, while it slips, its speed along its stretch; each
-  /// joint limit.
+  /// Events: each boundary point's depth and, while it is in the ground, its law's switching_value;
+  /// each joint limit.
   std::size_t event_count() const override;
   void event_values(double time, std::span<const double> q, std::span<const double> v,
                     std::span<double> values) override;
@@ -181,9 +181,9 @@ class DtsRobot final : public integrators::System {
   const WorldInputs* inputs_;
   std::size_t first_joint_;  ///< where the robot's joints begin in WorldInputs::joint_torques
   bool has_forces_ = false;  ///< one of the experiment's forces acts on this robot
+  bool adaptive_ = false;    ///< the integrator chooses its own steps
   contact::ForceLaw law_;
   std::size_t bristle_states_ = 0;  ///< numbers that the law integrates, of a point
-  bool adaptive_ = false;           ///< the integrator chooses its own steps
   bool semi_implicit_ = false;      ///< its positions move with the new velocities
   /// From the latest commit of contact memory to the step's end, which is when the next one is due
   /// [s]: what the law gets for a step.

@@ -57,13 +57,18 @@ void DtsRobot::event_values(double /*time*/, std::span<const double> q, std::spa
   read_state(q, v);
   dts::forward_kinematics(model_, state_, workspace_);
   auto value = values.begin();
-  for (const ContactPoint& point : points_) {
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const ContactPoint& point = points_[i];
     const TouchingPlace touching = touching_place(point, workspace_.bodies[point.body], *ground_);
     const auto& material = experiment_->materials[touching.tile.material].constants;
-    *value++ = point.side_event(touching.tile.depth, contact::reach(law_, material));
-    // Where slip reverses the point sticks: an integrator that stepped across would go on pushing.
-    const bool slips = point.committed.sliding;
-    *value++ = slips ? dot(touching.velocity, point.committed.stretch) : 1.;
+    const double reach = contact::reach(law_, material);
+    *value++ = point.side_event(touching.tile.depth, reach);
+    const contact::PointKinematics<double> kinematics{
+        touching.position, touching.velocity, touching.tile.normal,
+        point.depth_on_side(touching.tile.depth, reach), bristle_at(bristles_, i)};
+    *value++ = point.committed.attached
+                   ? contact::switching_value(law_, kinematics, point.committed, material)
+                   : 1.;
   }
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     const double angle = state_.joint_positions[i];

@@ -27,11 +27,11 @@ double spring_force(double depth, const MaterialConstants<double>& m) {
   if constexpr (std::is_same_v<Law, contact::Exponential>)
     return m.exponential_force * std::exp(m.exponential_rate * (depth + m.exponential_height));
   const double inside = std::max(0., depth);
-  if constexpr (std::is_same_v<Law, contact::AzadFeatherstone>)
+  if constexpr (std::is_base_of_v<contact::AzadFeatherstone, Law>)
     return m.normal_stiffness * std::pow(inside, 1.5);
   if constexpr (std::is_same_v<Law, contact::HuntCrossley>)
     return m.normal_stiffness * std::pow(inside, m.exponent);
-  if constexpr (std::is_same_v<Law, contact::Nominal>)
+  if constexpr (std::is_base_of_v<contact::Nominal, Law>)
     return m.nominal_stiffness * inside + (m.normal_stiffness - m.nominal_stiffness) *
                                               std::max(0., inside - m.nominal_penetration);
   return m.normal_stiffness * inside;
@@ -51,29 +51,30 @@ double bristle_heat(const Vector3d& v, const Vector3d& friction, const Vector3d&
   return m.tangential_damping * dot(z_rate, z_rate) + dot(friction, v - z_rate);
 }
 
-/// The same of any law: regularised friction f.v; a hook that sticks its damper's c_t v^2, one that
-/// slips f.v - k_t e.v, and the rest when it is moved. `stretch` is z or e.
+/// The same of any law: regularised friction f.v; of a hook that will be thrown, what its spring
+/// does not take. `stretch` is z or e.
 template <class Law>
 double tangential_heat(const contact::Reaction<double>& reaction, const Vector3d& v,
                        const Vector3d& stretch, const Vector3d& friction, double N,
                        const MaterialConstants<double>& m) {
   if (std::is_same_v<Law, contact::HuntCrossley>) return dot(friction, v);
-  if (Law::bristle_states == 0)
-    return reaction.next.sliding ? dot(friction - m.tangential_stiffness * stretch, v)
-                                 : m.tangential_damping * dot(v, v);
+  if (std::is_same_v<Law, contact::ThrowFlow<contact::HookpointReset>>)
+    return dot(friction, v) -
+           m.tangential_stiffness * dot(stretch, reaction.bristle_rate.deflection);
   const Vector3d& rate = reaction.bristle_rate.deflection;
   if (N <= 0.) return -m.tangential_stiffness * dot(stretch, rate);
   return bristle_heat<Law>(v, friction, stretch, rate, m.kinetic_friction * N, m);
 }
 
-/// One robot, and beside its own velocities two numbers more: the heat and the work so far [J].
+/// One robot under an adaptive integrator, and beside its own velocities two numbers more: the heat
+/// and the work so far [J].
 class EnergyLedger final : public integrators::System {
  public:
   explicit EnergyLedger(const simulation::Experiment& experiment)
       : experiment_(experiment),
         inputs_(simulation::initial_inputs(experiment_)),
         ground_(simulation::make_ground(experiment_)),
-        law_(*contact::find_force_law(experiment_.contact)),
+        law_(contact::flow(*contact::find_force_law(experiment_.contact))),
         robot_(experiment_, 0, &*ground_, inputs_) {
     for (const simulation::ChainSpec& chain : experiment_.robots[0].chains)
       for (const simulation::LinkSpec& link : chain.links) links_.push_back(link);

@@ -1,0 +1,104 @@
+// The laws with a hook as differential equations: what they become as dt -> 0, for an integrator
+// that chooses its own steps. A hook that is moved once a step makes a saw that no tolerance takes
+// away; here its stretch e moves along with the motion, as a bristle.
+#pragma once
+
+#include "contact/bristle.h"
+
+namespace hookpoint::contact {
+
+/// The return map's limit. e = (mu_k N t + (c_t/dt) e_old)/(k_t + c_t/dt) is backward Euler on
+///   c_t e' = mu_k N t - k_t e,
+/// the slip of a clipped bristle, and a hook that stays is e' = v.
+template <class Law>
+struct ReturnFlow : Law {
+  static constexpr std::size_t bristle_states = 3;
+
+  /// Force on the robot, bristle rate and next memory of one point with Law's normal force;
+  /// friction by stick_slip_reaction. O(1), pure, no branch on state.
+  template <class Real>
+  static Reaction<Real> evaluate(const PointKinematics<Real>& point, const Memory<Real>& memory,
+                                 const MaterialConstants<Real>& material, const Real& dt) {
+    const Real depth_rate = -dot(point.velocity, point.normal);
+    return stick_slip_reaction(point, memory, material, dt,
+                               Law::normal_force(point.depth, depth_rate, material));
+  }
+};
+
+/// Least stretch from which a hook is thrown [m], far below any that matters: where the damper
+/// alone is at the cone's edge the saw of a thrown hook has infinitely many teeth.
+inline constexpr double least_thrown_stretch = 1e-9;
+
+/// The thrown hook's limit: what sticks does so until |f*| = mu_s N, when its hook is thrown to the
+/// foot (an event); from there it slips, e = 0 and f = mu_k N v/|v|, while the damper leaves the
+/// spring less than the least stretch, c_t |v| + k_t e_least > mu_k N, else it sticks again.
+template <class Law>
+struct ThrowFlow : Law {
+  static constexpr std::size_t bristle_states = 3;
+
+  /// As ReturnFlow::evaluate. The memory says whether the point slips; one that sticks and is found
+  /// beyond the cone is at its event, or a trial state past it, which goes on smoothly.
+  template <class Real>
+  static Reaction<Real> evaluate(const PointKinematics<Real>& point, const Memory<Real>& memory,
+                                 const MaterialConstants<Real>& material, const Real& /*dt*/) {
+    const Vector3<Real> zero{}, v = tangential(point.velocity, point.normal);
+    const Vector3<Real> e = tangential(point.bristle.deflection, point.normal);
+    const Real depth_rate = -dot(point.velocity, point.normal);
+    const Real N = Law::normal_force(point.depth, depth_rate, material);
+    const Mask<Real> inside = point.depth > Real(0.);
+    const Mask<Real> sliding = inside && memory.attached && memory.sliding;
+    const Real mu = select(sliding, material.kinetic_friction, material.static_friction);
+
+    const Vector3<Real> trial = material.tangential_stiffness * e + material.tangential_damping * v;
+    const Mask<Real> thrown = norm(trial) > mu * N;
+    const Mask<Real> empty = !(norm(e) > Real(0.));
+    const Real least = material.tangential_stiffness * Real(least_thrown_stretch);
+    BristleFriction<Real> friction;
+    friction.slips = empty && norm(trial) + least > mu * N;
+    friction.force =
+        select(sliding || friction.slips,
+               (material.kinetic_friction * N / positive_or_one(norm(trial))) * trial, trial);
+    friction.rate = select(sliding, zero, v);
+    return bristle_reaction(point, inside, N, select(thrown, zero, e), friction);
+  }
+};
+
+/// What is left of the friction before the trial is beyond it, mu N - |f*| [N].
+template <class Law>
+double friction_left(const PointKinematics<double>& point, const Memory<double>& memory,
+                     const MaterialConstants<double>& material) {
+  const double N = Law::normal_force(point.depth, -dot(point.velocity, point.normal), material);
+  const double mu = memory.sliding ? material.kinetic_friction : material.static_friction;
+  const Vector3d trial = material.tangential_stiffness * point.bristle.deflection +
+                         material.tangential_damping * point.velocity;
+  return mu * N - norm(tangential(trial, point.normal));
+}
+
+/// A number that changes sign where an attached point has to be looked at before its motion goes
+/// on, `memory` being committed: where slip reverses it sticks, and an integrator that stepped
+/// across would go on pushing.
+template <class Law>
+double switching_value(const Law& /*law*/, const PointKinematics<double>& point,
+                       const Memory<double>& memory,
+                       const MaterialConstants<double>& /*material*/) {
+  return memory.sliding ? dot(point.velocity, memory.stretch) : 1.;
+}
+
+/// And where a point that sticks breaks away, if friction falls there.
+template <class Law>
+double switching_value(const ReturnFlow<Law>& /*law*/, const PointKinematics<double>& point,
+                       const Memory<double>& memory, const MaterialConstants<double>& material) {
+  const bool falls = material.static_friction > material.kinetic_friction;
+  return falls && !memory.sliding ? friction_left<Law>(point, memory, material)
+                                  : switching_value(Law{}, point, memory, material);
+}
+
+/// Where the hook is thrown, and where a slipping point comes to stick.
+template <class Law>
+double switching_value(const ThrowFlow<Law>& /*law*/, const PointKinematics<double>& point,
+                       const Memory<double>& memory, const MaterialConstants<double>& material) {
+  const double least = material.tangential_stiffness * least_thrown_stretch;
+  return friction_left<Law>(point, memory, material) - (memory.sliding ? least : 0.);
+}
+
+}  // namespace hookpoint::contact
