@@ -50,11 +50,11 @@ struct ThrowFlow : Law {
     const Real mu = select(sliding, material.kinetic_friction, material.static_friction);
 
     const Vector3<Real> trial = material.tangential_stiffness * e + material.tangential_damping * v;
-    const Mask<Real> thrown = norm(trial) > mu * N;
-    const Mask<Real> empty = !(norm(e) > Real(0.));
     const Real least = material.tangential_stiffness * Real(least_thrown_stretch);
+    const Mask<Real> thrown = norm(trial) + least > mu * N;
+    const Mask<Real> empty = !(norm(e) > Real(0.));
     BristleFriction<Real> friction;
-    friction.slips = empty && norm(trial) + least > mu * N;
+    friction.slips = thrown && empty;
     friction.force =
         select(sliding || friction.slips,
                (material.kinetic_friction * N / positive_or_one(norm(trial))) * trial, trial);
@@ -69,9 +69,10 @@ double friction_left(const PointKinematics<double>& point, const Memory<double>&
                      const MaterialConstants<double>& material) {
   const double N = Law::normal_force(point.depth, -dot(point.velocity, point.normal), material);
   const double mu = memory.sliding ? material.kinetic_friction : material.static_friction;
-  const Vector3d trial = material.tangential_stiffness * point.bristle.deflection +
-                         material.tangential_damping * point.velocity;
-  return mu * N - norm(tangential(trial, point.normal));
+  const Vector3d trial =
+      material.tangential_stiffness * tangential(point.bristle.deflection, point.normal) +
+      material.tangential_damping * tangential(point.velocity, point.normal);
+  return mu * N - norm(trial);
 }
 
 /// A number that changes sign where an attached point has to be looked at before its motion goes

@@ -11,12 +11,19 @@ constexpr int most_internal_steps = 200000;
 }  // namespace
 
 AdaptiveStepper::AdaptiveStepper(const System& system)
-    : unknowns_(2 * system.velocity_size()),
-      band_(2 * system.group_size() - 1),
+    : moving_(system.moving_size()),
+      group_(system.group_size()),
       origin_(system.position_size()),
       q_(system.position_size()) {
+  const std::size_t velocities = system.velocity_size();
   for (std::vector<double>* numbers : {&u_, &v_, &u_rate_, &v_rate_, &other_rate_, &zero_, &first_})
-    numbers->resize(system.velocity_size());
+    numbers->resize(velocities);
+  unknowns_.reserve(velocities + moving_);
+  unknowns_.resize(2 * moving_);
+}
+
+std::size_t AdaptiveStepper::band() const {
+  return evolving_.empty() ? 2 * group_ - 1 : unknowns_.size();
 }
 
 Status AdaptiveStepper::step(System& system, double t, double dt, std::span<double> q,
@@ -66,26 +73,35 @@ Status AdaptiveStepper::integrate(double dt) {
 
 void AdaptiveStepper::start_from(std::span<const double> q, std::span<const double> v) {
   std::copy(q.begin(), q.end(), origin_.begin());
-  for (std::size_t i = 0; i < v.size(); ++i) {
-    unknowns_[2 * i] = 0.;
-    unknowns_[2 * i + 1] = v[i];
-  }
+  std::copy(v.begin(), v.end(), v_.begin());
+  std::ranges::fill(u_, 0.);
+  evolving_.clear();
+  for (std::size_t i = moving_; i < v.size(); ++i)
+    if (system_->evolves(i)) evolving_.push_back(i);
+  unknowns_.resize(2 * moving_ + evolving_.size());
+  write(u_, v_, unknowns_.data());
 }
 
 void AdaptiveStepper::read(const double* y) {
-  for (std::size_t i = 0; i < v_.size(); ++i) {
+  for (std::size_t i = 0; i < moving_; ++i) {
     u_[i] = y[2 * i];
     v_[i] = y[2 * i + 1];
   }
+  for (std::size_t i = 0; i < evolving_.size(); ++i) v_[evolving_[i]] = y[2 * moving_ + i];
   system_->retract(origin_, u_, q_);
+}
+
+void AdaptiveStepper::write(std::span<const double> u, std::span<const double> v, double* y) const {
+  for (std::size_t i = 0; i < moving_; ++i) {
+    y[2 * i] = u[i];
+    y[2 * i + 1] = v[i];
+  }
+  for (std::size_t i = 0; i < evolving_.size(); ++i) y[2 * moving_ + i] = v[evolving_[i]];
 }
 
 bool AdaptiveStepper::write_rates(Status status, std::span<const double> u_rate,
                                   std::span<const double> v_rate, double* rate) {
-  for (std::size_t i = 0; i < v_.size(); ++i) {
-    rate[2 * i] = u_rate[i];
-    rate[2 * i + 1] = v_rate[i];
-  }
+  write(u_rate, v_rate, rate);
   lost_ = status != Status::ok;
   return !lost_;
 }

@@ -6,9 +6,11 @@
 
 namespace hookpoint::integrators {
 
-/// Unknowns: y = (u_1, v_1, u_2, v_2, ...), u the tangent coordinates of q = origin (+) u, so that
-/// an orientation moves on its group and y' is an ordinary equation (Munthe-Kaas 1999). Coordinate
-/// by coordinate, which makes the Jacobian a band where groups of them are independent. Each call
+/// Unknowns: y = (u_1, v_1, u_2, v_2, ..., s_1, s_2, ...), u the tangent coordinates of
+/// q = origin (+) u, so that an orientation moves on its group and y' is an ordinary equation
+/// (Munthe-Kaas 1999). Coordinate by coordinate, which makes the Jacobian a band where groups of
+/// them are independent. s are the states of first order that evolve until the next event; those of
+/// contacts in the air, most of a robot's, are not worth a column of the Jacobian. Each call
 /// of `step` begins anew from (q, v): inputs may have jumped there, and a run that is saved and
 /// resumed goes on bit for bit (docs/decisions/0010). Time is counted from the step's start.
 class AdaptiveStepper : public Stepper {
@@ -36,27 +38,34 @@ class AdaptiveStepper : public Stepper {
     Kind kind = Kind::failed;
     double time = 0.;  ///< reached, since the step's start [s]
   };
-  /// Begins anew at `time` with the y of `unknowns_`, not to go beyond `end`.
+  /// Begins anew at `time` with the y of `unknowns_`, which may have become more or fewer, not to
+  /// go beyond `end`.
   virtual void begin(double time, double end) = 0;
   /// Takes one internal step, leaving y in `unknowns_`.
   virtual Arrival advance(double end) = 0;
   /// Adds what the library counted since the last `begin` to the statistics.
   virtual void count() = 0;
 
-  std::vector<double> unknowns_;
-  std::size_t band_;  ///< half the Jacobian's bandwidth; unknowns - 1 when it is full
+  /// Half the Jacobian's bandwidth; unknowns - 1 or more when it is full.
+  std::size_t band() const;
+
+  std::vector<double> unknowns_;  ///< never moves in memory
 
  private:
   void start_from(std::span<const double> q, std::span<const double> v);
   void read(const double* y);
+  /// y of tangent coordinates and velocities, or of their rates.
+  void write(std::span<const double> u, std::span<const double> v, double* y) const;
   bool write_rates(Status status, std::span<const double> u_rate, std::span<const double> v_rate,
                    double* rate);
   Status integrate(double dt);
 
-  System* system_ = nullptr;  ///< during `step`
-  double start_ = 0.;         ///< time of the step's start [s]
-  bool at_start_ = false;     ///< the next rates are those that Stage::first gave
-  bool lost_ = false;         ///< the latest rates are not finite
+  std::size_t moving_, group_;         ///< System::moving_size, group_size
+  std::vector<std::size_t> evolving_;  ///< of the states of first order
+  System* system_ = nullptr;           ///< during `step`
+  double start_ = 0.;                  ///< time of the step's start [s]
+  bool at_start_ = false;              ///< the next rates are those that Stage::first gave
+  bool lost_ = false;                  ///< the latest rates are not finite
   std::vector<double> origin_, q_, u_, v_, u_rate_, v_rate_, other_rate_, zero_, first_;
 };
 

@@ -16,21 +16,33 @@ class Arkode final : public AdaptiveStepper {
         explicit_part_(imex ? sundials::rates<&AdaptiveStepper::explicit_rates>
                             : sundials::rates<&AdaptiveStepper::rates>),
         implicit_part_(imex ? sundials::rates<&AdaptiveStepper::implicit_rates> : nullptr),
-        context_(sundials::make_context()),
-        y_(sundials::vector_over(unknowns_, context_.get())),
-        memory_(ARKStepCreate(explicit_part_, implicit_part_, 0., y_.get(), context_.get())) {
+        tolerances_(tolerances),
+        events_(static_cast<int>(system.event_count())),
+        context_(sundials::make_context()) {
+    create();
+  }
+  ~Arkode() override { ARKStepFree(&memory_); }
+  Arkode(const Arkode&) = delete;
+  Arkode& operator=(const Arkode&) = delete;
+
+ private:
+  static constexpr double growth = 1.2;  ///< of the first step tried, while none is rejected
+
+  void create() {
+    ARKStepFree(&memory_);
+    y_ = sundials::vector_over(unknowns_, context_.get());
+    memory_ = ARKStepCreate(explicit_part_, implicit_part_, 0., y_.get(), context_.get());
     ARKStepSetErrHandlerFn(memory_, sundials::silent, nullptr);
     ARKStepSetUserData(memory_, static_cast<AdaptiveStepper*>(this));
-    ARKStepSStolerances(memory_, tolerances.relative, tolerances.absolute);
+    ARKStepSStolerances(memory_, tolerances_.relative, tolerances_.absolute);
     ARKStepSetNoInactiveRootWarn(memory_);
-    // A higher interpolant evaluates rates of its own, and whether it does depends on more than this
-    // step: a run that is resumed would count others.
+    // A higher interpolant evaluates rates of its own, and whether it does depends on more than
+    // this step: a run that is resumed would count others.
     ARKStepSetInterpolantDegree(memory_, 3);
-    if (system.event_count() > 0)
-      ARKStepRootInit(memory_, static_cast<int>(system.event_count()), sundials::events);
-    if (imex) {
+    if (events_ > 0) ARKStepRootInit(memory_, events_, sundials::events);
+    if (implicit_part_ != nullptr) {
       ARKStepSetTableNum(memory_, ARKODE_ARK436L2SA_DIRK_6_3_4, ARKODE_ARK436L2SA_ERK_6_3_4);
-      linear_ = sundials::make_linear_solver(y_.get(), unknowns_.size(), band_, context_.get());
+      linear_ = sundials::make_linear_solver(y_.get(), unknowns_.size(), band(), context_.get());
       ARKStepSetLinearSolver(memory_, linear_.solver.get(), linear_.matrix.get());
       // By default Newton's iteration is trusted after one correction where the ones before went
       // well. The implicit part here is linear off contact, all of them go well, and the one with
@@ -40,14 +52,9 @@ class Arkode final : public AdaptiveStepper {
       ARKStepSetTableNum(memory_, ARKODE_DIRK_NONE, ARKODE_DORMAND_PRINCE_7_4_5);
     }
   }
-  ~Arkode() override { ARKStepFree(&memory_); }
-  Arkode(const Arkode&) = delete;
-  Arkode& operator=(const Arkode&) = delete;
-
- private:
-  static constexpr double growth = 1.2;  ///< of the first step tried, while none is rejected
 
   void begin(double time, double end) override {
+    if (!sundials::is_over(y_.get(), unknowns_)) create();
     ARKStepReInit(memory_, explicit_part_, implicit_part_, time, y_.get());
     ARKStepSetStopTime(memory_, end);
     ARKStepSetMinStep(memory_, least_step * end);
@@ -79,10 +86,12 @@ class Arkode final : public AdaptiveStepper {
   }
 
   ARKRhsFn explicit_part_, implicit_part_;
+  Tolerances tolerances_;
+  int events_;
   sundials::Owner<SUNContext> context_;
   sundials::Owner<N_Vector> y_;
   sundials::LinearSolver linear_;
-  void* memory_;
+  void* memory_ = nullptr;
   double longest_ = 0.;  ///< step taken since `begin` [s]
 };
 

@@ -40,6 +40,11 @@ inline Owner<N_Vector> vector_over(std::span<double> numbers, SUNContext context
       N_VMake_Serial(static_cast<sunindextype>(numbers.size()), numbers.data(), context));
 }
 
+/// Whether `vector` has as many numbers as there are now.
+inline bool is_over(N_Vector vector, std::span<const double> numbers) {
+  return N_VGetLength(vector) == static_cast<sunindextype>(numbers.size());
+}
+
 /// A Jacobian of half bandwidth `band` and its solver: dense where a band would save nothing.
 struct LinearSolver {
   Owner<SUNMatrix> matrix;

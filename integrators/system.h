@@ -55,6 +55,13 @@ class System {
   /// event has ended (the bristle of a point that has left the ground).
   virtual void begin_anew(std::span<double> /*v*/) {}
 
+  /// Of the velocities the first so many move a position; the rest are states of first order (the
+  /// bristles of contacts) that are integrated along.
+  virtual std::size_t moving_size() const { return velocity_size(); }
+  /// Whether state `i` of those can change before the motion begins anew: what cannot is no
+  /// unknown.
+  virtual bool evolves(std::size_t /*i*/) const { return true; }
+
   /// How many event functions there are; the number is the same for life.
   virtual std::size_t event_count() const { return 0; }
   /// The event functions at (t, q, v): the integration stops where one changes sign (a point enters
@@ -73,9 +80,9 @@ class System {
   /// one (half way to where tangent_rate is singular).
   virtual bool far(std::span<const double> /*u*/) const { return false; }
 
-  /// Coordinates fall into consecutive groups of at most this many, none of which feels another
+  /// What moves falls into consecutive groups of at most this many, none of which feels another
   /// (the legs of a fixed base): then the Jacobian is a band.
-  virtual std::size_t group_size() const { return velocity_size(); }
+  virtual std::size_t group_size() const { return moving_size(); }
 };
 
 }  // namespace hookpoint::integrators

@@ -151,6 +151,9 @@ class DtsRobot final : public integrators::System {
                                           std::span<const double> v, std::span<double> a_free,
                                           std::span<double> a_contact) override;
   bool far(std::span<const double> u) const override;
+  std::size_t moving_size() const override;
+  /// Bristles of points within the law's reach do.
+  bool evolves(std::size_t i) const override;
   std::size_t group_size() const override;
 
  private:

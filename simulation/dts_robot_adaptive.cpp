@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "dts/configuration.h"
 #include "dts/forward_kinematics.h"
 #include "simulation/dts_robot.h"
 
@@ -99,9 +100,15 @@ bool DtsRobot::far(std::span<const double> u) const {
   return model_.mobile() && norm(Vector3d{u[0], u[1], u[2]}) > 2.;
 }
 
+std::size_t DtsRobot::moving_size() const { return dts::velocity_count(model_); }
+
+bool DtsRobot::evolves(std::size_t i) const {
+  return points_[(i - moving_size()) / bristle_states_].inside;
+}
+
 // A base that cannot move keeps its chains from feeling each other.
 std::size_t DtsRobot::group_size() const {
-  if (model_.mobile() || velocity_size() != joints_.size()) return velocity_size();
+  if (model_.mobile()) return moving_size();
   std::size_t longest = 1;
   for (const ChainSpec& chain : experiment_->robots[index_].chains)
     longest = std::max(longest, chain.links.size());

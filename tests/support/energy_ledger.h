@@ -146,6 +146,10 @@ class EnergyLedger final : public integrators::System {
     robot_.event_values(time, q, own(v), values);
   }
   bool far(std::span<const double> u) const override { return robot_.far(own(u)); }
+  std::size_t moving_size() const override { return robot_.moving_size(); }
+  bool evolves(std::size_t i) const override {
+    return i >= robot_.velocity_size() || robot_.evolves(i);
+  }
 
  private:
   template <class Number>

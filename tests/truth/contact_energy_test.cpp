@@ -195,12 +195,12 @@ double robot_ledger(simulation::Experiment plate, const std::string& law,
 // It bounces, slides and comes to stick, over 10 to 80 touch-downs and lift-offs.
 TEST(RobotLedger, ClosesWithCvodeThroughBouncesAndSlip) {
   const auto plate = *load_text(plate_with_arm).experiment;
-  for (const char* law : {"hookpoint", "hookpoint_reset", "nominal", "azad_featherstone", "lugre"})
-    EXPECT_LE(robot_ledger(plate, law, "cvode_adams", 1e-13), 1e-10) << law;
-  for (const char* law : {"hunt_crossley", "elastoplastic", "exponential"})
-    EXPECT_LE(robot_ledger(plate, law, "cvode_adams", 3e-13), 1e-10) << law;
   for (const auto& law : contact::law_table()) {
     if (law.is_impulse_law) continue;
+    // Where the exponential's reach begins, rounding is all there is below 3e-13.
+    const double tolerance = law.name == Exponential::name ? 3e-13 : 1e-13;
+    EXPECT_LE(robot_ledger(plate, std::string(law.name), "cvode_adams", tolerance), 1e-10)
+        << law.name;
     EXPECT_LE(robot_ledger(plate, std::string(law.name), "cvode_bdf", 1e-12), 5e-10) << law.name;
   }
 }
