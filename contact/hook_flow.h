@@ -50,14 +50,13 @@ struct ThrowFlow : Law {
     const Real mu = select(sliding, material.kinetic_friction, material.static_friction);
 
     const Vector3<Real> trial = material.tangential_stiffness * e + material.tangential_damping * v;
-    const Real least = material.tangential_stiffness * Real(least_thrown_stretch);
-    const Mask<Real> thrown = norm(trial) + least > mu * N;
-    const Mask<Real> empty = !(norm(e) > Real(0.));
+    const Vector3<Real> kinetic = (material.kinetic_friction * N / positive_or_one(norm(v))) * v;
+    const Real nearly = norm(trial) + material.tangential_stiffness * Real(least_thrown_stretch);
+    const Mask<Real> thrown = nearly > mu * N;
+    const Mask<Real> bent = norm(e) > Real(0.);
     BristleFriction<Real> friction;
-    friction.slips = thrown && empty;
-    friction.force =
-        select(sliding || friction.slips,
-               (material.kinetic_friction * N / positive_or_one(norm(trial))) * trial, trial);
+    friction.slips = select(bent, Real(0.), nearly) > mu * N;
+    friction.force = select(sliding, kinetic, select(friction.slips, kinetic, trial));
     friction.rate = select(sliding, zero, v);
     return bristle_reaction(point, inside, N, select(thrown, zero, e), friction);
   }

@@ -353,26 +353,6 @@ std::size_t DtsRobot::velocity_size() const {
   return dts::velocity_count(model_) + bristles_.size();
 }
 
-void DtsRobot::read_positions(std::span<const double> q) {
-  if (model_.mobile()) {
-    state_.base_position = {q[0], q[1], q[2]};
-    state_.base_orientation = {q[3], q[4], q[5], q[6]};
-    q = q.subspan(7);
-  }
-  std::copy(q.begin(), q.end(), state_.joint_positions.begin());
-}
-
-void DtsRobot::write_positions(std::span<double> q) const {
-  if (model_.mobile()) {
-    const Vector3d& p = state_.base_position;
-    const Quaterniond& r = state_.base_orientation;
-    const double base[7] = {p.x, p.y, p.z, r.w, r.x, r.y, r.z};
-    std::copy(std::begin(base), std::end(base), q.begin());
-    q = q.subspan(7);
-  }
-  std::copy(state_.joint_positions.begin(), state_.joint_positions.end(), q.begin());
-}
-
 void DtsRobot::retract(std::span<const double> q0, std::span<const double> u,
                        std::span<double> q) const {
   if (model_.mobile()) {
