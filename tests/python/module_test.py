@@ -47,6 +47,26 @@ STIFF = """World w {
 def read_csv(path):
     return list(csv.reader(path.read_text().splitlines()))
 
+# A record of every format and two movies, of a ball that falls onto a slope and slides.
+LOGGED = """World w {
+  deltat = 1 ms; duration = 0.3 s;
+  Material clay { normal_stiffness = 1e5; normal_damping = 100; }
+  Terrain.Slope hill { angle = 20 deg; size = 4; material = clay; }
+  Robot ball { Base.mobile { location = 0, 0, 0.12; mass = 2; Shape.Sphere radius = 0.1; } }
+  Record fall { trails = ball.base.velocity, time; rate = 50 Hz; }
+  Record spots { trails = ball.base.location; format = wl; }
+  Record table { trails = ball.base.location.z; format = mat5; rate = 300 Hz; }
+  Record deep { trails = ball.base.contact.force; format = hdf5; }
+  Record lanes { trails = ball.base.contact.force.z; format = mcap; }
+  Movie film { rate = 100 Hz; }
+}
+"""
+
+
+def files_of(folder):
+    return {str(file.relative_to(folder)): file.read_bytes()
+            for file in sorted(pathlib.Path(folder).rglob("*")) if file.is_file()}
+
 
 class World(unittest.TestCase):
     def test_falls_as_its_integrator_must(self):
@@ -178,6 +198,71 @@ class World(unittest.TestCase):
         table = np.array(rows[1:], dtype=float)
         for column, values in enumerate(trace.values()):
             np.testing.assert_array_equal(table[:, column], values)
+
+    def test_leaves_the_files_of_the_command(self):
+        trails = ["w.ball.base.location.x", "w.time"]
+        for duration, wanted in ((None, []), (0.2, ["--for", "0.2 s"])):
+            with tempfile.TemporaryDirectory() as folder:
+                place = pathlib.Path(folder)
+                scene = place / "scene.hook"
+                scene.write_text(LOGGED)
+                subprocess.run([PROGRAM, "run", scene, "--out", place / "command", "--record", ",".join(trails), "--movie",
+                                *wanted], check=True, capture_output=True)
+                world = hookpoint.load(scene)
+                trace = world.run(duration, record=trails, every=10, output=place / "python", movie=place / "movie.h5")
+                (place / "movie.h5").rename(place / "python" / "movie.h5")
+                self.assertEqual(len(trace["time"]), world.steps / 10 + 1)
+                written, expected = files_of(place / "python"), files_of(place / "command")
+            self.assertEqual(list(written), list(expected))
+            for name in ("trace.csv", "experiment.hook", "fall.csv", "spots.wl", "table.mat", "deep.h5", "lanes.mcap", "film.h5"):
+                self.assertIn(name, written)
+            for name, content in expected.items():
+                self.assertEqual(written[name], content, name)
+            self.assertEqual(len(written["trace.csv"].splitlines()), world.steps + 2)
+
+    def test_a_run_that_goes_on_writes_the_rows_of_the_whole_run(self):
+        with tempfile.TemporaryDirectory() as folder:
+            place = pathlib.Path(folder)
+            hookpoint.loads(LOGGED).run(output=place / "whole")
+            world = hookpoint.loads(LOGGED)
+            world.run(0.105)
+            world.run(output=place / "rest")
+            whole, rest = read_csv(place / "whole" / "fall.csv"), read_csv(place / "rest" / "fall.csv")
+            # 0, 20, ... 300 ms; from 105 ms on the first is at 120.
+            self.assertEqual(rest, whole[:1] + whole[7:])
+            self.assertEqual(float(rest[1][0]), 0.12)
+            moment = ["--at", "0.27 s", "--json"]
+            states = [json.loads(subprocess.run([PROGRAM, "replay", place / name / "film.h5", *moment], check=True,
+                                                capture_output=True, text=True).stdout) for name in ("whole", "rest")]
+            self.assertEqual(states[0], states[1])
+
+    def test_files_stay_when_a_run_ends_early(self):
+        stiff = STIFF[:STIFF.rindex("}")] + "Record swing { trails = wheel.axle.disc.angle; }\n}\n"
+        with tempfile.TemporaryDirectory() as folder:
+            place = pathlib.Path(folder)
+            with self.assertRaises(hookpoint.RunError):
+                hookpoint.loads(stiff).run(output=place / "python")
+            (place / "stiff.hook").write_text(stiff)
+            command = subprocess.run([PROGRAM, "run", place / "stiff.hook", "--out", place / "command"], capture_output=True)
+            self.assertEqual(command.returncode, 1)
+            self.assertGreater(len(read_csv(place / "python" / "swing.csv")), 50)
+            self.assertEqual(files_of(place / "python"), files_of(place / "command"))
+
+    def test_files_that_cannot_be_are_exceptions(self):
+        with tempfile.TemporaryDirectory() as folder:
+            place = pathlib.Path(folder)
+            (place / "taken").write_text("")
+            with self.assertRaisesRegex(OSError, "taken"):
+                hookpoint.loads(LOGGED).run(output=place / "taken")
+            with self.assertRaisesRegex(hookpoint.Error, "goes with `output`"):
+                hookpoint.loads(LOGGED).run(movie=True)
+            with self.assertRaisesRegex(hookpoint.Error, "cannot be saved and resumed"):
+                hookpoint.loads(LOGGED, engine="ode").run(output=place / "none")
+            with self.assertRaisesRegex(hookpoint.Error, "nearest|did you mean"):
+                hookpoint.loads(FALLING).run(record=["ball.base.locatoin.z"], output=place / "none")
+            with self.assertRaisesRegex(hookpoint.Error, "another name"):
+                hookpoint.loads(LOGGED.replace("Movie film { ", "Movie movie { ")).run(movie=True, output=place / "none")
+            self.assertEqual(list(place.iterdir()), [place / "taken"])
 
     def test_a_plugin_brings_its_class_if_it_may(self):
         plugin = os.environ["HOOKPOINT_PLUGIN"]
