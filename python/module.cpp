@@ -112,15 +112,14 @@ void add_functions(py::module_& module) {
       "study",
       [](const std::filesystem::path& file, bool quick, const std::vector<std::string>& only,
          int jobs, std::optional<std::filesystem::path> out, bool resume, bool allow_plugins) {
-        return run_studies({file, quick, only, jobs, std::move(out), resume, allow_plugins});
+        return run_studies({file, std::move(out), jobs, quick, resume, only, allow_plugins});
       },
       py::arg("file"), py::kw_only(), py::arg("quick") = false,
       py::arg("only") = std::vector<std::string>{}, py::arg("jobs") = 0,
       py::arg("out") = py::none(), py::arg("resume") = false, py::arg("allow_plugins") = false,
-      "Runs the studies of a .hook file: {study: {\"table\", \"timing\", \"truths\"}}. A table is "
-      "a "
-      "dict of numpy arrays by the titles of results.csv (\"slope [deg]\"). `out`: where its files "
-      "go, else none are kept.");
+      "Runs the Studies, Walls and Matrices of a .hook file: a dict of results by their names, "
+      "each with \"table\", a dict of numpy arrays by the titles of results.csv (\"slope [deg]\"). "
+      "`out`: where the files of `hookpoint study` go, else none are kept.");
   module.def(
       "engines",
       [] {

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 #include "output/number.h"
 #include "python/errors.h"
@@ -12,6 +13,14 @@ namespace hookpoint::python {
 namespace {
 
 namespace py = pybind11;
+
+/// "file.hook:3:5: message".
+std::string placed(const language::Diagnostic& diagnostic) {
+  if (diagnostic.position.file == nullptr) return diagnostic.message;
+  const language::LineColumn place = language::line_and_column(diagnostic.position);
+  return fmt::format("{}:{}:{}: {}", diagnostic.position.file->path, place.line, place.column,
+                     diagnostic.message);
+}
 
 /// Whether the ends of a wire named by these trails are one port, or one is a part of the other.
 bool same_port(const std::string& a, const std::string& b) {
@@ -28,19 +37,20 @@ py::array_t<double> array_of(const std::vector<double>& numbers) {
 }  // namespace
 
 QuietApplication::QuietApplication(bool allow_plugins)
-    : told_(std::make_shared<language::Diagnostics>()),
+    : told_(std::make_shared<Told>()),
       application_(std::make_unique<cli::Application>(
-          allow_plugins,
-          [told = told_](const language::Diagnostics& diagnostics) { *told = diagnostics; })) {}
+          allow_plugins, [told = told_](const language::Diagnostics& diagnostics) {
+            told->last = diagnostics;
+            for (const language::Diagnostic& diagnostic : diagnostics.all()) {
+              if (diagnostic.severity == language::Severity::warning)
+                told->warnings.push_back(placed(diagnostic));
+            }
+          })) {}
 
-void QuietApplication::fail() const { throw_diagnostics(*told_); }
+void QuietApplication::fail() const { throw_diagnostics(told_->last); }
 
-void QuietApplication::pass_on_warnings() const {
-  for (const language::Diagnostic& diagnostic : told_->all()) {
-    if (diagnostic.severity == language::Severity::warning &&
-        PyErr_WarnEx(PyExc_UserWarning, diagnostic.message.c_str(), 1) != 0)
-      throw py::error_already_set();
-  }
+void QuietApplication::pass_on_warnings() {
+  for (const std::string& warning : std::exchange(told_->warnings, {})) warn(warning);
 }
 
 PythonWorld::PythonWorld(const Source& source)

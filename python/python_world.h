@@ -23,13 +23,17 @@ class QuietApplication {
   explicit QuietApplication(bool allow_plugins);
   cli::Application& operator*() { return *application_; }
   cli::Application* operator->() { return application_.get(); }
-  /// Throws hookpoint.FileError with what was told.
+  /// Throws hookpoint.FileError with what was told last.
   [[noreturn]] void fail() const;
-  /// Warnings among what was told become warnings of Python.
-  void pass_on_warnings() const;
+  /// Warnings told since the last call become warnings of Python, each with its place.
+  void pass_on_warnings();
 
  private:
-  std::shared_ptr<language::Diagnostics> told_;
+  struct Told {
+    language::Diagnostics last;
+    std::vector<std::string> warnings;
+  };
+  std::shared_ptr<Told> told_;
   std::unique_ptr<cli::Application> application_;
 };
 
