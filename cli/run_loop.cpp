@@ -62,18 +62,28 @@ int report_failure(const simulation::StepStatus& status) {
 }  // namespace
 
 void tell_stability(const Experiment& experiment) {
+  using Contacts = simulation::StabilityBound::Contacts;
   const simulation::StabilityBound bound = simulation::stability_bound(experiment);
   if (!std::isfinite(bound.step)) return;
-  const std::string scope =
-      bound.touching ? "resting on its ground" : "touching with its stiffest point";
+  const std::string scope = bound.contacts == Contacts::touching ? " resting on its ground"
+                            : bound.contacts == Contacts::worst
+                                ? " touching with its stiffest point"
+                                : "";
   const std::string limit = bound.step > 0. ? fmt::format("{:.4g} s", bound.step)
-                                            : "none, without damping it is unstable at any";
-  std::cerr << fmt::format("largest stable step of {} for {} {}: {} (deltat is {:.4g} s)\n",
+                            : bound.controllers.empty()
+                                ? "none, without damping it is unstable at any"
+                                : "none, its loops are unstable at any";
+  std::cerr << fmt::format("largest stable step of {} for {}{}: {} (deltat is {:.4g} s)\n",
                            experiment.integrator, bound.robot, scope, limit, experiment.deltat);
+  if (!bound.left_out.empty())
+    std::cerr << "not in it: " << simulation::first_of(bound.left_out) << '\n';
   if (experiment.deltat > bound.step) {
-    std::cerr << "hookpoint: warning: deltat is above the largest stable step: contacts will gain "
-                 "energy; make the step smaller, "
-                 "the ground softer, or choose another integrator\n";
+    const char* softer = bound.contacts == Contacts::none ? "" : "the ground softer, ";
+    const char* weaker = bound.controllers.empty() ? "" : "the controllers weaker, ";
+    std::cerr << fmt::format(
+        "hookpoint: warning: deltat is above the largest stable step: what springs back will gain "
+        "energy; make the step smaller, {}{}or choose another integrator\n",
+        softer, weaker);
   }
   if (std::isfinite(bound.resolved_speed)) {
     std::cerr << fmt::format(
