@@ -145,7 +145,8 @@ class LoopFinder {
     loop.differenced = rate == nullptr && spec.type != "Controller.JointPD";
     if (rate == nullptr && !loop.differenced) loop.derivative = 0.;
     loop.delay = angle->delay + torque->delay;
-    loop.rate_delay = (rate ? rate->delay : angle->delay) + torque->delay;
+    const bool reads_rate = rate != nullptr && loop.derivative != 0.;
+    loop.rate_delay = reads_rate ? rate->delay + torque->delay : 0.;
     if (!set_period(loop, spec, {angle, rate ? rate : angle, torque})) {
       why = "its wires are sampled at rates of their own";
       return false;
