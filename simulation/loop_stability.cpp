@@ -203,9 +203,9 @@ double largest_stable_step(std::string_view integrator, const Vibration& vibrati
   const Vibration slow = scaled(vibration, rate);
   const std::vector<JointLoop> slow_loops = scaled(loops, rate);
   const double period = slow_loops.front().period;
+  const auto dividing = [&](double h) { return h < period ? period / std::ceil(period / h) : h; };
   const auto grows = [&](double h) {
-    const double step = h < period ? period / std::ceil(period / h) : h;
-    return PeriodMap(integrator, slow, slow_loops, step).grows();
+    return PeriodMap(integrator, slow, slow_loops, dividing(h)).grows();
   };
   constexpr double least = 1e-4, most = 1e4;
   if (grows(least)) return 0.;
@@ -218,7 +218,7 @@ double largest_stable_step(std::string_view integrator, const Vibration& vibrati
     const double middle = std::sqrt(low * high);
     (grows(middle) ? high : low) = middle;
   }
-  return low / rate;
+  return dividing(low) / rate;
 }
 
 }  // namespace hookpoint::simulation
