@@ -36,6 +36,8 @@ class Application {
   /// simulation::ExperimentError.
   std::unique_ptr<simulation::Engine> make_engine(const simulation::Experiment& experiment) const;
 
+  /// Tells who is to be told; what this class finds wrong it tells itself.
+  void tell(const language::Diagnostics& diagnostics) const { tell_(diagnostics); }
   /// Loads the plugins that `file` and its Includes name; their classes join the schema. Tells
   /// what is wrong and is then false. `evaluate` begins with it; who asks the library must have
   /// asked this before.

@@ -8,6 +8,7 @@
 #include "output/json.h"
 #include "output/number.h"
 #include "simulation/advice.h"
+#include "simulation/stability.h"
 
 namespace hookpoint::cli {
 namespace {
@@ -39,6 +40,10 @@ void print_text(const simulation::Experiment& experiment, const Advice& advice) 
   for (const simulation::StepAdvice& step : advice.steps)
     fmt::print("  {:<22} {:>12} {:>12}\n", step.integrator, output::rounded(step.present),
                output::rounded(step.advised));
+  if (!advice.controllers.empty())
+    fmt::print("  with the loops of {}\n", simulation::first_of(advice.controllers));
+  if (!advice.left_out.empty())
+    fmt::print("  not in it: {}\n", simulation::first_of(advice.left_out));
   fmt::print("\nwhat to change:{}\n", advice.changes.empty() ? " nothing" : "");
   for (const std::string& change : advice.changes) fmt::print("  - {}\n", change);
 }
@@ -65,6 +70,12 @@ void write_ground(output::JsonWriter& json, const GroundAdvice& ground) {
   json.end_object().end_object();
 }
 
+void write_list(output::JsonWriter& json, const char* key, const std::vector<std::string>& texts) {
+  json.key(key).begin_array();
+  for (const std::string& text : texts) json.value(text);
+  json.end_array();
+}
+
 void print_json(const simulation::Experiment& experiment, const Advice& advice) {
   output::JsonWriter json;
   json.begin_object().member("world", experiment.world).member("law", experiment.contact);
@@ -76,9 +87,11 @@ void print_json(const simulation::Experiment& experiment, const Advice& advice) 
     json.key(step.integrator).begin_object().member("present", step.present);
     json.member("advised", step.advised).end_object();
   }
-  json.end_object().key("changes").begin_array();
-  for (const std::string& change : advice.changes) json.value(change);
-  json.end_array().end_object();
+  json.end_object();
+  write_list(json, "controllers", advice.controllers);
+  write_list(json, "left_out", advice.left_out);
+  write_list(json, "changes", advice.changes);
+  json.end_object();
   std::cout << json.text();
 }
 

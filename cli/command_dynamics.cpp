@@ -91,8 +91,8 @@ void print_robot(const RobotDynamics& robot) {
 
 }  // namespace
 
-int dynamics(const std::filesystem::path& file, const std::vector<std::string>& settings,
-             bool json, bool allow_plugins) {
+int dynamics(const std::filesystem::path& file, const std::vector<std::string>& settings, bool json,
+             bool allow_plugins) {
   Application application(allow_plugins);
   const auto experiment = application.load(file, settings);
   if (!experiment) return wrong_input;

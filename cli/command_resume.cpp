@@ -28,7 +28,7 @@ std::int64_t last_step(const RunArguments& arguments, const simulation::Experime
 int go_on(const RunArguments& arguments) {
   OpenedMovie movie(*arguments.resume, arguments.allow_plugins);
   simulation::Experiment experiment = movie.load();
-  add_movie(arguments, experiment);
+  if (arguments.movie) simulation::add_movie(*arguments.movie, experiment);
   simulation::World world = movie.make_world(experiment);
   simulation::Rewind rewind(experiment, movie.reader(), world);
   const std::int64_t first =
@@ -37,7 +37,7 @@ int go_on(const RunArguments& arguments) {
   rewind.approach(first);
   const std::filesystem::path folder =
       arguments.out.value_or(std::filesystem::path("runs") / (experiment.world + "-resumed"));
-  RunFiles files(
+  simulation::RunFiles files(
       experiment, world, world.ports(),
       {folder, arguments.record, movie.reader().header().experiment, arguments.out.has_value()},
       first);

@@ -23,19 +23,6 @@ std::vector<std::string> settings_with_duration(Application& application,
 
 }  // namespace
 
-void add_movie(const RunArguments& arguments, simulation::Experiment& experiment) {
-  if (!arguments.movie) return;
-  const bool named = !arguments.movie->empty();
-  const std::string file =
-      named ? std::filesystem::absolute(*arguments.movie).string() : std::string("movie.h5");
-  for (const simulation::MovieSpec& movie : experiment.movies) {
-    if (movie.file == file)
-      throw simulation::ExperimentError("the file's Movie `" + movie.name + "` writes " + file +
-                                        "; give --movie another name");
-  }
-  experiment.movies.push_back({"movie", file, std::nullopt});
-}
-
 int run(const RunArguments& arguments) {
   if (arguments.resume) return resume(arguments);
   if (arguments.file.empty() || arguments.at) {
@@ -54,10 +41,11 @@ int run(const RunArguments& arguments) {
   try {
     const std::filesystem::path folder =
         arguments.out.value_or(std::filesystem::path("runs") / experiment->world);
-    add_movie(arguments, *experiment);
+    if (arguments.movie) simulation::add_movie(*arguments.movie, *experiment);
     simulation::World world(*experiment, application.make_engine(*experiment));
-    RunFiles files(*experiment, world, world.ports(),
-                   {folder, arguments.record, language::print(*root), arguments.out.has_value()});
+    simulation::RunFiles files(
+        *experiment, world, world.ports(),
+        {folder, arguments.record, language::print(*root), arguments.out.has_value()});
     tell_stability(*experiment);
     const auto steps =
         static_cast<std::int64_t>(std::llround(experiment->duration / experiment->deltat));

@@ -7,8 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "simulation/experiment.h"
-
 namespace hookpoint::cli {
 
 class Application;
@@ -27,8 +25,6 @@ struct RunArguments {
 int run(const RunArguments& arguments);
 /// run --resume: goes on from a moment of a movie.
 int resume(const RunArguments& arguments);
-/// What --movie adds to the experiment. Throws ExperimentError.
-void add_movie(const RunArguments& arguments, simulation::Experiment& experiment);
 
 struct ReplayArguments {
   std::filesystem::path movie;

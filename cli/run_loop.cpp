@@ -59,62 +59,31 @@ int report_failure(const simulation::StepStatus& status) {
   return truth_failed;
 }
 
-std::vector<simulation::Port> find_ports(const Experiment& experiment,
-                                         const std::vector<simulation::Port>& ports,
-                                         const std::vector<std::string>& trails) {
-  std::vector<simulation::Port> found;
-  for (const std::string& trail : trails)
-    found.push_back(simulation::find_port(experiment, ports, trail));
-  return found;
-}
-
 }  // namespace
 
-// What cannot be written is found out before anything is.
-RunFiles::RunFiles(const Experiment& experiment, simulation::World& world,
-                   const std::vector<simulation::Port>& ports, const RunRequest& request,
-                   std::int64_t first_step)
-    : ports_(find_ports(experiment, ports, request.trails)),
-      values_(ports_.size()),
-      movies_(experiment, world, request.folder, request.text, first_step),
-      records_(experiment, ports, request.folder, request.text, first_step) {
-  if (!ports_.empty()) {
-    std::vector<output::TraceColumn> columns;
-    for (std::size_t i = 0; i < ports_.size(); ++i)
-      columns.push_back({request.trails[i], ports_[i].unit});
-    trace_.emplace(request.folder / "trace.csv", columns);
-  }
-  if (request.leaves_files || trace_ || !experiment.records.empty())
-    output::write_file(request.folder / "experiment.hook", request.text);
-}
-
-void RunFiles::row(std::int64_t step, double time) {
-  records_.row(step, time);
-  movies_.row(step);
-  if (!trace_) return;
-  for (std::size_t i = 0; i < ports_.size(); ++i) values_[i] = *ports_[i].value;
-  trace_->row(time, values_);
-}
-
-void RunFiles::close() {
-  records_.close();
-  movies_.close();
-  if (trace_) trace_->close();
-}
-
 void tell_stability(const Experiment& experiment) {
+  using Contacts = simulation::StabilityBound::Contacts;
   const simulation::StabilityBound bound = simulation::stability_bound(experiment);
   if (!std::isfinite(bound.step)) return;
-  const std::string scope =
-      bound.touching ? "resting on its ground" : "touching with its stiffest point";
+  const std::string scope = bound.contacts == Contacts::touching ? " resting on its ground"
+                            : bound.contacts == Contacts::worst
+                                ? " touching with its stiffest point"
+                                : "";
   const std::string limit = bound.step > 0. ? fmt::format("{:.4g} s", bound.step)
-                                            : "none, without damping it is unstable at any";
-  std::cerr << fmt::format("largest stable step of {} for {} {}: {} (deltat is {:.4g} s)\n",
+                            : bound.controllers.empty()
+                                ? "none, without damping it is unstable at any"
+                                : "none, its loops are unstable at any";
+  std::cerr << fmt::format("largest stable step of {} for {}{}: {} (deltat is {:.4g} s)\n",
                            experiment.integrator, bound.robot, scope, limit, experiment.deltat);
+  if (!bound.left_out.empty())
+    std::cerr << "not in it: " << simulation::first_of(bound.left_out) << '\n';
   if (experiment.deltat > bound.step) {
-    std::cerr << "hookpoint: warning: deltat is above the largest stable step: contacts will gain "
-                 "energy; make the step smaller, "
-                 "the ground softer, or choose another integrator\n";
+    const char* softer = bound.contacts == Contacts::none ? "" : "the ground softer, ";
+    const char* weaker = bound.controllers.empty() ? "" : "the controllers weaker, ";
+    std::cerr << fmt::format(
+        "hookpoint: warning: deltat is above the largest stable step: what springs back will gain "
+        "energy; make the step smaller, {}{}or choose another integrator\n",
+        softer, weaker);
   }
   if (std::isfinite(bound.resolved_speed)) {
     std::cerr << fmt::format(
@@ -165,8 +134,9 @@ int print_expectations(const simulation::Expectations& expectations) {
   return status;
 }
 
-int step_through(const Experiment& experiment, simulation::World& world, RunFiles& files,
-                 std::int64_t last, simulation::Expectations* expectations) {
+int step_through(const Experiment& experiment, simulation::World& world,
+                 simulation::RunFiles& files, std::int64_t last,
+                 simulation::Expectations* expectations) {
   const std::int64_t first = world.state().step;
   LazyProgress progress(experiment.world, last - first);
   std::signal(SIGINT, interrupt);

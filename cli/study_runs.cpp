@@ -1,5 +1,6 @@
 #include "cli/study_runs.h"
 
+#include <fmt/format.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -8,37 +9,17 @@
 
 #include "cli/exit_status.h"
 #include "cli/run_bar.h"
-#include "reference/engines.h"
-#include "studies/run.h"
+#include "cli/study_reports.h"
 #include "studies/terminal_table.h"
 #include "studies/verdict.h"
+#include "studies/wall_report.h"
 
 namespace hookpoint::cli {
 namespace {
 
-using studies::StudyPlan;
-using studies::StudyRun;
+constexpr std::size_t wall_table_width = 120;
 
-/// Every constant of the peers that the study runs, at the settings that it runs them.
-std::vector<studies::PeerSetting> peer_settings(const studies::StudyResult& result) {
-  std::vector<std::pair<std::string, std::string>> used;
-  for (const studies::SubjectInfo& subject : result.subjects) {
-    const std::pair<std::string, std::string> peer{subject.engine, subject.settings};
-    if (subject.available && subject.engine != "dts" &&
-        std::find(used.begin(), used.end(), peer) == used.end())
-      used.push_back(peer);
-  }
-  std::vector<studies::PeerSetting> settings;
-  for (const auto& [engine, name] : used) {
-    for (const reference::SettingRow& row : reference::settings_table(engine)) {
-      const std::string& value = name == "matched"       ? row.matched
-                                 : name == "recommended" ? row.recommended
-                                                         : row.default_;
-      settings.push_back({engine, name, row.quantity, value, row.source});
-    }
-  }
-  return settings;
-}
+bool on_terminal() { return isatty(STDOUT_FILENO) != 0; }
 
 std::size_t terminal_width() {
   winsize size{};
@@ -46,65 +27,83 @@ std::size_t terminal_width() {
   return std::max<std::size_t>(size.ws_col, 60);
 }
 
-/// The files beside the report that it links to.
-std::vector<std::string> result_files(const StudyRun& run) {
-  std::vector<std::string> files{"results.csv"};
-  if (std::filesystem::exists(run.folder / "timing.csv")) files.emplace_back("timing.csv");
-  files.insert(files.end(), {"experiment.hook", "scene.hook", "provenance.json"});
-  return files;
+/// Says that what is finished is kept in `folder`, and how to go on. The exit status.
+int interrupted(const StudyCommand& command, const std::filesystem::path& folder) {
+  const auto& named = command.arguments.out;
+  const std::string out = named ? " --out " + named->string() : "";
+  print_error("interrupted; what is finished is kept in " + folder.string() + ": `" +
+              command.command + out + " --resume` goes on from there");
+  return truth_failed;
 }
 
-}  // namespace
+/// A study that ran.
+struct StudyOutcome {
+  int status = fine;
+  std::optional<studies::StudyRun> run;  ///< none when it was interrupted
+  std::vector<studies::ReportFigure> figures;
+};
 
-std::string rerun_command(const StudyArguments& arguments, const std::filesystem::path& file) {
-  std::string command = "hookpoint study " + file.string();
-  if (arguments.quick) command += " --quick";
-  for (const std::string& subject : arguments.only) command += " --only " + subject;
-  if (arguments.allow_plugins) command += " --allow-plugins";
-  return command;
-}
-
-std::optional<std::vector<StudyPlan>> plan_studies(Application& application,
-                                                   const language::Object& root,
-                                                   const std::filesystem::path& file,
-                                                   const studies::PlanOptions& options) {
-  std::vector<StudyPlan> plans;
-  for (const language::Object* object : root.children_of("Study")) {
-    language::Diagnostics diagnostics;
-    auto plan = studies::make_plan(root, *object, file.string(), application.library(),
-                                   application.engines(), options, diagnostics);
-    print_diagnostics(diagnostics);
-    if (!plan) return std::nullopt;
-    plans.push_back(std::move(*plan));
-  }
-  return plans;
-}
-
-StudyOutcome run_one_study(Application& application, const StudyPlan& plan,
-                           const StudyArguments& arguments, const std::filesystem::path& folder,
-                           const std::string& command, bool print_table) {
-  studies::InterruptGuard guard;
+StudyOutcome run_into(const StudyCommand& command, const studies::StudyPlan& plan,
+                      const std::filesystem::path& folder) {
+  const studies::InterruptGuard guard;
   RunBar bar(plan.name);
-  StudyRun run =
-      studies::run_study(plan, application.engines(), run_options(arguments, folder, bar),
+  studies::StudyRun run =
+      studies::run_study(plan, command.engines, bar.watch(run_options(command.arguments, folder)),
                          studies::InterruptGuard::stop());
   bar.end();
   for (const std::string& notice : run.notices) std::cerr << "hookpoint: note: " << notice << '\n';
-  if (run.interrupted) return {interrupted(run.folder, command, arguments), std::nullopt, {}};
-  const studies::ReportContext context{command, peer_settings(run.result),
-                                       studies::provenance_lines(run.provenance),
-                                       result_files(run)};
-  const studies::ReportOutcome report = studies::write_report(run.result, context, run.folder);
-  if (print_table) {
-    std::cout << studies::terminal_table(run.result,
-                                         {isatty(STDOUT_FILENO) != 0, terminal_width()});
-    std::cout << "\nreport: " << (run.folder / "report.html").string() << '\n';
-  }
+  if (run.interrupted) return {interrupted(command, run.folder), std::nullopt, {}};
+  studies::ReportOutcome report = write_study_report(run, command.command);
   for (const std::string& message : report.messages) print_error(message);
   const int status = !studies::all_truths_hold(run.result) ? truth_failed
                      : report.messages.empty()             ? fine
                                                            : missing;
-  return {status, std::move(run.result), report.figures};
+  return {status, std::move(run), std::move(report.figures)};
+}
+
+}  // namespace
+
+int run_one_study(const StudyCommand& command, const studies::StudyPlan& plan) {
+  const StudyOutcome outcome = run_into(command, plan, command.folder(plan.name));
+  if (!outcome.run) return outcome.status;
+  std::cout << studies::terminal_table(outcome.run->result, {on_terminal(), terminal_width()});
+  std::cout << "\nreport: " << (outcome.run->folder / "report.html").string() << '\n';
+  return outcome.status;
+}
+
+int run_one_wall(const StudyCommand& command, const studies::WallPlan& plan) {
+  const studies::InterruptGuard guard;
+  RunBar bar(plan.study.name);
+  const studies::RunOptions options =
+      bar.watch(run_options(command.arguments, command.folder(plan.study.name)));
+  const std::filesystem::path folder = studies::wall_folder(plan, options);
+  const auto result =
+      studies::run_wall(plan, command.engines, options, studies::InterruptGuard::stop());
+  bar.end();
+  if (!result) return interrupted(command, folder);
+  write_wall(folder, plan, *result, command.engines, command.command);
+  std::cout << studies::wall_terminal_table(*result, {on_terminal(), wall_table_width});
+  std::cout << "\nreport: " << (folder / "report.html").string() << '\n';
+  return result->failed() == 0 ? fine : truth_failed;
+}
+
+int run_one_matrix(const StudyCommand& command, const MatrixPlan& plan) {
+  std::filesystem::path folder = command.folder(plan.name);
+  if (folder.empty())
+    folder = std::filesystem::path("runs") / fmt::format("{}-{}", plan.name, plan.hash);
+  studies::MatrixResult result = begin_matrix(plan, command.arguments.file);
+  int status = fine;
+  for (const MatrixPart& part : plan.parts) {
+    StudyOutcome outcome = run_into(command, part.plan, folder / part.plan.name);
+    status = std::max(status, outcome.status);
+    if (!outcome.run) return status;
+    result.studies.push_back(
+        {std::move(outcome.run->result), part.text, std::move(outcome.figures)});
+  }
+  write_matrix(folder, plan, result, command.file.text, command.engines, command.command);
+  std::cout << studies::matrix_terminal_table(result, on_terminal());
+  std::cout << "\nmatrix: " << (folder / "matrix.html").string() << '\n';
+  return status;
 }
 
 }  // namespace hookpoint::cli

@@ -1,41 +1,31 @@
-// Studies of a file from blocks to finished folders: what `study` does with a file's own and with
-// those that a Matrix brings.
+// Blocks of a file that run on the command line: progress bar, files, table on stdout, exit status.
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
-#include <vector>
 
 #include "cli/application.h"
-#include "cli/commands.h"
-#include "studies/plan.h"
-#include "studies/report.h"
-#include "studies/result.h"
+#include "cli/study_plans.h"
 
 namespace hookpoint::cli {
 
-/// The plans of all Study blocks of `root`, evaluated from `file`; nothing after errors, which are
-/// printed.
-std::optional<std::vector<studies::StudyPlan>> plan_studies(Application& application,
-                                                            const language::Object& root,
-                                                            const std::filesystem::path& file,
-                                                            const studies::PlanOptions& options);
+/// What the runs of one command share.
+struct StudyCommand {
+  const studies::EngineTable& engines;
+  const StudyArguments& arguments;
+  const StudyFile& file;
+  std::string command;  ///< that does all again
 
-/// A study that ran.
-struct StudyOutcome {
-  int status = 0;                              ///< exit status
-  std::optional<studies::StudyResult> result;  ///< none when it was interrupted
-  std::vector<studies::ReportFigure> figures;
+  /// Of the block `name`; empty without --out: its runner then takes runs/NAME-HASH.
+  std::filesystem::path folder(const std::string& name) const {
+    return arguments.out ? file.folder(*arguments.out, name) : std::filesystem::path();
+  }
 };
 
-/// Runs one study with its progress bar into `folder` (empty: runs/STUDY-HASH); files and report
-/// follow, and with `print_table` the table on stdout. `command` runs it again.
-StudyOutcome run_one_study(Application& application, const studies::StudyPlan& plan,
-                           const StudyArguments& arguments, const std::filesystem::path& folder,
-                           const std::string& command, bool print_table);
-
-/// "hookpoint study FILE ..." as it was called, for another `file`.
-std::string rerun_command(const StudyArguments& arguments, const std::filesystem::path& file);
+/// Each returns the exit status.
+int run_one_study(const StudyCommand& command, const studies::StudyPlan& plan);
+int run_one_wall(const StudyCommand& command, const studies::WallPlan& plan);
+/// Its studies one after the other, each into a folder of its own beside matrix.html.
+int run_one_matrix(const StudyCommand& command, const MatrixPlan& plan);
 
 }  // namespace hookpoint::cli

@@ -75,6 +75,10 @@ void add_errors(py::module_& module) {
   });
 }
 
+void warn(const std::string& message) {
+  if (PyErr_WarnEx(PyExc_UserWarning, message.c_str(), 1) != 0) throw py::error_already_set();
+}
+
 void throw_error(const std::string& message) { raise(make(error_class, message)); }
 
 void throw_diagnostics(const language::Diagnostics& diagnostics) {

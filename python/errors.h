@@ -13,6 +13,8 @@ namespace hookpoint::python {
 /// Adds hookpoint.Error and its kinds to the module, and turns what our code throws into them.
 void add_errors(pybind11::module_& module);
 
+/// A UserWarning, which is an exception if the program wants it so.
+void warn(const std::string& message);
 /// Throws hookpoint.Error.
 [[noreturn]] void throw_error(const std::string& message);
 /// Throws hookpoint.FileError, which holds all of them. Needs the GIL.

@@ -33,16 +33,30 @@ std::vector<std::string> settings_of(const py::dict& values) {
   return settings;
 }
 
+py::dict run_world(PythonWorld& world, std::optional<double> duration,
+                   const std::vector<std::string>& record, std::int64_t every,
+                   std::optional<std::filesystem::path> output, const py::object& movie) {
+  RunOptions options{duration, record, every, std::move(output), std::nullopt};
+  if (py::isinstance<py::bool_>(movie)) {
+    if (movie.cast<bool>()) options.movie.emplace();
+  } else {
+    options.movie = movie.cast<std::filesystem::path>();
+  }
+  return world.run(options);
+}
+
 void add_world(py::module_& module) {
   py::class_<PythonWorld>(module, "World", "An experiment that runs, from time 0 on.")
       .def("step", &PythonWorld::step, py::arg("count") = 1,
            "Takes `count` steps, fewer when the run ends. Raises RunError.")
-      .def("run", &PythonWorld::run, py::arg("duration") = py::none(), py::kw_only(),
+      .def("run", run_world, py::arg("duration") = py::none(), py::kw_only(),
            py::arg("record") = std::vector<std::string>{}, py::arg("every") = 1,
+           py::arg("output") = py::none(), py::arg("movie") = false,
            "Runs for `duration` seconds, by default to the file's own. Returns a dict of numpy "
            "arrays: \"time\", and one a trail of `record`, at the present instant and after every "
-           "`every` steps. Raises RunError and KeyboardInterrupt; `recorded` then holds what there "
-           "was.")
+           "`every` steps. `output`: the folder that gets what `hookpoint run` would leave there; "
+           "`movie`: True or a file's name, to log the whole state too. Raises RunError and "
+           "KeyboardInterrupt; `recorded` and the files then hold what there was.")
       .def("read", &PythonWorld::read, py::arg("trail"), "The present value of a port, SI.")
       .def("write", &PythonWorld::write, py::arg("trail"), py::arg("value"),
            "Sets an input, SI; the next step sees it.")
@@ -98,15 +112,14 @@ void add_functions(py::module_& module) {
       "study",
       [](const std::filesystem::path& file, bool quick, const std::vector<std::string>& only,
          int jobs, std::optional<std::filesystem::path> out, bool resume, bool allow_plugins) {
-        return run_studies({file, quick, only, jobs, std::move(out), resume, allow_plugins});
+        return run_studies({file, std::move(out), jobs, quick, resume, only, allow_plugins});
       },
       py::arg("file"), py::kw_only(), py::arg("quick") = false,
       py::arg("only") = std::vector<std::string>{}, py::arg("jobs") = 0,
       py::arg("out") = py::none(), py::arg("resume") = false, py::arg("allow_plugins") = false,
-      "Runs the studies of a .hook file: {study: {\"table\", \"timing\", \"truths\"}}. A table is "
-      "a "
-      "dict of numpy arrays by the titles of results.csv (\"slope [deg]\"). `out`: where its files "
-      "go, else none are kept.");
+      "Runs the Studies, Walls and Matrices of a .hook file: a dict of results by their names, "
+      "each with \"table\", a dict of numpy arrays by the titles of results.csv (\"slope [deg]\"). "
+      "`out`: where the files of `hookpoint study` go, else none are kept.");
   module.def(
       "engines",
       [] {

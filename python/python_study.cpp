@@ -3,16 +3,17 @@
 #include <pybind11/numpy.h>
 #include <stdlib.h>
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <future>
-#include <thread>
 
+#include "cli/study_plans.h"
+#include "cli/study_reports.h"
 #include "python/errors.h"
 #include "python/python_world.h"
-#include "studies/plan.h"
 #include "studies/results_csv.h"
-#include "studies/run.h"
 
 namespace hookpoint::python {
 namespace {
@@ -48,13 +49,20 @@ std::optional<double> number_of(const std::string& cell) {
                                                                   : std::nullopt;
 }
 
-/// A column of the table: numbers where all cells are, else words. A column that is empty
-/// throughout is of numbers unless it is a verdict's.
+/// Columns of words, should one be empty throughout or hold names that read as numbers.
+bool holds_words(const std::string& title) {
+  constexpr std::array words{"subject", "engine",  "law",    "integrator", "settings",
+                             "study",   "regime",  "metric", "scene",      "truth",
+                             "unit",    "allowed", "ok",     "status"};
+  return title.ends_with("_ok") || std::ranges::find(words, title) != words.end();
+}
+
+/// A column of the table: numbers where all cells are, else words.
 py::object column_of(const output::CsvTable& table, std::size_t column) {
   const auto rows = static_cast<py::ssize_t>(table.rows.size());
   py::array_t<double> numbers(rows);
   py::list words;
-  bool all_numbers = !table.header[column].ends_with("_ok") && table.header[column] != "status";
+  bool all_numbers = !holds_words(table.header[column]);
   for (py::ssize_t row = 0; row < rows; ++row) {
     const std::string& cell = table.rows[static_cast<std::size_t>(row)][column];
     const std::optional<double> number = number_of(cell);
@@ -73,12 +81,18 @@ py::dict columns_of(const output::CsvTable& table) {
   return columns;
 }
 
-py::dict result_of(const studies::StudyResult& result) {
+py::list list_of(const std::vector<std::string>& words) {
+  py::list list;
+  for (const std::string& word : words) list.append(word);
+  return list;
+}
+
+py::dict result_of(const studies::StudyRun& run) {
   py::dict made;
-  made["table"] = columns_of(studies::results_table(result, false));
-  made["timing"] = columns_of(studies::results_table(result, true));
+  made["table"] = columns_of(studies::results_table(run.result, false));
+  made["timing"] = columns_of(studies::results_table(run.result, true));
   py::list truths;
-  for (const studies::TruthResult& truth : result.truths) {
+  for (const studies::TruthResult& truth : run.result.truths) {
     py::dict entry;
     entry["name"] = truth.name;
     entry["words"] = truth.words;
@@ -87,59 +101,121 @@ py::dict result_of(const studies::StudyResult& result) {
     truths.append(entry);
   }
   made["truths"] = truths;
+  made["notices"] = list_of(run.notices);
   return made;
 }
 
-/// Runs the plan in threads of its own, while this one looks for signals.
-studies::StudyRun run_plan(const studies::StudyPlan& plan, const studies::EngineTable& engines,
-                           const studies::RunOptions& options) {
+/// Does `work` in a thread of its own (it starts others), while this one looks for signals: one
+/// sets the `stop` that `work` gets.
+template <class Work>
+auto run_beside(const Work& work) {
   std::atomic<bool> stop{false};
   std::optional<py::error_already_set> interrupt;
   const py::gil_scoped_release others_run;
-  auto running = std::async(std::launch::async,
-                            [&] { return studies::run_study(plan, engines, options, stop); });
+  auto running = std::async(std::launch::async, [&] { return work(stop); });
   while (running.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready) {
     const py::gil_scoped_acquire ours;
     if (interrupt || PyErr_CheckSignals() == 0) continue;
     interrupt.emplace();
     stop = true;
   }
-  studies::StudyRun run = running.get();
+  auto result = running.get();
   if (interrupt) throw std::move(*interrupt);
-  return run;
+  return result;
 }
+
+/// The blocks of one file, run one by one. Reports are drawn only for a folder that is kept.
+class StudyRunner {
+ public:
+  StudyRunner(const cli::StudyArguments& arguments, const cli::StudyFile& file,
+              const studies::EngineTable& engines)
+      : arguments_(arguments),
+        file_(file),
+        engines_(engines),
+        command_(cli::rerun_command(arguments)) {}
+
+  py::dict study(const studies::StudyPlan& plan) {
+    return result_of(run(plan, folder(plan.name)).run);
+  }
+
+  py::dict wall(const studies::WallPlan& plan) {
+    const std::filesystem::path to = folder(plan.study.name);
+    const studies::RunOptions options = cli::run_options(arguments_, to);
+    const auto result = run_beside([&](const std::atomic<bool>& stop) {
+      return studies::run_wall(plan, engines_, options, stop);
+    });
+    if (kept()) cli::write_wall(to, plan, *result, engines_, command_);
+    py::dict made;
+    made["table"] = columns_of(studies::wall_results_table(*result));
+    made["passed"] = result->passed();
+    made["failed"] = result->failed();
+    made["warnings"] = list_of(result->warnings);
+    return made;
+  }
+
+  py::dict matrix(const cli::MatrixPlan& plan) {
+    const std::filesystem::path to = folder(plan.name);
+    studies::MatrixResult result = cli::begin_matrix(plan, arguments_.file);
+    py::dict parts;
+    for (const cli::MatrixPart& part : plan.parts) {
+      Finished finished = run(part.plan, to / part.plan.name);
+      parts[py::str(part.plan.name)] = result_of(finished.run);
+      result.studies.push_back(
+          {std::move(finished.run.result), part.text, std::move(finished.report.figures)});
+    }
+    if (kept()) cli::write_matrix(to, plan, result, file_.text, engines_, command_);
+    py::dict made;
+    made["table"] = columns_of(studies::matrix_table(result));
+    made["studies"] = parts;
+    return made;
+  }
+
+ private:
+  struct Finished {
+    studies::StudyRun run;
+    studies::ReportOutcome report;
+  };
+
+  bool kept() const { return arguments_.out.has_value(); }
+  std::filesystem::path folder(const std::string& name) const {
+    return kept() ? file_.folder(*arguments_.out, name) : unkept_.path() / name;
+  }
+
+  Finished run(const studies::StudyPlan& plan, const std::filesystem::path& to) {
+    const studies::RunOptions options = cli::run_options(arguments_, to);
+    Finished finished{run_beside([&](const std::atomic<bool>& stop) {
+                        return studies::run_study(plan, engines_, options, stop);
+                      }),
+                      {}};
+    if (!kept()) return finished;
+    finished.report = cli::write_study_report(finished.run, command_);
+    for (const std::string& message : finished.report.messages) warn(message);
+    return finished;
+  }
+
+  const cli::StudyArguments& arguments_;
+  const cli::StudyFile& file_;
+  const studies::EngineTable& engines_;
+  std::string command_;
+  TemporaryFolder unkept_;
+};
 
 }  // namespace
 
-py::dict run_studies(const StudyRequest& request) {
-  QuietApplication application(request.allow_plugins);
-  const auto root = application->evaluate(request.file, {});
-  if (!root) application.fail();
-  const auto found = root->children_of("Study");
-  if (found.empty()) throw_error(request.file.string() + " holds no Study");
-  if (!application->load_scene_plugins(*root, request.file)) application.fail();
-  std::vector<studies::StudyPlan> plans;
-  for (const language::Object* study : found) {
-    language::Diagnostics diagnostics;
-    auto plan =
-        studies::make_plan(*root, *study, request.file.string(), application->library(),
-                           application->engines(), {request.quick, request.only}, diagnostics);
-    if (!plan) throw_diagnostics(diagnostics);
-    plans.push_back(std::move(*plan));
-  }
-  const TemporaryFolder unkept;
+py::dict run_studies(const cli::StudyArguments& arguments) {
+  QuietApplication application(arguments.allow_plugins);
+  const auto file = cli::plan_study_file(*application, arguments);
+  if (!file) application.fail();
+  if (file->size() == 0) throw_error(cli::nothing_to_study(arguments.file));
+  application.pass_on_warnings();
+  StudyRunner runner(arguments, *file, application->engines());
   py::dict results;
-  for (const studies::StudyPlan& plan : plans) {
-    studies::RunOptions options;
-    options.jobs = request.jobs > 0
-                       ? request.jobs
-                       : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-    options.resume = request.resume;
-    const std::filesystem::path folder = request.out.value_or(unkept.path());
-    options.folder = plans.size() > 1 || !request.out ? folder / plan.name : folder;
-    const studies::StudyRun run = run_plan(plan, application->engines(), options);
-    results[py::str(plan.name)] = result_of(run.result);
-  }
+  for (const studies::StudyPlan& plan : file->studies)
+    results[py::str(plan.name)] = runner.study(plan);
+  for (const studies::WallPlan& plan : file->walls)
+    results[py::str(plan.study.name)] = runner.wall(plan);
+  for (const cli::MatrixPlan& plan : file->matrices)
+    results[py::str(plan.name)] = runner.matrix(plan);
   return results;
 }
 

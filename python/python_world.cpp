@@ -4,13 +4,23 @@
 
 #include <chrono>
 #include <cmath>
+#include <utility>
 
+#include "output/number.h"
 #include "python/errors.h"
 
 namespace hookpoint::python {
 namespace {
 
 namespace py = pybind11;
+
+/// "file.hook:3:5: message".
+std::string placed(const language::Diagnostic& diagnostic) {
+  if (diagnostic.position.file == nullptr) return diagnostic.message;
+  const language::LineColumn place = language::line_and_column(diagnostic.position);
+  return fmt::format("{}:{}:{}: {}", diagnostic.position.file->path, place.line, place.column,
+                     diagnostic.message);
+}
 
 /// Whether the ends of a wire named by these trails are one port, or one is a part of the other.
 bool same_port(const std::string& a, const std::string& b) {
@@ -27,30 +37,28 @@ py::array_t<double> array_of(const std::vector<double>& numbers) {
 }  // namespace
 
 QuietApplication::QuietApplication(bool allow_plugins)
-    : told_(std::make_shared<language::Diagnostics>()),
+    : told_(std::make_shared<Told>()),
       application_(std::make_unique<cli::Application>(
-          allow_plugins,
-          [told = told_](const language::Diagnostics& diagnostics) { *told = diagnostics; })) {}
+          allow_plugins, [told = told_](const language::Diagnostics& diagnostics) {
+            told->last = diagnostics;
+            for (const language::Diagnostic& diagnostic : diagnostics.all()) {
+              if (diagnostic.severity == language::Severity::warning)
+                told->warnings.push_back(placed(diagnostic));
+            }
+          })) {}
 
-void QuietApplication::fail() const { throw_diagnostics(*told_); }
+void QuietApplication::fail() const { throw_diagnostics(told_->last); }
 
-void QuietApplication::pass_on_warnings() const {
-  for (const language::Diagnostic& diagnostic : told_->all()) {
-    if (diagnostic.severity == language::Severity::warning &&
-        PyErr_WarnEx(PyExc_UserWarning, diagnostic.message.c_str(), 1) != 0)
-      throw py::error_already_set();
-  }
+void QuietApplication::pass_on_warnings() {
+  for (const std::string& warning : std::exchange(told_->warnings, {})) warn(warning);
 }
 
-PythonWorld::PythonWorld(const Source& source) : application_(source.allow_plugins) {
-  if (source.text) application_->give(source.file, *source.text);
-  if (!application_->load_plugins(source.file)) application_.fail();
-  std::vector<std::string> settings = source.settings;
-  if (source.engine) {
-    for (std::string& setting : application_->world_settings(source.file, "engine", *source.engine))
-      settings.push_back(std::move(setting));
-  }
-  const auto root = application_->evaluate(source.file, settings);
+PythonWorld::PythonWorld(const Source& source)
+    : source_(source), application_(source.allow_plugins) {
+  if (source_.text) application_->give(source_.file, *source_.text);
+  if (!application_->load_plugins(source_.file)) application_.fail();
+  if (source_.engine) source_.settings = settings_with("engine", *source_.engine);
+  const auto root = application_->evaluate(source_.file, source_.settings);
   if (!root) application_.fail();
   experiment_ = application_->load(*root);
   if (!experiment_) application_.fail();
@@ -61,13 +69,32 @@ PythonWorld::PythonWorld(const Source& source) : application_(source.allow_plugi
   ports_ = world_->ports();
 }
 
+std::vector<std::string> PythonWorld::settings_with(const std::string& field,
+                                                    const std::string& value) {
+  std::vector<std::string> settings = source_.settings;
+  for (std::string& setting : application_->world_settings(source_.file, field, value))
+    settings.push_back(std::move(setting));
+  return settings;
+}
+
 /// The rows of a run as they come.
 struct PythonWorld::Recording {
   std::vector<const double*> from;
   std::int64_t every = 1, since = 0;
   std::vector<double> time;
   std::vector<std::vector<double>> columns;  ///< one a trail
+  std::unique_ptr<simulation::RunFiles> files;
 
+  void first(const simulation::WorldState& state) {
+    if (files) files->row(state.step, state.time);
+    row(state.time);
+  }
+  void next(const simulation::WorldState& state) {
+    if (files) files->row(state.step, state.time);
+    if (++since < every) return;
+    since = 0;
+    row(state.time);
+  }
   void row(double now) {
     time.push_back(now);
     for (std::size_t i = 0; i < from.size(); ++i) columns[i].push_back(*from[i]);
@@ -82,10 +109,7 @@ simulation::StepStatus PythonWorld::advance(std::int64_t count, Recording& recor
   for (std::int64_t i = 0; i < count && world_->ended().empty(); ++i) {
     const simulation::StepStatus status = world_->step();
     if (!status.ok()) return status;
-    if (++recording.since == recording.every) {
-      recording.since = 0;
-      recording.row(time());
-    }
+    recording.next(world_->state());
     if (Clock::now() - looked < patience) continue;
     looked = Clock::now();
     const py::gil_scoped_acquire ours;
@@ -102,34 +126,61 @@ void PythonWorld::step(std::int64_t count) {
   if (!status.ok()) throw_failure(status);
 }
 
-py::dict PythonWorld::run(std::optional<double> duration, const std::vector<std::string>& trails,
-                          std::int64_t every) {
-  if (every < 1) throw_error("`every` is a number of steps, 1 or more");
-  const double left = duration ? *duration : experiment_->duration - time();
+std::string PythonWorld::text_of_run(const RunOptions& options) {
+  if (!options.duration || steps() > 0) return text_;
+  const auto root = application_->evaluate(
+      source_.file, settings_with("duration", output::shortest(*options.duration)));
+  if (!root) application_.fail();
+  return language::print(*root);
+}
+
+std::unique_ptr<simulation::RunFiles> PythonWorld::open_files(const RunOptions& options) {
+  if (!options.output) {
+    if (options.movie) throw_error("`movie` goes with `output`, the folder of what the run leaves");
+    return nullptr;
+  }
+  simulation::Experiment written = *experiment_;
+  if (options.movie) simulation::add_movie(*options.movie, written);
+  return std::make_unique<simulation::RunFiles>(
+      written, *world_, ports_,
+      simulation::RunRequest{*options.output, options.trails, text_of_run(options), true}, steps());
+}
+
+py::dict PythonWorld::run(const RunOptions& options) {
+  if (options.every < 1) throw_error("`every` is a number of steps, 1 or more");
+  const double left = options.duration ? *options.duration : experiment_->duration - time();
   const double steps = std::round(left / experiment_->deltat);
   if (!(steps >= 0. && steps < 1e15))
     throw_error("`duration` is a time in seconds that is not negative");
   Recording recording;
-  recording.every = every;
-  for (const std::string& trail : trails) recording.from.push_back(port(trail).value);
-  recording.columns.resize(trails.size());
-  recording.row(time());
-  // Whatever ends the run, what was recorded up to then stays.
+  recording.every = options.every;
+  for (const std::string& trail : options.trails) recording.from.push_back(port(trail).value);
+  recording.columns.resize(options.trails.size());
+  recording.files = open_files(options);
+  // Whatever ends the run, what was recorded up to then stays; files are complete unless the disk
+  // refuses.
   const auto keep = [&] {
     py::dict kept;
     kept["time"] = array_of(recording.time);
-    for (std::size_t i = 0; i < trails.size(); ++i)
-      kept[py::str(trails[i])] = array_of(recording.columns[i]);
+    for (std::size_t i = 0; i < options.trails.size(); ++i)
+      kept[py::str(options.trails[i])] = array_of(recording.columns[i]);
     recorded_ = kept;
   };
+  simulation::StepStatus status;
   try {
-    const simulation::StepStatus status = advance(static_cast<std::int64_t>(steps), recording);
-    keep();
-    if (!status.ok()) throw_failure(status);
-  } catch (py::error_already_set&) {
+    recording.first(world_->state());
+    status = advance(static_cast<std::int64_t>(steps), recording);
+  } catch (const output::FileError&) {
     keep();
     throw;
+  } catch (const py::error_already_set&) {
+    keep();
+    if (recording.files) recording.files->close();
+    throw;
   }
+  keep();
+  if (recording.files) recording.files->close();
+  if (!status.ok()) throw_failure(status);
   return recorded_;
 }
 

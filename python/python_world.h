@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "cli/application.h"
+#include "simulation/run_files.h"
 #include "simulation/world.h"
 
 namespace hookpoint::python {
@@ -22,14 +23,27 @@ class QuietApplication {
   explicit QuietApplication(bool allow_plugins);
   cli::Application& operator*() { return *application_; }
   cli::Application* operator->() { return application_.get(); }
-  /// Throws hookpoint.FileError with what was told.
+  /// Throws hookpoint.FileError with what was told last.
   [[noreturn]] void fail() const;
-  /// Warnings among what was told become warnings of Python.
-  void pass_on_warnings() const;
+  /// Warnings told since the last call become warnings of Python, each with its place.
+  void pass_on_warnings();
 
  private:
-  std::shared_ptr<language::Diagnostics> told_;
+  struct Told {
+    language::Diagnostics last;
+    std::vector<std::string> warnings;
+  };
+  std::shared_ptr<Told> told_;
   std::unique_ptr<cli::Application> application_;
+};
+
+/// What a run records and writes.
+struct RunOptions {
+  std::optional<double> duration;   ///< [s]; none: to the end of the file's own
+  std::vector<std::string> trails;  ///< whose values are returned, and written to trace.csv
+  std::int64_t every = 1;           ///< steps from one returned row to the next
+  std::optional<std::filesystem::path> output;  ///< folder of the files; none: nothing is written
+  std::optional<std::filesystem::path> movie;   ///< beside those of the file; empty: movie.h5
 };
 
 /// What a .hook file is, and what is changed in it before it is evaluated.
@@ -48,10 +62,10 @@ class PythonWorld {
 
   /// Takes `count` steps, fewer when the run ends. Lets other threads run.
   void step(std::int64_t count);
-  /// Runs for `duration` [s], or to the file's own; returns the values of `trails` at the present
-  /// instant and after every `every` steps, and "time".
-  pybind11::dict run(std::optional<double> duration, const std::vector<std::string>& trails,
-                     std::int64_t every);
+  /// Returns the values of the trails at the present instant and after every `every` steps, and
+  /// "time". With `output` that folder gets what `hookpoint run` would leave in it. Throws
+  /// output::FileError.
+  pybind11::dict run(const RunOptions& options);
   double read(const std::string& trail);
   void write(const std::string& trail, double value);
   /// A tuple (trail, unit, writable) a port.
@@ -70,7 +84,14 @@ class PythonWorld {
   const simulation::Port& port(const std::string& trail);
   /// Steps without the GIL, looking for signals now and then. The status of the last.
   simulation::StepStatus advance(std::int64_t count, Recording& recording);
+  /// The settings with one more: a field of the file's World.
+  std::vector<std::string> settings_with(const std::string& field, const std::string& value);
+  /// The experiment as it lies beside the files of a run: one that begins at time 0 with the run's
+  /// duration as the World's.
+  std::string text_of_run(const RunOptions& options);
+  std::unique_ptr<simulation::RunFiles> open_files(const RunOptions& options);
 
+  Source source_;
   QuietApplication application_;
   std::optional<simulation::Experiment> experiment_;
   std::string text_;

@@ -211,9 +211,9 @@ Experiment advised_experiment(const Experiment& experiment,
   return advised;
 }
 
-double bound_under(Experiment experiment, std::string_view integrator) {
+StabilityBound bound_under(Experiment experiment, std::string_view integrator) {
   experiment.integrator = integrator;
-  return stability_bound(experiment).step;
+  return stability_bound(experiment);
 }
 
 }  // namespace
@@ -229,8 +229,11 @@ Advice advise(const Experiment& experiment, const AdviceWishes& wishes) {
   const Experiment advised = advised_experiment(experiment, advice.grounds);
   for (const integrators::StepperDescription& stepper : integrators::stepper_table()) {
     if (!integrators::largest_stable_step(stepper.name, {1., 1., 1.})) continue;
-    advice.steps.push_back({std::string(stepper.name), bound_under(experiment, stepper.name),
-                            bound_under(advised, stepper.name)});
+    StabilityBound present = bound_under(experiment, stepper.name);
+    advice.steps.push_back(
+        {std::string(stepper.name), present.step, bound_under(advised, stepper.name).step});
+    advice.controllers = std::move(present.controllers);
+    advice.left_out = std::move(present.left_out);
   }
   advice.changes = advise_changes(experiment, advice);
   return advice;

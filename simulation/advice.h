@@ -56,8 +56,10 @@ struct StepAdvice {
 
 struct Advice {
   std::vector<GroundAdvice> grounds;
-  std::vector<StepAdvice> steps;     ///< of every integrator with a fixed step
-  std::vector<std::string> changes;  ///< which constant to change, and why; empty: none
+  std::vector<StepAdvice> steps;         ///< of every integrator with a fixed step
+  std::vector<std::string> controllers;  ///< of joints, whose loops are in the steps
+  std::vector<std::string> left_out;     ///< feedback that is not, with the reason
+  std::vector<std::string> changes;      ///< which constant to change, and why; empty: none
 };
 
 /// Of an experiment under engine dts and a force law, at its initial state. Points carry a robot if

@@ -1,12 +1,16 @@
 #include "simulation/stability.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "integrators/stepper.h"
 #include "simulation/dts_robot.h"
 #include "simulation/ground.h"
+#include "simulation/joint_loops.h"
+#include "simulation/loop_stability.h"
 #include "simulation/vibration.h"
 
 namespace hookpoint::simulation {
@@ -44,16 +48,21 @@ double resolved_speed(const Experiment& experiment, const contact::ForceLaw& law
   return least;
 }
 
+using Contacts = StabilityBound::Contacts;
+
 StabilityBound bound_of(const Experiment& experiment, const DtsRobot& robot,
-                        const std::vector<ContactSpring>& springs, const std::string& name,
-                        bool touching) {
+                        const std::vector<ContactSpring>& springs,
+                        const std::vector<JointLoop>& loops, const std::string& name,
+                        Contacts contacts) {
   const Vibration vibration = linear_vibration(robot, springs);
-  return {largest_stable_step(experiment.integrator, vibration),
-          largest_eigenvalue(vibration.stiffness),
-          largest_eigenvalue(vibration.damping),
-          name,
-          touching,
-          infinity};
+  StabilityBound bound{largest_stable_step(experiment.integrator, vibration, loops),
+                       largest_eigenvalue(vibration.stiffness),
+                       largest_eigenvalue(vibration.damping), name, contacts};
+  for (const JointLoop& loop : loops) {
+    if (bound.controllers.empty() || bound.controllers.back() != loop.controller)
+      bound.controllers.push_back(loop.controller);
+  }
+  return bound;
 }
 
 double weight(const Experiment& experiment, const RobotSpec& robot) {
@@ -64,12 +73,14 @@ double weight(const Experiment& experiment, const RobotSpec& robot) {
   return mass * norm(experiment.gravity);
 }
 
-StabilityBound robot_bound(const Experiment& experiment, int index,
-                           const contact::Terrain& ground) {
+StabilityBound robot_bound(const Experiment& experiment, std::size_t index,
+                           const contact::Terrain* ground, const std::vector<JointLoop>& loops) {
   const contact::ForceLaw law = *contact::find_force_law(experiment.contact);
   const RobotSpec& spec = experiment.robots[index];
   const WorldInputs inputs = initial_inputs(experiment);
-  const DtsRobot robot(experiment, index, &ground, inputs);
+  const DtsRobot robot(experiment, static_cast<int>(index), ground, inputs);
+  if (ground == nullptr || robot.contact_points().empty())
+    return bound_of(experiment, robot, {}, loops, spec.name, Contacts::none);
 
   std::vector<const ContactPoint*> touching;
   for (const ContactPoint& point : robot.contact_points()) {
@@ -80,32 +91,55 @@ StabilityBound robot_bound(const Experiment& experiment, int index,
     const double load = weight(experiment, spec) / static_cast<double>(touching.size());
     for (const ContactPoint* point : touching)
       springs.push_back(make_spring(experiment, law, *point, load));
-    StabilityBound bound = bound_of(experiment, robot, springs, spec.name, true);
+    StabilityBound bound =
+        bound_of(experiment, robot, springs, loops, spec.name, Contacts::touching);
     bound.resolved_speed = resolved_speed(experiment, law, touching, load);
     return bound;
   }
-  StabilityBound least{infinity, 0., 0., spec.name, false, infinity};
+  // The point alone decides which is worst; the loops then join it.
+  const ContactPoint* worst = &robot.contact_points().front();
+  StabilityBound least{infinity, 0., 0., spec.name, Contacts::worst};
   for (const ContactPoint& point : robot.contact_points()) {
     const ContactSpring spring = make_spring(experiment, law, point, weight(experiment, spec));
-    StabilityBound bound = bound_of(experiment, robot, {spring}, spec.name, false);
-    const std::array one{&point};
-    bound.resolved_speed = resolved_speed(experiment, law, one, weight(experiment, spec));
-    if (bound.step < least.step) least = bound;
+    const StabilityBound bound =
+        bound_of(experiment, robot, {spring}, {}, spec.name, Contacts::worst);
+    if (!(bound.step < least.step)) continue;
+    least = bound;
+    worst = &point;
   }
+  if (!loops.empty()) {
+    const ContactSpring spring = make_spring(experiment, law, *worst, weight(experiment, spec));
+    least = bound_of(experiment, robot, {spring}, loops, spec.name, Contacts::worst);
+  }
+  const std::array one{worst};
+  least.resolved_speed = resolved_speed(experiment, law, one, weight(experiment, spec));
   return least;
 }
 
 }  // namespace
 
+std::string first_of(const std::vector<std::string>& names) {
+  constexpr std::size_t shown = 3;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(shown, names.size()); ++i)
+    text += (i == 0 ? "" : "; ") + names[i];
+  if (names.size() > shown) text += "; and " + std::to_string(names.size() - shown) + " more";
+  return text;
+}
+
 StabilityBound stability_bound(const Experiment& experiment) {
-  StabilityBound least{infinity, 0., 0., "", false, infinity};
+  StabilityBound least{infinity};
+  if (!contact::find_force_law(experiment.contact) || experiment.engine != "dts") return least;
   const auto ground = make_ground(experiment);
-  if (!ground || !contact::find_force_law(experiment.contact) || experiment.engine != "dts")
-    return least;
+  const WiredControl control = wired_control(experiment);
   for (std::size_t i = 0; i < experiment.robots.size(); ++i) {
-    const StabilityBound bound = robot_bound(experiment, static_cast<int>(i), *ground);
+    std::vector<JointLoop> loops;
+    std::ranges::copy_if(control.loops, std::back_inserter(loops),
+                         [&](const JointLoop& loop) { return loop.robot == i; });
+    const StabilityBound bound = robot_bound(experiment, i, ground ? &*ground : nullptr, loops);
     if (bound.step < least.step) least = bound;
   }
+  least.left_out = control.left_out;
   return least;
 }
 

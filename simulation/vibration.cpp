@@ -146,7 +146,8 @@ Vibration linear_vibration(const DtsRobot& robot, const std::vector<ContactSprin
   const Eigen::LLT<Eigen::MatrixXd> factors(responses.inverse_mass_matrix());
   const Eigen::MatrixXd root = factors.matrixL();
   const Eigen::Index n = responses.size();
-  Vibration vibration{Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd::Zero(n, n)};
+  Vibration vibration{Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd::Zero(n, n),
+                      root.bottomRows(n - responses.first_joint())};
   for (const ContactSpring& spring : springs) {
     Eigen::MatrixXd moved(n, 3);
     moved << responses.to_impulse(spring.point, {1., 0., 0.}),

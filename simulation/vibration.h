@@ -21,6 +21,7 @@ struct ContactSpring {
 struct Vibration {
   Eigen::MatrixXd stiffness;  ///< K [1/s^2]
   Eigen::MatrixXd damping;    ///< C [1/s]
+  Eigen::MatrixXd joints;     ///< a row a joint: its position over z; a torque moves z by the row
 };
 
 /// Of a symmetric matrix.
@@ -28,7 +29,7 @@ double largest_eigenvalue(const Eigen::MatrixXd& symmetric);
 
 /// Of a refreshed `robot` about its present posture, at rest: its contacts `springs` and what its
 /// joints do by themselves (spring, damper, dry friction below its speed, a stop that is reached).
-/// Wired controllers are not in it. O(links^3).
+/// Wired controllers are not in it (loop_stability.h). O(links^3).
 Vibration linear_vibration(const DtsRobot& robot, const std::vector<ContactSpring>& springs);
 
 /// The largest step with which the integrator of that name lets no mode of the vibration grow [s];

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "language/document.h"
+#include "output/csv.h"
 #include "studies/plan.h"
 #include "studies/run.h"
 
@@ -72,7 +73,11 @@ std::optional<WallPlan> make_wall_plan(const language::Object& root, const langu
 std::optional<WallResult> run_wall(const WallPlan& plan, const EngineTable& engines,
                                    const RunOptions& options, const std::atomic<bool>& stop);
 
-/// results.csv (a row a truth and subject), experiment.hook and provenance.json in `folder`.
+/// A row a truth and subject: scene, truth, subject, engine, law, integrator, measured, expected,
+/// unit, error, allowed, ok, status.
+output::CsvTable wall_results_table(const WallResult& result);
+
+/// results.csv (the table), experiment.hook and provenance.json in `folder`.
 /// Throws output::FileError.
 void write_wall_files(const std::filesystem::path& folder, const WallPlan& plan,
                       const WallResult& result, const Provenance& provenance);

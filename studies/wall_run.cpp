@@ -128,30 +128,6 @@ int count_cells(const WallResult& result, bool ok) {
   return count;
 }
 
-output::CsvTable results_table(const WallResult& result) {
-  output::CsvTable table;
-  table.header = {"scene",    "truth", "subject", "engine",  "law", "integrator", "measured",
-                  "expected", "unit",  "error",   "allowed", "ok",  "status"};
-  const auto number = [](const std::optional<double>& value) {
-    return value ? output::shortest(*value) : std::string();
-  };
-  for (const WallLine& line : result.lines) {
-    for (std::size_t i = 0; i < line.cells.size(); ++i) {
-      const WallCell& cell = line.cells[i];
-      if (cell.status.empty()) continue;
-      const SubjectInfo& subject = result.subjects[i];
-      table.rows.push_back({result.scenes[line.scene].name, line.name, subject.name, subject.engine,
-                            cell.law, cell.integrator, number(cell.measured), number(cell.expected),
-                            line.unit, number(cell.error), line.allowed,
-                            skipped(cell) ? ""
-                            : cell.ok     ? "true"
-                                          : "false",
-                            cell.status});
-    }
-  }
-  return table;
-}
-
 }  // namespace
 
 int WallResult::passed() const { return count_cells(*this, true); }
@@ -179,9 +155,33 @@ std::optional<WallResult> run_wall(const WallPlan& plan, const EngineTable& engi
   return result;
 }
 
+output::CsvTable wall_results_table(const WallResult& result) {
+  output::CsvTable table;
+  table.header = {"scene",    "truth", "subject", "engine",  "law", "integrator", "measured",
+                  "expected", "unit",  "error",   "allowed", "ok",  "status"};
+  const auto number = [](const std::optional<double>& value) {
+    return value ? output::shortest(*value) : std::string();
+  };
+  for (const WallLine& line : result.lines) {
+    for (std::size_t i = 0; i < line.cells.size(); ++i) {
+      const WallCell& cell = line.cells[i];
+      if (cell.status.empty()) continue;
+      const SubjectInfo& subject = result.subjects[i];
+      table.rows.push_back({result.scenes[line.scene].name, line.name, subject.name, subject.engine,
+                            cell.law, cell.integrator, number(cell.measured), number(cell.expected),
+                            line.unit, number(cell.error), line.allowed,
+                            skipped(cell) ? ""
+                            : cell.ok     ? "true"
+                                          : "false",
+                            cell.status});
+    }
+  }
+  return table;
+}
+
 void write_wall_files(const std::filesystem::path& folder, const WallPlan& plan,
                       const WallResult& result, const Provenance& provenance) {
-  output::write_csv(folder / "results.csv", results_table(result));
+  output::write_csv(folder / "results.csv", wall_results_table(result));
   output::write_file(folder / "experiment.hook", plan.study.printed);
   output::write_file(folder / "provenance.json", provenance_json(provenance));
 }

@@ -3,6 +3,7 @@ import csv
 import json
 import os
 import pathlib
+import re
 import signal
 import subprocess
 import tempfile
@@ -46,6 +47,26 @@ STIFF = """World w {
 
 def read_csv(path):
     return list(csv.reader(path.read_text().splitlines()))
+
+# A record of every format and two movies, of a ball that falls onto a slope and slides.
+LOGGED = """World w {
+  deltat = 1 ms; duration = 0.3 s;
+  Material clay { normal_stiffness = 1e5; normal_damping = 100; }
+  Terrain.Slope hill { angle = 20 deg; size = 4; material = clay; }
+  Robot ball { Base.mobile { location = 0, 0, 0.12; mass = 2; Shape.Sphere radius = 0.1; } }
+  Record fall { trails = ball.base.velocity, time; rate = 50 Hz; }
+  Record spots { trails = ball.base.location; format = wl; }
+  Record table { trails = ball.base.location.z; format = mat5; rate = 300 Hz; }
+  Record deep { trails = ball.base.contact.force; format = hdf5; }
+  Record lanes { trails = ball.base.contact.force.z; format = mcap; }
+  Movie film { rate = 100 Hz; }
+}
+"""
+
+
+def files_of(folder):
+    return {str(file.relative_to(folder)): file.read_bytes()
+            for file in sorted(pathlib.Path(folder).rglob("*")) if file.is_file()}
 
 
 class World(unittest.TestCase):
@@ -179,6 +200,71 @@ class World(unittest.TestCase):
         for column, values in enumerate(trace.values()):
             np.testing.assert_array_equal(table[:, column], values)
 
+    def test_leaves_the_files_of_the_command(self):
+        trails = ["w.ball.base.location.x", "w.time"]
+        for duration, wanted in ((None, []), (0.2, ["--for", "0.2 s"])):
+            with tempfile.TemporaryDirectory() as folder:
+                place = pathlib.Path(folder)
+                scene = place / "scene.hook"
+                scene.write_text(LOGGED)
+                subprocess.run([PROGRAM, "run", scene, "--out", place / "command", "--record", ",".join(trails), "--movie",
+                                *wanted], check=True, capture_output=True)
+                world = hookpoint.load(scene)
+                trace = world.run(duration, record=trails, every=10, output=place / "python", movie=place / "movie.h5")
+                (place / "movie.h5").rename(place / "python" / "movie.h5")
+                self.assertEqual(len(trace["time"]), world.steps / 10 + 1)
+                written, expected = files_of(place / "python"), files_of(place / "command")
+            self.assertEqual(list(written), list(expected))
+            for name in ("trace.csv", "experiment.hook", "fall.csv", "spots.wl", "table.mat", "deep.h5", "lanes.mcap", "film.h5"):
+                self.assertIn(name, written)
+            for name, content in expected.items():
+                self.assertEqual(written[name], content, name)
+            self.assertEqual(len(written["trace.csv"].splitlines()), world.steps + 2)
+
+    def test_a_run_that_goes_on_writes_the_rows_of_the_whole_run(self):
+        with tempfile.TemporaryDirectory() as folder:
+            place = pathlib.Path(folder)
+            hookpoint.loads(LOGGED).run(output=place / "whole")
+            world = hookpoint.loads(LOGGED)
+            world.run(0.105)
+            world.run(output=place / "rest")
+            whole, rest = read_csv(place / "whole" / "fall.csv"), read_csv(place / "rest" / "fall.csv")
+            # 0, 20, ... 300 ms; from 105 ms on the first is at 120.
+            self.assertEqual(rest, whole[:1] + whole[7:])
+            self.assertEqual(float(rest[1][0]), 0.12)
+            moment = ["--at", "0.27 s", "--json"]
+            states = [json.loads(subprocess.run([PROGRAM, "replay", place / name / "film.h5", *moment], check=True,
+                                                capture_output=True, text=True).stdout) for name in ("whole", "rest")]
+            self.assertEqual(states[0], states[1])
+
+    def test_files_stay_when_a_run_ends_early(self):
+        stiff = STIFF[:STIFF.rindex("}")] + "Record swing { trails = wheel.axle.disc.angle; }\n}\n"
+        with tempfile.TemporaryDirectory() as folder:
+            place = pathlib.Path(folder)
+            with self.assertRaises(hookpoint.RunError):
+                hookpoint.loads(stiff).run(output=place / "python")
+            (place / "stiff.hook").write_text(stiff)
+            command = subprocess.run([PROGRAM, "run", place / "stiff.hook", "--out", place / "command"], capture_output=True)
+            self.assertEqual(command.returncode, 1)
+            self.assertGreater(len(read_csv(place / "python" / "swing.csv")), 50)
+            self.assertEqual(files_of(place / "python"), files_of(place / "command"))
+
+    def test_files_that_cannot_be_are_exceptions(self):
+        with tempfile.TemporaryDirectory() as folder:
+            place = pathlib.Path(folder)
+            (place / "taken").write_text("")
+            with self.assertRaisesRegex(OSError, "taken"):
+                hookpoint.loads(LOGGED).run(output=place / "taken")
+            with self.assertRaisesRegex(hookpoint.Error, "goes with `output`"):
+                hookpoint.loads(LOGGED).run(movie=True)
+            with self.assertRaisesRegex(hookpoint.Error, "cannot be saved and resumed"):
+                hookpoint.loads(LOGGED, engine="ode").run(output=place / "none")
+            with self.assertRaisesRegex(hookpoint.Error, "nearest|did you mean"):
+                hookpoint.loads(FALLING).run(record=["ball.base.locatoin.z"], output=place / "none")
+            with self.assertRaisesRegex(hookpoint.Error, "another name"):
+                hookpoint.loads(LOGGED.replace("Movie film { ", "Movie movie { ")).run(movie=True, output=place / "none")
+            self.assertEqual(list(place.iterdir()), [place / "taken"])
+
     def test_a_plugin_brings_its_class_if_it_may(self):
         plugin = os.environ["HOOKPOINT_PLUGIN"]
         text = f'Plugin "{plugin}";\n' + FALLING + \
@@ -199,16 +285,9 @@ class Study(unittest.TestCase):
         subjects = ["hookpoint", "hunt_crossley"]
         with tempfile.TemporaryDirectory() as folder:
             result = hookpoint.study(study, quick=True, only=subjects, out=folder)["creep"]
-            rows = read_csv(pathlib.Path(folder) / "results.csv")
+            text = (pathlib.Path(folder) / "results.csv").read_bytes()
         table = result["table"]
-        self.assertEqual(list(table), rows[0])
-        self.assertEqual(len(table["subject"]), len(rows) - 1)
-        for column, title in enumerate(rows[0]):
-            for row, value in zip(rows[1:], table[title]):
-                if isinstance(value, str):
-                    self.assertEqual(str(value), row[column])
-                else:
-                    self.assertEqual(repr(float(value)), repr(float(row[column] or "nan")))
+        self.assert_table(table, text)
         self.assertEqual(table["slope [deg]"].dtype, np.float64)
         # A regularised law creeps by its closed form; hooks hold.
         sticks = (table["mu"] == 0.8) & (table["status"] == "ok")
@@ -218,6 +297,83 @@ class Study(unittest.TestCase):
         self.assertLess(table["creep_speed [m/s]"][sticks & (table["subject"] == "hookpoint")].max(), 1e-9)
         self.assertTrue(all(truth["failed"] == 0 for truth in result["truths"]))
         self.assertTrue(any("realtime_factor" in title for title in result["timing"]))
+
+    def run_both(self, text, place):
+        """The results of Python and the folders that the command and Python leave, dates apart."""
+        study = place / "study.hook"
+        study.write_text(text)
+        command = subprocess.run([PROGRAM, "study", study, "--out", place / "command"], capture_output=True, text=True)
+        self.assertEqual(command.returncode, 0, command.stderr)
+        result = hookpoint.study(study, out=place / "python")
+        folders = [files_of(place / name) for name in ("command", "python")]
+        for files in folders:
+            for name in files:
+                files[name] = re.sub(rb"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ", b"date", files[name])
+        return result, *folders
+
+    def assert_table(self, table, text):
+        rows = list(csv.reader(text.decode().splitlines()))
+        self.assertEqual(list(table), rows[0])
+        for column, title in enumerate(rows[0]):
+            for row, value in zip(rows[1:], table[title], strict=True):
+                if isinstance(value, str):
+                    self.assertEqual(str(value), row[column])
+                else:
+                    self.assertEqual(repr(float(value)), repr(float(row[column] or "nan")))
+
+    def test_a_wall_is_that_of_the_command(self):
+        wall = """Wall truths {
+          title = "Free fall"; question = "Does it fall?";
+          Subject hookpoint; Subject lugre { contact = lugre; }
+          Scene pendulum; Scene arm_at_rest;
+        }
+        """
+        with tempfile.TemporaryDirectory() as folder:
+            result, command, python = self.run_both(wall, pathlib.Path(folder))
+            self.assertEqual(list(python), list(command))
+            for name in command:
+                if not name.startswith("rows"):
+                    self.assertEqual(python[name], command[name], name)
+            self.assertIn("report.html", python)
+            unkept = hookpoint.study(pathlib.Path(folder) / "study.hook")
+        wall = result["truths"]
+        self.assert_table(wall["table"], command["results.csv"])
+        self.assertEqual(wall["failed"], 0)
+        self.assertEqual(wall["passed"], sum(wall["table"]["ok"] == "true"))
+        self.assertGreater(wall["passed"], 1)
+        relative = np.abs(wall["table"]["measured"] - wall["table"]["expected"])
+        np.testing.assert_array_less(relative, 0.01 * np.abs(wall["table"]["expected"]) + 1e-6)
+        np.testing.assert_array_equal(unkept["truths"]["table"]["measured"], wall["table"]["measured"])
+
+    def test_a_wall_warns_at_the_place_of_its_scene(self):
+        with tempfile.TemporaryDirectory() as folder:
+            place = pathlib.Path(folder)
+            (place / "coarse.hook").write_text("World w { deltat = 50 ms; duration = 0.5 s; Terrain.Flat g { size = 2; }\n"
+                                               "Robot ball { Base.mobile { location = 0, 0, 5; Shape.Sphere { radius = .1; mass = 1; } } }"
+                                               "}\nExpect stays { of = w.ball.base.location.x; equals = 0 m; within = 1 mm; }\n")
+            (place / "wall.hook").write_text("Wall walls { Subject ours;\n  Scene coarse { file = \"coarse.hook\"; } }\n")
+            with self.assertWarnsRegex(UserWarning, r"wall.hook:2:3: deltat 0.05 s is above the largest stable step"):
+                result = hookpoint.study(place / "wall.hook")["walls"]
+        self.assertRegex(result["warnings"][0], "coarse under ours")
+
+    def test_a_matrix_is_that_of_the_command(self):
+        scene = "World w { deltat = 1 ms; duration = 0.2 s; Terrain.Slope g { size = 4; angle = 20 deg; } " \
+            "Robot block { Base.mobile { rest_on = g; Shape.Box { dimensions = .2, .2, .1; mass = 1; } } } }\n"
+        study = "Study {} {{ scene = \"slide.hook\"; duration = 0.2 s; settle = 0 s; Measure slip_distance; " \
+            "Subject ours {{ engine = dts; }} Subject bullet {{ engine = bullet; }} }}\n"
+        with tempfile.TemporaryDirectory() as folder:
+            place = pathlib.Path(folder)
+            (place / "slide.hook").write_text(scene)
+            for name in ("first", "second"):
+                (place / (name + ".hook")).write_text(study.format(name))
+            matrix = "Matrix both { Part a { file = \"first.hook\"; } Part b { file = \"second.hook\"; } }\n"
+            result, command, python = self.run_both(matrix, place)
+        self.assertEqual(list(python), list(command))
+        for name in ("matrix.csv", "matrix.html", "experiment.hook", "provenance.json", "first/results.csv", "second/report.html"):
+            self.assertEqual(python[name], command[name], name)
+        self.assert_table(result["both"]["table"], command["matrix.csv"])
+        self.assertEqual(list(result["both"]["studies"]), ["first", "second"])
+        self.assert_table(result["both"]["studies"]["second"]["table"], command["second/results.csv"])
 
     def test_ctrl_c_stops_a_study(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -86,7 +86,7 @@ INSTANTIATE_TEST_SUITE_P(
                                          Case{"Slope", "walking_slope.hook", {}, 0.2, 0.2},
                                          Case{
                                              "OtherLegs", "walking_other_legs.hook", {}, 0.15, 0.2},
-                                         Case{"Insect", "walking_insect.hook", {}, 0.15, 0.6},
+                                         Case{"Insect", "walking_insect.hook", {}, 0.15, 0.2},
                                          Case{"Late", "walking_late.hook", {}, 0.2, 0.25}),
                        ::testing::Values(0, 1)),
     [](const auto& instance) {

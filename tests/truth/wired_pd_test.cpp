@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "simulation/stability.h"
 #include "tests/support/run_text.h"
 
 namespace hookpoint {
@@ -66,6 +67,153 @@ TEST(WiredPd, IsStableUpToTheGainThatTheDelayLeaves) {
     EXPECT_LT(growth(0.99 * limit, samples), 1.) << samples;
     EXPECT_GT(growth(1.01 * limit, samples), 1.) << samples;
   }
+}
+
+/// 1 kg on a slide under a PD with 400 N/m and `kd`.
+std::string held_slide(const std::string& integrator, double kd, double dt,
+                       const std::string& more = "") {
+  return fmt::format(
+      "World w {{ gravity = 0; deltat = {}; integrator = {}; Robot bot {{ Base.fixed {{ }} Chain c "
+      "{{ Link l {{ joint = prismatic; angle = 1; mass = 1; }} }} }} }}\n"
+      "Controller.PD p {{ pconstant = 400; dconstant = {}; {} Wire FROM w.bot.c.l.angle TO "
+      "current; Wire FROM w.bot.c.l.rate TO rate_in; Wire TO w.bot.c.l.torque; }}",
+      dt, integrator, kd, more);
+}
+
+double bound(const std::string& text) {
+  const Loaded loaded = load_text(text);
+  EXPECT_TRUE(loaded.experiment) << loaded.diagnostics;
+  return simulation::stability_bound(*loaded.experiment).step;
+}
+
+// The Euler methods see the controller as they see a spring and a damper. RK4 is exact under a held
+// force, x+ = x + h v + h^2/2 u, and on the unit circle 4 = 2 h kd or h kp = 2 kd.
+TEST(WiredPd, TheStepItBearsIsThatOfTheClosedForm) {
+  for (const double kd : {1., 10., 30., 50.}) {
+    const double root = std::sqrt(std::max(0., kd * kd - 1600.));
+    const double explicit_euler = kd < 40. ? kd / 400. : 4. / (kd + root);
+    EXPECT_NEAR(bound(held_slide("explicit_euler", kd, 1e-3)) / explicit_euler, 1., 1e-6);
+    EXPECT_NEAR(bound(held_slide("semi_implicit_euler", kd, 1e-3)) * 400. /
+                    (std::sqrt(kd * kd + 1600.) - kd),
+                1., 1e-6);
+    EXPECT_NEAR(bound(held_slide("rk4", kd, 1e-3)) / std::min(2. / kd, kd / 200.), 1., 1e-6);
+  }
+  EXPECT_EQ(bound(held_slide("explicit_euler", 0., 1e-3)), 0.);
+}
+
+// From the position alone the velocity of a semi-implicit step is known: (x - x_before)/h.
+TEST(WiredPd, ADifferencedRateCostsASemiImplicitStepNothing) {
+  std::string text = held_slide("semi_implicit_euler", 10., 1e-3);
+  const std::string rate = "Wire FROM w.bot.c.l.rate TO rate_in;";
+  text.replace(text.find(rate), rate.size(), "");
+  EXPECT_NEAR(bound(text) * 400. / (std::sqrt(1700.) - 10.), 1., 1e-6);
+}
+
+// The gains of the test above: below, any step that divides 10 ms is borne, and above, none.
+TEST(WiredPd, TheBoundKnowsTheGainThatSamplingAndDelayLeave) {
+  const std::pair<int, double> limits[] = {{0, 2000.}, {1, 941.83}, {2, 543.93}, {5, 181.29}};
+  for (const auto& [samples, limit] : limits) {
+    EXPECT_GE(bound(sampled_slide(0.999 * limit, samples)), 0.01) << samples;
+    EXPECT_EQ(bound(sampled_slide(1.001 * limit, samples)), 0.) << samples;
+  }
+}
+
+/// How much faster the world's joints move in the last tenth of `steps` than in the fifth.
+double unrest(Running run, int steps, const std::vector<std::string>& rates) {
+  std::vector<const double*> values;
+  for (const std::string& trail : rates) values.push_back(run.port(trail).value);
+  double early = 0., late = 0.;
+  for (int k = 0; k < steps; ++k) {
+    if (!run.world().step().ok()) return INFINITY;
+    for (const double* value : values) {
+      if (10 * k / steps == 4) early = std::max(early, std::fabs(*value));
+      if (10 * k / steps == 9) late = std::max(late, std::fabs(*value));
+    }
+  }
+  return late / early;
+}
+
+std::string two_joints(const std::string& integrator, double dt, const std::string& controller) {
+  return fmt::format(
+      "World w {{ gravity = 0; deltat = {}; integrator = {}; Robot bot {{ Base.fixed {{ }} Chain c "
+      "{{ Link a {{ mass = 2; center_of_mass = 0.3,0,0; inertia = 0.1,0.1,0.1,0,0,0; }} "
+      "Link b {{ dhlength = 0.5; angle = 1e-15; mass = 1; center_of_mass = 0.2,0,0; inertia = "
+      "0.02,0.02,0.02,0,0,0; }} }} }} }}\n{}",
+      dt, integrator, controller);
+}
+
+// Steps 1 % below and above the bound, in the engine: controllers with memory, at a rate, late.
+TEST(WiredPd, OscillationsGrowFromTheBoundOn) {
+  const auto loop = [](const std::string& type, const std::string& joint,
+                       const std::string& wires) {
+    return "Controller." + type + " " + joint + " { pconstant = 300; dconstant = 6; " + wires +
+           " Wire FROM w.bot.c." + joint + ".angle TO current; Wire TO w.bot.c." + joint +
+           ".torque; }\n";
+  };
+  const auto both = [&](const std::string& type, const std::string& wires) {
+    return loop(type, "a", wires) + loop(type, "b", wires);
+  };
+  const std::vector<std::string> controllers{
+      both("PD", ""), both("PID", "iconstant = 500; filter_time = 2 ms;"),
+      loop("PD", "a", "Wire FROM w.bot.c.a.rate TO rate_in;") + loop("PID", "b", "")};
+  for (const std::string& controller : controllers) {
+    for (const std::string integrator : {"explicit_euler", "semi_implicit_euler", "rk4"}) {
+      const double limit = bound(two_joints(integrator, 1e-3, controller));
+      ASSERT_GT(limit, 1e-5);
+      ASSERT_LT(limit, 0.1);
+      const auto moves = [&](double part) {
+        const double dt = std::round(part * limit * 1e9) * 1e-9;
+        return unrest(Running(two_joints(integrator, dt, controller)), 1000,
+                      {"bot.c.a.rate", "bot.c.b.rate"});
+      };
+      EXPECT_LT(moves(0.99), 1.) << integrator << " " << controller;
+      EXPECT_GT(moves(1.01), 1.) << integrator << " " << controller;
+    }
+  }
+}
+
+// Ten joints held by controllers, on a ground: it settles below the bound and trembles above.
+TEST(WiredPd, ABipedTremblesFromTheBoundOn) {
+  const auto biped = [](double dt) {
+    return load_file(
+        std::filesystem::path(HOOKPOINT_SOURCE_DIR) / "configs/scenes/standing_biped.hook",
+        {{}, {{"world.deltat", fmt::format("{}", dt)}}});
+  };
+  const simulation::StabilityBound bound = simulation::stability_bound(*biped(1e-4).experiment);
+  EXPECT_EQ(bound.controllers.size(), 10u);
+  EXPECT_EQ(bound.left_out.size(), 0u);
+  const std::vector<std::string> rates{"biped.leg[0].thigh.rate", "biped.leg[0].shank.rate",
+                                       "biped.leg[1].ankle.rate", "biped.leg[1].foot.rate"};
+  const auto at = [&](double part) { return biped(std::round(part * bound.step * 1e9) * 1e-9); };
+  EXPECT_LT(unrest(Running(at(0.99)), 5000, rates), 0.9);
+  Running shaken(at(1.01));
+  double most = 0.;
+  shaken.step(4000);
+  for (int k = 0; k < 1000; ++k) {
+    shaken.step();
+    most = std::max(most, std::fabs(shaken["biped.leg[1].foot.rate"]));
+  }
+  EXPECT_GT(most, 1.);
+}
+
+TEST(WiredPd, WhatTheBoundLeavesOutIsNamed) {
+  const auto left_out = [](const std::string& text) {
+    const Loaded loaded = load_text(text);
+    EXPECT_TRUE(loaded.experiment) << loaded.diagnostics;
+    return simulation::stability_bound(*loaded.experiment).left_out;
+  };
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(left_out(held_slide("rk4", 10., 1e-3)), Names{});
+  EXPECT_EQ(left_out(held_slide("rk4", 10., 1e-3, "rate = 100 Hz;")), Names{});
+  const std::string late = "Wire FROM w.bot.c.l.angle TO current { delay = 5 ms; }";
+  std::string text = held_slide("rk4", 10., 1e-3);
+  const std::string wire = "Wire FROM w.bot.c.l.angle TO current;";
+  text.replace(text.find(wire), wire.size(), late);
+  EXPECT_EQ(left_out(text), Names{"p: late, without a rate"});
+  EXPECT_EQ(
+      left_out(held_slide("rk4", 10., 1e-3) + "Gain g { Wire FROM w.bot.c.l.rate TO input; Wire "
+                                              "TO p.goal; }"),
+      Names{"g: not from a joint's angle to its torque"});
 }
 
 // At rest the drive bears gravity: kp (goal - angle) = m g l cos(angle) for a bar from the

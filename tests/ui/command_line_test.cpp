@@ -93,6 +93,30 @@ TEST(CommandLine, AStepAboveTheBoundIsWarnedOf) {
       << result.err;
 }
 
+TEST(CommandLine, WhatTheBoundHoldsAndLeavesOutIsTold) {
+  const Workplace work;
+  const std::string wheel =
+      "World w { gravity = 0; duration = 1 ms; deltat = 1 ms; Robot r { Base.fixed; Chain c { Link "
+      "l "
+      "{ mass = 1; inertia = 1,1,1,0,0,0; } } } }\n"
+      "Controller.PD held { pconstant = 400; dconstant = 10; Wire FROM w.r.c.l.angle TO current; "
+      "Wire FROM w.r.c.l.rate TO rate_in; Wire TO w.r.c.l.torque; }\n"
+      "Gain watching { Wire FROM w.r.c.l.rate TO input; Wire TO held.goal; }\n";
+  work.file("wheel.hook", wheel);
+  const auto run = work.hookpoint("run wheel.hook");
+  EXPECT_EQ(run.status, 0) << run.err;
+  // (sqrt(c^2 + 4 k) - c)/k.
+  EXPECT_NE(run.err.find("largest stable step of semi_implicit_euler for r: 0.07808 s"),
+            std::string::npos)
+      << run.err;
+  EXPECT_NE(run.err.find("not in it: watching: not from a joint's angle to its torque"),
+            std::string::npos)
+      << run.err;
+  const auto biped = work.hookpoint("advise " + config("scenes/standing_biped.hook"));
+  EXPECT_NE(biped.out.find("with the loops of world.hip[0].pd; "), std::string::npos) << biped.out;
+  EXPECT_NE(biped.out.find("; and 7 more\n"), std::string::npos) << biped.out;
+}
+
 TEST(CommandLine, ANonFiniteStateStopsTheRunWithTimeBodyAndAdvice) {
   const Workplace work;
   const CommandResult result =

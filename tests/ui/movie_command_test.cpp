@@ -253,7 +253,7 @@ TEST_F(MovieCommand, MistakesInTheFileAreSaid) {
   write("Movie a; Movie c { file = \"a.h5\"; }");
   expect_refused("run scene.hook --out run", "another Movie writes `a.h5`");
   write("Movie a { file = \"movie.h5\"; }");
-  expect_refused("run scene.hook --out run --movie", "give --movie another name");
+  expect_refused("run scene.hook --out run --movie", "give the movie that is added another name");
 }
 
 // The independent reader is our reader of other people's MAT files.

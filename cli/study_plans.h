@@ -1,0 +1,59 @@
+// What a file asks of `study`, all of it planned before anything runs. Shared by the command and
+// by Python.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/application.h"
+#include "cli/commands.h"
+#include "studies/plan.h"
+#include "studies/run.h"
+#include "studies/wall.h"
+
+namespace hookpoint::cli {
+
+/// A study that a Matrix brings, with the file that it stands in.
+struct MatrixPart {
+  studies::StudyPlan plan;
+  std::string text;  ///< of the file
+};
+
+struct MatrixPlan {
+  std::string name, title, question;
+  std::string hash;  ///< of all studies
+  std::vector<MatrixPart> parts;
+};
+
+/// The blocks of a file; a file that holds none is all empty.
+struct StudyFile {
+  std::string text;  ///< the file as printed
+  std::vector<studies::StudyPlan> studies;
+  std::vector<studies::WallPlan> walls;
+  std::vector<MatrixPlan> matrices;
+
+  std::size_t size() const { return studies.size() + walls.size() + matrices.size(); }
+  /// Where in `out` the results of the block `name` go: into a folder of its name, unless it is the
+  /// only one.
+  std::filesystem::path folder(const std::filesystem::path& out, const std::string& name) const {
+    return size() > 1 ? out / name : out;
+  }
+};
+
+/// Nothing after errors, which are told.
+std::optional<StudyFile> plan_study_file(Application& application, const StudyArguments& arguments);
+
+/// What is said of a file that holds no block.
+std::string nothing_to_study(const std::filesystem::path& file);
+
+/// Of one block that runs into `folder` (empty: runs/NAME-HASH).
+studies::RunOptions run_options(const StudyArguments& arguments,
+                                const std::filesystem::path& folder);
+
+/// "hookpoint study FILE ..." as it was called.
+std::string rerun_command(const StudyArguments& arguments);
+
+}  // namespace hookpoint::cli

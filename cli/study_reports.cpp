@@ -1,0 +1,81 @@
+#include "cli/study_reports.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "output/file.h"
+#include "reference/engines.h"
+#include "studies/provenance.h"
+#include "studies/wall_report.h"
+
+namespace hookpoint::cli {
+namespace {
+
+/// Every constant of the peers that the study runs, at the settings that it runs them.
+std::vector<studies::PeerSetting> peer_settings(const studies::StudyResult& result) {
+  std::vector<std::pair<std::string, std::string>> used;
+  for (const studies::SubjectInfo& subject : result.subjects) {
+    const std::pair<std::string, std::string> peer{subject.engine, subject.settings};
+    if (subject.available && subject.engine != "dts" &&
+        std::find(used.begin(), used.end(), peer) == used.end())
+      used.push_back(peer);
+  }
+  std::vector<studies::PeerSetting> settings;
+  for (const auto& [engine, name] : used) {
+    for (const reference::SettingRow& row : reference::settings_table(engine)) {
+      const std::string& value = name == "matched"       ? row.matched
+                                 : name == "recommended" ? row.recommended
+                                                         : row.default_;
+      settings.push_back({engine, name, row.quantity, value, row.source});
+    }
+  }
+  return settings;
+}
+
+/// The files beside the report that it links to.
+std::vector<std::string> result_files(const studies::StudyRun& run) {
+  std::vector<std::string> files{"results.csv"};
+  if (std::filesystem::exists(run.folder / "timing.csv")) files.emplace_back("timing.csv");
+  files.insert(files.end(), {"experiment.hook", "scene.hook", "provenance.json"});
+  return files;
+}
+
+}  // namespace
+
+studies::ReportOutcome write_study_report(const studies::StudyRun& run,
+                                          const std::string& command) {
+  const studies::ReportContext context{command, peer_settings(run.result),
+                                       studies::provenance_lines(run.provenance),
+                                       result_files(run)};
+  return studies::write_report(run.result, context, run.folder);
+}
+
+void write_wall(const std::filesystem::path& folder, const studies::WallPlan& plan,
+                const studies::WallResult& result, const studies::EngineTable& engines,
+                const std::string& command) {
+  const studies::Provenance provenance = studies::make_provenance(plan.study, engines);
+  studies::write_wall_files(folder, plan, result, provenance);
+  const studies::ReportContext context{command, {}, studies::provenance_lines(provenance), {}};
+  output::write_file(folder / "report.html", studies::wall_html(result, context));
+}
+
+studies::MatrixResult begin_matrix(const MatrixPlan& plan, const std::filesystem::path& file) {
+  return {plan.name, plan.title, plan.question, file.string(), {}};
+}
+
+void write_matrix(const std::filesystem::path& folder, const MatrixPlan& plan,
+                  const studies::MatrixResult& result, const std::string& text,
+                  const studies::EngineTable& engines, const std::string& command) {
+  studies::Provenance provenance = studies::make_provenance(plan.parts.front().plan, engines);
+  provenance.study = result.name;
+  provenance.file = result.file;
+  provenance.hash = plan.hash;
+  output::write_file(folder / "experiment.hook", text);
+  output::write_file(folder / "provenance.json", studies::provenance_json(provenance));
+  output::write_csv(folder / "matrix.csv", studies::matrix_table(result));
+  output::write_file(
+      folder / "matrix.html",
+      studies::matrix_html(result, {command, {}, studies::provenance_lines(provenance), {}}));
+}
+
+}  // namespace hookpoint::cli

@@ -1,0 +1,221 @@
+#include "simulation/joint_loops.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "simulation/components.h"
+
+namespace hookpoint::simulation {
+namespace {
+
+struct JointPlace {
+  std::size_t robot = 0, joint = 0;
+  std::string port;  ///< "angle", "rate", "torque"
+};
+
+/// The joints of all robots by the trails of their ports.
+std::map<std::string, JointPlace> joint_ports(const Experiment& experiment) {
+  std::map<std::string, JointPlace> places;
+  for (std::size_t i = 0; i < experiment.robots.size(); ++i) {
+    const RobotSpec& robot = experiment.robots[i];
+    std::size_t joint = 0;
+    for (const ChainSpec& chain : robot.chains) {
+      for (const LinkSpec& link : chain.links) {
+        const std::string trail =
+            experiment.world + "." + robot.name + "." + chain.name + "." + link.body.name + ".";
+        for (const char* port : {"angle", "rate", "torque"})
+          places[trail + port] = {i, joint, port};
+        ++joint;
+      }
+    }
+  }
+  return places;
+}
+
+/// Samples that the map of one period can carry: an eigenvalue problem of that size more.
+constexpr int most_under_way = 80;
+
+/// What the wires of an experiment say of its loops.
+class LoopFinder {
+ public:
+  explicit LoopFinder(const Experiment& experiment)
+      : experiment_(experiment), components_(experiment), joints_(joint_ports(experiment)) {
+    for (const WireSpec& wire : experiment.wires) {
+      into_.emplace(wire.to, &wire);
+      out_of_.emplace(wire.from, &wire);
+    }
+  }
+
+  WiredControl find() {
+    WiredControl control;
+    const std::set<std::size_t> reacting = reacting_components();
+    for (std::size_t i = 0; i < components_.size(); ++i) {
+      const ComponentSpec& spec = experiment_.components[i];
+      std::string why = "not from a joint's angle to its torque";
+      const std::size_t before = control.loops.size();
+      bool whole = true;
+      for (const Terminals& ends : terminals(spec))
+        whole = add_loop(i, ends, control, why) && whole;
+      if (whole && control.loops.size() > before && fits(control.loops, before, why)) continue;
+      control.loops.resize(before);
+      if (reacting.contains(i)) control.left_out.push_back(spec.trail + ": " + why);
+    }
+    return control;
+  }
+
+ private:
+  /// A controller's values that make one loop.
+  struct Terminals {
+    std::string angle, rate, torque, pconstant, dconstant;
+  };
+
+  static std::vector<Terminals> terminals(const ComponentSpec& spec) {
+    if (spec.type == "Controller.PD" || spec.type == "Controller.PID")
+      return {{"current", "rate_in", "output", "pconstant", "dconstant"}};
+    std::vector<Terminals> all;
+    if (spec.type != "Controller.JointPD") return all;
+    constexpr int joints = 18, kinds = 3;
+    for (int i = 0; i < joints; ++i)
+      all.push_back({fmt::format("angle[{}]", i), fmt::format("rate_in[{}]", i),
+                     fmt::format("torque[{}]", i), fmt::format("pconstant[{}]", i % kinds),
+                     fmt::format("dconstant[{}]", i % kinds)});
+    return all;
+  }
+
+  /// Whether the loops from `first` on go into one map with those before them.
+  static bool fits(const std::vector<JointLoop>& loops, std::size_t first, std::string& why) {
+    double under_way = 0.;
+    for (std::size_t i = 0; i < loops.size(); ++i) {
+      const double delay = loops[i].delay + loops[i].rate_delay;
+      if (delay > 0.) under_way += delay / loops[i].period;
+      if (i < first) continue;
+      if (loops[i].period != loops.front().period)
+        why = "does not update at the rate of " + loops.front().controller;
+      else if (delay > 0. && loops[i].period == 0.)
+        why = "late, without a rate";
+      else if (under_way > most_under_way)
+        why = fmt::format("more than {} samples under way", most_under_way);
+      else
+        continue;
+      return false;
+    }
+    return true;
+  }
+
+  const WireSpec* wire_into(const std::string& trail) const {
+    const auto found = into_.find(trail);
+    return found == into_.end() ? nullptr : found->second;
+  }
+
+  const JointPlace* joint_at(const std::string& trail, const char* port) const {
+    const auto found = joints_.find(trail);
+    return found == joints_.end() || found->second.port != port ? nullptr : &found->second;
+  }
+
+  double value(std::size_t component, const std::string& name) const {
+    const auto index = control::find_value(components_[component], name);
+    return index ? components_[component].values()[*index] : 0.;
+  }
+
+  /// The loop of those terminals, if they make one; false where they do something else.
+  bool add_loop(std::size_t component, const Terminals& ends, WiredControl& control,
+                std::string& why) const {
+    const ComponentSpec& spec = experiment_.components[component];
+    const WireSpec* angle = wire_into(spec.trail + "." + ends.angle);
+    const WireSpec* rate = wire_into(spec.trail + "." + ends.rate);
+    const auto [first, last] = out_of_.equal_range(spec.trail + "." + ends.torque);
+    if (first == last) return true;  // it drives nothing
+    const WireSpec* torque = first->second;
+    const JointPlace* driven = joint_at(torque->to, "torque");
+    const JointPlace* sensed = angle ? joint_at(angle->from, "angle") : nullptr;
+    const JointPlace* moved = rate ? joint_at(rate->from, "rate") : sensed;
+    if (std::next(first) != last || !driven || !sensed || !moved) return false;
+    if (sensed->robot != driven->robot || moved->robot != sensed->robot ||
+        moved->joint != sensed->joint)
+      return false;
+    JointLoop loop{spec.trail, driven->robot, sensed->joint, driven->joint};
+    loop.proportional = value(component, ends.pconstant);
+    loop.derivative = value(component, ends.dconstant);
+    loop.integral = value(component, "iconstant");
+    loop.filter_time = value(component, "filter_time");
+    loop.differenced = rate == nullptr && spec.type != "Controller.JointPD";
+    if (rate == nullptr && !loop.differenced) loop.derivative = 0.;
+    loop.delay = angle->delay + torque->delay;
+    const bool reads_rate = rate != nullptr && loop.derivative != 0.;
+    loop.rate_delay = reads_rate ? rate->delay + torque->delay : 0.;
+    if (!set_period(loop, spec, {angle, rate ? rate : angle, torque})) {
+      why = "its wires are sampled at rates of their own";
+      return false;
+    }
+    control.loops.push_back(std::move(loop));
+    return true;
+  }
+
+  /// The one period of controller and wires. A controller without memory that is faster than its
+  /// wires does what it would do at their rate.
+  static bool set_period(JointLoop& loop, const ComponentSpec& spec,
+                         const std::vector<const WireSpec*>& wires) {
+    const bool has_memory = loop.differenced || loop.integral != 0. || loop.filter_time != 0.;
+    std::optional<double> slowest = spec.rate;
+    for (const WireSpec* wire : wires) {
+      if (!wire->rate || wire->rate == slowest) continue;
+      if (slowest || has_memory) return false;
+      slowest = wire->rate;
+    }
+    loop.period = slowest ? 1. / *slowest : 0.;
+    return true;
+  }
+
+  /// Components on a way from a robot's ports to a robot's or a force's.
+  std::set<std::size_t> reacting_components() const {
+    const std::size_t count = components_.size();
+    std::vector<std::set<std::size_t>> feeds(count);
+    std::vector<char> sees(count, 0), moves(count, 0);
+    for (const WireSpec& wire : experiment_.wires) {
+      const auto from = components_.find(wire.from), to = components_.find(wire.to);
+      if (from && to) feeds[from->component].insert(to->component);
+      if (!from && to && is_of_a_robot(wire.from)) sees[to->component] = 1;
+      if (from && !to) moves[from->component] = 1;
+    }
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (std::size_t i = 0; i < count; ++i) {
+        for (const std::size_t fed : feeds[i]) {
+          changed = changed || sees[i] > sees[fed] || moves[fed] > moves[i];
+          sees[fed] = std::max(sees[fed], sees[i]);
+          moves[i] = std::max(moves[i], moves[fed]);
+        }
+      }
+    }
+    std::set<std::size_t> reacting;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (sees[i] && moves[i]) reacting.insert(i);
+    }
+    return reacting;
+  }
+
+  bool is_of_a_robot(const std::string& trail) const {
+    return std::ranges::any_of(experiment_.robots, [&](const RobotSpec& robot) {
+      return trail.starts_with(experiment_.world + "." + robot.name + ".");
+    });
+  }
+
+  const Experiment& experiment_;
+  Components components_;
+  std::map<std::string, JointPlace> joints_;
+  std::map<std::string, const WireSpec*> into_;
+  std::multimap<std::string, const WireSpec*> out_of_;
+};
+
+}  // namespace
+
+WiredControl wired_control(const Experiment& experiment) {
+  if (experiment.components.empty()) return {};
+  return LoopFinder(experiment).find();
+}
+
+}  // namespace hookpoint::simulation

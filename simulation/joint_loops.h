@@ -1,0 +1,38 @@
+// Controllers that are wired from joints to joints, as the feedback that they are: what they add to
+// a robot's joint springs and dampers, and how late.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "simulation/experiment.h"
+
+namespace hookpoint::simulation {
+
+/// torque of joint `driven` = -proportional q - derivative q' - integral of q dt about a rest, with
+/// q the position of joint `sensed`. Joints are numbered along the robot's chains.
+struct JointLoop {
+  std::string controller;  ///< its trail
+  std::size_t robot = 0, sensed = 0, driven = 0;
+  double proportional = 0.;  ///< [N m/rad or N/m]
+  double derivative = 0.;    ///< [N m s/rad or N s/m]
+  double integral = 0.;      ///< [N m/(rad s) or N/(m s)]
+  bool differenced = false;  ///< q' from successive samples of q, not from the joint's rate
+  double filter_time = 0.;   ///< time constant of the low-pass filter of q' [s]
+  double period = 0.;        ///< from one update to the next [s]; 0: every step
+  double delay = 0.;         ///< of q on its way there and back [s]
+  double rate_delay = 0.;    ///< of q' [s]
+};
+
+struct WiredControl {
+  std::vector<JointLoop> loops;
+  /// Components whose outputs reach a force or a torque, that follow what robots do, and that are
+  /// no such loop, each with the reason in words: "gait: not a joint's PD or PID".
+  std::vector<std::string> left_out;
+};
+
+/// Of `Controller.PD`, `.PID` and `.JointPD` between the `angle`, `rate` and `torque` of one
+/// robot's joints; limits of torques are not reached about a rest. O(wires log wires).
+WiredControl wired_control(const Experiment& experiment);
+
+}  // namespace hookpoint::simulation
