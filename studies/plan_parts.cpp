@@ -170,10 +170,21 @@ std::vector<std::string> metric_names() {
 }
 
 void Parts::add_metric(const Object& block) {
-  if (const MetricDefinition* metric = find_metric(block.name))
-    plan_.metrics.push_back(metric);
-  else
-    unknown(block.position, "metric", block.name, metric_names());
+  const MetricDefinition* metric = find_metric(block.name);
+  if (metric == nullptr) return unknown(block.position, "metric", block.name, metric_names());
+  const Field* over = block.find("over");
+  int sweep = -1;
+  if (metric->scope == MetricScope::sweep) {
+    const std::string name = over != nullptr ? block.word("over") : "azimuth";
+    sweep = sweep_index(name);
+    if (sweep < 0)
+      unknown(over != nullptr ? over->position : block.position, "Sweep", name, sweep_names());
+  } else if (over != nullptr) {
+    diagnostics_.error(over->position,
+                       fmt::format("`{}` is of one run, not over a Sweep", block.name));
+  }
+  plan_.metrics.push_back(metric);
+  plan_.metric_sweeps.push_back(sweep);
 }
 
 /// ", mu = 0.8, slope from 15 deg".
