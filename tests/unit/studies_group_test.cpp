@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "studies/group_metrics.h"
+#include "studies/report_distances.h"
 #include "tests/support/study_runner.h"
 
 namespace hookpoint::studies {
@@ -60,11 +61,13 @@ TEST_F(StudyRunner, AnisotropyIsTheSpreadOfFrictionOverTheSweepOfEachSubject) {
 }
 
 TEST_F(StudyRunner, AnisotropyNeedsEveryRunOfItsSweep) {
-  const auto plan = this->plan(replaced(grouped, "0.8, 1;", "0.8, 13;"));
-  ASSERT_TRUE(plan) << first_error();
-  const StudyRun run = this->run(*plan, "out");
-  EXPECT_TRUE(run.result.rows[0].metrics[0].measured);   // mu 0.8
-  EXPECT_FALSE(run.result.rows[3].metrics[0].measured);  // mu 13: all break off
+  const std::string over_mu = replaced(grouped, "over = slope", "over = mu");
+  const auto whole = this->plan(over_mu);
+  ASSERT_TRUE(whole) << first_error();
+  EXPECT_NEAR(*run(*whole, "whole").result.rows[0].metrics[0].measured, 0., 1e-9);
+  const auto broken = this->plan(replaced(over_mu, "0.8, 1;", "0.8, 1, 13;"));  // 13 breaks off
+  ASSERT_TRUE(broken) << first_error();
+  EXPECT_FALSE(run(*broken, "broken").result.rows[0].metrics[0].measured);
 }
 
 TEST_F(StudyRunner, AMetricOverASweepNamesOne) {
@@ -107,6 +110,19 @@ TEST_F(StudyRunner, PeerDistanceIsTheGreatestSeparationOfTwoKnownPaths) {
   const std::string csv = read(folder_ / "out/peer_distance.csv");
   EXPECT_EQ(csv.substr(0, csv.find('\n')), "slope [deg],mu,subject,other,peer_distance [m]");
   EXPECT_EQ(std::ranges::count(csv, '\n'), 1 + 2 * 4);
+}
+
+TEST_F(StudyRunner, TheReportHasTheMatrixAsNumbersAndColours) {
+  engines_["ode"].make = make_half_as_fast;
+  const auto plan = this->plan(between_peers());
+  ASSERT_TRUE(plan) << first_error();
+  const std::string table = distance_table(run(*plan, "out").result);
+  // 1.17 mm at 20 deg, the steepest at which both run: the only distance, twice.
+  EXPECT_NE(table.find("title=\"ours, slower\">1.2</td>"), std::string::npos) << table;
+  EXPECT_NE(table.find("title=\"slower, ours\">1.2</td>"), std::string::npos) << table;
+  EXPECT_NE(table.find("in mm, between"), std::string::npos) << table;
+  EXPECT_EQ(table.find("none"), std::string::npos) << table;  // skipped
+  EXPECT_EQ(distance_table({}), "");
 }
 
 TEST_F(StudyRunner, PathsAreComparedAtEqualTimesWhateverTheStep) {
