@@ -48,7 +48,8 @@ constexpr auto metrics = std::to_array<MetricDefinition>({
      "mean force of the ground along its normal after `settle`, on all bodies", make_support_force},
     {"force_residual", "N",
      "mean after `settle` of what the ground's single forces owe Signorini, Coulomb and maximum "
-     "dissipation: the sum of the three below; nothing for an engine that does not tell them",
+     "dissipation: the sum of its parts _normal, _cone and _dissipation; nothing for an engine "
+     "that does not tell them",
      make_force_residual, false, Regime::none, MetricScope::run, true},
     {"force_residual_normal", "N",
      "of it, normal forces that pull, that act across a gap, or while the contact opens or closes",
