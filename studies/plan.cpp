@@ -42,7 +42,8 @@ std::vector<std::size_t> StudyPlan::rows_along(std::size_t row, int sweep) const
   std::vector<int> values = rows[row].values;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (rows[i].subject != rows[row].subject) continue;
-    values[static_cast<std::size_t>(sweep)] = rows[i].values[static_cast<std::size_t>(sweep)];
+    const auto at = static_cast<std::size_t>(sweep);
+    if (sweep >= 0) values[at] = rows[i].values[at];
     if (rows[i].values == values) found.push_back(i);
   }
   return found;

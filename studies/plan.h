@@ -92,7 +92,8 @@ struct StudyPlan {
   bool covers(const std::vector<Condition>& conditions, const RowPlan& row) const;
   /// Whether a metric of this scope is measured.
   bool measures(MetricScope scope) const;
-  /// The rows that differ from `row` at most in the value of `sweep`, in its order; indices.
+  /// The rows that differ from `row` at most in the value of `sweep`, in its order; indices. Of no
+  /// sweep, -1, the row alone.
   std::vector<std::size_t> rows_along(std::size_t row, int sweep) const;
 };
 

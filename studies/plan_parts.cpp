@@ -175,10 +175,14 @@ void Parts::add_metric(const Object& block) {
   const Field* over = block.find("over");
   int sweep = -1;
   if (metric->scope == MetricScope::sweep) {
-    const std::string name = over != nullptr ? block.word("over") : "azimuth";
-    sweep = sweep_index(name);
-    if (sweep < 0)
-      unknown(over != nullptr ? over->position : block.position, "Sweep", name, sweep_names());
+    sweep = sweep_index(over != nullptr ? block.word("over") : "azimuth");
+    if (sweep < 0 && over != nullptr)
+      unknown(over->position, "Sweep", block.word("over"), sweep_names());
+    else if (sweep < 0)
+      diagnostics_.warning(block.position,
+                           fmt::format("`{}` says nothing: no Sweep is called azimuth, and `over` "
+                                       "names no other",
+                                       block.name));
   } else if (over != nullptr) {
     diagnostics_.error(over->position,
                        fmt::format("`{}` is of one run, not over a Sweep", block.name));

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "studies/group_metrics.h"
+#include "studies/report.h"
 #include "studies/report_distances.h"
 #include "tests/support/study_runner.h"
 
@@ -71,8 +72,11 @@ TEST_F(StudyRunner, AnisotropyNeedsEveryRunOfItsSweep) {
 }
 
 TEST_F(StudyRunner, AMetricOverASweepNamesOne) {
-  EXPECT_FALSE(plan(replaced(grouped, " { over = slope; }", ";")));
-  EXPECT_EQ(first_error(), "no Sweep is called `azimuth`");
+  const auto unsaid = plan(replaced(grouped, " { over = slope; }", ";"));
+  ASSERT_TRUE(unsaid);
+  EXPECT_EQ(first_error(),
+            "`anisotropy` says nothing: no Sweep is called azimuth, and `over` names no other");
+  EXPECT_FALSE(run(*unsaid, "out").result.rows[0].metrics[0].measured);
   EXPECT_FALSE(plan(replaced(grouped, "over = slope", "over = slop")));
   EXPECT_EQ(first_error(), "no Sweep is called `slop`; did you mean `slope`?");
   EXPECT_FALSE(plan(replaced(grouped, "peer_distance;", "peer_distance { over = slope; }")));
@@ -161,7 +165,9 @@ TEST_F(StudyRunner, WarnsOnceOfEachSubjectsStepAboveItsBound) {
   EXPECT_EQ(std::ranges::count(diagnostics_.all(), language::Severity::warning,
                                &language::Diagnostic::severity),
             1);
-  EXPECT_EQ(run(*plan, "out").result.warnings, plan->warnings);
+  const StudyRun run = this->run(*plan, "out");
+  EXPECT_EQ(run.result.warnings, plan->warnings);
+  EXPECT_NE(report_html(run.result, {}, {}).find("<li>ours: deltat 0.01 s"), std::string::npos);
 }
 
 }  // namespace
