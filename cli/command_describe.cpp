@@ -3,6 +3,8 @@
 #include "cli/application.h"
 #include "cli/commands.h"
 #include "cli/exit_status.h"
+#include "output/csv.h"
+#include "studies/metric.h"
 
 namespace hookpoint::cli {
 namespace {
@@ -38,11 +40,18 @@ int describe(const DescribeArguments& arguments) {
     std::cout << language::describe(*schema);
     return fine;
   }
+  if (const studies::MetricDefinition* metric = studies::find_metric(*type)) {
+    std::cout << output::column_title(std::string(metric->name), std::string(metric->unit))
+              << "\n  " << metric->doc << '\n';
+    return fine;
+  }
   std::vector<std::string> names;
   for (const auto& [name, schema] : application.schema().classes()) names.push_back(name);
+  for (const studies::MetricDefinition& metric : studies::metric_table())
+    names.emplace_back(metric.name);
   const std::string nearest = language::nearest_name(*type, names);
-  print_error("there is no class `" + *type + "`" +
-              (nearest.empty() ? "; `hookpoint describe` lists them all"
+  print_error("there is no class or metric `" + *type + "`" +
+              (nearest.empty() ? "; `hookpoint describe` lists the classes"
                                : "; did you mean `" + nearest + "`?"));
   return wrong_input;
 }

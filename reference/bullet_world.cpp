@@ -93,14 +93,22 @@ class BulletWorld final : public PeerWorld {
 
   void read(std::span<BodyState> bodies, std::span<JointState> joints) const override {
     read_motion(bodies, joints);
-    for (int i = 0; i < dispatcher_.getNumManifolds(); ++i)
-      read_contacts(*dispatcher_.getInternalManifoldPointer()[i], bodies);
+    for_each_shape_force([&](const Body& body, const btVector3&, const Vector3d& force) {
+      bodies[body.index].contact_force += force;
+      ++bodies[body.index].contacts;
+    });
     if (points_) points_->read(deltat_, bodies);
   }
 
   void read_points(std::span<Vector3d> forces) const override {
     std::ranges::fill(forces, Vector3d{});
     if (points_) points_->read_forces(deltat_, forces);
+  }
+
+  void read_shapes(std::vector<ShapeForce>& forces) const override {
+    for_each_shape_force([&](const Body& body, const btVector3& position, const Vector3d& force) {
+      forces.push_back({body.index, vector(position), force});
+    });
   }
 
  private:
@@ -247,8 +255,16 @@ class BulletWorld final : public PeerWorld {
     for (const auto& robot : robots_) robot->read(bodies, joints);
   }
 
-  /// Those of shapes: the bodies of robots with chains, and points, have none in the broad phase.
-  void read_contacts(const btPersistentManifold& manifold, std::span<BodyState> bodies) const {
+  /// Calls `visit(body, position, force)` for each contact of a shape that carries: the bodies of
+  /// robots with chains, and points, have none in the broad phase.
+  template <class Visit>
+  void for_each_shape_force(Visit visit) const {
+    for (int i = 0; i < dispatcher_.getNumManifolds(); ++i)
+      visit_manifold(*dispatcher_.getInternalManifoldPointer()[i], visit);
+  }
+
+  template <class Visit>
+  void visit_manifold(const btPersistentManifold& manifold, Visit visit) const {
     const bool body_is_first = manifold.getBody1() == ground_.get();
     const btCollisionObject* object = body_is_first ? manifold.getBody0() : manifold.getBody1();
     // Impulses of a manifold act on its first body.
@@ -259,8 +275,8 @@ class BulletWorld final : public PeerWorld {
       for (int i = 0; i < manifold.getNumContacts(); ++i) {
         const btManifoldPoint& point = manifold.getContactPoint(i);
         if (!(point.m_appliedImpulse > 0.)) continue;
-        bodies[body.index].contact_force += scale * vector(bullet_impulse(point));
-        ++bodies[body.index].contacts;
+        visit(body, body_is_first ? point.getPositionWorldOnA() : point.getPositionWorldOnB(),
+              scale * vector(bullet_impulse(point)));
       }
     }
   }

@@ -101,6 +101,13 @@ class DartWorld final : public PeerWorld {
         forces[static_cast<std::size_t>(touch.use.point)] += touch.force;
   }
 
+  void read_shapes(std::vector<ShapeForce>& forces) const override {
+    for (const auto& contact : world_->getLastCollisionResult().getContacts())
+      if (const Touch touch = touch_of(contact); touch.use.point < 0)
+        forces.push_back(
+            {static_cast<std::size_t>(touch.use.body), vector(contact.point), touch.force});
+  }
+
  private:
   struct Body {
     std::size_t index;  ///< as published

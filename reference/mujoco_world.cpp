@@ -101,6 +101,10 @@ class MujocoWorld final : public PeerWorld {
     std::ranges::copy(point_forces_, forces.begin());
   }
 
+  void read_shapes(std::vector<ShapeForce>& forces) const override {
+    forces.insert(forces.end(), shape_forces_.begin(), shape_forces_.end());
+  }
+
  private:
   void set_initial(const TreeBody& body, const MujocoBody& mine) {
     mjtNum* const position = data_->qpos + mine.position;
@@ -217,6 +221,7 @@ class MujocoWorld final : public PeerWorld {
     std::ranges::fill(contact_forces_, Vector3d{});
     std::ranges::fill(contact_counts_, 0);
     std::ranges::fill(point_forces_, Vector3d{});
+    shape_forces_.clear();
     for (int i = 0; i < data_->ncon; ++i) {
       const mjContact& contact = data_->contact[i];
       std::array<mjtNum, 6> components{};  // of force and torque, along the rows of the frame
@@ -230,7 +235,10 @@ class MujocoWorld final : public PeerWorld {
       contact_forces_[body] += force;
       ++contact_counts_[body];
       const int point = touch_[static_cast<std::size_t>(i)];
-      if (point >= 0) point_forces_[static_cast<std::size_t>(point)] = force;
+      if (point >= 0)
+        point_forces_[static_cast<std::size_t>(point)] = force;
+      else
+        shape_forces_.push_back({body, vector(contact.pos), force});
     }
   }
 
@@ -261,6 +269,7 @@ class MujocoWorld final : public PeerWorld {
   std::vector<Vector3d> contact_forces_;
   std::vector<int> contact_counts_;
   std::vector<Vector3d> point_forces_;
+  std::vector<ShapeForce> shape_forces_;
   std::array<bool, mjNWARNING> warned_{};
 };
 

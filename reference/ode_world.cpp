@@ -38,7 +38,7 @@ struct Body {
 struct Touch {
   std::size_t body;   ///< index among the bodies
   std::size_t point;  ///< index among the touching points, or no_point: a shape's
-  Vector3d normal;
+  Vector3d position, normal;
   dJointFeedback feedback;
 };
 
@@ -159,6 +159,12 @@ class OdeWorld final : public PeerWorld {
       if (touch.point != no_point) forces[touch.point] = vector(touch.feedback.f1);
   }
 
+  void read_shapes(std::vector<ShapeForce>& forces) const override {
+    for (const Touch& touch : touches_)
+      if (touch.point == no_point)
+        forces.push_back({touch.body, touch.position, vector(touch.feedback.f1)});
+  }
+
  private:
   void create_world(const Vector3d& gravity, const OdeSettings& settings) {
     // The library's default threading is one object for all worlds, with locks that do nothing: a
@@ -247,7 +253,7 @@ class OdeWorld final : public PeerWorld {
     const dJointID joint = dJointCreateContact(world_.get(), contact_group_.get(), &contact);
     dJointAttach(joint, bodies_[body].id, nullptr);
     contact_joints_.push_back(joint);
-    touches_.push_back({body, point, vector(contact.geom.normal), {}});
+    touches_.push_back({body, point, vector(contact.geom.pos), vector(contact.geom.normal), {}});
   }
 
   int take_step() {

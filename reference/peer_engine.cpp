@@ -76,6 +76,7 @@ class PeerEngine final : public simulation::Engine {
     has_details_ = true;
     publish_points();
   }
+  void publish_ground_forces() override { state_.ground_force_time = world_->force_time(); }
 
  private:
   void take_inputs() {
@@ -105,11 +106,32 @@ class PeerEngine final : public simulation::Engine {
     for (std::size_t i = 0; i < next_bodies_.size(); ++i)
       next_bodies_[i].orientation =
           simulation::continued(next_bodies_[i].orientation, state_.bodies[i].orientation);
+    const auto told = state_.ground_force_time;
+    if (told == simulation::GroundForceTime::last_step) read_ground_forces(state_.bodies);
+    if (told == simulation::GroundForceTime::now) read_ground_forces(next_bodies_);
     std::ranges::copy(next_bodies_, state_.bodies.begin());
     std::ranges::copy(next_joints_, state_.joints.begin());
     ++state_.step;
     state_.time = static_cast<double>(state_.step) * experiment_.deltat;
     if (has_details_) publish_points();
+  }
+
+  /// The ground's forces on bodies that stood as `bodies` when these acted.
+  void read_ground_forces(std::span<const BodyState> bodies) {
+    state_.ground_forces.clear();
+    shape_forces_.clear();
+    world_->read_points(point_forces_);
+    for (std::size_t i = 0; i < touching_.size() && ground_; ++i)
+      if (dot(point_forces_[i], point_forces_[i]) > 0.)
+        shape_forces_.push_back({touching_[i].body,
+                                 meet(*ground_, touching_[i], bodies[touching_[i].body]).position,
+                                 point_forces_[i]});
+    world_->read_shapes(shape_forces_);
+    for (const ShapeForce& force : shape_forces_) {
+      const BodyState& body = bodies[force.body];
+      const Vector3d arm = rotate(conjugate(body.orientation), force.position - body.position);
+      state_.ground_forces.push_back({force.body, arm, force.force});
+    }
   }
 
   /// Where the named points are now, and the force of the step that led there.
@@ -145,6 +167,7 @@ class PeerEngine final : public simulation::Engine {
   std::optional<contact::Terrain> ground_;
   const std::vector<TouchingPoint> touching_;
   std::vector<Vector3d> point_forces_;
+  std::vector<ShapeForce> shape_forces_;
   simulation::WorldState state_;
   std::vector<BodyState> next_bodies_;
   std::vector<JointState> next_joints_;

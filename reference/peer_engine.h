@@ -10,6 +10,14 @@
 
 namespace hookpoint::reference {
 
+/// A force of the ground where shapes meet it.
+struct ShapeForce {
+  std::size_t body = 0;  ///< as published
+  Vector3d position;     ///< world axes [m], at the time of `PeerWorld::force_time`: the step's
+                         ///< start for the mean over a step
+  Vector3d force;        ///< on the body, world axes [N]
+};
+
 /// One library's world. Bodies and joints are numbered as they are published (robot_tree.h).
 class PeerWorld {
  public:
@@ -28,6 +36,12 @@ class PeerWorld {
                     std::span<simulation::JointState> joints) const = 0;
   /// Writes the ground's force on each of touching_points(), world axes [N], in the last step.
   virtual void read_points(std::span<Vector3d> forces) const = 0;
+  /// Adds the forces of the last step on shapes: those that are not on touching_points().
+  virtual void read_shapes(std::vector<ShapeForce>& forces) const = 0;
+  /// When all these forces act.
+  virtual simulation::GroundForceTime force_time() const {
+    return simulation::GroundForceTime::last_step;
+  }
 };
 
 /// An engine around `world`, with the published state of `experiment` at time 0 and `notices`

@@ -122,6 +122,8 @@ struct Model::Parts {
   void start(const Description& description);
   SimTK::ContactSurface surface(const ContactGeometry& shape) const { return {shape, material_}; }
   const MobilizedBody& body_of(int body) const { return matter_.getMobilizedBody(mobod(body)); }
+  /// Where the line along which a contact's force acts meets the ground.
+  Vec3 place_of(const SimTK::ContactForce& contact) const;
 
   SimTK::MultibodySystem system_;
   SimTK::SimbodyMatterSubsystem matter_{system_};
@@ -133,6 +135,8 @@ struct Model::Parts {
   // SUNDIALS by name, and the program has SUNDIALS too.
   SimTK::RungeKuttaMersonIntegrator integrator_{system_};
   SimTK::ContactMaterial material_;
+  Vec3 normal_{0.};     ///< of the ground
+  double offset_ = 0.;  ///< of the ground along it [m]
   // A clique's members do not meet: each ground shares one with what is the other's, and robots
   // share one among themselves.
   const SimTK::ContactCliqueId robots_ = SimTK::ContactSurface::createNewContactClique();
@@ -164,11 +168,13 @@ void Model::Parts::set_contact(const Material& material) {
 }
 
 void Model::Parts::add_ground(const Plane& plane) {
-  const Vec3 normal = simtk(plane.normal);
-  const SimTK::Rotation into(SimTK::UnitVec3(-normal), SimTK::XAxis);
+  normal_ = simtk(plane.normal);
+  offset_ = plane.offset;
+  const SimTK::Rotation into(SimTK::UnitVec3(-normal_), SimTK::XAxis);
   const auto add = [&](double offset, SimTK::ContactCliqueId clique) {
     matter_.Ground().updBody().addContactSurface(
-        Transform(into, offset * normal), surface(ContactGeometry::HalfSpace()).joinClique(clique));
+        Transform(into, offset * normal_),
+        surface(ContactGeometry::HalfSpace()).joinClique(clique));
     uses_.push_back({});
   };
   add(plane.offset, points_);
@@ -287,6 +293,15 @@ Motion Model::motion(int body) const {
   return motion;
 }
 
+Vec3 Model::Parts::place_of(const SimTK::ContactForce& contact) const {
+  const SpatialVec& wrench = contact.getForceOnSurface2();
+  const Vec3& f = wrench[1];
+  const double along = SimTK::dot(f, normal_);
+  if (!(along > 0.)) return contact.getContactPoint();
+  const Vec3 on_line = contact.getContactPoint() + SimTK::cross(f, wrench[0]) / f.normSqr();
+  return on_line + (offset_ - SimTK::dot(on_line, normal_)) / along * f;
+}
+
 std::vector<Touch> Model::touches() const {
   std::vector<Touch> touches;
   if (parts_->uses_.empty()) return touches;
@@ -302,8 +317,8 @@ std::vector<Touch> Model::touches() const {
         std::count_if(feelers.points.begin(), feelers.points.end(),
                       [&](const Vec3& point) { return (X_12 * point)[0] + feelers.radius > 0.; });
     const SurfaceUse& use = parts_->uses_[static_cast<std::size_t>(int{robots})];
-    touches.push_back(
-        {use.body, use.point, plain(force.getForceOnSurface2()[1]), static_cast<int>(inside)});
+    touches.push_back({use.body, use.point, plain(parts_->place_of(force)),
+                       plain(force.getForceOnSurface2()[1]), static_cast<int>(inside)});
   }
   return touches;
 }

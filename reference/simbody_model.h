@@ -72,8 +72,9 @@ struct Motion {
 /// What the ground does to a surface now.
 struct Touch {
   int body = 0, point = -1;
-  Vec force{};    ///< on the body, world axes [N]
-  int count = 0;  ///< corners of a brick inside the ground, or 1
+  Vec position{};  ///< where the force acts, world axes [m]
+  Vec force{};     ///< on the body, world axes [N]
+  int count = 0;   ///< corners of a brick inside the ground, or 1
 };
 
 /// Torque [N m] and force [N] on a body at its frame's origin, world axes.

@@ -163,6 +163,17 @@ class SimbodyWorld final : public PeerWorld {
       if (touch.point >= 0) forces[static_cast<std::size_t>(touch.point)] += vector(touch.force);
   }
 
+  void read_shapes(std::vector<ShapeForce>& forces) const override {
+    if (!model_) return;
+    for (const simbody::Touch& touch : model_->touches())
+      if (touch.point < 0)
+        forces.push_back(
+            {static_cast<std::size_t>(touch.body), vector(touch.position), vector(touch.force)});
+  }
+  simulation::GroundForceTime force_time() const override {
+    return simulation::GroundForceTime::now;
+  }
+
  private:
   struct Body {
     bool mobile;

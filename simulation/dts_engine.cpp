@@ -70,6 +70,13 @@ class DtsEngine final : public Engine, public Resumable {
     has_details_ = true;
     copy_details();
   }
+  void publish_ground_forces() override {
+    std::size_t points = 0;
+    for (const Part& part : parts_) points += part.robot->contact_points().size();
+    state_.ground_forces.reserve(points);
+    state_.ground_force_time = GroundForceTime::now;
+    copy_ground_forces();
+  }
   Resumable* resumable() override { return this; }
 
   std::size_t state_size() const override {
@@ -159,6 +166,16 @@ class DtsEngine final : public Engine, public Resumable {
       joint += links;
     }
     if (has_details_) copy_details();
+    if (state_.ground_force_time != GroundForceTime::unknown) copy_ground_forces();
+  }
+
+  void copy_ground_forces() {
+    state_.ground_forces.clear();
+    std::size_t body = 0;
+    for (const Part& part : parts_) {
+      part.robot->add_ground_forces(body, state_.ground_forces);
+      body += part.robot->model().body_count();
+    }
   }
 
   void copy_details() {

@@ -107,6 +107,8 @@ class DtsRobot final : public integrators::System {
   void publish(std::span<BodyState> bodies, std::span<JointState> joints) const;
   /// Boundary point `point` of `body`, as the law left it.
   PointState point_state(int body, int point) const;
+  /// Adds the ground's forces at the boundary points; the robot's first body is `first_body`.
+  void add_ground_forces(std::size_t first_body, std::vector<GroundForce>& forces) const;
   /// What each chain does to the base, in the step just taken.
   void publish_hips(std::span<ChainState> chains) const;
 

@@ -44,6 +44,15 @@ void DtsRobot::bound_points() {
   }
 }
 
+void DtsRobot::add_ground_forces(std::size_t first_body, std::vector<GroundForce>& forces) const {
+  for (const ContactPoint& point : points_) {
+    if (passed_[point.body] > 0 || dot(point.force, point.force) == 0.) continue;
+    const dts::BodyMotion<double>& body = workspace_.bodies[point.body];
+    forces.push_back({first_body + point.body,
+                      transpose_times(body.R_WB, point.position - body.p_WB), point.force});
+  }
+}
+
 bool DtsRobot::passed_over(std::size_t body, bool trial) {
   const PointsBox& box = boxes_[body];
   const dts::BodyMotion<double>& motion = workspace_.bodies[body];

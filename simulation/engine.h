@@ -45,6 +45,20 @@ struct ChainState {
   Vector3d hip_moment;  ///< [N m]
 };
 
+/// A force of the ground on a body where it acts: at a boundary point, or where shapes meet.
+struct GroundForce {
+  std::size_t body = 0;  ///< index in WorldState::bodies
+  Vector3d point;        ///< p_BC, body axes [m]
+  Vector3d force;        ///< on the body, world axes [N]
+};
+
+/// Of when an engine tells its ground forces.
+enum class GroundForceTime {
+  unknown,   ///< it does not tell them one by one
+  now,       ///< they act at the published instant, as its state makes them
+  last_step  ///< their mean over the step that led there
+};
+
 /// What the integration has cost so far, all robots together (integrators/stepper.h); zeros for an
 /// engine that does not say.
 struct IntegratorState {
@@ -61,7 +75,10 @@ struct WorldState {
   // Once Engine::publish_details was called; empty where the engine has none.
   std::vector<PointState> points;  ///< one a PointSpec
   std::vector<ChainState> chains;  ///< robots in order
-  std::uint64_t impacts = 0;       ///< impulses applied so far (event-driven laws)
+  // Once Engine::publish_ground_forces was called.
+  std::vector<GroundForce> ground_forces;
+  GroundForceTime ground_force_time = GroundForceTime::unknown;
+  std::uint64_t impacts = 0;  ///< impulses applied so far (event-driven laws)
   IntegratorState integrator;
   std::vector<std::string>
       notices;  ///< what the user should know, each said once: a robot has left the terrain
@@ -108,6 +125,9 @@ class Engine {
   virtual WorldInputs& inputs() = 0;
   /// From now on, at once and after each step, `state().points` and `chains` are kept up to date.
   virtual void publish_details() {}
+  /// From now on, after each step, `state().ground_forces` is kept up to date. An engine that does
+  /// not know them leaves `ground_force_time` unknown.
+  virtual void publish_ground_forces() {}
   /// Its state as numbers; null for an engine whose solver remembers what nobody can read or set.
   virtual Resumable* resumable() { return nullptr; }
 };

@@ -74,13 +74,41 @@ class Recording {
   Trace trace_;
 };
 
+/// A path being recorded: at equal intervals of the duration, whatever the step, between two steps
+/// on the line that joins them.
+class PathRecording {
+ public:
+  explicit PathRecording(double duration) : interval_(duration / path_samples) {}
+  void observe(const Observation& observation) {
+    const double time = observation.world.time;
+    const Vector3d& position = observation.body.position;
+    if (path_.empty()) path_.push_back(position);
+    // Times are multiples of the step, rounded.
+    for (double due;
+         path_.size() <= path_samples &&
+         (due = interval_ * static_cast<double>(path_.size())) < time + 1e-9 * interval_;) {
+      const double part = std::min((due - time_) / (time - time_), 1.);
+      path_.push_back(position_ + part * (position - position_));
+    }
+    time_ = time;
+    position_ = position;
+  }
+  std::vector<Vector3d> take() { return std::move(path_); }
+
+ private:
+  double interval_, time_ = 0.;
+  Vector3d position_;
+  std::vector<Vector3d> path_;
+};
+
 /// Everything that looks at a run.
 class Watch {
  public:
   Watch(const StudyPlan& plan, const RowPlan& row, const RunContext& context, std::int64_t steps)
       : context_(context), observer_(context, needs_points(plan)) {
     for (const MetricDefinition* metric : plan.metrics)
-      metrics_.push_back(metric->timing() ? nullptr : metric->make(context));
+      metrics_.push_back(metric->make == nullptr ? nullptr : metric->make(context));
+    if (plan.measures(MetricScope::subjects)) path_.emplace(plan.duration);
     const std::int64_t settle = std::llround(plan.settle / row.experiment.deltat);
     for (const PlotPlan& plot : plan.plots) {
       const bool recorded = plot.signal != nullptr && plan.covers(plot.only, row);
@@ -95,6 +123,7 @@ class Watch {
       if (metric) metric->observe(observation);
     for (auto& recording : recordings_)
       if (recording) recording->observe(context_, observation);
+    if (path_) path_->observe(observation);
   }
   /// `broken`: the engine could not go on. Otherwise a run that is not complete was ended.
   void finish(RowOutcome& outcome, bool complete, bool broken) {
@@ -106,6 +135,7 @@ class Watch {
     }
     for (auto& recording : recordings_)
       outcome.traces.push_back(recording ? recording->take() : Trace{});
+    if (path_) outcome.path = path_->take();
   }
 
  private:
@@ -120,6 +150,7 @@ class Watch {
   Observer observer_;
   std::vector<std::unique_ptr<Metric>> metrics_;
   std::vector<std::optional<Recording>> recordings_;
+  std::optional<PathRecording> path_;
 };
 
 RowOutcome not_run(const StudyPlan& plan, std::string status) {
@@ -142,7 +173,10 @@ std::optional<RowOutcome> execute(const StudyPlan& plan, const RowPlan& row,
     RunContext context = make_context(row.experiment, plan.settle, plan.duration);
     context.make = engine->make;
     const std::int64_t steps = std::llround(plan.duration / row.experiment.deltat);
-    simulation::World world(row.experiment, engine->make(row.experiment));
+    auto made = engine->make(row.experiment);
+    if (std::ranges::any_of(plan.metrics, &MetricDefinition::needs_forces))
+      made->publish_ground_forces();
+    simulation::World world(row.experiment, std::move(made));
     Watch watch(plan, row, context, steps);
     StepStatus status;
     watch.observe(world);

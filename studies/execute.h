@@ -15,10 +15,15 @@ struct RowOutcome {
   std::vector<std::string> notices;             ///< of its engine
   std::vector<std::optional<double>> measured;  ///< one a metric of the plan
   std::vector<Trace> traces;  ///< one a plot of the plan, empty for those not over time
+  /// Positions of the body's origin at `path_samples` equal intervals of the duration, where
+  /// distances are measured: fewer of a run that did not finish [m].
+  std::vector<Vector3d> path;
 };
 
 /// Most samples of a trace.
 inline constexpr int trace_samples = 500;
+/// Intervals between the samples of a path.
+inline constexpr int path_samples = 200;
 
 /// Runs `row`; nothing when `stop` was set meanwhile. Timing metrics stay empty. An engine that
 /// fails gives a status, no exception.

@@ -16,6 +16,13 @@ constexpr auto metrics = std::to_array<MetricDefinition>({
      false, Regime::holds},
     {"slip_acceleration", "m/s^2", "least-squares parabola of the same: its second derivative",
      make_slip_acceleration, false, Regime::slides},
+    {"friction", "",
+     "force of the ground against the motion downhill over that along its normal, from the "
+     "motion: (g_t - slip_acceleration)/g_n; nothing under external forces",
+     make_friction, false, Regime::slides},
+    {"anisotropy", "",
+     "greatest over least friction of the runs that differ in the swept direction alone, less 1",
+     make_friction, false, Regime::slides, MetricScope::sweep},
     {"settle_shift", "m", "downhill displacement at `settle`", make_settle_shift},
     {"stick_displacement", "m", "mean downhill displacement of the points that touch at the end",
      make_stick_displacement, true, Regime::holds},
@@ -39,6 +46,23 @@ constexpr auto metrics = std::to_array<MetricDefinition>({
     {"impacts", "1/s", "impulses per second after `settle` (event-driven laws)", make_impacts},
     {"support_force", "N",
      "mean force of the ground along its normal after `settle`, on all bodies", make_support_force},
+    {"force_residual", "N",
+     "mean after `settle` of what the ground's single forces owe Signorini, Coulomb and maximum "
+     "dissipation: the sum of its parts _normal, _cone and _dissipation; nothing for an engine "
+     "that does not tell them",
+     make_force_residual, false, Regime::none, MetricScope::run, true},
+    {"force_residual_normal", "N",
+     "of it, normal forces that pull, that act across a gap, or while the contact opens or closes",
+     make_force_residual_normal, false, Regime::none, MetricScope::run, true},
+    {"force_residual_cone", "N", "of it, tangential force beyond mu times the normal force",
+     make_force_residual_cone, false, Regime::none, MetricScope::run, true},
+    {"force_residual_dissipation", "N",
+     "of it, what friction lacks of mu times the normal force against the slip",
+     make_force_residual_dissipation, false, Regime::none, MetricScope::run, true},
+    {"energy_residual", "",
+     "greatest difference, since the start, between the change of kinetic and gravitational energy "
+     "and the work of ground, joints and external forces, per energy exchanged",
+     make_energy_residual, false, Regime::none, MetricScope::run, true},
     {"rebound", "",
      "greatest speed away from the ground over the greatest towards it, of the body's origin",
      make_rebound},
@@ -106,9 +130,15 @@ constexpr auto metrics = std::to_array<MetricDefinition>({
      "greatest distance of the body's origin from the run of arkode with tolerances of 1e-10 and "
      "steps of 0.1 ms or less, for a peer only where there is no ground",
      make_reference_error},
+    {"peer_distance", "m",
+     "greatest distance of the body's origin from that of another subject at equal swept values, "
+     "median of the others; the matrix of all is in peer_distance.csv and in the report",
+     nullptr, false, Regime::none, MetricScope::subjects},
     {"realtime_factor", "",
-     "simulated time over processor time, median of five stretches, run alone"},
-    {"step_time", "s", "processor time of a step, median of five stretches, run alone"},
+     "simulated time over processor time, median of five stretches, run alone", nullptr, false,
+     Regime::none, MetricScope::timing},
+    {"step_time", "s", "processor time of a step, median of five stretches, run alone", nullptr,
+     false, Regime::none, MetricScope::timing},
 });
 
 double deepest(const RunContext&, const Observation& observation) {
@@ -171,8 +201,7 @@ RunContext make_context(const simulation::Experiment& experiment, double settle,
     context.robot = static_cast<int>(i);
     context.body = body;
     found = robot.mobile;
-    ++body;
-    for (const simulation::ChainSpec& chain : robot.chains) body += chain.links.size();
+    body += body_count(robot);
   }
   if (!found)
     throw simulation::ExperimentError("a study needs a robot with a mobile base: there is none");

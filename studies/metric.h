@@ -40,6 +40,13 @@ struct RunContext {
   }
 };
 
+/// The base and the links.
+inline std::size_t body_count(const simulation::RobotSpec& robot) {
+  std::size_t count = 1;
+  for (const simulation::ChainSpec& chain : robot.chains) count += chain.links.size();
+  return count;
+}
+
 /// Throws simulation::ExperimentError when no robot can move.
 RunContext make_context(const simulation::Experiment& experiment, double settle, double duration);
 
@@ -99,14 +106,25 @@ class Metric {
   virtual std::optional<double> value_of_broken_run() const { return std::nullopt; }
 };
 
+/// Which runs a metric's value is of.
+enum class MetricScope {
+  run,       ///< one
+  sweep,     ///< those that differ in one swept value alone; a Metric gives each run's part
+  subjects,  ///< those of all subjects at equal swept values; made of their paths
+  timing     ///< one, that is run again alone
+};
+
 struct MetricDefinition {
   std::string_view name;
   std::string_view unit;
   std::string_view doc;
-  std::unique_ptr<Metric> (*make)(const RunContext&) = nullptr;  ///< null: a timing metric
+  /// Null where no Metric looks at the run: of the scopes subjects and timing.
+  std::unique_ptr<Metric> (*make)(const RunContext&) = nullptr;
   bool needs_points = false;
   Regime regime = Regime::none;  ///< the only one in which it says something; none: any
-  bool timing() const { return make == nullptr; }
+  MetricScope scope = MetricScope::run;
+  bool needs_forces = false;  ///< WorldState::ground_forces
+  bool timing() const { return scope == MetricScope::timing; }
 };
 
 /// Every metric, in the order of the manual.
@@ -136,6 +154,23 @@ void for_each_body(const RunContext& context, const simulation::WorldState& worl
 /// Speed along the ground from which a body counts as slipping, and below which as at rest [m/s].
 inline constexpr double onset_speed = 1e-3;
 
+/// A peer keeps a resting body within its own margin of the surface, so a touching point may lie
+/// that far above it [m].
+inline constexpr double touching_gap = 1e-4;
+
+/// Calls `visit(force, body, arm)` for each single force of the ground on the measured robot; the
+/// arm is from the body's origin to where it acts, world axes [m].
+template <class Visit>
+void for_each_ground_force(const RunContext& context, const simulation::WorldState& world,
+                           Visit visit) {
+  const std::size_t end = context.body + body_count(context.robot_spec());
+  for (const simulation::GroundForce& force : world.ground_forces) {
+    if (force.body < context.body || force.body >= end) continue;
+    const simulation::BodyState& body = world.bodies[force.body];
+    visit(force, body, rotate(body.orientation, force.point));
+  }
+}
+
 /// Static friction of the ground under the start; none without ground.
 std::optional<double> static_friction(const RunContext& context);
 
@@ -147,6 +182,7 @@ double mechanical_energy(const RunContext& context, const simulation::WorldState
 // The factories, each in the file of its family.
 std::unique_ptr<Metric> make_creep_speed(const RunContext&);
 std::unique_ptr<Metric> make_slip_acceleration(const RunContext&);
+std::unique_ptr<Metric> make_friction(const RunContext&);
 std::unique_ptr<Metric> make_settle_shift(const RunContext&);
 std::unique_ptr<Metric> make_stopping_distance(const RunContext&);
 std::unique_ptr<Metric> make_direction_error(const RunContext&);
@@ -184,5 +220,10 @@ std::unique_ptr<Metric> make_momentum_drift(const RunContext&);
 std::unique_ptr<Metric> make_angular_momentum_drift(const RunContext&);
 std::unique_ptr<Metric> make_rebound(const RunContext&);
 std::unique_ptr<Metric> make_support_force(const RunContext&);
+std::unique_ptr<Metric> make_force_residual(const RunContext&);
+std::unique_ptr<Metric> make_force_residual_normal(const RunContext&);
+std::unique_ptr<Metric> make_force_residual_cone(const RunContext&);
+std::unique_ptr<Metric> make_force_residual_dissipation(const RunContext&);
+std::unique_ptr<Metric> make_energy_residual(const RunContext&);
 
 }  // namespace hookpoint::studies

@@ -8,10 +8,6 @@
 namespace hookpoint::studies {
 namespace {
 
-/// A peer keeps a resting body within its own margin of the surface, so a touching point may lie
-/// that far above it [m].
-constexpr double touching_gap = 1e-4;
-
 /// Depths of the points inside the ground after `settle`: greatest, sum, sum of squares.
 class Depths : public Metric {
  public:

@@ -65,6 +65,28 @@ class SlipAcceleration : public DisplacementFit {
   std::optional<double> value() const override { return curvature(); }
 };
 
+/// Along downhill m a = m g_t - F, along the normal N = m g_n: friction is F/N.
+class Friction : public DisplacementFit {
+ public:
+  explicit Friction(const RunContext& context)
+      : DisplacementFit(context),
+        pull_(dot(context.experiment->gravity, context.downhill)),
+        load_(-dot(context.experiment->gravity, context.normal)),
+        applies_(context.ground && load_ > 0. &&
+                 std::ranges::none_of(
+                     context.experiment->forces,
+                     [&](const simulation::ForceSpec& f) { return f.robot == context.robot; })) {}
+  std::optional<double> value() const override {
+    const std::optional<double> acceleration = curvature();
+    if (!applies_ || !acceleration) return std::nullopt;
+    return (pull_ - *acceleration) / load_;
+  }
+
+ private:
+  double pull_, load_;  // of gravity [m/s^2]
+  bool applies_;
+};
+
 class SettleShift : public Metric {
  public:
   explicit SettleShift(const RunContext& context) : context_(context) {}
@@ -151,6 +173,9 @@ std::unique_ptr<Metric> make_creep_speed(const RunContext& context) {
 }
 std::unique_ptr<Metric> make_slip_acceleration(const RunContext& context) {
   return std::make_unique<SlipAcceleration>(context);
+}
+std::unique_ptr<Metric> make_friction(const RunContext& context) {
+  return std::make_unique<Friction>(context);
 }
 std::unique_ptr<Metric> make_settle_shift(const RunContext& context) {
   return std::make_unique<SettleShift>(context);

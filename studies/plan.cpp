@@ -12,6 +12,7 @@
 #include "simulation/load.h"
 #include "studies/hash.h"
 #include "studies/plan_parts.h"
+#include "studies/step_warning.h"
 
 namespace hookpoint::studies {
 
@@ -29,6 +30,23 @@ bool StudyPlan::covers(const std::vector<Condition>& conditions, const RowPlan& 
     const auto sweep = static_cast<std::size_t>(condition.sweep);
     return condition.holds(sweeps[sweep].si[static_cast<std::size_t>(row.values[sweep])]);
   });
+}
+
+bool StudyPlan::measures(MetricScope scope) const {
+  return std::ranges::any_of(
+      metrics, [&](const MetricDefinition* metric) { return metric->scope == scope; });
+}
+
+std::vector<std::size_t> StudyPlan::rows_along(std::size_t row, int sweep) const {
+  std::vector<std::size_t> found;
+  std::vector<int> values = rows[row].values;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (rows[i].subject != rows[row].subject) continue;
+    const auto at = static_cast<std::size_t>(sweep);
+    if (sweep >= 0) values[at] = rows[i].values[at];
+    if (rows[i].values == values) found.push_back(i);
+  }
+  return found;
 }
 
 namespace {
@@ -81,6 +99,19 @@ class SceneLoader {
     row.experiment.settings = subject.settings;
     printed += subject.engine + row.refusal;
     return true;
+  }
+
+  /// Once a subject and step.
+  void warn_of_step(StudyPlan& plan, const Object& study, const RowPlan& row) {
+    const std::string& subject = plan.subjects[static_cast<std::size_t>(row.subject)].info.name;
+    const std::pair<std::string, double> run{subject, row.experiment.deltat};
+    if (stepped_.contains(run)) return;
+    const std::optional<std::string> what = step_warning(row.experiment);
+    if (!what) return;
+    stepped_.insert(run);
+    diagnostics_.warning(study.position, *what);
+    diagnostics_.note(study.position, "with subject = " + subject);
+    plan.warnings.push_back(subject + ": " + *what);
   }
 
   std::vector<Assignment> fixes;     ///< the study's own
@@ -139,6 +170,7 @@ class SceneLoader {
   Diagnostics& diagnostics_;
   std::string world_;
   std::set<std::string> told_;
+  std::set<std::pair<std::string, double>> stepped_;  ///< subjects and steps that were warned of
 };
 
 /// Advances the innermost sweep first; false after the last combination.
@@ -166,6 +198,7 @@ bool plan_rows(StudyPlan& plan, const Object& study, SceneLoader& loader,
       std::string printed;
       if (!loader.load(plan, study, row, printed)) return false;
       row.experiment.duration = plan.duration;
+      if (row.refusal.empty()) loader.warn_of_step(plan, study, row);
       hash.add(printed);
       if (plan.rows.empty()) plan.scene_printed = printed;
       plan.rows.push_back(std::move(row));

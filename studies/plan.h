@@ -67,7 +67,8 @@ struct RowPlan {
   std::vector<int> values;  ///< one index a sweep
   int subject = 0;
   simulation::Experiment experiment;
-  std::string refusal;  ///< why the row's engine cannot run the scene, which others can; "" if it can
+  std::string
+      refusal;  ///< why the row's engine cannot run the scene, which others can; "" if it can
 };
 
 struct StudyPlan {
@@ -77,6 +78,7 @@ struct StudyPlan {
   std::vector<SweepPlan> sweeps;
   std::vector<SubjectPlan> subjects;
   std::vector<const MetricDefinition*> metrics;
+  std::vector<int> metric_sweeps;  ///< one a metric: index of the sweep that it is over, else -1
   std::vector<TruthPlan> truths;
   std::vector<PlotPlan> plots;
   std::vector<RowPlan> rows;  ///< sweeps outermost first, subjects innermost
@@ -84,7 +86,15 @@ struct StudyPlan {
   std::string scene_printed;  ///< the scene of the first row
   std::string hash;           ///< of all that decides the results: 10 hexadecimal digits
 
+  /// Of runs whose step is above the largest stable one: "lugre: deltat 0.01 s is above ...".
+  std::vector<std::string> warnings;
+
   bool covers(const std::vector<Condition>& conditions, const RowPlan& row) const;
+  /// Whether a metric of this scope is measured.
+  bool measures(MetricScope scope) const;
+  /// The rows that differ from `row` at most in the value of `sweep`, in its order; indices. Of no
+  /// sweep, -1, the row alone.
+  std::vector<std::size_t> rows_along(std::size_t row, int sweep) const;
 };
 
 /// The plan of `study` (an object of `root`, evaluated from `file`). Nothing when `diagnostics` got

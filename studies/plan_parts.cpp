@@ -170,10 +170,25 @@ std::vector<std::string> metric_names() {
 }
 
 void Parts::add_metric(const Object& block) {
-  if (const MetricDefinition* metric = find_metric(block.name))
-    plan_.metrics.push_back(metric);
-  else
-    unknown(block.position, "metric", block.name, metric_names());
+  const MetricDefinition* metric = find_metric(block.name);
+  if (metric == nullptr) return unknown(block.position, "metric", block.name, metric_names());
+  const Field* over = block.find("over");
+  int sweep = -1;
+  if (metric->scope == MetricScope::sweep) {
+    sweep = sweep_index(over != nullptr ? block.word("over") : "azimuth");
+    if (sweep < 0 && over != nullptr)
+      unknown(over->position, "Sweep", block.word("over"), sweep_names());
+    else if (sweep < 0)
+      diagnostics_.warning(block.position,
+                           fmt::format("`{}` says nothing: no Sweep is called azimuth, and `over` "
+                                       "names no other",
+                                       block.name));
+  } else if (over != nullptr) {
+    diagnostics_.error(over->position,
+                       fmt::format("`{}` is of one run, not over a Sweep", block.name));
+  }
+  plan_.metrics.push_back(metric);
+  plan_.metric_sweeps.push_back(sweep);
 }
 
 /// ", mu = 0.8, slope from 15 deg".

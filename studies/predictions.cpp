@@ -160,6 +160,12 @@ std::optional<double> slip_acceleration(const BodyOnPlane& body) {
   return body.sticks() ? 0. : body.slip_acceleration();
 }
 
+/// Of `friction`: Coulomb's of the slip, or what the slope asks for of a body that sticks.
+std::optional<double> friction(const BodyOnPlane& body) {
+  if (body.speed > 0.) return std::nullopt;
+  return body.sticks() ? body.tangent() : body.material.kinetic_friction;
+}
+
 std::optional<double> penetration(std::string_view metric, const RunContext& context,
                                   const BodyOnPlane& body) {
   if (body.peer) return std::nullopt;
@@ -228,6 +234,8 @@ std::optional<double> predict(std::string_view metric, const RunContext& context
   const BodyOnPlane body = body_on_plane(context);
   if (metric == "creep_speed") return creep_speed(context, body, friction_mixing, normal_mixing);
   if (metric == "slip_acceleration") return slip_acceleration(body);
+  if (metric == "friction") return friction(body);
+  if (metric == "anisotropy" && body.speed == 0.) return 0.;
   if (metric == "stick_displacement") return stick_displacement(body);
   if (metric == "stopping_distance") return stopping_distance(body);
   if (metric == "impacts") return impacts(context, body);

@@ -6,6 +6,7 @@
 #include "output/number.h"
 #include "output/plot.h"
 #include "studies/figures.h"
+#include "studies/report_distances.h"
 #include "studies/report_page.h"
 #include "studies/report_tables.h"
 #include "studies/summary.h"
@@ -152,6 +153,7 @@ std::string report_html(const StudyResult& study, const ReportContext& context,
   page += opening(study, context, summary);
   page += results(study, figures);
   page += truths_table(study) + failure_table(study) + stopped_table(study);
+  page += warning_list(study.warnings) + distance_table(study);
   page += heading("Every run") + runs_table(study);
   page += peer_table(context) + provenance_table(context.provenance);
   return page + page_end_with_script();

@@ -80,6 +80,7 @@ table.runs th[data-sorts] { cursor: pointer; } th[data-sorts=up]::after { conten
 table.runs th, table.runs td { padding: .18rem .55rem; }
 .tall { max-height: 75vh; overflow: auto; border-bottom: 1px solid var(--rule); }
 .tall thead th { position: sticky; top: 0; background: var(--paper); }
+table.distances { font-size: .74rem; } table.distances th, table.distances td { padding: .22rem .38rem; }
 table.wide td { white-space: normal; text-align: left; max-width: 34rem; overflow-wrap: anywhere; }
 @media print {
   :root { --paper: #fff; --ink: #000; --soft: #555; --rule: #ccc; --band: #f4f4f4; --good: #005a3c; --bad: #a00; --bad-band: #fbeceb; }

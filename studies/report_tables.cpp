@@ -292,6 +292,13 @@ std::string stopped_table(const StudyResult& study) {
          and_more(stopped.size());
 }
 
+std::string warning_list(const std::vector<std::string>& warnings) {
+  if (warnings.empty()) return "";
+  std::string text = "<h2>Steps above the stability bound</h2>\n<ul>\n";
+  for (const std::string& warning : warnings) text += "<li>" + html(warning) + "</li>\n";
+  return text + "</ul>\n";
+}
+
 std::string runs_table(const StudyResult& study) {
   const std::vector<MetricShape> shapes = shapes_of(study);
   const bool all = study.rows.size() <= most_rows;

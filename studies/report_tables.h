@@ -31,6 +31,9 @@ std::string failure_table(const StudyResult& study);
 /// Runs that stopped on the way: where, when and why, the first forty; "" when there are none.
 std::string stopped_table(const StudyResult& study);
 
+/// Runs whose step is above the stability bound, as the plan warned of them; "" without.
+std::string warning_list(const std::vector<std::string>& warnings);
+
 /// Every run as a row. Above 5000 rows only those that failed or stopped, and a line that says so.
 std::string runs_table(const StudyResult& study);
 

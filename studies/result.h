@@ -55,6 +55,14 @@ struct RunResult {
   std::vector<Trace> traces;  ///< one a PlotSpec with x = time, empty for the others
 };
 
+/// How far the trajectories of subjects at equal swept values are from each other.
+struct PeerDistances {
+  std::vector<double> parameters;  ///< one a sweep, in the sweep's unit
+  /// Greatest distance of the bodies' origins [m], subjects x subjects, row by row; nothing for a
+  /// run that is not there or did not finish.
+  std::vector<std::optional<double>> distances;
+};
+
 /// A Plot block.
 struct PlotSpec {
   std::string name;  ///< file name of its SVG
@@ -93,6 +101,8 @@ struct StudyResult {
   std::vector<RunResult> rows;  ///< sweep values outermost first, subjects innermost
   std::vector<PlotSpec> plots;
   std::vector<TruthResult> truths;
+  std::vector<PeerDistances> peer_distances;  ///< where `peer_distance` is measured
+  std::vector<std::string> warnings;          ///< the plan's
 };
 
 }  // namespace hookpoint::studies

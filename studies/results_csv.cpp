@@ -67,6 +67,30 @@ void write_traces(const std::filesystem::path& folder, const StudyResult& result
   }
 }
 
+/// peer_distance.csv: a row a pair of subjects at equal swept values.
+void write_distances(const std::filesystem::path& folder, const StudyResult& result) {
+  if (result.peer_distances.empty()) return;
+  output::CsvTable table;
+  for (const SweepColumn& sweep : result.sweeps)
+    table.header.push_back(output::column_title(sweep.name, sweep.unit));
+  for (const char* name : {"subject", "other", "peer_distance [m]"})
+    table.header.emplace_back(name);
+  const std::size_t subjects = result.subjects.size();
+  for (const PeerDistances& matrix : result.peer_distances) {
+    std::vector<std::string> swept;
+    for (const double parameter : matrix.parameters) swept.push_back(output::shortest(parameter));
+    for (std::size_t cell = 0; cell < matrix.distances.size(); ++cell) {
+      const std::size_t subject = cell / subjects, other = cell % subjects;
+      if (subject == other || !matrix.distances[cell]) continue;
+      table.rows.push_back(swept);
+      table.rows.back().insert(table.rows.back().end(),
+                               {result.subjects[subject].name, result.subjects[other].name,
+                                output::shortest(*matrix.distances[cell])});
+    }
+  }
+  output::write_csv(folder / "peer_distance.csv", table);
+}
+
 }  // namespace
 
 output::CsvTable results_table(const StudyResult& result, bool timing) {
@@ -86,6 +110,7 @@ void write_study_files(const std::filesystem::path& folder, const StudyPlan& pla
   output::write_file(folder / "scene.hook", plan.scene_printed);
   output::write_file(folder / "provenance.json", provenance_json(provenance));
   write_traces(folder, result);
+  write_distances(folder, result);
 }
 
 }  // namespace hookpoint::studies

@@ -62,7 +62,9 @@ void RowStore::save(std::size_t row, const RowOutcome& outcome) const {
     append_list(text, trace.value);
     text += '\n';
   }
-  output::write_file(path(row), text + "end\n");
+  text += fmt::format("path {}", outcome.path.size());
+  for (const Vector3d& p : outcome.path) append_list(text, {p.x, p.y, p.z});
+  output::write_file(path(row), text + "\nend\n");
 }
 
 std::optional<RowOutcome> RowStore::load(std::size_t row, std::size_t metrics,
@@ -88,6 +90,13 @@ std::optional<RowOutcome> RowStore::load(std::size_t row, std::size_t metrics,
       return std::nullopt;
     outcome.traces.push_back(std::move(trace));
   }
+  std::size_t points = 0;
+  std::vector<double> path;
+  if (!(in >> word >> points) || word != "path" || points > path_samples + 1 ||
+      !read_list(in, 3 * points, path))
+    return std::nullopt;
+  for (std::size_t i = 0; i < points; ++i)
+    outcome.path.push_back({path[3 * i], path[3 * i + 1], path[3 * i + 2]});
   if (!(in >> word) || word != "end") return std::nullopt;
   return outcome;
 }

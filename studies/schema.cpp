@@ -202,7 +202,9 @@ void add_study_classes(Schema& schema) {
        at_least_zero(number("count", "", "how many values from `from` to `to`")),
        choice("scale", {"linear", "log"}, "linear", "how `count` values are spaced"),
        values("quick_values", "the values under --quick; default: first and last")}));
-  schema.add(named("Measure", "A metric to measure, by its name.", {}));
+  schema.add(
+      named("Measure", "A metric to measure, by its name.",
+            {words("over", 1, "of `anisotropy`: the Sweep of directions; default azimuth")}));
   schema.add(truth_class(std::move(metrics)));
   schema.add(named(
       "Plot",

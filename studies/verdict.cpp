@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "studies/group_metrics.h"
 #include "studies/predictions.h"
 #include "studies/summary.h"
 
@@ -20,12 +21,9 @@ bool near(double measured, double expected, const TruthPlan& truth) {
 /// the plan has none.
 const RunResult* first_of_sweep(const StudyPlan& plan, const StudyResult& result, std::size_t row,
                                 int sweep) {
-  std::vector<int> values = plan.rows[row].values;
-  values[static_cast<std::size_t>(sweep)] = 0;
-  for (std::size_t i = 0; i < plan.rows.size(); ++i)
-    if (plan.rows[i].subject == plan.rows[row].subject && plan.rows[i].values == values)
-      return &result.rows[i];
-  return nullptr;
+  const std::size_t first = plan.rows_along(row, sweep).front();
+  const bool there = plan.rows[first].values[static_cast<std::size_t>(sweep)] == 0;
+  return there ? &result.rows[first] : nullptr;
 }
 
 bool applies(const StudyPlan& plan, const TruthPlan& truth, const RowPlan& row) {
@@ -107,6 +105,8 @@ StudyResult assemble(const StudyPlan& plan, const EngineTable& engines,
     result.truths.push_back({truth.name, truth.words, static_cast<int>(truth.metric)});
   for (std::size_t i = 0; i < plan.rows.size(); ++i)
     result.rows.push_back(run_result(plan, engines, plan.rows[i], outcomes[i]));
+  result.warnings = plan.warnings;
+  measure_groups(plan, outcomes, result);
   for (std::size_t i = 0; i < plan.rows.size(); ++i) {
     for (std::size_t k = 0; k < plan.truths.size(); ++k) {
       const std::optional<bool> verdict = judge(plan, result, i, plan.truths[k]);

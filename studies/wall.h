@@ -23,8 +23,6 @@ struct WallScene {
 struct WallPlan {
   StudyPlan study;  ///< name, subjects, hash; a row a run, its one value the index of the scene
   std::vector<WallScene> scenes;
-  /// Runs whose step is above the largest stable one: "rimless_wheel under lugre: ...".
-  std::vector<std::string> warnings;
 };
 
 /// What one subject made of one truth.

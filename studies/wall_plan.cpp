@@ -6,8 +6,8 @@
 
 #include "language/names.h"
 #include "simulation/load.h"
-#include "simulation/stability.h"
 #include "studies/hash.h"
+#include "studies/step_warning.h"
 #include "studies/wall.h"
 
 namespace hookpoint::studies {
@@ -151,15 +151,12 @@ class WallPlanner {
 
   void warn_of_step(const Object& block, const simulation::Experiment& experiment,
                     std::size_t index) {
-    const double bound = simulation::stability_bound(experiment).step;
-    if (experiment.deltat <= bound) return;
-    const std::string what = fmt::format(
-        "deltat {:.4g} s is above the largest stable step {:.4g} s of {} under the law {}",
-        experiment.deltat, bound, experiment.integrator, experiment.contact);
+    const std::optional<std::string> what = step_warning(experiment);
+    if (!what) return;
     const std::string& subject = plan_.study.subjects[index].info.name;
-    diagnostics_.warning(block.position, what);
+    diagnostics_.warning(block.position, *what);
     diagnostics_.note(block.position, "with subject = " + subject);
-    plan_.warnings.push_back(block.name + " under " + subject + ": " + what);
+    plan_.study.warnings.push_back(block.name + " under " + subject + ": " + *what);
   }
 
   void tell(const Diagnostics& found, const Object& block, const std::string& subject) {

@@ -99,13 +99,6 @@ std::string verdict(const WallResult& wall) {
                      passed + failed, counted);
 }
 
-std::string warning_list(const WallResult& wall) {
-  if (wall.warnings.empty()) return "";
-  std::string text = "<h2>Steps above the stability bound</h2>\n<ul>\n";
-  for (const std::string& warning : wall.warnings) text += "<li>" + html(warning) + "</li>\n";
-  return text + "</ul>\n";
-}
-
 /// The largest error of a line as a part of what is allowed decides which subject is named.
 const WallCell* worst_cell(const WallLine& line) {
   const WallCell* worst = nullptr;
@@ -151,7 +144,7 @@ std::string wall_html(const WallResult& wall, const ReportContext& context) {
       "<p class=\"note soft\">Each cell: what was measured and, small, how far it is from the "
       "closed form. A dot: the truth says nothing of that law; where a law fails by its own "
       "equation, its predicted failure is a truth of its own.</p>\n";
-  page += wall_table(wall) + warning_list(wall) + provenance_table(context.provenance);
+  page += wall_table(wall) + warning_list(wall.warnings) + provenance_table(context.provenance);
   return page + "</main>\n</body>\n</html>\n";
 }
 

@@ -147,9 +147,14 @@ std::optional<WallResult> run_wall(const WallPlan& plan, const EngineTable& engi
   const RowWork work{[&](std::size_t row) { return run_scene(rows[row], engines, stop); },
                      [&](std::size_t row) { return covering(rows[row]).size(); }, 0};
   if (!run_rows(by_length(rows), work, options, store, meter, outcomes)) return std::nullopt;
-  WallResult result{
-      plan.study.name, plan.study.title, plan.study.question, plan.study.file, plan.scenes, {}, {},
-      plan.warnings};
+  WallResult result{plan.study.name,
+                    plan.study.title,
+                    plan.study.question,
+                    plan.study.file,
+                    plan.scenes,
+                    {},
+                    {},
+                    plan.study.warnings};
   for (const SubjectPlan& subject : plan.study.subjects) result.subjects.push_back(subject.info);
   for (std::size_t i = 0; i < outcomes.size(); ++i) add_outcome(result, rows[i], outcomes[i]);
   return result;

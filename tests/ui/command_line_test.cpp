@@ -153,8 +153,9 @@ TEST(CommandLine, DynamicsOfFreeFallIsGravity) {
 
 TEST(CommandLine, HelpAndListsSucceed) {
   const Workplace work;
-  for (const char* arguments : {"--help", "run --help", "study --help", "--version", "engines",
-                                "engines --json", "describe", "describe World"}) {
+  for (const char* arguments :
+       {"--help", "run --help", "study --help", "--version", "engines", "engines --json",
+        "describe", "describe World", "describe force_residual"}) {
     const CommandResult result = work.hookpoint(arguments);
     EXPECT_EQ(result.status, 0) << arguments;
     EXPECT_FALSE(result.out.empty()) << arguments;

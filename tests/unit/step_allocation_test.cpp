@@ -10,6 +10,7 @@ namespace {
 
 long allocations_in_steps(const simulation::Experiment& experiment, int steps) {
   const auto engine = simulation::make_dts(experiment);
+  engine->publish_ground_forces();
   EXPECT_TRUE(engine->step().ok());
   const long before = testing::allocation_count();
   for (int i = 0; i < steps; ++i) EXPECT_TRUE(engine->step().ok());

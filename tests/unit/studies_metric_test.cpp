@@ -5,56 +5,19 @@
 #include <functional>
 
 #include "studies/metric.h"
+#include "tests/support/metric_scene.h"
 
 namespace hookpoint::studies {
 namespace {
 
 using simulation::Experiment;
 using simulation::WorldState;
+using testing::block_on_slope;
+using testing::measure;
 
 constexpr double pi = 3.14159265358979323846;
 
-/// A unit mass with four boundary points at the corners of a 0.2 m square, 0.05 m under its origin,
-/// on a slope.
-Experiment block_on_slope(double angle, double azimuth) {
-  Experiment experiment;
-  experiment.materials.resize(1);
-  experiment.deltat = 0.01;
-  simulation::TerrainSpec terrain;
-  terrain.surface = contact::SlopeSurface{angle, azimuth};
-  experiment.terrain = terrain;
-  simulation::RobotSpec robot;
-  robot.mobile = true;
-  robot.base.mass = {1., {}, {1., 1., 1., 0., 0., 0.}};
-  for (const double x : {-0.1, 0.1})
-    for (const double y : {-0.1, 0.1}) robot.base.boundary_points.push_back({x, y, -0.05});
-  robot.orientation = exponential(Vector3d{0., 0., azimuth}) * exponential(Vector3d{0., angle, 0.});
-  robot.location = 0.05 * rotate(robot.orientation, Vector3d{0., 0., 1.});
-  experiment.robots.push_back(robot);
-  return experiment;
-}
-
-/// Shows `metric` the states that `move` writes at every step of `duration`.
-std::optional<double> measure(const Experiment& experiment, std::string_view name, double settle,
-                              double duration,
-                              const std::function<void(const RunContext&, WorldState&)>& move) {
-  const RunContext context = make_context(experiment, settle, duration);
-  const auto metric = find_metric(name)->make(context);
-  Observer observer(context, true);
-  WorldState world;
-  world.bodies.resize(1);
-  for (int step = 0; step <= std::lround(duration / experiment.deltat); ++step) {
-    world.step = step;
-    world.time = step * experiment.deltat;
-    world.bodies[0].position = context.start;
-    world.bodies[0].orientation = experiment.robots[0].orientation;
-    move(context, world);
-    metric->observe(observer.observe(world));
-  }
-  return metric->value();
-}
-
-/// The same for a body with a pull that grows by `rate` [N/s] along x from 0.
+/// `measure` of a body with a pull that grows by `rate` [N/s] along x from 0.
 std::optional<double> measure_pulled(
     std::string_view name, double rate,
     const std::function<void(const RunContext&, WorldState&)>& move) {
