@@ -42,28 +42,12 @@ language::Schema make_schema() {
   return schema;
 }
 
-/// Sticking contacts of ODE's exact solver yield by CFM times their friction, those of MuJoCo by
-/// their regularisation, those of DART by a part of their rows' own diagonal, and Simbody's are a
-/// function of speed; ODE's iterative solver and Bullet have no closed form.
-std::optional<double> ode_friction_mixing(const simulation::Experiment& experiment) {
-  const auto constants = reference::constraint_constants("ode", experiment);
-  // A body let go falls g dt^2 in its first step. Where that is most of the surface layer some
-  // contacts end within it and some below it, and which is the solver's secret.
-  const double fall = norm(experiment.gravity) * experiment.deltat * experiment.deltat;
-  if (constants.surface_layer > 0. && fall > 0.5 * constants.surface_layer) return std::nullopt;
-  return constants.tangential_mixing;
-}
-
-/// Nothing pushes out what ODE's normal rows let into the surface layer.
-double ode_normal_mixing(const simulation::Experiment& experiment) {
-  const auto constants = reference::constraint_constants("ode", experiment);
-  return constants.surface_layer > 0. ? constants.normal_mixing : 0.;
-}
-auto friction_mixing_of(std::string_view peer) {
-  return peer == "ode"       ? ode_friction_mixing
-         : peer == "mujoco"  ? reference::mujoco_friction_mixing
-         : peer == "dart"    ? reference::dart_friction_mixing
-         : peer == "simbody" ? reference::simbody_friction_mixing
+/// ODE's iterative solver and Bullet have no closed form.
+auto creep_of(std::string_view peer) {
+  return peer == "ode"       ? reference::ode_creep
+         : peer == "mujoco"  ? reference::mujoco_creep
+         : peer == "dart"    ? reference::dart_creep
+         : peer == "simbody" ? reference::simbody_creep
                              : nullptr;
 }
 
@@ -96,9 +80,8 @@ Application::Application(bool allow_plugins, Told tell)
   add_vocabulary();
   engines_["dts"] = {simulation::describe_dts(), simulation::make_dts, nullptr};
   for (const reference::Peer& peer : reference::known_peers()) {
-    engines_[std::string(peer.name)] = {peer.describe(), peer.make, friction_mixing_of(peer.name)};
+    engines_[std::string(peer.name)] = {peer.describe(), peer.make, creep_of(peer.name)};
   }
-  engines_["ode"].normal_mixing = ode_normal_mixing;
 }
 
 std::unique_ptr<simulation::Engine> Application::make_engine(

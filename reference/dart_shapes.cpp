@@ -62,10 +62,10 @@ dart::dynamics::ShapePtr make_dart_shape(const simulation::ShapeGeometry& geomet
   return std::visit(Builder{}, geometry);
 }
 
-DartGround make_dart_ground(const Ground& ground) {
+DartGround make_dart_ground(const Ground& ground, double width) {
   if (const auto* mesh = std::get_if<GroundMesh>(&ground)) return {mesh_shape(*mesh)};
   const auto& plane = std::get<GroundPlane>(ground);
-  constexpr double width = 2e3, height = 20.;  // [m]
+  constexpr double height = 20.;  // [m]
   DartGround result{
       std::make_shared<dart::dynamics::BoxShape>(Eigen::Vector3d(width, width, height))};
   const Eigen::Vector3d normal = eigen(plane.normal);

@@ -23,8 +23,9 @@ struct DartGround {
   dart::dynamics::ShapePtr shape;
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< X_WS
 };
-/// A plane is a box 2 km wide with its top face there: FCL gives two boxes all their contacts, and
-/// anything on its half-space one. A mesh has vertices in single precision: aiScene has no other.
-DartGround make_dart_ground(const Ground& ground);
+/// A plane is a box of `width` [m] with its top face there: FCL gives two boxes all their contacts,
+/// and anything on its half-space one. A mesh has vertices in single precision: aiScene has no
+/// other.
+DartGround make_dart_ground(const Ground& ground, double width);
 
 }  // namespace hookpoint::reference

@@ -15,6 +15,7 @@
 #include <string>
 #include <unordered_map>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "reference/dart_contact.h"
@@ -63,6 +64,7 @@ class DartWorld final : public PeerWorld {
   }
 
   std::string advance(const simulation::WorldInputs& inputs) override {
+    if (near_ground_) keep_below(*near_ground_);
     if (!apply(inputs)) return "a force, torque or speed is beyond what DART's assertions allow";
     const DartConstantsTurn turn(settings_);
     world_->step();
@@ -114,6 +116,12 @@ class DartWorld final : public PeerWorld {
     bool mobile;
     int joint;  ///< as published; -1: a base
     BodyNode* node;
+  };
+  /// A box of ground that goes with the robot over its plane.
+  struct NearGround {
+    dart::dynamics::WeldJoint* joint;
+    Eigen::Vector3d normal;
+    double width;  ///< [m]
   };
   struct Touch {
     ShapeUse use;
@@ -182,7 +190,15 @@ class DartWorld final : public PeerWorld {
     const auto skeleton = dart::dynamics::Skeleton::create("ground");
     const auto [joint, node] = skeleton->createJointAndBodyNodePair<dart::dynamics::WeldJoint>();
     skeleton->setMobile(false);
-    const DartGround ground = make_dart_ground(ground_of(*experiment.terrain));
+    const Ground plan = ground_of(*experiment.terrain);
+    const auto* plane = std::get_if<GroundPlane>(&plan);
+    constexpr double far_width = 2e3;
+    const double near_width = 20. * reach(experiment);
+    // Two triangles meet in single precision in DART (tri_tri_intersection_test.hpp): on a ground
+    // of 2 km a block has no contacts while it is less than some 30 um deep.
+    if (settings_.tessellated && plane != nullptr && near_width > 0.)
+      near_ground_ = NearGround{joint, eigen(plane->normal), near_width};
+    const DartGround ground = make_dart_ground(plan, near_ground_ ? near_width : far_width);
     detector_->ground.emplace(contact::Terrain(*experiment.terrain));
     const std::size_t materials = std::max<std::size_t>(experiment.materials.size(), 1);
     for (std::size_t i = 0; i < materials; ++i) {
@@ -194,6 +210,26 @@ class DartWorld final : public PeerWorld {
     const auto own = static_cast<std::size_t>(experiment.terrain->material);
     filter_->ground = detector_->ground->materials[std::min(own, materials - 1)];
     skeletons_.push_back(skeleton);
+  }
+
+  /// Of the shapes of the experiment's one body about its origin [m]; 0 where there are others.
+  static double reach(const simulation::Experiment& experiment) {
+    if (experiment.robots.size() != 1 || touches_by_points(experiment, 0)) return 0.;
+    double largest = 0.;
+    for (const simulation::ShapeSpec& shape : experiment.robots[0].base.shapes) {
+      const auto box = make_dart_shape(shape.geometry)->getBoundingBox();
+      largest = std::max(largest, norm(shape.location) + box.computeHalfExtents().norm());
+    }
+    return largest;
+  }
+
+  void keep_below(const NearGround& ground) {
+    const Eigen::Vector3d at = bodies_.front().node->getWorldTransform().translation();
+    const Eigen::Vector3d below = at - at.dot(ground.normal) * ground.normal;
+    Eigen::Isometry3d pose = ground.joint->getTransformFromParentBodyNode();
+    if ((below - pose.translation()).norm() < ground.width / 8.) return;
+    pose.translation() = below;
+    ground.joint->setTransformFromParentBodyNode(pose);
   }
 
   void add_touching(const simulation::Experiment& experiment, const RobotTree& tree) {
@@ -281,6 +317,7 @@ class DartWorld final : public PeerWorld {
   std::vector<Body> bodies_;
   std::vector<std::size_t> forced_;  ///< the body of each force
   std::optional<std::size_t> refused_;
+  std::optional<NearGround> near_ground_;
 };
 
 }  // namespace

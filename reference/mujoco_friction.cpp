@@ -89,21 +89,10 @@ std::optional<Rest> rest(const Load& load, const MujocoSettings& settings,
               pyramid->depth * row * load.normal / (reference.stiffness * d)};
 }
 
-/// Normal loads over their mean on the touching points: a + b x + c y at (x, y), x downhill, whose
-/// moment about the centre of mass is that of the friction.
-void spread(const RestingBody& body, Load& load) {
-  const Vector3d aside = cross(body.normal, body.downhill);
-  const auto count = static_cast<double>(body.arms.size());
-  Symmetric3d sums;
+/// Least and largest normal load, under the moment of the friction.
+void spread(const RestingBody& body, const Vector3d& loads, Load& load) {
   for (const Vector3d& arm : body.arms) {
-    const double x = dot(arm, body.downhill), y = dot(arm, aside);
-    sums += Symmetric3d{1., x * x, y * y, x, y, x * y};
-  }
-  const double height = -dot(body.arms.front(), body.normal);
-  const Vector3d plane =
-      inverse(sums) * Vector3d{count, count * height * body.pull / body.press, 0.};
-  for (const Vector3d& arm : body.arms) {
-    const double part = plane.x + plane.y * dot(arm, body.downhill) + plane.z * dot(arm, aside);
+    const double part = load_at(body, loads, arm) / load.normal;
     load.least = std::min(load.least, part);
     load.largest = std::max(load.largest, part);
   }
@@ -112,8 +101,9 @@ void spread(const RestingBody& body, Load& load) {
 std::optional<Load> load_at_rest(const simulation::Experiment& experiment) {
   const auto body = resting_body(experiment);
   const double friction = single_friction(ground_material(experiment));
-  if (!body || body->arms.size() < 3 || !(body->press > 0.) || !(friction > 0.))
-    return std::nullopt;
+  if (!body || !(body->press > 0.) || !(friction > 0.)) return std::nullopt;
+  const auto loads = normal_loads(*body, body->pull);
+  if (!loads) return std::nullopt;
   Load load;
   const auto count = static_cast<double>(body->arms.size());
   load.inverse_weight = 1. / body->mass->mass;
@@ -123,7 +113,7 @@ std::optional<Load> load_at_rest(const simulation::Experiment& experiment) {
   const auto [first, second] = mujoco_tangents(body->normal);
   load.along = std::abs(dot(body->downhill, first));
   load.across = std::abs(dot(body->downhill, second));
-  spread(*body, load);
+  spread(*body, *loads, load);
   return load;
 }
 
@@ -136,7 +126,7 @@ std::array<Vector3d, 2> mujoco_tangents(const Vector3d& normal) {
   return {first, cross(normal, first)};
 }
 
-std::optional<double> mujoco_friction_mixing(const simulation::Experiment& experiment) {
+std::optional<double> mujoco_creep(const simulation::Experiment& experiment) {
   const auto load = load_at_rest(experiment);
   if (!load) return std::nullopt;
   const auto material = ground_material(experiment);
@@ -151,7 +141,7 @@ std::optional<double> mujoco_friction_mixing(const simulation::Experiment& exper
     if (!found) return std::nullopt;
     depth = found->depth;
   }
-  return found->speed / load->tangential;
+  return found->speed;
 }
 
 }  // namespace hookpoint::reference

@@ -14,12 +14,12 @@ namespace hookpoint::reference {
 /// or more), and normal x that.
 std::array<Vector3d, 2> mujoco_tangents(const Vector3d& normal);
 
-/// Downhill speed of a single body that sticks to a plane over the friction of each of its contacts
-/// [m/(N s)]. At rest the rows of a contact say B v + K d r + R f = 0 with r = 0 in a friction row,
-/// so it creeps: an elliptic contact at R f_t/B. A pyramid's rows, along normal +- mu tangent, mix
-/// both, and one that would pull is left out. Nothing where that has no closed form: other robots
-/// and grounds, and where a contact slips or lacks a row that another one has (the friction's
-/// moment takes load off the uphill contacts). The impedance d is taken at the mean depth.
-std::optional<double> mujoco_friction_mixing(const simulation::Experiment& experiment);
+/// Downhill speed of a single body that sticks to a plane [m/s]. At rest the rows of a contact say
+/// B v + K d r + R f = 0 with r = 0 in a friction row, so it creeps: an elliptic contact at R
+/// f_t/B. A pyramid's rows, along normal +- mu tangent, mix both, and one that would pull is left
+/// out. Nothing where that has no closed form: other robots and grounds, and where a contact slips
+/// or lacks a row that another one has (the friction's moment takes load off the uphill contacts).
+/// The impedance d is taken at the mean depth.
+std::optional<double> mujoco_creep(const simulation::Experiment& experiment);
 
 }  // namespace hookpoint::reference

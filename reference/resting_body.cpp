@@ -43,9 +43,11 @@ std::optional<RestingBody> resting_body(const simulation::Experiment& experiment
                    robot.orientation,
                    plane->normal,
                    (1. / slide) * along,
+                   (1. / slide) * cross(plane->normal, along),
                    mass * slide,
                    -mass * dot(experiment.gravity, plane->normal),
-                   {}};
+                   {},
+                   -rotate(robot.orientation, robot.base.mass.center_of_mass)};
   const auto height = [&](const Vector3d& point) {
     return dot(rotate(robot.orientation, point), plane->normal);
   };
@@ -57,6 +59,22 @@ std::optional<RestingBody> resting_body(const simulation::Experiment& experiment
       body.arms.push_back(rotate(robot.orientation, point - body.mass->center_of_mass));
   if (body.arms.empty()) return std::nullopt;
   return body;
+}
+
+std::optional<Vector3d> normal_loads(const RestingBody& body, double friction) {
+  if (body.arms.size() < 3) return std::nullopt;
+  Symmetric3d sums;
+  for (const Vector3d& arm : body.arms) {
+    const auto [x, y, z] = body.in_slope(arm);
+    sums += Symmetric3d{1., x * x, y * y, x, y, x * y};
+  }
+  const double height = -body.in_slope(body.arms.front()).z;
+  return inverse(sums) * Vector3d{body.press, friction * height, 0.};
+}
+
+double load_at(const RestingBody& body, const Vector3d& loads, const Vector3d& arm) {
+  const auto [x, y, z] = body.in_slope(arm);
+  return loads.x + loads.y * x + loads.z * y;
 }
 
 }  // namespace hookpoint::reference

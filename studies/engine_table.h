@@ -12,13 +12,10 @@ namespace hookpoint::studies {
 struct EngineEntry {
   simulation::EngineDescription description;
   simulation::EngineFactory make = nullptr;
-  /// Tangential speed per newton of friction of a sticking contact in the engine's constraints
-  /// [m/(N s)] (ODE: CFM); nothing where no closed form holds. Null for an engine without such
-  /// constraints.
-  std::optional<double> (*friction_mixing)(const simulation::Experiment&) = nullptr;
-  /// Normal speed per newton at which a contact gives way for good [m/(N s)] (ODE: CFM within its
-  /// surface layer). Null or 0 for an engine that pushes penetration out.
-  double (*normal_mixing)(const simulation::Experiment&) = nullptr;
+  /// Downhill speed of the origin of one body that rests on a plane within Coulomb's cone [m/s];
+  /// nothing where no closed form holds. Null for our own engine, whose laws have theirs, and for
+  /// an engine without any.
+  std::optional<double> (*creep)(const simulation::Experiment&) = nullptr;
 };
 
 using EngineTable = std::map<std::string, EngineEntry>;

@@ -19,7 +19,6 @@ struct BodyOnPlane {
   double sine = 0., cosine = 1.;    ///< of the slope theta
   std::vector<Vector3d> footprint;  ///< touching points from the centre of mass, in the plane [m]
   double height = 0.;               ///< of the centre of mass above the touching points [m]
-  double origin_height = 0.;        ///< of the body's origin, whose creep is measured [m]
   bool single_point = false;        ///< the body has one boundary point: it cannot rock
   double speed = 0.;                ///< initial, in the plane [m/s]
   Constants material;
@@ -70,7 +69,6 @@ BodyOnPlane body_on_plane(const RunContext& context) {
   double lowest = std::numeric_limits<double>::infinity();
   for (const Vector3d& point : base.boundary_points)
     lowest = std::min(lowest, dot(rotate(R_WB, point), context.normal));
-  body.origin_height = -lowest;
   for (const Vector3d& point : base.boundary_points) {
     const Vector3d from_center = rotate(R_WB, point - base.mass.center_of_mass);
     if (dot(rotate(R_WB, point), context.normal) - lowest > 1e-6) continue;
@@ -116,30 +114,9 @@ std::vector<double> footprint_depths(const RunContext& context, const BodyOnPlan
   return depths;
 }
 
-/// Downhill speed of the origin of a body whose contacts sink at `mixing` [m/(N s)] times their
-/// loads: loads that carry the moment F h of the friction grow downhill by F h S^-1 x, S the sum of
-/// x x^T over the footprint, and the body tilts with them.
-double tilting_creep(const RunContext& context, const BodyOnPlane& body, double mixing) {
-  const Vector3d across = cross(context.normal, context.downhill);
-  double xx = 0., xy = 0., yy = 0.;
-  for (const Vector3d& point : body.footprint) {
-    const double x = dot(point, context.downhill), y = dot(point, across);
-    xx += x * x;
-    xy += x * y;
-    yy += y * y;
-  }
-  const double determinant = xx * yy - xy * xy;
-  if (!(determinant > 0.)) return 0.;
-  const double moment = body.friction_load() * body.contacts() * body.height;
-  return mixing * moment * body.origin_height * yy / determinant;
-}
-
 std::optional<double> sticking_creep(const RunContext& context, const BodyOnPlane& body,
-                                     std::optional<double> friction_mixing, double normal_mixing) {
-  if (body.peer) {
-    if (!friction_mixing) return std::nullopt;
-    return *friction_mixing * body.friction_load() + tilting_creep(context, body, normal_mixing);
-  }
+                                     std::optional<double> peer_creep) {
+  if (body.peer) return peer_creep;
   if (body.law) return contact::creep_speed(*body.law, body.tangent(), body.material);
   if (context.experiment->contact == "impulse_reversal") return 0.;
   // Between impacts 2 u0/(g cos) apart friction is absent: mean speed g sin T/2 (docs/contact.md).
@@ -148,9 +125,9 @@ std::optional<double> sticking_creep(const RunContext& context, const BodyOnPlan
 }
 
 std::optional<double> creep_speed(const RunContext& context, const BodyOnPlane& body,
-                                  std::optional<double> friction_mixing, double normal_mixing) {
+                                  std::optional<double> peer_creep) {
   if (body.speed > 0.) return std::nullopt;
-  if (body.sticks()) return sticking_creep(context, body, friction_mixing, normal_mixing);
+  if (body.sticks()) return sticking_creep(context, body, peer_creep);
   // The best line through a t^2/2 on [t1, t2] has the slope a (t1 + t2)/2.
   return body.slip_acceleration() * 0.5 * (context.settle + context.duration);
 }
@@ -222,7 +199,7 @@ std::optional<double> impacts(const RunContext& context, const BodyOnPlane& body
 }  // namespace
 
 std::optional<double> predict(std::string_view metric, const RunContext& context,
-                              std::optional<double> friction_mixing, double normal_mixing) {
+                              std::optional<double> peer_creep) {
   if (metric == "fell") return joint_loop_fails(context);
   if (metric == "restless") return restless(context);
   if (metric == "slip_onset") return slip_onset(context);
@@ -232,7 +209,7 @@ std::optional<double> predict(std::string_view metric, const RunContext& context
   if (!applies(context))
     return metric == "slip_acceleration" ? rolling_acceleration(context) : std::nullopt;
   const BodyOnPlane body = body_on_plane(context);
-  if (metric == "creep_speed") return creep_speed(context, body, friction_mixing, normal_mixing);
+  if (metric == "creep_speed") return creep_speed(context, body, peer_creep);
   if (metric == "slip_acceleration") return slip_acceleration(body);
   if (metric == "friction") return friction(body);
   if (metric == "anisotropy" && body.speed == 0.) return 0.;

@@ -11,11 +11,10 @@ namespace hookpoint::studies {
 
 /// The closed form of `metric` for the run described by `context`, or nothing where there is none
 /// (docs/studies.md lists them). But for `fell` they hold for one rigid body on a plane that starts
-/// at rest, or on the level at a speed. `friction_mixing`: tangential speed per newton of a peer's
-/// sticking contact [m/(N s)], where its constraints have one; `normal_mixing`: the normal speed
-/// per newton at which it sinks for good.
+/// at rest, or on the level at a speed. `peer_creep`: what the engine's own closed form says of
+/// `creep_speed` where friction holds [m/s], for a peer that has one.
 std::optional<double> predict(std::string_view metric, const RunContext& context,
-                              std::optional<double> friction_mixing, double normal_mixing = 0.);
+                              std::optional<double> peer_creep);
 
 /// 1 where the joint loops of a walking robot are unstable while a leg is in the air, 0 where they
 /// are stable: proportional control by a Controller.JointPD whose sensors are sampled and late, of

@@ -73,13 +73,10 @@ RunResult run_result(const StudyPlan& plan, const EngineTable& engines, const Ro
     run.regime = regime_of(context);
     const bool ran = !has(run, RunOutcome::skipped) && !has(run, RunOutcome::refused);
     if (!ran || engine == engines.end()) return run;
-    const auto mixing = engine->second.friction_mixing != nullptr
-                            ? engine->second.friction_mixing(row.experiment)
-                            : std::nullopt;
-    const double sinking =
-        engine->second.normal_mixing != nullptr ? engine->second.normal_mixing(row.experiment) : 0.;
+    const auto creep =
+        engine->second.creep != nullptr ? engine->second.creep(row.experiment) : std::nullopt;
     for (std::size_t i = 0; i < plan.metrics.size(); ++i)
-      run.metrics[i].predicted = predict(plan.metrics[i]->name, context, mixing, sinking);
+      run.metrics[i].predicted = predict(plan.metrics[i]->name, context, creep);
   } catch (const simulation::ExperimentError&) {
     return run;  // the row's status says already why it could not run
   }

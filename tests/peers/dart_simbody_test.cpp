@@ -13,21 +13,26 @@ namespace {
 using namespace reference_scenes;
 
 constexpr double angle = 15. * degree;
-const double f_t = g * std::sin(angle) / 4.;  // of each of the four corners, 1 kg
-
 bool found(const simulation::EngineDescription& description) { return description.found; }
+
+struct Subject {
+  simulation::EngineFactory make;
+  std::optional<double> (*form)(const simulation::Experiment&);
+  int settling;  ///< steps until depths rest: DART undoes a hundredth of one in a step
+};
+constexpr Subject dart{reference::make_dart, reference::dart_creep, 2000};
+constexpr Subject simbody{reference::make_simbody, reference::simbody_creep, 300};
 
 struct Creep {
   double measured = 0., expected = 0.;
 };
-Creep creep(simulation::EngineFactory make,
-            std::optional<double> (*mixing)(const simulation::Experiment&), double deltat,
+Creep creep(const Subject& subject, double slope, double azimuth, double mu, double deltat,
             const char* settings) {
-  const auto experiment = sloped_block(angle, 0., 0.5, deltat, settings);
-  const auto engine = make(experiment);
-  return {
-      creep_speed(*engine, slope_axes(angle, 0.).downhill, deltat, 500. * deltat, 1000. * deltat),
-      mixing(experiment).value() * f_t};
+  const auto experiment = sloped_block(slope, azimuth, mu, deltat, settings);
+  const auto engine = subject.make(experiment);
+  const double from = subject.settling * deltat;
+  return {creep_speed(*engine, slope_axes(slope, azimuth).downhill, deltat, from, 1.5 * from),
+          subject.form(experiment).value()};
 }
 
 // CFM 1e-5 of each row's own diagonal, as impulses: J M^-1 J^T along the fall at a corner is
@@ -35,24 +40,69 @@ Creep creep(simulation::EngineFactory make,
 TEST(DartBlock, CreepsByItsRelativeMixing) {
   if (!found(reference::describe_dart())) GTEST_SKIP() << "engine dart is not found";
   for (const double deltat : {1e-3, 1e-2}) {
-    const auto experiment = sloped_block(angle, 0., 0.5, deltat);
-    EXPECT_NEAR(reference::dart_friction_mixing(experiment).value(), 1e-5 * 3.1 * deltat,
-                1e-9 * deltat);
+    EXPECT_NEAR(reference::dart_creep(sloped_block(angle, 0., 0.5, deltat)).value(),
+                1e-5 * 3.1 * deltat * g * std::sin(angle) / 4., 1e-9 * deltat);
     for (const char* settings : {"default", "matched"}) {
-      const Creep block =
-          creep(reference::make_dart, reference::dart_friction_mixing, deltat, settings);
+      const Creep block = creep(dart, angle, 0., 0.5, deltat, settings);
       EXPECT_NEAR(block.measured, block.expected, 0.01 * block.expected) << settings << deltat;
     }
   }
 }
 
+// Across its corners the block has rows of 1.6 per kg at the upper and lower one and of 4.6 at the
+// others, which all go at one speed: the stiff ones carry 2.9 times as much, and on 30 deg are at
+// mu m g cos/4.
+TEST(DartBlock, CreepsAcrossItsCornersAsItsRowsShareTheLoad) {
+  if (!found(reference::describe_dart())) GTEST_SKIP() << "engine dart is not found";
+  const double rate = 1e-5 * 1e-3, pull = g * std::sin(angle);
+  const Creep held = creep(dart, angle, 45. * degree, 0.8, 1e-3, "default");
+  EXPECT_NEAR(held.expected, rate * pull / (2. / 1.6 + 2. / 4.6), 1e-6 * held.expected);
+  EXPECT_NEAR(held.measured, held.expected, 0.01 * held.expected);
+  const double limit = 0.8 * g * std::cos(30. * degree) / 4.;
+  const Creep limited = creep(dart, 30. * degree, 45. * degree, 0.8, 1e-3, "default");
+  EXPECT_NEAR(limited.expected, rate * (0.5 * g - 2. * limit) / (2. / 4.6),
+              1e-6 * limited.expected);
+  EXPECT_NEAR(limited.measured, limited.expected, 0.01 * limited.expected);
+}
+
 TEST(SimbodyBlock, CreepsWhereItsStictionCarriesTheLoad) {
   if (!found(reference::describe_simbody())) GTEST_SKIP() << "engine simbody is not found";
   for (const char* settings : {"default", "recommended", "matched"}) {
-    const Creep block =
-        creep(reference::make_simbody, reference::simbody_friction_mixing, 1e-3, settings);
+    const Creep block = creep(simbody, angle, 0., 0.5, 1e-3, settings);
     EXPECT_NEAR(block.measured, block.expected, 0.01 * block.expected) << settings;
   }
+}
+
+// Friction's moment m g sin h takes load off the uphill corners: (m g cos - m g sin h/a)/4 is left
+// with edges along the fall, a = 0.1 m, and m g cos/4 - m g sin h/(2 sqrt(2) a) at the one corner
+// at 45 deg. On 30 deg mu times that is less than their share of m g sin, and the other corners,
+// dampers of 300 N s/m, carry the rest.
+TEST(SimbodyBlock, CreepsFasterAtMatchedWhereItsUphillCornersAreAtTheirLimit) {
+  if (!found(reference::describe_simbody())) GTEST_SKIP() << "engine simbody is not found";
+  constexpr double mu = 0.8, h = 0.05, a = 0.1, damping = 300.;
+  const double pull = 0.5 * g, load = g * std::cos(30. * degree) / 4.;
+  const double edge = (pull - 2. * mu * (load - pull * h / (4. * a))) / (2. * damping);
+  const double corner = (pull - mu * (load - pull * h / (2. * std::sqrt(2.) * a))) / (3. * damping);
+  const auto block = [](double azimuth) {
+    return creep(simbody, 30. * degree, azimuth * degree, mu, 1e-3, "matched");
+  };
+  for (const double azimuth : {0., 30., 45.})
+    EXPECT_NEAR(block(azimuth).measured, block(azimuth).expected, 0.002 * edge) << azimuth;
+  EXPECT_NEAR(block(0.).expected, edge, 1e-6 * edge);
+  EXPECT_NEAR(block(45.).expected, corner, 1e-6 * corner);
+}
+
+// Where one corner gives way and its neighbour across the fall does not, the block turns, and goes
+// at another speed when it has.
+TEST(SimbodyBlock, HasNoFormForARunInWhichItTurns) {
+  const auto form = [](double azimuth, double duration) {
+    auto experiment = sloped_block(30. * degree, azimuth * degree, 0.8, 1e-3, "matched");
+    experiment.duration = duration;
+    return reference::simbody_creep(experiment).has_value();
+  };
+  EXPECT_TRUE(form(30., 10.));
+  EXPECT_FALSE(form(30., 1e4));
+  EXPECT_TRUE(form(45., 1e4));
 }
 
 /// Acceleration, once friction is full, of a block on level ground, mu 0.2, under a push of 0.268 m
@@ -86,6 +136,19 @@ TEST(DartBlock, SticksAcrossItsFrictionBoxOnLevelGroundOnly) {
     EXPECT_NEAR(dot(engine->state().bodies[0].velocity, slope_axes(angle, azimuth).downhill),
                 downhill, 1e-3 * downhill);
   }
+}
+
+// Meshes meet in single precision: on a box of 2 km the block lost its contacts on 25 deg, again
+// and again, and came down at 0.2 mm/s. The ground that is near has to go with a block that slides.
+TEST(DartBlock, StaysOnGroundThatGoesWithItAtTheRecommendedSetting) {
+  if (!found(reference::describe_dart())) GTEST_SKIP() << "engine dart is not found";
+  const auto held = reference::make_dart(sloped_block(25. * degree, 0., 0.8, 1e-3, "recommended"));
+  EXPECT_LT(creep_speed(*held, slope_axes(25. * degree, 0.).downhill, 1e-3, 0.5, 1.), 1e-7);
+  const double coulomb = g * (0.5 - 0.2 * std::cos(30. * degree));
+  const auto slides =
+      reference::make_dart(sloped_block(30. * degree, 0., 0.2, 1e-3, "recommended"));
+  EXPECT_NEAR(creep_speed(*slides, slope_axes(30. * degree, 0.).downhill, 1e-3, 1.5, 2.5),
+              2. * coulomb, 0.02 * coulomb);
 }
 
 // Its constants belong to the process: a world at `matched` leaves one at `default` as it is.

@@ -2,6 +2,7 @@
 // same block.
 #include <gtest/gtest.h>
 
+#include "reference/creep.h"
 #include "reference/engines.h"
 #include "tests/support/reference_scenes.h"
 
@@ -53,6 +54,37 @@ TEST(OdeBlock, TiltsIntoTheSurfaceLayerAtTheRecommendedSetting) {
   const double expected = 1e-10 * f_t * (1. + 0.25);
   EXPECT_NEAR(creep(reference::make_ode, 0., 0.5, 1e-3, "recommended", 1., 3.), expected,
               0.01 * expected);
+}
+
+// The closed form shares the pull among the points that carry, and there is none where shapes leave
+// them to the engine.
+TEST(OdeBlock, IsPredictedFromThePointsThatCarryIt) {
+  const double pull = g * std::sin(angle);
+  const auto box = sloped_block(angle, 0.3, 0.5, 1e-3);
+  EXPECT_NEAR(reference::ode_creep(box).value(), 1e-10 * pull / 4., 1e-9 * 1e-10 * pull);
+
+  auto six = box;
+  six.robots[0].base.shapes.clear();
+  for (const double x : {-0.1, 0., 0.1})
+    for (const double y : {-0.1, 0.1})
+      for (const double z : {-0.05, 0.05}) six.robots[0].base.boundary_points.push_back({x, y, z});
+  const double expected = 1e-10 * pull / 6.;
+  EXPECT_NEAR(reference::ode_creep(six).value(), expected, 1e-9 * expected);
+  const auto engine = reference::make_ode(six);
+  EXPECT_NEAR(creep_speed(*engine, slope_axes(angle, 0.3).downhill, 1e-3, 1., 2.), expected,
+              0.01 * expected);
+
+  auto cylinder = box, two = box;
+  cylinder.robots[0].base.shapes[0].geometry = simulation::Cylinder{0.1, 0.1};
+  two.robots[0].base.shapes.push_back(box.robots[0].base.shapes[0]);
+  for (const auto& shapes : {cylinder, two}) EXPECT_FALSE(reference::ode_creep(shapes));
+}
+
+// The tilt too: (h/l)^2 = 1/4.
+TEST(OdeBlock, IsPredictedWithItsTiltIntoTheSurfaceLayer) {
+  const double expected = 1e-10 * f_t * 1.25;
+  EXPECT_NEAR(reference::ode_creep(sloped_block(angle, 0., 0.5, 1e-3, "recommended")).value(),
+              expected, 1e-6 * expected);
 }
 
 TEST(OdeBlock, SticksAltogetherAcrossItsFrictionBox) {

@@ -1,0 +1,31 @@
+// How a body creeps down a slope on dampers that carry no more than a limit each.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "reference/resting_body.h"
+
+namespace hookpoint::reference {
+
+/// Friction of a touching point that moves at v: damping v, cut where it is more than `limit`.
+struct FrictionDamper {
+  double along = 0., across = 0.;  ///< damping down the slope and across it [N s/m]
+  double limit = 0.;               ///< [N]
+};
+
+/// Steady motion in the plane.
+struct SteadyCreep {
+  double speed = 0.;     ///< of the body's origin down the slope [m/s]
+  double spin = 0.;      ///< about the normal [rad/s]
+  bool straight = true;  ///< down the fall, without a turn
+  bool limited = false;  ///< a damper is at its limit
+};
+
+/// The motion at which `dampers`, one for each of the body's arms, carry its pull and leave no
+/// moment about the normal (docs/reference_engines.md, Creep on dampers). Nothing where they cannot
+/// carry it.
+std::optional<SteadyCreep> steady_creep(const RestingBody& body,
+                                        const std::vector<FrictionDamper>& dampers);
+
+}  // namespace hookpoint::reference
