@@ -8,15 +8,6 @@
 namespace hookpoint::studies {
 namespace {
 
-/// The values of a sweep that `where` lets in.
-std::vector<double> drawn_values(const StudyResult& study, const PlotSpec& spec,
-                                 const std::string& name) {
-  for (const auto& [sweep, values] : spec.where)
-    if (sweep == name) return values;
-  const auto sweep = sweep_index(study, name);
-  return sweep ? study.sweeps[*sweep].values : std::vector<double>{};
-}
-
 std::optional<std::size_t> place_of(const std::vector<double>& values, double value) {
   const auto found =
       std::find_if(values.begin(), values.end(), [&](double v) { return same(v, value); });

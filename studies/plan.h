@@ -67,7 +67,8 @@ struct RowPlan {
   std::vector<int> values;  ///< one index a sweep
   int subject = 0;
   simulation::Experiment experiment;
-  std::string refusal;  ///< why the row's engine cannot run the scene, which others can; "" if it can
+  std::string
+      refusal;  ///< why the row's engine cannot run the scene, which others can; "" if it can
 };
 
 struct StudyPlan {
