@@ -17,7 +17,7 @@ namespace hookpoint::studies {
 class PlanBuilder {
  public:
   PlanBuilder(StudyPlan& plan, std::vector<std::string> parameters, const PlanOptions& options,
-        language::Diagnostics& diagnostics)
+              language::Diagnostics& diagnostics)
       : plan_(plan),
         parameters_(std::move(parameters)),
         options_(options),
@@ -45,6 +45,9 @@ class PlanBuilder {
   std::string sweep_unit(const language::Object& block, const char* field);
   std::string metric_unit(const language::Object& block, const char* field);
   static std::vector<std::string> metric_names();
+  /// The number that the block has in `field`, with an error where its unit is not of the kind of
+  /// `unit`.
+  double number_in(const language::Object& block, const char* field, std::string_view unit);
   /// For figures: the values of the sweeps that the conditions let in, in the sweeps' units.
   SweepValues admitted(const std::vector<Condition>& conditions) const;
   void set_panels(PlotSpec& spec, const language::Object& block);

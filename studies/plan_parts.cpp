@@ -25,7 +25,7 @@ std::vector<double> in_unit(const std::vector<double>& si, const WrittenUnit& un
 }  // namespace
 
 void PlanBuilder::unknown(const language::Position& position, std::string_view kind,
-                    const std::string& name, const std::vector<std::string>& known) {
+                          const std::string& name, const std::vector<std::string>& known) {
   diagnostics_.error(position, fmt::format("no {} is called `{}`{}", kind, name,
                                            language::did_you_mean(name, known)));
 }
@@ -141,6 +141,17 @@ std::vector<std::string> PlanBuilder::metric_names() {
   return names;
 }
 
+double PlanBuilder::number_in(const Object& block, const char* field, std::string_view unit) {
+  const Field& given = *block.find(field);
+  const std::optional<language::Unit> expected = language::parse_unit(unit);
+  if (expected && !language::fits(given.dimension, expected->dimension))
+    diagnostics_.error(given.position,
+                       fmt::format("`{}` is in {}, not {}", field,
+                                   language::describe_dimension(expected->dimension),
+                                   language::describe_dimension(given.dimension)));
+  return block.number(field);
+}
+
 void PlanBuilder::add_metric(const Object& block) {
   if (const MetricDefinition* metric = find_metric(block.name))
     plan_.metrics.push_back(metric);
@@ -197,8 +208,10 @@ void PlanBuilder::add_truth(const Object& block) {
     return;
   }
   truth.metric = static_cast<std::size_t>(found - measured.begin());
+  const std::string_view unit = plan_.metrics[truth.metric]->unit;
   const auto number = [&](const char* field) {
-    return block.find(field) == nullptr ? std::nullopt : std::optional(block.number(field));
+    return block.find(field) == nullptr ? std::nullopt
+                                        : std::optional(number_in(block, field, unit));
   };
   truth.value = number("value");
   truth.above = number("above");

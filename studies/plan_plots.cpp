@@ -82,7 +82,7 @@ void PlanBuilder::set_references(PlotSpec& spec, const Object& block) {
   for (const Object* line : block.children_of("Reference")) {
     const bool titled = line->find("title") != nullptr;
     spec.references.push_back({.label = titled ? line->word("title") : spoken(line->name),
-                               .value = line->number("value"),
+                               .value = number_in(*line, "value", spec.y_unit),
                                .where = admitted(conditions(*line))});
   }
 }
@@ -98,7 +98,6 @@ void PlanBuilder::add_plot(const Object& block) {
   const std::string& scale = block.word("scale");
   spec.log_x = scale == "log_x" || scale == "log_log";
   spec.log_y = scale == "log" || scale == "log_log";
-  if (block.find("floor") != nullptr) spec.floor = block.number("floor");
   const bool over_time = spec.x == "time", map = block.find("colour") != nullptr;
   if (map ? over_time : block.find("outline") != nullptr)
     diagnostics_.error(
@@ -122,6 +121,7 @@ void PlanBuilder::add_plot(const Object& block) {
   if (map && (block.find("panels") != nullptr || !block.children_of("Reference").empty()))
     diagnostics_.error(block.position,
                        "a map has a panel a subject: it takes neither `panels` nor Reference");
+  if (block.find("floor") != nullptr) spec.floor = number_in(block, "floor", spec.y_unit);
   set_panels(spec, block);
   set_references(spec, block);
   plan_.plots.push_back(std::move(plot));

@@ -364,6 +364,15 @@ TEST_F(StudyRunner, APlotMayHavePanelsAndReferences) {
   EXPECT_EQ(spec.references[0].where, (SweepValues{{"mu", {1.}}}));
 }
 
+TEST_F(StudyRunner, WhatAMetricIsHeldAgainstHasItsUnit) {
+  plan(replaced(study, "above = 2 mm/s", "above = 2 deg"));
+  EXPECT_EQ(first_error(), "`above` is in m/s, not rad");
+  plan(replaced(study, "Plot fig5", replaced(panels, "3 mm/s", "3 mm") + " Plot fig5"));
+  EXPECT_EQ(first_error(), "`value` is in m/s, not m");
+  plan(replaced(study, "Plot fig5", replaced(panels, "2 mm/s", "2 mm") + " Plot fig5"));
+  EXPECT_EQ(first_error(), "`floor` is in m/s, not m");
+}
+
 TEST_F(StudyRunner, PanelsAreSweepsThatNothingElseShows) {
   const auto error_of = [&](const char* from, const char* to) {
     plan(replaced(study, "Plot fig5", replaced(panels, from, to) + " Plot fig5"));
