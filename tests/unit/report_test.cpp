@@ -123,6 +123,8 @@ TEST(Figures, APanelForEachValueOfASweep) {
   spec.where = {{"dt", {1., 10.}}};
   spec.panels = {"dt"};
   spec.references = {{.label = "rigid", .value = 0.5, .where = {{"dt", {10.}}}}};
+  std::erase_if(study.rows,
+                [](const RunResult& row) { return row.subject == 2 && row.parameters[1] == 1.; });
   const Figure figure = make_figure(study, 0);
   ASSERT_TRUE(figure.panels);
   EXPECT_EQ(figure.panels->subtitle, "");
@@ -132,6 +134,9 @@ TEST(Figures, APanelForEachValueOfASweep) {
   EXPECT_EQ(second.title, "dt = 10 ms");
   ASSERT_EQ(first.series.size(), 6u);  // five subjects, the sixth is not installed, and the line
   ASSERT_EQ(second.series.size(), 6u);
+  EXPECT_EQ(first.series[2].label, "dts_hunt_crossley");  // without a run in this panel
+  EXPECT_TRUE(first.series[2].measured.x.empty());
+  EXPECT_EQ(second.series[2].measured.x.size(), 6u);
   EXPECT_DOUBLE_EQ(first.series[3].measured.y[0], -3.1e-7);
   EXPECT_DOUBLE_EQ(second.series[3].measured.y[0], -3.1e-6);
   EXPECT_EQ(first.series[4].unfinished.size(), 0u);
