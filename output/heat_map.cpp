@@ -19,7 +19,7 @@ constexpr double air = 10.;                             // between numbers side 
 constexpr double number_font = 11., tick_font = 13.;    // [px]
 constexpr double left_margin = 100., panel_gap = 40., right_margin = 120.;
 constexpr double top_margin = 92., bottom_margin = 84., band_gap = 108.;
-constexpr double widest = 1700.;  // of a drawing whose panels stand side by side
+constexpr double widest = 1800.;  // of a drawing whose panels stand side by side
 
 std::string axis_title(const Axis& axis) { return typeset(column_title(axis.label, axis.unit)); }
 
@@ -122,7 +122,7 @@ class Script {
          << shortest(least) << ":" << shortest(greatest)
          << "]\nset border 0\nset xrange [-0.5:" << shortest(static_cast<double>(columns_) - 0.5)
          << "]\nset yrange [-0.5:" << shortest(static_cast<double>(rows_) - 0.5)
-         << "]\nset tics scale 0\nset xtics (" << ticks(map_.x_values) << ")\nset xlabel "
+         << "]\nset tics scale 0\nset xtics nomirror (" << ticks(map_.x_values) << ")\nset xlabel "
          << gnuplot_quoted(axis_title(map_.x)) << " noenhanced\nset cblabel "
          << gnuplot_quoted(axis_title(map_.color)) << " noenhanced\n";
   }
@@ -149,7 +149,7 @@ class Script {
          << screen(bottom + panel_height_, height_) << "\nset title " << gnuplot_quoted(panel.title)
          << " noenhanced offset 0,-0.4\n";
     if (column == 0)
-      out_ << "set ytics (" << ticks(map_.y_values) << ")\nset ylabel "
+      out_ << "set ytics nomirror (" << ticks(map_.y_values) << ")\nset ylabel "
            << gnuplot_quoted(axis_title(map_.y)) << " noenhanced\n";
     else
       out_ << "unset ylabel\nunset ytics\n";

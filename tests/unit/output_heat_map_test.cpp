@@ -94,13 +94,13 @@ TEST(HeatMapScript, CellsAreAsWideAsTheirNumbersAndTicksAsk) {
 
 TEST(HeatMapScript, PanelsThatDoNotFitSideBySideStandInRows) {
   HeatMap map = sample();
-  // 92 px each and 40 between them: 11 in the 1480 px beside the margins.
-  for (int i = 1; i < 12; ++i) map.panels.push_back(map.panels[0]);
+  // 92 px each and 40 between them: 12 in the 1580 px beside the margins.
+  for (int i = 1; i < 13; ++i) map.panels.push_back(map.panels[0]);
   const std::string script = heat_map_script(map);
-  EXPECT_NE(script.find("svg size 1632,524 "), std::string::npos) << script.substr(0, 300);
-  EXPECT_EQ(count(script, "set ytics ("), 2U);
-  EXPECT_EQ(count(script, "unset colorbox"), 11U);
-  EXPECT_EQ(count(heat_map_script(sample()), "set ytics ("), 1U);
+  EXPECT_NE(script.find("svg size 1764,524 "), std::string::npos) << script.substr(0, 300);
+  EXPECT_EQ(count(script, "set ytics nomirror ("), 2U);
+  EXPECT_EQ(count(script, "unset colorbox"), 12U);
+  EXPECT_EQ(count(heat_map_script(sample()), "set ytics nomirror ("), 1U);
 }
 
 TEST(HeatMap, IsDrawnWithItsNumbersAndItsCross) {
