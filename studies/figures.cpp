@@ -234,6 +234,11 @@ std::string caption_of(const StudyResult& study, const PlotSpec& spec, const out
         return !series.reference && !series.predicted.x.empty();
       }))
     caption += " Markers: measured; dashed: closed form.";
+  std::vector<std::string> labels;
+  for (const ReferenceLine& reference : spec.references)
+    if (std::ranges::find(labels, reference.label) == labels.end())
+      labels.push_back(reference.label);
+  for (const std::string& label : labels) caption += " Black, dashed: " + label + ".";
   if (spec.x == "time" && !undecided(study, spec).empty())
     caption +=
         " Of the runs that differ in " + undecided(study, spec) + ", the one that goes farthest.";

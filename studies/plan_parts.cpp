@@ -178,7 +178,7 @@ std::string PlanBuilder::conditions_words(const std::vector<Condition>& conditio
 std::string PlanBuilder::truth_words(const Object& block, const TruthPlan& truth) {
   const MetricDefinition& metric = *plan_.metrics[truth.metric];
   const std::string unit = metric.unit.empty() ? "" : " " + std::string(metric.unit);
-  const auto number = [&](double value) { return output::shortest(value) + unit; };
+  const auto number = [&](double value) { return output::shortest(tidy(value)) + unit; };
   std::string words(metric.name);
   if (truth.predicted) words += " equals predicted";
   if (truth.value) words += " equals " + number(*truth.value);

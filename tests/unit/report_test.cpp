@@ -128,6 +128,7 @@ TEST(Figures, APanelForEachValueOfASweep) {
   const Figure figure = make_figure(study, 0);
   ASSERT_TRUE(figure.panels);
   EXPECT_EQ(figure.panels->subtitle, "");
+  EXPECT_TRUE(contains(figure.caption, "Black, dashed: rigid."));
   ASSERT_EQ(figure.panels->panels.size(), 2u);
   const output::Plot &first = figure.panels->panels[0], &second = figure.panels->panels[1];
   EXPECT_EQ(first.title, "dt = 1 ms");
