@@ -125,12 +125,12 @@ class Formatter {
   }
 
   void lay_element(const Element& element, int depth, bool joins) {
-    const std::string head = head_text(element.head, depth);
+    const std::string head = head_text(element, depth);
     if (!element.block) {
       const std::string item = head.empty() ? "" : head + ';';
       const std::size_t line_begin = text_.rfind('\n', text_.empty() ? 0 : text_.size() - 2) + 1;
       const std::size_t width = text_.size() - 1 - line_begin + 1 + item.size();
-      if (joins && width <= widest) {
+      if (joins && width <= widest && item.find('\n') == std::string::npos) {
         text_.back() = ' ';
         text_ += item + '\n';
       } else if (!item.empty()) {
@@ -155,7 +155,7 @@ class Formatter {
     if (!element.one_line) return "";
     std::string text = head + " {";
     for (const Element& inner : element.inside) {
-      const std::string inner_head = head_text(inner.head, 0);
+      const std::string inner_head = head_text(inner, 0);
       text += ' ' + (inner.inside.empty() ? inner_head + (inner.block ? " {}" : ";")
                                           : one_line_text(inner, inner_head));
     }
@@ -195,13 +195,23 @@ class Formatter {
     return text;
   }
 
-  std::string head_text(const std::vector<Token>& head, int depth) const {
+  /// On one line where it fits, else with the lines that it came in.
+  std::string head_text(const Element& element, int depth) const {
+    const std::string text = head_text(element.head, depth, false);
+    const std::size_t mark = element.block ? 2 : 1;  // ` {` or `;`
+    const bool fits = static_cast<std::size_t>(2 * depth) + text.size() + mark <= widest;
+    const bool commented = text.find('\n') != std::string::npos;
+    return fits || commented ? text : head_text(element.head, depth, true);
+  }
+
+  std::string head_text(const std::vector<Token>& head, int depth, bool keep_lines) const {
     std::string text;
     const Token* previous = nullptr;
     bool unary = false;
     for (const Token& token : head) {
-      const bool broken =
+      const bool after_comment =
           previous != nullptr && previous->kind == TokenKind::comment && breaks_line(*previous);
+      const bool broken = after_comment || (keep_lines && previous != nullptr && token.begins_line);
       if (broken) {
         text += '\n' + std::string(static_cast<std::size_t>(2 * depth + 4), ' ');
       } else if (previous != nullptr && !unary && spaced(*previous, token)) {

@@ -1,7 +1,9 @@
 #include "output/heat_map.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
+#include <charconv>
 #include <cmath>
 #include <locale>
 #include <sstream>
@@ -12,12 +14,42 @@
 namespace hookpoint::output {
 namespace {
 
-constexpr double cell_width = 46., cell_height = 40.;  // [px]
+constexpr double least_width = 46., cell_height = 40.;  // of a cell [px]
+constexpr double air = 10.;                             // between numbers side by side [px]
+constexpr double number_font = 11., tick_font = 13.;    // [px]
 constexpr double left_margin = 100., panel_gap = 40., right_margin = 120.;
-constexpr double top_margin = 92., bottom_margin = 84., band_gap = 96.;
-constexpr double widest = 1700.;  // of a drawing whose panels stand side by side
+constexpr double top_margin = 92., bottom_margin = 84., band_gap = 108.;
+constexpr double widest = 1800.;  // of a drawing whose panels stand side by side
 
 std::string axis_title(const Axis& axis) { return typeset(column_title(axis.label, axis.unit)); }
+
+/// About how wide a number is drawn, from the letters of a common sans serif font [px].
+double width_of(const std::string& number, double font) {
+  double width = 0.;
+  for (const char c : number) width += c == '.' || c == '-' ? 0.36 : c == '+' ? 0.84 : 0.64;
+  return font * width;
+}
+
+/// As gnuplot writes it with `number_format`.
+std::string number_text(const HeatMap& map, double value) {
+  std::array<char, 32> text{};
+  const bool scientific = map.color.logarithmic;
+  const auto format = scientific ? std::chars_format::scientific : std::chars_format::general;
+  const auto end = std::to_chars(text.begin(), text.end(), value, format, scientific ? 0 : 3).ptr;
+  return {text.begin(), end};
+}
+const char* number_format(const HeatMap& map) { return map.color.logarithmic ? "%.0e" : "%.3g"; }
+
+/// Of all cells: so that each number and each tick has room.
+double cell_width(const HeatMap& map) {
+  double width = least_width - air;
+  for (const HeatMapPanel& panel : map.panels)
+    for (const HeatMapCell& cell : panel.cells)
+      if (cell.value) width = std::max(width, width_of(number_text(map, *cell.value), number_font));
+  for (const double tick : map.x_values)
+    width = std::max(width, width_of(rounded(tick, 4), tick_font));
+  return std::ceil(width + air);
+}
 
 class Script {
  public:
@@ -25,7 +57,7 @@ class Script {
       : map_(map),
         columns_(map.x_values.size()),
         rows_(map.y_values.size()),
-        panel_width_(cell_width * static_cast<double>(columns_)),
+        panel_width_(cell_width(map) * static_cast<double>(columns_)),
         panel_height_(cell_height * static_cast<double>(rows_)) {
     const std::size_t panels = std::max<std::size_t>(1, map.panels.size());
     const double room = widest - left_margin - right_margin + panel_gap;
@@ -90,7 +122,7 @@ class Script {
          << shortest(least) << ":" << shortest(greatest)
          << "]\nset border 0\nset xrange [-0.5:" << shortest(static_cast<double>(columns_) - 0.5)
          << "]\nset yrange [-0.5:" << shortest(static_cast<double>(rows_) - 0.5)
-         << "]\nset tics scale 0\nset xtics (" << ticks(map_.x_values) << ")\nset xlabel "
+         << "]\nset tics scale 0\nset xtics nomirror (" << ticks(map_.x_values) << ")\nset xlabel "
          << gnuplot_quoted(axis_title(map_.x)) << " noenhanced\nset cblabel "
          << gnuplot_quoted(axis_title(map_.color)) << " noenhanced\n";
   }
@@ -117,7 +149,7 @@ class Script {
          << screen(bottom + panel_height_, height_) << "\nset title " << gnuplot_quoted(panel.title)
          << " noenhanced offset 0,-0.4\n";
     if (column == 0)
-      out_ << "set ytics (" << ticks(map_.y_values) << ")\nset ylabel "
+      out_ << "set ytics nomirror (" << ticks(map_.y_values) << ")\nset ylabel "
            << gnuplot_quoted(axis_title(map_.y)) << " noenhanced\n";
     else
       out_ << "unset ylabel\nunset ytics\n";
@@ -143,7 +175,7 @@ class Script {
          << "\nplot " << from
          << " using 5:6:($5-0.48):($5+0.48):($6-0.48):($6+0.48):(given(strcol(4)) ? shade($4) : "
             "NaN) with boxxyerror fs solid noborder lc palette, \\\n  "
-         << from << " using 5:6:(given(strcol(4)) ? sprintf('" << (logarithmic ? "%.0e" : "%.3g")
+         << from << " using 5:6:(given(strcol(4)) ? sprintf('" << number_format(map_)
          << "', $4) : '') with labels tc rgb '#222222' font 'Helvetica,11', \\\n  " << from
          << " using 5:(given(strcol(4)) ? NaN : $6) with points pt 2 ps 1 lw 2 lc rgb '#D55E00'\n";
   }

@@ -56,24 +56,49 @@ void add_rows(CsvTable& table, const std::string& series, const char* kind,
     table.rows.push_back({series, kind, shortest(x[i]), y == nullptr ? "" : shortest((*y)[i])});
 }
 
+std::vector<std::string> header_of(const Plot& plot) {
+  return {"series", "kind", column_title(plot.x.label, plot.x.unit),
+          column_title(plot.y.label, plot.y.unit)};
+}
+
+void add_curves(CsvTable& table, const Plot& plot) {
+  for (const Series& series : plot.series) {
+    assert(series.measured.x.size() == series.measured.y.size());
+    assert(series.predicted.x.size() == series.predicted.y.size());
+    const char* line = series.reference ? "reference" : "predicted";
+    add_rows(table, series.label, "measured", series.measured.x, &series.measured.y);
+    add_rows(table, series.label, line, series.predicted.x, &series.predicted.y);
+    add_rows(table, series.label, "unfinished", series.unfinished, nullptr);
+  }
+}
+
 }  // namespace
 
 std::string plot_data(const Plot& plot) {
   CsvTable table;
-  table.header = {"series", "kind", column_title(plot.x.label, plot.x.unit),
-                  column_title(plot.y.label, plot.y.unit)};
-  for (const Series& series : plot.series) {
-    assert(series.measured.x.size() == series.measured.y.size());
-    assert(series.predicted.x.size() == series.predicted.y.size());
-    add_rows(table, series.label, "measured", series.measured.x, &series.measured.y);
-    add_rows(table, series.label, "predicted", series.predicted.x, &series.predicted.y);
-    add_rows(table, series.label, "unfinished", series.unfinished, nullptr);
+  table.header = header_of(plot);
+  add_curves(table, plot);
+  return table.text();
+}
+
+std::string panel_data(const PanelPlot& plot) {
+  CsvTable table;
+  table.header = header_of(plot.panels.front());
+  table.header.emplace_back("panel");
+  for (const Plot& panel : plot.panels) {
+    const std::size_t first = table.rows.size();
+    add_curves(table, panel);
+    for (std::size_t i = first; i < table.rows.size(); ++i) table.rows[i].push_back(panel.title);
   }
   return table.text();
 }
 
 PlotOutcome draw(const Plot& plot, const std::filesystem::path& folder) {
   return draw_files(plot.name, plot_data(plot), plot_script(plot), folder);
+}
+
+PlotOutcome draw(const PanelPlot& plot, const std::filesystem::path& folder) {
+  return draw_files(plot.name, panel_data(plot), panel_script(plot), folder);
 }
 
 PlotOutcome draw_files(const std::string& name, const std::string& data, const std::string& script,
@@ -109,8 +134,9 @@ std::string inline_svg(const std::string& svg, const std::string& prefix) {
   for (const std::string quote : {"'", "\""}) {
     replace_all(text, " id=" + quote, " id=" + quote + prefix + "-");
     replace_all(text, "xlink:href=" + quote + "#", "href=" + quote + "#" + prefix + "-");
-    replace_all(text, "stroke=" + quote + "black" + quote,
-                "stroke=" + quote + "currentColor" + quote);
+    for (const std::string black : {"black", "rgb(  0,   0,   0)"})
+      replace_all(text, "stroke=" + quote + black + quote,
+                  "stroke=" + quote + "currentColor" + quote);
     replace_all(text, "fill=" + quote + "black" + quote, "fill=" + quote + "currentColor" + quote);
     replace_all(text, " color=" + quote + "black" + quote, "");
     replace_all(text, quote + "rgb(221, 221, 221)" + quote,

@@ -33,6 +33,8 @@ struct Series {
   Curve measured;
   Curve predicted;                 ///< dashed; empty for none
   std::vector<double> unfinished;  ///< x of the runs that gave no value
+  /// A line to hold the others against: only `predicted`, dashed and black whatever the style.
+  bool reference = false;
 };
 
 struct Plot {
@@ -54,11 +56,27 @@ struct SeriesStyle {
 };
 SeriesStyle series_style(int style);
 
-/// Rows `series, kind (measured, predicted, unfinished), x, y`, a series' rows together.
+/// Rows `series, kind (measured, predicted, reference, unfinished), x, y`, a series' rows together.
 std::string plot_data(const Plot& plot);
 
 /// The script that draws `<name>.svg` from `<name>.csv` in the folder where it is run.
 std::string plot_script(const Plot& plot);
+
+/// Small multiples: panels of one size over the same x, with one legend.
+struct PanelPlot {
+  std::string name;  ///< file name without extension
+  std::string title;
+  std::string subtitle;
+  std::size_t across = 2;  ///< panels in a row
+  bool own_axes = false;   ///< each panel has a y axis of its own, else all have the same
+  /// With axes of the same names, and series that are the same in number, order, label and style;
+  /// a curve may be empty. Their names and subtitles are not drawn.
+  std::vector<Plot> panels;
+};
+
+/// As `plot_data`, with the panel's title behind each row.
+std::string panel_data(const PanelPlot& plot);
+std::string panel_script(const PanelPlot& plot);
 
 struct PlotOutcome {
   bool drawn = false;
@@ -71,6 +89,7 @@ struct PlotOutcome {
 PlotOutcome draw_files(const std::string& name, const std::string& data, const std::string& script,
                        const std::filesystem::path& folder);
 PlotOutcome draw(const Plot& plot, const std::filesystem::path& folder);
+PlotOutcome draw(const PanelPlot& plot, const std::filesystem::path& folder);
 
 /// gnuplot's single-quoted string.
 std::string gnuplot_quoted(std::string_view text);

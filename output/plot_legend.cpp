@@ -15,17 +15,18 @@ int lane_of(const std::vector<int>& lanes, std::size_t series) {
 /// The end of what is drawn of a series: its last point, or the last run that did not finish.
 void set_end(LegendEntry& entry, const Series& series, const Layout& layout) {
   double x = -std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < series.measured.x.size(); ++i) {
-    if (series.measured.x[i] < x) continue;
-    x = series.measured.x[i];
-    const double y = series.measured.y[i];
+  const Curve& curve = series.reference ? series.predicted : series.measured;
+  for (std::size_t i = 0; i < curve.x.size(); ++i) {
+    if (curve.x[i] < x) continue;
+    x = curve.x[i];
+    const double y = curve.y[i];
     entry.end_y = !layout.y.logarithmic ? y
                   : layout.y.below_floor(y)
                       ? layout.floor_lane(lane_of(layout.strips.below_floor, entry.series))
                       : std::abs(y);
   }
   for (const double stopped : series.unfinished) {
-    if (!series.measured.x.empty() || stopped <= x) continue;
+    if (!curve.x.empty() || stopped <= x) continue;
     x = stopped;
     entry.end_y = layout.unfinished_lane(lane_of(layout.strips.unfinished, entry.series));
   }

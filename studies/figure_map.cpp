@@ -1,5 +1,6 @@
 // From a Plot block with a colour to a map: two sweeps, a panel a subject.
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "studies/figure_parts.h"
@@ -7,15 +8,6 @@
 
 namespace hookpoint::studies {
 namespace {
-
-/// The values of a sweep that `where` lets in.
-std::vector<double> drawn_values(const StudyResult& study, const PlotSpec& spec,
-                                 const std::string& name) {
-  for (const auto& [sweep, values] : spec.where)
-    if (sweep == name) return values;
-  const auto sweep = sweep_index(study, name);
-  return sweep ? study.sweeps[*sweep].values : std::vector<double>{};
-}
 
 std::optional<std::size_t> place_of(const std::vector<double>& values, double value) {
   const auto found =
@@ -37,14 +29,27 @@ void fill_cell(output::HeatMapCell& cell, const RunResult& row, std::size_t colo
 /// Below, a logarithmic colour says nothing more.
 constexpr double least_drawn = 1e-9;
 
-/// Numbers too small to be read in a cell get a unit with a prefix: 5e-05 rad is 50 urad.
+/// Whether a prefix before the unit scales it: "m/s" and "rad", not "m^2", "1/s" or "kg".
+bool takes_prefix(const std::string& unit) {
+  const std::string first = unit.substr(0, unit.find('/'));
+  return !first.empty() && first != "kg" && std::ranges::all_of(first, [](char c) {
+    return std::isalpha(static_cast<unsigned char>(c));
+  });
+}
+
+/// Numbers too small to be read in a cell get a unit with a prefix: 5e-05 rad is 50 urad, and
+/// -0.0123 rad among others is -12.3 mrad.
 void prefix_unit(output::HeatMap& map) {
-  double greatest = 0.;
-  for (const output::HeatMapPanel& panel : map.panels)
-    for (const output::HeatMapCell& cell : panel.cells)
-      greatest = std::max(greatest, std::abs(cell.value.value_or(0.)));
-  const bool plain = map.color.unit.find_first_of("^/.") == std::string::npos;
-  if (map.color.unit.empty() || !plain || greatest == 0. || greatest >= 0.01) return;
+  double least = 1., greatest = 0.;
+  for (const output::HeatMapPanel& panel : map.panels) {
+    for (const output::HeatMapCell& cell : panel.cells) {
+      const double magnitude = std::abs(cell.value.value_or(0.));
+      greatest = std::max(greatest, magnitude);
+      if (magnitude > 0.) least = std::min(least, magnitude);
+    }
+  }
+  const bool long_digits = greatest > 0. && greatest < 1. && least < 0.1;
+  if (!takes_prefix(map.color.unit) || !long_digits) return;
   const bool micro = greatest < 1e-4;
   map.color.unit = (micro ? "u" : "m") + map.color.unit;
   for (output::HeatMapPanel& panel : map.panels)

@@ -28,7 +28,11 @@ bool selected(const StudyResult& study, const PlotSpec& spec, const RunResult& r
   if (!spec.subjects.empty() &&
       std::ranges::find(spec.subjects, row.subject) == spec.subjects.end())
     return false;
-  return std::all_of(spec.where.begin(), spec.where.end(), [&](const auto& fixed) {
+  return admits(study, spec.where, row);
+}
+
+bool admits(const StudyResult& study, const SweepValues& where, const RunResult& row) {
+  return std::all_of(where.begin(), where.end(), [&](const auto& fixed) {
     const auto sweep = sweep_index(study, fixed.first);
     const auto& values = fixed.second;
     return !sweep || std::any_of(values.begin(), values.end(),
@@ -43,7 +47,7 @@ std::string undecided(const StudyResult& study, const PlotSpec& spec) {
       return pair.first == sweep.name && pair.second.size() == 1;
     });
     if (fixed || sweep.name == spec.x || sweep.name == spec.y || sweep.name == spec.series ||
-        sweep.values.size() < 2)
+        std::ranges::find(spec.panels, sweep.name) != spec.panels.end() || sweep.values.size() < 2)
       continue;
     names += (names.empty() ? "" : " and ") + spoken(sweep.name);
   }
@@ -54,13 +58,46 @@ std::string fixed_text(const StudyResult& study, const PlotSpec& spec) {
   std::string text;
   for (const auto& [name, values] : spec.where) {
     const auto sweep = sweep_index(study, name);
-    if (name == spec.x || name == spec.y) continue;
+    const bool panel = std::ranges::find(spec.panels, name) != spec.panels.end();
+    if (name == spec.x || name == spec.y || panel) continue;
     text += (text.empty() ? "" : ", ") + spoken(name) + " = ";
     for (std::size_t i = 0; i < values.size(); ++i)
       text += (i > 0 ? " or " : "") + output::rounded(values[i], 6);
     if (sweep && !study.sweeps[*sweep].unit.empty()) text += " " + study.sweeps[*sweep].unit;
   }
   return text;
+}
+
+std::vector<double> drawn_values(const StudyResult& study, const PlotSpec& spec,
+                                 const std::string& name) {
+  for (const auto& [sweep, values] : spec.where)
+    if (sweep == name) return values;
+  const auto sweep = sweep_index(study, name);
+  return sweep ? study.sweeps[*sweep].values : std::vector<double>{};
+}
+
+std::vector<PanelSpec> panel_specs(const StudyResult& study, const PlotSpec& spec) {
+  std::vector<SweepValues> combinations = {{}};
+  for (const std::string& sweep : spec.panels) {
+    std::vector<SweepValues> extended;
+    for (const SweepValues& outer : combinations) {
+      for (const double value : drawn_values(study, spec, sweep)) {
+        extended.push_back(outer);
+        extended.back().emplace_back(sweep, std::vector{value});
+      }
+    }
+    combinations = std::move(extended);
+  }
+  std::vector<PanelSpec> panels;
+  for (const SweepValues& values : combinations) {
+    PanelSpec panel{.spec = spec, .title = ""};
+    panel.spec.where = values;
+    panel.spec.panels.clear();
+    panel.title = fixed_text(study, panel.spec);
+    panel.spec.where.insert(panel.spec.where.end(), spec.where.begin(), spec.where.end());
+    panels.push_back(std::move(panel));
+  }
+  return panels;
 }
 
 }  // namespace hookpoint::studies

@@ -138,23 +138,117 @@ void fill(output::Series& series, const Gathered& gathered, const PlotSpec& spec
   }
 }
 
-std::string caption_of(const StudyResult& study, const PlotSpec& spec, const output::Plot& plot) {
-  std::string caption = plot.title + (plot.subtitle.empty() ? "." : " (" + plot.subtitle + ").");
-  const bool predicted =
-      std::any_of(plot.series.begin(), plot.series.end(),
-                  [](const auto& series) { return !series.predicted.x.empty(); });
-  if (predicted) caption += " Markers: measured; dashed: closed form.";
+using SeriesTable = std::map<SeriesKey, output::Series>;
+
+/// The curves of the rows that the block lets in; those with nothing to draw are left out.
+SeriesTable series_of(const StudyResult& study, const PlotSpec& spec, std::size_t plot) {
+  const auto x = sweep_index(study, spec.x);
+  const auto y = metric_index(study, spec.y);
+  const auto cost = x ? std::nullopt : metric_index(study, spec.x);
+  std::map<SeriesKey, Gathered> gathered;
+  for (const RunResult& row : study.rows) {
+    if (!selected(study, spec, row)) continue;
+    Gathered& series = gathered[key_of(study, spec, row)];
+    if (spec.x == "time") {
+      gather_curve(series, row, plot);
+    } else if (x && y && *y < row.metrics.size()) {
+      gather_point(series, row.parameters[*x], row, *y);
+    } else if (cost && y && row.metrics[*cost].measured) {
+      gather_point(series, *row.metrics[*cost].measured, row, *y);
+    }
+  }
+  SeriesTable table;
+  for (const auto& [key, points] : gathered) {
+    output::Series series;
+    series.label = series_label(study, spec, key);
+    series.style = series_style(study, spec, key);
+    fill(series, points, spec, plot);
+    if (!series.measured.x.empty() || !series.unfinished.empty()) table.emplace(key, series);
+  }
+  return table;
+}
+
+/// Without series.
+output::Plot axes_of(const StudyResult& study, const PlotSpec& spec) {
+  output::Plot plot;
+  plot.name = spec.name;
+  plot.title = spec.title.empty() ? spoken(spec.y) + " over " + spoken(spec.x) : spec.title;
+  plot.subtitle = fixed_text(study, spec);
+  const auto add_note = [&](const std::string& note) {
+    plot.subtitle += (plot.subtitle.empty() ? "" : "; ") + note;
+  };
+  if (sweep_index(study, spec.series)) add_note("curves by " + spoken(spec.series));
+  if (sweep_index(study, spec.x) && !undecided(study, spec).empty())
+    add_note("largest over " + undecided(study, spec));
+  const auto name_or = [](const std::string& label, const std::string& name) {
+    return label.empty() ? spoken(name) : label;
+  };
+  plot.x = {.label = name_or(spec.x_label, spec.x), .unit = spec.x_unit, .logarithmic = spec.log_x};
+  plot.y = {.label = name_or(spec.y_label, spec.y),
+            .unit = spec.y_unit,
+            .logarithmic = spec.log_y,
+            .floor = spec.floor};
+  return plot;
+}
+
+/// A line as wide as what is drawn; an empty one where the block has no run that it is meant for.
+output::Series reference_line(const StudyResult& study, const PlotSpec& spec,
+                              const ReferenceLine& reference, const output::Plot& plot) {
+  output::Series line{.label = reference.label,
+                      .style = 0,
+                      .measured = {},
+                      .predicted = {},
+                      .unfinished = {},
+                      .reference = true};
+  const bool meant = std::ranges::any_of(study.rows, [&](const RunResult& row) {
+    return selected(study, spec, row) && admits(study, reference.where, row);
+  });
+  std::vector<double> drawn;
+  for (const output::Series& series : plot.series) {
+    drawn.insert(drawn.end(), series.measured.x.begin(), series.measured.x.end());
+    drawn.insert(drawn.end(), series.unfinished.begin(), series.unfinished.end());
+  }
+  if (!meant || drawn.empty()) return line;
+  const auto [least, largest] = std::ranges::minmax(drawn);
+  line.predicted = {{least, largest}, {reference.value, reference.value}};
+  return line;
+}
+
+void add_references(output::Plot& plot, const StudyResult& study, const PlotSpec& spec) {
+  std::vector<output::Series> lines;
+  for (const ReferenceLine& reference : spec.references)
+    lines.push_back(reference_line(study, spec, reference, plot));
+  plot.series.insert(plot.series.end(), lines.begin(), lines.end());
+}
+
+template <class Holds>
+bool any_series(const std::vector<output::Plot>& plots, Holds holds) {
+  return std::ranges::any_of(
+      plots, [&](const output::Plot& plot) { return std::ranges::any_of(plot.series, holds); });
+}
+
+std::string caption_of(const StudyResult& study, const PlotSpec& spec, const output::Plot& axes,
+                       const std::vector<output::Plot>& plots) {
+  std::string caption = axes.title + (axes.subtitle.empty() ? "." : " (" + axes.subtitle + ").");
+  if (any_series(plots, [](const output::Series& series) {
+        return !series.reference && !series.predicted.x.empty();
+      }))
+    caption += " Markers: measured; dashed: closed form.";
+  std::vector<std::string> labels;
+  for (const ReferenceLine& reference : spec.references)
+    if (std::ranges::find(labels, reference.label) == labels.end())
+      labels.push_back(reference.label);
+  for (const std::string& label : labels) caption += " Black, dashed: " + label + ".";
   if (spec.x == "time" && !undecided(study, spec).empty())
     caption +=
         " Of the runs that differ in " + undecided(study, spec) + ", the one that goes farthest.";
-  const bool vanishing =
-      std::any_of(plot.series.begin(), plot.series.end(), [&](const output::Series& series) {
-        return std::any_of(series.measured.y.begin(), series.measured.y.end(),
-                           [&](double y) { return std::abs(y) <= plot.y.floor; });
-      });
-  if (plot.y.logarithmic && vanishing)
-    caption += " In the grey strip: at most " + output::rounded(plot.y.floor, 2) + " " +
-               plot.y.unit + ", which is round-off.";
+  const bool vanishing = any_series(plots, [&](const output::Series& series) {
+    return std::ranges::any_of(series.measured.y,
+                               [&](double y) { return std::abs(y) <= axes.y.floor; });
+  });
+  if (axes.y.logarithmic && vanishing)
+    caption += " In the grey strip: at most " + output::rounded(axes.y.floor, 2) + " " +
+               axes.y.unit + ", which counts as zero.";
   if (spec.x == "time" && spec.log_y) caption += " The zero at time 0 is not drawn.";
   std::string absent;
   for (const SubjectInfo& subject : study.subjects)
@@ -163,14 +257,43 @@ std::string caption_of(const StudyResult& study, const PlotSpec& spec, const out
   return caption;
 }
 
+/// A Plot a panel. All have the same series, so that one legend and one scale are for all.
+std::vector<output::Plot> panel_plots(const StudyResult& study, const PlotSpec& spec,
+                                      std::size_t plot) {
+  const std::vector<PanelSpec> panels = panel_specs(study, spec);
+  std::vector<SeriesTable> tables;
+  SeriesTable names;
+  for (const PanelSpec& panel : panels) {
+    tables.push_back(series_of(study, panel.spec, plot));
+    for (const auto& [key, series] : tables.back())
+      names.try_emplace(key, output::Series{series.label, series.style, {}, {}, {}});
+  }
+  std::vector<output::Plot> plots;
+  for (std::size_t i = 0; i < panels.size(); ++i) {
+    output::Plot panel = axes_of(study, spec);
+    panel.title = panels[i].title;
+    tables[i].insert(names.begin(), names.end());
+    for (const auto& [key, series] : tables[i]) panel.series.push_back(series);
+    add_references(panel, study, panels[i].spec);
+    plots.push_back(std::move(panel));
+  }
+  return plots;
+}
+
+std::size_t panels_across(const StudyResult& study, const PlotSpec& spec) {
+  constexpr std::size_t most = 3;  // of one sweep, whose panels may go on in the next row
+  const std::size_t last = drawn_values(study, spec, spec.panels.back()).size();
+  return spec.panels.size() > 1 ? last : std::min(last, most);
+}
+
 }  // namespace
 
 std::vector<int> subject_styles(const StudyResult& study) {
   std::vector<std::string> families;
   std::vector<int> members(output::style_colors, 0);
   std::vector<int> styles;
-  const bool one_law = std::all_of(
-      study.subjects.begin(), study.subjects.end(), [&](const SubjectInfo& subject) {
+  const bool one_law =
+      std::all_of(study.subjects.begin(), study.subjects.end(), [&](const SubjectInfo& subject) {
         return !subject.law.empty() && subject.law == study.subjects.front().law;
       });
   for (const SubjectInfo& subject : study.subjects) {
@@ -189,47 +312,24 @@ std::vector<int> subject_styles(const StudyResult& study) {
 Figure make_figure(const StudyResult& study, std::size_t plot) {
   const PlotSpec& spec = study.plots[plot];
   if (!spec.color.empty()) return make_map(study, spec);
-  const auto x = sweep_index(study, spec.x);
-  const auto y = metric_index(study, spec.y);
-  const auto cost = x ? std::nullopt : metric_index(study, spec.x);
-  std::map<SeriesKey, Gathered> gathered;
-  for (const RunResult& row : study.rows) {
-    if (!selected(study, spec, row)) continue;
-    Gathered& series = gathered[key_of(study, spec, row)];
-    if (spec.x == "time") {
-      gather_curve(series, row, plot);
-    } else if (x && y && *y < row.metrics.size()) {
-      gather_point(series, row.parameters[*x], row, *y);
-    } else if (cost && y && row.metrics[*cost].measured) {
-      gather_point(series, *row.metrics[*cost].measured, row, *y);
-    }
-  }
   Figure figure;
-  figure.plot.name = spec.name;
-  figure.plot.title = spec.title.empty() ? spoken(spec.y) + " over " + spoken(spec.x) : spec.title;
-  figure.plot.subtitle = fixed_text(study, spec);
-  const auto add_note = [&](const std::string& note) {
-    figure.plot.subtitle += (figure.plot.subtitle.empty() ? "" : "; ") + note;
-  };
-  if (sweep_index(study, spec.series)) add_note("curves by " + spoken(spec.series));
-  if (x && !undecided(study, spec).empty())
-    add_note("largest over " + undecided(study, spec));
-  const auto axis = [](const std::string& label, const std::string& name, const std::string& unit,
-                       bool logarithmic) {
-    return output::Axis{
-        .label = label.empty() ? spoken(name) : label, .unit = unit, .logarithmic = logarithmic};
-  };
-  figure.plot.x = axis(spec.x_label, spec.x, spec.x_unit, spec.log_x);
-  figure.plot.y = axis(spec.y_label, spec.y, spec.y_unit, spec.log_y);
-  for (const auto& [key, points] : gathered) {
-    output::Series series;
-    series.label = series_label(study, spec, key);
-    series.style = series_style(study, spec, key);
-    fill(series, points, spec, plot);
-    if (!series.measured.x.empty() || !series.unfinished.empty())
-      figure.plot.series.push_back(std::move(series));
+  figure.plot = axes_of(study, spec);
+  if (!spec.panels.empty()) {
+    figure.panels = {.name = spec.name,
+                     .title = figure.plot.title,
+                     .subtitle = figure.plot.subtitle,
+                     .across = panels_across(study, spec),
+                     .own_axes = spec.own_axes,
+                     .panels = panel_plots(study, spec, plot)};
+    figure.caption = caption_of(study, spec, figure.plot, figure.panels->panels);
+    return figure;
   }
-  figure.caption = caption_of(study, spec, figure.plot);
+  for (auto& [key, series] : series_of(study, spec, plot))
+    figure.plot.series.push_back(std::move(series));
+  add_references(figure.plot, study, spec);
+  std::erase_if(figure.plot.series,
+                [](const auto& series) { return series.reference && series.predicted.x.empty(); });
+  figure.caption = caption_of(study, spec, figure.plot, {figure.plot});
   return figure;
 }
 

@@ -13,7 +13,8 @@ namespace hookpoint::studies {
 
 struct Figure {
   output::Plot plot;
-  std::optional<output::HeatMap> map;  ///< instead of `plot`, which then has only its name
+  std::optional<output::HeatMap> map;       ///< instead of `plot`, which then has only its name
+  std::optional<output::PanelPlot> panels;  ///< likewise
   std::string caption;  ///< what is drawn, what is held fixed and what stands for what
 };
 

@@ -6,6 +6,7 @@
 
 #include "language/names.h"
 #include "output/number.h"
+#include "studies/plan_builder.h"
 #include "studies/plan_values.h"
 
 namespace hookpoint::studies {
@@ -15,69 +16,40 @@ using language::Diagnostics;
 using language::Field;
 using language::Object;
 
-/// Looks names up among the parts planned so far, with the nearest one in the error.
-class Parts {
- public:
-  Parts(StudyPlan& plan, std::vector<std::string> parameters, const PlanOptions& options,
-        Diagnostics& diagnostics)
-      : plan_(plan),
-        parameters_(std::move(parameters)),
-        options_(options),
-        diagnostics_(diagnostics) {}
-
-  void add_sweep(const Object& block);
-  void add_subject(const Object& block);
-  void add_metric(const Object& block);
-  void add_truth(const Object& block);
-  void add_plot(const Object& block);
-  void check_only_option(const Object& study);
-  std::vector<Assignment> fixes(const Object& owner);
-
- private:
-  void unknown(const language::Position& position, std::string_view kind, const std::string& name,
-               const std::vector<std::string>& known) {
-    diagnostics_.error(position, fmt::format("no {} is called `{}`{}", kind, name,
-                                             language::did_you_mean(name, known)));
-  }
-  std::vector<std::string> sweep_names() const {
-    std::vector<std::string> names;
-    for (const SweepPlan& sweep : plan_.sweeps) names.push_back(sweep.column.name);
-    return names;
-  }
-  int sweep_index(const std::string& name) const {
-    const auto names = sweep_names();
-    const auto found = std::find(names.begin(), names.end(), name);
-    return found == names.end() ? -1 : static_cast<int>(found - names.begin());
-  }
-  bool parameter_exists(const Object& block) {
-    if (std::find(parameters_.begin(), parameters_.end(), block.name) != parameters_.end())
-      return true;
-    unknown(block.position, "Param of the scene", block.name, parameters_);
-    return false;
-  }
-  std::vector<double> sweep_values(const Object& block, const WrittenUnit& unit);
-  std::vector<Condition> conditions(const Object& owner);
-  std::string conditions_words(const std::vector<Condition>& conditions) const;
-  std::string truth_words(const Object& block, const TruthPlan& truth);
-  std::vector<int> named_subjects(const Object& block);
-  std::string sweep_unit(const Object& block, const char* field);
-  std::string metric_unit(const Object& block, const char* field);
-  void set_time_axes(PlotPlan& plot, const Object& block);
-  void set_map(PlotSpec& spec, const Object& block);
-
-  StudyPlan& plan_;
-  std::vector<std::string> parameters_;
-  const PlanOptions& options_;
-  Diagnostics& diagnostics_;
-};
-
 std::vector<double> in_unit(const std::vector<double>& si, const WrittenUnit& unit) {
   std::vector<double> values;
   for (const double value : si) values.push_back(tidy(unit.from_si(value)));
   return values;
 }
 
-std::vector<double> Parts::sweep_values(const Object& block, const WrittenUnit& unit) {
+}  // namespace
+
+void PlanBuilder::unknown(const language::Position& position, std::string_view kind,
+                          const std::string& name, const std::vector<std::string>& known) {
+  diagnostics_.error(position, fmt::format("no {} is called `{}`{}", kind, name,
+                                           language::did_you_mean(name, known)));
+}
+
+std::vector<std::string> PlanBuilder::sweep_names() const {
+  std::vector<std::string> names;
+  for (const SweepPlan& sweep : plan_.sweeps) names.push_back(sweep.column.name);
+  return names;
+}
+
+int PlanBuilder::sweep_index(const std::string& name) const {
+  const auto names = sweep_names();
+  const auto found = std::find(names.begin(), names.end(), name);
+  return found == names.end() ? -1 : static_cast<int>(found - names.begin());
+}
+
+bool PlanBuilder::parameter_exists(const Object& block) {
+  if (std::find(parameters_.begin(), parameters_.end(), block.name) != parameters_.end())
+    return true;
+  unknown(block.position, "Param of the scene", block.name, parameters_);
+  return false;
+}
+
+std::vector<double> PlanBuilder::sweep_values(const Object& block, const WrittenUnit& unit) {
   if (options_.quick && block.find("quick_values") != nullptr)
     return in_unit(block.numbers("quick_values"), unit);
   std::vector<double> values;
@@ -99,7 +71,7 @@ std::vector<double> Parts::sweep_values(const Object& block, const WrittenUnit& 
   return values;
 }
 
-void Parts::add_sweep(const Object& block) {
+void PlanBuilder::add_sweep(const Object& block) {
   if (!parameter_exists(block)) return;
   const Field* first = block.find("values") != nullptr ? block.find("values") : block.find("from");
   const WrittenUnit unit = first == nullptr ? WrittenUnit{} : written_unit(*first);
@@ -112,7 +84,7 @@ void Parts::add_sweep(const Object& block) {
   plan_.sweeps.push_back(std::move(sweep));
 }
 
-std::vector<Assignment> Parts::fixes(const Object& owner) {
+std::vector<Assignment> PlanBuilder::fixes(const Object& owner) {
   std::vector<Assignment> result;
   for (const Object* block : owner.children_of("Fix")) {
     if (!parameter_exists(*block)) continue;
@@ -127,7 +99,7 @@ std::vector<Assignment> Parts::fixes(const Object& owner) {
   return result;
 }
 
-std::vector<Condition> Parts::conditions(const Object& owner) {
+std::vector<Condition> PlanBuilder::conditions(const Object& owner) {
   std::vector<Condition> result;
   for (const Object* block : owner.children_of("Only")) {
     Condition condition;
@@ -144,7 +116,7 @@ std::vector<Condition> Parts::conditions(const Object& owner) {
   return result;
 }
 
-void Parts::add_subject(const Object& block) {
+void PlanBuilder::add_subject(const Object& block) {
   SubjectPlan subject;
   subject.info.name = block.name;
   const auto word = [&](const char* field) {
@@ -163,13 +135,24 @@ void Parts::add_subject(const Object& block) {
   plan_.subjects.push_back(std::move(subject));
 }
 
-std::vector<std::string> metric_names() {
+std::vector<std::string> PlanBuilder::metric_names() {
   std::vector<std::string> names;
   for (const MetricDefinition& metric : metric_table()) names.emplace_back(metric.name);
   return names;
 }
 
-void Parts::add_metric(const Object& block) {
+double PlanBuilder::number_in(const Object& block, const char* field, std::string_view unit) {
+  const Field& given = *block.find(field);
+  const std::optional<language::Unit> expected = language::parse_unit(unit);
+  if (expected && !language::fits(given.dimension, expected->dimension))
+    diagnostics_.error(given.position,
+                       fmt::format("`{}` is in {}, not {}", field,
+                                   language::describe_dimension(expected->dimension),
+                                   language::describe_dimension(given.dimension)));
+  return block.number(field);
+}
+
+void PlanBuilder::add_metric(const Object& block) {
   const MetricDefinition* metric = find_metric(block.name);
   if (metric == nullptr) return unknown(block.position, "metric", block.name, metric_names());
   const Field* over = block.find("over");
@@ -192,7 +175,7 @@ void Parts::add_metric(const Object& block) {
 }
 
 /// ", mu = 0.8, slope from 15 deg".
-std::string Parts::conditions_words(const std::vector<Condition>& conditions) const {
+std::string PlanBuilder::conditions_words(const std::vector<Condition>& conditions) const {
   std::string words;
   for (const Condition& condition : conditions) {
     const SweepPlan& sweep = plan_.sweeps[static_cast<std::size_t>(condition.sweep)];
@@ -207,10 +190,10 @@ std::string Parts::conditions_words(const std::vector<Condition>& conditions) co
   return words;
 }
 
-std::string Parts::truth_words(const Object& block, const TruthPlan& truth) {
+std::string PlanBuilder::truth_words(const Object& block, const TruthPlan& truth) {
   const MetricDefinition& metric = *plan_.metrics[truth.metric];
   const std::string unit = metric.unit.empty() ? "" : " " + std::string(metric.unit);
-  const auto number = [&](double value) { return output::shortest(value) + unit; };
+  const auto number = [&](double value) { return output::shortest(tidy(value)) + unit; };
   std::string words(metric.name);
   if (truth.predicted) words += " equals predicted";
   if (truth.value) words += " equals " + number(*truth.value);
@@ -229,7 +212,7 @@ std::string Parts::truth_words(const Object& block, const TruthPlan& truth) {
   return words;
 }
 
-void Parts::add_truth(const Object& block) {
+void PlanBuilder::add_truth(const Object& block) {
   TruthPlan truth;
   const std::string metric = block.find("metric") != nullptr ? block.word("metric") : block.name;
   std::vector<std::string> measured;
@@ -240,8 +223,10 @@ void Parts::add_truth(const Object& block) {
     return;
   }
   truth.metric = static_cast<std::size_t>(found - measured.begin());
+  const std::string_view unit = plan_.metrics[truth.metric]->unit;
   const auto number = [&](const char* field) {
-    return block.find(field) == nullptr ? std::nullopt : std::optional(block.number(field));
+    return block.find(field) == nullptr ? std::nullopt
+                                        : std::optional(number_in(block, field, unit));
   };
   truth.value = number("value");
   truth.above = number("above");
@@ -269,7 +254,7 @@ void Parts::add_truth(const Object& block) {
 }
 
 /// The subjects that the block's `subjects` names; empty without.
-std::vector<int> Parts::named_subjects(const Object& block) {
+std::vector<int> PlanBuilder::named_subjects(const Object& block) {
   std::vector<int> subjects;
   if (block.find("subjects") == nullptr) return subjects;
   std::vector<std::string> names;
@@ -282,90 +267,7 @@ std::vector<int> Parts::named_subjects(const Object& block) {
   return subjects;
 }
 
-/// The unit of the sweep that `field` names.
-std::string Parts::sweep_unit(const Object& block, const char* field) {
-  const int sweep = sweep_index(block.word(field));
-  if (sweep >= 0) return plan_.sweeps[static_cast<std::size_t>(sweep)].column.unit;
-  unknown(block.find(field)->position, "Sweep", block.word(field), sweep_names());
-  return "";
-}
-
-/// The unit of the metric that `field` names and the study measures.
-std::string Parts::metric_unit(const Object& block, const char* field) {
-  const MetricDefinition* metric = find_metric(block.word(field));
-  if (metric != nullptr &&
-      std::find(plan_.metrics.begin(), plan_.metrics.end(), metric) != plan_.metrics.end())
-    return std::string(metric->unit);
-  unknown(block.find(field)->position, "Measure of this study", block.word(field), metric_names());
-  return "";
-}
-
-void Parts::set_time_axes(PlotPlan& plot, const Object& block) {
-  PlotSpec& spec = plot.spec;
-  spec.x_unit = "s";
-  plot.signal = find_signal(spec.y);
-  if (plot.signal == nullptr) {
-    std::vector<std::string> names;
-    for (const SignalDefinition& signal : signal_table()) names.emplace_back(signal.name);
-    unknown(block.find("y")->position, "signal", spec.y, names);
-    return;
-  }
-  spec.y_unit = plot.signal->unit;
-  if (!plot.signal->since_settle) return;
-  spec.x_label = "time since settling";
-  spec.y_label = spec.y + " downhill";
-}
-
-void Parts::set_map(PlotSpec& spec, const Object& block) {
-  spec.color = block.word("colour");
-  spec.color_unit = metric_unit(block, "colour");
-  spec.y_unit = sweep_unit(block, "y");
-  if (block.find("outline") == nullptr) return;
-  spec.outline = block.word("outline");
-  metric_unit(block, "outline");
-}
-
-void Parts::add_plot(const Object& block) {
-  PlotPlan plot;
-  PlotSpec& spec = plot.spec;
-  spec.name = block.name;
-  spec.title = block.find("title") != nullptr ? block.word("title") : block.name;
-  spec.x = block.word("x");
-  spec.y = block.word("y");
-  if (block.find("series") != nullptr) spec.series = block.word("series");
-  const std::string& scale = block.word("scale");
-  spec.log_x = scale == "log_x" || scale == "log_log";
-  spec.log_y = scale == "log" || scale == "log_log";
-  const bool over_time = spec.x == "time", map = block.find("colour") != nullptr;
-  if (map ? over_time : block.find("outline") != nullptr)
-    diagnostics_.error(
-        block.position,
-        "`colour` makes a map, whose x and y are sweeps; `outline` belongs to a map");
-  if (over_time) {
-    set_time_axes(plot, block);
-  } else {
-    const bool metric = sweep_index(spec.x) < 0 && find_metric(spec.x) != nullptr;
-    spec.x_unit = metric && !map ? metric_unit(block, "x") : sweep_unit(block, "x");
-    if (map)
-      set_map(spec, block);
-    else
-      spec.y_unit = metric_unit(block, "y");
-  }
-  if (spec.series != "subject" && sweep_index(spec.series) < 0)
-    unknown(block.find("series")->position, "Sweep", spec.series, sweep_names());
-  spec.subjects = named_subjects(block);
-  plot.only = conditions(block);
-  for (const Condition& condition : plot.only) {
-    const SweepPlan& sweep = plan_.sweeps[static_cast<std::size_t>(condition.sweep)];
-    std::vector<double> drawn;
-    for (std::size_t i = 0; i < sweep.si.size(); ++i)
-      if (condition.holds(sweep.si[i])) drawn.push_back(sweep.column.values[i]);
-    spec.where.emplace_back(sweep.column.name, std::move(drawn));
-  }
-  plan_.plots.push_back(std::move(plot));
-}
-
-void Parts::check_only_option(const Object& study) {
+void PlanBuilder::check_only_option(const Object& study) {
   std::vector<std::string> names;
   for (const SubjectPlan& subject : plan_.subjects) names.push_back(subject.info.name);
   for (const std::string& only : options_.only)
@@ -373,15 +275,13 @@ void Parts::check_only_option(const Object& study) {
       unknown(study.position, "Subject", only, names);
 }
 
-}  // namespace
-
 std::vector<Assignment> plan_parts(StudyPlan& plan, const Object& study,
                                    const std::vector<language::ParameterDeclaration>& parameters,
                                    const PlanOptions& options, Diagnostics& diagnostics) {
   std::vector<std::string> names;
   for (const language::ParameterDeclaration& parameter : parameters)
     names.push_back(parameter.name);
-  Parts parts(plan, std::move(names), options, diagnostics);
+  PlanBuilder parts(plan, std::move(names), options, diagnostics);
   for (const Object* block : study.children_of("Sweep")) parts.add_sweep(*block);
   for (const Object* block : study.children_of("Measure")) parts.add_metric(*block);
   for (const Object* block : study.children_of("Subject")) parts.add_subject(*block);

@@ -164,8 +164,9 @@ ReportOutcome write_report(const StudyResult& study, const ReportContext& contex
   ReportOutcome outcome;
   for (std::size_t i = 0; i < study.plots.size(); ++i) {
     const Figure figure = make_figure(study, i);
-    const output::PlotOutcome drawn =
-        figure.map ? output::draw(*figure.map, folder) : output::draw(figure.plot, folder);
+    const output::PlotOutcome drawn = figure.map      ? output::draw(*figure.map, folder)
+                                      : figure.panels ? output::draw(*figure.panels, folder)
+                                                      : output::draw(figure.plot, folder);
     if (!drawn.drawn) outcome.messages.push_back(drawn.message);
     outcome.figures.push_back({figure.plot.name, figure.caption, drawn.svg, drawn.message});
   }

@@ -63,6 +63,16 @@ struct PeerDistances {
   std::vector<std::optional<double>> distances;
 };
 
+/// Sweeps and the values that are meant ("mu" = 0.8).
+using SweepValues = std::vector<std::pair<std::string, std::vector<double>>>;
+
+/// A Reference block: a line at a value, where a panel has a run with these values.
+struct ReferenceLine {
+  std::string label;
+  double value = 0.;  ///< in the unit of y
+  SweepValues where;
+};
+
 /// A Plot block.
 struct PlotSpec {
   std::string name;  ///< file name of its SVG
@@ -74,11 +84,15 @@ struct PlotSpec {
   /// Of a map, where x and y are sweeps: the metric that colours it, and one whose closed form
   /// divides it; "" for none.
   std::string color, color_unit, outline;
+  /// Sweeps whose values make a panel each; of two the first runs down, the second across.
+  std::vector<std::string> panels;
+  bool own_axes = false;  ///< each panel has its own y axis
+  std::vector<ReferenceLine> references;
   bool log_x = false, log_y = false;
+  double floor = 1e-16;        ///< what counts as zero on a logarithmic y axis, in its unit
   bool show_predicted = true;  ///< dashed line of the closed form beside the points
   std::vector<int> subjects;   ///< that are drawn, indices; empty: all
-  /// Sweeps and the values that are drawn ("mu" = 0.8): other rows are left out.
-  std::vector<std::pair<std::string, std::vector<double>>> where;
+  SweepValues where;           ///< other rows are left out
 };
 
 /// A Truth and how many of the values that it covers agree.

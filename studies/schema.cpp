@@ -218,10 +218,20 @@ void add_study_classes(Schema& schema) {
        words("colour", 1, "a metric: makes a map over the sweeps x and y, a panel a subject"),
        words("outline", 1, "in a map: a metric whose closed form draws the line between cells"),
        words("series", 1, "what makes a curve: subject, or a sweep"),
+       words("panels", 2,
+             "a panel for each value of a sweep; of two, the first down, the second across"),
+       choice("axes", {"same", "own"}, "same", "whether panels share the scale of y"),
+       positive(number("floor", "?",
+                       "what counts as zero where y is logarithmic; default: 1e-16 of y's unit")),
        words("subjects", 100, "subjects that are drawn; default: all"),
        choice("scale", {"linear", "log", "log_x", "log_log"}, "linear",
               "axes that are logarithmic: log is y; of a map log is the colour")},
-      {"Only"}));
+      {"Only", "Reference"}));
+  schema.add(named("Reference",
+                   "A line across a Plot at a value to hold the measured ones against.",
+                   {text("title", "in the legend; default: the name"),
+                    required(number("value", "?", "where it stands, in y"))},
+                   {"Only"}));
   schema.add(named("Fix", "A value of a Param of the scene.",
                    {required(number("value", "?", "the value"))}));
   schema.add(named("Only", "Restricts its owner to some values of a swept Param.",

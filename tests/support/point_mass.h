@@ -19,6 +19,7 @@ struct PointMass {
   Memory<double> memory{};
   Bristle<double> bristle{};
   double pull = 1.;  ///< part of the weight along the slope that acts
+  Vector3d push{};   ///< a force besides the weight [N]
 
   Vector3d downhill() const { return {std::cos(azimuth), std::sin(azimuth), 0.}; }
   Vector3d weight() const {
@@ -45,7 +46,7 @@ struct PointMass {
     const auto reaction = Law::evaluate(point, memory, material, dt);
     ground_force = reaction.force;
     memory = reaction.next;
-    velocity += dt / mass * (weight() + ground_force);
+    velocity += dt / mass * (weight() + push + ground_force);
     position += dt * velocity;
   }
   template <class Law>

@@ -1,6 +1,6 @@
-// A point on a slope, shaken along it. Below the cone a rigid Coulomb body does not move: hooks and
-// elastoplastic bristles return, LuGre drifts by its closed form. Above it the return map slips as
-// Coulomb's does, the nearer the stiffer; a hook thrown to the foot does not.
+// A point on a slope, shaken along it and sideways. Below the cone a rigid Coulomb body does not
+// move: hooks and elastoplastic bristles return, LuGre drifts by its closed form. Above it the
+// return map slips as Coulomb's does, the nearer the stiffer; a hook thrown to the foot does not.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -112,6 +112,93 @@ TEST(ShakenAboveTheCone, TheReturnMapConvergesToRigidCoulombAndAThrownHookDoesNo
   material.tangential_damping = 2.;  // a damper that slip feels would hide what the hook lost
   EXPECT_NEAR(drift<Hookpoint>(material, shaking, 2, 6, 2e-6) / 4., rigid, 0.01 * rigid);
   EXPECT_GT(drift<HookpointReset>(material, shaking, 2, 6, 2e-6) / 4., 1.5 * rigid);
+}
+
+/// A point on 20 deg pushed to both sides, so that the load along the slope is `peak` times the
+/// cone's at both ends.
+struct SidewaysShaking {
+  double peak = 0.9, frequency = 1.;
+  double cone = mu * g * std::cos(slope), down = g * std::sin(slope);
+  double across(double time) const {
+    return std::sqrt(peak * peak * cone * cone - down * down) *
+           std::cos(2. * std::numbers::pi * frequency * time);
+  }
+  static constexpr double slope = std::numbers::pi / 9.;
+};
+
+/// Way down the slope in the cycle after the third.
+template <class Law>
+double drift(const MaterialConstants<double>& material, const SidewaysShaking& shaking, double dt) {
+  PointMass point{.mass = 1., .slope = shaking.slope, .material = material};
+  point.settle();
+  double start = 0.;
+  const long steps = std::lround(1. / (shaking.frequency * dt));
+  for (long i = 0; i < 4 * steps; ++i) {
+    if (i == 3 * steps) start = point.downhill_position();
+    point.push.y = shaking.across(static_cast<double>(i) * dt);
+    point.step<Law>(dt);
+  }
+  return point.downhill_position() - start;
+}
+
+/// The same of a rigid body. Friction is implicit: it points against the velocity that it leaves.
+double rigid_drift(const SidewaysShaking& shaking, double dt) {
+  double along = 0., across = 0., way = 0.;
+  const long steps = std::lround(1. / (shaking.frequency * dt));
+  for (long i = 0; i < 4 * steps; ++i) {
+    along += dt * shaking.down;
+    across += dt * shaking.across((static_cast<double>(i) + 0.5) * dt);
+    const double speed = std::hypot(along, across);
+    const double kept = speed > 0. ? std::max(0., 1. - dt * shaking.cone / speed) : 0.;
+    along *= kept;
+    across *= kept;
+    if (i >= 3 * steps) way += dt * along;
+  }
+  return way;
+}
+
+/// Quasi-static LuGre, s the load over the cone's, z_s s the bristle: its speed w over z_s solves
+/// w^2 = |s' + w s|^2, and the point goes w s_x down while s' comes back to where it was.
+double lugre_drift(const SidewaysShaking& shaking, double stiffness) {
+  constexpr int parts = 100000;
+  double sum = 0.;
+  const auto aside = [&](double part) {
+    return shaking.across(part / parts / shaking.frequency) / shaking.cone;
+  };
+  for (int i = 0; i < parts; ++i) {
+    const Vector3d load{shaking.down / shaking.cone, aside(i + 0.5), 0.};
+    const Vector3d change{0., aside(i + 1.) - aside(i), 0.};
+    const double part = dot(load, change), rest = 1. - dot(load, load);
+    sum += load.x * (part + std::sqrt(part * part + rest * dot(change, change))) / rest;
+  }
+  return shaking.cone / stiffness * sum;
+}
+
+// Friction turns with the slip, so a law has to take the load's direction from both axes.
+TEST(ShakenSideways, TheReturnMapConvergesToRigidCoulomb) {
+  const SidewaysShaking shaking{.peak = 1.1};
+  const double rigid = rigid_drift(shaking, 2e-6);
+  EXPECT_GT(rigid, 0.01);
+  std::vector<double> errors;
+  for (const double stiffness : {2e4, 2e5, 2e6}) {
+    auto material = ground(stiffness);
+    material.tangential_damping = 0.04 * std::sqrt(stiffness);
+    errors.push_back(std::abs(drift<Hookpoint>(material, shaking, 1e-4) - rigid) / rigid);
+  }
+  EXPECT_LE(errors[1], 0.5 * errors[0]);
+  EXPECT_LE(errors[2], 0.5 * errors[1]);
+  EXPECT_LE(errors[2], 0.001);
+}
+
+TEST(ShakenSideways, LugreDriftsAndElastoplasticBristlesDoNot) {
+  const SidewaysShaking shaking{.peak = 0.9};
+  auto material = ground(2e5);
+  material.tangential_damping = 0.04 * std::sqrt(2e5);
+  const double expected = lugre_drift(shaking, 2e5);
+  EXPECT_NEAR(drift<Lugre>(material, shaking, 1e-4), expected, 0.01 * expected);
+  material.breakaway = 0.95;
+  EXPECT_LE(std::abs(drift<Elastoplastic>(material, shaking, 1e-4)), 1e-12);
+  EXPECT_LE(std::abs(drift<Hookpoint>(material, shaking, 1e-4)), 1e-12);
 }
 
 }  // namespace

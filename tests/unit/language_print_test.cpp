@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <random>
 
 #include "tests/support/language_files.h"
@@ -158,6 +161,34 @@ TEST(LanguageFormat, HasOneLayout) {
             "Let a = 30 kN/m; Let b = a > 1 ? !true : false;\n");
 }
 
+TEST(LanguageFormat, AStatementThatIsTooLongForALineKeepsItsLines) {
+  const std::string half(60, 'a');
+  EXPECT_EQ(format_text("Let x=" + half + "\n+" + half + ";"),
+            "Let x = " + half + "\n    + " + half + ";\n");
+  EXPECT_EQ(format_text("World w {Let y=1;Let x=" + half + "\n\n  +" + half + ";}"),
+            "World w {\n  Let y = 1;\n  Let x = " + half + "\n      + " + half + ";\n}\n");
+  const std::string shorter(50, 'a');  // 112 columns in all: there is room for it on a line
+  EXPECT_EQ(format_text("Let x=" + shorter + "\n+" + shorter + ";"),
+            "Let x = " + shorter + " + " + shorter + ";\n");
+}
+
+/// But for the paper's own text, which stands as printed.
+TEST(LanguageFormat, EveryConfigIsLaidOut) {
+  const std::filesystem::path configs = std::filesystem::path(HOOKPOINT_SOURCE_DIR) / "configs";
+  int count = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(configs)) {
+    if (entry.path().extension() != ".hook" || entry.path().parent_path().filename() == "paper")
+      continue;
+    std::ifstream file(entry.path());
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    Diagnostics diagnostics;
+    EXPECT_TRUE(format(entry.path().string(), text, diagnostics) == text)
+        << "hookpoint fmt would change " << entry.path();
+    ++count;
+  }
+  EXPECT_GT(count, 50);
+}
+
 TEST(LanguageFormat, LeavesATextWithErrorsAlone) {
   Diagnostics diagnostics;
   EXPECT_EQ(format("test.hook", "World { = ", diagnostics), "World { = ");
@@ -171,7 +202,8 @@ TEST(LanguageFormat, CommentsAnywhereAreKept) {
       "World w { gravity = 9.81 ; Terrain.Flat g { height = - 3 mm * ( 2 + 1 ) ; } engine = ode ; "
       "} Wire FROM w.time "
       "TO x.value { delay = 1 ms ; } Window v { Valuator.Slider s ; } Window x Valuator.Slider "
-      "value ;";
+      "value ; Let wider_than_a_line = first_long_name * second_long_name + third_long_name - "
+      "fourth_long_name / ( fifth_long_name + sixth_long_name ) ;";
   const std::string fillers[] = {
       " ",    "\n", "\n\n\n", " // comment\n", " /* comment */ ", "\n/* comment\n comment */\n",
       "\r\n", " "};

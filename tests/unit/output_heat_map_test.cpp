@@ -77,15 +77,30 @@ TEST(HeatMapScript, ALogarithmicColourBeginsAtItsFloor) {
   EXPECT_NE(script.find("shade(v) = v < 1e-09 ? 1e-09 : v"), std::string::npos);
 }
 
+TEST(HeatMapScript, CellsAreAsWideAsTheirNumbersAndTicksAsk) {
+  HeatMap map = sample();
+  const auto width = [&] {
+    const std::string script = heat_map_script(map);
+    const auto at = script.find("svg size ") + 9;
+    return std::stod(script.substr(at, script.find(',', at) - at));
+  };
+  const double narrow = width();
+  map.panels[0].cells[0].value = -0.0766;  // four digits more than 0.25 and a sign
+  EXPECT_GE(width(), narrow + 2. * 5.);
+  map.panels[0].cells[0].value = 0.25;
+  map.x_values[0] = 0.09487;
+  EXPECT_GE(width(), narrow + 2. * 15.);
+}
+
 TEST(HeatMapScript, PanelsThatDoNotFitSideBySideStandInRows) {
   HeatMap map = sample();
-  // 92 px each and 40 between them: 11 in the 1480 px beside the margins.
-  for (int i = 1; i < 12; ++i) map.panels.push_back(map.panels[0]);
+  // 92 px each and 40 between them: 12 in the 1580 px beside the margins.
+  for (int i = 1; i < 13; ++i) map.panels.push_back(map.panels[0]);
   const std::string script = heat_map_script(map);
-  EXPECT_NE(script.find("svg size 1632,512 "), std::string::npos) << script.substr(0, 300);
-  EXPECT_EQ(count(script, "set ytics ("), 2U);
-  EXPECT_EQ(count(script, "unset colorbox"), 11U);
-  EXPECT_EQ(count(heat_map_script(sample()), "set ytics ("), 1U);
+  EXPECT_NE(script.find("svg size 1764,524 "), std::string::npos) << script.substr(0, 300);
+  EXPECT_EQ(count(script, "set ytics nomirror ("), 2U);
+  EXPECT_EQ(count(script, "unset colorbox"), 12U);
+  EXPECT_EQ(count(heat_map_script(sample()), "set ytics nomirror ("), 1U);
 }
 
 TEST(HeatMap, IsDrawnWithItsNumbersAndItsCross) {

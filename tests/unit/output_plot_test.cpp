@@ -151,6 +151,57 @@ TEST_F(Figures, DrawEveryPoint) {
   EXPECT_EQ(count(outcome.svg, "<use xlink:href='#gpPt1' transform"), 2u);
 }
 
+/// Two panels: a curve that one lacks, and a line that the other lacks.
+PanelPlot two_panels() {
+  PanelPlot panels{.name = "panels", .title = "Two", .subtitle = "", .panels = {}};
+  Plot first = sample();
+  first.title = "dt = 1 ms, mu = 1";
+  first.series = {{"ours", 0, {{5., 10.}, {1e-4, 1e-3}}, {}, {}}, {"theirs", 1, {}, {}, {}}};
+  first.series.push_back({"rigid", 0, {}, {{5., 10.}, {2e-4, 2e-4}}, {}, true});
+  Plot second = first;
+  second.title = "dt = 2 ms, mu = 1";
+  second.series[1].measured = {{5., 20.}, {1e-7, 2e-7}};
+  second.series[2].predicted = {};
+  panels.panels = {first, second};
+  return panels;
+}
+
+TEST(PlotData, OfPanelsNamesThePanel) {
+  EXPECT_EQ(panel_data(two_panels()),
+            "series,kind,slope [deg],creep speed [m/s],panel\n"
+            "ours,measured,5,1e-04,\"dt = 1 ms, mu = 1\"\n"
+            "ours,measured,10,0.001,\"dt = 1 ms, mu = 1\"\n"
+            "rigid,reference,5,2e-04,\"dt = 1 ms, mu = 1\"\n"
+            "rigid,reference,10,2e-04,\"dt = 1 ms, mu = 1\"\n"
+            "ours,measured,5,1e-04,\"dt = 2 ms, mu = 1\"\n"
+            "ours,measured,10,0.001,\"dt = 2 ms, mu = 1\"\n"
+            "theirs,measured,5,1e-07,\"dt = 2 ms, mu = 1\"\n"
+            "theirs,measured,20,2e-07,\"dt = 2 ms, mu = 1\"\n");
+}
+
+TEST(PlotScript, PanelsShareTheirAxesUnlessTheyHaveTheirOwn) {
+  PanelPlot panels = two_panels();
+  const std::string same = panel_script(panels);
+  EXPECT_EQ(count(same, "set xrange [4.4:20.6]"), 2u);
+  EXPECT_EQ(count(same, "set yrange [1e-07:0.001]"), 2u);
+  panels.own_axes = true;
+  const std::string own = panel_script(panels);
+  EXPECT_EQ(count(own, "set xrange [4.4:20.6]"), 2u);
+  EXPECT_EQ(count(own, "set yrange [1e-04:0.001]"), 1u);
+  EXPECT_EQ(count(own, "set yrange [1e-07:0.001]"), 1u);
+}
+
+TEST_F(Figures, PanelsAreDrawnWithOneLegend) {
+  const PlotOutcome outcome = draw(two_panels(), folder_);
+  ASSERT_TRUE(outcome.drawn) << outcome.message;
+  // Circles of `ours`: two points a panel and the legend; squares of `theirs`: in one panel only.
+  EXPECT_EQ(count(outcome.svg, "<use xlink:href='#gpPt6' transform"), 5u);
+  EXPECT_EQ(count(outcome.svg, "<use xlink:href='#gpPt4' transform"), 3u);
+  EXPECT_EQ(count(outcome.svg, ">rigid<"), 1u);
+  EXPECT_EQ(count(outcome.svg, "dt = 2 ms"), 1u);
+  EXPECT_EQ(count(inline_svg(outcome.svg, "p"), "rgb(  0,   0,   0)"), 0u);
+}
+
 TEST_F(Figures, AMissingGnuplotIsSaidAndLeavesDataAndScript) {
   const std::string path = std::getenv("PATH");
   ::setenv("PATH", "/nowhere", 1);

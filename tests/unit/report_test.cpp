@@ -117,6 +117,50 @@ TEST(Figures, KeepASubjectsStyleAndMarkWhatStopped) {
   EXPECT_DOUBLE_EQ(figure.plot.series[1].measured.y[0], 1.002 * synthetic_creep(30.));
 }
 
+TEST(Figures, APanelForEachValueOfASweep) {
+  StudyResult study = synthetic_study();
+  PlotSpec& spec = study.plots[0];  // over the slope
+  spec.where = {{"dt", {1., 10.}}};
+  spec.panels = {"dt"};
+  spec.references = {{.label = "rigid", .value = 0.5, .where = {{"dt", {10.}}}}};
+  std::erase_if(study.rows,
+                [](const RunResult& row) { return row.subject == 2 && row.parameters[1] == 1.; });
+  const Figure figure = make_figure(study, 0);
+  ASSERT_TRUE(figure.panels);
+  EXPECT_EQ(figure.panels->subtitle, "");
+  EXPECT_TRUE(contains(figure.caption, "Black, dashed: rigid."));
+  ASSERT_EQ(figure.panels->panels.size(), 2u);
+  const output::Plot &first = figure.panels->panels[0], &second = figure.panels->panels[1];
+  EXPECT_EQ(first.title, "dt = 1 ms");
+  EXPECT_EQ(second.title, "dt = 10 ms");
+  ASSERT_EQ(first.series.size(), 6u);  // five subjects, the sixth is not installed, and the line
+  ASSERT_EQ(second.series.size(), 6u);
+  EXPECT_EQ(first.series[2].label, "dts_hunt_crossley");  // without a run in this panel
+  EXPECT_TRUE(first.series[2].measured.x.empty());
+  EXPECT_EQ(second.series[2].measured.x.size(), 6u);
+  EXPECT_DOUBLE_EQ(first.series[3].measured.y[0], -3.1e-7);
+  EXPECT_DOUBLE_EQ(second.series[3].measured.y[0], -3.1e-6);
+  EXPECT_EQ(first.series[4].unfinished.size(), 0u);
+  EXPECT_EQ(second.series[4].unfinished.size(), 6u);
+  EXPECT_TRUE(first.series[5].reference);
+  EXPECT_TRUE(first.series[5].predicted.x.empty());
+  EXPECT_EQ(second.series[5].predicted.x, (std::vector{5., 30.}));
+  EXPECT_EQ(second.series[5].predicted.y, (std::vector{0.5, 0.5}));
+}
+
+TEST(Figures, OfTwoSweepsTheFirstRunsDownAndTheSecondAcross) {
+  StudyResult study = synthetic_study();
+  PlotSpec& spec = study.plots[2];  // over time
+  spec.where = {{"slope", {15., 20.}}};
+  spec.panels = {"slope", "dt"};
+  const Figure figure = make_figure(study, 2);
+  ASSERT_TRUE(figure.panels);
+  EXPECT_EQ(figure.panels->across, 3u);
+  ASSERT_EQ(figure.panels->panels.size(), 6u);
+  EXPECT_EQ(figure.panels->panels[1].title, "slope = 15 deg, dt = 1 ms");
+  EXPECT_EQ(figure.panels->panels[3].title, "slope = 20 deg, dt = 0.1 ms");
+}
+
 TEST(Figures, AFamilySharesAColourAndItsMembersDifferInMarker) {
   StudyResult study = synthetic_study();
   study.subjects[2].law = "hookpoint";

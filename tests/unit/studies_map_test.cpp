@@ -74,9 +74,18 @@ TEST(StudyMap, SmallNumbersGetAUnitThatACellCanShow) {
   study.plots[0].log_y = true;  // a logarithmic colour shows any number
   EXPECT_EQ(make_figure(study, 0).map->color.unit, "m");
   for (RunResult& row : study.rows)
-    if (row.metrics[1].measured) *row.metrics[1].measured *= 1e3;
+    if (row.metrics[1].measured) *row.metrics[1].measured *= 1e4;  // to 0.12 m
   study.plots[0].log_y = false;
   EXPECT_EQ(make_figure(study, 0).map->color.unit, "m");
+  *study.rows[0].metrics[1].measured = 0.0123;  // five signs: too wide beside the others
+  study.plots[0].color_unit = "m/s";
+  const Figure mixed = make_figure(study, 0);
+  EXPECT_EQ(mixed.map->color.unit, "mm/s");
+  EXPECT_DOUBLE_EQ(*cell(mixed.map->panels[0], 0, 0).value, 12.3);
+  for (const char* unit : {"m^2", "1/s", "kg", ""}) {
+    study.plots[0].color_unit = unit;
+    EXPECT_EQ(make_figure(study, 0).map->color.unit, unit);
+  }
 }
 
 TEST(StudyMap, DrawsOnlyWhatItsBlockNames) {

@@ -233,5 +233,46 @@ TEST_F(StudyRunner, AMapOfWhatIsNotThereIsRefused) {
             std::string::npos);
 }
 
+constexpr const char* panels =
+    "Plot panels { x = slope; y = creep_speed; scale = log; panels = mu; axes = own; floor = 2 "
+    "mm/s;"
+    " Reference rigid_body { value = 3 mm/s; Only mu { values = 1; } } }";
+
+TEST_F(StudyRunner, APlotMayHavePanelsAndReferences) {
+  const auto planned = plan(replaced(study, "Plot fig5", std::string(panels) + " Plot fig5"));
+  ASSERT_TRUE(planned) << first_error();
+  const PlotSpec& spec = planned->plots.front().spec;
+  EXPECT_EQ(spec.panels, std::vector<std::string>{"mu"});
+  EXPECT_TRUE(spec.own_axes);
+  EXPECT_EQ(spec.floor, 2e-3);
+  ASSERT_EQ(spec.references.size(), 1u);
+  EXPECT_EQ(spec.references[0].label, "rigid body");
+  EXPECT_EQ(spec.references[0].value, 3e-3);
+  EXPECT_EQ(spec.references[0].where, (SweepValues{{"mu", {1.}}}));
+}
+
+TEST_F(StudyRunner, WhatAMetricIsHeldAgainstHasItsUnit) {
+  plan(replaced(study, "above = 2 mm/s", "above = 2 deg"));
+  EXPECT_EQ(first_error(), "`above` is in m/s, not rad");
+  plan(replaced(study, "Plot fig5", replaced(panels, "3 mm/s", "3 mm") + " Plot fig5"));
+  EXPECT_EQ(first_error(), "`value` is in m/s, not m");
+  plan(replaced(study, "Plot fig5", replaced(panels, "2 mm/s", "2 mm") + " Plot fig5"));
+  EXPECT_EQ(first_error(), "`floor` is in m/s, not m");
+}
+
+TEST_F(StudyRunner, PanelsAreSweepsThatNothingElseShows) {
+  const auto error_of = [&](const char* from, const char* to) {
+    plan(replaced(study, "Plot fig5", replaced(panels, from, to) + " Plot fig5"));
+    return first_error();
+  };
+  EXPECT_EQ(error_of("panels = mu", "panels = slop"),
+            "no Sweep is called `slop`; did you mean `slope`?");
+  EXPECT_EQ(error_of("panels = mu", "panels = slope"),
+            "`slope` is already an axis or makes the curves");
+  EXPECT_EQ(error_of("Only mu", "Only nu"), "no Sweep is called `nu`; did you mean `mu`?");
+  EXPECT_NE(error_of("y = creep_speed", "y = mu; colour = creep_speed").find("a map has a panel"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace hookpoint::studies
