@@ -19,6 +19,9 @@ struct EngineEntry {
   /// Normal speed per newton at which a contact gives way for good [m/(N s)] (ODE: CFM within its
   /// surface layer). Null or 0 for an engine that pushes penetration out.
   double (*normal_mixing)(const simulation::Experiment&) = nullptr;
+  /// Depth per newton of a contact at rest [m/N]; nothing where no closed form holds. Null for our
+  /// engine, whose laws say it.
+  std::optional<double> (*softness)(const simulation::Experiment&) = nullptr;
 };
 
 using EngineTable = std::map<std::string, EngineEntry>;

@@ -39,6 +39,8 @@ constexpr auto metrics = std::to_array<MetricDefinition>({
     {"impacts", "1/s", "impulses per second after `settle` (event-driven laws)", make_impacts},
     {"support_force", "N",
      "mean force of the ground along its normal after `settle`, on all bodies", make_support_force},
+    {"joint_gap", "m", "greatest distance after `settle` of a link from where its joint lets it be",
+     make_joint_gap},
     {"rebound", "",
      "greatest speed away from the ground over the greatest towards it, of the body's origin",
      make_rebound},

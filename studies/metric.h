@@ -184,5 +184,6 @@ std::unique_ptr<Metric> make_momentum_drift(const RunContext&);
 std::unique_ptr<Metric> make_angular_momentum_drift(const RunContext&);
 std::unique_ptr<Metric> make_rebound(const RunContext&);
 std::unique_ptr<Metric> make_support_force(const RunContext&);
+std::unique_ptr<Metric> make_joint_gap(const RunContext&);
 
 }  // namespace hookpoint::studies

@@ -9,13 +9,29 @@
 
 namespace hookpoint::studies {
 
+/// How the contacts of a peer's constraints give way, as far as its engine's table knows.
+struct PeerContact {
+  /// Tangential speed per newton of a sticking contact [m/(N s)], where its constraints have one.
+  std::optional<double> friction_mixing;
+  /// Normal speed per newton at which it sinks for good [m/(N s)].
+  double normal_mixing = 0.;
+  /// Depth per newton at which it comes to rest [m/N], where its constraints have one.
+  std::optional<double> softness;
+};
+
 /// The closed form of `metric` for the run described by `context`, or nothing where there is none
-/// (docs/studies.md lists them). But for `fell` they hold for one rigid body on a plane that starts
-/// at rest, or on the level at a speed. `friction_mixing`: tangential speed per newton of a peer's
-/// sticking contact [m/(N s)], where its constraints have one; `normal_mixing`: the normal speed
-/// per newton at which it sinks for good.
+/// (docs/studies.md lists them). But for `fell`, and the depths of a robot whose joints gravity
+/// does not load, they hold for one rigid body on a plane that starts at rest, or on the level at a
+/// speed. `peer`: of the run's engine, unless it is ours.
 std::optional<double> predict(std::string_view metric, const RunContext& context,
-                              std::optional<double> friction_mixing, double normal_mixing = 0.);
+                              const PeerContact& peer = {});
+
+/// Of `penetration_max`, `penetration_mean` and `penetration_rms` [m]: a rigid footprint on equal
+/// springs, ours or of the `softness` of a peer's contacts [m/N] on the level. Measured from the
+/// start, the greatest depth of a body let go over the level is where its fall on spring and damper
+/// first ends. Nothing for a robot whose joints gravity turns.
+std::optional<double> penetration(std::string_view metric, const RunContext& context,
+                                  std::optional<double> softness);
 
 /// 1 where the joint loops of a walking robot are unstable while a leg is in the air, 0 where they
 /// are stable: proportional control by a Controller.JointPD whose sensors are sampled and late, of

@@ -59,6 +59,15 @@ std::optional<bool> judge(const StudyPlan& plan, const StudyResult& result, std:
   return ok;
 }
 
+PeerContact peer_contact(const EngineEntry& engine, const simulation::Experiment& experiment) {
+  PeerContact contact;
+  if (engine.friction_mixing != nullptr)
+    contact.friction_mixing = engine.friction_mixing(experiment);
+  if (engine.normal_mixing != nullptr) contact.normal_mixing = engine.normal_mixing(experiment);
+  if (engine.softness != nullptr) contact.softness = engine.softness(experiment);
+  return contact;
+}
+
 RunResult run_result(const StudyPlan& plan, const EngineTable& engines, const RowPlan& row,
                      const RowOutcome& outcome) {
   RunResult run;
@@ -75,13 +84,9 @@ RunResult run_result(const StudyPlan& plan, const EngineTable& engines, const Ro
     run.regime = regime_of(context);
     const bool ran = !has(run, RunOutcome::skipped) && !has(run, RunOutcome::refused);
     if (!ran || engine == engines.end()) return run;
-    const auto mixing = engine->second.friction_mixing != nullptr
-                            ? engine->second.friction_mixing(row.experiment)
-                            : std::nullopt;
-    const double sinking =
-        engine->second.normal_mixing != nullptr ? engine->second.normal_mixing(row.experiment) : 0.;
+    const PeerContact peer = peer_contact(engine->second, row.experiment);
     for (std::size_t i = 0; i < plan.metrics.size(); ++i)
-      run.metrics[i].predicted = predict(plan.metrics[i]->name, context, mixing, sinking);
+      run.metrics[i].predicted = predict(plan.metrics[i]->name, context, peer);
   } catch (const simulation::ExperimentError&) {
     return run;  // the row's status says already why it could not run
   }
