@@ -9,6 +9,7 @@
 #include "reference/creep.h"
 #include "reference/engines.h"
 #include "reference/mujoco_friction.h"
+#include "reference/static_depth.h"
 #include "simulation/dts_engine.h"
 #include "simulation/load.h"
 #include "simulation/schema.h"
@@ -80,7 +81,8 @@ Application::Application(bool allow_plugins, Told tell)
   add_vocabulary();
   engines_["dts"] = {simulation::describe_dts(), simulation::make_dts, nullptr};
   for (const reference::Peer& peer : reference::known_peers()) {
-    engines_[std::string(peer.name)] = {peer.describe(), peer.make, creep_of(peer.name)};
+    engines_[std::string(peer.name)] = {peer.describe(), peer.make, creep_of(peer.name),
+                                        reference::static_softness};
   }
 }
 

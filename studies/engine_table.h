@@ -16,6 +16,9 @@ struct EngineEntry {
   /// nothing where no closed form holds. Null for our own engine, whose laws have theirs, and for
   /// an engine without any.
   std::optional<double> (*creep)(const simulation::Experiment&) = nullptr;
+  /// Depth per newton of a contact at rest [m/N]; nothing where no closed form holds. Null for our
+  /// engine, whose laws say it.
+  std::optional<double> (*softness)(const simulation::Experiment&) = nullptr;
 };
 
 using EngineTable = std::map<std::string, EngineEntry>;

@@ -63,6 +63,8 @@ constexpr auto metrics = std::to_array<MetricDefinition>({
      "greatest difference, since the start, between the change of kinetic and gravitational energy "
      "and the work of ground, joints and external forces, per energy exchanged",
      make_energy_residual, false, Regime::none, MetricScope::run, true},
+    {"joint_gap", "m", "greatest distance after `settle` of a link from where its joint lets it be",
+     make_joint_gap},
     {"rebound", "",
      "greatest speed away from the ground over the greatest towards it, of the body's origin",
      make_rebound},

@@ -225,5 +225,6 @@ std::unique_ptr<Metric> make_force_residual_normal(const RunContext&);
 std::unique_ptr<Metric> make_force_residual_cone(const RunContext&);
 std::unique_ptr<Metric> make_force_residual_dissipation(const RunContext&);
 std::unique_ptr<Metric> make_energy_residual(const RunContext&);
+std::unique_ptr<Metric> make_joint_gap(const RunContext&);
 
 }  // namespace hookpoint::studies

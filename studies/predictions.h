@@ -9,12 +9,25 @@
 
 namespace hookpoint::studies {
 
+/// What the closed forms of a peer's engine say of a run, as far as its table has them.
+struct PeerContact {
+  std::optional<double> creep;     ///< `creep_speed` where friction holds [m/s]
+  std::optional<double> softness;  ///< depth per newton at which a contact comes to rest [m/N]
+};
+
 /// The closed form of `metric` for the run described by `context`, or nothing where there is none
-/// (docs/studies.md lists them). But for `fell` they hold for one rigid body on a plane that starts
-/// at rest, or on the level at a speed. `peer_creep`: what the engine's own closed form says of
-/// `creep_speed` where friction holds [m/s], for a peer that has one.
+/// (docs/studies.md lists them). But for `fell`, and the depths of a robot whose joints gravity
+/// does not load, they hold for one rigid body on a plane that starts at rest, or on the level at a
+/// speed. `peer`: of the run's engine, unless it is ours.
 std::optional<double> predict(std::string_view metric, const RunContext& context,
-                              std::optional<double> peer_creep);
+                              const PeerContact& peer = {});
+
+/// Of `penetration_max`, `penetration_mean` and `penetration_rms` [m]: a rigid footprint on equal
+/// springs, ours or of the `softness` of a peer's contacts [m/N] on the level. Measured from the
+/// start, the greatest depth of a body let go over the level is where its fall on spring and damper
+/// first ends. Nothing for a robot whose joints gravity turns.
+std::optional<double> penetration(std::string_view metric, const RunContext& context,
+                                  std::optional<double> softness);
 
 /// 1 where the joint loops of a walking robot are unstable while a leg is in the air, 0 where they
 /// are stable: proportional control by a Controller.JointPD whose sensors are sampled and late, of

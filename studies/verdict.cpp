@@ -57,6 +57,13 @@ std::optional<bool> judge(const StudyPlan& plan, const StudyResult& result, std:
   return ok;
 }
 
+PeerContact peer_contact(const EngineEntry& engine, const simulation::Experiment& experiment) {
+  PeerContact contact;
+  if (engine.creep != nullptr) contact.creep = engine.creep(experiment);
+  if (engine.softness != nullptr) contact.softness = engine.softness(experiment);
+  return contact;
+}
+
 RunResult run_result(const StudyPlan& plan, const EngineTable& engines, const RowPlan& row,
                      const RowOutcome& outcome) {
   RunResult run;
@@ -73,10 +80,9 @@ RunResult run_result(const StudyPlan& plan, const EngineTable& engines, const Ro
     run.regime = regime_of(context);
     const bool ran = !has(run, RunOutcome::skipped) && !has(run, RunOutcome::refused);
     if (!ran || engine == engines.end()) return run;
-    const auto creep =
-        engine->second.creep != nullptr ? engine->second.creep(row.experiment) : std::nullopt;
+    const PeerContact peer = peer_contact(engine->second, row.experiment);
     for (std::size_t i = 0; i < plan.metrics.size(); ++i)
-      run.metrics[i].predicted = predict(plan.metrics[i]->name, context, creep);
+      run.metrics[i].predicted = predict(plan.metrics[i]->name, context, peer);
   } catch (const simulation::ExperimentError&) {
     return run;  // the row's status says already why it could not run
   }

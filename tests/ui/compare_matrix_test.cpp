@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <map>
+#include <sstream>
 #include <string>
 
 #include "output/json_reader.h"
@@ -219,6 +220,41 @@ TEST(Matrix, HasTheSameTableForAnyNumberOfThreadsAndCompares) {
   work.hookpoint("study matrix.hook --jobs 2 --out two");
   EXPECT_EQ(work.read("one/matrix.csv"), work.read("two/matrix.csv"));
   EXPECT_EQ(work.hookpoint("compare one two").status, 0);
+}
+
+/// A plate with a body on it in every engine, QuickStep where its iterations do not converge: its
+/// rows show whether a world has random numbers of its own.
+const std::string every_engine =
+    "Study plate { scene = \"scenes/turntable.hook\"; duration = 1.5 s; settle = 1.2 s;\n"
+    "  Fix dt { value = 1 ms; } Sweep ratio { values = 1, 10; }\n"
+    "  Measure penetration_mean; Measure joint_gap; Measure unrest;\n"
+    "  Subject ours { engine = dts; }\n"
+    "  Subject ode { engine = ode; settings = default; }\n"
+    "  Subject quickstep_recommended { engine = ode_quickstep; settings = recommended; }\n"
+    "  Subject quickstep { engine = ode_quickstep; settings = default; }\n"
+    "  Subject bullet { engine = bullet; settings = matched; }\n"
+    "  Subject mujoco { engine = mujoco; settings = matched; }\n"
+    "  Subject dart { engine = dart; settings = matched; }\n"
+    "  Subject simbody { engine = simbody; settings = matched; }\n"
+    "  Truth penetration_mean { equals = predicted; tolerance = 0.1 %; }\n"
+    "  Truth joint_gap { below = 1e-10 m; subjects = ours, ode, bullet, mujoco, dart, simbody; } "
+    "}\n";
+
+// Whatever runs beside a row, and before it in the same process.
+TEST(Repetition, EveryEnginesRowsAreTheSameBytes) {
+  const Workplace work;
+  work.file("plate.hook", every_engine);
+  const CommandResult one = work.hookpoint("study plate.hook --jobs 1 --out one");
+  EXPECT_EQ(one.status, 0) << one.out << one.err;
+  EXPECT_EQ(work.hookpoint("study plate.hook --jobs 4 --out four").status, 0);
+  const std::string table = work.read("one/results.csv");
+  EXPECT_EQ(table, work.read("four/results.csv"));
+  work.hookpoint("study plate.hook --jobs 1 --only quickstep --only ours --out alone");
+  std::istringstream alone(work.read("alone/results.csv"));
+  int lines = 0;
+  for (std::string line; std::getline(alone, line); ++lines)
+    EXPECT_NE(table.find(line + "\n"), std::string::npos) << line;
+  EXPECT_EQ(lines, 5) << "a header and two rows of each";
 }
 
 TEST(Matrix, OnlyTakesTheSubjectFromThoseStudiesThatHaveIt) {

@@ -287,6 +287,41 @@ TEST(SupportForce, IsTheMeanAlongTheNormalAfterSettle) {
   EXPECT_NEAR(*measure(block_on_slope(0.3, 0.), "support_force", 0.5, 0.99, shaken), 10., 1e-12);
 }
 
+/// A base, a link that turns 0.5 m along its x, and one that slides along the z of that link.
+TEST(JointGap, IsHowFarALinkIsFromWhereItsJointLetsItBe) {
+  Experiment experiment = block_on_slope(0., 0.);
+  simulation::LinkSpec turns, slides;
+  turns.angle = 0.3;
+  slides.joint = simulation::JointKind::prismatic;
+  slides.a = 0.2;
+  experiment.robots[0].chains.resize(1);
+  experiment.robots[0].chains[0].hip_distance = {0.5, 0., 0.};
+  experiment.robots[0].chains[0].links = {turns, slides};
+  const RunContext context = make_context(experiment, 0.5, 1.);
+  const auto measured = [&](const Vector3d& first, const Vector3d& second) {
+    const auto metric = find_metric("joint_gap")->make(context);
+    Observer observer(context, false);
+    WorldState world;
+    world.bodies.resize(3);
+    for (const double time : {0., 1.}) {
+      world.time = time;
+      world.bodies[0].position = {1., 0., 0.};
+      world.bodies[0].orientation = world.bodies[1].orientation =
+          exponential(Vector3d{0., 0., pi / 2.});
+      world.bodies[1].position = Vector3d{1., 0.5, 0.} + first;
+      world.bodies[2].position = world.bodies[1].position + Vector3d{0., 0.2, 0.} + second;
+      if (time == 0.) world.bodies[1].position = {};  // before `settle`
+      metric->observe(observer.observe(world));
+    }
+    return *metric->value();
+  };
+  EXPECT_NEAR(measured({}, {0., 0., 0.7}), 0., 1e-15);
+  EXPECT_NEAR(measured({0., 3e-3, 4e-3}, {}), 5e-3, 1e-15);
+  EXPECT_NEAR(measured({}, {3e-3, 4e-3, 0.7}), 5e-3, 1e-15);
+  EXPECT_FALSE(
+      measure(block_on_slope(0., 0.), "joint_gap", 0., 1., [](const RunContext&, WorldState&) {}));
+}
+
 TEST(TruthError, IsTheDistanceFromTheRigidBlock) {
   // Without friction the block slides with g sin. This one lags behind by 3 mm at 0.7 s.
   const auto lagging = downhill([](double t) {

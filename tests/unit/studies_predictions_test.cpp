@@ -42,7 +42,7 @@ Experiment body(double slope, double mu, const std::string& law, bool point = fa
 
 std::optional<double> prediction(const Experiment& experiment, std::string_view metric,
                                  std::optional<double> peer_creep = std::nullopt) {
-  return predict(metric, make_context(experiment, 5., 20.), peer_creep);
+  return predict(metric, make_context(experiment, 5., 20.), {peer_creep, {}});
 }
 
 TEST(CreepPrediction, HooksHold) {
@@ -89,6 +89,63 @@ TEST(PenetrationPrediction, MeanIsTheSharedWeightAndMaxTheDownhillEdge) {
   EXPECT_NEAR(*prediction(experiment, "penetration_max"), 2.304599e-5 + 0.419403e-5, 1e-10);
   EXPECT_NEAR(*prediction(experiment, "penetration_rms"), std::hypot(2.304599e-5, 0.419403e-5),
               1e-10);
+}
+
+TEST(PenetrationPrediction, OfAPeerIsItsSoftnessOnTheLevel) {
+  Experiment experiment = body(0., 0.8, "hookpoint");
+  experiment.engine = "ode";
+  const auto depth = [&] {
+    return predict("penetration_mean", make_context(experiment, 5., 20.), {{}, 1e-4});
+  };
+  EXPECT_NEAR(*depth(), 2.4525e-4, 1e-12);
+  EXPECT_FALSE(prediction(experiment, "penetration_mean"));
+  experiment = body(20., 0.8, "hookpoint");
+  experiment.engine = "ode";
+  EXPECT_FALSE(depth());
+}
+
+/// 3 kg more on a joint over the block, its centre of mass `aside` of the block's.
+Experiment loaded(double aside, simulation::JointKind joint = simulation::JointKind::revolute) {
+  Experiment experiment = body(0., 0.8, "hookpoint");
+  simulation::LinkSpec link;
+  link.joint = joint;
+  link.body.mass.mass = 3.;
+  link.body.mass.center_of_mass = {aside, 0., 0.2};
+  experiment.robots[0].chains.resize(1);
+  experiment.robots[0].chains[0].hip_distance = {0., 0., 0.05};
+  experiment.robots[0].chains[0].links = {link};
+  return experiment;
+}
+
+TEST(PenetrationPrediction, ARobotWhoseJointsBearNothingStandsAsOneBody) {
+  // 4 kg on 4 x 1e5 N/m; 3 kg at 20 mm tilt it by 3 g 0.02/(4 k 0.1^2) = 1.4715e-4 rad over 0.1 m.
+  EXPECT_NEAR(*prediction(loaded(0.), "penetration_mean"), 9.81e-5, 1e-12);
+  EXPECT_NEAR(*prediction(loaded(0.02), "penetration_max"), 9.81e-5 + 1.4715e-5, 1e-12);
+  EXPECT_FALSE(prediction(loaded(0., simulation::JointKind::prismatic), "penetration_mean"));
+  Experiment fallen = loaded(0.02);  // the axis lies level: gravity turns the joint
+  fallen.robots[0].chains[0].links[0].alpha = 90. * degree;
+  fallen.robots[0].chains[0].links[0].body.mass.center_of_mass = {0.02, 0., 0.};
+  EXPECT_FALSE(prediction(fallen, "penetration_mean"));
+  EXPECT_FALSE(prediction(loaded(0.), "creep_speed")) << "its joints may move when it slips";
+}
+
+TEST(PenetrationPrediction, GreatestOfAFallIsWhereSpringAndDamperStopIt) {
+  Experiment experiment = body(0., 0.8, "hookpoint");
+  auto& constants = experiment.materials[0].constants;
+  constants.normal_damping = 0.;
+  const auto greatest = [&](double height) {
+    experiment.robots[0].location.z = 0.05 + height;
+    return predict("penetration_max", make_context(experiment, 0., 1.));
+  };
+  const double rest = 9.81 / 4e5;
+  EXPECT_NEAR(*greatest(0.), 2. * rest, 1e-12);
+  // Energy: m g (h + d) = 4 k d^2/2.
+  EXPECT_NEAR(*greatest(0.05), rest + std::sqrt(rest * rest + 2. * rest * 0.05), 1e-12);
+  // Set down, a damping ratio of 0.5 overshoots by exp(-pi/sqrt 3).
+  constants.normal_damping = std::sqrt(4e5) / 4.;
+  EXPECT_NEAR(*greatest(0.), rest * 1.1630335, 1e-11);
+  constants.normal_damping *= 4.;
+  EXPECT_FALSE(greatest(0.)) << "it creeps down";
 }
 
 TEST(PenetrationPrediction, HuntCrossleyOnlyForAPoint) {

@@ -1,0 +1,128 @@
+#include "studies/body_on_plane.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "simulation/kinematics.h"
+
+namespace hookpoint::studies {
+namespace {
+
+using simulation::Pose;
+
+/// Part of the weight [N], or of its moment about 1 m [N m], below which gravity does not load a
+/// joint: rounding.
+constexpr double unloaded = 1e-9;
+
+/// One rigid body cannot do these, and neither can a robot that is to stand like one.
+bool alone_on_plane(const RunContext& context) {
+  const simulation::Experiment& experiment = *context.experiment;
+  return experiment.terrain && experiment.robots.size() == 1 && experiment.forces.empty() &&
+         norm(context.robot_spec().angular_velocity) == 0. &&
+         !context.robot_spec().base.boundary_points.empty() &&
+         context.robot_spec().base.boundary_radii.empty() &&
+         !std::holds_alternative<contact::GridSurface>(experiment.terrain->surface);
+}
+
+/// X_WB of every body at the start.
+std::vector<Pose> world_poses(const simulation::RobotSpec& robot) {
+  std::vector<Pose> poses = simulation::body_poses(robot);
+  for (Pose& pose : poses) pose = Pose{robot.location, robot.orientation} * pose;
+  return poses;
+}
+
+/// Whether gravity g moves no joint of a chain whose links have the poses X_WL from `first` on.
+bool unloaded_joints(const simulation::ChainSpec& chain, const Vector3d& g, const Pose* first,
+                     double weight) {
+  for (std::size_t joint = 0; joint < chain.links.size(); ++joint) {
+    const simulation::LinkSpec& link = chain.links[joint];
+    if (link.rate != 0. || link.torque != 0. || !link.body.boundary_radii.empty()) return false;
+    if (link.stiffness != 0. && link.angle != link.rest_angle) return false;
+    Vector3d force, moment;
+    for (std::size_t i = joint; i < chain.links.size(); ++i) {
+      const simulation::MassSpec& mass = chain.links[i].body.mass;
+      const Vector3d center = first[i].position + rotate(first[i].orientation, mass.center_of_mass);
+      force += mass.mass * g;
+      moment += cross(center - first[joint].position, mass.mass * g);
+    }
+    const bool turns = link.joint == simulation::JointKind::revolute;
+    const Vector3d axis = rotate(first[joint].orientation, Vector3d{0., 0., 1.});
+    if (std::abs(dot(axis, turns ? moment : force)) > unloaded * weight) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+double BodyOnPlane::slip_acceleration() const {
+  return contact::slip_acceleration(gravity, std::atan2(sine, cosine), material.kinetic_friction);
+}
+
+double BodyOnPlane::friction_load() const {
+  const double pull = mass * gravity * sine / contacts();
+  return sticks() ? pull : std::min(pull, material.kinetic_friction * normal_load());
+}
+
+bool one_rigid_body(const RunContext& context) {
+  return alone_on_plane(context) && context.robot_spec().chains.empty();
+}
+
+bool stands_as_one_body(const RunContext& context) {
+  const simulation::Experiment& experiment = *context.experiment;
+  const simulation::RobotSpec& robot = context.robot_spec();
+  const bool level =
+      norm(tangential(experiment.gravity, context.normal)) <= unloaded * norm(experiment.gravity);
+  if (!alone_on_plane(context) || robot.chains.empty() || !level || norm(robot.velocity) > 0. ||
+      !experiment.components.empty())
+    return false;
+  const std::vector<Pose> poses = world_poses(robot);
+  std::size_t first = 1;
+  for (const simulation::ChainSpec& chain : robot.chains) {
+    if (!unloaded_joints(chain, experiment.gravity, &poses[first], context.weight)) return false;
+    first += chain.links.size();
+  }
+  return true;
+}
+
+BodyOnPlane body_on_plane(const RunContext& context) {
+  const simulation::Experiment& experiment = *context.experiment;
+  const simulation::RobotSpec& robot = context.robot_spec();
+  BodyOnPlane body;
+  body.gravity = norm(experiment.gravity);
+  body.cosine = -dot(experiment.gravity, context.normal) / body.gravity;
+  body.sine = norm(tangential(experiment.gravity, context.normal)) / body.gravity;
+  body.speed = norm(tangential(robot.velocity, context.normal));
+  body.peer = experiment.engine != "dts";
+  if (!body.peer) body.law = contact::find_force_law(experiment.contact);
+  const int material = context.ground->query(context.start).material;
+  body.material = experiment.materials[static_cast<std::size_t>(material)].constants;
+  // A peer has one coefficient of friction, the kinetic (reference/experiment_checks.h).
+  if (body.peer) body.material.static_friction = body.material.kinetic_friction;
+
+  const std::vector<const simulation::BodySpec*> bodies = simulation::bodies_of(robot);
+  const std::vector<Pose> poses = world_poses(robot);
+  Vector3d moment;
+  std::vector<Vector3d> points;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const simulation::MassSpec& mass = bodies[i]->mass;
+    body.mass += mass.mass;
+    moment += mass.mass * (poses[i].position + rotate(poses[i].orientation, mass.center_of_mass));
+    for (const Vector3d& point : bodies[i]->boundary_points)
+      points.push_back(poses[i].position + rotate(poses[i].orientation, point));
+  }
+  const Vector3d center = (1. / body.mass) * moment;
+  body.single_point = points.size() == 1;
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const Vector3d& point : points)
+    lowest = std::min(lowest, dot(point - robot.location, context.normal));
+  for (const Vector3d& point : points) {
+    if (dot(point - robot.location, context.normal) - lowest > 1e-6) continue;
+    body.footprint.push_back(tangential(point - center, context.normal));
+    body.height = dot(center - point, context.normal);
+    body.gap = -context.ground->query(point).depth;
+  }
+  return body;
+}
+
+}  // namespace hookpoint::studies

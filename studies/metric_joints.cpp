@@ -1,0 +1,61 @@
+// The metric of the joints: whether an engine keeps them together.
+#include <algorithm>
+
+#include "simulation/kinematics.h"
+#include "studies/metric.h"
+
+namespace hookpoint::studies {
+namespace {
+
+using simulation::Pose;
+
+/// How far the links are from where their joints let them be. In reduced coordinates rounding; an
+/// engine whose bodies are free but for constraints lets joints open.
+class JointGap : public Metric {
+ public:
+  explicit JointGap(const RunContext& context) : context_(context) {
+    for (const simulation::ChainSpec& chain : context.robot_spec().chains)
+      for (const simulation::LinkSpec& link : chain.links) {
+        const bool first = &link == chain.links.data();
+        const Pose X_PH = first ? Pose{chain.hip_distance, chain.hip_orientation} : Pose{};
+        joints_.push_back({X_PH * simulation::joint_pose(link), first,
+                           link.joint == simulation::JointKind::prismatic});
+      }
+  }
+  void observe(const Observation& observation) override {
+    if (!settled(context_, observation)) return;
+    const simulation::BodyState* bodies = &observation.world.bodies[context_.body];
+    for (std::size_t i = 0; i < joints_.size(); ++i) {
+      const simulation::BodyState& parent = bodies[joints_[i].on_base ? 0 : i];
+      gap_ = std::max(gap_, gap(joints_[i], parent, bodies[i + 1]));
+    }
+  }
+  std::optional<double> value() const override {
+    return joints_.empty() ? std::nullopt : std::optional(gap_);
+  }
+
+ private:
+  struct Joint {
+    Pose X_PL;  ///< at the initial angle; a joint that turns leaves its origin where it is
+    bool on_base = false, slides = false;
+  };
+  static double gap(const Joint& joint, const simulation::BodyState& parent,
+                    const simulation::BodyState& link) {
+    const Pose X_WL = Pose{parent.position, parent.orientation} * joint.X_PL;
+    const Vector3d apart = link.position - X_WL.position;
+    if (!joint.slides) return norm(apart);
+    return norm(tangential(apart, rotate(X_WL.orientation, Vector3d{0., 0., 1.})));
+  }
+
+  const RunContext& context_;
+  std::vector<Joint> joints_;
+  double gap_ = 0.;
+};
+
+}  // namespace
+
+std::unique_ptr<Metric> make_joint_gap(const RunContext& context) {
+  return std::make_unique<JointGap>(context);
+}
+
+}  // namespace hookpoint::studies
