@@ -18,6 +18,16 @@ struct SweepColumn {
   std::vector<double> values;  ///< in `unit`, in order
 };
 
+/// Sweeps and the values that are meant ("mu" = 0.8).
+using SweepValues = std::vector<std::pair<std::string, std::vector<double>>>;
+
+/// A Reference block: a line at a value, where a panel has a run with these values.
+struct ReferenceLine {
+  std::string label;
+  double value = 0.;  ///< in the unit of y
+  SweepValues where;
+};
+
 struct SubjectInfo {
   std::string name;        ///< "dts_hookpoint"
   std::string engine;      ///< "dts"
@@ -53,16 +63,6 @@ struct RunResult {
   std::vector<MetricValue> metrics;  ///< one a metric
   std::string status = "ok";  ///< "ok", or what stopped the run, with its time: never a missing row
   std::vector<Trace> traces;  ///< one a PlotSpec with x = time, empty for the others
-};
-
-/// Sweeps and the values that are meant ("mu" = 0.8).
-using SweepValues = std::vector<std::pair<std::string, std::vector<double>>>;
-
-/// A Reference block: a line at a value, where a panel has a run with these values.
-struct ReferenceLine {
-  std::string label;
-  double value = 0.;  ///< in the unit of y
-  SweepValues where;
 };
 
 /// A Plot block.
