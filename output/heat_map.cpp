@@ -149,7 +149,7 @@ class Script {
          << screen(bottom + panel_height_, height_) << "\nset title " << gnuplot_quoted(panel.title)
          << " noenhanced offset 0,-0.4\n";
     if (column == 0)
-      out_ << "set ytics nomirror (" << ticks(map_.y_values) << ")\nset ylabel "
+      out_ << "set ytics scale 0 nomirror (" << ticks(map_.y_values) << ")\nset ylabel "
            << gnuplot_quoted(axis_title(map_.y)) << " noenhanced\n";
     else
       out_ << "unset ylabel\nunset ytics\n";

@@ -18,6 +18,16 @@ struct SweepColumn {
   std::vector<double> values;  ///< in `unit`, in order
 };
 
+/// Sweeps and the values that are meant ("mu" = 0.8).
+using SweepValues = std::vector<std::pair<std::string, std::vector<double>>>;
+
+/// A Reference block: a line at a value, where a panel has a run with these values.
+struct ReferenceLine {
+  std::string label;
+  double value = 0.;  ///< in the unit of y
+  SweepValues where;
+};
+
 struct SubjectInfo {
   std::string name;        ///< "dts_hookpoint"
   std::string engine;      ///< "dts"
@@ -61,16 +71,6 @@ struct PeerDistances {
   /// Greatest distance of the bodies' origins [m], subjects x subjects, row by row; nothing for a
   /// run that is not there or did not finish.
   std::vector<std::optional<double>> distances;
-};
-
-/// Sweeps and the values that are meant ("mu" = 0.8).
-using SweepValues = std::vector<std::pair<std::string, std::vector<double>>>;
-
-/// A Reference block: a line at a value, where a panel has a run with these values.
-struct ReferenceLine {
-  std::string label;
-  double value = 0.;  ///< in the unit of y
-  SweepValues where;
 };
 
 /// A Plot block.

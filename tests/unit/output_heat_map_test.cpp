@@ -98,9 +98,9 @@ TEST(HeatMapScript, PanelsThatDoNotFitSideBySideStandInRows) {
   for (int i = 1; i < 13; ++i) map.panels.push_back(map.panels[0]);
   const std::string script = heat_map_script(map);
   EXPECT_NE(script.find("svg size 1764,524 "), std::string::npos) << script.substr(0, 300);
-  EXPECT_EQ(count(script, "set ytics nomirror ("), 2U);
+  EXPECT_EQ(count(script, "set ytics scale 0 nomirror ("), 2U);
   EXPECT_EQ(count(script, "unset colorbox"), 12U);
-  EXPECT_EQ(count(heat_map_script(sample()), "set ytics nomirror ("), 1U);
+  EXPECT_EQ(count(heat_map_script(sample()), "set ytics scale 0 nomirror ("), 1U);
 }
 
 TEST(HeatMap, IsDrawnWithItsNumbersAndItsCross) {
