@@ -104,7 +104,7 @@ class PeerEngine final : public simulation::Engine {
     }
     for (std::size_t i = 0; i < next_bodies_.size(); ++i)
       next_bodies_[i].orientation =
-          simulation::continued(next_bodies_[i].orientation, state_.bodies[i].orientation);
+          continued(next_bodies_[i].orientation, state_.bodies[i].orientation);
     std::ranges::copy(next_bodies_, state_.bodies.begin());
     std::ranges::copy(next_joints_, state_.joints.begin());
     ++state_.step;
