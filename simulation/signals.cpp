@@ -81,7 +81,8 @@ void Signals::update(std::int64_t step) {
   for (const WiringItem& item : order_) {
     if (item.is_wire) {
       Line& line = lines_[item.index];
-      *line.to = line.copies ? *line.from : line.line.at(step, *line.from);
+      // A sample is the value and its noise: of -0 and none it is 0.
+      *line.to = line.copies ? *line.from + 0. : line.line.at(step, *line.from);
     } else {
       update_component(item.index, step, time);
     }
