@@ -25,3 +25,13 @@ endif()
 if(HOOKPOINT_ISA STREQUAL "x86-64-v3")
   target_compile_options(hookpoint_options INTERFACE -march=x86-64-v3)
 endif()
+
+# A structure of numbers or packs is larger than GCC keeps in registers or copies by whole registers unless told to; only speed depends on it.
+include(CheckCXXCompilerFlag)
+foreach(option --param=sra-max-scalarization-size-Ospeed=4096 -mmove-max=256 -mstore-max=256)
+  string(MAKE_C_IDENTIFIER "HOOKPOINT_HAS${option}" has_option)
+  check_cxx_compiler_flag(${option} ${has_option})
+  if(${has_option})
+    list(APPEND HOOKPOINT_STRUCTURE_OPTIONS ${option})
+  endif()
+endforeach()

@@ -79,6 +79,7 @@ Terrain::Terrain(TerrainDescription description) : description_(std::move(descri
     gradient_x_ = -std::tan(slope->angle) * std::cos(slope->azimuth);
     gradient_y_ = -std::tan(slope->angle) * std::sin(slope->azimuth);
   }
+  normal_ = normal_of(gradient_x_, gradient_y_);
   // An unbounded plane is tiled from the world's origin in all directions; a bounded one from its
   // lower left corner.
   unbounded_x_ = description_.size_x == 0.;
@@ -103,10 +104,10 @@ Terrain::Tile Terrain::tile_at(double x, double y) const {
 
 Terrain::Plane Terrain::plane_of(const Tile& tile, double x, double y) const {
   if (const auto* flat = std::get_if<FlatSurface>(&description_.surface)) {
-    return {flat->height, 0., 0.};
+    return {flat->height, normal_};
   }
   if (std::holds_alternative<SlopeSurface>(description_.surface)) {
-    return {gradient_x_ * x + gradient_y_ * y, gradient_x_, gradient_y_};
+    return {gradient_x_ * x + gradient_y_ * y, normal_};
   }
   const auto& grid = *std::get_if<GridSurface>(&description_.surface);
   const double spacing = description_.spacing;
@@ -117,12 +118,11 @@ Terrain::Plane Terrain::plane_of(const Tile& tile, double x, double y) const {
   const double h10 = grid.heights[corner + 1];
   const double h01 = grid.heights[corner + columns];
   const double h11 = grid.heights[corner + columns + 1];
-  Plane plane;
-  plane.gradient_x = (tile.upper ? h11 - h01 : h10 - h00) / spacing;
-  plane.gradient_y = (tile.upper ? h01 - h00 : h11 - h10) / spacing;
-  plane.height = h00 + plane.gradient_x * (x - (origin_x_ + tile.column * spacing)) +
-                 plane.gradient_y * (y - (origin_y_ + tile.row * spacing));
-  return plane;
+  const double gradient_x = (tile.upper ? h11 - h01 : h10 - h00) / spacing;
+  const double gradient_y = (tile.upper ? h01 - h00 : h11 - h10) / spacing;
+  return {h00 + gradient_x * (x - (origin_x_ + tile.column * spacing)) +
+              gradient_y * (y - (origin_y_ + tile.row * spacing)),
+          normal_of(gradient_x, gradient_y)};
 }
 
 int Terrain::painted_material(const Tile& tile) const {
@@ -147,12 +147,15 @@ int Terrain::material_of(const Tile& tile) const {
   return tile_materials_[static_cast<std::size_t>(index)];
 }
 
+Vector3d Terrain::normal_of(double gradient_x, double gradient_y) {
+  const double n_z = 1. / std::sqrt(1. + gradient_x * gradient_x + gradient_y * gradient_y);
+  return {-gradient_x * n_z, -gradient_y * n_z, n_z};
+}
+
 TilePoint Terrain::point_on(const Plane& plane, const Vector3d& point) const {
-  const double n_z = 1. / std::sqrt(1. + plane.gradient_x * plane.gradient_x +
-                                    plane.gradient_y * plane.gradient_y);
   TilePoint result;
-  result.normal = {-plane.gradient_x * n_z, -plane.gradient_y * n_z, n_z};
-  result.depth = (plane.height - point.z) * n_z;
+  result.normal = plane.normal;
+  result.depth = (plane.height - point.z) * plane.normal.z;
   result.height = plane.height;
   result.material = description_.material;
   return result;

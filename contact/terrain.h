@@ -103,9 +103,10 @@ class Terrain {
   };
   struct Plane {
     double height = 0.;  ///< at the point asked about [m]
-    double gradient_x = 0., gradient_y = 0.;
+    Vector3d normal;     ///< unit, out of the ground
   };
 
+  static Vector3d normal_of(double gradient_x, double gradient_y);
   TilePoint point_on(const Plane& plane, const Vector3d& point) const;
   Tile tile_at(double x, double y) const;
   Plane plane_of(const Tile& tile, double x, double y) const;
@@ -116,7 +117,8 @@ class Terrain {
   double origin_x_ = 0., origin_y_ = 0.;  ///< world position of vertex (0,0) [m]
   double columns_ = 0., rows_ = 0.;       ///< cells along x and y; infinite for an unbounded plane
   bool unbounded_x_ = false, unbounded_y_ = false;
-  double gradient_x_ = 0., gradient_y_ = 0.;  ///< of a slope
+  double gradient_x_ = 0., gradient_y_ = 0.;  ///< of a plane
+  Vector3d normal_;                           ///< of a plane
   std::vector<int> tile_materials_;           ///< of a grid with patches: two a cell, row by row
 };
 

@@ -38,16 +38,6 @@ Schedule::Schedule(const std::optional<Rational>& rate, const Rational& dt) : pe
   period_ = (Rational(1) / *rate).value();
 }
 
-void Schedule::advance() {
-  ++count_;
-  next_ += whole_;
-  early_ -= part_;
-  if (early_ < 0) {
-    ++next_;
-    early_ += denominator_;
-  }
-}
-
 void Schedule::resume(std::int64_t count) {
   next_ = step_of(count);
   count_ = count;
@@ -70,8 +60,7 @@ TransmissionLine::TransmissionLine(const LineDescription& description, const Rat
   if (!(noise_ >= 0.)) throw std::invalid_argument("noise must not be negative");
 }
 
-void TransmissionLine::sample(std::int64_t step, double source_value) {
-  if (!schedule_.due(step)) return;
+void TransmissionLine::take(std::int64_t step, double source_value) {
   const double noise = noise_ > 0. ? noise_ * stream_.gaussian(schedule_.count() - 1) : 0.;
   const double value = source_value + noise;
   if (delay_ == 0) {
@@ -83,13 +72,10 @@ void TransmissionLine::sample(std::int64_t step, double source_value) {
   ++under_way_;
 }
 
-double TransmissionLine::deliver(std::int64_t step) {
-  while (under_way_ > 0 && ring_[first_].arrival <= step) {
-    output_ = ring_[first_].value;
-    if (++first_ == ring_.size()) first_ = 0;
-    --under_way_;
-  }
-  return output_;
+void TransmissionLine::arrive() {
+  output_ = ring_[first_].value;
+  if (++first_ == ring_.size()) first_ = 0;
+  --under_way_;
 }
 
 void TransmissionLine::save(std::span<double> state) const {

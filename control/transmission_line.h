@@ -42,7 +42,15 @@ class Schedule {
   std::int64_t shortest_interval() const { return whole_; }
 
  private:
-  void advance();
+  void advance() {
+    ++count_;
+    next_ += whole_;
+    early_ -= part_;
+    if (early_ < 0) {
+      ++next_;
+      early_ += denominator_;
+    }
+  }
 
   // n P with P = 1/(rate dt) = whole + part/denominator steps, rounded up to `next`; `early` =
   // (next - n P) denominator.
@@ -77,10 +85,18 @@ class TransmissionLine {
   /// The two halves of `at`, each called with every step once. Where the delay is at least a step
   /// they may be called in either order: a value can then be delivered before the one that is
   /// sampled is known.
-  void sample(std::int64_t step, double source_value);
-  double deliver(std::int64_t step);
+  void sample(std::int64_t step, double source_value) {
+    if (schedule_.due(step)) take(step, source_value);
+  }
+  double deliver(std::int64_t step) {
+    while (under_way_ > 0 && ring_[first_].arrival <= step) arrive();
+    return output_;
+  }
   /// Whether a sample arrives in a later step than that in which it was taken.
   bool delayed() const { return delay_ > 0; }
+  /// Whether the output of every step is the source's value of that step: a copy does as well, and
+  /// the line then carries nothing.
+  bool copies() const { return passes() && noise_ == 0.; }
   /// The output of the last step.
   double output() const { return output_; }
 
@@ -100,6 +116,8 @@ class TransmissionLine {
     double value;
   };
 
+  void take(std::int64_t step, double source_value);
+  void arrive();
   bool passes() const { return delay_ == 0 && schedule_.every_step(); }
 
   Schedule schedule_;

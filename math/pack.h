@@ -112,6 +112,10 @@ struct Pack {
   }
 
   friend Pack sqrt(const Pack& a) {
+#ifdef __AVX__
+    if constexpr (width == 4 && std::is_same_v<Scalar, double>)
+      return Pack(__builtin_ia32_sqrtpd256(a.lanes));
+#endif
     Pack result;
     for (std::size_t i = 0; i < width; ++i) result.lanes[i] = std::sqrt(a.lanes[i]);
     return result;

@@ -80,25 +80,58 @@ void write_csv(const std::filesystem::path& path, const CsvTable& table) {
 
 TraceWriter::TraceWriter(const std::filesystem::path& path, const std::vector<TraceColumn>& columns)
     : file_(path) {
-  line_ = "time [s]";
+  std::string header = "time [s]";
   for (const TraceColumn& column : columns)
-    line_.append(",").append(csv_field(column_title(column.trail, column.unit)));
-  line_ += '\n';
-  file_.write(line_);
-  line_.reserve((columns.size() + 1) * longest_number + 1);
+    header.append(",").append(csv_field(column_title(column.trail, column.unit)));
+  file_.write(header += '\n');
+  block_.reserve(block_bytes + (columns.size() + 1) * longest_number + 1);
+}
+
+TraceWriter::~TraceWriter() {
+  try {
+    write_block();
+  } catch (const FileError&) {
+    // The rows that fitted are there; nobody is left to be told of the others.
+  }
 }
 
 void TraceWriter::row(double time, std::span<const double> values) {
-  line_.clear();
-  append_shortest(line_, time);
+  if (waiting_ == 0) block_.clear();
+  append_shortest(block_, time);
   for (const double value : values) {
-    line_ += ',';
-    append_shortest(line_, value);
+    block_ += ',';
+    append_shortest(block_, value);
   }
-  line_ += '\n';
-  file_.write(line_);
+  block_ += '\n';
+  ++waiting_;
+  if (block_.size() < block_bytes && time - last_block_ < block_time) return;
+  last_block_ = time;
+  write_block();
 }
 
-void TraceWriter::close() { file_.complete(); }
+void TraceWriter::write_block() {
+  const std::int64_t rows = std::exchange(waiting_, 0);
+  if (rows == 0) return;
+  try {
+    file_.write(block_);
+    written_ += rows;
+  } catch (const FileError&) {
+    write_lines(block_);
+  }
+}
+
+void TraceWriter::write_lines(std::string_view lines) {
+  while (!lines.empty()) {
+    const std::size_t line = lines.find('\n') + 1;
+    file_.write(lines.substr(0, line));
+    lines.remove_prefix(line);
+    ++written_;
+  }
+}
+
+void TraceWriter::close() {
+  write_block();
+  file_.complete();
+}
 
 }  // namespace hookpoint::output

@@ -2,7 +2,9 @@
 // where they must be.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -43,21 +45,38 @@ struct TraceColumn {
 };
 
 /// `trace.csv` of a run, row by row while the run goes on. Columns `time [s]`, then one a trail.
-/// Until `close` it is named `<path>.partial`; however the run ends, that holds every row so far,
-/// whole lines all. A row costs no heap allocation.
+/// Until `close` it is named `<path>.partial`. Rows go to the operating system in blocks: however
+/// the process ends, that file holds whole lines, up to at most `block_bytes` and `block_time`
+/// before the end. A row costs no heap allocation.
 class TraceWriter {
  public:
+  static constexpr std::size_t block_bytes = 4096;
+  static constexpr double block_time = 0.05;  ///< [s], of the run
+
   /// Throws FileError.
   TraceWriter(const std::filesystem::path& path, const std::vector<TraceColumn>& columns);
-  /// `values`: one a column, in its unit. `time` [s].
-  /// Throws FileError.
+  /// The rows that wait are written if they can be.
+  ~TraceWriter();
+  TraceWriter(const TraceWriter&) = delete;
+  TraceWriter& operator=(const TraceWriter&) = delete;
+
+  /// `values`: one a column, in its unit. `time` [s]. Throws FileError; the rows before the one
+  /// that did not fit are in the file, and no row may follow.
   void row(double time, std::span<const double> values);
   void close();
   const std::filesystem::path& partial() const { return file_.partial(); }
+  /// Rows in the file.
+  std::int64_t written() const { return written_; }
 
  private:
+  void write_block();
+  /// Those that fit.
+  void write_lines(std::string_view lines);
+
   PartialFile file_;
-  std::string line_;
+  std::string block_;  ///< rows that wait
+  std::int64_t written_ = 0, waiting_ = 0;
+  double last_block_ = -std::numeric_limits<double>::infinity();  ///< its time [s]
 };
 
 }  // namespace hookpoint::output

@@ -38,15 +38,11 @@ class CsvRecord final : public RecordWriter {
   }
 
  private:
-  void append(double time, std::span<const double> values) override {
-    trace_.row(time, values);
-    ++rows_;
-  }
+  void append(double time, std::span<const double> values) override { trace_.row(time, values); }
   void finish() override { trace_.close(); }
-  Kept keep() override { return {trace_.partial(), rows_}; }
+  Kept keep() override { return {trace_.partial(), trace_.written()}; }
 
   TraceWriter trace_;
-  std::int64_t rows_ = 0;
 };
 
 }  // namespace

@@ -105,7 +105,7 @@ class PeerEngine final : public simulation::Engine {
     }
     for (std::size_t i = 0; i < next_bodies_.size(); ++i)
       next_bodies_[i].orientation =
-          simulation::continued(next_bodies_[i].orientation, state_.bodies[i].orientation);
+          continued(next_bodies_[i].orientation, state_.bodies[i].orientation);
     const auto told = state_.ground_force_time;
     if (told == simulation::GroundForceTime::last_step) read_ground_forces(state_.bodies);
     if (told == simulation::GroundForceTime::now) read_ground_forces(next_bodies_);

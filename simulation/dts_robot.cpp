@@ -7,7 +7,6 @@
 #include "dts/external_forces.h"
 #include "dts/forward_dynamics.h"
 #include "integrators/rotation_rate.h"
-#include "simulation/kinematics.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -187,33 +186,46 @@ void DtsRobot::apply_contact_force(const Law& law, std::size_t i, bool trial) {
   const contact::TilePoint& tile = touching.tile;
   const Vector3d& position = touching.position;
   const auto& material = experiment_->materials[tile.material].constants;
-  const contact::BallFrame frame = ball_frame(point, body, tile);
-  const contact::Memory<double> memory = point.carried(frame);
   const double reach = law.reach(material);
   if (!trial) point.inside = tile.depth > -reach;
   const double depth = adaptive_ ? point.depth_on_side(tile.depth, reach) : tile.depth;
+  const contact::BallFrame frame = ball_frame(point, body, tile);
+  if (!trial) {
+    if (tile.outside && notice_.empty())
+      notice_ = experiment_->robots[index_].name + ": " + ground_->outside_message(position);
+    if (point.radius > 0.) point.pending_frame = frame;
+    point.position = position;
+    point.normal = tile.normal;
+    point.depth = tile.depth;
+    point.material = tile.material;
+  }
+  if (!(depth > -reach)) {
+    leave_alone(i, trial);
+    return;
+  }
   contact::PointKinematics<double> kinematics{position, touching.velocity, tile.normal, depth,
                                               bristle_at(bristles_, i)};
+  const contact::Memory<double> memory = point.carried(frame);
   if (!trial) kinematics = contact::held_point(law, kinematics, memory, material, dt);
-  contact::Reaction<double> reaction;
-  if (depth > -reach)  // beyond it the law gives and remembers nothing
-    reaction = semi_implicit_
-                   ? contact::semi_implicit_reaction(law, kinematics, memory, material, dt)
-                   : law.evaluate(kinematics, memory, material, dt);
+  const contact::Reaction<double> reaction =
+      semi_implicit_ ? contact::semi_implicit_reaction(law, kinematics, memory, material, dt)
+                     : law.evaluate(kinematics, memory, material, dt);
   if (reaction.next.attached)
     dts::add_external_force(workspace_, point.body, reaction.force, position);
   put_bristle(reaction.bristle_rate, i, bristle_rates_);
   if (trial) return;
   put_bristle(reaction.bristle, i, next_bristles_);
-  if (tile.outside && notice_.empty())
-    notice_ = experiment_->robots[index_].name + ": " + ground_->outside_message(position);
   point.pending = reaction.next;
-  point.pending_frame = frame;
-  point.position = position;
-  point.normal = tile.normal;
-  point.depth = tile.depth;
-  point.material = tile.material;
   point.force = reaction.force;
+}
+
+// Beyond its reach the law gives and remembers nothing.
+void DtsRobot::leave_alone(std::size_t i, bool trial) {
+  put_bristle({}, i, bristle_rates_);
+  if (trial) return;
+  put_bristle({}, i, next_bristles_);
+  points_[i].pending = {};
+  points_[i].force = {};
 }
 
 void DtsRobot::set_joint_torques() {
@@ -310,42 +322,6 @@ void DtsRobot::put_bristle(const contact::Bristle<double>& bristle, std::size_t 
 void DtsRobot::settle_at(std::span<const double> q, std::span<const double> v) {
   read_state(q, v);
   refresh();
-}
-
-void DtsRobot::publish(std::span<BodyState> bodies, std::span<JointState> joints) const {
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const dts::BodyMotion<double>& body = workspace_.bodies[i];
-    const Quaterniond R_WB = i == 0 ? state_.base_orientation
-                                    : continued(quaternion_from(body.R_WB), bodies[i].orientation);
-    bodies[i] = {body.p_WB, R_WB, body.v_WB, body.w_WB, {}, 0};
-  }
-  for (std::size_t body = 0; body < bodies.size(); ++body) {
-    if (passed_[body] > 0) continue;
-    for (std::size_t i = first_points_[body]; i < first_points_[body + 1]; ++i) {
-      bodies[body].contact_force += points_[i].force;
-      if (dot(points_[i].force, points_[i].normal) > 0.) ++bodies[body].contacts;
-    }
-  }
-  for (std::size_t i = 0; i < joints.size(); ++i) {
-    joints[i] = {state_.joint_positions[i], state_.joint_rates[i],
-                 workspace_.joint_accelerations[i], joint_torques_[i]};
-  }
-}
-
-PointState DtsRobot::point_state(int body, int point) const {
-  const auto at = static_cast<std::size_t>(body);
-  const std::size_t index = first_points_[at] + static_cast<std::size_t>(point);
-  // The points of a fixed base, and all where there is no ground, are left out.
-  if (index >= first_points_[at + 1]) return {};
-  const ContactPoint& found = points_[index];
-  const contact::Memory<double>& memory = found.pending;
-  return {found.position, found.force, memory.attached ? memory.hook : found.position, found.depth,
-          memory.sliding ? 1. : 0.};
-}
-
-void DtsRobot::publish_hips(std::span<ChainState> chains) const {
-  for (std::size_t i = 0; i < chains.size(); ++i)
-    chains[i] = {workspace_.hip_wrenches[i].force, workspace_.hip_wrenches[i].moment};
 }
 
 std::size_t DtsRobot::position_size() const { return dts::position_count(model_); }

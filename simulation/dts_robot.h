@@ -50,7 +50,7 @@ struct ContactPoint {
   /// The step from the refreshed state is taken.
   void commit() {
     committed = pending;
-    committed_frame = pending_frame;
+    if (radius > 0.) committed_frame = pending_frame;
   }
   /// The committed memory as a ball that now stands in `now` has carried it along.
   contact::Memory<double> carried(const contact::BallFrame& now) const;
@@ -173,10 +173,12 @@ class DtsRobot final : public integrators::System {
   void apply_contact_forces(bool trial);
   template <class Law>
   void apply_contact_force(const Law& law, std::size_t i, bool trial);
+  void leave_alone(std::size_t point, bool trial);
   void bound_points();
   /// Whether no boundary point of the body is within the law's reach.
   bool passed_over(std::size_t body, bool trial);
   void commit_points();
+  void publish_orientations(std::span<BodyState> bodies) const;
   void take_inputs();
   void set_joint_torques();
 

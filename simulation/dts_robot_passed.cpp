@@ -80,7 +80,7 @@ void DtsRobot::commit_points() {
     for (std::size_t i = first_points_[body]; i < first_points_[body + 1]; ++i) {
       ContactPoint& point = points_[i];
       point.before = point.committed;
-      point.before_frame = point.committed_frame;
+      if (point.radius > 0.) point.before_frame = point.committed_frame;
       point.commit();
     }
   }

@@ -7,11 +7,6 @@ Pose operator*(const Pose& X_AB, const Pose& X_BC) {
           X_AB.orientation * X_BC.orientation};
 }
 
-Quaterniond continued(const Quaterniond& q, const Quaterniond& last) {
-  const double cosine = q.w * last.w + q.x * last.x + q.y * last.y + q.z * last.z;
-  return cosine < 0. ? Quaterniond{-q.w, -q.x, -q.y, -q.z} : q;
-}
-
 Pose joint_pose(const LinkSpec& link) {
   const bool turns = link.joint == JointKind::revolute;
   const double theta = link.theta + (turns ? link.angle : 0.);

@@ -16,10 +16,6 @@ struct Pose {
 /// X_AC = X_AB X_BC.
 Pose operator*(const Pose& X_AB, const Pose& X_BC);
 
-/// Of the two quaternions of the rotation `q` the one nearer to `last`, so that a record has no
-/// jumps.
-Quaterniond continued(const Quaterniond& q, const Quaterniond& last);
-
 /// The link's frame in the one before it, at its initial joint angle: its fixed transform, then
 /// Rot_x(alpha) Trans_x(a) Rot_z(theta) Trans_z(d).
 Pose joint_pose(const LinkSpec& link);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <exception>
 #include <unordered_map>
+#include <utility>
 
 #include "simulation/force_window.h"
 
@@ -61,8 +62,8 @@ void Signals::connect(const std::vector<Port>& ports) {
     if (from->lazy != nullptr) from->lazy->begin();
     if (to->writable == nullptr) throw ExperimentError("no wire can end at `" + wire.to + "`");
     try {
-      lines_.push_back(
-          {transmission_line(wire, experiment_, *to->value), from->value, to->writable});
+      control::TransmissionLine line = transmission_line(wire, experiment_, *to->value);
+      lines_.push_back({from->value, to->writable, line.copies(), std::move(line)});
     } catch (const std::exception& error) {
       throw ExperimentError("the wire from `" + wire.from + "` to `" + wire.to +
                             "`: " + error.what());
@@ -80,7 +81,8 @@ void Signals::update(std::int64_t step) {
   for (const WiringItem& item : order_) {
     if (item.is_wire) {
       Line& line = lines_[item.index];
-      *line.to = line.line.at(step, *line.from);
+      // A sample is the value and its noise: of -0 and none it is 0.
+      *line.to = line.copies ? *line.from + 0. : line.line.at(step, *line.from);
     } else {
       update_component(item.index, step, time);
     }

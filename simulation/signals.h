@@ -43,9 +43,10 @@ class Signals {
   template <class Self, class Archive>
   static void exchange(Self& self, Archive& archive);
   struct Line {
-    control::TransmissionLine line;
     const double* from;
     double* to;
+    bool copies;  ///< nothing happens to a value on its way
+    control::TransmissionLine line;
   };
   struct Updates {
     control::Schedule schedule;

@@ -6,6 +6,7 @@
 
 #include "math/matrix3.h"
 #include "math/pack_structures.h"
+#include "math/rotation.h"
 #include "math/sine_cosine.h"
 
 namespace hookpoint {
@@ -144,6 +145,33 @@ TEST(PackStructures, LanesAreSetMaskedAndSummed) {
   EXPECT_EQ(lane_sum(only(lane > Pack4(0.5), packs)), 2. * counted(1.) + counted(5.));
   packs.xx = Pack4(nan);
   EXPECT_EQ(lane_sum(only(lane < Pack4(0.), packs)), Matrix3d{});
+}
+
+// Orientations are published by lanes, and a ball's hook is carried along by those of scalars.
+TEST(PackStructures, QuaternionOfALaneIsTheScalarsToTheBit) {
+  std::mt19937_64 engine(11);
+  std::normal_distribution<double> number;
+  const auto turn = [&] {
+    return normalized(Quaterniond{number(engine), number(engine), number(engine), number(engine)});
+  };
+  for (int repetition = 0; repetition < 20000; ++repetition) {
+    const std::array turns{turn(), turn(), turn(), turn()};
+    const Quaterniond last = turn();
+    Matrix3<Pack4> packs;
+    for (std::size_t lane = 0; lane < 4; ++lane)
+      set_lane(packs, lane, rotation_matrix(turns[lane]));
+    const Quaternion<Pack4> found = continued(quaternion_from(packs), in_all_lanes<Pack4>(last));
+    for (std::size_t lane = 0; lane < 4; ++lane) {
+      const Quaterniond q = lane_of(found, lane);
+      ASSERT_EQ(q, continued(quaternion_from(rotation_matrix(turns[lane])), last));
+      const Quaterniond expected = continued(turns[lane], q);
+      EXPECT_NEAR(q.w, expected.w, 1e-15);
+      EXPECT_NEAR(q.x, expected.x, 1e-15);
+      EXPECT_NEAR(q.y, expected.y, 1e-15);
+      EXPECT_NEAR(q.z, expected.z, 1e-15);
+      EXPECT_GE(q.w * last.w + q.x * last.x + q.y * last.y + q.z * last.z, -1e-15);
+    }
+  }
 }
 
 }  // namespace

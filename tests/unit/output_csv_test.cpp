@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "output/csv.h"
+#include "tests/support/record_scene.h"
 
 namespace hookpoint::output {
 namespace {
@@ -49,6 +50,53 @@ TEST_F(Csv, TraceAppearsOnlyWhenClosed) {
   EXPECT_EQ(content(path),
             "time [s],w.block.base.location.x [m],w.block.contacts\n0,0.1,4\n0.001,-2e-17,4\n");
   EXPECT_FALSE(fs::exists(folder_ / "trace.csv.partial"));
+}
+
+/// The table that a killed run would leave.
+CsvTable left_by(const TraceWriter& trace) { return parse_csv(content(trace.partial())).value(); }
+
+TEST_F(Csv, TraceThatIsCutOffLacksLittle) {
+  TraceWriter dense(folder_ / "dense.csv", {{"x", "m"}});
+  for (int k = 0; k < 300; ++k) {
+    dense.row(k * 1e-3, std::vector{0.1 * k});
+    EXPECT_EQ(content(dense.partial()).back(), '\n');
+    EXPECT_GT(std::stod(left_by(dense).rows.back()[0]), (k - 50.1) * 1e-3);
+  }
+  TraceWriter wide(folder_ / "wide.csv", std::vector<TraceColumn>(100, {"x", "m"}));
+  for (int k = 0; k < 30; ++k) {
+    wide.row(k * 1e-3, std::vector<double>(100, 1. / 3.));
+    EXPECT_GE(left_by(wide).rows.size() + 2, k + 1u) << "two rows of 1.9 kB may wait";
+    EXPECT_EQ(static_cast<std::int64_t>(left_by(wide).rows.size()), wide.written());
+  }
+  TraceWriter sparse(folder_ / "sparse.csv", {{"x", "m"}});
+  for (int k = 0; k < 10; ++k) {
+    sparse.row(0.06 * k, std::vector{0.1 * k});
+    EXPECT_EQ(left_by(sparse).rows.size(), k + 1u);
+  }
+}
+
+TEST_F(Csv, AbandonedTraceHasEveryRow) {
+  const fs::path path = folder_ / "trace.csv";
+  {
+    TraceWriter trace(path, {{"x", "m"}});
+    for (int k = 0; k < 10; ++k) trace.row(k * 1e-3, std::vector{0.1 * k});
+  }
+  EXPECT_EQ(parse_csv(content(partial_name(path)))->rows.size(), 10u);
+}
+
+TEST_F(Csv, FullDiskTakesTheRowsThatFit) {
+  TraceWriter trace(folder_ / "trace.csv", {{"x", ""}});
+  constexpr rlim_t room = 1000;
+  const testing::FileSizeLimit full(room);
+  const auto fill = [&] {
+    for (int k = 0; k < 1000; ++k) trace.row(k * 1e-4, std::vector{1.});
+  };
+  EXPECT_THROW(fill(), FileError);
+  const std::string text = content(trace.partial());
+  EXPECT_LE(text.size(), room);
+  EXPECT_GT(text.size(), room - std::string("0.0999,1\n").size());
+  EXPECT_EQ(text.back(), '\n');
+  EXPECT_EQ(static_cast<std::int64_t>(parse_csv(text)->rows.size()), trace.written());
 }
 
 TEST_F(Csv, AbandonedFileLeavesTheOldOneAlone) {
