@@ -31,11 +31,18 @@ void hdf5_annotate(hid_t object, const char* name, double value) {
   H5Awrite(attribute, H5T_NATIVE_DOUBLE, &value);
 }
 
+Hdf5Handle clockless_dataset() {
+  Hdf5Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  H5Pset_obj_track_times(properties, false);
+  return properties;
+}
+
 void hdf5_write_text(hid_t group, const char* name, const std::string& text) {
   const Hdf5Handle type = string_type(text);
   const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose);
   const Hdf5Handle dataset(
-      H5Dcreate2(group, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose);
+      H5Dcreate2(group, name, type, space, H5P_DEFAULT, clockless_dataset(), H5P_DEFAULT),
+      H5Dclose);
   H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.c_str());
 }
 

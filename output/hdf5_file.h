@@ -45,6 +45,10 @@ void check_hdf5(herr_t result, const std::filesystem::path& file);
 void hdf5_annotate(hid_t object, const char* name, const std::string& text);
 void hdf5_annotate(hid_t object, const char* name, double value);
 
+/// Properties of a dataset to be made without the time at which it was: the same run gives the same
+/// bytes.
+Hdf5Handle clockless_dataset();
+
 /// A text that may be longer than the 64 KB of an attribute.
 void hdf5_write_text(hid_t group, const char* name, const std::string& text);
 

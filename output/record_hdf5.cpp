@@ -13,11 +13,10 @@ constexpr int level = 1;             ///< of deflate: higher costs much time and
 Hdf5Handle create_dataset(hid_t group, const Channel& channel, const char* name) {
   const hsize_t none = 0, unlimited = H5S_UNLIMITED;
   const Hdf5Handle space(H5Screate_simple(1, &none, &unlimited), H5Sclose);
-  const Hdf5Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  const Hdf5Handle properties = clockless_dataset();
   H5Pset_chunk(properties, 1, &block_rows);
   H5Pset_shuffle(properties);
   H5Pset_deflate(properties, level);
-  H5Pset_obj_track_times(properties, false);  // the same run gives the same bytes
   Hdf5Handle dataset(
       H5Dcreate2(group, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, properties, H5P_DEFAULT),
       H5Dclose);
