@@ -178,8 +178,8 @@ void DtsRobot::apply_contact_forces(bool trial) {
 // but its forces.
 template <class Law>
 void DtsRobot::apply_contact_force(const Law& law, std::size_t i, bool trial) {
-  // An integrator that chooses its steps resolves a bristle by itself.
-  const double dt = bristle_states_ > 0 && adaptive_ ? 0. : law_step_;
+  // An integrator that chooses its steps gets laws that know none (contact::flow).
+  const double dt = adaptive_ ? 0. : law_step_;
   ContactPoint& point = points_[i];
   const dts::BodyMotion<double>& body = workspace_.bodies[point.body];
   const TouchingPlace touching = touching_place(point, body, *ground_);

@@ -192,8 +192,7 @@ class DtsRobot final : public integrators::System {
   contact::ForceLaw law_;
   std::size_t bristle_states_ = 0;  ///< numbers that the law integrates, of a point
   bool semi_implicit_ = false;      ///< its positions move with the new velocities
-  /// From the latest commit of contact memory to the step's end, which is when the next one is due
-  /// [s]: what the law gets for a step.
+  /// The step that is taken, what a law gets for one, and the step before it [s].
   double law_step_, law_step_before_;
   dts::Model<double> model_;
   dts::State<double> state_;

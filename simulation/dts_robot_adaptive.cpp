@@ -29,15 +29,10 @@ double ContactPoint::side_event(double depth_now, double reach) const {
   return depth_now + reach + (inside ? surface : -surface);
 }
 
-// The law is evaluated at the accepted state from the memory of the internal step's start, over
-// that step's length; until the next commit the law's step is what is left.
-void DtsRobot::commit(double /*time*/, double dt, std::span<const double> q,
+void DtsRobot::commit(double /*time*/, double /*dt*/, std::span<const double> q,
                       std::span<const double> v) {
   if (points_.empty()) return;
-  const double left = law_step_ - dt;
-  law_step_ = dt;
   settle_at(q, v);
-  law_step_ = left;
   for (ContactPoint& point : points_) point.commit();
 }
 

@@ -92,7 +92,7 @@ class EnergyLedger final : public integrators::System {
     for (std::size_t i = 0; i < robot_.contact_points().size(); ++i) energy += stored(i, v);
     return energy + heat(v) + let_go_ - work(v);
   }
-  /// Integrated [J]; `let_go` is what hooks lost that were moved at accepted steps.
+  /// Integrated [J]; `let_go` is what was lost at events, of thrown hooks and at lift-off.
   double heat(std::span<const double> v) const { return v[v.size() - 2]; }
   double work(std::span<const double> v) const { return v[v.size() - 1]; }
   double let_go() const { return let_go_; }
