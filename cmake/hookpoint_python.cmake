@@ -1,5 +1,5 @@
 # The Python module (folder python/) is built where pybind11, numpy and the headers of Debian's python3 are; elsewhere it is skipped by name.
-# HOOKPOINT_PYTHON tells; then the libraries are position independent.
+# HOOKPOINT_PYTHON tells.
 if(NOT DEFINED Python_EXECUTABLE AND EXISTS /usr/bin/python3)
   set(Python_EXECUTABLE /usr/bin/python3)  # another one on PATH has no headers and no packages of Debian's
 endif()
@@ -15,15 +15,3 @@ else()
     message(STATUS "python module: skipped, python3-dev, python3-numpy or pybind11-dev is missing")
   endif()
 endif()
-
-# Position-independent code keeps each function apart, for another library to take its place, and loses its inlining; ours are never replaced.
-function(hookpoint_inline_across_symbols)
-  foreach(folder IN LISTS ARGN)
-    if(HOOKPOINT_PYTHON AND TARGET hookpoint_${folder})
-      get_target_property(kind hookpoint_${folder} TYPE)
-      if(kind STREQUAL "STATIC_LIBRARY")
-        target_compile_options(hookpoint_${folder} PRIVATE -fno-semantic-interposition)
-      endif()
-    endif()
-  endforeach()
-endfunction()

@@ -1,0 +1,1 @@
+// Nothing of its own: the headers that cmake/hookpoint_precompiled.cmake precompiles need a target.
