@@ -37,12 +37,11 @@ void Builder::lay_implicit_objects() {
 
 void Builder::lay_items(FileScope& scope, Range items, bool top_of_file) {
   std::vector<std::string_view> defined;
-  for (std::uint32_t i = items.begin; i < items.end && !stopped_ && !report_.full(); ++i) {
+  for (std::uint32_t i = items.begin; i < items.end && !stopped(); ++i) {
     const Item& item = scope.file.syntax.items[i];
     if (item.kind == ItemKind::let) defined.push_back(evaluator(scope).text(item.name));
+    if (!take(Resource::steps, 2, position(scope, item.place))) return;
     lay_item(scope, item, top_of_file);
-    ++budget_.steps;
-    if (exhausted(position(scope, item.place))) return;
   }
   // A block's variables end with it.
   for (const std::string_view name : defined) scope.variables.erase(name);
@@ -92,6 +91,7 @@ void Builder::lay_object(FileScope& scope, const Item& item) {
 }
 
 void Builder::leave_out(const FileScope& scope, const Item& item) {
+  if (!take(Resource::steps, 1, position(scope, item.place))) return;
   const ExpressionEvaluator evaluate = evaluator(scope);
   if (item.name.length > 0) left_out_.emplace(evaluate.text(item.name));
   for (std::uint32_t i = item.items.begin; i < item.items.end; ++i)
@@ -103,6 +103,7 @@ const ClassSchema* Builder::class_of(const FileScope& scope, const Item& item) {
   const ClassSchema* schema = schema_.schema().find(name);
   const Position place = position(scope, item.place);
   if (schema == nullptr) {
+    if (report_.told_at(place)) return nullptr;
     const bool field = owner().schema->find(name) != nullptr;
     report_.error(
         place,
@@ -137,12 +138,10 @@ bool Builder::check_place(const ClassSchema& schema, const Position& place) {
 Object* Builder::open_object(const ClassSchema& schema, std::string name, const Position& place,
                              const Position& name_place) {
   constexpr std::size_t deepest = 200;
-  if (++budget_.objects > Budget::most_objects || open_.size() > deepest) {
-    report_.error(
-        place, budget_.objects > Budget::most_objects
-                   ? "more than " + std::to_string(Budget::most_objects) + " objects are laid down"
-                   : "objects are nested deeper than " + std::to_string(deepest) + " levels");
-    stopped_ = true;
+  if (!take(Resource::objects, 1, place)) return nullptr;
+  if (open_.size() > deepest) {
+    report_.error(place, "objects are nested deeper than " + std::to_string(deepest) + " levels");
+    too_deep_ = true;
     return nullptr;
   }
   Open& around = open_.back();
@@ -200,6 +199,7 @@ void Builder::add_field(const ClassSchema& schema, const std::string& name, cons
                         const std::function<std::optional<Field>(const FieldSchema&)>& make) {
   const FieldSchema* field = schema.find(name);
   if (field == nullptr) {
+    if (report_.told_at(place)) return;
     std::vector<std::string> names;
     for (const FieldSchema& candidate : schema.fields) {
       if (candidate.setting) names.push_back(candidate.name);
@@ -233,6 +233,7 @@ void Builder::lay_wire(FileScope& scope, const Item& item) {
   const Detail& detail = scope.file.syntax.details[item.detail];
   Wire wire;
   wire.position = position(scope, item.place);
+  if (!take(Resource::objects, 1, wire.position)) return;
   const auto take = [&](bool has, const Trail& trail, std::optional<Reference>& end) {
     if (!has) return true;
     const std::optional<std::string> text = evaluate.trail_text(trail);
@@ -284,24 +285,16 @@ void Builder::lay_loop(FileScope& scope, const Item& item) {
   }
   const std::string_view name = evaluate.text(item.name);
   const Position place = position(scope, item.name);
-  for (long i = *first; i <= *last && !stopped_ && !report_.full(); ++i) {
+  for (long i = *first; i <= *last && !stopped(); ++i) {
+    constexpr std::size_t steps_of_a_round = 10;
+    if (!take(Resource::steps, steps_of_a_round, place)) return;
     Value value;
     value.quantity.value = static_cast<double>(i);
     value.position = place;
     if (!define(scope, name, {value}, place)) return;
     lay_items(scope, item.items, false);
     scope.variables.erase(name);
-    constexpr std::size_t steps_of_a_round = 10;
-    budget_.steps += steps_of_a_round;
-    if (exhausted(place)) return;
   }
-}
-
-bool Builder::exhausted(const Position& place) {
-  if (stopped_ || ++budget_.steps <= Budget::most_steps) return stopped_;
-  report_.error(place, "the file asks for more than " + std::to_string(Budget::most_steps) +
-                           " steps of evaluation");
-  return stopped_ = true;
 }
 
 }  // namespace hookpoint::language

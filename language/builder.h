@@ -102,8 +102,12 @@ class Builder {
   static Position position(const FileScope& scope, Span span) {
     return {&scope.file.source, span.offset, std::max<std::size_t>(span.length, 1)};
   }
-  /// True, after one error, when the file asks for too much.
-  bool exhausted(const Position& place);
+  /// Takes of the budget; false, after one error, when the file asks for too much.
+  bool take(Resource resource, std::size_t amount, const Position& place) {
+    return budget_.take(resource, amount, place, report_);
+  }
+  /// Nothing more is laid down.
+  bool stopped() const { return too_deep_ || budget_.spent() || report_.full(); }
 
   const PreparedSchema& schema_;
   FileStore& files_;
@@ -111,7 +115,7 @@ class Builder {
   Budget budget_;
   std::vector<Open> open_;
   std::set<std::string, std::less<>> left_out_;
-  bool stopped_ = false;
+  bool too_deep_ = false;
 };
 
 }  // namespace hookpoint::language

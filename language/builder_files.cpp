@@ -117,6 +117,9 @@ bool Builder::check_argument(Given& given, const std::vector<Value>& defaults, c
 }
 
 void Builder::lay_include(FileScope& scope, const Item& item) {
+  // Looking for a file asks the operating system several times.
+  constexpr std::size_t steps_of_a_search = 500;
+  if (!take(Resource::steps, steps_of_a_search, position(scope, item.place))) return;
   const ParsedFile* file = find_include(scope, item);
   if (file == nullptr) return;
   FileScope inner{*file, &scope, position(scope, item.place), {}, {}};

@@ -9,6 +9,8 @@ namespace hookpoint::language {
 
 void Builder::lay_foreign_file(const FileScope& scope) {
   if (scope.file.report.has_errors()) return;
+  // It is read anew each time.
+  if (!take(Resource::steps, scope.file.source.text.size(), scope.place)) return;
   ForeignArguments arguments;
   for (const auto& [name, given] : scope.given)
     arguments.emplace(name, ForeignField{name, given.values, given.position});
@@ -31,7 +33,7 @@ void Builder::lay_foreign(const FileScope& scope, const ForeignObject& foreign) 
     });
   }
   for (const ForeignObject& child : foreign.children) {
-    if (!stopped_) lay_foreign(scope, child);
+    if (!stopped()) lay_foreign(scope, child);
   }
   close_object();
 }

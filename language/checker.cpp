@@ -73,7 +73,8 @@ void Checker::check_object(Object& object) {
   for (Field& field : object.fields) {
     const bool refers =
         field.schema->type == FieldType::object || field.schema->type == FieldType::port;
-    if (refers && !field.reference.trail.empty()) check_reference(object, field);
+    if (refers && !field.reference.trail.empty() && !report_.told_at(field.reference.position))
+      check_reference(object, field);
   }
   for (Wire& wire : object.wires) check_wire(object, wire);
   for (const std::unique_ptr<Object>& child : object.children) check_object(*child);

@@ -19,10 +19,10 @@ std::string type_text(const FieldSchema& field) {
   std::string count = std::to_string(field.min_count);
   if (field.max_count > 1000) count += " or more";
   if (field.max_count <= 1000 && field.max_count != field.min_count)
-    count += " to " + std::to_string(field.max_count);
+    count += (field.one_or_all ? " or " : " to ") + std::to_string(field.max_count);
   switch (field.type) {
     case FieldType::number:
-      return "number" + unit;
+      return "number" + unit + (field.choices.empty() ? "" : ", or " + join(field.choices, ", "));
     case FieldType::integer:
       return "whole number" + unit;
     case FieldType::boolean:

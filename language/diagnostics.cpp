@@ -5,6 +5,8 @@
 #include <ostream>
 #include <string_view>
 
+#include "language/characters.h"
+
 namespace hookpoint::language {
 namespace {
 
@@ -20,71 +22,54 @@ constexpr std::string_view bold = "\033[1m", plain = "\033[0m";
 
 bool continuation(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
 
-/// Length in bytes of the valid UTF-8 character that begins `text`, 0 if there is none.
-std::size_t character_length(std::string_view text) {
-  const auto lead = static_cast<unsigned char>(text[0]);
-  const std::size_t length = lead < 0x80   ? 1
-                             : lead < 0xC2 ? 0
-                             : lead < 0xE0 ? 2
-                             : lead < 0xF0 ? 3
-                             : lead < 0xF5 ? 4
-                                           : 0;
-  if (length == 0 || length > text.size()) return 0;
-  return std::all_of(text.begin() + 1, text.begin() + static_cast<std::ptrdiff_t>(length),
-                     continuation)
-             ? length
-             : 0;
-}
-
-/// The text fit for a terminal: what cannot be shown becomes one '?' a byte.
-std::string shown(std::string_view text) {
-  std::string result;
-  while (!text.empty()) {
-    const std::size_t length = character_length(text);
-    const bool control = length == 1 && text[0] != '\t' &&
-                         (static_cast<unsigned char>(text[0]) < 0x20 || text[0] == 0x7F);
-    if (length == 0 || control) {
-      result += '?';
-    } else {
-      result += text.substr(0, length);
-    }
-    text.remove_prefix(std::max<std::size_t>(length, 1));
-  }
-  return result;
-}
-
 /// Blanks as wide as `text`, tabs kept, so that the caret stands below its character.
 std::string blanks(std::string_view text) {
   std::string result;
-  for (const char c : text) {
-    if (!continuation(c)) result += c == '\t' ? '\t' : ' ';
+  for (std::size_t tab = text.find('\t'); tab != std::string_view::npos; tab = text.find('\t')) {
+    result.append(display_width(text.substr(0, tab)), ' ').append(1, '\t');
+    text.remove_prefix(tab + 1);
   }
-  return result;
+  return result.append(display_width(text), ' ');
 }
 
-void print_excerpt(std::ostream& out, const Position& position, std::string_view colour) {
-  const LineColumn place = line_and_column(position);
-  const SourceFile& file = *position.file;
-  std::string_view line = line_text(file, place.line);
-  std::size_t at = std::min(position.offset, file.text.size()) - file.line_starts[place.line - 1];
-  at = std::min(at, line.size());
+/// A line, or the part of a long one around `at`.
+struct Excerpt {
+  std::string_view text;
+  std::size_t at = 0;  ///< of the text
+  bool cut_before = false, cut_behind = false;
+};
+
+Excerpt cut_around(std::string_view line, std::size_t at) {
+  Excerpt excerpt{line, at};
   if (line.size() > longest_excerpt && at > longest_excerpt / 2) {
     std::size_t cut = at - longest_excerpt / 2;
     while (cut < at && continuation(line[cut])) ++cut;
-    line.remove_prefix(cut);
-    at -= cut;
+    excerpt = {line.substr(cut), at - cut, cut > 0};
   }
-  if (line.size() > longest_excerpt) {
+  if (excerpt.text.size() > longest_excerpt) {
     std::size_t end = longest_excerpt;
-    while (end > at && continuation(line[end])) --end;
-    line = line.substr(0, end);
+    while (end > excerpt.at && continuation(excerpt.text[end])) --end;
+    excerpt.text = excerpt.text.substr(0, end);
+    excerpt.cut_behind = true;
   }
-  const std::string_view marked = line.substr(at, position.length);
-  std::size_t width = 0;
-  for (const char c : marked) width += continuation(c) ? 0 : 1;
+  return excerpt;
+}
+
+void print_excerpt(std::ostream& out, const Position& position, std::string_view colour) {
+  constexpr std::string_view left_out = "...";
+  const LineColumn place = line_and_column(position);
+  const SourceFile& file = *position.file;
+  const std::string_view line = line_text(file, place.line);
+  const std::size_t offset =
+      std::min(position.offset, file.text.size()) - file.line_starts[place.line - 1];
+  const Excerpt excerpt = cut_around(line, std::min(offset, line.size()));
+  const std::string_view before = excerpt.cut_before ? left_out : "";
+  const std::string_view behind = excerpt.cut_behind ? left_out : "";
+  const std::size_t width = display_width(excerpt.text.substr(excerpt.at, position.length));
   const std::string number = std::to_string(place.line);
-  out << ' ' << number << " | " << shown(line) << '\n';
-  out << std::string(number.size() + 1, ' ') << " | " << blanks(line.substr(0, at)) << colour << '^'
+  out << ' ' << number << " | " << before << printable(excerpt.text, true) << behind << '\n';
+  out << std::string(number.size() + 1, ' ') << " | " << std::string(before.size(), ' ')
+      << blanks(excerpt.text.substr(0, excerpt.at)) << colour << '^'
       << std::string(std::max<std::size_t>(width, 1) - 1, '~') << (colour.empty() ? "" : plain)
       << '\n';
 }
@@ -104,6 +89,17 @@ void Diagnostics::note(const Position& position, std::string message) {
   if (errors_ <= limit) add(Severity::note, position, std::move(message));
 }
 
+Diagnostics Diagnostics::without(const std::function<bool(const Diagnostic& warning)>& drop) const {
+  Diagnostics left = *this;
+  bool dropped = false;
+  std::erase_if(left.diagnostics_, [&](const Diagnostic& diagnostic) {
+    if (diagnostic.severity != Severity::note)
+      dropped = diagnostic.severity == Severity::warning && drop(diagnostic);
+    return dropped;
+  });
+  return left;
+}
+
 void Diagnostics::add(Severity severity, const Position& position, std::string message) {
   diagnostics_.push_back({severity, position, std::move(message)});
 }
@@ -115,10 +111,11 @@ void Diagnostics::print(std::ostream& out, bool colours) const {
     const bool placed = diagnostic.position.file != nullptr;
     if (placed) {
       const LineColumn place = line_and_column(diagnostic.position);
-      out << (colours ? bold : "") << diagnostic.position.file->path << ':' << place.line << ':'
-          << place.column << ": ";
+      out << (colours ? bold : "") << printable(diagnostic.position.file->path) << ':' << place.line
+          << ':' << place.column << ": ";
     }
-    out << colour << style.name << ": " << (colours ? plain : "") << diagnostic.message << '\n';
+    out << colour << style.name << ": " << (colours ? plain : "") << printable(diagnostic.message)
+        << '\n';
     if (placed) print_excerpt(out, diagnostic.position, colour);
   }
   if (errors_ > limit) {

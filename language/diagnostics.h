@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <iosfwd>
 #include <memory>
 #include <string>
@@ -31,6 +32,9 @@ class Diagnostics {
 
   /// Keeps what positions point into alive as long as the diagnostics.
   void keep(std::shared_ptr<const void> source) { kept_.push_back(std::move(source)); }
+
+  /// The same without the warnings that `drop` names, and without their notes.
+  Diagnostics without(const std::function<bool(const Diagnostic& warning)>& drop) const;
 
   bool has_errors() const { return errors_ > 0; }
   std::size_t error_count() const { return errors_; }

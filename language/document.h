@@ -45,8 +45,8 @@ std::optional<Reference> resolve(const Object& root, const std::string& trail, b
 
 class Library {
  public:
-  /// `search_path`: where includes are looked up after the including file's own folder (the
-  /// project's configs/, HOOKPOINT_PATH).
+  /// `search_path`: where includes are looked up last (HOOKPOINT_PATH, the installation's configs/;
+  /// language/search.h).
   Library(const Schema& schema, std::vector<std::filesystem::path> search_path);
   ~Library();
   Library(const Library&) = delete;
@@ -72,14 +72,18 @@ class Library {
   std::vector<ParameterDeclaration> parameters(const std::filesystem::path& file,
                                                Diagnostics& diagnostics);
   /// Where an Include written in `from` (or "" for the command line) finds `path`: beside it, then
-  /// along the search path. Empty if nowhere.
+  /// in the configs/ of the folders above, then along the search path. Empty if nowhere.
   std::filesystem::path find(const std::filesystem::path& path,
                              const std::filesystem::path& from) const;
+  const std::vector<std::filesystem::path>& search_path() const;
 
  private:
   struct Implementation;
   std::unique_ptr<Implementation> implementation_;
 };
+
+/// The files that the tree was laid down from, as absolute paths in order, each once.
+std::vector<std::string> sources_of(const Object& root);
 
 /// The tree as a file: what was given, as SI values in the shortest form that reads back to the
 /// same double; references as trails from the top.

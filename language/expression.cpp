@@ -8,6 +8,18 @@
 #include "language/units.h"
 
 namespace hookpoint::language {
+namespace {
+
+/// What a value takes of the budget: one, and more for a long text.
+std::size_t size_of(const Value& value) {
+  constexpr std::size_t bytes_of_a_value = 64;
+  return 1 + value.text.size() / bytes_of_a_value;
+}
+
+/// What handling so many bytes takes of the budget.
+std::size_t steps_of(std::size_t bytes) { return bytes / 8; }
+
+}  // namespace
 
 std::string describe_value(const Value& value) {
   switch (value.kind) {
@@ -26,7 +38,8 @@ std::string describe_value(const Value& value) {
 
 std::optional<Value> ExpressionEvaluator::evaluate(const Expression& expression) const {
   std::vector<Value> stack;
-  budget_.steps += expression.code.size() + 1;
+  if (!take(Resource::steps, expression.code.size() + 1, position(expression.span)))
+    return std::nullopt;
   for (std::uint32_t next = expression.code.begin; next < expression.code.end;) {
     const Instruction& instruction = syntax_.code[next++];
     if (!step(instruction, stack, next)) return std::nullopt;
@@ -47,15 +60,17 @@ std::optional<std::vector<Value>> ExpressionEvaluator::evaluate_list(Range expre
                               : variables_.end();
     if (variable != variables_.end()) {
       for (const Value& element : variable->second.values) {
+        if (!take(Resource::values, size_of(element), position(expression.span)))
+          return std::nullopt;
         values.push_back(element);
         if (element.kind != ValueKind::word) values.back().position = position(expression.span);
       }
-      budget_.steps += variable->second.values.size();
       good = good && !variable->second.values.empty();
       continue;
     }
     std::optional<Value> value = evaluate(expression);
     good = good && value.has_value();
+    if (value && !take(Resource::values, size_of(*value), value->position)) return std::nullopt;
     if (good) values.push_back(std::move(*value));
   }
   return good ? std::optional(std::move(values)) : std::nullopt;
@@ -107,7 +122,7 @@ std::optional<std::string> ExpressionEvaluator::trail_text(const Trail& trail) c
     if (!result.empty()) result += '.';
     result += *name;
   }
-  budget_.steps += result.size() / 8;
+  if (!take(Resource::steps, steps_of(result.size()), position(trail.span))) return std::nullopt;
   return result;
 }
 
@@ -133,6 +148,7 @@ bool ExpressionEvaluator::step(const Instruction& instruction, std::vector<Value
       return true;
     }
     case Operation::push_text:
+      if (!take(Resource::steps, steps_of(instruction.span.length), place)) return false;
       stack.push_back({ValueKind::text, {}, unquote(text(instruction.span)), place});
       return true;
     case Operation::push_trail:
@@ -185,7 +201,7 @@ bool ExpressionEvaluator::push_trail(const Instruction& instruction,
       return false;
     }
     stack.push_back(values[0]);
-    return true;
+    return take(Resource::steps, steps_of(values[0].text.size()), place);
   }
   if (name == "pi") {
     stack.push_back({ValueKind::number, {std::numbers::pi, {}}, "", place});
@@ -321,7 +337,7 @@ bool ExpressionEvaluator::fail(Position place, std::string message) const {
 }
 
 bool ExpressionEvaluator::unknown_word(const Value& value) const {
-  if (file_.report.has_errors()) return false;
+  if (file_.report.has_errors() || report_.told_at(value.position)) return false;
   if (value.text.find('.') != std::string::npos) {
     return fail(value.position, "`" + value.text + "` is a reference; a number is expected here");
   }

@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "language/budget.h"
 #include "language/report.h"
 #include "language/value.h"
 
@@ -23,13 +24,6 @@ struct Variable {
 /// The variables of one file, by names that lie in its text. A name is defined once wherever it can
 /// be seen: nothing is shadowed.
 using Variables = std::unordered_map<std::string_view, Variable>;
-
-/// What evaluating costs in all, so that a short file that asks for too much is refused and not
-/// waited for.
-struct Budget {
-  static constexpr std::size_t most_steps = 50'000'000, most_objects = 1'000'000;
-  std::size_t steps = 0, objects = 0;
-};
 
 class ExpressionEvaluator {
  public:
@@ -79,6 +73,9 @@ class ExpressionEvaluator {
                         std::string_view action) const;
   bool finish(Value& value, double result, Dimension dimension, Position place) const;
   bool fail(Position place, std::string message) const;
+  bool take(Resource resource, std::size_t amount, Position place) const {
+    return budget_.take(resource, amount, place, report_);
+  }
 
   const ParsedFile& file_;
   const Syntax& syntax_;

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "language/characters.h"
 #include "language/names.h"
 #include "language/units.h"
 
@@ -42,6 +43,8 @@ class FieldMaker {
   std::optional<Field> run();
 
  private:
+  /// A number's word in its place, such as `auto`.
+  bool stands_for_number(std::string_view word);
   bool make_numbers();
   bool make_orientation();
   bool make_boolean();
@@ -51,6 +54,7 @@ class FieldMaker {
   bool make_reference();
   bool check_number(const Value& value);
   bool check_range(const Value& value);
+  bool check_text(const Value& value);
   bool check_count(std::size_t count, int least, int most, std::string_view noun);
   /// The values of the list; nothing after an error.
   bool evaluate();
@@ -165,8 +169,27 @@ bool FieldMaker::check_range(const Value& value) {
                                   number_text(number) + unit_after(schema_));
 }
 
+bool FieldMaker::stands_for_number(std::string_view word) {
+  if (std::ranges::find(schema_.choices, word) == schema_.choices.end()) return false;
+  field_.words.emplace_back(word);
+  return true;
+}
+
+/// A text is shown on terminals, in figures and in pages, and names files: none of them may take it
+/// for a command.
+bool FieldMaker::check_text(const Value& value) {
+  if (find_control(value.text) == std::string::npos) return true;
+  return fail(value.position, quoted(schema_.name) +
+                                  " takes characters that can be seen, on one line: no line end, "
+                                  "tab or other control character");
+}
+
 bool FieldMaker::make_numbers() {
+  if (stands_for_number(bare_word())) return true;
   if (!evaluate()) return false;
+  if (values_.size() == 1 && values_[0].kind == ValueKind::word &&
+      stands_for_number(values_[0].text))
+    return true;
   const bool list = schema_.type == FieldType::numbers;
   if (!check_count(values_.size(), list ? schema_.min_count : 1, list ? schema_.max_count : 1,
                    "number"))
@@ -252,6 +275,7 @@ bool FieldMaker::make_text() {
     return fail(value.position,
                 quoted(schema_.name) + " takes a string in quotes, not " + describe_value(value));
   }
+  if (!check_text(value)) return false;
   field_.words.push_back(value.text);
   return true;
 }
@@ -288,6 +312,7 @@ bool FieldMaker::make_words() {
       return fail(value.position,
                   quoted(schema_.name) + " takes words or strings, not " + describe_value(value));
     }
+    if (!check_text(value)) return false;
     field_.words.push_back(value.text);
     field_.places.push_back(value.position);
   }

@@ -3,13 +3,14 @@
 #include <fstream>
 
 #include "language/names.h"
+#include "language/search.h"
 
 namespace hookpoint::language {
 namespace {
 
 constexpr std::size_t largest = (256UL << 20) + 1;
 
-/// Reads no more than the parser would take, so that a device without end does no harm.
+/// Reads no more than the parser would take.
 void read(const std::filesystem::path& path, ParsedFile& file) {
   std::error_code ignored;
   const Position start{&file.source, 0, 1};
@@ -17,6 +18,9 @@ void read(const std::filesystem::path& path, ParsedFile& file) {
     return file.report.error(start, "there is no such file");
   if (std::filesystem::is_directory(path, ignored))
     return file.report.error(start, "this is a folder, expected a file");
+  // Nobody may ever write to a pipe.
+  if (!std::filesystem::is_regular_file(path, ignored))
+    return file.report.error(start, "this is a pipe or a device, expected a file");
   std::ifstream stream(path, std::ios::binary);
   std::string& text = file.source.text;
   std::vector<char> block(1 << 16);
@@ -31,22 +35,15 @@ void read(const std::filesystem::path& path, ParsedFile& file) {
 
 std::filesystem::path FileStore::find(const std::filesystem::path& path,
                                       const std::filesystem::path& from) const {
-  std::error_code ignored;
-  std::filesystem::path beside = (from.parent_path() / path).lexically_normal();
-  if (std::filesystem::exists(beside, ignored)) return beside;
-  if (path.is_absolute()) return {};
-  for (const std::filesystem::path& folder : search_path_) {
-    std::filesystem::path candidate = (folder / path).lexically_normal();
-    if (std::filesystem::exists(candidate, ignored)) return candidate;
-  }
-  return {};
+  return find_along(path, from, search_path_);
 }
 
 std::vector<std::string> FileStore::searched(const std::filesystem::path& path,
                                              const std::filesystem::path& from) const {
   if (path.is_absolute()) return {path.parent_path().string()};
-  std::vector<std::string> folders{from.parent_path().empty() ? "." : from.parent_path().string()};
-  for (const std::filesystem::path& folder : search_path_) folders.push_back(folder.string());
+  std::vector<std::string> folders;
+  for (const std::filesystem::path& folder : search_folders(from, search_path_))
+    folders.push_back(folder.empty() ? "." : folder.string());
   return folders;
 }
 

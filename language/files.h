@@ -30,6 +30,7 @@ class FileStore {
   void give(const std::filesystem::path& path, std::string text);
   /// `trail=value` as a file of its own, named <--set trail>. Thread-safe.
   const ParsedFile& override_text(const std::string& trail, const std::string& value);
+  const std::vector<std::filesystem::path>& search_path() const { return search_path_; }
 
  private:
   /// Under the lock: where the file is kept, null before it is.

@@ -3,6 +3,7 @@
 #include <array>
 #include <iterator>
 
+#include "language/characters.h"
 #include "language/token.h"
 #include "language/units.h"
 
@@ -167,8 +168,9 @@ class Lexer {
     // One error for a run of characters that mean nothing, however long.
     std::size_t end = at_ + 1;
     while (end < text_.size() && static_cast<unsigned char>(text_[end]) >= 0x80) ++end;
+    constexpr std::size_t longest = 24;
     error(at_, end - at_,
-          "unexpected `" + std::string(text_.substr(at_, std::min<std::size_t>(end - at_, 24))) +
+          "unexpected `" + std::string(first_characters(text_.substr(at_, end - at_), longest)) +
               "`");
     add(TokenKind::unknown, end - at_);
   }
@@ -193,26 +195,6 @@ class Lexer {
   bool line_begins_ = true;
 };
 
-/// Length of the UTF-8 character at `at`, 0 if there is none (overlong forms and surrogates are
-/// none).
-std::size_t utf8_length(std::string_view text, std::size_t at) {
-  const auto byte = [&](std::size_t i) {
-    return at + i < text.size() ? static_cast<unsigned char>(text[at + i]) : 0U;
-  };
-  const auto follows = [&](std::size_t i) { return (byte(i) & 0xC0U) == 0x80U; };
-  const unsigned lead = byte(0);
-  if (lead >= 0xC2 && lead < 0xE0) return follows(1) ? 2 : 0;
-  if (lead >= 0xE0 && lead < 0xF0) {
-    const bool bad = (lead == 0xE0 && byte(1) < 0xA0) || (lead == 0xED && byte(1) > 0x9F);
-    return !bad && follows(1) && follows(2) ? 3 : 0;
-  }
-  if (lead >= 0xF0 && lead < 0xF5) {
-    const bool bad = (lead == 0xF0 && byte(1) < 0x90) || (lead == 0xF4 && byte(1) > 0x8F);
-    return !bad && follows(1) && follows(2) && follows(3) ? 4 : 0;
-  }
-  return 0;
-}
-
 }  // namespace
 
 bool check_text(const SourceFile& file, Report& report) {
@@ -225,7 +207,7 @@ bool check_text(const SourceFile& file, Report& report) {
   for (std::size_t i = 0; i < text.size();) {
     const auto c = static_cast<unsigned char>(text[i]);
     if (c >= 0x80) {
-      const std::size_t length = utf8_length(text, i);
+      const std::size_t length = first_character(std::string_view(text).substr(i)).length;
       if (length == 0) {
         report.error({&file, i, 1}, "the file is not a text file in UTF-8: unexpected byte here");
         return false;

@@ -1,3 +1,5 @@
+#include <set>
+
 #include "language/builder.h"
 #include "language/checker.h"
 #include "language/document.h"
@@ -78,6 +80,34 @@ std::vector<ParameterDeclaration> Library::parameters(const std::filesystem::pat
 std::filesystem::path Library::find(const std::filesystem::path& path,
                                     const std::filesystem::path& from) const {
   return implementation_->files.find(path, from);
+}
+
+const std::vector<std::filesystem::path>& Library::search_path() const {
+  return implementation_->files.search_path();
+}
+
+namespace {
+
+void collect_sources(const Object& object, std::set<const SourceFile*>& sources) {
+  sources.insert(object.position.file);
+  for (const Field& field : object.fields) sources.insert(field.position.file);
+  for (const Wire& wire : object.wires) sources.insert(wire.position.file);
+  for (const auto& child : object.children) collect_sources(*child, sources);
+}
+
+}  // namespace
+
+std::vector<std::string> sources_of(const Object& root) {
+  std::set<const SourceFile*> sources;
+  collect_sources(root, sources);
+  std::set<std::string> paths;
+  std::error_code error;
+  for (const SourceFile* source : sources) {
+    // What was set on the command line has no file.
+    if (source == nullptr || !std::filesystem::is_regular_file(source->path, error)) continue;
+    paths.insert(std::filesystem::absolute(source->path).lexically_normal().string());
+  }
+  return {paths.begin(), paths.end()};
 }
 
 }  // namespace hookpoint::language

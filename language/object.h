@@ -30,7 +30,7 @@ struct Field {
   bool given = false;              ///< written in the file (or set from outside), not a default
   std::vector<double> numbers;     ///< number, integer, numbers (SI); orientation: w, x, y, z,
                                    ///< normalised; boolean: 0 or 1
-  std::vector<std::string> words;  ///< text, choice, words
+  std::vector<std::string> words;  ///< text, choice, words; of a number the word in its place
   std::vector<Position> places;    ///< of each of several `words`
   Reference reference;             ///< object, port
   Dimension dimension;  ///< of `numbers` where the schema's unit is "?" (else the schema's)

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "language/characters.h"
+
 namespace hookpoint::language {
 
 Parser::Parser(ParsedFile& file) : file_(file), syntax_(file.syntax) {
@@ -113,7 +115,8 @@ std::string Parser::shown(const Token& token) const {
   if (token.kind == TokenKind::end) return "the end of the file";
   constexpr std::size_t longest = 40;
   const std::string_view word = text(token);
-  return "`" + std::string(word.substr(0, longest)) + (word.size() > longest ? "...`" : "`");
+  return "`" + std::string(first_characters(word, longest)) +
+         (word.size() > longest ? "...`" : "`");
 }
 
 Position Parser::position(const Token& token) const {

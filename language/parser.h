@@ -60,6 +60,8 @@ class Parser {
   bool parse_primary();
   bool parse_call();
   bool parse_number();
+  /// The error that the unit which comes now does not belong to the number before it.
+  bool fail_unit(const Token& number, bool has_unit);
   bool parse_trail(Trail& trail);
   bool parse_index(Expression& index);
 
@@ -73,8 +75,20 @@ class Parser {
   /// After an item: where the line ends without `;` the error is at its end and the next line is an
   /// item of its own.
   bool expect_semicolon(std::string_view after);
+  /// One level of nesting deeper while it lives; false when that is too deep.
+  class Level {
+   public:
+    explicit Level(Parser& parser) : parser_(parser), good_(parser.enter()) {}
+    ~Level() { --parser_.depth_; }
+    Level(const Level&) = delete;
+    Level& operator=(const Level&) = delete;
+    explicit operator bool() const { return good_; }
+
+   private:
+    Parser& parser_;
+    bool good_;
+  };
   bool enter();
-  void leave() { --depth_; }
   bool fail(const Token& where, std::string message);
   bool fail_here(std::string_view expected);
   std::string shown(const Token& token) const;

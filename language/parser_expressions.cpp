@@ -32,8 +32,8 @@ bool Parser::parse_expression(Expression& expression) {
 }
 
 bool Parser::parse_conditional() {
-  if (!enter()) return false;
-  if (!parse_or()) return false;
+  const Level level(*this);
+  if (!level || !parse_or()) return false;
   if (at(TokenKind::question)) {
     const Token question = token();
     ++at_;
@@ -46,7 +46,6 @@ bool Parser::parse_conditional() {
     if (!parse_conditional()) return false;
     syntax_.code[jump].operand = static_cast<std::uint32_t>(syntax_.code.size());
   }
-  leave();
   return true;
 }
 
@@ -129,8 +128,8 @@ bool Parser::parse_power() {
   if (!at(TokenKind::caret)) return true;
   const Token operation = token();
   ++at_;
-  if (!enter() || !parse_unary()) return false;
-  leave();
+  const Level level(*this);
+  if (!level || !parse_unary()) return false;
   emit(Operation::raise, operation);
   return true;
 }
@@ -198,12 +197,23 @@ bool Parser::parse_number() {
   const bool word_follows = at(TokenKind::identifier) && !token().begins_line && !at_keyword();
   if (word_follows && !at(TokenKind::assign, 1) && !at(TokenKind::open_brace, 1)) {
     const std::string name(text(token()));
+    if (find_unit(name) != nullptr) return fail_unit(number, !unit_part.empty());
     const std::string hint = did_you_mean(name, unit_names());
     return fail(token(),
                 "unknown unit `" + name + "`" +
                     (hint.empty() ? "; known units are " + join(unit_names(), " ") : hint));
   }
   return true;
+}
+
+bool Parser::fail_unit(const Token& number, bool has_unit) {
+  const std::string name(text(token())), before(text(number));
+  if (has_unit)
+    return fail(token(), "`" + name +
+                             "` is a second unit: units are joined by `.` or `/`, as in `" +
+                             before + "." + name + "`");
+  return fail(token(), "the unit `" + name + "` stands right behind its number: `" + before + " " +
+                           name + "`");
 }
 
 bool Parser::parse_trail(Trail& trail) {

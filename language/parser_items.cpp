@@ -76,21 +76,21 @@ bool Parser::parse_body(Item& item) {
     return fail_here(item.name.length == 0 ? "a name, `{`, `=` or `;`" + after
                                            : "`{`, a field or `;`");
   }
-  if (!enter()) return false;
+  const Level level(*this);
+  if (!level) return false;
   std::vector<Item> items;
   const bool good = parse_item(items);
-  leave();
   item.items = store(items);
   return good;
 }
 
 bool Parser::parse_block(Item& item) {
-  if (!enter()) return false;
+  const Level level(*this);
+  if (!level) return false;
   open_braces_.push_back(token());
   ++at_;
   std::vector<Item> items;
   parse_items(items);
-  leave();
   item.items = store(items);
   if (stopped_) return false;
   if (!at(TokenKind::close_brace)) {

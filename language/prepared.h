@@ -16,9 +16,9 @@ namespace hookpoint::language {
 
 struct PreparedClass {
   const ClassSchema* schema = nullptr;
-  std::vector<Dimension> dimensions;  ///< one for each field
+  std::vector<Dimension> dimensions;        ///< one for each field
   std::vector<Dimension> other_dimensions;  ///< one for each field, of its other unit
-  std::vector<Field> defaults;        ///< of the fields that have one, in the schema's order
+  std::vector<Field> defaults;              ///< of the fields that have one, in the schema's order
   bool has_required = false;
   bool has_other_units = false;
 };

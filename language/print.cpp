@@ -81,6 +81,7 @@ class Printer {
       default:
         break;
     }
+    if (!field.words.empty()) return field.words[0];  // it stands for the number
     const std::string unit = unit_text(field.dimension);
     for (const double number : field.numbers)
       add(number_text(number) + (unit.empty() ? "" : " " + unit));

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "language/characters.h"
+
 namespace hookpoint::language {
 
 namespace {
@@ -10,9 +12,7 @@ namespace {
 std::string clipped(std::string message) {
   constexpr std::size_t longest = 600;
   if (message.size() <= longest) return message;
-  std::size_t end = longest;
-  while ((static_cast<unsigned char>(message[end]) & 0xC0U) == 0x80U) --end;
-  return message.substr(0, end) + "...";
+  return std::string(first_characters(message, longest)) + "...";
 }
 
 }  // namespace
@@ -22,6 +22,7 @@ void Report::error(const Position& position, std::string message) {
   // A loop or a file included twice finds the same mistake again and again.
   repeated_ = full() || !seen_.emplace(position.file, position.offset, message).second;
   if (repeated_) return;
+  told_.emplace(position.file, position.offset);
   Finding& finding = findings_.emplace_back();
   finding.diagnostic = {Severity::error, position, std::move(message)};
   auto include = std::find_if(includes_.rbegin(), includes_.rend(),

@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "language/diagnostics.h"
@@ -35,6 +36,10 @@ class Report {
   bool is_broken(const Position& position) const { return broken_.contains(position.file); }
 
   bool has_errors() const { return !findings_.empty(); }
+  /// Whether an error was found at the place: a loop comes by it again, and a hint costs time.
+  bool told_at(const Position& position) const {
+    return told_.contains({position.file, position.offset});
+  }
   /// Enough found: time to stop looking for them.
   bool full() const { return findings_.size() >= limit; }
   /// Files in the order in which they were first reached; errors are sorted by it, unknown files
@@ -57,6 +62,7 @@ class Report {
   std::vector<Include> includes_;
   std::map<const SourceFile*, std::size_t> file_order_;
   std::set<std::tuple<const SourceFile*, std::size_t, std::string>> seen_;
+  std::set<std::pair<const SourceFile*, std::size_t>> told_;
   std::set<const SourceFile*> broken_;
   bool repeated_ = true;
 };

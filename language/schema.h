@@ -50,7 +50,8 @@ struct FieldSchema {
   bool exclusive_minimum = false;  ///< value > minimum instead of >=
   bool exclusive_maximum = false;
   int min_count = 1, max_count = 1;  ///< of `numbers` and `words`
-  std::vector<std::string> choices;
+  bool one_or_all = false;  ///< of `numbers`: `max_count`, or one that stands for all; none between
+  std::vector<std::string> choices;  ///< of a choice; of a number, words that may stand for it
   std::string refers_to;  ///< class name or prefix ("Terrain") of `object`; several: "Base|Link";
                           ///< "" any class
   bool required = false;

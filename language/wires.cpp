@@ -79,6 +79,7 @@ std::optional<Checker::End> Checker::check_end(const Object& object,
   Target target{&object, nullptr, -1, ""};
   const Position place = reference ? reference->position : wire.position;
   if (reference) {
+    if (report_.told_at(place)) return std::nullopt;
     Unresolved why;
     std::optional<Target> found = names_.resolve(object, reference->trail, true, why);
     if (!found) {
