@@ -26,8 +26,8 @@ std::vector<Vector3d> box_points(const Vector3d& dimensions, int density) {
   };
   for (int k = 0; k <= n; ++k) {
     for (int j = 0; j <= n; ++j) {
-      for (int i = 0; i <= n; ++i) {
-        if (!on_face(i) && !on_face(j) && !on_face(k)) continue;
+      // Of the lattice's lines inside the box only the ends are on its surface.
+      for (int i = 0; i <= n; i += on_face(j) || on_face(k) ? 1 : n) {
         points.push_back({coordinate(i, dimensions.x), coordinate(j, dimensions.y),
                           coordinate(k, dimensions.z)});
       }

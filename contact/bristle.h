@@ -47,27 +47,54 @@ struct BristleFriction {
   Mask<Real> slips{};
 };
 
+/// `friction`, cut to the length `limit` where it is longer [N].
+template <class Real>
+Vector3<Real> clipped(const Vector3<Real>& friction, const Real& limit) {
+  const Real magnitude = norm(friction);
+  return select(magnitude > limit, (limit / positive_or_one(magnitude)) * friction, friction);
+}
+
+/// The damper through which the foot of a clipped bristle slips [N s/m]: c_t, and no less than what
+/// lets u relax in a step `dt` [s], nor than in `shortest_relaxation`.
+template <class Real>
+Real slip_damping(const MaterialConstants<Real>& material, const Real& dt) {
+  return max(material.tangential_damping,
+             max(dt, Real(shortest_relaxation)) * material.tangential_stiffness);
+}
+
+/// What a foot that holds would feel through that damper, f* = k_t u + r v [N]: it slips where
+/// this is beyond the cone.
+template <class Real>
+Vector3<Real> slip_trial(const Vector3<Real>& u, const Vector3<Real>& v,
+                         const MaterialConstants<Real>& material, const Real& dt) {
+  return material.tangential_stiffness * u + slip_damping(material, dt) * v;
+}
+
 /// A bristle that is a spring-damper to a massless foot which slips at the cone (Azad &
-/// Featherstone 2010): with the trial f* = k_t u + c_t v of a foot that holds,
-///   stick  |f*| <= mu N:  f = f*,                u' = v
-///   slip   otherwise:     f = mu N f*/|f*|,      u' = (f - k_t u)/c_t
-/// so that f = k_t u + c_t u' in both. u relaxes in c_t/k_t while it slips, but no faster than in a
-/// step `dt` [s], nor in `shortest_relaxation`. `limit` = mu N [N].
+/// Featherstone 2010): with r the slip_damping and the trial f* = k_t u + r v of a foot that holds,
+///   stick  |f*| <= mu N:  f = k_t u + c_t v, no more than mu N,   u' = v
+///   slip   otherwise:     f = mu N f*/|f*|,                       u' = (f - k_t u)/r
+/// where r = c_t, f = k_t u + c_t u' in both. The same r in the trial and in the relaxation keeps
+/// friction from giving what was not stored, whatever c_t, dt and mu N, which may change:
+///   slip   f.v - k_t u.u' = mu N (|f*| - mu N)/r + r u'^2 >= 0
+///   stick  f.v - k_t u.u' = c_t v^2, or (1 - s) (-k_t u.v) + s c_t v^2 where f is cut by s < 1:
+///          then |k_t u + c_t v| > mu N >= |k_t u + r v| with c_t < r, hence u.v < 0.
+/// `limit` = mu N [N].
 template <class Real>
 BristleFriction<Real> clipped_bristle(const PointKinematics<Real>& point, const Vector3<Real>& u,
                                       const MaterialConstants<Real>& material, const Real& limit,
                                       const Real& dt) {
   const Vector3<Real> v = tangential(point.velocity, point.normal);
-  const Vector3<Real> trial = material.tangential_stiffness * u + material.tangential_damping * v;
+  const Vector3<Real> trial = slip_trial(u, v, material, dt);
   const Real magnitude = norm(trial);
+  const Vector3<Real> spring = material.tangential_stiffness * u;
   BristleFriction<Real> friction;
   friction.slips = magnitude > limit;
-  friction.force = select(friction.slips, (limit / positive_or_one(magnitude)) * trial, trial);
-  const Real least_time = max(dt, Real(shortest_relaxation));
-  const Real relaxation = max(material.tangential_damping,
-                              least_time * material.tangential_stiffness);  // k_t times its time
+  const Vector3<Real> slip_force = (limit / positive_or_one(magnitude)) * trial;
   const Vector3<Real> slip_rate =
-      (1. / positive_or_one(relaxation)) * (friction.force - material.tangential_stiffness * u);
+      (1. / positive_or_one(slip_damping(material, dt))) * (slip_force - spring);
+  friction.force = select(friction.slips, slip_force,
+                          clipped(Vector3<Real>(spring + material.tangential_damping * v), limit));
   friction.rate = select(friction.slips, slip_rate, v);
   return friction;
 }

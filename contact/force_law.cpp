@@ -112,6 +112,12 @@ double switching_value(const ForceLaw& law, const PointKinematics<double>& point
       [&](const auto& chosen) { return switching_value(chosen, point, memory, material); }, law);
 }
 
+bool slides_after(const ForceLaw& law, bool falling, const Memory<double>& memory,
+                  const MaterialConstants<double>& material) {
+  return std::visit(
+      [&](const auto& chosen) { return slides_after(chosen, falling, memory, material); }, law);
+}
+
 Reaction<double> evaluate(const ForceLaw& law, const PointKinematics<double>& point,
                           const Memory<double>& memory, const MaterialConstants<double>& material,
                           double dt) {

@@ -76,6 +76,11 @@ double resolved_speed(const ForceLaw& law, double load, double dt,
 double switching_value(const ForceLaw& law, const PointKinematics<double>& point,
                        const Memory<double>& memory, const MaterialConstants<double>& material);
 
+/// Whether an attached point slides on after the event at which its switching value has become
+/// negative (`falling`) or positive; `memory` as the law made it at that state.
+bool slides_after(const ForceLaw& law, bool falling, const Memory<double>& memory,
+                  const MaterialConstants<double>& material);
+
 /// Evaluates the law held by `law`; a loop over many points visits once and calls `Law::evaluate`
 /// inside instead.
 Reaction<double> evaluate(const ForceLaw& law, const PointKinematics<double>& point,

@@ -62,16 +62,29 @@ struct ThrowFlow : Law {
   }
 };
 
-/// What is left of the friction before the trial is beyond it, mu N - |f*| [N].
+/// What is left of the friction before the trial is beyond it, mu N - |f*| [N]; of a point that
+/// slips less than 0.
 template <class Law>
 double friction_left(const PointKinematics<double>& point, const Memory<double>& memory,
                      const MaterialConstants<double>& material) {
   const double N = Law::normal_force(point.depth, -dot(point.velocity, point.normal), material);
   const double mu = memory.sliding ? material.kinetic_friction : material.static_friction;
-  const Vector3d trial =
-      material.tangential_stiffness * tangential(point.bristle.deflection, point.normal) +
-      material.tangential_damping * tangential(point.velocity, point.normal);
+  const Vector3d trial = slip_trial(tangential(point.bristle.deflection, point.normal),
+                                    tangential(point.velocity, point.normal), material, 0.);
   return mu * N - norm(trial);
+}
+
+/// Whether a slip meets less friction than a break-away.
+inline bool friction_falls(const MaterialConstants<double>& material) {
+  return material.static_friction > material.kinetic_friction;
+}
+
+/// Changes sign where the slip of a point reverses: v.z, z the bristle of the moment, 1 where it
+/// sticks. Not the stretch that was committed last, which may be 0 and would keep the value at 0,
+/// where no root finder gets away from it.
+inline double slip_reversal(const PointKinematics<double>& point, const Memory<double>& memory) {
+  return memory.sliding ? dot(point.velocity, tangential(point.bristle.deflection, point.normal))
+                        : 1.;
 }
 
 /// A number that changes sign where an attached point has to be looked at before its motion goes
@@ -81,16 +94,16 @@ template <class Law>
 double switching_value(const Law& /*law*/, const PointKinematics<double>& point,
                        const Memory<double>& memory,
                        const MaterialConstants<double>& /*material*/) {
-  return memory.sliding ? dot(point.velocity, memory.stretch) : 1.;
+  if constexpr (Law::bristle_states == 0) return 1.;
+  return slip_reversal(point, memory);
 }
 
-/// And where a point that sticks breaks away, if friction falls there.
+/// If friction falls as a point breaks away: where it does, and where it comes to stick again.
 template <class Law>
 double switching_value(const ReturnFlow<Law>& /*law*/, const PointKinematics<double>& point,
                        const Memory<double>& memory, const MaterialConstants<double>& material) {
-  const bool falls = material.static_friction > material.kinetic_friction;
-  return falls && !memory.sliding ? friction_left<Law>(point, memory, material)
-                                  : switching_value(Law{}, point, memory, material);
+  return friction_falls(material) ? friction_left<Law>(point, memory, material)
+                                  : slip_reversal(point, memory);
 }
 
 /// Where the hook is thrown, and where a slipping point comes to stick.
@@ -99,6 +112,21 @@ double switching_value(const ThrowFlow<Law>& /*law*/, const PointKinematics<doub
                        const Memory<double>& memory, const MaterialConstants<double>& material) {
   const double least = material.tangential_stiffness * least_thrown_stretch;
   return friction_left<Law>(point, memory, material) - (memory.sliding ? least : 0.);
+}
+
+/// Whether a point slides on after the event at which its switching value has become negative
+/// (`falling`) or positive. The state of the event is on the border of both, and rounding would
+/// decide; the direction in which it was crossed tells. `memory` is what the law made of that
+/// state.
+template <class Law>
+bool slides_after(const Law& /*law*/, bool /*falling*/, const Memory<double>& memory,
+                  const MaterialConstants<double>& /*material*/) {
+  return memory.sliding;
+}
+template <class Law>
+bool slides_after(const ReturnFlow<Law>& /*law*/, bool falling, const Memory<double>& memory,
+                  const MaterialConstants<double>& material) {
+  return friction_falls(material) ? falling : memory.sliding;
 }
 
 }  // namespace hookpoint::contact

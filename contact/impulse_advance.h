@@ -73,7 +73,7 @@ class ImpulseAdvance {
   Vector3d center_of_mass_;
   std::vector<Vector3d> arms_;  // of the boundary points from the centre of mass, body axes [m]
   std::vector<double> radii_;
-  std::vector<Touch> points_;   // the same at the present flight state, with the ground under them
+  std::vector<Touch> points_;  // the same at the present flight state, with the ground under them
   ImpulseResolution resolution_;
 };
 

@@ -33,35 +33,49 @@ LoadedBristle<Real> loaded_bristle(const PointKinematics<Real>& point,
   return bristle;
 }
 
-/// z' = v - alpha k_t |v| z/g(v) (Canudas de Wit et al. 1995 with alpha = 1, Dupont et al. 2002),
-/// no faster than to be relaxed after a step `dt` [s], where it then ends at its steady value, nor
-/// in `shortest_relaxation`: as the load vanishes the relaxation would have no bound [m/s].
+/// The rate of a bristle and how much of it a step resolves.
 template <class Real>
-Vector3<Real> bristle_rate(const LoadedBristle<Real>& bristle, const Real& alpha,
-                           const MaterialConstants<Real>& material, const Real& dt) {
+struct BristleRate {
+  Vector3<Real> rate;  ///< z' [m/s]
+  Real resolved{};     ///< s, 1 where the step resolves the relaxation, towards 0 where it does not
+};
+
+/// z' = s (v - alpha k_t |v| z/g(v)) (Canudas de Wit et al. 1995 with alpha = 1, Dupont et al.
+/// 2002; both with s = 1). With s = min(1, g/(k_t |v| tau)) it is no faster than to be relaxed
+/// after tau, a step `dt` [s], where it then ends at its steady value, or `shortest_relaxation`: as
+/// the load vanishes the relaxation would have no bound.
+template <class Real>
+BristleRate<Real> bristle_rate(const LoadedBristle<Real>& bristle, const Real& alpha,
+                               const MaterialConstants<Real>& material, const Real& dt) {
   const Real drag = material.tangential_stiffness * bristle.speed;  // k_t |v|
   const Vector3<Real> numerator =
       bristle.steady * bristle.velocity - (alpha * drag) * bristle.deflection;
   const Real least_time = max(dt, Real(shortest_relaxation));
-  return (1. / positive_or_one(Real(max(bristle.steady, drag * least_time)))) * numerator;
+  const Real divisor = positive_or_one(Real(max(bristle.steady, drag * least_time)));
+  return {(1. / divisor) * numerator, bristle.steady / divisor};
 }
 
-/// f = k_t z + sigma1(v) z' + sigma2 v where the ground carries load, and
+/// f = s k_t z + (1 - s) g(v) v/|v| + sigma1(v) z' + sigma2 v where the ground carries load, and
 ///   sigma1(v) = c_t/(1 + c_t |v|/g(v)),
 /// c_t at rest and falling with speed, as Olsson et al. 1998 ask for: with sigma1 |v| <= g the
-/// bristle gives back no more energy than it took, at any speed. [N]
+/// bristle gives back no more energy than it took, at any speed. What a step does not resolve of
+/// the relaxation is Coulomb's friction, and so takes energy too: without dampers
+///   f.v - k_t z.z' = (1 - s) g |v| + s alpha |v| (k_t z)^2/g >= 0   for any z, s and alpha. [N]
 template <class Real>
 Reaction<Real> lugre_reaction(const PointKinematics<Real>& point,
                               const LoadedBristle<Real>& bristle, const Real& alpha,
                               const MaterialConstants<Real>& material, const Real& dt) {
   const Mask<Real> loaded = bristle.normal_force > Real(0.);
   BristleFriction<Real> friction;
-  friction.rate = bristle_rate(bristle, alpha, material, dt);
+  const BristleRate<Real> bends = bristle_rate(bristle, alpha, material, dt);
+  friction.rate = bends.rate;
   const Real sigma1 =
       material.tangential_damping * bristle.steady /
       positive_or_one(Real(bristle.steady + material.tangential_damping * bristle.speed));
-  const Vector3<Real> force = material.tangential_stiffness * bristle.held +
-                              sigma1 * friction.rate + material.viscous_friction * bristle.velocity;
+  const Real unresolved = (1. - bends.resolved) * bristle.steady / positive_or_one(bristle.speed);
+  const Vector3<Real> force = (bends.resolved * material.tangential_stiffness) * bristle.held +
+                              sigma1 * friction.rate +
+                              (unresolved + material.viscous_friction) * bristle.velocity;
   friction.force = select(loaded, force, Vector3<Real>{});
   // More of the motion is slip than bending.
   friction.slips = 0.5 * bristle.speed * bristle.speed > dot(friction.rate, bristle.velocity);

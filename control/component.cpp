@@ -64,6 +64,15 @@ Parameter&& Parameter::range(double minimum, double maximum) && {
   return std::move(*this);
 }
 
+Parameter&& Parameter::of_world(WorldValue value) && {
+  PortDescription& port = description();
+  const std::size_t numbers = value == WorldValue::gravity_sideways ? 2 : 1;
+  if (port.count != numbers)
+    throw std::logic_error("'" + port.name + "' has not as many values as the World gives it");
+  port.world = value;
+  return std::move(*this);
+}
+
 Output::Output(Component& owner, std::string name, std::string unit, std::string doc,
                std::size_t count)
     : PortHandle(owner, {.kind = PortKind::output,

@@ -39,6 +39,13 @@ struct Tick {
 /// was. What is not declared is lost on resuming.
 enum class PortKind { input, output, parameter, text, state };
 
+/// What a component may take from the World that it is in.
+enum class WorldValue {
+  none,
+  gravity_down,     ///< the part of `World.gravity` along -z [m/s^2]
+  gravity_sideways  ///< its x and y, of a parameter of two numbers [m/s^2]
+};
+
 struct PortDescription {
   PortKind kind = PortKind::input;
   std::string name = {};
@@ -57,8 +64,9 @@ struct PortDescription {
            ///< count 4 an orientation (elements 0 ... 3 are its .w .x .y .z)
   std::string default_text = {};  ///< of a text
   std::vector<std::string> choices =
-      {};             ///< of a text: the only values that it may have; empty: any
-  bool path = false;  ///< of a text: names a file
+      {};                               ///< of a text: the only values that it may have; empty: any
+  bool path = false;                    ///< of a text: names a file
+  WorldValue world = WorldValue::none;  ///< where the file gives nothing, in place of the default
 };
 
 class Component;
@@ -104,6 +112,8 @@ class Parameter : public PortHandle {
   operator double() const { return (*this)[0]; }  // NOLINT(google-explicit-constructor)
   double operator[](std::size_t i) const { return value_at(i); }
   Parameter&& range(double minimum, double maximum) &&;
+  /// Where the file gives nothing it is what the World says; the default holds outside of one.
+  Parameter&& of_world(WorldValue value) &&;
 };
 
 class Output : public PortHandle {

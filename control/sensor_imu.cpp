@@ -16,10 +16,11 @@ namespace {
 
 class InertialMeasurementUnit final : public Component {
  public:
-  Parameter gravity{*this, "gravity", "m/s^2", 9.81, "along the world's -z"};
-  Parameter horizontal_gravity{
-      *this, "horizontal_gravity", "m/s^2", 0., "its x and y in a world whose gravity is tilted",
-      2};
+  Parameter gravity = Parameter{*this, "gravity", "m/s^2", 9.81, "along the world's -z"}.of_world(
+      WorldValue::gravity_down);
+  Parameter horizontal_gravity =
+      Parameter{*this, "horizontal_gravity", "m/s^2", 0., "its x and y", 2}.of_world(
+          WorldValue::gravity_sideways);
   Parameter mounting{*this, "mounting", "m", 0., "place of the unit in the body's frame", 3};
   Parameter accelerometer_bias{*this, "accelerometer_bias",        "m/s^2",
                                0.,    "constant error, body axes", 3};

@@ -5,7 +5,8 @@
 namespace hookpoint::control {
 namespace {
 
-/// Its n-th value depends on the seed and n alone: nothing else of the experiment disturbs it.
+/// Its n-th value depends on the World's seed, its own trail and seed, and n alone: nothing else of
+/// the experiment disturbs it.
 class Noise final : public Component {
  public:
   Parameter mean{*this, "mean", "?", 0., "mean value"};
@@ -17,14 +18,14 @@ class Noise final : public Component {
   Output output{*this, "output", "?", "the signal"};
 
   void start(double) override {
-    stream_ = RandomStream(stream_key(static_cast<std::uint64_t>(seed[0]), "Signal.Noise"));
+    values_ = RandomStream(stream_key(stream() + static_cast<std::uint64_t>(seed[0]), "seed"));
   }
   void update(const Tick& tick) override {
-    output = mean + standard_deviation * stream_.gaussian(static_cast<std::uint64_t>(tick.count));
+    output = mean + standard_deviation * values_.gaussian(static_cast<std::uint64_t>(tick.count));
   }
 
  private:
-  RandomStream stream_;
+  RandomStream values_;
 };
 
 }  // namespace

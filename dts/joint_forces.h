@@ -1,5 +1,5 @@
-// What a joint exerts by itself, as a function of its position and rate: damper, dry friction,
-// spring, limits.
+// What a joint exerts by itself, as a function of its position, its rate and where its dry friction
+// is hooked: damper, dry friction, spring, limits.
 #pragma once
 
 #include <limits>
@@ -12,10 +12,10 @@ namespace hookpoint::dts {
 /// (force in N).
 template <class Real>
 struct JointProperties {
-  Real damping{0.};   ///< b
-  Real friction{0.};  ///< tau_f, dry friction
-  Real friction_speed{
-      0.05};  ///< v_f: below this rate dry friction is viscous, tau_f rate / v_f (regularised)
+  Real damping{0.};                ///< b
+  Real friction{0.};               ///< tau_f, dry friction
+  Real friction_deflection{1e-3};  ///< z_f: so far a joint that sticks gives way before it slips
+  Real friction_speed{0.05};       ///< v_f: at this rate a joint that sticks is damped by tau_f
   Real stiffness{0.}, rest_position{0.};
   Real lower_limit{-std::numeric_limits<double>::infinity()};
   Real upper_limit{std::numeric_limits<double>::infinity()};
@@ -23,13 +23,25 @@ struct JointProperties {
   Real limit_damping{1.};       ///< c_l of the stop
 };
 
-/// tau = -b rate - tau_f sat(rate / v_f) - k (q - q_rest) + stop(lower) - stop(upper), where sat
-/// clips to [-1, 1] and a stop pushes max(0, k_l depth + c_l ddepth/dt) while the joint is beyond
-/// it (depth > 0) and never pulls.
+/// Where dry friction is hooked once the joint has come to `position`: the anchor h stays while
+/// |q - h| <= z_f, beyond it is dragged along.
+template <class Real>
+Real dragged_anchor(const JointProperties<Real>& joint, const Real& position, const Real& anchor) {
+  const Real z = position - anchor;
+  const Real& most = joint.friction_deflection;
+  return select(z > most, position - most, select(z < -most, position + most, anchor));
+}
+
+/// tau = -b rate - tau_f sat(z/z_f + rate/v_f) - k (q - q_rest) + stop(lower) - stop(upper), where
+/// z = q - h is clipped to [-z_f, z_f], sat to [-1, 1], and a stop pushes max(0, k_l depth + c_l
+/// ddepth/dt) while the joint is beyond it (depth > 0) and never pulls. Friction takes at least the
+/// power that its spring stores, whatever the rate.
 template <class Real>
 Real passive_joint_torque(const JointProperties<Real>& joint, const Real& position,
-                          const Real& rate) {
-  const Real dry = joint.friction * max(Real(-1.), min(Real(1.), rate / joint.friction_speed));
+                          const Real& rate, const Real& anchor) {
+  const auto clipped = [](const Real& x) { return max(Real(-1.), min(Real(1.), x)); };
+  const Real z = clipped((position - anchor) / joint.friction_deflection);
+  const Real dry = joint.friction * clipped(z + rate / joint.friction_speed);
   const Real spring = joint.stiffness * (position - joint.rest_position);
   const auto stop = [&](const Real& depth, const Real& depth_rate) {
     const Real push =

@@ -15,7 +15,7 @@ namespace hookpoint::integrators {
 /// resumed goes on bit for bit (docs/decisions/0010). Time is counted from the step's start.
 class AdaptiveStepper : public Stepper {
  public:
-  explicit AdaptiveStepper(const System& system);
+  AdaptiveStepper(const System& system, long most_evaluations);
   Status step(System& system, double t, double dt, std::span<double> q, std::span<double> v) final;
 
   // For the library's callbacks, at `time` since the step's start [s]; y and the results have
@@ -27,6 +27,8 @@ class AdaptiveStepper : public Stepper {
   bool explicit_rates(double time, const double* y, double* rate);
   bool implicit_rates(double time, const double* y, double* rate);
   void event_values(double time, const double* y, double* values);
+  /// The library may ask no more: this step has had its share.
+  bool spent() const { return asked_ > most_evaluations_; }
 
  protected:
   /// Of the whole interval: a step that should be shorter still is given up.
@@ -39,10 +41,12 @@ class AdaptiveStepper : public Stepper {
     double time = 0.;  ///< reached, since the step's start [s]
   };
   /// Begins anew at `time` with the y of `unknowns_`, which may have become more or fewer, not to
-  /// go beyond `end`.
-  virtual void begin(double time, double end) = 0;
-  /// Takes one internal step, leaving y in `unknowns_`.
+  /// go beyond `end`. False where the library refuses.
+  virtual bool begin(double time, double end) = 0;
+  /// Takes one internal step, leaving y in `unknowns_` and, of an event, `directions_`.
   virtual Arrival advance(double end) = 0;
+  /// Writes y at `time` on the way of the internal step just taken, by the method's interpolant.
+  virtual void interpolate(double time, std::span<double> y) = 0;
   /// Adds what the library counted since the last `begin` to the statistics.
   virtual void count() = 0;
 
@@ -50,6 +54,7 @@ class AdaptiveStepper : public Stepper {
   std::size_t band() const;
 
   std::vector<double> unknowns_;  ///< never moves in memory
+  std::vector<int> directions_;   ///< of each event function, where one has changed sign: -1, 0, 1
 
  private:
   void start_from(std::span<const double> q, std::span<const double> v);
@@ -59,14 +64,19 @@ class AdaptiveStepper : public Stepper {
   bool write_rates(Status status, std::span<const double> u_rate, std::span<const double> v_rate,
                    double* rate);
   Status integrate(double dt);
+  Status why_failed() const;
+  void weigh_way(double from, double to);
 
   std::size_t moving_, group_;         ///< System::moving_size, group_size
+  long most_evaluations_;              ///< of a `step`
   std::vector<std::size_t> evolving_;  ///< of the states of first order
   System* system_ = nullptr;           ///< during `step`
   double start_ = 0.;                  ///< time of the step's start [s]
   bool at_start_ = false;              ///< the next rates are those that Stage::first gave
   bool lost_ = false;                  ///< the latest rates are not finite
+  long asked_ = 0;                     ///< evaluations of this `step`
   std::vector<double> origin_, q_, u_, v_, u_rate_, v_rate_, other_rate_, zero_, first_;
+  std::vector<double> between_;  ///< y on the way of an internal step
 };
 
 }  // namespace hookpoint::integrators

@@ -9,10 +9,12 @@
 namespace hookpoint::integrators {
 namespace {
 
+using sundials::require;
+
 class Arkode final : public AdaptiveStepper {
  public:
   Arkode(const System& system, const Tolerances& tolerances, bool imex)
-      : AdaptiveStepper(system),
+      : AdaptiveStepper(system, tolerances.most_evaluations),
         explicit_part_(imex ? sundials::rates<&AdaptiveStepper::explicit_rates>
                             : sundials::rates<&AdaptiveStepper::rates>),
         implicit_part_(imex ? sundials::rates<&AdaptiveStepper::implicit_rates> : nullptr),
@@ -32,34 +34,42 @@ class Arkode final : public AdaptiveStepper {
     ARKStepFree(&memory_);
     y_ = sundials::vector_over(unknowns_, context_.get());
     memory_ = ARKStepCreate(explicit_part_, implicit_part_, 0., y_.get(), context_.get());
+    sundials::require_made(memory_, "ARKODE");
     ARKStepSetErrHandlerFn(memory_, sundials::silent, nullptr);
-    ARKStepSetUserData(memory_, static_cast<AdaptiveStepper*>(this));
-    ARKStepSStolerances(memory_, tolerances_.relative, tolerances_.absolute);
-    ARKStepSetNoInactiveRootWarn(memory_);
+    require(ARKStepSetUserData(memory_, static_cast<AdaptiveStepper*>(this)), "ARKStepSetUserData");
+    require(ARKStepSStolerances(memory_, tolerances_.relative, tolerances_.absolute),
+            "ARKStepSStolerances");
     // A higher interpolant evaluates rates of its own, and whether it does depends on more than
     // this step: a run that is resumed would count others.
-    ARKStepSetInterpolantDegree(memory_, 3);
-    if (events_ > 0) ARKStepRootInit(memory_, events_, sundials::events);
+    require(ARKStepSetInterpolantDegree(memory_, 3), "ARKStepSetInterpolantDegree");
+    if (events_ > 0) {
+      require(ARKStepRootInit(memory_, events_, sundials::events), "ARKStepRootInit");
+      require(ARKStepSetNoInactiveRootWarn(memory_), "ARKStepSetNoInactiveRootWarn");
+    }
     if (implicit_part_ != nullptr) {
-      ARKStepSetTableNum(memory_, ARKODE_ARK436L2SA_DIRK_6_3_4, ARKODE_ARK436L2SA_ERK_6_3_4);
+      require(
+          ARKStepSetTableNum(memory_, ARKODE_ARK436L2SA_DIRK_6_3_4, ARKODE_ARK436L2SA_ERK_6_3_4),
+          "ARKStepSetTableNum");
       linear_ = sundials::make_linear_solver(y_.get(), unknowns_.size(), band(), context_.get());
-      ARKStepSetLinearSolver(memory_, linear_.solver.get(), linear_.matrix.get());
+      require(ARKStepSetLinearSolver(memory_, linear_.solver.get(), linear_.matrix.get()),
+              "ARKStepSetLinearSolver");
       // By default Newton's iteration is trusted after one correction where the ones before went
       // well. The implicit part here is linear off contact, all of them go well, and the one with
       // an old matrix is far off: errors of 1e-2 at a tolerance of 1e-6.
-      ARKStepSetNonlinCRDown(memory_, 1.);
+      require(ARKStepSetNonlinCRDown(memory_, 1.), "ARKStepSetNonlinCRDown");
     } else {
-      ARKStepSetTableNum(memory_, ARKODE_DIRK_NONE, ARKODE_DORMAND_PRINCE_7_4_5);
+      require(ARKStepSetTableNum(memory_, ARKODE_DIRK_NONE, ARKODE_DORMAND_PRINCE_7_4_5),
+              "ARKStepSetTableNum");
     }
   }
 
-  void begin(double time, double end) override {
-    if (!sundials::is_over(y_.get(), unknowns_)) create();
-    ARKStepReInit(memory_, explicit_part_, implicit_part_, time, y_.get());
-    ARKStepSetStopTime(memory_, end);
-    ARKStepSetMinStep(memory_, least_step * end);
-    ARKStepSetInitStep(memory_, next_step_);  // 0: the library's own guess
+  bool begin(double time, double end) override {
     longest_ = 0.;
+    if (!sundials::is_over(y_.get(), unknowns_)) create();
+    return ARKStepReInit(memory_, explicit_part_, implicit_part_, time, y_.get()) == ARK_SUCCESS &&
+           ARKStepSetStopTime(memory_, end) == ARK_SUCCESS &&
+           ARKStepSetMinStep(memory_, least_step * end) == ARK_SUCCESS &&
+           ARKStepSetInitStep(memory_, next_step_) == ARK_SUCCESS;  // 0: the library's own guess
   }
 
   Arrival advance(double end) override {
@@ -69,8 +79,15 @@ class Arkode final : public AdaptiveStepper {
     ARKStepGetLastStep(memory_, &taken);
     longest_ = std::max(longest_, taken);
     if (flag == ARK_SUCCESS) return {Arrival::Kind::inside, time};
-    if (flag != ARK_TSTOP_RETURN && flag != ARK_ROOT_RETURN) return {};
-    return {flag == ARK_ROOT_RETURN ? Arrival::Kind::event : Arrival::Kind::at_end, time};
+    if (flag == ARK_TSTOP_RETURN) return {Arrival::Kind::at_end, time};
+    if (flag != ARK_ROOT_RETURN) return {};
+    ARKStepGetRootInfo(memory_, directions_.data());
+    return {Arrival::Kind::event, time};
+  }
+
+  void interpolate(double time, std::span<double> y) override {
+    const auto at = sundials::vector_over(y, context_.get());
+    ARKStepGetDky(memory_, time, 0, at.get());
   }
 
   void count() override {

@@ -8,10 +8,12 @@
 namespace hookpoint::integrators {
 namespace {
 
+using sundials::require;
+
 class Cvode final : public AdaptiveStepper {
  public:
   Cvode(const System& system, const Tolerances& tolerances, int method)
-      : AdaptiveStepper(system),
+      : AdaptiveStepper(system, tolerances.most_evaluations),
         tolerances_(tolerances),
         method_(method),
         events_(static_cast<int>(system.event_count())),
@@ -27,26 +29,31 @@ class Cvode final : public AdaptiveStepper {
     CVodeFree(&memory_);
     y_ = sundials::vector_over(unknowns_, context_.get());
     memory_ = CVodeCreate(method_, context_.get());
+    sundials::require_made(memory_, "CVODE");
     CVodeSetErrHandlerFn(memory_, sundials::silent, nullptr);
-    CVodeInit(memory_, sundials::rates<&AdaptiveStepper::rates>, 0., y_.get());
-    CVodeSetUserData(memory_, static_cast<AdaptiveStepper*>(this));
-    CVodeSStolerances(memory_, tolerances_.relative, tolerances_.absolute);
-    CVodeSetNoInactiveRootWarn(memory_);
-    if (events_ > 0) CVodeRootInit(memory_, events_, sundials::events);
+    require(CVodeInit(memory_, sundials::rates<&AdaptiveStepper::rates>, 0., y_.get()),
+            "CVodeInit");
+    require(CVodeSetUserData(memory_, static_cast<AdaptiveStepper*>(this)), "CVodeSetUserData");
+    require(CVodeSStolerances(memory_, tolerances_.relative, tolerances_.absolute),
+            "CVodeSStolerances");
+    require(CVodeSetNoInactiveRootWarn(memory_), "CVodeSetNoInactiveRootWarn");
+    if (events_ > 0) require(CVodeRootInit(memory_, events_, sundials::events), "CVodeRootInit");
     if (method_ == CV_BDF) {
       linear_ = sundials::make_linear_solver(y_.get(), unknowns_.size(), band(), context_.get());
-      CVodeSetLinearSolver(memory_, linear_.solver.get(), linear_.matrix.get());
+      require(CVodeSetLinearSolver(memory_, linear_.solver.get(), linear_.matrix.get()),
+              "CVodeSetLinearSolver");
     } else {
       corrector_.reset(SUNNonlinSol_FixedPoint(y_.get(), 0, context_.get()));
-      CVodeSetNonlinearSolver(memory_, corrector_.get());
+      sundials::require_made(corrector_, "corrector");
+      require(CVodeSetNonlinearSolver(memory_, corrector_.get()), "CVodeSetNonlinearSolver");
     }
   }
 
-  void begin(double time, double end) override {
+  bool begin(double time, double end) override {
     if (!sundials::is_over(y_.get(), unknowns_)) create();
-    CVodeReInit(memory_, time, y_.get());
-    CVodeSetStopTime(memory_, end);
-    CVodeSetMinStep(memory_, least_step * end);
+    return CVodeReInit(memory_, time, y_.get()) == CV_SUCCESS &&
+           CVodeSetStopTime(memory_, end) == CV_SUCCESS &&
+           CVodeSetMinStep(memory_, least_step * end) == CV_SUCCESS;
   }
 
   Arrival advance(double end) override {
@@ -57,10 +64,16 @@ class Cvode final : public AdaptiveStepper {
       case CV_TSTOP_RETURN:
         return {Arrival::Kind::at_end, time};
       case CV_ROOT_RETURN:
+        CVodeGetRootInfo(memory_, directions_.data());
         return {Arrival::Kind::event, time};
       default:
         return {};
     }
+  }
+
+  void interpolate(double time, std::span<double> y) override {
+    const auto at = sundials::vector_over(y, context_.get());
+    CVodeGetDky(memory_, time, 0, at.get());
   }
 
   void count() override {

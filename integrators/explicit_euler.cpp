@@ -12,6 +12,7 @@ Status ExplicitEuler::step(System& system, double t, double dt, std::span<double
                            std::span<double> v) {
   const Status status = evaluate(system, Stage::first, t, q, v, acceleration_);
   if (status != Status::ok) return status;
+  system.weigh(dt);
   for (std::size_t i = 0; i < v.size(); ++i) {
     displacement_[i] = dt * v[i];
     next_v_[i] = v[i] + dt * acceleration_[i];

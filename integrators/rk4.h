@@ -18,8 +18,8 @@ class RungeKutta4 final : public Stepper {
 
  private:
   /// k = F at y0 + reach (k of the stage before), and sum += weight k.
-  Status trial(System& system, double t, double reach, double weight, std::span<const double> q,
-               std::span<const double> v);
+  Status trial(System& system, double t, double dt, double reach, double weight,
+               std::span<const double> q, std::span<const double> v);
 
   std::vector<double> u_, v_, q_;      // the trial state
   std::vector<double> k_u_, k_v_;      // rates of the latest stage

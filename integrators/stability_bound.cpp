@@ -28,7 +28,9 @@ double rk4_amplification(std::complex<double> z) {
 double explicit_euler_bound(std::complex<double> eigenvalue) {
   // |1 + lambda dt| = 1. Decay below round-off of the modulus is none.
   constexpr double least_decay = 1e-12;
-  const double modulus = std::abs(eigenvalue), decay = -eigenvalue.real() / modulus;
+  const double modulus = std::abs(eigenvalue);
+  if (modulus == 0.) return infinity;
+  const double decay = -eigenvalue.real() / modulus;
   return decay > least_decay ? 2. * decay / modulus : 0.;
 }
 
@@ -44,8 +46,13 @@ double semi_implicit_euler_bound(const Mode& mode) {
 }
 
 double rk4_bound(std::complex<double> eigenvalue) {
+  constexpr double least_growth = 1e-4;
   const double modulus = std::abs(eigenvalue);
+  if (modulus == 0.) return infinity;
   const std::complex<double> direction = eigenvalue / modulus;
+  // What grows by itself grows with every step that is short enough. Growth of no more than the
+  // rounding of eigenvalues is none.
+  if (direction.real() > least_growth) return 0.;
   // The region |R| <= 1 ends between 2.6 and 3.4 from the origin in the left half plane; march out,
   // then bisect. Below 1 an undamped mode's |R| = 1 - O(|z|^6) is too near 1 to be compared.
   const auto unstable = [&](double r) { return rk4_amplification(r * direction) > 1.; };

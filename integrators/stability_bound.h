@@ -27,8 +27,8 @@ double semi_implicit_euler_bound(const Mode& mode);
 double rk4_bound(const Mode& mode);
 
 /// The same for one eigenvalue of a linear system with many modes [1/s]: explicit Euler's -2 Re/|
-/// |^2, 0 where it does not decay; RK4's. There is none such of semi-implicit Euler, which treats
-/// position and velocity unlike.
+/// |^2, 0 where it does not decay; RK4's, 0 where it grows; infinity for eigenvalue 0. There is
+/// none such of semi-implicit Euler, which treats position and velocity unlike.
 double explicit_euler_bound(std::complex<double> eigenvalue);
 double rk4_bound(std::complex<double> eigenvalue);
 

@@ -57,7 +57,11 @@ const StepperDescription* find_stepper(std::string_view name) {
 std::unique_ptr<Stepper> make_stepper(std::string_view name, const System& system,
                                       const Tolerances& tolerances) {
   const StepperDescription* stepper = find_stepper(name);
-  return stepper ? stepper->make(system, tolerances) : nullptr;
+  if (stepper == nullptr) return nullptr;
+  // Where nothing moves there is no step to choose, and SUNDIALS takes no system without unknowns.
+  if (stepper->adaptive() && system.velocity_size() == 0)
+    return std::make_unique<SemiImplicitEuler>(system);
+  return stepper->make(system, tolerances);
 }
 
 bool all_finite(std::span<const double> values) {

@@ -15,6 +15,9 @@ namespace hookpoint::integrators {
 struct Tolerances {
   double relative = 1e-6;
   double absolute = 1e-8;
+  /// Evaluations of rates and events that one `step` may need. What needs more crawls, over a
+  /// discontinuity or a stiffness that it cannot take, and says so rather than go on for ever.
+  long most_evaluations = 300000;
 };
 
 /// What the integration has cost since the stepper was made: counts, exact up to 2^53.

@@ -13,6 +13,8 @@
 
 #include <memory>
 #include <span>
+#include <stdexcept>
+#include <string>
 
 #include "integrators/adaptive.h"
 
@@ -28,16 +30,32 @@ struct Free {
 template <class Pointer>
 using Owner = std::unique_ptr<std::remove_pointer_t<Pointer>, Free>;
 
+/// Throws where a function of the library could not set up what it was asked to: no memory, or a
+/// tolerance that is not positive.
+inline void require(int flag, const char* function) {
+  if (flag < 0)
+    throw std::runtime_error(std::string("SUNDIALS: ") + function + " returned " +
+                             std::to_string(flag));
+}
+template <class Pointer>
+void require_made(const Pointer& made, const char* what) {
+  if (made == nullptr) throw std::runtime_error(std::string("SUNDIALS: there is no ") + what);
+}
+
 inline Owner<SUNContext> make_context() {
   SUNContext context = nullptr;
-  SUNContext_Create(nullptr, &context);
-  return Owner<SUNContext>(context);
+  const int flag = SUNContext_Create(nullptr, &context);
+  Owner<SUNContext> owner(context);
+  require(flag, "SUNContext_Create");
+  return owner;
 }
 
 /// A vector of the library over numbers of ours.
 inline Owner<N_Vector> vector_over(std::span<double> numbers, SUNContext context) {
-  return Owner<N_Vector>(
+  Owner<N_Vector> vector(
       N_VMake_Serial(static_cast<sunindextype>(numbers.size()), numbers.data(), context));
+  require_made(vector, "vector");
+  return vector;
 }
 
 /// Whether `vector` has as many numbers as there are now.
@@ -60,6 +78,8 @@ inline LinearSolver make_linear_solver(N_Vector y, std::size_t size, std::size_t
                             : SUNBandMatrix(n, half, half, context));
   linear.solver.reset(dense ? SUNLinSol_Dense(y, linear.matrix.get(), context)
                             : SUNLinSol_Band(y, linear.matrix.get(), context));
+  require_made(linear.matrix, "Jacobian");
+  require_made(linear.solver, "linear solver");
   return linear;
 }
 
@@ -68,13 +88,15 @@ inline void silent(int, const char*, const char*, char*, void*) {}
 
 inline AdaptiveStepper& stepper(void* user) { return *static_cast<AdaptiveStepper*>(user); }
 
-/// For the library: 0 fine, 1 try a shorter step.
+/// For the library: 0 fine, 1 try a shorter step, -1 give up.
 template <bool (AdaptiveStepper::*part)(double, const double*, double*)>
 int rates(double time, N_Vector y, N_Vector rate, void* user) {
+  if (stepper(user).spent()) return -1;
   return (stepper(user).*part)(time, NV_DATA_S(y), NV_DATA_S(rate)) ? 0 : 1;
 }
 
 inline int events(double time, N_Vector y, double* values, void* user) {
+  if (stepper(user).spent()) return -1;
   stepper(user).event_values(time, NV_DATA_S(y), values);
   return 0;
 }

@@ -11,12 +11,14 @@ enum class Status {
   ok,
   not_finite,  ///< an acceleration, position or velocity is infinite or not a number
   no_step,     ///< an adaptive integrator finds no step that meets its tolerances
+  too_long,    ///< an adaptive integrator has spent the evaluations that one step may need
 };
 
 /// Which evaluation within a step this is. `first` is at the accepted state (t, q, v) that the step
-/// starts from, and comes exactly once a step, before all others: there the system may commit what
-/// remembers the past (contact hooks). `trial` is at a state that may never be visited: the system
-/// evaluates it from the memory that `first` committed and leaves that memory alone.
+/// starts from, and comes exactly once a step, before all others: what remembers the past (contact
+/// hooks) has been committed there, and the system may know this state already. `trial` is at a
+/// state that may never be visited: the system evaluates it from the committed memory and leaves
+/// that memory alone.
 enum class Stage { first, trial };
 
 class System {
@@ -42,14 +44,30 @@ class System {
   virtual void tangent_rate(std::span<const double> u, std::span<const double> v,
                             std::span<double> du) const = 0;
 
+  /// What was evaluated last counts for `weight` [s] of the step in integrals over it: b_i dt of a
+  /// stage of a Runge-Kutta method. The weights of a step add up to dt.
+  virtual void weigh(double /*weight*/) {}
+
   // What only adaptive integrators ask. A system without memory, events and contact keeps these
   // defaults.
 
+  /// Whether `weigh_at` is of use.
+  virtual bool has_integrals() const { return false; }
+  /// As `weigh`, of a state on the way of an internal step, told before its commit: the nodes of a
+  /// quadrature.
+  virtual void weigh_at(double /*weight*/, std::span<const double> /*q*/,
+                        std::span<const double> /*v*/) {}
+
   /// An internal step of `dt` [s] has been accepted at (t, q, v), and another follows: what
   /// remembers the past is brought up to date here. Not called for the last internal step, whose
-  /// end is the caller's next accepted state.
+  /// end is the caller's next accepted state, unless it ends at an event.
   virtual void commit(double /*t*/, double /*dt*/, std::span<const double> /*q*/,
                       std::span<const double> /*v*/) {}
+
+  /// After an event's commit: of each event function -1 where it has become negative, +1 where it
+  /// has become positive, 0 elsewhere. Its value at the event is 0 but for rounding; which side the
+  /// system is on from there is said here.
+  virtual void cross(std::span<const int> /*directions*/) {}
 
   /// After an event's commit: `v` as the motion goes on with it. A system may drop from it what the
   /// event has ended (the bristle of a point that has left the ground).

@@ -1,5 +1,6 @@
-// What a kernel asks of its scalar: a comparison mask, select, and the elementary functions. A kernel written with
-// these runs on double and, unchanged, on a pack that holds one simulation a lane.
+// What a kernel asks of its scalar: a comparison mask, select, and the elementary functions. A
+// kernel written with these runs on double and, unchanged, on a pack that holds one simulation a
+// lane.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +9,8 @@
 
 namespace hookpoint {
 
-/// The type of a comparison of two `Real`s: bool for double; a pack specialises this with its lane mask.
+/// The type of a comparison of two `Real`s: bool for double; a pack specialises this with its lane
+/// mask.
 template <class Real>
 struct MaskOf {
   using type = bool;
