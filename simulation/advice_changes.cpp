@@ -6,6 +6,8 @@
 #include <cmath>
 #include <optional>
 
+#include "contact/force_law.h"
+#include "simulation/material_fields.h"
 #include "simulation/stability.h"
 
 namespace hookpoint::simulation {
@@ -21,35 +23,29 @@ constexpr double step_margin = 1.25;
 
 using Member = double Constants::*;
 
-struct Culprit {
-  const char* name;
-  std::vector<Member> members;
-};
+/// Constants that may limit the step together.
+using Culprit = std::vector<Member>;
 
-/// What may limit the step, from what costs least to lower; together what no single one helps.
+/// From what costs least to lower; at last together what no single one helps.
 std::vector<Culprit> culprits() {
   return {
-      {"tangential_damping", {&Constants::tangential_damping}},
-      {"normal_damping", {&Constants::normal_damping}},
-      {"hysteresis_damping", {&Constants::hysteresis_damping}},
-      {"tangential_stiffness", {&Constants::tangential_stiffness}},
-      {"normal_stiffness", {&Constants::normal_stiffness, &Constants::nominal_stiffness}},
-      {"exponential_rate", {&Constants::exponential_rate}},
-      {"tangential_damping and normal_damping",
-       {&Constants::tangential_damping, &Constants::normal_damping,
-        &Constants::hysteresis_damping}},
-      {"all stiffness and damping",
-       {&Constants::tangential_damping, &Constants::normal_damping, &Constants::hysteresis_damping,
-        &Constants::tangential_stiffness, &Constants::normal_stiffness,
-        &Constants::nominal_stiffness, &Constants::exponential_rate}},
-  };
+      {&Constants::tangential_damping},
+      {&Constants::normal_damping},
+      {&Constants::hysteresis_damping},
+      {&Constants::tangential_stiffness},
+      {&Constants::normal_stiffness, &Constants::nominal_stiffness},
+      {&Constants::exponential_rate},
+      {&Constants::tangential_damping, &Constants::normal_damping, &Constants::hysteresis_damping},
+      {&Constants::tangential_damping, &Constants::normal_damping, &Constants::hysteresis_damping,
+       &Constants::tangential_stiffness, &Constants::normal_stiffness,
+       &Constants::nominal_stiffness, &Constants::exponential_rate}};
 }
 
 /// The bound with the culprit's constants `factor` times as large in all materials.
 double bound_with(const Experiment& experiment, const Culprit& culprit, double factor) {
   Experiment changed = experiment;
   for (MaterialSpec& material : changed.materials) {
-    for (const Member member : culprit.members) material.constants.*member *= factor;
+    for (const Member member : culprit) material.constants.*member *= factor;
   }
   return stability_bound(changed).step;
 }
@@ -67,6 +63,37 @@ std::optional<double> factor_for_step(const Experiment& experiment, const Culpri
   return low;
 }
 
+/// Whether the law reads the constant, about some load.
+bool reads(const contact::ForceLaw& law, const Constants& material, Member member) {
+  Constants more = material;
+  more.*member = 1.001 * material.*member;
+  const auto now = contact::linearise(law, 1., material), then = contact::linearise(law, 1., more);
+  return now.normal_stiffness != then.normal_stiffness ||
+         now.normal_damping != then.normal_damping ||
+         now.tangential_stiffness != then.tangential_stiffness ||
+         now.tangential_damping != then.tangential_damping;
+}
+
+/// "surface.normal_damping = 1.41 N.s/m": the culprit's constants `factor` times as large, of the
+/// grounds that carry.
+std::string lowered(const Experiment& experiment, const Advice& advice, const Culprit& culprit,
+                    double factor) {
+  const contact::ForceLaw law = *contact::find_force_law(experiment.contact);
+  std::string text;
+  for (const MaterialSpec& material : experiment.materials) {
+    if (std::ranges::find(advice.grounds, material.name, &GroundAdvice::material) ==
+        advice.grounds.end())
+      continue;
+    for (const MaterialField& field : material_fields()) {
+      if (std::ranges::find(culprit, field.member) == culprit.end()) continue;
+      if (!reads(law, material.constants, field.member)) continue;
+      text += fmt::format("{}{}.{} = {:.3g} {}", text.empty() ? "" : " and ", material.name,
+                          field.name, factor * material.constants.*field.member, field.unit);
+    }
+  }
+  return text;
+}
+
 std::string another_integrator(const Experiment& experiment, const Advice& advice) {
   for (const StepAdvice& step : advice.steps) {
     if (step.integrator != experiment.integrator && step.present > experiment.deltat)
@@ -78,17 +105,22 @@ std::string another_integrator(const Experiment& experiment, const Advice& advic
 
 void advise_step(const Experiment& experiment, const Advice& advice,
                  std::vector<std::string>& changes) {
-  const double bound = stability_bound(experiment).step;
+  const StabilityBound whole = stability_bound(experiment);
+  const double bound = whole.step;
   if (!std::isfinite(bound) || experiment.deltat <= bound) return;
+  if (const std::string controllers = controller_advice(whole); !controllers.empty()) {
+    changes.push_back(controllers);
+    if (experiment.deltat <= whole.without_controllers) return;
+  }
   std::string smaller = bound > 0. ? fmt::format("deltat = {:.3g} s", bound / step_margin)
                                    : std::string("some damping");
   for (const Culprit& culprit : culprits()) {
     const auto factor = factor_for_step(experiment, culprit);
     if (!factor) continue;
     changes.push_back(fmt::format(
-        "deltat {:.4g} s is above the largest stable step {:.4g} s of {}: multiply {} by {:.2g}, "
-        "or {}{}",
-        experiment.deltat, bound, experiment.integrator, culprit.name, *factor, smaller,
+        "deltat {:.4g} s is above the largest stable step {:.4g} s of {}: set {}, or {}{}",
+        experiment.deltat, bound, experiment.integrator,
+        lowered(experiment, advice, culprit, *factor), smaller,
         another_integrator(experiment, advice)));
     return;
   }

@@ -1,7 +1,10 @@
 #include "simulation/advice_constants.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <initializer_list>
+#include <stdexcept>
 
 namespace hookpoint::simulation {
 namespace {
@@ -45,7 +48,7 @@ MaterialField field_named(std::string_view name) {
   for (const MaterialField& field : material_fields()) {
     if (name == field.name) return field;
   }
-  return material_fields()[0];
+  throw std::logic_error(fmt::format("a Material has no constant `{}`", name));
 }
 
 std::optional<MaterialField> stiffness_field(const ForceLaw& law, double load,

@@ -40,6 +40,16 @@ bool is_computed(const control::Component& component, std::size_t index) {
   return false;
 }
 
+void take_from_world(const control::PortDescription& port, const Vector3d& gravity,
+                     std::span<double> values) {
+  using control::WorldValue;
+  if (port.world == WorldValue::gravity_down) values[port.first] = -gravity.z;
+  if (port.world == WorldValue::gravity_sideways) {
+    values[port.first] = gravity.x;
+    values[port.first + 1] = gravity.y;
+  }
+}
+
 }  // namespace
 
 std::string element_suffix(const control::PortDescription& port, std::size_t index) {
@@ -53,6 +63,8 @@ Components::Components(const Experiment& experiment) {
     const control::ComponentClass* type = control::Registry::instance().find(spec.type);
     if (type == nullptr) throw ExperimentError("there is no component class `" + spec.type + "`");
     control::Component& component = *components_.emplace_back(type->make());
+    for (const control::PortDescription& port : component.ports())
+      take_from_world(port, experiment.gravity, component.values());
     for (const auto& [index, value] : spec.values) component.values()[index] = value;
     for (const auto& [index, text] : spec.texts) component.texts()[index] = text;
     by_trail_.emplace(spec.trail, by_trail_.size());

@@ -1,15 +1,26 @@
 #include "simulation/derived.h"
 
+#include <cmath>
+
 namespace hookpoint::simulation {
+namespace {
+
+bool is_finite(const Vector3d& a) {
+  return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
+}
+
+}  // namespace
 
 Derived::Derived(const Experiment& experiment, Engine& engine)
     : experiment_(experiment),
       engine_(engine),
       robots_(experiment.robots.size()),
       bodies_(engine.state().bodies.size()),
+      contact_forces_(engine),
       details_(engine) {}
 
 void Derived::update() {
+  finite_ = true;
   energies_.update();
   accelerations_.update();
   contacts_.update();
@@ -43,6 +54,8 @@ void Derived::compute_energies() {
       for (const LinkSpec& link : chain.links) add(link.body.mass, *body++);
     }
     if (total > 0.) sum.center_of_mass = (1. / total) * sum.center_of_mass;
+    finite_ = finite_ && std::isfinite(sum.kinetic_energy) && std::isfinite(sum.potential_energy) &&
+              is_finite(sum.center_of_mass);
     robots_[i] = sum;
   }
 }
@@ -55,6 +68,8 @@ void Derived::compute_accelerations() {
     bodies_[i].acceleration = per_second * (now[i].velocity - before_[i].velocity);
     bodies_[i].angular_acceleration =
         per_second * (now[i].angular_velocity - before_[i].angular_velocity);
+    finite_ =
+        finite_ && is_finite(bodies_[i].acceleration) && is_finite(bodies_[i].angular_acceleration);
     before_[i] = now[i];
   }
 }

@@ -19,6 +19,8 @@ class Derived {
   /// nothing.
   void update();
 
+  /// Whether all that is asked for is.
+  bool finite() const { return finite_; }
   /// The engine's state has become another one: differences begin anew.
   void restart();
 
@@ -38,6 +40,8 @@ class Derived {
   Lazy& energies() { return energies_; }
   Lazy& accelerations() { return accelerations_; }
   Lazy& contacts() { return contacts_; }
+  /// The bodies' contact forces (Engine::publish_contact_forces).
+  Lazy& contact_forces() { return contact_forces_; }
   /// The engine's own details (Engine::publish_details).
   Lazy& details() { return details_; }
 
@@ -63,6 +67,12 @@ class Derived {
     Engine& engine;
   };
 
+  struct ContactForces final : Lazy {
+    explicit ContactForces(Engine& asked) : engine(asked) {}
+    void begin() override { engine.publish_contact_forces(true); }
+    Engine& engine;
+  };
+
   void compute_energies();
   void compute_accelerations();
   void compute_contacts();
@@ -72,9 +82,11 @@ class Derived {
   std::vector<RobotValues> robots_;
   std::vector<BodyValues> bodies_;
   std::vector<BodyState> before_;  // of the step before, while accelerations are wanted
+  bool finite_ = true;
   Group energies_{*this, &Derived::compute_energies};
   Group accelerations_{*this, &Derived::compute_accelerations};
   Group contacts_{*this, &Derived::compute_contacts};
+  ContactForces contact_forces_;
   Details details_;
 };
 

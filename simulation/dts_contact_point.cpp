@@ -7,6 +7,9 @@ namespace hookpoint::simulation {
 std::vector<ContactPoint> boundary_points(const RobotSpec& robot) {
   std::vector<ContactPoint> points;
   const std::vector<const BodySpec*> bodies = bodies_of(robot);
+  std::size_t count = 0;
+  for (const BodySpec* body : bodies) count += body->boundary_points.size();
+  points.reserve(count);
   // A fixed base cannot be moved by the ground.
   for (std::size_t body = robot.mobile ? 0 : 1; body < bodies.size(); ++body) {
     for (std::size_t i = 0; i < bodies[body]->boundary_points.size(); ++i) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "contact/force_law.h"
 #include "simulation/dts_robot.h"
@@ -41,7 +42,7 @@ class DtsEngine final : public Engine, public Resumable {
       bodies += robot->model().body_count();
       joints += robot->model().link_count();
       chains += robot->model().chain_count();
-      parts_.push_back({std::move(robot), std::move(stepper), false});
+      parts_.push_back({std::move(robot), std::move(stepper)});
     }
     state_.bodies.resize(bodies);
     state_.joints.resize(joints);
@@ -52,10 +53,13 @@ class DtsEngine final : public Engine, public Resumable {
 
   StepStatus step() override {
     for (std::size_t i = 0; i < parts_.size(); ++i) {
+      parts_[i].stepper->save(parts_[i].stepper_before);
       const StepStatus status =
           parts_[i].robot->step(*parts_[i].stepper, state_.time, experiment_.deltat);
       if (status.ok()) continue;
       for (std::size_t stepped = 0; stepped < i; ++stepped) parts_[stepped].robot->undo();
+      for (std::size_t begun = 0; begun <= i; ++begun)
+        parts_[begun].stepper->restore(parts_[begun].stepper_before);
       return explained(status);
     }
     ++state_.step;
@@ -70,12 +74,20 @@ class DtsEngine final : public Engine, public Resumable {
     has_details_ = true;
     copy_details();
   }
+  void publish_contact_forces(bool wanted) override {
+    for (Part& part : parts_) part.robot->publish_contact_forces(wanted);
+  }
   void publish_ground_forces() override {
     std::size_t points = 0;
     for (const Part& part : parts_) points += part.robot->contact_points().size();
     state_.ground_forces.reserve(points);
     state_.ground_force_time = GroundForceTime::now;
     copy_ground_forces();
+  }
+  std::optional<double> ground_energy() const override {
+    double sum = 0.;
+    for (const Part& part : parts_) sum += part.robot->ground_energy();
+    return sum;
   }
   Resumable* resumable() override { return this; }
 
@@ -134,19 +146,29 @@ class DtsEngine final : public Engine, public Resumable {
   struct Part {
     std::unique_ptr<DtsRobot> robot;
     std::unique_ptr<integrators::Stepper> stepper;
+    std::array<double, integrators::Stepper::state_size()> stepper_before{};  ///< the present step
     bool noticed = false;
   };
 
-  /// A failure above the stability bound is the step's, and the bound is the advice.
+  /// A failure above the stability bound is the step's, or its controllers', and so is the advice.
   StepStatus explained(StepStatus status) const {
     const StabilityBound bound = stability_bound(experiment_);
-    if (experiment_.deltat <= bound.step) return status;
+    if (experiment_.deltat <= bound.step) {
+      if (bound.left_out.empty() || status.kind != StepStatus::Kind::not_finite) return status;
+      status.advice = fmt::format(
+          "its accelerations are no longer finite, with a step below the bound {:.4g} s, which "
+          "leaves out what feeds back otherwise: {}; lower its gains or raise its rate",
+          bound.step, first_of(bound.left_out));
+      return status;
+    }
     status.kind = StepStatus::Kind::step_too_large;
+    const std::string controllers = controller_advice(bound);
     status.advice = fmt::format(
-        "deltat {:.4g} s is above the largest stable step {:.4g} s of {}: make the step smaller, "
-        "the "
-        "ground softer, or choose another integrator",
-        experiment_.deltat, bound.step, experiment_.integrator);
+        "deltat {:.4g} s is above the largest stable step {:.4g} s of {}: {}", experiment_.deltat,
+        bound.step, experiment_.integrator,
+        controllers.empty() ? "make the step smaller, the ground softer, or choose another "
+                              "integrator"
+                            : controllers);
     return status;
   }
 

@@ -1,11 +1,16 @@
 #include "simulation/dts_robot.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
+#include <cassert>
 #include <limits>
 
 #include "dts/configuration.h"
 #include "dts/external_forces.h"
 #include "dts/forward_dynamics.h"
+#include "integrators/adaptive.h"
 #include "integrators/rotation_rate.h"
 
 namespace hookpoint::simulation {
@@ -28,17 +33,6 @@ dts::LinkDescription describe_link(const LinkSpec& link) {
           link.joint_orientation};
 }
 
-dts::JointProperties<double> joint_properties(const LinkSpec& link) {
-  dts::JointProperties<double> joint;
-  joint.damping = link.damping;
-  joint.friction = link.friction;
-  joint.stiffness = link.stiffness;
-  joint.rest_position = link.rest_angle;
-  if (link.lower_limit) joint.lower_limit = *link.lower_limit;
-  if (link.upper_limit) joint.upper_limit = *link.upper_limit;
-  return joint;
-}
-
 /// Calls `action(link)` for each link of the robot, chain by chain.
 template <class Action>
 void for_each_link(const RobotSpec& robot, const Action& action) {
@@ -48,6 +42,14 @@ void for_each_link(const RobotSpec& robot, const Action& action) {
 }
 
 StepStatus explain(integrators::Status status, double time, std::string body) {
+  if (status == integrators::Status::too_long) {
+    return {StepStatus::Kind::solver_failed, time, std::move(body),
+            fmt::format("this step has taken {} evaluations and is not over: raise "
+                        "relative_tolerance and absolute_tolerance, bring the constants of ground "
+                        "and joints nearer to each other, make deltat smaller, or choose a "
+                        "fixed-step integrator",
+                        integrators::Tolerances{}.most_evaluations)};
+  }
   if (status == integrators::Status::no_step) {
     return {StepStatus::Kind::solver_failed, time, std::move(body),
             "the integrator finds no step that meets its tolerances: raise relative_tolerance and "
@@ -75,6 +77,21 @@ std::size_t joints_before(const Experiment& experiment, int robot) {
 }
 
 }  // namespace
+
+dts::JointProperties<double> joint_properties(const LinkSpec& link) {
+  dts::JointProperties<double> joint;
+  joint.damping = link.damping;
+  joint.friction = link.friction;
+  joint.friction_deflection = link.friction_deflection;
+  joint.friction_speed = link.friction_speed;
+  joint.stiffness = link.stiffness;
+  joint.rest_position = link.rest_angle;
+  if (link.lower_limit) joint.lower_limit = *link.lower_limit;
+  if (link.upper_limit) joint.upper_limit = *link.upper_limit;
+  joint.limit_stiffness = link.limit_stiffness;
+  joint.limit_damping = link.limit_damping;
+  return joint;
+}
 
 dts::RobotDescription describe_robot(const RobotSpec& robot) {
   dts::RobotDescription description{robot.mobile, mass_properties(robot.base.mass), {}};
@@ -119,6 +136,9 @@ DtsRobot::DtsRobot(const Experiment& experiment, int index, const contact::Terra
       points_(ground ? boundary_points(experiment.robots[index]) : std::vector<ContactPoint>{}) {
   for_each_link(experiment.robots[index],
                 [&](const LinkSpec& link) { joints_.push_back(joint_properties(link)); });
+  for (std::size_t i = 0; i < joints_.size(); ++i)
+    if (joints_[i].friction > 0.) dry_joints_.push_back({i});
+  anchors_ = anchors_before_ = state_.joint_positions;
   for (const ForceSpec& force : experiment.forces) has_forces_ |= force.robot == index_;
   for (std::size_t body = 0; body <= model_.body_count(); ++body) {
     const auto first = std::ranges::lower_bound(points_, body, {}, &ContactPoint::body);
@@ -131,6 +151,8 @@ DtsRobot::DtsRobot(const Experiment& experiment, int index, const contact::Terra
   for (std::vector<double>* velocities : {&v_, &v_before_, &a_})
     velocities->resize(velocity_size());
   passed_.resize(model_.body_count());
+  for (std::vector<Vector3d>* vectors : {&ground_forces_, &ground_impulses_})
+    vectors->resize(model_.body_count());
   constexpr double infinity = std::numeric_limits<double>::infinity();
   boxes_.resize(model_.body_count(), {{}, {infinity, infinity, infinity}});
   refresh();  // of all points, for those who ask for the initial state
@@ -166,6 +188,7 @@ void DtsRobot::apply_contact_forces(bool trial) {
   std::visit(
       [&](const auto& law) {
         for (std::size_t body = 0; body < passed_.size(); ++body) {
+          ground_forces_[body] = {};
           if (passed_over(body, trial)) continue;
           for (std::size_t i = first_points_[body]; i < first_points_[body + 1]; ++i)
             apply_contact_force(law, i, trial);
@@ -210,8 +233,10 @@ void DtsRobot::apply_contact_force(const Law& law, std::size_t i, bool trial) {
   const contact::Reaction<double> reaction =
       semi_implicit_ ? contact::semi_implicit_reaction(law, kinematics, memory, material, dt)
                      : law.evaluate(kinematics, memory, material, dt);
-  if (reaction.next.attached)
+  if (reaction.next.attached) {
     dts::add_external_force(workspace_, point.body, reaction.force, position);
+    ground_forces_[point.body] += reaction.force;
+  }
   put_bristle(reaction.bristle_rate, i, bristle_rates_);
   if (trial) return;
   put_bristle(reaction.bristle, i, next_bristles_);
@@ -230,11 +255,24 @@ void DtsRobot::leave_alone(std::size_t i, bool trial) {
 
 void DtsRobot::set_joint_torques() {
   for (std::size_t i = 0; i < joints_.size(); ++i) {
-    joint_torques_[i] =
-        inputs_->joint_torques[first_joint_ + i] +
-        dts::passive_joint_torque(joints_[i], state_.joint_positions[i], state_.joint_rates[i]);
+    joint_torques_[i] = inputs_->joint_torques[first_joint_ + i] +
+                        dts::passive_joint_torque(joints_[i], state_.joint_positions[i],
+                                                  state_.joint_rates[i], anchors_[i]);
   }
 }
+
+void DtsRobot::commit_anchors() {
+  for (DryJoint& dry : dry_joints_) {
+    const std::size_t i = dry.joint;
+    const double before = anchors_[i];
+    anchors_[i] = dts::dragged_anchor(joints_[i], state_.joint_positions[i], before);
+    const double stretch = state_.joint_positions[i] - anchors_[i];
+    dry.slips = anchors_[i] != before && stretch * state_.joint_rates[i] > 0.;
+  }
+}
+
+void DtsRobot::keep_anchors() { anchors_before_ = anchors_; }
+void DtsRobot::undo_anchors() { anchors_ = anchors_before_; }
 
 void DtsRobot::evaluate_forces(bool trial) {
   dts::forward_kinematics(model_, state_, workspace_);
@@ -257,10 +295,18 @@ integrators::Status DtsRobot::accelerations(integrators::Stage stage, double /*t
   if (stage == integrators::Stage::trial) {
     read_state(q, v);
     evaluate_forces(true);
+  } else {
+    assert(is_at(q, v));  // refreshed when the state was accepted
   }
   accelerate();
   std::copy(a_.begin(), a_.end(), a.begin());
   return integrators::all_finite(a) ? integrators::Status::ok : integrators::Status::not_finite;
+}
+
+void DtsRobot::weigh(double weight) {
+  if (points_.empty() || adaptive_) return;
+  for (std::size_t body = 0; body < ground_forces_.size(); ++body)
+    ground_impulses_[body] += weight * ground_forces_[body];
 }
 
 StepStatus DtsRobot::step(integrators::Stepper& stepper, double time, double dt) {
@@ -269,7 +315,10 @@ StepStatus DtsRobot::step(integrators::Stepper& stepper, double time, double dt)
   q_before_ = q_;
   write_velocities(v_before_, bristles_);
   write_velocities(v_, next_bristles_);
+  keep_anchors();
+  commit_anchors();
   commit_points();
+  std::ranges::fill(ground_impulses_, Vector3d{});
   law_step_before_ = law_step_;
   law_step_ = dt;
   const integrators::Status status = stepper.step(*this, time, dt, q_, v_);
@@ -287,6 +336,7 @@ void DtsRobot::undo() {
     point.committed_frame = point.before_frame;
   }
   std::ranges::fill(passed_, 0);
+  undo_anchors();
   law_step_ = law_step_before_;
   settle_at(q_before_, v_before_);
 }
@@ -295,6 +345,21 @@ void DtsRobot::read_state(std::span<const double> q, std::span<const double> v) 
   read_positions(q);
   dts::set_velocity<double>(model_, v.first(dts::velocity_count(model_)), state_);
   std::ranges::copy(v.last(bristles_.size()), bristles_.begin());
+}
+
+bool DtsRobot::is_at(std::span<const double> q, std::span<const double> v) const {
+  const Vector3d& p = state_.base_position;
+  const Quaterniond& r = state_.base_orientation;
+  const std::array base{p.x, p.y, p.z, r.w, r.x, r.y, r.z};
+  const Vector3d &w_base = state_.base_angular_velocity, &v_base = state_.base_velocity;
+  const std::array base_rates{w_base.x, w_base.y, w_base.z, v_base.x, v_base.y, v_base.z};
+  const std::size_t joints = state_.joint_positions.size();
+  const auto at_base = [](const auto& own, std::span<const double> given) {
+    return std::ranges::equal(own, given.first(own.size()));
+  };
+  return std::ranges::equal(state_.joint_positions, q.last(joints)) &&
+         std::ranges::equal(state_.joint_rates, v.subspan(moving_size() - joints, joints)) &&
+         (!model_.mobile() || (at_base(base, q) && at_base(base_rates, v)));
 }
 
 void DtsRobot::write_velocities(std::span<double> v, std::span<const double> bristles) const {

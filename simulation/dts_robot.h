@@ -22,6 +22,9 @@ dts::RobotDescription describe_robot(const RobotSpec& robot);
 /// The robot's initial state. Joint positions add to theta (revolute) or d (prismatic).
 dts::State<double> initial_state(const RobotSpec& robot);
 
+/// What a joint does by itself.
+dts::JointProperties<double> joint_properties(const LinkSpec& link);
+
 /// A boundary point and what the law made of it at the state that was refreshed last.
 struct ContactPoint {
   std::size_t body = 0;               ///< 0 the base, then links chain by chain
@@ -97,18 +100,28 @@ class DtsRobot final : public integrators::System {
   /// Kinematics and contact at the present state, with the committed memory: what a step starts
   /// from and what is published.
   void refresh();
+  /// The present state is accepted: dry friction of the joints is hooked where they have dragged
+  /// it. `keep_anchors` remembers where it was, `undo_anchors` takes it back there.
+  void commit_anchors();
+  void keep_anchors();
+  void undo_anchors();
   /// Accelerations at the refreshed state, left in `workspace()`.
   void accelerate();
   /// Reads the positions of the present state.
   void write_positions(std::span<double> q) const;
   /// Goes to a state and refreshes it.
   void settle_at(std::span<const double> q, std::span<const double> v);
+  /// Whether bodies' mean contact forces are worked out where they cost something: with an
+  /// integrator that chooses its own steps.
+  void publish_contact_forces(bool wanted) { has_means_ = wanted || !adaptive_; }
   /// Writes the published values of this robot's bodies and joints.
   void publish(std::span<BodyState> bodies, std::span<JointState> joints) const;
   /// Boundary point `point` of `body`, as the law left it.
   PointState point_state(int body, int point) const;
   /// Adds the ground's forces at the boundary points; the robot's first body is `first_body`.
   void add_ground_forces(std::size_t first_body, std::vector<GroundForce>& forces) const;
+  /// What the springs of its contacts hold at the refreshed state [J].
+  double ground_energy() const;
   /// What each chain does to the base, in the step just taken.
   void publish_hips(std::span<ChainState> chains) const;
 
@@ -123,6 +136,8 @@ class DtsRobot final : public integrators::System {
   const dts::State<double>& state() const { return state_; }
   /// What the joints do by themselves, chain by chain.
   const std::vector<dts::JointProperties<double>>& joints() const { return joints_; }
+  /// Where the dry friction of each is hooked.
+  const std::vector<double>& anchors() const { return anchors_; }
   const std::vector<ContactPoint>& contact_points() const { return points_; }
   /// Whether a boundary point has left the terrain, whose edge tile then goes on, and what to tell
   /// the user.
@@ -141,11 +156,15 @@ class DtsRobot final : public integrators::System {
                std::span<double> q) const override;
   void tangent_rate(std::span<const double> u, std::span<const double> v,
                     std::span<double> du) const override;
+  void weigh(double weight) override;
+  bool has_integrals() const override { return has_means_ && !points_.empty(); }
+  void weigh_at(double weight, std::span<const double> q, std::span<const double> v) override;
   void commit(double time, double dt, std::span<const double> q,
               std::span<const double> v) override;
+  void cross(std::span<const int> directions) override;
   void begin_anew(std::span<double> v) override;
   /// Events: each boundary point's depth and, while it is in the ground, its law's switching_value;
-  /// each joint limit.
+  /// each joint limit; where each joint with dry friction begins to slip, or its slip reverses.
   std::size_t event_count() const override;
   void event_values(double time, std::span<const double> q, std::span<const double> v,
                     std::span<double> values) override;
@@ -163,6 +182,8 @@ class DtsRobot final : public integrators::System {
   static void exchange(Self& self, Archive& archive);
   void read_positions(std::span<const double> q);
   void read_state(std::span<const double> q, std::span<const double> v);
+  /// Whether that is the present state, whose bristles are the law's own affair.
+  bool is_at(std::span<const double> q, std::span<const double> v) const;
   void write_velocities(std::span<double> v, std::span<const double> bristles) const;
   /// The numbers of a Bristle of point `point`, or their rates, in one of the vectors below.
   contact::Bristle<double> bristle_at(std::span<const double> numbers, std::size_t point) const;
@@ -202,11 +223,24 @@ class DtsRobot final : public integrators::System {
   /// on (as the law let go of some), and its rates at the state evaluated last.
   std::vector<double> bristles_, next_bristles_, bristle_rates_;
   std::vector<std::size_t> first_points_;  ///< of each body, into points_; one more at the end
+  /// Of each body: the ground's force at the state evaluated last [N], and its impulse over the
+  /// last step [N s].
+  std::vector<Vector3d> ground_forces_, ground_impulses_;
+  bool has_means_ = true;
   std::vector<PointsBox> boxes_;  ///< of each body; infinite where no body may be passed over
   std::vector<int> passed_;       ///< of each body: 0, or 1 and the commits since it is passed over
   double reach_ = 0.;             ///< farthest above any ground where the law still acts [m]
   std::string notice_;
   std::vector<dts::JointProperties<double>> joints_;
+  /// A joint with dry friction, and whether it slipped when its anchor was committed.
+  struct DryJoint {
+    std::size_t joint = 0;
+    bool slips = false;
+  };
+  std::vector<DryJoint> dry_joints_;
+  /// Where the dry friction of each joint is hooked (dts/joint_forces.h), committed once a step;
+  /// before: the present step, to undo it.
+  std::vector<double> anchors_, anchors_before_;
   std::vector<double> joint_torques_;
   std::vector<double> q_, v_, a_, q_before_, v_before_;
 };

@@ -11,14 +11,13 @@ void DtsRobot::publish(std::span<BodyState> bodies, std::span<JointState> joints
     bodies[i].position = body.p_WB;
     bodies[i].velocity = body.v_WB;
     bodies[i].angular_velocity = body.w_WB;
-    bodies[i].contact_force = {};
+    bodies[i].contact_force = (1. / experiment_->deltat) * ground_impulses_[i];
     bodies[i].contacts = 0;
   }
   publish_orientations(bodies);
   for (std::size_t body = 0; body < bodies.size(); ++body) {
     if (passed_[body] > 0) continue;
     for (std::size_t i = first_points_[body]; i < first_points_[body + 1]; ++i) {
-      bodies[body].contact_force += points_[i].force;
       if (dot(points_[i].force, points_[i].normal) > 0.) ++bodies[body].contacts;
     }
   }

@@ -44,6 +44,7 @@ void DtsRobot::exchange(Self& self, Archive& archive) {
   archive(self.state_.base_angular_velocity);
   for (auto& position : self.state_.joint_positions) archive(position);
   for (auto& rate : self.state_.joint_rates) archive(rate);
+  for (const auto& dry : self.dry_joints_) archive(self.anchors_[dry.joint]);
   archive(self.law_step_);
   for (auto& point : self.points_) exchange_memory(point.committed, archive);
   for (auto& point : self.points_) exchange_frame(point, archive);
@@ -62,9 +63,10 @@ std::string DtsRobot::state_layout() const {
   const std::string frames = balls > 0 ? fmt::format("(orientation[4] normal[3])[{}] ", balls) : "";
   return fmt::format(
       "base_position[3] base_orientation[4] base_velocity[3] base_angular_velocity[3] "
-      "joint_position[{0}] joint_rate[{0}] law_step (hook[3] stretch[3] attached sliding)[{1}] "
+      "joint_position[{0}] joint_rate[{0}] {4}law_step (hook[3] stretch[3] attached sliding)[{1}] "
       "{3}bristle[{2}] quaternion_sign[{0}]",
-      model_.link_count(), points_.size(), bristles_.size(), frames);
+      model_.link_count(), points_.size(), bristles_.size(), frames,
+      dry_joints_.empty() ? "" : fmt::format("friction_anchor[{}] ", dry_joints_.size()));
 }
 
 void DtsRobot::save(std::span<double> numbers, std::span<const BodyState> bodies) const {
@@ -78,6 +80,7 @@ void DtsRobot::restore(std::span<const double> numbers, std::span<BodyState> bod
   StateRestorer restorer(numbers);
   exchange(*this, restorer);
   std::ranges::fill(passed_, 0);
+  std::ranges::fill(ground_impulses_, Vector3d{});  // of the next step again
   refresh();
   for (std::size_t i = 1; i < bodies.size(); ++i) {
     double sign = 1.;

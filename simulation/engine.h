@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -21,9 +22,10 @@ struct BodyState {
   Quaterniond orientation;    ///< R_WB
   Vector3d velocity;          ///< v_WB [m/s]
   Vector3d angular_velocity;  ///< w_WB [rad/s]
-  Vector3d
-      contact_force;  ///< sum of ground forces on the body over the last step (impulse / dt) [N]
-  int contacts = 0;   ///< boundary points that carried ground force in the last step
+  /// Impulse of the ground on the body over the last step by the step's length, so that the sum of
+  /// contact_force * dt is what the ground has given to momentum; 0 before the first step [N].
+  Vector3d contact_force;
+  int contacts = 0;  ///< boundary points that carried ground force in the last step
 };
 
 struct JointState {
@@ -125,9 +127,15 @@ class Engine {
   virtual WorldInputs& inputs() = 0;
   /// From now on, at once and after each step, `state().points` and `chains` are kept up to date.
   virtual void publish_details() {}
+  /// Whether the bodies' `contact_force` is kept up to date where that costs something; at first it
+  /// is. An engine that does not is free to leave 0.
+  virtual void publish_contact_forces(bool /*wanted*/) {}
   /// From now on, after each step, `state().ground_forces` is kept up to date. An engine that does
   /// not know them leaves `ground_force_time` unknown.
   virtual void publish_ground_forces() {}
+  /// What the ground's springs hold at the published state [J]; none where the engine has none or
+  /// does not say.
+  virtual std::optional<double> ground_energy() const { return std::nullopt; }
   /// Its state as numbers; null for an engine whose solver remembers what nobody can read or set.
   virtual Resumable* resumable() { return nullptr; }
 };

@@ -69,6 +69,21 @@ struct BodySpec {
 
 enum class JointKind { revolute, prismatic };
 
+/// Of joints that state none (docs/joints.md): how far and how fast a joint that sticks gives way
+/// [rad, rad/s; m, m/s], and the spring and damper of its stops [N m/rad, N m s/rad; N/m, N s/m].
+constexpr double default_friction_deflection(JointKind joint) {
+  return joint == JointKind::revolute ? 1e-3 : 1e-4;
+}
+constexpr double default_friction_speed(JointKind joint) {
+  return joint == JointKind::revolute ? 0.05 : 0.005;
+}
+constexpr double default_limit_stiffness(JointKind joint) {
+  return joint == JointKind::revolute ? 1000. : 1e5;
+}
+constexpr double default_limit_damping(JointKind joint) {
+  return joint == JointKind::revolute ? 1. : 100.;
+}
+
 /// A link: its own MDH numbers place its frame after the preceding one, Rot_x(alpha) Trans_x(a)
 /// Rot_z(theta) Trans_z(d); the joint turns about (slides along) the link's own z. Any fixed
 /// transform may stand ahead of them.
@@ -82,8 +97,12 @@ struct LinkSpec {
          torque = 0.;    ///< initial angle, rate and constant torque (SI by joint kind)
   double damping = 0.;   ///< torque = -damping rate
   double friction = 0.;  ///< dry friction torque, opposes the rate
+  double friction_deflection = default_friction_deflection(JointKind::revolute);
+  double friction_speed = default_friction_speed(JointKind::revolute);
   double stiffness = 0., rest_angle = 0.;  ///< torque = -stiffness (angle - rest_angle)
   std::optional<double> lower_limit, upper_limit;
+  double limit_stiffness = default_limit_stiffness(JointKind::revolute);
+  double limit_damping = default_limit_damping(JointKind::revolute);
 };
 
 struct ChainSpec {
@@ -176,7 +195,8 @@ struct RecordSpec {
   std::string format;          ///< of output::record_formats
   std::string file;            ///< in the run's folder
   std::optional<double> rate;  ///< of its rows [Hz]; none: every step
-  std::vector<output::Channel> channels;  ///< `path`: the port's trail from the top; an open `unit` is the port's
+  std::vector<output::Channel>
+      channels;  ///< `path`: the port's trail from the top; an open `unit` is the port's
 };
 
 /// A log of the run's whole state, from which it can be resumed.
@@ -200,17 +220,17 @@ struct Experiment;
 /// What the run must show: a truth that comes with the scene.
 struct ExpectationSpec {
   std::string name;
-  std::string trail;         ///< of the port, from the top; empty where it does not cover the run
+  std::string trail;  ///< of the port, from the top; empty where it does not cover the run
   Reduction take = Reduction::final;
-  double from = 0.;          ///< [s]
-  std::optional<double> to;  ///< [s]; none: the run's end
-  double level = 0.;         ///< of `time_at`
-  double expected = 0.;      ///< SI
-  double tolerance = 0.;     ///< relative
-  double within = 0.;        ///< absolute
-  std::string unit;          ///< of the expected value
-  std::string formula;       ///< as the file writes it
-  std::string source;        ///< where it comes from
+  double from = 0.;                            ///< [s]
+  std::optional<double> to;                    ///< [s]; none: the run's end
+  double level = 0.;                           ///< of `time_at`
+  double expected = 0.;                        ///< SI
+  double tolerance = 0.;                       ///< relative
+  double within = 0.;                          ///< absolute
+  std::string unit;                            ///< of the expected value
+  std::string formula;                         ///< as the file writes it
+  std::string source;                          ///< where it comes from
   std::vector<std::string> laws, except_laws;  ///< no law: all
   std::vector<std::string> integrators;        ///< none: all
 
@@ -225,11 +245,12 @@ struct Experiment {
   std::string world;
   Vector3d gravity{0., 0., -9.81};
   double deltat = 1e-3;
+  std::optional<double> chosen_from;  ///< of `deltat = auto`, the largest stable step [s]
   std::string integrator = "semi_implicit_euler";
   double relative_tolerance = 1e-6, absolute_tolerance = 1e-8;  ///< of adaptive integrators
   std::string contact = "hookpoint";
   std::string engine = "dts";
-  std::string settings = "default";  ///< of a peer: default, recommended, matched
+  std::string settings = "default";         ///< of a peer: default, recommended, matched
   std::optional<double> constraint_mixing;  ///< CFM of ODE's world, if not its own [m/(N s)]
   double duration = 10.;
   std::uint64_t seed = 1;
@@ -239,7 +260,7 @@ struct Experiment {
   std::vector<ForceSpec> forces;
   std::vector<PointSpec> points;
   std::vector<ComponentSpec> components;
-  std::vector<WireSpec> wires;                           ///< attachments included
+  std::vector<WireSpec> wires;  ///< attachments included
   std::vector<RecordSpec> records;
   std::vector<ExpectationSpec> expectations;
   std::vector<MovieSpec> movies;

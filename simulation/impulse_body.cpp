@@ -26,13 +26,20 @@ ImpulseBody::ImpulseBody(const Experiment& experiment, std::size_t index, contac
       inputs_(inputs),
       law_(describe(experiment.robots[index].base, has_ground), law),
       motion_(initial_motion(experiment.robots[index])),
-      before_(motion_) {}
+      motion_before_(motion_) {}
 
 contact::ImpulseTally ImpulseBody::advance(const contact::GroundQuery& ground) {
-  before_ = motion_;
+  motion_before_ = motion_;
+  result_before_ = result_;
   if (!experiment_.robots[index_].mobile) return {};
-  result_ = law_.advance(motion_, experiment_.deltat, load(), ground);
-  return result_;
+  const contact::AdvanceResult result = law_.advance(motion_, experiment_.deltat, load(), ground);
+  if (result.status == contact::AdvanceStatus::ok) result_ = result;
+  return result;
+}
+
+void ImpulseBody::undo() {
+  motion_ = motion_before_;
+  result_ = result_before_;
 }
 
 void ImpulseBody::publish(std::span<BodyState> bodies, std::span<JointState> /*joints*/) const {

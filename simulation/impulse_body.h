@@ -16,7 +16,7 @@ class ImpulseBody final : public ImpulsePart {
   std::size_t body_count() const override { return 1; }
   std::size_t joint_count() const override { return 0; }
   contact::ImpulseTally advance(const contact::GroundQuery& ground) override;
-  void undo() override { motion_ = before_; }
+  void undo() override;
   void publish(std::span<BodyState> bodies, std::span<JointState> joints) const override;
 
   std::size_t state_size() const override;
@@ -33,9 +33,8 @@ class ImpulseBody final : public ImpulsePart {
   const std::size_t index_;
   const WorldInputs& inputs_;
   contact::ImpulseAdvance law_;
-  contact::ImpulseState motion_;
-  contact::ImpulseState before_;  ///< the present step, to undo it
-  contact::AdvanceResult result_;
+  contact::ImpulseState motion_, motion_before_;   ///< before: the present step, to undo it
+  contact::AdvanceResult result_, result_before_;  ///< of the last step
 };
 
 }  // namespace hookpoint::simulation

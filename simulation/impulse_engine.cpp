@@ -10,8 +10,9 @@ namespace hookpoint::simulation {
 namespace {
 
 contact::ImpulseLaw impulse_law(const std::string& name) {
-  return name == "impulse_reversal" ? contact::ImpulseLaw::impulse_reversal
-                                    : contact::ImpulseLaw::impulse;
+  if (name == "impulse") return contact::ImpulseLaw::impulse;
+  if (name == "impulse_reversal") return contact::ImpulseLaw::impulse_reversal;
+  throw ExperimentError("there is no impulse law `" + name + "`");
 }
 
 std::unique_ptr<ImpulsePart> make_part(const Experiment& experiment, std::size_t robot,
@@ -41,10 +42,14 @@ class ImpulseEngine final : public Engine, public Resumable {
   }
 
   StepStatus step() override {
+    const bool noticed_before = noticed_;
+    const std::size_t notices_before = state_.notices.size();
     for (std::size_t i = 0; i < parts_.size(); ++i) {
       const StepStatus status = advance(i);
       if (status.ok()) continue;
       for (std::size_t stepped = 0; stepped < i; ++stepped) parts_[stepped].robot->undo();
+      noticed_ = noticed_before;
+      state_.notices.resize(notices_before);
       return status;
     }
     for (const Part& part : parts_) state_.impacts += static_cast<std::uint64_t>(part.impacts);

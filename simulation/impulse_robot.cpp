@@ -43,7 +43,9 @@ ImpulseRobot::ImpulseRobot(const Experiment& experiment, std::size_t index, cont
       q_before_(robot_.position_size()),
       v_before_(robot_.velocity_size()),
       impulses_(robot_.model().body_count()),
-      contacts_(robot_.model().body_count()) {
+      impulses_before_(impulses_),
+      contacts_(robot_.model().body_count()),
+      contacts_before_(contacts_) {
   if (law != contact::ImpulseLaw::impulse_reversal) return;
   const std::size_t most = std::min(points_.size(), kMostTogether);
   couplings_.resize(most * most);
@@ -190,7 +192,10 @@ contact::ImpulseTally ImpulseRobot::advance(const contact::GroundQuery& ground) 
   flight_.read();
   std::copy(flight_.positions().begin(), flight_.positions().end(), q_before_.begin());
   std::copy(flight_.velocities().begin(), flight_.velocities().end(), v_before_.begin());
+  robot_.keep_anchors();
   robot_.refresh();  // under the present inputs
+  impulses_before_.swap(impulses_);
+  contacts_before_.swap(contacts_);
   std::fill(impulses_.begin(), impulses_.end(), Vector3d{});
   std::fill(contacts_.begin(), contacts_.end(), 0);
   resolution_.begin_step();
@@ -204,7 +209,12 @@ contact::ImpulseTally ImpulseRobot::advance(const contact::GroundQuery& ground) 
   return tally;
 }
 
-void ImpulseRobot::undo() { flight_.go_to(q_before_, v_before_); }
+void ImpulseRobot::undo() {
+  robot_.undo_anchors();
+  flight_.go_to(q_before_, v_before_);
+  impulses_ = impulses_before_;
+  contacts_ = contacts_before_;
+}
 
 void ImpulseRobot::publish(std::span<BodyState> bodies, std::span<JointState> joints) const {
   robot_.publish(bodies, joints);

@@ -90,8 +90,9 @@ class ImpulseRobot final : public ImpulsePart, private contact::StruckRobot {
   bool inertias_ready_ = false;  ///< the workspace has those of the present configuration
   std::vector<double> change_;   ///< of the generalised velocity
   std::vector<double> q_before_, v_before_;  ///< the present step, to undo it
-  std::vector<Vector3d> impulses_;           ///< over the step, on each body [N s]
-  std::vector<int> contacts_;                ///< boundary points of each body that were hit
+  /// Over the step, on each body [N s], and its boundary points that were hit.
+  std::vector<Vector3d> impulses_, impulses_before_;
+  std::vector<int> contacts_, contacts_before_;
   // A reversal's: the couplings K_ij of its points, and their velocities.
   std::vector<Matrix3d> couplings_;
   std::vector<Vector3d> velocities_, work_;

@@ -55,7 +55,11 @@ class LoopFinder {
     const std::set<std::size_t> reacting = reacting_components();
     for (std::size_t i = 0; i < components_.size(); ++i) {
       const ComponentSpec& spec = experiment_.components[i];
-      std::string why = "not from a joint's angle to its torque";
+      std::string why = terminals(spec).empty()
+                            ? "a " + spec.type +
+                                  " is not one of the PD and PID controllers whose "
+                                  "feedback is computed"
+                            : std::string("it drives nothing");
       const std::size_t before = control.loops.size();
       bool whole = true;
       for (const Terminals& ends : terminals(spec))
@@ -64,10 +68,30 @@ class LoopFinder {
       control.loops.resize(before);
       if (reacting.contains(i)) control.left_out.push_back(spec.trail + ": " + why);
     }
+    control.driven = driven_joints(control.loops);
     return control;
   }
 
  private:
+  std::vector<DrivenJoint> driven_joints(const std::vector<JointLoop>& loops) const {
+    std::vector<DrivenJoint> driven;
+    for (const auto& [trail, wire] : into_) {
+      const JointPlace* place = joint_at(trail, "torque");
+      if (!place) continue;
+      DrivenJoint& joint = driven.emplace_back(DrivenJoint{place->robot, place->joint, {}, 0.});
+      const auto loop = std::ranges::find_if(loops, [&](const JointLoop& each) {
+        return each.robot == place->robot && each.driven == place->joint &&
+               each.sensed == each.driven && each.integral == 0.;
+      });
+      if (loop == loops.end() || wire_into(loop->controller + ".goal")) continue;
+      const auto component = components_.find(loop->controller + ".output");
+      if (!component) continue;
+      joint.goal = value(component->component, "goal");
+      joint.proportional = loop->proportional;
+    }
+    return driven;
+  }
+
   /// A controller's values that make one loop.
   struct Terminals {
     std::string angle, rate, torque, pconstant, dconstant;
@@ -133,10 +157,20 @@ class LoopFinder {
     const JointPlace* driven = joint_at(torque->to, "torque");
     const JointPlace* sensed = angle ? joint_at(angle->from, "angle") : nullptr;
     const JointPlace* moved = rate ? joint_at(rate->from, "rate") : sensed;
-    if (std::next(first) != last || !driven || !sensed || !moved) return false;
+    const auto not_plain = [&](std::string reason) {
+      why = std::move(reason);
+      return false;
+    };
+    if (std::next(first) != last) return not_plain("its output goes to more than one place");
+    if (!driven)
+      return not_plain("its output goes to " + torque->to + ", not straight to a joint's torque");
+    if (!angle) return not_plain("no wire brings it what it controls");
+    if (!sensed)
+      return not_plain("it reads " + angle->from + ", not straight the angle of a joint");
+    if (!moved) return not_plain("it reads " + rate->from + ", not straight the rate of a joint");
     if (sensed->robot != driven->robot || moved->robot != sensed->robot ||
         moved->joint != sensed->joint)
-      return false;
+      return not_plain("it reads one joint and another, or drives another robot's");
     JointLoop loop{spec.trail, driven->robot, sensed->joint, driven->joint};
     loop.proportional = value(component, ends.pconstant);
     loop.derivative = value(component, ends.dconstant);

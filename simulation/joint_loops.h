@@ -2,6 +2,7 @@
 // a robot's joint springs and dampers, and how late.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,10 +25,19 @@ struct JointLoop {
   double rate_delay = 0.;    ///< of q' [s]
 };
 
+/// A joint whose torque is wired.
+struct DrivenJoint {
+  std::size_t robot = 0, joint = 0;
+  /// Of a PD alone, with a goal that no wire moves: torque = proportional (goal - q) at rest.
+  std::optional<double> goal;
+  double proportional = 0.;
+};
+
 struct WiredControl {
   std::vector<JointLoop> loops;
+  std::vector<DrivenJoint> driven;
   /// Components whose outputs reach a force or a torque, that follow what robots do, and that are
-  /// no such loop, each with the reason in words: "gait: not a joint's PD or PID".
+  /// no such loop, each with the reason in words.
   std::vector<std::string> left_out;
 };
 

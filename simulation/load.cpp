@@ -5,6 +5,7 @@
 #include <array>
 #include <utility>
 
+#include "simulation/automatic_step.h"
 #include "simulation/load_parts.h"
 
 namespace hookpoint::simulation {
@@ -53,7 +54,8 @@ void load_world(const language::Object& world, Loading& loading) {
   Experiment& experiment = loading.experiment;
   experiment.world = world.name;
   experiment.gravity = load_gravity(world, loading);
-  experiment.deltat = world.number("deltat");
+  // An `auto` stands at the step that the caller gives.
+  if (world.find("deltat")->words.empty()) experiment.deltat = world.number("deltat");
   experiment.integrator = world.word("integrator");
   experiment.relative_tolerance = world.number("relative_tolerance");
   experiment.absolute_tolerance = world.number("absolute_tolerance");
@@ -77,20 +79,23 @@ void load_signals(const language::Object& root, Loading& loading) {
   load_expectations(root, loading);
 }
 
-}  // namespace
-
-std::optional<Experiment> load_experiment(const language::Object& root,
-                                          language::Diagnostics& diagnostics,
-                                          const std::vector<std::filesystem::path>& search_path,
-                                          const std::vector<FileSpec>& given) {
+/// A load with `deltat` [s] where the World says auto.
+std::optional<Experiment> load_with_step(const language::Object& root,
+                                         language::Diagnostics& diagnostics,
+                                         const std::vector<std::filesystem::path>& search_path,
+                                         const std::vector<FileSpec>& given,
+                                         const ChosenStep& chosen) {
   Loading loading{diagnostics, search_path, given, {}, {}, {}, {}, {}, {}};
   const std::size_t errors_before = diagnostics.error_count();
   const language::Object* world = find_world(root, loading);
   check_strays(root, loading);
   if (world == nullptr) return std::nullopt;
+  loading.experiment.deltat = chosen.step;
+  if (chosen.bound > 0.) loading.experiment.chosen_from = chosen.bound;
   load_world(*world, loading);
   load_materials(root, loading);
   load_terrain(*world, loading);
+  warn_of_unstated_constants(*world, loading);
   load_robots(*world, loading);
   load_forces(*world, loading);
   check_combinations(*world, loading);
@@ -99,6 +104,52 @@ std::optional<Experiment> load_experiment(const language::Object& root,
   if (diagnostics.error_count() == errors_before) load_signals(root, loading);
   if (diagnostics.error_count() != errors_before) return std::nullopt;
   return std::move(loading.experiment);
+}
+
+/// So fine that hardly a rate is too high for it [s].
+constexpr double finest_step = 1e-6;
+
+bool is_automatic(const language::Object& world) { return !world.find("deltat")->words.empty(); }
+
+}  // namespace
+
+std::optional<Experiment> load_experiment(const language::Object& root,
+                                          language::Diagnostics& diagnostics,
+                                          const std::vector<std::filesystem::path>& search_path,
+                                          const std::vector<FileSpec>& given) {
+  const auto worlds = root.children_of("World");
+  ChosenStep chosen{finest_step, 0., ""};
+  if (!worlds.empty() && is_automatic(*worlds[0])) {
+    language::Diagnostics untold;
+    const auto experiment = load_with_step(root, untold, search_path, given, chosen);
+    // What is wrong otherwise is told below.
+    if (experiment) chosen = choose_step(*experiment);
+    if (!chosen.problem.empty()) {
+      diagnostics.error(place_of(*worlds[0], "deltat"), "deltat = auto: " + chosen.problem);
+      return std::nullopt;
+    }
+  }
+  return load_with_step(root, diagnostics, search_path, given, chosen);
+}
+
+void write_chosen_step(const Experiment& experiment, language::Object& root) {
+  if (!experiment.chosen_from) return;
+  const auto worlds = root.children_of("World");
+  const auto write = [&](auto& self, language::Object& parent) -> void {
+    for (const auto& child : parent.children) {
+      if (child.get() != worlds[0]) {
+        self(self, *child);
+        continue;
+      }
+      for (language::Field& field : child->fields) {
+        if (field.schema->name != "deltat") continue;
+        field.words.clear();
+        field.numbers = {experiment.deltat};
+        field.dimension = language::Dimension{.time = 1};
+      }
+    }
+  };
+  write(write, root);
 }
 
 }  // namespace hookpoint::simulation

@@ -5,6 +5,7 @@
 
 #include "contact/boundary_points.h"
 #include "contact/force_law.h"
+#include "language/budget.h"
 #include "simulation/load_parts.h"
 
 namespace hookpoint::simulation {
@@ -69,12 +70,30 @@ void add_point(const Vector3d& p_BP, double radius, BodySpec& body) {
   body.boundary_radii.back() = radius;
 }
 
-void add_shape_points(const ShapeSpec& shape, BodySpec& body) {
+/// False, after one error, where all bodies together have more points than may be asked for.
+bool may_have_points(const language::Object& shape, std::size_t count, Loading& loading) {
+  constexpr std::size_t most = 2'000'000;
+  const bool already = loading.boundary_points > most;
+  loading.boundary_points += count;
+  if (loading.boundary_points <= most) return true;
+  if (already) return false;
+  loading.error(place_of(shape, "boundary_points"),
+                "with this shape the bodies ask for " +
+                    language::too_many(static_cast<double>(loading.boundary_points), most,
+                                       "boundary points") +
+                    ": make `boundary_points` smaller");
+  return false;
+}
+
+void add_shape_points(const language::Object& object, const ShapeSpec& shape, BodySpec& body,
+                      Loading& loading) {
+  if (!may_have_points(object, 0, loading)) return;
   if (const Sphere* sphere = rolling_sphere(shape))
     return add_point(shape.location, sphere->radius, body);
   const auto sampled =
       std::visit([&](const auto& geometry) { return sample(geometry, shape.boundary_points); },
                  shape.geometry);
+  if (!may_have_points(object, sampled.size(), loading)) return;
   for (const Vector3d& p_SP : sampled)
     add_point(shape.location + rotate(shape.orientation, p_SP), 0., body);
 }
@@ -94,7 +113,19 @@ BodySpec load_body(const language::Object& object, std::string name, bool must_h
   for (const language::Object* point : object.children_of("ContactPoint")) {
     add_point(vector_of(*point, "location"), point->number("radius"), body);
   }
-  for (const ShapeSpec& shape : body.shapes) add_shape_points(shape, body);
+  std::vector<ShapePoints> shapes;
+  for (std::size_t i = 0; i < body.shapes.size(); ++i) {
+    const std::size_t before = body.boundary_points.size();
+    add_shape_points(*shape_objects[i], body.shapes[i], body, loading);
+    shapes.push_back({shape_objects[i],
+                      &body.shapes[i],
+                      {body.boundary_points.begin() + static_cast<std::ptrdiff_t>(before),
+                       body.boundary_points.end()}});
+  }
+  const Experiment& experiment = loading.experiment;
+  if (experiment.terrain && experiment.engine == "dts" &&
+      contact::find_force_law(experiment.contact))
+    warn_of_overlap(shapes, object.trail(), loading);
   return body;
 }
 

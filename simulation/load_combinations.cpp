@@ -19,13 +19,22 @@ void check_impulse_law(const language::Object& world, Loading& loading) {
   }
 }
 
-/// Only a warning: a scene may state tolerances for whichever integrator a study gives it.
+/// Set by --set or by a study's subject, not where the object is written.
+bool set_from_outside(const language::Object& object, std::string_view field) {
+  return object.given(field) && object.find(field)->position.file != object.position.file;
+}
+
+/// Only a warning, and none where a scene states tolerances for whichever integrator a study gives
+/// it.
 void check_tolerances(const language::Object& world, Loading& loading) {
   const Experiment& experiment = loading.experiment;
   const integrators::StepperDescription* stepper = integrators::find_stepper(experiment.integrator);
   if (stepper == nullptr || stepper->adaptive()) return;
   for (const char* field : {"relative_tolerance", "absolute_tolerance"}) {
     if (!world.given(field)) continue;
+    const bool chosen = set_from_outside(world, "integrator") ||
+                        (set_from_outside(world, "engine") && loading.experiment.engine != "dts");
+    if (chosen && !set_from_outside(world, field)) continue;
     loading.diagnostics.warning(
         place_of(world, field),
         fmt::format("{} says nothing to {}, whose steps are all deltat; only cvode_bdf, "

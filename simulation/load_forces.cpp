@@ -1,7 +1,19 @@
+#include <exception>
+
+#include "control/rational.h"
 #include "simulation/load_parts.h"
 
 namespace hookpoint::simulation {
 namespace {
+
+bool is_kept_exactly(double time) {
+  try {
+    control::Rational::from(time);
+    return true;
+  } catch (const std::exception&) {
+    return false;
+  }
+}
 
 /// A Push ends at `to` or after `duration`, one of the two.
 ForceWindow load_window(const language::Object& push, Loading& loading) {
@@ -14,7 +26,10 @@ ForceWindow load_window(const language::Object& push, Loading& loading) {
     return window;
   }
   window.to = has_end ? push.number("to") : window.from + push.number("duration");
-  if (window.to <= window.from) {
+  if (!is_kept_exactly(window.from) || !is_kept_exactly(window.to)) {
+    loading.error(push.position,
+                  "a time of this Push is too large or too small to be kept exactly; round it");
+  } else if (window.to <= window.from) {
     loading.error(place_of(push, "to"),
                   "this Push ends before it begins; `to` must be after `from`");
   } else if (2. * window.edge > window.to - window.from) {

@@ -3,9 +3,13 @@
 
 #include <algorithm>
 #include <exception>
+#include <set>
 
 #include "control/transmission_line.h"
+#include "output/record_files.h"
+#include "output/result_folder.h"
 #include "simulation/load_parts.h"
+#include "simulation/run_files.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -19,9 +23,17 @@ void load_movie(const language::Object& object, Loading& loading) {
     if (std::string problem = rate_problem(*spec.rate, loading.experiment.deltat); !problem.empty())
       loading.error(place_of(object, "rate"), std::move(problem));
   }
-  if (std::string problem = file_problem(spec.file, loading.experiment); !problem.empty())
+  if (std::string problem = file_problem({spec.file}, loading.experiment); !problem.empty())
     loading.error(place_of(object, "file"), std::move(problem));
   loading.experiment.movies.push_back(std::move(spec));
+}
+
+/// With the names that the files have before they are complete.
+std::set<std::string> all_stages(const std::vector<std::string>& files) {
+  std::set<std::string> names;
+  for (const std::string& file : files)
+    for (std::string& stage : output::stages_of(file)) names.insert(std::move(stage));
+  return names;
 }
 
 }  // namespace
@@ -41,17 +53,26 @@ std::string rate_problem(double rate, double deltat) {
   return "";
 }
 
-std::string file_problem(const std::string& file, const Experiment& experiment) {
-  if (file.empty() || file == "." || file == ".." || file.find('/') != std::string::npos)
+std::string file_problem(const std::vector<std::string>& files, const Experiment& experiment) {
+  const std::string& file = files.front();
+  if (file.empty() || file == "." || file == ".." || file.find('/') != std::string::npos ||
+      std::ranges::any_of(file, [](unsigned char c) { return c < 32 || c == 127; }))
     return fmt::format(
         "`{}` is no name of a file in the run's folder: leave out what names folders", file);
-  const bool of_record =
-      std::ranges::find(experiment.records, file, &RecordSpec::file) != experiment.records.end();
-  const bool of_movie =
-      std::ranges::find(experiment.movies, file, &MovieSpec::file) != experiment.movies.end();
-  if (!of_record && !of_movie) return "";
-  return fmt::format("another {} writes `{}`; give this one a `file`",
-                     of_record ? "Record" : "Movie", file);
+  const std::set<std::string> wanted = all_stages(files);
+  const auto clash = [&wanted](const std::vector<std::string>& others) {
+    const std::set<std::string> taken = all_stages(others);
+    return std::ranges::any_of(wanted, [&](const auto& name) { return taken.contains(name); });
+  };
+  if (clash(run_files()))
+    return fmt::format("the run itself writes `{}`; give this one another `file`", file);
+  for (const RecordSpec& record : experiment.records)
+    if (clash(output::record_files(record.format, record.file)))
+      return fmt::format("another Record writes `{}`; give this one a `file`", file);
+  for (const MovieSpec& movie : experiment.movies)
+    if (clash({movie.file}))
+      return fmt::format("another Movie writes `{}`; give this one a `file`", file);
+  return "";
 }
 
 void load_movies(const language::Object& root, Loading& loading) {

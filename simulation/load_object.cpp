@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "language/search.h"
 #include "simulation/load_parts.h"
 
 namespace hookpoint::simulation {
@@ -59,19 +60,13 @@ std::filesystem::path find_file(const std::string& name, const language::Positio
                                 Loading& loading) {
   const auto given = std::ranges::find(loading.given, name, &FileSpec::name);
   if (given != loading.given.end()) return remember(name, given->path, loading);
-  std::vector<std::filesystem::path> folders;
-  folders.push_back(from.file == nullptr ? ""
-                                         : std::filesystem::path(from.file->path).parent_path());
-  folders.insert(folders.end(), loading.search_path.begin(), loading.search_path.end());
-  for (const std::filesystem::path& folder : folders) {
-    std::error_code ignored;
-    if (std::filesystem::is_regular_file(folder / name, ignored))
-      return remember(name, folder / name, loading);
-  }
-  loading.error(from,
-                fmt::format("there is no file \"{}\" beside this one or along the search path "
-                            "(the project's configs/, HOOKPOINT_PATH)",
-                            name));
+  const std::filesystem::path file = from.file == nullptr ? "" : from.file->path;
+  const std::filesystem::path found = language::find_along(name, file, loading.search_path);
+  if (std::filesystem::is_regular_file(found)) return remember(name, found, loading);
+  loading.error(from, fmt::format("there is no file \"{}\" beside this one, in the configs/ of a "
+                                  "folder above it or along the search path (HOOKPOINT_PATH, the "
+                                  "installation's configs/)",
+                                  name));
   return {};
 }
 

@@ -31,6 +31,7 @@ struct Loading {
   std::vector<const language::Object*> bases;             ///< one a robot
   std::map<const language::Object*, std::string> trails;  ///< from the top, no two alike
   std::vector<const language::Object*> components;        ///< one a ComponentSpec
+  std::size_t boundary_points = 0;                        ///< asked for, of all bodies
 
   void error(const language::Position& position, std::string message) {
     diagnostics.error(position, std::move(message));
@@ -59,6 +60,8 @@ std::filesystem::path find_file(const std::string& name, const language::Positio
 
 void load_materials(const language::Object& root, Loading& loading);
 void load_terrain(const language::Object& world, Loading& loading);
+/// Warns of Materials in use that state none of the constants which the law has for itself.
+void warn_of_unstated_constants(const language::Object& world, Loading& loading);
 /// The shape of a Terrain: its plane, or its heights read from a file or computed.
 void load_surface(const language::Object& object, TerrainSpec& terrain, Loading& loading);
 /// Robots as written; `rest_on` is resolved afterwards.
@@ -68,6 +71,15 @@ void load_forces(const language::Object& world, Loading& loading);
 /// that moves by itself.
 BodySpec load_body(const language::Object& object, std::string name, bool must_have_inertia,
                    Loading& loading);
+/// A shape and the boundary points that it gives its body.
+struct ShapePoints {
+  const language::Object* object = nullptr;
+  const ShapeSpec* shape = nullptr;
+  std::vector<Vector3d> points;  ///< p_BP, body axes [m]
+};
+/// Warns, once a body, where a boundary point of one shape is in or on another.
+void warn_of_overlap(const std::vector<ShapePoints>& shapes, const std::string& body,
+                     Loading& loading);
 /// Mass properties of `object` with the shapes `shapes`, whose objects are `shape_objects`.
 MassSpec load_mass(const language::Object& object, const std::vector<ShapeSpec>& shapes,
                    const std::vector<const language::Object*>& shape_objects,
@@ -107,8 +119,10 @@ void load_expectations(const language::Object& root, Loading& loading);
 void load_records(const language::Object& root, Loading& loading);
 /// "" or what is wrong with a rate at which something is written, for steps of `deltat` [s].
 std::string rate_problem(double rate, double deltat);
-/// "" or what is wrong with a name of a file in the run's folder.
-std::string file_problem(const std::string& file, const Experiment& experiment);
+/// "" or what is wrong with the name of a file in the run's folder, where all of `files` come to
+/// lie: one that is none, that the run writes itself, or that the Records and Movies loaded so far
+/// write.
+std::string file_problem(const std::vector<std::string>& files, const Experiment& experiment);
 /// Logs of the whole state.
 void load_movies(const language::Object& root, Loading& loading);
 

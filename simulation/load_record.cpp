@@ -6,6 +6,7 @@
 
 #include "control/transmission_line.h"
 #include "language/references.h"
+#include "output/record_files.h"
 #include "simulation/load_parts.h"
 
 namespace hookpoint::simulation {
@@ -54,7 +55,10 @@ class RecordLoader {
     if (!spec_.rate) return;
     complain("rate", rate_problem(*spec_.rate, loading_.experiment.deltat));
   }
-  void check_file() const { complain("file", file_problem(spec_.file, loading_.experiment)); }
+  void check_file() const {
+    complain("file",
+             file_problem(output::record_files(spec_.format, spec_.file), loading_.experiment));
+  }
   void complain(const char* field, std::string problem) const {
     if (!problem.empty()) loading_.error(place_of(object_, field), std::move(problem));
   }

@@ -13,6 +13,10 @@ std::optional<double> limit_of(const language::Object& object, std::string_view 
   return limit == nullptr ? std::nullopt : std::optional(limit->numbers[0]);
 }
 
+double number_or(const language::Object& object, std::string_view field, double otherwise) {
+  return object.given(field) ? object.number(field) : otherwise;
+}
+
 void check_limits(const language::Object& object, const LinkSpec& link, Loading& loading) {
   if (link.lower_limit && link.upper_limit && *link.lower_limit >= *link.upper_limit) {
     return loading.error(place_of(object, "lower_limit"),
@@ -44,6 +48,11 @@ LinkSpec load_link(const language::Object& object, std::string name, Loading& lo
   link.torque = object.number("torque");
   link.damping = object.number("damping");
   link.friction = object.number("friction");
+  link.friction_deflection =
+      number_or(object, "friction_deflection", default_friction_deflection(link.joint));
+  link.friction_speed = number_or(object, "friction_speed", default_friction_speed(link.joint));
+  link.limit_stiffness = number_or(object, "limit_stiffness", default_limit_stiffness(link.joint));
+  link.limit_damping = number_or(object, "limit_damping", default_limit_damping(link.joint));
   link.stiffness = object.number("stiffness");
   link.rest_angle = object.number("rest_angle");
   link.lower_limit = limit_of(object, "lower_limit");

@@ -53,7 +53,9 @@ class Values {
       const language::Field* value = object.find(field.name);
       const bool writable = field.port != Direction::output;
       if (value != nullptr) {
-        add(object, field, value->numbers, writable);
+        const bool chosen = value->numbers.empty();  // a word stands for it: deltat = auto
+        add(object, field, chosen ? std::vector{loading_.experiment.deltat} : value->numbers,
+            writable);
       } else if (writable && field.type != FieldType::numbers) {
         values_.push_back(
             {loading_.trails[&object] + "." + field.name, unit_of(object, field), {}, true});

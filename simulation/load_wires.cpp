@@ -6,6 +6,7 @@
 #include <exception>
 
 #include "control/registry.h"
+#include "language/budget.h"
 #include "language/references.h"
 #include "language/units.h"
 #include "simulation/load_parts.h"
@@ -213,12 +214,19 @@ class Wires {
   }
 
   void check_lines() {
-    for (std::size_t i = 0; i < experiment_.wires.size(); ++i) {
+    constexpr std::size_t most = 20'000'000;
+    std::size_t samples = 0;
+    for (std::size_t i = 0; i < experiment_.wires.size() && samples <= most; ++i) {
       try {
-        transmission_line(experiment_.wires[i], experiment_, 0.);
+        samples += transmission_line(experiment_.wires[i], experiment_, 0.).state_size();
       } catch (const std::exception& error) {
         loading_.error(drivers_[i].position, error.what());
       }
+      if (samples > most)
+        loading_.error(drivers_[i].position, "with this one the wires ask for " +
+                                                 language::too_many(static_cast<double>(samples),
+                                                                    most, "samples under way") +
+                                                 ": shorten the delays or lower the rates");
     }
   }
 

@@ -5,11 +5,9 @@
 #include <algorithm>
 #include <fstream>
 #include <optional>
-#include <set>
 #include <sstream>
 
-#include "control/registry.h"
-#include "simulation/records.h"
+#include "simulation/identity.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -18,18 +16,6 @@ output::MovieFile file_of(const FileSpec& spec) {
   std::ostringstream content;
   content << std::ifstream(spec.path, std::ios::binary).rdbuf();
   return {spec.name, spec.path, std::move(content).str()};
-}
-
-/// The libraries whose classes the experiment uses.
-std::string plugins_of(const Experiment& experiment) {
-  std::set<std::string> origins;
-  for (const ComponentSpec& component : experiment.components) {
-    const auto* type = control::Registry::instance().find(component.type);
-    if (type != nullptr && !type->origin.empty()) origins.insert(type->origin);
-  }
-  std::string text;
-  for (const std::string& origin : origins) text += (text.empty() ? "" : "\n") + origin;
-  return text;
 }
 
 }  // namespace
@@ -42,15 +28,14 @@ std::string layout_text(const std::vector<StateSection>& sections) {
 }
 
 Movies::Movies(const Experiment& experiment, const World& world,
-               const std::filesystem::path& folder, const std::string& experiment_text,
-               std::int64_t first_step)
+               const std::filesystem::path& folder, const RunText& text, std::int64_t first_step)
     : world_(world) {
   if (experiment.movies.empty()) return;
   output::MovieHeader header;
-  header.experiment = experiment_text;
-  header.annotations = run_annotations(experiment);
-  if (std::string plugins = plugins_of(experiment); !plugins.empty())
-    header.annotations.emplace_back("plugins", std::move(plugins));
+  header.experiment = text.text;
+  header.annotations = run_annotations(experiment, text.hash);
+  if (const auto plugins = plugins_of(experiment); !plugins.empty())
+    header.annotations.emplace_back("plugins", fmt::format("{}", fmt::join(plugins, "\n")));
   for (const FileSpec& file : experiment.files) header.files.push_back(file_of(file));
   header.layout = layout_text(world.state_layout());
   header.size = world.state_size();
@@ -95,6 +80,10 @@ void Movies::close() {
     if (movie.last != world_.state().step) write(movie);
     movie.writer->close();
   }
+}
+
+void Movies::close_within_step() {
+  for (Movie& movie : movies_) movie.writer->close();
 }
 
 }  // namespace hookpoint::simulation

@@ -8,6 +8,7 @@
 
 #include "control/transmission_line.h"
 #include "output/movie.h"
+#include "simulation/records.h"
 #include "simulation/world.h"
 
 namespace hookpoint::simulation {
@@ -18,17 +19,19 @@ std::string layout_text(const std::vector<StateSection>& sections);
 class Movies {
  public:
   /// Files in `folder`, with `world`'s present instant as the first of each, whatever its rate, and
-  /// from `first_step` on those that the whole run would have. `experiment_text` goes into every
-  /// file, as do the files that the experiment reads. Throws
+  /// from `first_step` on those that the whole run would have. `text` goes into every file, as
+  /// do the files that the experiment reads. Throws
   /// ExperimentError for an engine that cannot be resumed, output::FileError.
   Movies(const Experiment& experiment, const World& world, const std::filesystem::path& folder,
-         const std::string& experiment_text, std::int64_t first_step = 0);
+         const RunText& text, std::int64_t first_step = 0);
 
   /// Called with every step once, in order, from `first_step` on. Allocates nothing. Throws
   /// output::FileError.
   void row(std::int64_t step);
   /// All complete, each with the world's last instant. Throws output::FileError.
   void close();
+  /// All complete as they are, while the world is within a step.
+  void close_within_step();
 
  private:
   struct Movie {

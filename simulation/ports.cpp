@@ -40,8 +40,10 @@ void add_body(std::vector<Port>& ports, const std::string& trail, const char* po
   ports.push_back(readable(trail + ".orientation.z", "", body.orientation.z));
   add_vector(ports, trail + ".velocity", "m/s", body.velocity);
   add_vector(ports, trail + ".angular_velocity", "rad/s", body.angular_velocity);
+  std::size_t first = ports.size();
   add_vector(ports, trail + ".contact.force", "N", body.contact_force);
-  const std::size_t first = ports.size();
+  on_demand(ports, first, derived.contact_forces());
+  first = ports.size();
   add_vector(ports, trail + ".linear_acceleration", "m/s^2", values.acceleration);
   add_vector(ports, trail + ".angular_acceleration", "rad/s^2", values.angular_acceleration);
   on_demand(ports, first, derived.accelerations());
@@ -146,8 +148,8 @@ std::vector<Port> list_ports(const Experiment& experiment, Engine& engine, Deriv
   return ports;
 }
 
-Port find_port(const Experiment& experiment, const std::vector<Port>& ports,
-               std::string_view trail) {
+std::optional<Port> look_up_port(const Experiment& experiment, const std::vector<Port>& ports,
+                                 std::string_view trail) {
   const std::string world = experiment.world + ".";
   const std::string own = by_letter(trail);
   for (const std::string& wanted :
@@ -158,6 +160,13 @@ Port find_port(const Experiment& experiment, const std::vector<Port>& ports,
       return port;
     }
   }
+  return std::nullopt;
+}
+
+Port find_port(const Experiment& experiment, const std::vector<Port>& ports,
+               std::string_view trail) {
+  if (auto port = look_up_port(experiment, ports, trail)) return std::move(*port);
+  const std::string world = experiment.world + ".";
   // Trails are suggested as the user writes them: with or without the world's name.
   const bool with_world = trail.starts_with(world);
   std::vector<std::string> trails;
@@ -168,7 +177,7 @@ Port find_port(const Experiment& experiment, const std::vector<Port>& ports,
   const std::string nearest = language::nearest_name(trail, trails);
   throw ExperimentError(fmt::format("there is no port `{}`{}", trail,
                                     nearest.empty()
-                                        ? "; `hookpoint describe` lists the ports of each class"
+                                        ? "; `hookpoint ports FILE` lists them"
                                         : fmt::format("; did you mean `{}`?", nearest)));
 }
 

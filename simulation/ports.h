@@ -3,6 +3,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,10 +33,13 @@ struct Port {
 
 class Derived;
 
-/// What the engine publishes and what follows from it, and its joints' drives: robots in file order. A robot's own
-/// `position`, `velocity`, ... are its base's.
+/// What the engine publishes and what follows from it, and its joints' drives: robots in file
+/// order. A robot's own `position`, `velocity`, ... are its base's.
 std::vector<Port> list_ports(const Experiment& experiment, Engine& engine, Derived& derived);
 
+/// The port named by `trail`, as below; nothing when there is none.
+std::optional<Port> look_up_port(const Experiment& experiment, const std::vector<Port>& ports,
+                                 std::string_view trail);
 /// The port named by `trail`: from the top, or from within the world ("block.base.location.x").
 /// Its value is right from now on. Throws ExperimentError naming the nearest trail when there is
 /// none. O(ports).

@@ -2,16 +2,19 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <optional>
 
 namespace hookpoint::simulation {
 namespace {
 
-output::RecordHeader header_of(const RecordSpec& spec, const Experiment& experiment) {
+output::RecordHeader header_of(const RecordSpec& spec, const Experiment& experiment,
+                               const RunText& text) {
   output::RecordHeader header;
   header.name = spec.name;
   header.channels = spec.channels;
-  header.annotations = run_annotations(experiment);
+  header.annotations = run_annotations(experiment, text.hash);
+  header.experiment = text.text;
   return header;
 }
 
@@ -23,8 +26,10 @@ control::Schedule row_schedule(const std::optional<double>& rate, double deltat)
   return {exact, control::Rational::from(deltat)};
 }
 
-std::vector<std::pair<std::string, std::string>> run_annotations(const Experiment& experiment) {
-  return {{"hookpoint", HOOKPOINT_VERSION},
+std::vector<std::pair<std::string, std::string>> run_annotations(const Experiment& experiment,
+                                                                 const std::string& hash) {
+  return {{"hash", hash},
+          {"hookpoint", HOOKPOINT_VERSION},
           {"world", experiment.world},
           {"engine", experiment.engine},
           {"contact", experiment.contact},
@@ -34,18 +39,18 @@ std::vector<std::pair<std::string, std::string>> run_annotations(const Experimen
 }
 
 Records::Records(const Experiment& experiment, const std::vector<Port>& ports,
-                 const std::filesystem::path& folder, const std::string& experiment_text,
+                 const std::filesystem::path& folder, const RunText& text,
                  std::int64_t first_step) {
   for (const RecordSpec& spec : experiment.records) {
-    Record record{row_schedule(spec.rate, experiment.deltat), {}, {}, nullptr};
-    output::RecordHeader header = header_of(spec, experiment);
+    Record record{row_schedule(spec.rate, experiment.deltat), {}, {}, {}, nullptr};
+    output::RecordHeader header = header_of(spec, experiment, text);
     for (std::int64_t step = 0; step < first_step; ++step) record.schedule.due(step);
     header.period = record.schedule.period();
-    header.experiment = experiment_text;
     for (output::Channel& channel : header.channels) {
       const Port port = find_port(experiment, ports, channel.path);
       if (channel.unit.empty()) channel.unit = port.unit;
       record.sources.push_back(port.value);
+      record.trails.push_back(port.trail);
     }
     record.values.resize(record.sources.size());
     record.writer = output::make_record_writer(spec.format, folder / spec.file, header);
@@ -65,6 +70,15 @@ void Records::row(std::int64_t step, double time) {
     }
   }
   if (refused) throw *refused;
+}
+
+const std::string& Records::first_not_finite() const {
+  static const std::string none;
+  for (const Record& record : records_) {
+    for (std::size_t i = 0; i < record.sources.size(); ++i)
+      if (!std::isfinite(*record.sources[i])) return record.trails[i];
+  }
+  return none;
 }
 
 void Records::close() {

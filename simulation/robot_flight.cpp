@@ -29,6 +29,7 @@ void RobotFlight::read() {
 Status RobotFlight::begin() {
   q_start_ = q_;
   v_start_ = v_;
+  robot_.commit_anchors();
   robot_.accelerate();
   dts::get_acceleration<double>(robot_.model(), robot_.workspace(), a_start_);
   dts::body_accelerations<double>(robot_.model(), robot_.state(), robot_.workspace(), bodies_);

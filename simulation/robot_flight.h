@@ -20,8 +20,8 @@ class RobotFlight final : public integrators::System {
 
   /// Reads the robot's state, after which `positions` and `velocities` are the robot's.
   void read();
-  /// From the robot's present state, in which its accelerations are computed (and left in its
-  /// workspace).
+  /// From the robot's present state, which is accepted, and in which its accelerations are computed
+  /// (and left in its workspace).
   integrators::Status begin();
   /// Puts the robot where it is `duration` [s] after the start.
   integrators::Status fly(double duration);

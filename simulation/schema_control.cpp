@@ -54,6 +54,8 @@ FieldSchema text_of(const PortDescription& port) {
 }
 
 std::string document(const PortDescription& port) {
+  if (port.world != control::WorldValue::none)
+    return port.doc + "; if not given, that of the World's gravity";
   if (port.attached.empty()) return port.doc;
   return fmt::format("{}; {} `{}` of what it is attached to unless wired", port.doc,
                      port.kind == PortKind::output ? "drives" : "reads", port.attached);
@@ -62,11 +64,13 @@ std::string document(const PortDescription& port) {
 /// A number, or an array that takes one number for all of its elements.
 FieldSchema value_of(const PortDescription& port) {
   const bool computed = port.kind == PortKind::output || port.kind == PortKind::state;
-  const std::string value = computed ? "" : fmt::format("{}", port.default_value);
+  const bool open = computed || port.world != control::WorldValue::none;
+  const std::string value = open ? "" : fmt::format("{}", port.default_value);
   FieldSchema field =
       port.count > 1
           ? list_field(port.name, port.unit, 1, static_cast<int>(port.count), value, document(port))
           : number_field(port.name, port.unit, value, document(port));
+  field.one_or_all = port.count > 1;
   field.minimum = port.minimum;
   field.maximum = port.maximum;
   if (computed) return port_only(Direction::output, std::move(field));

@@ -76,6 +76,12 @@ inline FieldSchema object_field(std::string name, std::string refers_to, std::st
   return field;
 }
 
+/// `word` may stand for the number.
+inline FieldSchema or_word(std::string word, FieldSchema field) {
+  field.choices.push_back(std::move(word));
+  return field;
+}
+
 /// In `unit` where the choice `field` is `word`.
 inline FieldSchema or_unit(std::string unit, std::string field, std::string word,
                            FieldSchema described) {

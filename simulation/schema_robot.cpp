@@ -19,13 +19,14 @@ std::vector<FieldSchema> mass_fields(const std::string& axes) {
 
 /// What every body publishes of its contact with the ground.
 std::vector<FieldSchema> contact_ports() {
-  return {port_only(Direction::output,
-                    vector_field(
-                        "contact.force", "N", "",
-                        "sum of the ground's forces on the body over the last step, world axes")),
-          port_only(Direction::output,
-                    number_field("contact.count", "", "",
-                                 "boundary points that carried force in the last step"))};
+  return {
+      port_only(Direction::output,
+                vector_field("contact.force", "N", "",
+                             "impulse of the ground on the body over the last step by the step's "
+                             "length, world axes; at first 0")),
+      port_only(Direction::output,
+                number_field("contact.count", "", "",
+                             "boundary points that carried force in the last step"))};
 }
 
 /// How a body's velocities change, for whom `body` is.
@@ -163,8 +164,22 @@ std::vector<FieldSchema> joint_fields() {
                             "step just taken")),
       joint_field("lower_limit", "rad", "m", "", "least angle; none if not given"),
       joint_field("upper_limit", "rad", "m", "", "greatest angle; none if not given"),
+      positive(joint_field("limit_stiffness", "N.m/rad", "N/m", "",
+                           "spring of the stop beyond a limit; if not given, 1000 N.m/rad "
+                           "(prismatic: 1e5 N/m)")),
+      not_negative(joint_field("limit_damping", "N.m.s/rad", "N.s/m", "",
+                               "damper of the stop; if not given, 1 N.m.s/rad (prismatic: 100 "
+                               "N.s/m)")),
       not_negative(joint_field("damping", "N.m.s/rad", "N.s/m", "0", "torque = -damping rate")),
-      not_negative(joint_field("friction", "N.m", "N", "0", "dry friction, opposes the rate")),
+      not_negative(joint_field("friction", "N.m", "N", "0",
+                               "dry friction: a joint that carries less than this sticks; one that "
+                               "slips is braked by it")),
+      positive(joint_field("friction_deflection", "rad", "m", "",
+                           "so far a joint that sticks gives way, as a spring, before it slips; if "
+                           "not given, 1e-3 rad (prismatic: 1e-4 m)")),
+      positive(joint_field("friction_speed", "rad/s", "m/s", "",
+                           "rate at which a joint that sticks is damped by its whole friction; if "
+                           "not given, 0.05 rad/s (prismatic: 0.005 m/s)")),
       not_negative(joint_field("stiffness", "N.m/rad", "N/m", "0",
                                "joint spring: torque = -stiffness (angle - rest_angle)")),
       joint_field("rest_angle", "rad", "m", "0", "angle at which the joint spring is slack"),

@@ -32,7 +32,10 @@ language::ClassSchema world_class() {
   world.fields = {
       list_field("gravity", "m/s^2", 1, 3, "9.81",
                  "a number g means 0,0,-g; three numbers are the vector"),
-      positive(number_field("deltat", "s", "0.001", "time step")),
+      or_word("auto", positive(number_field(
+                          "deltat", "s", "0.001",
+                          "time step; auto: a safe part of the largest stable one, where there is "
+                          "one"))),
       choice_field(
           "integrator", integrator_names(), "semi_implicit_euler",
           "how engine dts integrates a contact force law; an impulse law advances time itself"),
@@ -45,9 +48,10 @@ language::ClassSchema world_class() {
                    "contact law of engine dts; a peer brings its own contact"),
       choice_field("engine", {"dts", "ode", "ode_quickstep", "bullet", "mujoco", "dart", "simbody"},
                    "dts", "who computes the motion: the decoupled tree-structure engine or a peer"),
-      choice_field("settings", {"default", "recommended", "matched"}, "default",
+      choice_field("settings", {"default", "recommended", "matched", "noslip"}, "default",
                    "how a peer is set up: its first example, its maintainers' practice, or nearest "
-                   "to the penalty law"),
+                   "to the penalty law; noslip, of mujoco alone, is recommended with the no-slip "
+                   "iterations of its manual"),
       not_negative(number_field("constraint_mixing", "m/N/s", "",
                                 "CFM of ODE's world instead of the library's 1e-10: a contact "
                                 "gives way at it times its force; 0 makes four corners singular; "

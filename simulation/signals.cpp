@@ -1,6 +1,7 @@
 #include "simulation/signals.h"
 
 #include <algorithm>
+#include <cmath>
 #include <exception>
 #include <unordered_map>
 #include <utility>
@@ -42,6 +43,18 @@ Signals::Signals(const Experiment& experiment, Engine& engine)
   const WiringOrder order = order_wiring(experiment, components_);
   if (!order.loop.empty()) throw ExperimentError("wires without delay form a loop");
   order_ = order.items;
+  watch_values();
+}
+
+void Signals::watch_values() {
+  for (const Line& line : lines_) watched_.push_back(line.to);
+  for (std::size_t c = 0; c < components_.size(); ++c) {
+    for (const control::PortDescription& port : components_[c].ports()) {
+      if (port.kind != control::PortKind::output) continue;
+      for (std::size_t i = 0; i < port.count; ++i)
+        watched_.push_back(&components_[c].values()[port.first + i]);
+    }
+  }
 }
 
 void Signals::connect(const std::vector<Port>& ports) {
@@ -72,7 +85,7 @@ void Signals::connect(const std::vector<Port>& ports) {
   }
 }
 
-void Signals::update(std::int64_t step) {
+bool Signals::update(std::int64_t step) {
   const double time = engine_.state().time;
   held_.step = static_cast<double>(step);
   held_.impacts = static_cast<double>(engine_.state().impacts);
@@ -89,6 +102,17 @@ void Signals::update(std::int64_t step) {
   }
   for (const std::size_t i : delayed_) lines_[i].line.sample(step, *lines_[i].from);
   apply_forces(step);
+  // Of finite numbers it is 0; one that is not finite makes it NaN.
+  double nothing = 0.;
+  for (const double* value : watched_) nothing += 0. * *value;
+  return nothing == 0. && derived_.finite();
+}
+
+std::string Signals::first_not_finite() {
+  for (const Port& port : ports()) {
+    if (!std::isfinite(*port.value)) return port.trail;
+  }
+  return "";
 }
 
 void Signals::update_component(std::size_t index, std::int64_t step, double time) {

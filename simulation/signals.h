@@ -23,7 +23,11 @@ class Signals {
 
   /// All values at `step`, called with every step once, in order, from 0 on, when the engine has
   /// the state of that step: lines deliver, due components update, the engine gets its inputs.
-  void update(std::int64_t step);
+  /// False where a number that a wire delivers, a component puts out or somebody has asked to be
+  /// worked out is no longer finite.
+  bool update(std::int64_t step);
+  /// The trail of the first port that is not finite, "" if there is none. O(ports), allocates.
+  std::string first_not_finite();
 
   /// `World.running` and `Simulator.quit` as wires have left them.
   bool running() const { return held_.running != 0.; }
@@ -64,6 +68,7 @@ class Signals {
   void connect(const std::vector<Port>& ports);
   void update_component(std::size_t index, std::int64_t step, double time);
   void apply_forces(std::int64_t step);
+  void watch_values();
   void add_held_ports(std::vector<Port>& ports);
   void add_component_ports(std::vector<Port>& ports);
 
@@ -72,10 +77,11 @@ class Signals {
   Derived derived_;
   Components components_;
   Held held_;
-  std::vector<Updates> updates_;      // one a component
-  std::vector<Line> lines_;           // one a wire
-  std::vector<std::size_t> delayed_;  // lines whose samples arrive in a later step
-  std::vector<WiringItem> order_;     // the other lines and the components
+  std::vector<Updates> updates_;        // one a component
+  std::vector<Line> lines_;             // one a wire
+  std::vector<std::size_t> delayed_;    // lines whose samples arrive in a later step
+  std::vector<WiringItem> order_;       // the other lines and the components
+  std::vector<const double*> watched_;  // ends of lines, outputs of components
 };
 
 }  // namespace hookpoint::simulation

@@ -1,7 +1,8 @@
 #include "simulation/stability.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -9,14 +10,16 @@
 #include "integrators/stepper.h"
 #include "simulation/dts_robot.h"
 #include "simulation/ground.h"
-#include "simulation/joint_loops.h"
 #include "simulation/loop_stability.h"
+#include "simulation/standing.h"
 #include "simulation/vibration.h"
 
 namespace hookpoint::simulation {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+/// Of the greatest load: a point that carries less only touches.
+constexpr double least_share = 1e-3;
 
 Eigen::Matrix3d along_and_across(const Eigen::Vector3d& n, double along, double across) {
   const Eigen::Matrix3d projection = n * n.transpose();
@@ -24,99 +27,161 @@ Eigen::Matrix3d along_and_across(const Eigen::Vector3d& n, double along, double 
 }
 
 ContactSpring make_spring(const Experiment& experiment, const contact::ForceLaw& law,
-                          const ContactPoint& point, double load) {
-  const contact::LinearContact linear =
-      contact::linearise(law, load, experiment.materials[point.material].constants);
-  const Eigen::Vector3d n(point.normal.x, point.normal.y, point.normal.z);
-  return {{point.body, point.position},
-          along_and_across(n, linear.normal_stiffness, linear.tangential_stiffness),
+                          const CarryingPoint& carrying) {
+  const auto& material =
+      experiment.materials[static_cast<std::size_t>(carrying.material)].constants;
+  contact::LinearContact linear = contact::linearise(law, carrying.load, material);
+  // Without friction nothing sticks.
+  if (material.static_friction == 0.) linear.tangential_stiffness = 0.;
+  if (material.static_friction == 0.) linear.tangential_damping = material.viscous_friction;
+  const Eigen::Vector3d n(carrying.normal.x, carrying.normal.y, carrying.normal.z);
+  return {carrying.point, along_and_across(n, linear.normal_stiffness, linear.tangential_stiffness),
           along_and_across(n, linear.normal_damping, linear.tangential_damping)};
 }
 
-/// Of the points given, each under `load` [N]: the least speed up to which the step resolves their
-/// bristles [m/s].
+/// The least speed up to which the step resolves the bristles of the points that carry [m/s].
 double resolved_speed(const Experiment& experiment, const contact::ForceLaw& law,
-                      std::span<const ContactPoint* const> points, double load) {
+                      const Stance& stance) {
   const integrators::StepperDescription* stepper = integrators::find_stepper(experiment.integrator);
-  double least = infinity;
+  double least = infinity, most = 0.;
   if (stepper == nullptr || stepper->adaptive()) return least;
-  for (const ContactPoint* point : points) {
-    least =
-        std::min(least, contact::resolved_speed(law, load, experiment.deltat,
-                                                experiment.materials[point->material].constants));
+  for (const CarryingPoint& point : stance.points) most = std::max(most, point.load);
+  for (const CarryingPoint& point : stance.points) {
+    if (point.load < least_share * most) continue;
+    const auto& material = experiment.materials[static_cast<std::size_t>(point.material)].constants;
+    least = std::min(least, contact::resolved_speed(law, point.load, experiment.deltat, material));
   }
   return least;
 }
 
 using Contacts = StabilityBound::Contacts;
 
-StabilityBound bound_of(const Experiment& experiment, const DtsRobot& robot,
-                        const std::vector<ContactSpring>& springs,
-                        const std::vector<JointLoop>& loops, const std::string& name,
-                        Contacts contacts) {
-  const Vibration vibration = linear_vibration(robot, springs);
+struct Springs {
+  std::vector<ContactSpring> contacts;
+  std::vector<SteadyLoad> loads;
+};
+
+StabilityBound bound_of(const Experiment& experiment, const RobotAtRest& rest,
+                        const Springs& springs, const std::vector<JointLoop>& loops,
+                        const std::string& name, Contacts contacts) {
+  const Vibration vibration = linear_vibration(rest, springs.contacts, springs.loads);
+  if (!vibration.stiffness.allFinite() || !vibration.damping.allFinite())
+    return {infinity, 0., 0., name, contacts};
   StabilityBound bound{largest_stable_step(experiment.integrator, vibration, loops),
-                       largest_eigenvalue(vibration.stiffness),
-                       largest_eigenvalue(vibration.damping), name, contacts};
+                       std::max(0., largest_eigenvalue(vibration.stiffness)),
+                       std::max(0., largest_eigenvalue(vibration.damping)), name, contacts};
+  bound.without_controllers =
+      loops.empty() ? bound.step : largest_stable_step(experiment.integrator, vibration);
   for (const JointLoop& loop : loops) {
+    if (loop.period > 0.) bound.controller_rate = 1. / loop.period;
     if (bound.controllers.empty() || bound.controllers.back() != loop.controller)
       bound.controllers.push_back(loop.controller);
   }
   return bound;
 }
 
-double weight(const Experiment& experiment, const RobotSpec& robot) {
-  double mass = robot.mobile ? robot.base.mass.mass : 0.;
-  for (const ChainSpec& chain : robot.chains) {
-    for (const LinkSpec& link : chain.links) mass += link.body.mass.mass;
+Springs springs_of(const Experiment& experiment, const contact::ForceLaw& law,
+                   const Stance& stance) {
+  Springs springs{{}, stance.loads};
+  for (const CarryingPoint& point : stance.points)
+    springs.contacts.push_back(make_spring(experiment, law, point));
+  return springs;
+}
+
+/// Whether the law is stiffer or damps more under a greater load.
+bool depends_on_load(const Experiment& experiment, const contact::ForceLaw& law,
+                     const CarryingPoint& point, double load) {
+  const auto& material = experiment.materials[static_cast<std::size_t>(point.material)].constants;
+  const contact::LinearContact now = contact::linearise(law, point.load, material);
+  const contact::LinearContact then = contact::linearise(law, load, material);
+  return then.normal_stiffness > now.normal_stiffness || then.normal_damping > now.normal_damping ||
+         then.tangential_damping > now.tangential_damping;
+}
+
+/// Where the loads vary, under a law that stiffens with them: each point may carry all alone.
+void add_single_points(const Experiment& experiment, const contact::ForceLaw& law,
+                       std::vector<Stance>& stances) {
+  for (std::size_t i = 0, count = stances.size(); i < count; ++i) {
+    double total = 0.;
+    for (const CarryingPoint& point : stances[i].points) total += point.load;
+    const std::vector<CarryingPoint> points = stances[i].points;
+    for (CarryingPoint alone : points) {
+      if (!depends_on_load(experiment, law, alone, total)) continue;
+      alone.load = total;
+      stances.push_back({{alone}, {}});
+    }
   }
-  return mass * norm(experiment.gravity);
+}
+
+/// Of a robot that touches nothing, at its initial posture and at the one in which it hangs still.
+StabilityBound free_bound(const Experiment& experiment, std::size_t index,
+                          const WiredControl& control, const std::vector<JointLoop>& loops,
+                          DtsRobot& robot) {
+  const RobotSpec& spec = experiment.robots[index];
+  const auto at_posture = [&] {
+    const RobotAtRest rest(robot);
+    // What falls freely feels no weight.
+    Springs alone;
+    if (!spec.mobile) alone.loads = rest.weights(experiment.gravity);
+    return bound_of(experiment, rest, alone, loops, spec.name, Contacts::none);
+  };
+  const StabilityBound initial = at_posture();
+  if (!hang(experiment, index, control, robot)) return initial;
+  const StabilityBound hanging = at_posture();
+  return hanging.step < initial.step ? hanging : initial;
 }
 
 StabilityBound robot_bound(const Experiment& experiment, std::size_t index,
-                           const contact::Terrain* ground, const std::vector<JointLoop>& loops) {
+                           const contact::Terrain* ground, const WiredControl& control) {
   const contact::ForceLaw law = *contact::find_force_law(experiment.contact);
   const RobotSpec& spec = experiment.robots[index];
   const WorldInputs inputs = initial_inputs(experiment);
-  const DtsRobot robot(experiment, static_cast<int>(index), ground, inputs);
+  DtsRobot robot(experiment, static_cast<int>(index), ground, inputs);
+  const RobotAtRest rest(robot);
+  std::vector<JointLoop> loops;
+  std::ranges::copy_if(control.loops, std::back_inserter(loops),
+                       [&](const JointLoop& loop) { return loop.robot == index; });
+  if (rest.size() == 0 || !rest.is_regular()) return {infinity, 0., 0., spec.name};
   if (ground == nullptr || robot.contact_points().empty())
-    return bound_of(experiment, robot, {}, loops, spec.name, Contacts::none);
+    return free_bound(experiment, index, control, loops, robot);
+  Stances stances = find_stances(experiment, index, rest, control);
+  if (std::ranges::any_of(control.driven, [&](const DrivenJoint& joint) {
+        return joint.robot == index && !joint.goal;
+      }))
+    add_single_points(experiment, law, stances.all);
 
-  std::vector<const ContactPoint*> touching;
-  for (const ContactPoint& point : robot.contact_points()) {
-    if (point.pending.attached) touching.push_back(&point);
+  const Contacts contacts = stances.lands ? Contacts::landing : Contacts::touching;
+  StabilityBound least{infinity, 0., 0., spec.name, contacts};
+  for (const Stance& stance : stances.all) {
+    const Springs springs = springs_of(experiment, law, stance);
+    const double resolved = std::min(least.resolved_speed, resolved_speed(experiment, law, stance));
+    // The contacts alone decide which stance is worst; the loops then join it.
+    const Vibration vibration = linear_vibration(rest, springs.contacts, springs.loads);
+    if (&stance == &stances.all.front() ||
+        largest_stable_step(experiment.integrator, vibration, least.step) < least.step) {
+      least = bound_of(experiment, rest, springs, loops, spec.name, contacts);
+    }
+    least.resolved_speed = resolved;
   }
-  if (!touching.empty()) {
-    std::vector<ContactSpring> springs;
-    const double load = weight(experiment, spec) / static_cast<double>(touching.size());
-    for (const ContactPoint* point : touching)
-      springs.push_back(make_spring(experiment, law, *point, load));
-    StabilityBound bound =
-        bound_of(experiment, robot, springs, loops, spec.name, Contacts::touching);
-    bound.resolved_speed = resolved_speed(experiment, law, touching, load);
-    return bound;
-  }
-  // The point alone decides which is worst; the loops then join it.
-  const ContactPoint* worst = &robot.contact_points().front();
-  StabilityBound least{infinity, 0., 0., spec.name, Contacts::worst};
-  for (const ContactPoint& point : robot.contact_points()) {
-    const ContactSpring spring = make_spring(experiment, law, point, weight(experiment, spec));
-    const StabilityBound bound =
-        bound_of(experiment, robot, {spring}, {}, spec.name, Contacts::worst);
-    if (!(bound.step < least.step)) continue;
-    least = bound;
-    worst = &point;
-  }
-  if (!loops.empty()) {
-    const ContactSpring spring = make_spring(experiment, law, *worst, weight(experiment, spec));
-    least = bound_of(experiment, robot, {spring}, loops, spec.name, Contacts::worst);
-  }
-  const std::array one{worst};
-  least.resolved_speed = resolved_speed(experiment, law, one, weight(experiment, spec));
   return least;
 }
 
 }  // namespace
+
+std::string controller_advice(const StabilityBound& bound) {
+  if (bound.controllers.empty() || !(bound.step < bound.without_controllers)) return "";
+  std::string who = first_of(bound.controllers);
+  if (bound.controller_rate > 0.) who += fmt::format(" (at {:.4g} Hz)", bound.controller_rate);
+  if (bound.step > 0.)
+    return fmt::format(
+        "it is {} that the step is too large for: lower the gains, or make the step "
+        "smaller",
+        who);
+  return fmt::format(
+      "{} is unstable however small the step: its gains are too high for its rate "
+      "and its delay; raise the rate, shorten the delay, or lower the gains",
+      who);
+}
 
 std::string first_of(const std::vector<std::string>& names) {
   constexpr std::size_t shown = 3;
@@ -133,10 +198,7 @@ StabilityBound stability_bound(const Experiment& experiment) {
   const auto ground = make_ground(experiment);
   const WiredControl control = wired_control(experiment);
   for (std::size_t i = 0; i < experiment.robots.size(); ++i) {
-    std::vector<JointLoop> loops;
-    std::ranges::copy_if(control.loops, std::back_inserter(loops),
-                         [&](const JointLoop& loop) { return loop.robot == i; });
-    const StabilityBound bound = robot_bound(experiment, i, ground ? &*ground : nullptr, loops);
+    const StabilityBound bound = robot_bound(experiment, i, ground ? &*ground : nullptr, control);
     if (bound.step < least.step) least = bound;
   }
   least.left_out = control.left_out;

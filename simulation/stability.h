@@ -16,22 +16,28 @@ struct StabilityBound {
   double stiffness = 0.;   ///< largest eigenvalue of M^-1 sum J^T K J [1/s^2]
   double damping = 0.;     ///< largest eigenvalue of M^-1 sum J^T C J [1/s]
   std::string robot = {};  ///< the robot it belongs to
-  /// Which contacts are in it: those that touch at the initial state, else the worst boundary
-  /// point's alone, or none where there is no ground to touch.
-  enum class Contacts { touching, worst, none };
+  /// Which contacts are in it: those on which the robot stands near its initial state, else all of
+  /// the worst face on which it may land, or none where there is no ground to touch.
+  enum class Contacts { touching, landing, none };
   Contacts contacts = Contacts::none;
   /// Sliding speed up to which deltat resolves the law's bristles; infinite for a law without
   /// bristles and for an adaptive integrator [m/s].
   double resolved_speed = std::numeric_limits<double>::infinity();
+  double without_controllers = 0.;            ///< `step` were it not for their loops [s]
   std::vector<std::string> controllers = {};  ///< of the robot's joints, whose loops are in it
+  double controller_rate = 0.;                ///< of their updates; 0: every step [Hz]
   std::vector<std::string> left_out = {};     ///< feedback that is not, with the reason
 };
 
 /// The bound at the experiment's initial state, the smallest of its robots; only for engine dts
-/// under a force law. Each contact is linearised about its load: K = k n n^T + k_t (1 - n n^T), C
-/// alike; springs and dampers of joints are in it, and wired controllers where they can be
-/// (docs/contact.md). O(points^3).
+/// under a force law. Each contact is linearised about the load that it carries: K = k n n^T + k_t
+/// (1 - n n^T), C alike; springs and dampers of joints are in it, the stiffness of gravity, and
+/// wired controllers where they can be (docs/contact.md). O(faces (links^3 + points links^2)).
 StabilityBound stability_bound(const Experiment& experiment);
+
+/// What to do about a step above a bound that the loops of its controllers set; "" where they do
+/// not.
+std::string controller_advice(const StabilityBound& bound);
 
 /// "pd and 3 more": the first few of many names.
 std::string first_of(const std::vector<std::string>& names);

@@ -2,18 +2,46 @@
 
 #include <utility>
 
+#include "simulation/stability.h"
+
 namespace hookpoint::simulation {
 
+namespace {
+
+/// What costs something is worked out for those who ask for it, who are yet to come.
+std::unique_ptr<Engine> on_demand(std::unique_ptr<Engine> engine) {
+  engine->publish_contact_forces(false);
+  return engine;
+}
+
+}  // namespace
+
 World::World(const Experiment& experiment, std::unique_ptr<Engine> engine)
-    : experiment_(experiment), engine_(std::move(engine)), signals_(experiment, *engine_) {
-  signals_.update(0);
+    : experiment_(experiment),
+      engine_(on_demand(std::move(engine))),
+      signals_(experiment, *engine_) {
+  start_ = update_signals();
 }
 
 StepStatus World::step() {
+  if (!start_.ok()) return start_;
   if (!signals_.running()) return {};
   const StepStatus status = engine_->step();
-  if (status.ok()) signals_.update(engine_->state().step);
+  return status.ok() ? update_signals() : status;
+}
+
+StepStatus World::update_signals() {
+  if (signals_.update(engine_->state().step)) return {};
+  StepStatus status = not_finite(engine_->state().time, signals_.first_not_finite());
+  const std::string controllers = controller_advice(stability_bound(experiment_));
+  if (!controllers.empty()) status.advice = "it is no longer a finite number: " + controllers;
   return status;
+}
+
+StepStatus not_finite(double time, const std::string& trail) {
+  return {StepStatus::Kind::not_finite, time, trail,
+          "it is no longer a finite number: look at the gains, amplitudes and noise of what leads "
+          "to it"};
 }
 
 std::string World::ended() const {

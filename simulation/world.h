@@ -18,12 +18,18 @@ class World {
 
   /// From the present row to the next: the engine steps under the present inputs, then the signals
   /// follow its new state. Between two steps every port holds what is visible at `state().time`.
-  /// While `World.running` is false nothing moves. Allocates nothing.
+  /// While `World.running` is false nothing moves. Allocates nothing. A signal that is no longer
+  /// finite stops the run as a state does, at the instant at which it is seen, time 0 included.
   StepStatus step();
 
   const WorldState& state() const { return engine_->state(); }
+  /// What the ground's springs hold, where the engine says [J].
+  std::optional<double> ground_energy() const { return engine_->ground_energy(); }
   /// What the next step is taken under.
   const WorldInputs& inputs() const { return engine_->inputs(); }
+  /// From the next step on the bodies' `contact_force` in `state()` is right, as it is anyway once
+  /// somebody reads its port.
+  void publish_contact_forces() { engine_->publish_contact_forces(true); }
   /// Every port of the run. O(ports).
   std::vector<Port> ports() { return signals_.ports(); }
   /// Why a run without windows ends here, or "" while it goes on: `Simulator.quit` is true, or
@@ -42,10 +48,15 @@ class World {
 
  private:
   Resumable& resumable() const;
+  StepStatus update_signals();
 
   const Experiment& experiment_;
   std::unique_ptr<Engine> engine_;
   Signals signals_;
+  StepStatus start_;  ///< of the signals at time 0
 };
+
+/// Of a port that is no longer finite.
+StepStatus not_finite(double time, const std::string& trail);
 
 }  // namespace hookpoint::simulation

@@ -1,0 +1,460 @@
+#include "simulation/standing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "simulation/convex_hull.h"
+
+namespace hookpoint::simulation {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// Turned farther than that from its initial posture, a robot does not stand in it [rad].
+constexpr double standing_tilt = 0.05;
+/// A face looks down whose normal is nearer to it than that (45 degrees).
+constexpr double looks_down = 0.7;
+
+Eigen::Vector3d eigen(const Vector3d& v) { return {v.x, v.y, v.z}; }
+
+/// A point that the ground may come to carry.
+struct Support {
+  CarryingPoint place;
+  double depth = 0.;  ///< > 0 inside [m]
+};
+
+/// What pushes a robot onto its ground.
+struct Pushes {
+  std::vector<SteadyLoad> loads;
+  VectorXd torques;  ///< of moments and of joints, over z
+};
+
+struct Settled {
+  std::vector<double> loads;  ///< of each support [N]
+  double tilt = 0.;           ///< of the base from the initial posture [rad]
+};
+
+/// The equilibrium of a robot that leans on springs: the least of its potential energy over small
+/// motions z, by Newton's method with a bounded step. Feet that carry stick.
+class Settling {
+ public:
+  Settling(const Experiment& experiment, const RobotAtRest& rest, std::span<const Support> supports,
+           const Pushes& pushes, const MatrixXd& joints)
+      : law_(*contact::find_force_law(experiment.contact)),
+        materials_(experiment.materials),
+        rest_(rest),
+        supports_(supports),
+        push_(pushes.torques),
+        joints_(joints) {
+    for (const SteadyLoad& load : pushes.loads) push_ += rest.lever(load.point) * eigen(load.force);
+    for (const Support& support : supports) {
+      levers_.push_back(rest.lever(support.place.point));
+      normals_.push_back(eigen(support.place.normal));
+    }
+    for (const Support& a : supports)
+      size_ = std::max(size_, norm(a.place.point.p_WP - supports.front().place.point.p_WP));
+    if (size_ == 0.) size_ = 1.;
+  }
+
+  /// None where the ground does not hold the robot.
+  std::optional<Settled> settle() const {
+    VectorXd z = lowered();
+    const VectorXd start = z;
+    const double small = 1e-8 * std::max(push_.norm(), 1e-300);
+    for (int i = 0; i < 200; ++i) {
+      const Balance now = balance(z);
+      if (now.left.norm() <= small) return settled(z, z - start);
+      const double damping = 1e-10 * now.stiffness.trace() / static_cast<double>(z.size()) + 1e-9;
+      const VectorXd change = solve_positive(
+          now.stiffness + damping * MatrixXd::Identity(z.size(), z.size()), now.left);
+      if (!change.allFinite()) return std::nullopt;
+      const double before = energy(z);
+      double part = std::min(1., 0.05 * size_ / std::max(farthest(change), 1e-300));
+      for (int halved = 0; halved < 12 && energy(z + part * change) > before; ++halved) part *= 0.5;
+      z += part * change;
+      if (farthest(z - start) > size_) return std::nullopt;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  struct Balance {
+    VectorXd left;       ///< of the forces
+    MatrixXd stiffness;  ///< -d(left)/dz
+  };
+
+  /// A floating robot comes down until it touches.
+  VectorXd lowered() const {
+    VectorXd z = VectorXd::Zero(rest_.size());
+    if (!rest_.robot().model().mobile()) return z;
+    const auto lowest = std::ranges::max_element(supports_, {}, &Support::depth);
+    if (lowest->depth > 0.) return z;
+    return rest_.base_motion({}, lowest->depth * lowest->place.normal);
+  }
+
+  const contact::MaterialConstants<double>& material(std::size_t i) const {
+    return materials_[static_cast<std::size_t>(supports_[i].place.material)].constants;
+  }
+
+  Eigen::Vector3d moved(std::size_t i, const VectorXd& z) const {
+    return levers_[i].transpose() * z;
+  }
+
+  double depth(std::size_t i, const VectorXd& z) const {
+    return supports_[i].depth - normals_[i].dot(moved(i, z));
+  }
+
+  /// Of a point at rest `depth` deep [N].
+  double load(std::size_t i, double depth) const {
+    contact::PointKinematics<double> point;
+    point.normal = {0., 0., 1.};
+    point.depth = depth;
+    return contact::evaluate(law_, point, {}, material(i), 1.).force.z;
+  }
+
+  /// Along the tile; a law without such a spring creeps, and for the time of an equilibrium holds.
+  double sticking(std::size_t i, const contact::LinearContact& linear) const {
+    if (material(i).static_friction == 0.) return 0.;
+    return linear.tangential_stiffness > 0. ? linear.tangential_stiffness : linear.normal_stiffness;
+  }
+
+  Balance balance(const VectorXd& z) const {
+    Balance sum{push_ - joints_ * z, joints_};
+    for (std::size_t i = 0; i < supports_.size(); ++i) {
+      const double N = load(i, depth(i, z));
+      if (!(N > 0.)) continue;
+      const contact::LinearContact linear = contact::linearise(law_, N, material(i));
+      const Eigen::Matrix3d along = normals_[i] * normals_[i].transpose();
+      const Eigen::Matrix3d across = sticking(i, linear) * (Eigen::Matrix3d::Identity() - along);
+      sum.left += levers_[i] * (N * normals_[i] - across * moved(i, z));
+      sum.stiffness +=
+          levers_[i] * (linear.normal_stiffness * along + across) * levers_[i].transpose();
+    }
+    return sum;
+  }
+
+  double energy(const VectorXd& z) const {
+    double sum = 0.5 * z.dot(joints_ * z) - push_.dot(z);
+    for (std::size_t i = 0; i < supports_.size(); ++i) {
+      const double d = depth(i, z), N = load(i, d);
+      if (!(N > 0.)) continue;
+      const Eigen::Vector3d x = moved(i, z);
+      const double across = x.squaredNorm() - std::pow(normals_[i].dot(x), 2);
+      sum += contact::stored_energy(law_, d, {}, material(i)) +
+             0.5 * sticking(i, contact::linearise(law_, N, material(i))) * across;
+    }
+    return sum;
+  }
+
+  /// That any support moves [m].
+  double farthest(const VectorXd& z) const {
+    double most = 0.;
+    for (std::size_t i = 0; i < supports_.size(); ++i) most = std::max(most, moved(i, z).norm());
+    return most;
+  }
+
+  Settled settled(const VectorXd& z, const VectorXd& change) const {
+    Settled settled;
+    for (std::size_t i = 0; i < supports_.size(); ++i)
+      settled.loads.push_back(std::max(0., load(i, depth(i, z))));
+    settled.tilt = norm(rest_.base_rotation(change));
+    return settled;
+  }
+
+  const contact::ForceLaw law_;
+  const std::vector<MaterialSpec>& materials_;
+  const RobotAtRest& rest_;
+  std::span<const Support> supports_;
+  VectorXd push_;
+  const MatrixXd& joints_;
+  std::vector<MatrixXd> levers_;
+  std::vector<Eigen::Vector3d> normals_;
+  double size_ = 0.;
+};
+
+/// What drives a robot's joints.
+struct Drives {
+  const Experiment& experiment;
+  std::size_t robot;
+  const WiredControl& control;
+
+  /// Null for a joint that no wire drives.
+  const DrivenJoint* find(std::size_t joint) const {
+    const auto found = std::ranges::find_if(control.driven, [&](const DrivenJoint& driven) {
+      return driven.robot == robot && driven.joint == joint;
+    });
+    return found == control.driven.end() ? nullptr : &*found;
+  }
+
+  /// Of all joints at the robot's posture, at rest, over z.
+  VectorXd torques(const RobotAtRest& rest) const {
+    const DtsRobot& at = rest.robot();
+    const MatrixXd levers = rest.joint_levers();
+    VectorXd sum = VectorXd::Zero(rest.size());
+    Eigen::Index joint = 0;
+    for (const ChainSpec& chain : experiment.robots[robot].chains) {
+      for (const LinkSpec& link : chain.links) {
+        const auto l = static_cast<std::size_t>(joint);
+        const double position = at.state().joint_positions[l];
+        double torque = dts::passive_joint_torque(at.joints()[l], position, 0., at.anchors()[l]);
+        const DrivenJoint* driven = find(l);
+        if (driven == nullptr) torque += link.torque;
+        if (driven != nullptr && driven->goal)
+          torque += driven->proportional * (*driven->goal - position);
+        sum += torque * levers.row(joint++).transpose();
+      }
+    }
+    return sum;
+  }
+};
+
+class StanceFinder {
+ public:
+  StanceFinder(const Experiment& experiment, std::size_t index, const RobotAtRest& rest,
+               const WiredControl& control)
+      : experiment_(experiment), index_(index), rest_(rest), drives_{experiment, index, control} {
+    for (const ContactPoint& point : rest.robot().contact_points())
+      supports_.push_back(
+          {{{point.body, point.position}, point.normal, point.material, 0.}, point.depth});
+    weight_ = weight_of(experiment, experiment.robots[index]);
+  }
+
+  Stances find() const {
+    Stances stances;
+    const Vector3d& gravity = experiment_.gravity;
+    for (const bool pushed : {false, true}) {
+      if (pushed && !has_windows()) continue;
+      const Pushes now = pushes(gravity, pushed);
+      const auto settled = settle(supports_, now);
+      if (settled && settled->tilt < standing_tilt) {
+        stances.all.push_back(stance(supports_, *settled, now));
+      } else if (!pushed) {
+        stances.lands = true;
+      }
+    }
+    if (stances.lands) add_landings(stances.all);
+    return stances;
+  }
+
+ private:
+  std::optional<Settled> settle(std::span<const Support> supports, const Pushes& pushes) const {
+    const MatrixXd joints = joint_stiffness(supports);
+    return Settling(experiment_, rest_, supports, pushes, joints).settle();
+  }
+
+  bool has_windows() const {
+    return std::ranges::any_of(experiment_.forces, [&](const ForceSpec& force) {
+      return force.window && static_cast<std::size_t>(force.robot) == index_;
+    });
+  }
+
+  /// Weights in that gravity, Forces (those over a window at their height, or not), joints.
+  Pushes pushes(const Vector3d& gravity, bool with_windows) const {
+    const DtsRobot& robot = rest_.robot();
+    Pushes pushes{rest_.weights(gravity), drives_.torques(rest_)};
+    for (const ForceSpec& force : experiment_.forces) {
+      if (static_cast<std::size_t>(force.robot) != index_) continue;
+      if (force.window && !with_windows) continue;
+      const dts::BodyMotion<double>& body = robot.workspace().bodies[force.body];
+      const auto number = static_cast<std::size_t>(force.body);
+      pushes.loads.push_back({{number, body.p_WB + body.R_WB * force.point}, force.force});
+      pushes.torques += of_moment(number, body.p_WB, force.torque);
+    }
+    return pushes;
+  }
+
+  /// What a moment does to z: a couple of forces about each axis.
+  VectorXd of_moment(std::size_t body, const Vector3d& at, const Vector3d& moment) const {
+    const MatrixXd here = rest_.lever({body, at});
+    const auto arm = [&](const Vector3d& along, int force) -> VectorXd {
+      return rest_.lever({body, at + along}).col(force) - here.col(force);
+    };
+    return moment.x * arm({0., 1., 0.}, 2) + moment.y * arm({0., 0., 1.}, 0) +
+           moment.z * arm({1., 0., 0.}, 1);
+  }
+
+  /// What joints oppose to a displacement; one that is driven to somewhere holds, far stiffer than
+  /// the ground.
+  MatrixXd joint_stiffness(std::span<const Support> supports) const {
+    constexpr double held = 1e4;
+    const contact::ForceLaw law = *contact::find_force_law(experiment_.contact);
+    double ground = 0.;
+    for (const Support& support : supports) {
+      const auto& material =
+          experiment_.materials[static_cast<std::size_t>(support.place.material)].constants;
+      const contact::LinearContact linear = contact::linearise(law, weight_, material);
+      const VectorXd along = rest_.lever(support.place.point) * eigen(support.place.normal);
+      ground = std::max(ground, linear.normal_stiffness * along.squaredNorm());
+    }
+    const MatrixXd levers = rest_.joint_levers();
+    MatrixXd stiffness = rest_.joints_alone().stiffness;
+    for (Eigen::Index joint = 0; joint < levers.rows(); ++joint) {
+      const DrivenJoint* driven = drives_.find(static_cast<std::size_t>(joint));
+      if (driven == nullptr) continue;
+      const VectorXd lever = levers.row(joint).transpose();
+      const double k = driven->goal ? driven->proportional : held * ground / lever.squaredNorm();
+      stiffness += k * lever * lever.transpose();
+    }
+    return stiffness;
+  }
+
+  /// The supports that carry, and those that begin inside the ground.
+  static Stance stance(std::span<const Support> supports, const Settled& settled,
+                       const Pushes& pushes) {
+    Stance stance{{}, pushes.loads};
+    for (std::size_t i = 0; i < supports.size(); ++i) {
+      CarryingPoint point = supports[i].place;
+      point.load = settled.loads[i];
+      if (point.load == 0. && !(supports[i].depth > 0.)) continue;
+      stance.points.push_back(point);
+      stance.loads.push_back({point.point, point.load * point.normal});
+    }
+    return stance;
+  }
+
+  void add_landings(std::vector<Stance>& stances) const {
+    const double sink = deepest_sink();
+    if (rest_.robot().model().mobile()) {
+      add_faces(supports_, sink, stances);
+      return;
+    }
+    // What hangs from a fixed base lands with one link or another.
+    for (auto first = supports_.begin(); first != supports_.end();) {
+      const auto last = std::find_if(first, supports_.end(), [&](const Support& support) {
+        return support.place.point.body != first->place.point.body;
+      });
+      add_faces({first, last}, sink, stances);
+      first = last;
+    }
+  }
+
+  /// How deep the whole weight sinks on one point: so far apart, points touch together [m].
+  double deepest_sink() const {
+    const contact::ForceLaw law = *contact::find_force_law(experiment_.contact);
+    double deepest = 0.;
+    for (const Support& support : supports_) {
+      const auto& material =
+          experiment_.materials[static_cast<std::size_t>(support.place.material)].constants;
+      deepest = std::max(deepest, contact::static_depth(law, weight_, material));
+    }
+    return deepest;
+  }
+
+  void add_faces(std::span<const Support> supports, double sink,
+                 std::vector<Stance>& stances) const {
+    std::vector<Vector3d> points;
+    for (const Support& support : supports) points.push_back(support.place.point.p_WP);
+    const Vector3d down = -supports.front().place.normal;
+    std::vector<HullFace> faces = hull_faces(points, sink);
+    for (HullFace& face : faces) {
+      if (norm(face.normal) == 0.) face.normal = down;
+    }
+    if (faces.empty()) return;  // places that are no numbers any more
+    // A body that falls may turn over on its way.
+    const bool touches =
+        std::ranges::any_of(supports, [](const Support& support) { return support.depth > 0.; });
+    const bool rigid = rest_.robot().model().mobile() && rest_.robot().model().link_count() == 0;
+    if (touches || !rigid) {
+      const auto downwards = [&](const HullFace& face) { return dot(face.normal, down); };
+      const double best = downwards(std::ranges::max(faces, {}, downwards));
+      std::erase_if(faces, [&](const HullFace& face) {
+        return downwards(face) < std::min(best, looks_down);
+      });
+    }
+    for (const HullFace& face : faces) stances.push_back(lying_on(face, supports));
+  }
+
+  /// The robot on that face, as its ground would lie there.
+  Stance lying_on(const HullFace& face, std::span<const Support> supports) const {
+    std::vector<Support> lying;
+    double lowest = -HUGE_VAL;
+    for (const std::size_t i : face.points)
+      lowest = std::max(lowest, dot(supports[i].place.point.p_WP, face.normal));
+    for (const std::size_t i : face.points) {
+      Support& support = lying.emplace_back(supports[i]);
+      support.depth = dot(support.place.point.p_WP, face.normal) - lowest;
+      support.place.normal = -face.normal;
+    }
+    const Pushes now = pushes(norm(experiment_.gravity) * face.normal, false);
+    if (const auto settled = settle(lying, now)) {
+      Stance stance{{}, {}};
+      for (std::size_t i = 0; i < lying.size(); ++i) {
+        lying[i].place.load = settled->loads[i];
+        stance.points.push_back(lying[i].place);
+      }
+      return stance;
+    }
+    Stance stance;
+    for (Support& support : lying) {
+      support.place.load = weight_ / static_cast<double>(lying.size());
+      stance.points.push_back(support.place);
+    }
+    return stance;
+  }
+
+  const Experiment& experiment_;
+  std::size_t index_;
+  const RobotAtRest& rest_;
+  Drives drives_;
+  std::vector<Support> supports_;
+  double weight_ = 0.;
+};
+
+}  // namespace
+
+double weight_of(const Experiment& experiment, const RobotSpec& robot) {
+  double mass = robot.mobile ? robot.base.mass.mass : 0.;
+  for (const ChainSpec& chain : robot.chains) {
+    for (const LinkSpec& link : chain.links) mass += link.body.mass.mass;
+  }
+  return mass * norm(experiment.gravity);
+}
+
+bool hang(const Experiment& experiment, std::size_t index, const WiredControl& control,
+          DtsRobot& robot) {
+  constexpr double longest_turn = 0.3;
+  const Drives drives{experiment, index, control};
+  if (robot.model().mobile() || robot.model().link_count() == 0) return false;
+  for (const DrivenJoint& driven : control.driven) {
+    if (driven.robot == index && !driven.goal) return false;
+  }
+  std::vector<double> q(robot.position_size()), v(robot.velocity_size(), 0.);
+  for (int i = 0; i < 200; ++i) {
+    const RobotAtRest rest(robot);
+    const std::vector<SteadyLoad> weights = rest.weights(experiment.gravity);
+    VectorXd left = drives.torques(rest);
+    double most = 1e-300;
+    for (const SteadyLoad& weight : weights) {
+      const VectorXd pull = rest.lever(weight.point) * eigen(weight.force);
+      left += pull;
+      most += (rest.lever(weight.point) * norm(weight.force)).norm();
+    }
+    MatrixXd stiffness = rest.joints_alone().stiffness + rest.stiffness_of(weights);
+    for (Eigen::Index joint = 0; joint < rest.joint_levers().rows(); ++joint) {
+      const DrivenJoint* driven = drives.find(static_cast<std::size_t>(joint));
+      const VectorXd lever = rest.joint_levers().row(joint).transpose();
+      if (driven != nullptr) stiffness += driven->proportional * lever * lever.transpose();
+    }
+    if (left.norm() <= 1e-9 * most) return i > 0;
+    const double shift = std::max(0., 1.5 * largest_eigenvalue(-stiffness)) + 1e-9 * most;
+    const VectorXd turn =
+        rest.joint_levers() *
+        solve_positive(stiffness + shift * MatrixXd::Identity(rest.size(), rest.size()), left);
+    if (!turn.allFinite()) return false;
+    const double part = std::min(1., longest_turn / std::max(turn.cwiseAbs().maxCoeff(), 1e-300));
+    robot.write_positions(q);
+    for (std::size_t joint = 0; joint < q.size(); ++joint)
+      q[joint] += part * turn[static_cast<Eigen::Index>(joint)];
+    robot.settle_at(q, v);
+  }
+  return false;
+}
+
+Stances find_stances(const Experiment& experiment, std::size_t index, const RobotAtRest& rest,
+                     const WiredControl& control) {
+  return StanceFinder(experiment, index, rest, control).find();
+}
+
+}  // namespace hookpoint::simulation
