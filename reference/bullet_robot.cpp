@@ -30,8 +30,12 @@ BulletJoint bullet_joint(const TreeBody& link, const BulletFrame& parent, const 
 
 }  // namespace
 
-BulletRobot::BulletRobot(const RobotTree& tree, int robot, btMultiBodyDynamicsWorld& world)
-    : first_body_(tree.bases[static_cast<std::size_t>(robot)]), world_(world), marker_(1e-6) {
+BulletRobot::BulletRobot(const RobotTree& tree, int robot, btMultiBodyDynamicsWorld& world,
+                         BulletSurface surface)
+    : first_body_(tree.bases[static_cast<std::size_t>(robot)]),
+      world_(world),
+      surface_(std::move(surface)),
+      marker_(1e-6) {
   for (std::size_t i = first_body_; i < tree.bodies.size() && tree.bodies[i].robot == robot; ++i) {
     bodies_.push_back(tree.bodies[i]);
     frames_.push_back(principal_frame(tree.bodies[i].body->mass));
@@ -88,15 +92,23 @@ void BulletRobot::set_initial_state() {
   }
 }
 
-/// In no group: the broad phase pairs them with nothing, neither the ground nor each other. They
-/// are there for the contacts that bullet_points.h adds.
+/// Without a surface in no group: the broad phase pairs them with nothing, neither the ground nor
+/// each other. They are there for the contacts that bullet_points.h adds.
 void BulletRobot::add_colliders(btMultiBodyDynamicsWorld& world) {
   world.addMultiBody(multibody_.get());
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const auto link = static_cast<int>(i) - 1;
     auto collider = std::make_unique<btMultiBodyLinkCollider>(multibody_.get(), link);
-    collider->setCollisionShape(&marker_);
-    world.addCollisionObject(collider.get(), 0, 0);
+    if (i == 0 && surface_.shape) {
+      collider->setCollisionShape(surface_.shape->shape.get());
+      collider->setFriction(surface_.friction);
+      collider->setRestitution(surface_.restitution);
+      world.addCollisionObject(collider.get(), btBroadphaseProxy::DefaultFilter,
+                               btBroadphaseProxy::StaticFilter);
+    } else {
+      collider->setCollisionShape(&marker_);
+      world.addCollisionObject(collider.get(), 0, 0);
+    }
     if (i == 0) {
       multibody_->setBaseCollider(collider.get());
     } else {

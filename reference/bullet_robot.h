@@ -14,10 +14,17 @@
 
 namespace hookpoint::reference {
 
+/// What a base meets the ground with, where it has no chains and does not touch by points.
+struct BulletSurface {
+  std::unique_ptr<BulletShape> shape;  ///< in the base's principal frame; null: it meets nothing
+  double friction = 0., restitution = 0.;
+};
+
 class BulletRobot {
  public:
   /// Robot `robot` of `tree`, added to `world`, which outlives it.
-  BulletRobot(const RobotTree& tree, int robot, btMultiBodyDynamicsWorld& world);
+  BulletRobot(const RobotTree& tree, int robot, btMultiBodyDynamicsWorld& world,
+              BulletSurface surface = {});
   ~BulletRobot();
   BulletRobot(const BulletRobot&) = delete;
   BulletRobot& operator=(const BulletRobot&) = delete;
@@ -46,7 +53,8 @@ class BulletRobot {
   std::vector<BulletFrame> frames_;  ///< of each: where Bullet has its frame
   std::unique_ptr<btMultiBody> multibody_;
   btMultiBodyDynamicsWorld& world_;
-  btSphereShape marker_;  ///< of all colliders: never collided by Bullet
+  BulletSurface surface_;  ///< of the base
+  btSphereShape marker_;   ///< of all other colliders: never collided by Bullet
   std::vector<std::unique_ptr<btMultiBodyLinkCollider>> colliders_;
 };
 

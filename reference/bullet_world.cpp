@@ -30,6 +30,12 @@ struct Body {
   std::unique_ptr<btRigidBody> rigid;
 };
 
+/// A body that meets the ground by its shapes.
+struct Shaped {
+  std::size_t index;  ///< as published
+  const btCollisionObject* object;
+};
+
 BodyState state_of(const Body& body) {
   BodyState state;
   const btTransform& X_WP = body.rigid->getWorldTransform();
@@ -93,9 +99,10 @@ class BulletWorld final : public PeerWorld {
 
   void read(std::span<BodyState> bodies, std::span<JointState> joints) const override {
     read_motion(bodies, joints);
-    for_each_shape_force([&](const Body& body, const btVector3&, const Vector3d& force) {
-      bodies[body.index].contact_force += force;
-      ++bodies[body.index].contacts;
+    for_each_shape_force([&](std::size_t body, const btManifoldPoint& contact, const btVector3&,
+                             const Vector3d& force) {
+      bodies[body].contact_force += force;
+      if (contact.m_appliedImpulse > 0.) ++bodies[body].contacts;
     });
     if (points_) points_->read(deltat_, bodies);
   }
@@ -106,18 +113,21 @@ class BulletWorld final : public PeerWorld {
   }
 
   void read_shapes(std::vector<ShapeForce>& forces) const override {
-    for_each_shape_force([&](const Body& body, const btVector3& position, const Vector3d& force) {
-      forces.push_back({body.index, vector(position), force});
+    for_each_shape_force([&](std::size_t body, const btManifoldPoint&, const btVector3& position,
+                             const Vector3d& force) {
+      forces.push_back({body, vector(position), force});
     });
   }
 
  private:
   /// A world of single bodies is the library's first example; robots with chains need its world of
-  /// multibodies, which differs (docs/reference_engines.md).
+  /// multibodies, which differs (docs/reference_engines.md) and is what its maintainers' server
+  /// has.
   void make_world(const simulation::Experiment& experiment) {
     const auto collided = [this] { after_collision(); };
-    if (std::ranges::all_of(experiment.robots,
-                            [](const auto& robot) { return robot.chains.empty(); })) {
+    const bool chains = std::ranges::any_of(
+        experiment.robots, [](const auto& robot) { return !robot.chains.empty(); });
+    if (!settings_.multibodies && !chains) {
       solver_ = std::make_unique<btSequentialImpulseConstraintSolver>();
       auto world = std::make_unique<TouchingWorld<btDiscreteDynamicsWorld>>(
           &dispatcher_, &broadphase_, solver_.get(), &configuration_);
@@ -166,11 +176,20 @@ class BulletWorld final : public PeerWorld {
   void add_robot(const simulation::Experiment& experiment, const RobotTree& tree, std::size_t i) {
     const simulation::RobotSpec& robot = experiment.robots[i];
     const auto number = static_cast<int>(i);
-    if (!robot.chains.empty()) {
-      robots_.push_back(std::make_unique<BulletRobot>(tree, number, *multibody_world_));
+    const bool by_points = touches_by_points(experiment, number);
+    if (!robot.chains.empty() || (robot.mobile && settings_.multibodies)) {
+      robots_.push_back(std::make_unique<BulletRobot>(
+          tree, number, *multibody_world_, by_points ? BulletSurface{} : surface_of(robot)));
+      if (!by_points) shaped_.push_back({tree.bases[i], &robots_.back()->collider(0)});
     } else if (robot.mobile) {
-      add_body(robot, tree.bases[i], touches_by_points(experiment, number));
+      add_body(robot, tree.bases[i], by_points);
+      if (!by_points) shaped_.push_back({tree.bases[i], bodies_.back().rigid.get()});
     }
+  }
+
+  BulletSurface surface_of(const simulation::RobotSpec& robot) const {
+    return {make_bullet_shape(robot.base.shapes, principal_frame(robot.base.mass).X_BP),
+            single_friction(material_), settings_.restitution ? material_.restitution : 0.};
   }
 
   void add_body(const simulation::RobotSpec& robot, std::size_t index, bool by_points) {
@@ -255,8 +274,9 @@ class BulletWorld final : public PeerWorld {
     for (const auto& robot : robots_) robot->read(bodies, joints);
   }
 
-  /// Calls `visit(body, position, force)` for each contact of a shape that carries: the bodies of
-  /// robots with chains, and points, have none in the broad phase.
+  /// Calls `visit(body, contact, position, force)` for each contact of a shape that has a force.
+  /// One that does not push may have one along the ground: that with which the solver started from
+  /// the last step's, and which it leaves alone where the normal row ends at 0.
   template <class Visit>
   void for_each_shape_force(Visit visit) const {
     for (int i = 0; i < dispatcher_.getNumManifolds(); ++i)
@@ -269,14 +289,15 @@ class BulletWorld final : public PeerWorld {
     const btCollisionObject* object = body_is_first ? manifold.getBody0() : manifold.getBody1();
     // Impulses of a manifold act on its first body.
     const double scale = (body_is_first ? 1. : -1.) / deltat_;
-    for (const Body& body : bodies_) {
-      if (body.rigid.get() != object || body.shape->shape->getShapeType() == EMPTY_SHAPE_PROXYTYPE)
-        continue;
+    for (const Shaped& body : shaped_) {
+      if (body.object != object) continue;
       for (int i = 0; i < manifold.getNumContacts(); ++i) {
         const btManifoldPoint& point = manifold.getContactPoint(i);
-        if (!(point.m_appliedImpulse > 0.)) continue;
-        visit(body, body_is_first ? point.getPositionWorldOnA() : point.getPositionWorldOnB(),
-              scale * vector(bullet_impulse(point)));
+        const Vector3d impulse = vector(bullet_impulse(point));
+        if (dot(impulse, impulse) == 0.) continue;
+        visit(body.index, point,
+              body_is_first ? point.getPositionWorldOnA() : point.getPositionWorldOnB(),
+              scale * impulse);
       }
     }
   }
@@ -291,12 +312,13 @@ class BulletWorld final : public PeerWorld {
   btDbvtBroadphase broadphase_;
   std::unique_ptr<btSequentialImpulseConstraintSolver> solver_;
   std::unique_ptr<btDiscreteDynamicsWorld> world_;
-  btMultiBodyDynamicsWorld* multibody_world_ = nullptr;  ///< the same, where robots have chains
+  btMultiBodyDynamicsWorld* multibody_world_ = nullptr;  ///< the same, where there are multibodies
   std::optional<contact::Terrain> terrain_;
   std::unique_ptr<BulletShape> ground_shape_;
   std::unique_ptr<btRigidBody> ground_;
   std::vector<Body> bodies_;
-  std::vector<std::unique_ptr<BulletRobot>> robots_;  ///< with chains
+  std::vector<std::unique_ptr<BulletRobot>> robots_;  ///< multibodies
+  std::vector<Shaped> shaped_;
   std::optional<BulletPoints> points_;
   std::vector<std::size_t> forced_;  ///< body of each force
   std::vector<BodyState> now_;       ///< while contacts are made

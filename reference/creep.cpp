@@ -11,11 +11,13 @@
 namespace hookpoint::reference {
 namespace {
 
-/// The speed, unless a turn of more than 0.2 rad within the run makes it another one.
-std::optional<double> lasting_speed(const SteadyCreep& creep,
-                                    const simulation::Experiment& experiment) {
+using simulation::CreepVelocity;
+
+/// The velocity, unless a turn of more than 0.2 rad within the run makes it another one.
+std::optional<CreepVelocity> lasting(const SteadyCreep& creep,
+                                     const simulation::Experiment& experiment) {
   if (std::abs(creep.spin) * experiment.duration > 0.2) return std::nullopt;
-  return creep.speed;
+  return creep.velocity;
 }
 
 /// (J M^-1 J^T)_ii of the row along `direction` at the end of `arm` [1/kg].
@@ -56,7 +58,7 @@ double stiction_speed(double share) {
 
 }  // namespace
 
-std::optional<double> ode_creep(const simulation::Experiment& experiment) {
+std::optional<CreepVelocity> ode_creep(const simulation::Experiment& experiment) {
   const auto body = resting_body(experiment);
   if (!body) return std::nullopt;
   const ConstraintConstants constants = constraint_constants("ode", experiment);
@@ -64,18 +66,20 @@ std::optional<double> ode_creep(const simulation::Experiment& experiment) {
   // contacts end within it and some below it, and which is the solver's secret.
   const double fall = norm(experiment.gravity) * experiment.deltat * experiment.deltat;
   if (constants.surface_layer > 0. && fall > 0.5 * constants.surface_layer) return std::nullopt;
-  if (constants.tangential_mixing == 0.) return 0.;
+  if (constants.tangential_mixing == 0.) return CreepVelocity{};
   const double friction = single_friction(ground_material(experiment));
   const auto creep = creep_by_mixing(*body, friction, constants.tangential_mixing);
   const auto loads = normal_loads(*body, body->pull);
   if (!creep || creep->limited || !loads) return std::nullopt;
-  const auto speed = lasting_speed(*creep, experiment);
-  if (!speed || constants.surface_layer == 0.) return speed;
+  auto velocity = lasting(*creep, experiment);
+  if (!velocity || constants.surface_layer == 0.) return velocity;
   const double height = body->in_slope(body->origin - body->arms.front()).z;
-  return *speed + constants.normal_mixing * loads->y * height;
+  velocity->downhill += constants.normal_mixing * loads->y * height;
+  velocity->sideways += constants.normal_mixing * loads->z * height;
+  return velocity;
 }
 
-std::optional<double> dart_creep(const simulation::Experiment& experiment) {
+std::optional<CreepVelocity> dart_creep(const simulation::Experiment& experiment) {
   const Settings kind = settings_of(experiment, "dart");
   const auto material = ground_material(experiment);
   const DartSettings settings = dart_settings(kind, experiment.deltat, material);
@@ -84,7 +88,7 @@ std::optional<double> dart_creep(const simulation::Experiment& experiment) {
   const double friction = single_friction(material);
   if (settings.own_mixing) {
     const auto creep = creep_by_mixing(*body, friction, settings.constraint.tangential_mixing);
-    return creep && !creep->limited ? lasting_speed(*creep, experiment) : std::nullopt;
+    return creep && !creep->limited ? lasting(*creep, experiment) : std::nullopt;
   }
   auto dampers = limits_without_friction(*body, friction);
   if (!dampers) return std::nullopt;
@@ -97,10 +101,10 @@ std::optional<double> dart_creep(const simulation::Experiment& experiment) {
   // Its friction is a box along and across the fall: at the limit as steady_creep has it only where
   // the body goes straight down.
   if (!creep || (creep->limited && !creep->straight)) return std::nullopt;
-  return lasting_speed(*creep, experiment);
+  return lasting(*creep, experiment);
 }
 
-std::optional<double> simbody_creep(const simulation::Experiment& experiment) {
+std::optional<CreepVelocity> simbody_creep(const simulation::Experiment& experiment) {
   auto body = resting_body(experiment);
   if (!body) return std::nullopt;
   const SimbodySettings settings = simbody_settings(settings_of(experiment, "simbody"));
@@ -109,7 +113,7 @@ std::optional<double> simbody_creep(const simulation::Experiment& experiment) {
     // All points at one speed have one coefficient, so that how they share the load is no matter.
     const double share = body->pull / (material.static_friction * body->press);
     if (!(share < 1.)) return std::nullopt;
-    return settings.transition_velocity * stiction_speed(share);
+    return CreepVelocity{settings.transition_velocity * stiction_speed(share), 0.};
   }
   if (touches_by_points(experiment, 0))  // each is a ball, which touches below the point
     for (Vector3d& arm : body->arms) arm -= point_ball_radius * body->normal;
@@ -123,7 +127,7 @@ std::optional<double> simbody_creep(const simulation::Experiment& experiment) {
     dampers.push_back({damping, damping, material.kinetic_friction * load});
   }
   const auto creep = steady_creep(*body, dampers);
-  return creep ? lasting_speed(*creep, experiment) : std::nullopt;
+  return creep ? lasting(*creep, experiment) : std::nullopt;
 }
 
 }  // namespace hookpoint::reference

@@ -1,6 +1,7 @@
 // `engine = dart`, in a build with DART and in one without.
 #include "reference/engines.h"
 #include "reference/experiment_checks.h"
+#include "reference/peer_engine.h"
 #include "reference/settings.h"
 
 #ifdef HOOKPOINT_DART_VERSION
@@ -26,20 +27,21 @@ std::vector<EngineGap> gaps() {
 #ifdef HOOKPOINT_DART_VERSION
 
 simulation::EngineDescription describe_dart() {
-  return {"dart", HOOKPOINT_DART_VERSION, "double", true, settings_names(), gaps()};
+  return {"dart", HOOKPOINT_DART_VERSION, "double", true, settings_names("dart"), gaps()};
 }
 
 std::unique_ptr<simulation::Engine> make_dart(const simulation::Experiment& experiment) {
-  const auto notices = check_supported(experiment, describe_dart());
-  const DartSettings settings = dart_settings(settings_of(experiment, "dart"), experiment.deltat,
-                                              ground_material(experiment));
-  return make_peer_engine(experiment, make_dart_world(experiment, settings), notices);
+  return make_peer_engine(experiment, describe_dart(), [&] {
+    return make_dart_world(experiment,
+                           dart_settings(settings_of(experiment, "dart"), experiment.deltat,
+                                         ground_material(experiment)));
+  });
 }
 
 #else
 
 simulation::EngineDescription describe_dart() {
-  return {"dart", "", "double", false, settings_names(), gaps()};
+  return {"dart", "", "double", false, settings_names("dart"), gaps()};
 }
 
 std::unique_ptr<simulation::Engine> make_dart(const simulation::Experiment&) {

@@ -12,6 +12,7 @@
 #include <dart/dynamics/WeldJoint.hpp>
 #include <dart/simulation/World.hpp>
 #include <limits>
+#include <mutex>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -22,6 +23,7 @@
 #include "reference/dart_shapes.h"
 #include "reference/experiment_checks.h"
 #include "reference/extremes.h"
+#include "reference/library_abort.h"
 #include "reference/robot_tree.h"
 #include "reference/touching_points.h"
 
@@ -61,38 +63,42 @@ class DartWorld final : public PeerWorld {
       add_touching(experiment, tree);
     }
     for (const auto& skeleton : skeletons_) world_->addSkeleton(skeleton);
+    for (const TreeBody& body : tree.bodies) now_.push_back(body.initial);
+    joints_now_.resize(tree.joints);
+    see();
   }
 
   std::string advance(const simulation::WorldInputs& inputs) override {
     if (near_ground_) keep_below(*near_ground_);
     if (!apply(inputs)) return "a force, torque or speed is beyond what DART's assertions allow";
     const DartConstantsTurn turn(settings_);
-    world_->step();
-    return {};
+    const auto step = [this] {
+      world_->step();
+      see();
+    };
+    if (survives_abort(step)) return {};
+    // Neither its destructor nor anything else of it can be called any more.
+    static auto* const lost = new std::vector<dart::simulation::WorldPtr>;
+    static std::mutex mutex;
+    const std::lock_guard lock(mutex);
+    lost->push_back(std::move(world_));
+    return "an assertion of DART's failed, whose words are on standard error";
   }
 
   void read(std::span<BodyState> bodies, std::span<JointState> joints) const override {
-    for (const Body& body : bodies_) {
-      BodyState& state = bodies[body.index];
-      state.contact_force = {};
-      state.contacts = 0;
-      if (!body.mobile) continue;
-      const BodyState pose = pose_of(body.node->getWorldTransform());
-      state.position = pose.position;
-      state.orientation = pose.orientation;
-      state.velocity = vector(body.node->getLinearVelocity());
-      state.angular_velocity = vector(body.node->getAngularVelocity());
-      if (body.joint < 0) continue;
-      const auto* joint = body.node->getParentJoint();
-      joints[static_cast<std::size_t>(body.joint)].angle = joint->getPosition(0);
-      joints[static_cast<std::size_t>(body.joint)].rate = joint->getVelocity(0);
+    if (!world_) return;
+    std::ranges::copy(now_, bodies.begin());
+    for (std::size_t i = 0; i < joints.size(); ++i) {
+      joints[i].angle = joints_now_[i].angle;
+      joints[i].rate = joints_now_[i].rate;
     }
     // Where a step was refused, the state that it would have led to.
     if (refused_) bodies[*refused_].velocity.x = std::numeric_limits<double>::infinity();
     for (const auto& contact : world_->getLastCollisionResult().getContacts())
-      if (const Touch touch = touch_of(contact); dot(touch.force, touch.normal) > 0.) {
-        bodies[static_cast<std::size_t>(touch.use.body)].contact_force += touch.force;
-        ++bodies[static_cast<std::size_t>(touch.use.body)].contacts;
+      if (const Touch touch = touch_of(contact); touch.use.body >= 0) {
+        BodyState& body = bodies[static_cast<std::size_t>(touch.use.body)];
+        body.contact_force += touch.force;
+        if (dot(touch.force, touch.normal) > 0.) ++body.contacts;
       }
   }
 
@@ -127,6 +133,21 @@ class DartWorld final : public PeerWorld {
     ShapeUse use;
     Vector3d force, normal;  ///< on the body, out of the ground
   };
+
+  /// Reads the motion: the library works it out when it is asked, assertions included.
+  void see() {
+    for (const Body& body : bodies_) {
+      if (!body.mobile) continue;
+      BodyState& state = now_[body.index];
+      state = pose_of(body.node->getWorldTransform());
+      state.velocity = vector(body.node->getLinearVelocity());
+      state.angular_velocity = vector(body.node->getAngularVelocity());
+      if (body.joint < 0) continue;
+      const auto* joint = body.node->getParentJoint();
+      joints_now_[static_cast<std::size_t>(body.joint)].angle = joint->getPosition(0);
+      joints_now_[static_cast<std::size_t>(body.joint)].rate = joint->getVelocity(0);
+    }
+  }
 
   void add_body(const TreeBody& body) {
     if (body.link == nullptr)
@@ -290,8 +311,7 @@ class DartWorld final : public PeerWorld {
       node->addExtTorque(eigen(force.torque));
     }
     for (const Body& body : bodies_) {
-      if (!moderate(vector(body.node->getLinearVelocity())) ||
-          !moderate(vector(body.node->getAngularVelocity())))
+      if (!moderate(now_[body.index].velocity) || !moderate(now_[body.index].angular_velocity))
         refused_ = body.index;
       if (body.joint < 0) continue;
       const double torque = inputs.joint_torques[static_cast<std::size_t>(body.joint)];
@@ -318,13 +338,20 @@ class DartWorld final : public PeerWorld {
   std::vector<std::size_t> forced_;  ///< the body of each force
   std::optional<std::size_t> refused_;
   std::optional<NearGround> near_ground_;
+  std::vector<BodyState> now_;  ///< after the last step
+  std::vector<JointState> joints_now_;
 };
 
 }  // namespace
 
 std::unique_ptr<PeerWorld> make_dart_world(const simulation::Experiment& experiment,
                                            const DartSettings& settings) {
-  return std::make_unique<DartWorld>(experiment, settings);
+  std::unique_ptr<PeerWorld> world;
+  if (!survives_abort([&] { world = std::make_unique<DartWorld>(experiment, settings); }))
+    throw simulation::ExperimentError(
+        "engine dart: an assertion of DART's, whose words are on standard error, fails for this "
+        "experiment; look for an extreme mass, length, speed or place");
+  return world;
 }
 
 }  // namespace hookpoint::reference

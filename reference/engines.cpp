@@ -31,7 +31,9 @@ std::vector<EngineGap> ode_gaps() {
   return common_gaps_and(
       {single_friction_gap,
        {feature::legcone, refused, "ODE has no cone; use Cylinder, Sphere or Box"},
-       {feature::massless, refused, "every body of ODE has a mass; give the link one"}});
+       {feature::massless, refused, "every body of ODE has a mass; give the link one"},
+       {feature::no_inertia, refused,
+        "every body of ODE has an inertia; give it a shape or an inertia"}});
 }
 
 std::vector<EngineGap> bullet_gaps() { return common_gaps_and({single_friction_gap}); }
@@ -39,11 +41,10 @@ std::vector<EngineGap> bullet_gaps() { return common_gaps_and({single_friction_g
 std::unique_ptr<simulation::Engine> make(std::string_view engine,
                                          const simulation::Experiment& experiment,
                                          OdeSolver solver) {
-  const auto notices = check_supported(
-      experiment, solver == OdeSolver::step ? describe_ode() : describe_ode_quickstep());
-  const Settings settings = settings_of(experiment, engine);
-  return make_peer_engine(experiment, make_ode_world(experiment, settings, solver, engine),
-                          notices);
+  const auto description = solver == OdeSolver::step ? describe_ode() : describe_ode_quickstep();
+  return make_peer_engine(experiment, description, [&] {
+    return make_ode_world(experiment, settings_of(experiment, engine), solver, engine);
+  });
 }
 
 }  // namespace
@@ -69,20 +70,23 @@ std::unique_ptr<simulation::Engine> make_ode_quickstep(const simulation::Experim
 }
 
 std::unique_ptr<simulation::Engine> make_bullet(const simulation::Experiment& experiment) {
-  const auto notices = check_supported(experiment, describe_bullet());
-  const BulletSettings settings = bullet_settings(settings_of(experiment, "bullet"),
-                                                  experiment.deltat, ground_material(experiment));
-  return make_peer_engine(experiment, make_bullet_world(experiment, settings), notices);
+  return make_peer_engine(experiment, describe_bullet(), [&] {
+    return make_bullet_world(experiment,
+                             bullet_settings(settings_of(experiment, "bullet"), experiment.deltat,
+                                             ground_material(experiment)));
+  });
 }
 
 simulation::EngineDescription describe_ode() {
-  return {"ode", HOOKPOINT_ODE_VERSION, "double", true, settings_names(), ode_gaps()};
+  return {"ode", HOOKPOINT_ODE_VERSION, "double", true, settings_names("ode"), ode_gaps()};
 }
 simulation::EngineDescription describe_ode_quickstep() {
-  return {"ode_quickstep", HOOKPOINT_ODE_VERSION, "double", true, settings_names(), ode_gaps()};
+  return {"ode_quickstep", HOOKPOINT_ODE_VERSION, "double", true, settings_names("ode_quickstep"),
+          ode_gaps()};
 }
 simulation::EngineDescription describe_bullet() {
-  return {"bullet", HOOKPOINT_BULLET_VERSION, "double", true, settings_names(), bullet_gaps()};
+  return {"bullet", HOOKPOINT_BULLET_VERSION, "double",
+          true,     settings_names("bullet"), bullet_gaps()};
 }
 
 namespace {

@@ -60,6 +60,7 @@ struct SettingRow {
   std::string recommended;  ///< value at `settings = recommended`
   std::string matched;      ///< value at `settings = matched`
   std::string source;       ///< where the values come from
+  std::string noslip{};     ///< value at MuJoCo's `settings = noslip`; empty: as recommended
 };
 /// Every constant of the engine called `engine` at every setting. Throws std::invalid_argument on
 /// another name.

@@ -14,10 +14,24 @@ using simulation::EngineGap;
   throw simulation::ExperimentError("engine " + std::string(engine) + ": " + what);
 }
 
+bool positive_definite(const Symmetric3d& a) {
+  const double minor = a.xx * a.yy - a.xy * a.xy;
+  const double determinant =
+      a.zz * minor - a.xx * a.yz * a.yz - a.yy * a.xz * a.xz + 2. * a.xy * a.xz * a.yz;
+  return a.xx > 0. && minor > 0. && determinant > 0.;
+}
+
+void add_inertia(const simulation::BodySpec& body, const std::string& name,
+                 std::vector<FeatureUse>& uses) {
+  if (body.mass.mass > 0. && !positive_definite(body.mass.inertia))
+    uses.push_back({feature::no_inertia, name + " has no inertia about some axis"});
+}
+
 void add_robot(const simulation::Experiment& experiment, int index, std::vector<FeatureUse>& uses) {
   const simulation::RobotSpec& robot = experiment.robots[static_cast<std::size_t>(index)];
   const std::string name = "robot '" + robot.name + "'";
   if (!robot.chains.empty()) uses.push_back({feature::chains, name + " has chains"});
+  if (robot.mobile) add_inertia(robot.base, name, uses);
   for (const simulation::ChainSpec& chain : robot.chains)
     for (const simulation::LinkSpec& link : chain.links) {
       const std::string joint = name + ", joint of " + chain.name + "." + link.body.name;
@@ -25,6 +39,7 @@ void add_robot(const simulation::Experiment& experiment, int index, std::vector<
         uses.push_back({feature::prismatic, joint + " is prismatic"});
       if (!(link.body.mass.mass > 0.))
         uses.push_back({feature::massless, joint + " carries no mass"});
+      add_inertia(link.body, "link " + chain.name + "." + link.body.name + " of " + name, uses);
       if (link.lower_limit || link.upper_limit)
         uses.push_back({feature::joint_limits, joint + " has a limit"});
     }

@@ -18,6 +18,7 @@ inline constexpr std::string_view chains = "robots with chains";
 inline constexpr std::string_view points = "boundary points that touch";
 inline constexpr std::string_view prismatic = "prismatic joints";
 inline constexpr std::string_view massless = "links without mass";
+inline constexpr std::string_view no_inertia = "bodies with mass and without inertia";
 inline constexpr std::string_view joint_limits = "joint limits";
 inline constexpr std::string_view two_frictions = "static friction that differs from kinetic";
 inline constexpr std::string_view restitution = "restitution";

@@ -27,14 +27,15 @@ std::vector<EngineGap> gaps() {
 
 simulation::EngineDescription describe_mujoco() {
   const std::string version = mujoco_version();
-  return {"mujoco", version, "double", !version.empty(), settings_names(), gaps()};
+  return {"mujoco", version, "double", !version.empty(), settings_names("mujoco"), gaps()};
 }
 
 std::unique_ptr<simulation::Engine> make_mujoco(const simulation::Experiment& experiment) {
-  const auto notices = check_supported(experiment, describe_mujoco());
-  const MujocoSettings settings = mujoco_settings(settings_of(experiment, "mujoco"),
-                                                  experiment.deltat, ground_material(experiment));
-  return make_peer_engine(experiment, make_mujoco_world(experiment, settings), notices);
+  return make_peer_engine(experiment, describe_mujoco(), [&] {
+    return make_mujoco_world(experiment,
+                             mujoco_settings(settings_of(experiment, "mujoco"), experiment.deltat,
+                                             ground_material(experiment)));
+  });
 }
 
 }  // namespace hookpoint::reference

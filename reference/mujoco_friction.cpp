@@ -16,7 +16,8 @@ struct Load {
   double normal = 0., tangential = 0.;  ///< of a contact, in the mean [N]
   /// Least and largest normal load of a contact over the mean one.
   double least = 1., largest = 1.;
-  double along = 0., across = 0.;  ///< parts of the pull along the two tangents
+  double along = 0., across = 0.;  ///< parts of the pull along the two tangents, as magnitudes
+  double turned = 0.;              ///< the product of the two with their signs
   double friction = 0.;            ///< mu
 };
 
@@ -66,9 +67,10 @@ Reference reference_of(const MujocoRow& row, double dt) {
   return {1. / (time * time * row.reference[1] * row.reference[1]), 2. / time};
 }
 
-/// Downhill speed at impedance `d`, and the depth at which the normal load is carried.
+/// Velocity at impedance `d`, and the depth at which the normal load is carried.
 struct Rest {
-  double speed, depth;
+  simulation::CreepVelocity velocity;
+  double depth;
 };
 std::optional<Rest> rest(const Load& load, const MujocoSettings& settings,
                          const Reference& reference, double d) {
@@ -76,7 +78,7 @@ std::optional<Rest> rest(const Load& load, const MujocoSettings& settings,
   const double mu = load.friction;
   if (settings.elliptic) {
     if (load.tangential > mu * load.least * load.normal) return std::nullopt;
-    return Rest{softness / settings.friction_impedance * load.tangential / reference.damping,
+    return Rest{{softness / settings.friction_impedance * load.tangential / reference.damping, 0.},
                 softness * load.normal / (reference.stiffness * d)};
   }
   const double row = 2. * mu * mu / settings.friction_impedance * (1. + mu * mu) * softness;
@@ -84,8 +86,12 @@ std::optional<Rest> rest(const Load& load, const MujocoSettings& settings,
   const auto pyramid =
       pyramid_at_rest(part * load.along, part * load.across, load.least, load.largest);
   if (!pyramid) return std::nullopt;
+  // With downhill = a first + b second, sideways is a second - b first, and the speed along each
+  // tangent has the sign of a or b.
+  const double speed = row * load.normal / (reference.damping * mu);
   const double downhill = pyramid->along * load.along + pyramid->across * load.across;
-  return Rest{downhill * row * load.normal / (reference.damping * mu),
+  const double sideways = pyramid->across * load.along - pyramid->along * load.across;
+  return Rest{{speed * downhill, load.turned < 0. ? -speed * sideways : speed * sideways},
               pyramid->depth * row * load.normal / (reference.stiffness * d)};
 }
 
@@ -113,6 +119,7 @@ std::optional<Load> load_at_rest(const simulation::Experiment& experiment) {
   const auto [first, second] = mujoco_tangents(body->normal);
   load.along = std::abs(dot(body->downhill, first));
   load.across = std::abs(dot(body->downhill, second));
+  load.turned = dot(body->downhill, first) * dot(body->downhill, second);
   spread(*body, *loads, load);
   return load;
 }
@@ -126,12 +133,13 @@ std::array<Vector3d, 2> mujoco_tangents(const Vector3d& normal) {
   return {first, cross(normal, first)};
 }
 
-std::optional<double> mujoco_creep(const simulation::Experiment& experiment) {
+std::optional<simulation::CreepVelocity> mujoco_creep(const simulation::Experiment& experiment) {
   const auto load = load_at_rest(experiment);
   if (!load) return std::nullopt;
   const auto material = ground_material(experiment);
   const MujocoSettings settings =
       mujoco_settings(settings_of(experiment, "mujoco"), experiment.deltat, material);
+  if (settings.no_slip_iterations > 0) return std::nullopt;
   const MujocoRow row = mujoco_row(settings, experiment.deltat, material, load->inverse_weight);
   const Reference reference = reference_of(row, experiment.deltat);
   double depth = 0.;
@@ -141,7 +149,7 @@ std::optional<double> mujoco_creep(const simulation::Experiment& experiment) {
     if (!found) return std::nullopt;
     depth = found->depth;
   }
-  return found->speed;
+  return found->velocity;
 }
 
 }  // namespace hookpoint::reference

@@ -90,6 +90,7 @@ class Builder {
           << experiment_.deltat << "\" gravity=\"" << experiment_.gravity << "\" cone=\""
           << (settings.elliptic ? "elliptic" : "pyramidal") << "\" impratio=\""
           << settings.friction_impedance << "\" tolerance=\"" << settings.tolerance
+          << "\" noslip_iterations=\"" << std::to_string(settings.no_slip_iterations)
           << "\" integrator=\"Euler\" solver=\"Newton\"/>";
     // Room for contacts and their rows, whose square is the size of a matrix. Beyond it MuJoCo
     // drops some and warns, which becomes a notice.

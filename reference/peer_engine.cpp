@@ -7,7 +7,9 @@
 #include <optional>
 #include <utility>
 
+#include "reference/experiment_checks.h"
 #include "reference/touching_points.h"
+#include "simulation/dts_robot.h"
 #include "simulation/names.h"
 
 namespace hookpoint::reference {
@@ -41,7 +43,10 @@ class PeerEngine final : public simulation::Engine {
     if (experiment_.terrain) ground_.emplace(*experiment_.terrain);
     for (const TreeBody& body : tree_.bodies) {
       state_.bodies.push_back(body.initial);
-      if (body.link != nullptr) state_.joints.push_back({body.link->angle, body.link->rate});
+      if (body.link == nullptr) continue;
+      state_.joints.push_back({body.link->angle, body.link->rate});
+      passive_joints_.push_back(simulation::joint_properties(*body.link));
+      anchors_.push_back(body.link->angle);
     }
     next_bodies_ = state_.bodies;
     next_joints_ = state_.joints;
@@ -79,14 +84,19 @@ class PeerEngine final : public simulation::Engine {
   void publish_ground_forces() override { state_.ground_force_time = world_->force_time(); }
 
  private:
+  /// What the joints exert by themselves (docs/joints.md) every peer has as an explicit torque,
+  /// from the state at the step's start.
   void take_inputs() {
     acting_.forces = inputs_.forces;
     for (const TreeBody& body : tree_.bodies) {
       if (body.link == nullptr) continue;
       const auto joint = static_cast<std::size_t>(body.joint);
       const JointState& now = state_.joints[joint];
+      const dts::JointProperties<double>& passive = passive_joints_[joint];
+      anchors_[joint] = dts::dragged_anchor(passive, now.angle, anchors_[joint]);
       acting_.joint_torques[joint] =
-          inputs_.joint_torques[joint] + joint_passive_force(*body.link, now.angle, now.rate);
+          inputs_.joint_torques[joint] +
+          dts::passive_joint_torque(passive, now.angle, now.rate, anchors_[joint]);
     }
   }
 
@@ -171,16 +181,26 @@ class PeerEngine final : public simulation::Engine {
   simulation::WorldState state_;
   std::vector<BodyState> next_bodies_;
   std::vector<JointState> next_joints_;
+  std::vector<dts::JointProperties<double>> passive_joints_;
+  std::vector<double> anchors_;  ///< where the joints' dry friction is hooked
   bool has_details_ = false;
   StepStatus failure_;
 };
 
 }  // namespace
 
-std::unique_ptr<simulation::Engine> make_peer_engine(const simulation::Experiment& experiment,
-                                                     std::unique_ptr<PeerWorld> world,
-                                                     std::vector<std::string> notices) {
-  return std::make_unique<PeerEngine>(experiment, std::move(world), std::move(notices));
+std::unique_ptr<simulation::Engine> make_peer_engine(
+    const simulation::Experiment& experiment, const simulation::EngineDescription& engine,
+    const std::function<std::unique_ptr<PeerWorld>()>& build) {
+  auto notices = check_supported(experiment, engine);
+  try {
+    return std::make_unique<PeerEngine>(experiment, build(), std::move(notices));
+  } catch (const simulation::ExperimentError&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw simulation::ExperimentError("engine " + engine.name +
+                                      ": the library refuses this experiment: " + error.what());
+  }
 }
 
 }  // namespace hookpoint::reference

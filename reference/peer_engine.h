@@ -1,6 +1,7 @@
 // The step of every peer: advance the library's world, read it, refuse what is not finite, publish.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -24,7 +25,7 @@ class PeerWorld {
   virtual ~PeerWorld() = default;
   /// Advances by one step under `inputs.forces`, one a ForceSpec of the experiment, and
   /// `inputs.joint_torques`, one a joint: the drive's and what the joint exerts by itself at the
-  /// step's start (joint_passive_force), together. Empty on success, else the library's trouble in
+  /// step's start (dts/joint_forces.h), together. Empty on success, else the library's trouble in
   /// a few words.
   virtual std::string advance(const simulation::WorldInputs& inputs) = 0;
   /// What the user should know of the step just taken, else empty. Said once.
@@ -44,11 +45,13 @@ class PeerWorld {
   }
 };
 
-/// An engine around `world`, with the published state of `experiment` at time 0 and `notices`
-/// (check_supported) already said. The joints' own torques, accelerations, and the named
-/// ContactPoints are its work, alike for every library.
-std::unique_ptr<simulation::Engine> make_peer_engine(const simulation::Experiment& experiment,
-                                                     std::unique_ptr<PeerWorld> world,
-                                                     std::vector<std::string> notices);
+/// An engine around the world that `build` makes, with the published state of `experiment` at time
+/// 0 and the notices of check_supported() already said. The joints' own torques, accelerations, and
+/// the named ContactPoints are its work, alike for every library. Throws ExperimentError where
+/// `engine` has a gap that the experiment needs, and with the library's own words where that throws
+/// while the world is built.
+std::unique_ptr<simulation::Engine> make_peer_engine(
+    const simulation::Experiment& experiment, const simulation::EngineDescription& engine,
+    const std::function<std::unique_ptr<PeerWorld>()>& build);
 
 }  // namespace hookpoint::reference

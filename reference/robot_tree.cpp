@@ -1,7 +1,5 @@
 #include "reference/robot_tree.h"
 
-#include <algorithm>
-
 namespace hookpoint::reference {
 namespace {
 
@@ -25,13 +23,6 @@ BodyState initial_base(const simulation::RobotSpec& robot) {
   state.velocity = robot.velocity;
   state.angular_velocity = robot.angular_velocity;
   return state;
-}
-
-constexpr double friction_speed = 0.05;  // v_f [rad/s, m/s], docs/joints.md
-constexpr double stop_stiffness = 1000., stop_damping = 1.;
-
-double stop(double depth, double depth_rate) {
-  return depth > 0. ? std::max(0., stop_stiffness * depth + stop_damping * depth_rate) : 0.;
 }
 
 }  // namespace
@@ -90,14 +81,6 @@ BodyState link_state(const BodyState& parent, const TreeBody& link, double angle
       parent.velocity + cross(parent.angular_velocity, state.position - parent.position);
   (link.turns() ? state.angular_velocity : state.velocity) += motion;
   return state;
-}
-
-double joint_passive_force(const LinkSpec& link, double angle, double rate) {
-  double force = -link.damping * rate - link.stiffness * (angle - link.rest_angle) -
-                 link.friction * std::clamp(rate / friction_speed, -1., 1.);
-  if (link.lower_limit) force += stop(*link.lower_limit - angle, -rate);
-  if (link.upper_limit) force -= stop(angle - *link.upper_limit, rate);
-  return force;
 }
 
 }  // namespace hookpoint::reference

@@ -45,9 +45,4 @@ RobotTree robot_tree(const simulation::Experiment& experiment);
 simulation::BodyState link_state(const simulation::BodyState& parent, const TreeBody& link,
                                  double angle, double rate);
 
-/// What the joint exerts by itself at an angle [rad, m] and a rate [rad/s, m/s], in N m or N: the
-/// law of docs/joints.md, spring, damper, regularised dry friction and one-sided stops. Every peer
-/// has it as an explicit torque, from the state at the step's start.
-double joint_passive_force(const simulation::LinkSpec& link, double angle, double rate);
-
 }  // namespace hookpoint::reference

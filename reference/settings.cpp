@@ -9,7 +9,7 @@
 namespace hookpoint::reference {
 namespace {
 
-constexpr std::array<std::string_view, 3> names{"default", "recommended", "matched"};
+constexpr std::array<std::string_view, 4> names{"default", "recommended", "matched", "noslip"};
 
 std::string text(double value) {
   std::array<char, 32> buffer{};
@@ -71,7 +71,12 @@ std::vector<SettingRow> bullet_table() {
   const BulletSettings third = at(Settings::matched);
   const std::string server = "bullet3 examples/SharedMemory/PhysicsServerCommandProcessor.cpp";
   return {
-      {"solver", "btSequentialImpulseConstraintSolver", "same", "same", "HelloWorld.cpp"},
+      {"world", "btDiscreteDynamicsWorld", "btMultiBodyDynamicsWorld", "btDiscreteDynamicsWorld",
+       "HelloWorld.cpp; " + server + "; robots with chains are multibodies at every setting"},
+      {"solver", "btSequentialImpulseConstraintSolver", "btMultiBodyConstraintSolver",
+       "btSequentialImpulseConstraintSolver", "as world"},
+      {"ground of shapes", "static box, 20 km wide", "same", "same",
+       "HelloWorld.cpp; on a btStaticPlaneShape a box has one contact a step"},
       {"iterations", std::to_string(first.iterations), std::to_string(second.iterations),
        std::to_string(third.iterations), "btContactSolverInfo.h (default); " + server},
       {"early stop, squared residual", text(first.residual_threshold),
@@ -88,9 +93,10 @@ std::vector<SettingRow> bullet_table() {
        text(second.constraint.surface_layer), text(third.constraint.surface_layer), server},
       {"warm starting [1]", text(first.warmstarting), text(second.warmstarting),
        text(third.warmstarting), server},
-      {"split impulse", "on", "on", "off: it would bypass the spring", "btContactSolverInfo.h"},
-      {"friction directions", "one, along the slip", "same", "same",
-       "btContactSolverInfo.h, m_solverMode"},
+      {"split impulse", "on", "none: multibodies have no such", "off: it would bypass the spring",
+       "btContactSolverInfo.h"},
+      {"friction directions", "one, along the slip", "two, with a cone over both",
+       "one, along the slip", "btContactSolverInfo.h, m_solverMode; btMultiBodyDynamicsWorld.cpp"},
       {"restitution", "material's", "material's", "0: the damper's", "btCollisionObject.h"},
       {"sleeping", "off", "off", "off", "a resting body is what is measured"},
       {"linear and angular damping", "0", "0", "0", "btRigidBodyConstructionInfo"},
@@ -100,10 +106,11 @@ std::vector<SettingRow> bullet_table() {
 std::vector<SettingRow> mujoco_table() {
   const auto at = [](Settings settings) { return mujoco_settings(settings, 1., {}); };
   const MujocoSettings first = at(Settings::default_), second = at(Settings::recommended);
-  const MujocoSettings third = at(Settings::matched);
+  const MujocoSettings third = at(Settings::matched), fourth = at(Settings::noslip);
   const auto cone = [](const MujocoSettings& settings) {
     return std::string(settings.elliptic ? "elliptic" : "pyramidal");
   };
+  const auto number = [](int value) { return std::to_string(value); };
   const MujocoRow row;
   const std::string reference = text(row.reference[0]) + ", " + text(row.reference[1]);
   const std::string impedance =
@@ -116,6 +123,9 @@ std::vector<SettingRow> mujoco_table() {
       {"impratio [1]", text(first.friction_impedance), text(second.friction_impedance),
        "(c_t + dt k_t)/(c + dt k)", "Menagerie, unitree_a1/a1.xml (recommended)"},
       {"tolerance [1]", text(first.tolerance), text(second.tolerance), text(third.tolerance), slip},
+      {"no-slip iterations [1]", number(first.no_slip_iterations),
+       number(second.no_slip_iterations), number(third.no_slip_iterations),
+       slip + ", its last resort; the number is ours", number(fourth.no_slip_iterations)},
       {"solref", reference, reference, "-d k R, -d/dt; R = 1/(dt (c + dt k))",
        "XML reference, geom; manual, Computation, Constraint model (matched)"},
       {"solimp", impedance, impedance, "d = A/(A + R), constant",
@@ -183,14 +193,19 @@ std::vector<SettingRow> simbody_table() {
 
 }  // namespace
 
-std::vector<std::string> settings_names() { return {names.begin(), names.end()}; }
+std::vector<std::string> settings_names(std::string_view engine) {
+  return {names.begin(), names.end() - (engine == "mujoco" ? 0 : 1)};
+}
 
 Settings settings_of(const simulation::Experiment& experiment, std::string_view engine) {
-  for (std::size_t i = 0; i < names.size(); ++i)
-    if (experiment.settings == names[i]) return static_cast<Settings>(i);
+  const std::vector<std::string> known = settings_names(engine);
+  std::string choice;
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    if (experiment.settings == known[i]) return static_cast<Settings>(i);
+    choice += (i == 0 ? "" : i + 1 < known.size() ? ", " : " or ") + known[i];
+  }
   throw simulation::ExperimentError("engine " + std::string(engine) + " has no settings '" +
-                                    experiment.settings +
-                                    "': choose default, recommended or matched");
+                                    experiment.settings + "': choose " + choice);
 }
 
 OdeSettings ode_settings(Settings settings, OdeSolver solver, double dt,
@@ -225,6 +240,7 @@ BulletSettings bullet_settings(Settings settings, double dt,
   // examples/SharedMemory/PhysicsServerCommandProcessor.cpp).
   result.iterations = 50;
   if (settings == Settings::recommended) {
+    result.multibodies = true;
     result.constraint.normal_error_reduction = 0.08;
     result.residual_threshold = 1e-7;
     result.constraint.surface_layer = 1e-5;
@@ -254,7 +270,8 @@ MujocoSettings mujoco_settings(Settings settings, double dt,
   result.elliptic = true;
   result.tolerance = 1e-10;
   result.friction_impedance = 100.;
-  if (settings == Settings::recommended) return result;
+  if (settings == Settings::noslip) result.no_slip_iterations = 10;
+  if (settings != Settings::matched) return result;
   result.spring = true;
   result.friction_impedance = (material.tangential_damping + dt * material.tangential_stiffness) /
                               (material.normal_damping + dt * material.normal_stiffness);

@@ -12,10 +12,11 @@
 
 namespace hookpoint::reference {
 
-enum class Settings { default_, recommended, matched };
+enum class Settings { default_, recommended, matched, noslip };
 
-/// Names that `settings =` accepts, in the order of the enumeration.
-std::vector<std::string> settings_names();
+/// Names that `settings =` accepts for an engine, in the order of the enumeration: the first three,
+/// and for mujoco `noslip` too.
+std::vector<std::string> settings_names(std::string_view engine);
 /// The setting of `experiment`. Throws ExperimentError that lists the names.
 Settings settings_of(const simulation::Experiment& experiment, std::string_view engine);
 
@@ -36,6 +37,7 @@ OdeSettings ode_settings(Settings settings, OdeSolver solver, double dt,
 
 struct BulletSettings {
   ConstraintConstants constraint;
+  bool multibodies = false;        ///< every body is a btMultiBody, in the world of those
   bool contact_stiffness = false;  ///< stiffness and damping set on the bodies, split impulses off
   bool friction_anchor = false;    ///< friction rows undo the displacement of a sticking contact
   bool restitution = true;         ///< the material's restitution is passed on
@@ -51,6 +53,7 @@ struct MujocoSettings {
   bool elliptic = false;           ///< the cone of friction; else a pyramid inside it
   double friction_impedance = 1.;  ///< R of the normal row over that of a friction row (impratio)
   double tolerance = 1e-8;         ///< of Newton's iterations
+  int no_slip_iterations = 0;      ///< over the friction rows, after the problem is solved
   bool spring = false;             ///< rows are the material's springs and dampers (mujoco_row)
 };
 /// `dt` [s] and `material` enter at `matched` only.

@@ -1,6 +1,7 @@
 // `engine = simbody`, in a build with Simbody and in one without.
 #include "reference/engines.h"
 #include "reference/experiment_checks.h"
+#include "reference/peer_engine.h"
 #include "reference/settings.h"
 
 #ifdef HOOKPOINT_SIMBODY_VERSION
@@ -32,19 +33,19 @@ std::vector<EngineGap> gaps() {
 #ifdef HOOKPOINT_SIMBODY_VERSION
 
 simulation::EngineDescription describe_simbody() {
-  return {"simbody", HOOKPOINT_SIMBODY_VERSION, "double", true, settings_names(), gaps()};
+  return {"simbody", HOOKPOINT_SIMBODY_VERSION, "double", true, settings_names("simbody"), gaps()};
 }
 
 std::unique_ptr<simulation::Engine> make_simbody(const simulation::Experiment& experiment) {
-  const auto notices = check_supported(experiment, describe_simbody());
-  const SimbodySettings settings = simbody_settings(settings_of(experiment, "simbody"));
-  return make_peer_engine(experiment, make_simbody_world(experiment, settings), notices);
+  return make_peer_engine(experiment, describe_simbody(), [&] {
+    return make_simbody_world(experiment, simbody_settings(settings_of(experiment, "simbody")));
+  });
 }
 
 #else
 
 simulation::EngineDescription describe_simbody() {
-  return {"simbody", "", "double", false, settings_names(), gaps()};
+  return {"simbody", "", "double", false, settings_names("simbody"), gaps()};
 }
 
 std::unique_ptr<simulation::Engine> make_simbody(const simulation::Experiment&) {

@@ -9,7 +9,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <stdexcept>
+#include <string>
 #include <type_traits>
+#include <utility>
 
 static_assert(std::is_same_v<SimTK::Real, double>,
               "the tables say that Simbody runs in double precision");
@@ -23,7 +27,9 @@ using SimTK::SpatialVec;
 using SimTK::Transform;
 using SimTK::Vec3;
 
-constexpr int internal_steps = 20000;  // of the integrator, at most, in a step of ours
+// Of the integrator, in a step of ours: more means that it follows a motion far faster than any
+// robot's, with steps that would not end. Between `internal_steps` it is asked how many it tried.
+constexpr int tried_steps = 10000, internal_steps = 500;
 
 Vec3 simtk(const Vec& a) { return {a[0], a[1], a[2]}; }
 Vec plain(const Vec3& a) { return {a[0], a[1], a[2]}; }
@@ -107,6 +113,34 @@ struct SurfaceUse {
   int point = -1;
 };
 
+/// The impulse of the ground on each body since the start, as variables that the integrator carries
+/// along: integrated by its own stages, so that the change of momentum is theirs to rounding. They
+/// weigh nothing in its errors, and so change no step.
+class GroundImpulse final : public SimTK::Force::Custom::Implementation {
+ public:
+  using Add = std::function<void(const SimTK::State&, SimTK::Vector& forces)>;
+  /// `add_forces` adds the ground's force on each body, three numbers a body.
+  GroundImpulse(const SimTK::GeneralForceSubsystem& subsystem, int bodies, Add add_forces)
+      : subsystem_(subsystem), size_(3 * bodies), add_forces_(std::move(add_forces)) {}
+
+  void calcForce(const SimTK::State&, SimTK::Vector_<SpatialVec>&, SimTK::Vector_<Vec3>&,
+                 SimTK::Vector&) const override {}
+  double calcPotentialEnergy(const SimTK::State&) const override { return 0.; }
+  void realizeTopology(SimTK::State& state) const override {
+    subsystem_.allocateZ(state, SimTK::Vector(size_, 0.));
+  }
+  void realizeAcceleration(const SimTK::State& state) const override {
+    SimTK::Vector& forces = subsystem_.updZDot(state);
+    forces.setToZero();
+    add_forces_(state, forces);
+  }
+
+ private:
+  const SimTK::GeneralForceSubsystem& subsystem_;
+  int size_;
+  Add add_forces_;
+};
+
 /// Simbody's number of a body: the ground comes first.
 SimTK::MobilizedBodyIndex mobod(int body) { return SimTK::MobilizedBodyIndex(body + 1); }
 
@@ -122,6 +156,9 @@ struct Model::Parts {
   void start(const Description& description);
   SimTK::ContactSurface surface(const ContactGeometry& shape) const { return {shape, material_}; }
   const MobilizedBody& body_of(int body) const { return matter_.getMobilizedBody(mobod(body)); }
+  /// Of the ground on each body since the start [N s], three numbers a body.
+  SimTK::Vector impulses() const { return forces_.getZ(integrator_.getState()); }
+  void add_ground_forces(const SimTK::State& state, SimTK::Vector& forces) const;
   /// Where the line along which a contact's force acts meets the ground.
   Vec3 place_of(const SimTK::ContactForce& contact) const;
 
@@ -146,6 +183,7 @@ struct Model::Parts {
   std::vector<SurfaceUse> uses_;  ///< by ContactSurfaceIndex; empty without ground
   SimTK::Vector_<SpatialVec> on_bodies_;
   SimTK::Vector on_joints_;
+  SimTK::Vector in_last_step_;  ///< the part of impulses() of the last step [N s]
 };
 
 Model::Parts::Parts(const Description& description) {
@@ -154,6 +192,12 @@ Model::Parts::Parts(const Description& description) {
   set_contact(description.material);
   if (description.ground) add_ground(*description.ground);
   for (const Body& body : description.bodies) add_body(body, static_cast<int>(mobilities_.size()));
+  const auto bodies = static_cast<int>(description.bodies.size());
+  SimTK::Force::Custom(
+      forces_,
+      new GroundImpulse(forces_, bodies, [this](const SimTK::State& state, SimTK::Vector& forces) {
+        add_ground_forces(state, forces);
+      }));
   start(description);
 }
 
@@ -235,12 +279,14 @@ void Model::Parts::start(const Description& description) {
       mobilized.setOneU(state, 0, body.rate);
     }
   }
+  state.updZWeights() = 0.;
   on_bodies_ = SimTK::Vector_<SpatialVec>(matter_.getNumBodies(), SpatialVec(Vec3(0.), Vec3(0.)));
   on_joints_ = SimTK::Vector(matter_.getNumMobilities(), 0.);
   integrator_.setAccuracy(description.accuracy);
   integrator_.setAllowInterpolation(false);
   integrator_.setInternalStepLimit(internal_steps);
   integrator_.initialize(state);
+  in_last_step_ = SimTK::Vector(impulses().size(), 0.);
   system_.realize(integrator_.getState(), SimTK::Stage::Dynamics);
 }
 
@@ -273,9 +319,18 @@ void Model::apply(const std::vector<Load>& on_bodies, const std::vector<double>&
 }
 
 void Model::step_to(double time) {
+  SimTK::Integrator& integrator = parts_->integrator_;
+  const int tried = integrator.getNumStepsAttempted();
+  const SimTK::Vector before = parts_->impulses();
   // The first call after a change of the forces returns at once, with a report.
-  while (parts_->integrator_.getTime() < time) parts_->integrator_.stepTo(time, time);
-  parts_->system_.realize(parts_->integrator_.getState(), SimTK::Stage::Dynamics);
+  while (integrator.getTime() < time) {
+    if (integrator.getNumStepsAttempted() - tried > tried_steps)
+      throw std::runtime_error("it tried more than " + std::to_string(tried_steps) +
+                               " steps of its own within deltat");
+    integrator.stepTo(time, time);
+  }
+  parts_->system_.realize(integrator.getState(), SimTK::Stage::Dynamics);
+  parts_->in_last_step_ = parts_->impulses() - before;
 }
 
 Motion Model::motion(int body) const {
@@ -293,6 +348,17 @@ Motion Model::motion(int body) const {
   return motion;
 }
 
+void Model::Parts::add_ground_forces(const SimTK::State& state, SimTK::Vector& forces) const {
+  if (uses_.empty()) return;
+  const SimTK::ContactSnapshot& active = tracker_.getActiveContacts(state);
+  for (int i = 0; i < contact_.getNumContactForces(state); ++i) {
+    const SimTK::ContactForce& force = contact_.getContactForce(state, i);
+    const auto robots = active.getContactById(force.getContactId()).getSurface2();
+    const int first = 3 * uses_[static_cast<std::size_t>(int{robots})].body;
+    for (int k = 0; k < 3; ++k) forces[first + k] += force.getForceOnSurface2()[1][k];
+  }
+}
+
 Vec3 Model::Parts::place_of(const SimTK::ContactForce& contact) const {
   const SpatialVec& wrench = contact.getForceOnSurface2();
   const Vec3& f = wrench[1];
@@ -300,6 +366,11 @@ Vec3 Model::Parts::place_of(const SimTK::ContactForce& contact) const {
   if (!(along > 0.)) return contact.getContactPoint();
   const Vec3 on_line = contact.getContactPoint() + SimTK::cross(f, wrench[0]) / f.normSqr();
   return on_line + (offset_ - SimTK::dot(on_line, normal_)) / along * f;
+}
+
+Vec Model::ground_impulse(int body) const {
+  const SimTK::Vector& all = parts_->in_last_step_;
+  return {all[3 * body], all[3 * body + 1], all[3 * body + 2]};
 }
 
 std::vector<Touch> Model::touches() const {

@@ -90,10 +90,13 @@ class Model {
   /// What acts from now on, one a body. `on_joints` too, its entries for bodies without a joint
   /// unused [N m, N]. The integrator keeps its history where nothing changes.
   void apply(const std::vector<Load>& on_bodies, const std::vector<double>& on_joints);
-  /// Throws std::exception where the integrator gives up.
+  /// Throws std::exception where the integrator gives up, or needs more steps than any motion that
+  /// is worth following does. Nothing may be asked of the model after that.
   void step_to(double time);
   Motion motion(int body) const;
   std::vector<Touch> touches() const;
+  /// Of the ground on the body in the last step, world axes [N s].
+  Vec ground_impulse(int body) const;
 
  private:
   struct Parts;

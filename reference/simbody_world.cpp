@@ -127,6 +127,7 @@ class SimbodyWorld final : public PeerWorld {
       model_->step_to(static_cast<double>(++steps_) * deltat_);
       return {};
     } catch (const std::exception& error) {
+      lost_ = true;
       return std::string("Simbody gave up: ") + error.what();
     }
   }
@@ -134,11 +135,12 @@ class SimbodyWorld final : public PeerWorld {
   void read(std::span<BodyState> bodies, std::span<JointState> joints) const override {
     // Where a step was refused, the state that it would have led to.
     if (refused_) bodies[*refused_].velocity.x = std::numeric_limits<double>::infinity();
-    if (!model_) return;
+    if (!model_ || lost_) return;
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
-      bodies[i].contact_force = {};
       bodies[i].contacts = 0;
       if (!bodies_[i].mobile) continue;
+      bodies[i].contact_force =
+          (1. / deltat_) * vector(model_->ground_impulse(static_cast<int>(i)));
       const simbody::Motion motion = model_->motion(static_cast<int>(i));
       const auto& q = motion.frame.orientation;
       bodies[i].position = vector(motion.frame.position);
@@ -151,7 +153,6 @@ class SimbodyWorld final : public PeerWorld {
     }
     for (const simbody::Touch& touch : model_->touches()) {
       BodyState& state = bodies[static_cast<std::size_t>(touch.body)];
-      state.contact_force += vector(touch.force);
       if (norm(vector(touch.force)) > 0.) state.contacts += touch.count;
     }
   }
@@ -206,6 +207,7 @@ class SimbodyWorld final : public PeerWorld {
   std::vector<simbody::Load> on_bodies_;
   std::vector<double> on_joints_;  ///< one a body
   std::optional<std::size_t> refused_;
+  bool lost_ = false;  ///< the integrator gave up, and its state is not to be asked for
   std::optional<simbody::Model> model_;  ///< none where the experiment starts beyond its range
   std::int64_t steps_ = 0;
 };

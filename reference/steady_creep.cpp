@@ -43,7 +43,8 @@ std::optional<SteadyCreep> steady_creep(const RestingBody& body,
     const bool found = norm(next - u) <= 1e-12 * norm(next);
     u = next;
     if (!found) continue;
-    SteadyCreep creep{u.x - u.z * body.in_slope(body.origin).y, u.z};
+    const Vector3d origin = body.in_slope(body.origin);
+    SteadyCreep creep{{u.x - u.z * origin.y, u.y + u.z * origin.x}, u.z};
     for (std::size_t k = 0; k < dampers.size(); ++k) {
       const auto [x, y, z] = body.in_slope(body.arms[k]);
       const double aside = std::abs(u.y + u.z * x) + std::abs(u.z * y);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "reference/resting_body.h"
+#include "simulation/creep_velocity.h"
 
 namespace hookpoint::reference {
 
@@ -16,10 +17,10 @@ struct FrictionDamper {
 
 /// Steady motion in the plane.
 struct SteadyCreep {
-  double speed = 0.;     ///< of the body's origin down the slope [m/s]
-  double spin = 0.;      ///< about the normal [rad/s]
-  bool straight = true;  ///< down the fall, without a turn
-  bool limited = false;  ///< a damper is at its limit
+  simulation::CreepVelocity velocity;  ///< of the body's origin
+  double spin = 0.;                    ///< about the normal [rad/s]
+  bool straight = true;                ///< down the fall, without a turn
+  bool limited = false;                ///< a damper is at its limit
 };
 
 /// The motion at which `dampers`, one for each of the body's arms, carry its pull and leave no
