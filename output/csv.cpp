@@ -52,6 +52,7 @@ std::optional<CsvTable> parse_csv(std::string_view text) {
   bool in_quotes = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
+    if (c == '\r' && !in_quotes && i + 1 < text.size() && text[i + 1] == '\n') continue;
     const bool doubled = in_quotes && c == '"' && i + 1 < text.size() && text[i + 1] == '"';
     if (doubled) {
       field += text[++i];

@@ -21,8 +21,12 @@ std::filesystem::path partial_name(std::filesystem::path path, std::string_view 
 }
 
 void make_folder_of(const std::filesystem::path& path) {
-  std::error_code ignored;
-  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), ignored);
+  const std::filesystem::path folder = path.parent_path();
+  std::error_code error, ignored;
+  if (!folder.empty()) std::filesystem::create_directories(folder, error);
+  if (!error || std::filesystem::is_directory(folder, ignored)) return;
+  throw PlaceError("cannot create " + path.string() +
+                   ": its folder cannot be made: " + error.message());
 }
 
 void rename_file(const std::filesystem::path& from, const std::filesystem::path& to) {
@@ -47,7 +51,9 @@ PartialFile::PartialFile(std::filesystem::path path, std::string_view suffix)
     : path_(std::move(path)), partial_(partial_name(path_, suffix)) {
   make_folder_of(path_);
   descriptor_ = ::open(partial_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) fail_file("create", partial_);
+  if (descriptor_ >= 0) return;
+  const int reason = errno;
+  throw PlaceError("cannot create " + partial_.string() + ": " + std::strerror(reason));
 }
 
 PartialFile::~PartialFile() {

@@ -13,6 +13,11 @@ struct FileError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// No file can be made there: another place may do.
+struct PlaceError : FileError {
+  using FileError::FileError;
+};
+
 /// "cannot write trace.csv.partial: No space left on device"; the reason is errno's.
 [[noreturn]] void fail_file(std::string_view doing, const std::filesystem::path& file);
 
@@ -20,7 +25,7 @@ struct FileError : std::runtime_error {
 std::filesystem::path partial_name(std::filesystem::path path,
                                    std::string_view suffix = ".partial");
 
-/// Creates the missing folders above `path`; whoever opens the file then reports what could not be.
+/// Creates the missing folders above `path`. Throws PlaceError.
 void make_folder_of(const std::filesystem::path& path);
 
 /// `from` under the name `to`. Throws FileError.
@@ -35,7 +40,7 @@ void reserve_room(const std::filesystem::path& file, std::uint64_t bytes);
 /// written survives the end of the process, however it ends.
 class PartialFile {
  public:
-  /// Creates missing folders. Throws FileError.
+  /// Creates missing folders. Throws PlaceError.
   explicit PartialFile(std::filesystem::path path, std::string_view suffix = ".partial");
   ~PartialFile();
   PartialFile(const PartialFile&) = delete;

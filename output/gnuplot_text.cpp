@@ -4,9 +4,17 @@
 
 namespace hookpoint::output {
 
+std::string one_line(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+  }
+  return result;
+}
+
 std::string gnuplot_quoted(std::string_view text) {
   std::string result = "'";
-  for (const char c : text) result.append(c == '\'' ? 2 : 1, c);
+  for (const char c : one_line(text)) result.append(c == '\'' ? 2 : 1, c);
   return result + "'";
 }
 

@@ -81,7 +81,8 @@ class Script {
 
  private:
   void set_page() {
-    out_ << "# Draws " << map_.name << ".svg from " << map_.name << ".csv: gnuplot " << map_.name
+    const std::string shown = one_line(map_.name);
+    out_ << "# Draws " << shown << ".svg from " << shown << ".csv: gnuplot " << shown
          << ".gp\nset encoding utf8\nset terminal svg size " << width_ << "," << height_
          << " enhanced font 'Helvetica,13' background '#ffffff' name " << gnuplot_quoted(map_.name)
          << "\nset output " << gnuplot_quoted(map_.name + ".svg")

@@ -63,7 +63,8 @@ class JsonWriter {
   bool after_key_ = false;
 };
 
-/// `text` in quotes, with the escapes that JSON asks for. Bytes above 127 pass as they are (UTF-8).
+/// `text` in quotes, with the escapes that JSON asks for. Bytes that are no UTF-8 become U+FFFD:
+/// there is no JSON with them.
 std::string json_string(std::string_view text);
 
 }  // namespace hookpoint::output

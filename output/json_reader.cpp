@@ -1,123 +1,81 @@
+// The one file that sees nlohmann's JSON.
 #include "output/json_reader.h"
 
-#include <charconv>
+#include <nlohmann/json.hpp>
 
 namespace hookpoint::output {
 namespace {
 
-constexpr int deepest = 64;  // no stack of ours overflows on a document made to do so
+using Json = nlohmann::json;
 
-class JsonReader {
+/// Takes a document's events and keeps its leaves.
+class Leaves final : public nlohmann::json_sax<Json> {
  public:
-  explicit JsonReader(std::string_view text) : rest_(text) {}
-
-  bool read() {
-    if (!value("", 0)) return false;
-    skip_blanks();
-    return rest_.empty();
-  }
   std::vector<std::pair<std::string, std::string>> leaves;
 
- private:
-  void skip_blanks() {
-    const auto start = rest_.find_first_not_of(" \t\r\n");
-    rest_.remove_prefix(start == std::string_view::npos ? rest_.size() : start);
-  }
-  bool take(char wanted) {
-    skip_blanks();
-    if (rest_.empty() || rest_.front() != wanted) return false;
-    rest_.remove_prefix(1);
+  bool null() override { return leaf("null"); }
+  bool boolean(bool truth) override { return leaf(truth ? "true" : "false"); }
+  bool number_integer(number_integer_t number) override { return leaf(std::to_string(number)); }
+  bool number_unsigned(number_unsigned_t number) override { return leaf(std::to_string(number)); }
+  bool number_float(number_float_t, const string_t& written) override { return leaf(written); }
+  bool string(string_t& text) override { return leaf(std::move(text)); }
+  bool binary(binary_t&) override { return false; }
+  bool start_object(std::size_t) override { return open(false); }
+  bool key(string_t& name) override {
+    levels_.back().key = std::move(name);
     return true;
   }
-
-  bool value(const std::string& path, int depth) {
-    skip_blanks();
-    if (rest_.empty() || depth > deepest) return false;
-    if (rest_.front() == '{') return object(path, depth);
-    if (rest_.front() == '[') return list(path, depth);
-    std::string text;
-    const bool good = rest_.front() == '"' ? quoted(text) : bare(text);
-    leaves.emplace_back(path, std::move(text));
-    return good;
-  }
-
-  bool object(const std::string& path, int depth) {
-    take('{');
-    if (take('}')) return true;
-    do {
-      std::string name;
-      skip_blanks();
-      if (!quoted(name) || !take(':')) return false;
-      if (!value(path.empty() ? name : path + "." + name, depth + 1)) return false;
-    } while (take(','));
-    return take('}');
-  }
-
-  bool list(const std::string& path, int depth) {
-    take('[');
-    if (take(']')) return true;
-    int index = 0;
-    do {
-      if (!value(path + "[" + std::to_string(index++) + "]", depth + 1)) return false;
-    } while (take(','));
-    return take(']');
-  }
-
-  bool bare(std::string& text) {
-    const auto end = rest_.find_first_of(",]} \t\r\n");
-    text = rest_.substr(0, end);
-    rest_.remove_prefix(text.size());
-    if (text == "true" || text == "false" || text == "null") return true;
-    const bool begins = !text.empty() && (text[0] == '-' || (text[0] >= '0' && text[0] <= '9'));
-    if (!begins) return false;  // from_chars would take "inf" too
-    double number = 0.;
-    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    return error == std::errc{} && stop == text.data() + text.size();
-  }
-
-  bool quoted(std::string& text) {
-    if (rest_.empty() || rest_.front() != '"') return false;
-    for (rest_.remove_prefix(1); !rest_.empty(); rest_.remove_prefix(1)) {
-      const char c = rest_.front();
-      if (c == '"') {
-        rest_.remove_prefix(1);
-        return true;
-      }
-      if (c != '\\')
-        text += c;
-      else if (!escape(text))
-        return false;
-    }
+  bool end_object() override { return close(); }
+  bool start_array(std::size_t) override { return open(true); }
+  bool end_array() override { return close(); }
+  bool parse_error(std::size_t, const std::string&, const Json::exception&) override {
     return false;
   }
 
-  /// At a backslash; leaves the last character of the escape in front.
-  bool escape(std::string& text) {
-    constexpr std::string_view letters = "\"\\/bfnrt", meanings = "\"\\/\b\f\n\r\t";
-    rest_.remove_prefix(1);
-    if (rest_.empty()) return false;
-    const auto plain = letters.find(rest_.front());
-    if (plain != std::string_view::npos) {
-      text += meanings[plain];
-      return true;
-    }
-    if (rest_.front() != 'u' || rest_.size() < 5) return false;
-    unsigned code = 0;
-    const auto [stop, error] = std::from_chars(rest_.data() + 1, rest_.data() + 5, code, 16);
-    if (error != std::errc{} || stop != rest_.data() + 5 || code > 0x7f) return false;
-    text += static_cast<char>(code);  // JsonWriter escapes control characters only
-    rest_.remove_prefix(4);
+ private:
+  /// A path is as long as the document is deep: one made to be deep would fill the memory.
+  static constexpr std::size_t deepest = 64;
+  struct Level {
+    std::size_t path_length = 0;  ///< of the object or list itself
+    bool list = false;
+    std::size_t index = 0;
+    std::string key;
+  };
+
+  /// `path_` becomes that of the value that comes.
+  void begin_value() {
+    if (levels_.empty()) return;
+    Level& level = levels_.back();
+    path_.resize(level.path_length);
+    if (level.list)
+      path_ += "[" + std::to_string(level.index++) + "]";
+    else
+      path_ += (path_.empty() ? "" : ".") + level.key;
+  }
+  bool leaf(std::string text) {
+    begin_value();
+    leaves.emplace_back(path_, std::move(text));
+    return true;
+  }
+  bool open(bool list) {
+    begin_value();
+    levels_.push_back({path_.size(), list, 0, {}});
+    return levels_.size() <= deepest;
+  }
+  bool close() {
+    levels_.pop_back();
     return true;
   }
 
-  std::string_view rest_;
+  std::string path_;
+  std::vector<Level> levels_;
 };
 
 }  // namespace
 
 std::optional<std::vector<std::pair<std::string, std::string>>> json_leaves(std::string_view text) {
-  JsonReader reader(text);
-  if (!reader.read()) return std::nullopt;
+  Leaves reader;
+  if (!Json::sax_parse(text, &reader)) return std::nullopt;
   return std::move(reader.leaves);
 }
 

@@ -8,51 +8,71 @@
 namespace hookpoint::output {
 namespace {
 
+/// What is read as one value must be one: the library would write all of them.
+void require_one(const Hdf5Handle& space, const char* name) {
+  if (H5Sget_simple_extent_npoints(space) != 1) throw FileError(name);
+}
+
 double read_number(hid_t object, const char* name) {
   const Hdf5Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);
+  require_one({H5Aget_space(attribute), H5Sclose}, name);
   double value = 0.;
-  H5Aread(attribute, H5T_NATIVE_DOUBLE, &value);
+  if (H5Aread(attribute, H5T_NATIVE_DOUBLE, &value) < 0) throw FileError(name);
   return value;
 }
 
 std::string cut_at_zero(std::string text) { return text.substr(0, text.find('\0')); }
 
-/// Texts are written in the file itself, not on its heap.
-std::string room_for(hid_t type) {
-  if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0) throw FileError("text");
+/// Texts are written in the file itself, not on its heap: they are no longer than what is `stored`.
+std::string room_for(hid_t type, hsize_t stored) {
+  const bool text = H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0;
+  if (!text || H5Tget_size(type) > stored) throw FileError("text");
   return std::string(H5Tget_size(type), '\0');
 }
 
 std::string read_attribute(hid_t object, const char* name) {
   const Hdf5Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);
+  require_one({H5Aget_space(attribute), H5Sclose}, name);
   const Hdf5Handle type(H5Aget_type(attribute), H5Tclose);
-  std::string text = room_for(type);
+  std::string text = room_for(type, H5Aget_storage_size(attribute));
   if (H5Aread(attribute, type, text.data()) < 0) throw FileError(name);
   return cut_at_zero(text);
 }
 
 std::string read_text(hid_t group, const char* name) {
   const Hdf5Handle dataset(H5Dopen2(group, name, H5P_DEFAULT), H5Dclose);
+  require_one({H5Dget_space(dataset), H5Sclose}, name);
   const Hdf5Handle type(H5Dget_type(dataset), H5Tclose);
-  std::string text = room_for(type);
+  std::string text = room_for(type, H5Dget_storage_size(dataset));
   if (H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()) < 0) throw FileError(name);
   return cut_at_zero(text);
 }
 
-std::vector<hsize_t> extent_of(hid_t dataset) {
+/// The dataset's extent, of `rank` numbers. Throws FileError for another rank, and for more than
+/// what is stored could hold: the library would give the rest as zeros, out of memory.
+std::vector<hsize_t> extent_of(hid_t dataset, int rank) {
+  constexpr double most_compressed = 1032.;  // deflate's limit
   const Hdf5Handle space(H5Dget_space(dataset), H5Sclose);
-  std::vector<hsize_t> extent(static_cast<std::size_t>(H5Sget_simple_extent_ndims(space)));
+  if (H5Sget_simple_extent_ndims(space) != rank) throw FileError("extent");
+  std::vector<hsize_t> extent(static_cast<std::size_t>(rank));
   H5Sget_simple_extent_dims(space, extent.data(), nullptr);
+  const Hdf5Handle type(H5Dget_type(dataset), H5Tclose);
+  auto bytes = static_cast<double>(H5Tget_size(type));
+  for (const hsize_t side : extent) bytes *= static_cast<double>(side);
+  if (bytes > most_compressed * static_cast<double>(H5Dget_storage_size(dataset)))
+    throw FileError("extent");
   return extent;
 }
 
 std::vector<std::string> names_in(hid_t group) {
   H5G_info_t info{};
-  H5Gget_info(group, &info);
+  if (H5Gget_info(group, &info) < 0) throw FileError("names");
   std::vector<std::string> names;
   for (hsize_t i = 0; i < info.nlinks; ++i) {
     char name[256] = {};
-    H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, i, name, sizeof name, H5P_DEFAULT);
+    if (H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, i, name, sizeof name,
+                           H5P_DEFAULT) < 0)
+      throw FileError("names");
     names.emplace_back(name);
   }
   return names;
@@ -61,7 +81,7 @@ std::vector<std::string> names_in(hid_t group) {
 MovieFile read_file(hid_t group, const char* name) {
   const Hdf5Handle dataset(H5Dopen2(group, name, H5P_DEFAULT), H5Dclose);
   MovieFile file{read_attribute(dataset, "name"), read_attribute(dataset, "path"), {}};
-  file.content.resize(extent_of(dataset).at(0));
+  file.content.resize(extent_of(dataset, 1)[0]);
   if (!file.content.empty() &&
       H5Dread(dataset, H5T_NATIVE_UCHAR, H5S_ALL, H5S_ALL, H5P_DEFAULT, file.content.data()) < 0)
     throw FileError(name);
@@ -120,10 +140,10 @@ void MovieReader::read_header() {
   for (const std::string& key : names_in(files))
     header_.files.push_back(read_file(files, key.c_str()));
   handles_->state = {H5Dopen2(file, "state", H5P_DEFAULT), H5Dclose};
-  const std::vector<hsize_t> extent = extent_of(handles_->state);
+  const std::vector<hsize_t> extent = extent_of(handles_->state, 2);
   const Hdf5Handle time(H5Dopen2(file, "time", H5P_DEFAULT), H5Dclose);
-  times_.resize(extent_of(time).at(0));
-  if (extent.size() != 2 || extent[1] != times_.size() ||
+  times_.resize(extent_of(time, 1)[0]);
+  if (extent[1] != times_.size() ||
       (!times_.empty() &&
        H5Dread(time, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, times_.data()) < 0) ||
       !std::ranges::is_sorted(times_))

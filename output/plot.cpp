@@ -1,14 +1,12 @@
 #include "output/plot.h"
 
-#include <sys/wait.h>
-
-#include <array>
+#include <algorithm>
 #include <cassert>
-#include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <utility>
 
+#include "output/child.h"
 #include "output/csv.h"
 #include "output/file.h"
 #include "output/number.h"
@@ -16,28 +14,9 @@
 namespace hookpoint::output {
 namespace {
 
-struct CommandResult {
-  int status = -1;
-  std::string output;
-};
-
-CommandResult run_shell(const std::string& command) {
-  CommandResult result;
-  std::FILE* pipe = popen(command.c_str(), "r");
-  if (pipe == nullptr) return result;
-  std::array<char, 512> buffer;
-  while (const std::size_t count = std::fread(buffer.data(), 1, buffer.size(), pipe))
-    result.output.append(buffer.data(), count);
-  const int status = pclose(pipe);
-  result.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  return result;
-}
-
-/// One word of a shell command, whatever characters it holds.
-std::string shell_word(const std::string& text) {
-  std::string word = "'";
-  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return word + "'";
+/// gnuplot takes `<name` and `|name` for commands.
+bool names_a_file(const std::string& name) {
+  return !name.empty() && name.find_first_of("/<|") == std::string::npos && one_line(name) == name;
 }
 
 std::string read_file(const std::filesystem::path& path) {
@@ -103,24 +82,24 @@ PlotOutcome draw(const PanelPlot& plot, const std::filesystem::path& folder) {
 
 PlotOutcome draw_files(const std::string& name, const std::string& data, const std::string& script,
                        const std::filesystem::path& folder) {
+  if (!names_a_file(name)) throw FileError("`" + one_line(name) + "` is no name of a figure");
   write_file(folder / (name + ".csv"), data);
   write_file(folder / (name + ".gp"), script);
   const std::filesystem::path svg = folder / (name + ".svg");
   std::error_code ignored;
   std::filesystem::remove(svg, ignored);  // an older drawing must not pass for this one
-  const CommandResult run = run_shell("cd " + shell_word(folder.string()) +
-                                      " && LC_ALL=C gnuplot " + shell_word(name + ".gp") + " 2>&1");
-  constexpr int command_not_found = 127;
-  if (run.status == command_not_found)
+  const std::optional<ChildResult> run =
+      run_program("gnuplot", {"--default-settings", name + ".gp"}, folder);
+  if (!run)
     return {.drawn = false,
             .message = "gnuplot is not installed (Debian: gnuplot-nox), so " + name +
                        ".svg was not drawn; its data and script are in " + folder.string(),
             .svg = ""};
-  if (run.status != 0) {
+  if (run->status != 0) {
     std::filesystem::remove(svg, ignored);
     return {.drawn = false,
             .message =
-                "gnuplot could not draw " + (folder / (name + ".gp")).string() + ": " + run.output,
+                "gnuplot could not draw " + (folder / (name + ".gp")).string() + ": " + run->output,
             .svg = ""};
   }
   return {.drawn = true, .message = "", .svg = read_file(svg)};

@@ -85,13 +85,17 @@ struct PlotOutcome {
 };
 
 /// Writes `<folder>/<name>.csv` and `.gp`, and the `.svg` that the script draws if gnuplot can be
-/// run. Throws FileError.
+/// run. Throws FileError, also for a name that gnuplot would not take for a file's.
 PlotOutcome draw_files(const std::string& name, const std::string& data, const std::string& script,
                        const std::filesystem::path& folder);
 PlotOutcome draw(const Plot& plot, const std::filesystem::path& folder);
 PlotOutcome draw(const PanelPlot& plot, const std::filesystem::path& folder);
 
-/// gnuplot's single-quoted string.
+/// Control characters as blanks: gnuplot ends a comment or an open quote with the line, and what
+/// follows would be a command.
+std::string one_line(std::string_view text);
+/// gnuplot's single-quoted string, in which it expands nothing. All text of others goes through
+/// here.
 std::string gnuplot_quoted(std::string_view text);
 /// Text in which gnuplot's markup characters stand for themselves, and "m/s^2" as a reader writes
 /// it.

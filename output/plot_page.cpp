@@ -54,7 +54,8 @@ void PlotPage::text(double x, double y, const std::string& text, const std::stri
 
 void PlotPage::open(const std::string& name, const std::string& title,
                     const std::string& subtitle) {
-  out_ << "# Draws " << name << ".svg from " << name << ".csv: gnuplot " << name << ".gp\n"
+  const std::string shown = one_line(name);
+  out_ << "# Draws " << shown << ".svg from " << shown << ".csv: gnuplot " << shown << ".gp\n"
        << "set encoding utf8\n"
        << "set terminal svg size " << width_ << "," << height_
        << " enhanced font 'Helvetica,13' background '#ffffff' name " << gnuplot_quoted(name) << "\n"

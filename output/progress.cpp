@@ -1,11 +1,12 @@
 #include "output/progress.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <mutex>
+
+#include "output/number.h"
+#include "output/terminal.h"
 
 namespace hookpoint::output {
 namespace {
@@ -13,6 +14,17 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 std::string two_digits(int number) { return (number < 10 ? "0" : "") + std::to_string(number); }
+
+/// "creep  [#######-------------]  35 %  ".
+std::string bar(const std::string& label, double part) {
+  constexpr double width = 30.;
+  constexpr double slack = 1e-9;  // 29/100 of 100 is 29, rounded as it may be
+  const auto filled = static_cast<std::size_t>(width * part + slack);
+  const std::string percent = std::to_string(static_cast<int>(100. * part + slack));
+  return label + "  [" + std::string(filled, '#') +
+         std::string(static_cast<std::size_t>(width) - filled, '-') + "] " +
+         std::string(3 - std::min<std::size_t>(3, percent.size()), ' ') + percent + " %  ";
+}
 
 }  // namespace
 
@@ -25,17 +37,22 @@ std::string duration_text(double seconds) {
 
 std::string progress_line(const std::string& label, std::size_t done, std::size_t total,
                           double elapsed, std::size_t resumed) {
-  constexpr std::size_t width = 30;
-  const std::size_t filled = width * done / total;
-  const std::string percent = std::to_string(100 * done / total);
-  std::string line = label + "  [" + std::string(filled, '#') + std::string(width - filled, '-') +
-                     "] " + std::string(3 - std::min<std::size_t>(3, percent.size()), ' ') +
-                     percent + " %  " + std::to_string(done) + "/" + std::to_string(total);
+  std::string line = bar(label, static_cast<double>(done) / static_cast<double>(total)) +
+                     std::to_string(done) + "/" + std::to_string(total);
   if (done == total) return line + "  in " + duration_text(elapsed);
   if (done == resumed) return line;
   const double left =
       elapsed * static_cast<double>(total - done) / static_cast<double>(done - resumed);
   return line + "  " + duration_text(left) + " left";
+}
+
+std::string time_progress_line(const std::string& label, double time, double first, double last,
+                               double elapsed) {
+  const double part = last > first ? std::clamp((time - first) / (last - first), 0., 1.) : 1.;
+  const std::string line = bar(label, part) + rounded(time, 4) + "/" + rounded(last, 4) + " s";
+  if (part >= 1.) return line + "  in " + duration_text(elapsed);
+  if (part <= 0.) return line;
+  return line + "  " + duration_text(elapsed * (1. - part) / part) + " left";
 }
 
 struct Progress::Shared {
@@ -77,7 +94,7 @@ Progress::Progress(std::string label, std::size_t total, std::size_t resumed, st
                          .resumed = resumed,
                          .done = resumed,
                          .stream = stream,
-                         .terminal = isatty(fileno(stream)) == 1,
+                         .terminal = is_able_terminal(fileno(stream)),
                          .tenths = 10 * resumed / std::max<std::size_t>(total, 1)}) {}
 
 Progress::~Progress() {

@@ -13,6 +13,11 @@ namespace hookpoint::output {
 std::string progress_line(const std::string& label, std::size_t done, std::size_t total,
                           double elapsed, std::size_t resumed = 0);
 
+/// "world  [#######-------------]  35 %  3.5/10 s  1 min 20 s left": a run's simulated time between
+/// `first` and `last` [s], after `elapsed` [s]; pure.
+std::string time_progress_line(const std::string& label, double time, double first, double last,
+                               double elapsed);
+
 /// "45 s", "3 min 20 s", "2 h 05 min".
 std::string duration_text(double seconds);
 

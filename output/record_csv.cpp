@@ -2,25 +2,26 @@
 // belongs to the whole record), so that the trace stays a plain table.
 #include "output/csv.h"
 #include "output/number.h"
+#include "output/record_files.h"
 #include "output/record_formats.h"
 
 namespace hookpoint::output {
 namespace {
 
-void write_channels(std::filesystem::path path, const RecordHeader& header) {
+void write_channels(const std::filesystem::path& path, const RecordHeader& header) {
   CsvTable table{{"path", "unit", "type", "minimum", "maximum", "doc"}, {}};
   table.rows.push_back({"time", "s", "double", "0", "inf", "simulated time"});
   for (const Channel& channel : header.channels)
     table.rows.push_back({channel.path, channel.unit, channel.type, shortest(channel.minimum),
                           shortest(channel.maximum), channel.doc});
-  write_csv(path.replace_extension(".channels.csv"), table);
+  write_csv(csv_channels_file(path), table);
 }
 
-void write_about(std::filesystem::path path, const RecordHeader& header) {
+void write_about(const std::filesystem::path& path, const RecordHeader& header) {
   CsvTable table{{"key", "value"}, {{"name", header.name}, {"period", shortest(header.period)}}};
   for (const auto& [key, value] : header.annotations) table.rows.push_back({key, value});
   table.rows.push_back({"experiment", header.experiment});
-  write_csv(path.replace_extension(".record.csv"), table);
+  write_csv(csv_about_file(path), table);
 }
 
 std::vector<TraceColumn> columns(const RecordHeader& header) {
@@ -46,6 +47,19 @@ class CsvRecord final : public RecordWriter {
 };
 
 }  // namespace
+
+std::vector<std::string> record_files(std::string_view format, const std::string& file) {
+  if (format != "csv") return {file};
+  return {file, csv_channels_file(file), csv_about_file(file)};
+}
+
+std::filesystem::path csv_channels_file(std::filesystem::path record) {
+  return record.replace_extension(".channels.csv");
+}
+
+std::filesystem::path csv_about_file(std::filesystem::path record) {
+  return record.replace_extension(".record.csv");
+}
 
 std::unique_ptr<RecordWriter> make_csv_record(const std::filesystem::path& path,
                                               const RecordHeader& header) {

@@ -6,8 +6,11 @@
 
 namespace hookpoint::output {
 
-/// The code points of `utf8`; a byte that belongs to none is U+FFFD.
+/// The code points of `utf8`; bytes that make none are U+FFFD.
 std::u32string code_points(std::string_view utf8);
+
+/// The same as UTF-8: `utf8` itself where it is good.
+std::string repaired(std::string_view utf8);
 
 /// UTF-16, with surrogate pairs above U+FFFF.
 std::u16string utf16(std::string_view utf8);

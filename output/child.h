@@ -1,0 +1,22 @@
+// Other programs, started without a shell: what stands in an argument is never a command.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hookpoint::output {
+
+struct ChildResult {
+  int status = -1;     ///< exit status; 128 + the signal that ended it
+  std::string output;  ///< what it wrote to standard output and standard error
+};
+
+/// Runs the program that PATH's absolute folders hold under `name`, in `folder`, with C's locale
+/// and nothing to read, and waits for its end. Nothing when there is no such program.
+std::optional<ChildResult> run_program(const std::string& name,
+                                       const std::vector<std::string>& arguments,
+                                       const std::filesystem::path& folder);
+
+}  // namespace hookpoint::output
