@@ -4,8 +4,11 @@
 
 #include <iostream>
 
+#include "cli/commands.h"
 #include "cli/installation.h"
 #include "control/plugin.h"
+#include "language/characters.h"
+#include "output/terminal.h"
 #include "reference/creep.h"
 #include "reference/engines.h"
 #include "reference/mujoco_friction.h"
@@ -20,12 +23,12 @@
 namespace hookpoint::cli {
 namespace {
 
-/// The project's configs/, the installation's plugins, then the folders of HOOKPOINT_PATH.
+/// After the folders above the file that asks (language/search.h): those of HOOKPOINT_PATH, then
+/// the installation's own.
 std::vector<std::filesystem::path> search_path(const Installation& installation) {
-  std::vector<std::filesystem::path> folders{installation.configs};
+  std::vector<std::filesystem::path> folders = folders_of("HOOKPOINT_PATH");
+  folders.push_back(installation.configs);
   if (!installation.plugins.empty()) folders.push_back(installation.plugins);
-  const auto more = folders_of("HOOKPOINT_PATH");
-  folders.insert(folders.end(), more.begin(), more.end());
   return folders;
 }
 
@@ -63,13 +66,18 @@ std::vector<std::string> scene_files(const language::Object& root) {
   return files;
 }
 
-/// "trail=value" cut at the first '='.
+}  // namespace
+
 language::Override override_from(const std::string& setting) {
   const std::size_t equals = setting.find('=');
   return {setting.substr(0, equals), setting.substr(equals + 1)};
 }
 
-}  // namespace
+language::EvaluateOptions options_from(const std::vector<std::string>& settings) {
+  language::EvaluateOptions options;
+  for (const std::string& setting : settings) options.overrides.push_back(override_from(setting));
+  return options;
+}
 
 Application::Vocabulary::Vocabulary(const std::vector<std::filesystem::path>& search_path)
     : schema(make_schema()), library(schema, search_path) {}
@@ -86,12 +94,28 @@ Application::Application(bool allow_plugins, Told tell)
   }
 }
 
+void Application::tell(const language::Diagnostics& diagnostics) const {
+  tell_(diagnostics.without([this](const language::Diagnostic& warning) {
+    const language::Position& place = warning.position;
+    const std::string file = place.file == nullptr ? "" : place.file->path;
+    return !warned_.insert(file + ":" + std::to_string(place.offset) + ": " + warning.message)
+                .second;
+  }));
+}
+
 std::unique_ptr<simulation::Engine> Application::make_engine(
     const simulation::Experiment& experiment) const {
   const auto found = engines_.find(experiment.engine);
   if (found != engines_.end()) return found->second.make(experiment);
   throw simulation::ExperimentError("this build has no engine `" + experiment.engine +
                                     "`; `hookpoint engines` lists those it has");
+}
+
+simulation::EngineDescription Application::describe_engine(
+    const simulation::Experiment& experiment) const {
+  const auto found = engines_.find(experiment.engine);
+  if (found != engines_.end()) return found->second.description;
+  return {experiment.engine, {}, {}, false, {}};
 }
 
 std::string Application::load_library(const std::filesystem::path& library) const {
@@ -124,7 +148,7 @@ bool Application::load_plugins(const std::filesystem::path& file) {
   const bool loaded = library().load_plugins(
       file, [this](const std::filesystem::path& found) { return load_library(found); },
       diagnostics);
-  tell_(diagnostics);
+  tell(diagnostics);
   take_new_classes();
   return loaded;
 }
@@ -137,14 +161,24 @@ std::string Application::load_plugin(const std::filesystem::path& library) {
 
 std::vector<std::string> Application::world_settings(const std::filesystem::path& file,
                                                      const std::string& field,
-                                                     const std::string& value) {
+                                                     const std::string& value,
+                                                     const std::vector<std::string>& beside) {
   language::Diagnostics untold;
   std::vector<std::string> settings;
-  const auto root = library().evaluate(file, {}, untold);
+  const auto root = library().evaluate(file, options_from(beside), untold);
   if (!root) return settings;
   for (const language::Object* world : root->children_of("World"))
     settings.push_back(world->name + "." + field + "=" + value);
   return settings;
+}
+
+std::filesystem::path Application::locate(const std::filesystem::path& file) {
+  std::error_code ignored;
+  if (file.empty() || std::filesystem::exists(file, ignored)) return file;
+  std::filesystem::path found = library().find(file, {});
+  if (found.empty()) return file;
+  std::cerr << "hookpoint: note: " << file.string() << " is " << found.string() << '\n';
+  return found;
 }
 
 bool Application::load_scene_plugins(const language::Object& root,
@@ -159,18 +193,26 @@ bool Application::load_scene_plugins(const language::Object& root,
 std::unique_ptr<language::Object> Application::evaluate(const std::filesystem::path& file,
                                                         const std::vector<std::string>& settings) {
   if (!load_plugins(file)) return nullptr;
-  language::EvaluateOptions options;
-  for (const std::string& setting : settings) options.overrides.push_back(override_from(setting));
   language::Diagnostics diagnostics;
-  auto root = library().evaluate(file, options, diagnostics);
-  tell_(diagnostics);
+  auto root = library().evaluate(file, options_from(settings), diagnostics);
+  tell(diagnostics);
   return root;
+}
+
+std::unique_ptr<language::Object> Application::evaluate_set(const std::filesystem::path& file,
+                                                            const Settings& settings) {
+  if (!load_plugins(file)) return nullptr;
+  std::vector<std::string> all = settings.trails;
+  for (const auto& [field, value] : settings.world)
+    for (std::string& setting : world_settings(file, field, value, settings.trails))
+      all.push_back(std::move(setting));
+  return evaluate(file, all);
 }
 
 std::optional<simulation::Experiment> Application::load(const language::Object& root) const {
   language::Diagnostics diagnostics;
   auto experiment = simulation::load_experiment(root, diagnostics, search_path_);
-  tell_(diagnostics);
+  tell(diagnostics);
   return experiment;
 }
 
@@ -182,11 +224,11 @@ std::optional<simulation::Experiment> Application::load(const std::filesystem::p
 }
 
 void print_diagnostics(const language::Diagnostics& diagnostics) {
-  diagnostics.print(std::cerr, isatty(STDERR_FILENO) != 0);
+  diagnostics.print(std::cerr, output::wants_colours(STDERR_FILENO));
 }
 
 void print_error(const std::string& message) {
-  std::cerr << "hookpoint: error: " << message << '\n';
+  std::cerr << "hookpoint: error: " << language::printable(message) << '\n';
 }
 
 }  // namespace hookpoint::cli

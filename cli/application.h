@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -17,10 +18,16 @@
 
 namespace hookpoint::cli {
 
+struct Settings;
+
 /// Prints to stderr in colour when that is a terminal.
 void print_diagnostics(const language::Diagnostics& diagnostics);
 /// "hookpoint: error: message" on stderr.
 void print_error(const std::string& message);
+
+/// "trail=value" cut at the first '='; several as the language takes them.
+language::Override override_from(const std::string& setting);
+language::EvaluateOptions options_from(const std::vector<std::string>& settings);
 
 class Application {
  public:
@@ -36,8 +43,11 @@ class Application {
   /// simulation::ExperimentError.
   std::unique_ptr<simulation::Engine> make_engine(const simulation::Experiment& experiment) const;
 
-  /// Tells who is to be told; what this class finds wrong it tells itself.
-  void tell(const language::Diagnostics& diagnostics) const { tell_(diagnostics); }
+  /// Of that engine; of one that this build has not, its name alone.
+  simulation::EngineDescription describe_engine(const simulation::Experiment& experiment) const;
+
+  /// Tells who is to be told, a warning once; what this class finds wrong it tells itself.
+  void tell(const language::Diagnostics& diagnostics) const;
   /// Loads the plugins that `file` and its Includes name; their classes join the schema. Tells
   /// what is wrong and is then false. `evaluate` begins with it; who asks the library must have
   /// asked this before.
@@ -45,10 +55,14 @@ class Application {
   /// Loads one. "" or what is wrong, as a predicate.
   std::string load_plugin(const std::filesystem::path& library);
 
-  /// The settings that give `field` of the file's World this value: "w.duration=5 s". Of a file
-  /// that is wrong none; evaluating it tells why.
+  /// The settings that give `field` of the file's World, as it is with those `beside` them, this
+  /// value: "w.duration=5 s". Of a file that is wrong none; evaluating it tells why.
   std::vector<std::string> world_settings(const std::filesystem::path& file,
-                                          const std::string& field, const std::string& value);
+                                          const std::string& field, const std::string& value,
+                                          const std::vector<std::string>& beside = {});
+  /// `file` as it is written from here; one that is not there is looked up as an Include is, and
+  /// what was found is told on stderr.
+  std::filesystem::path locate(const std::filesystem::path& file);
   /// Loads the plugins of the scenes that the file's studies run, which the file itself need not
   /// name. False after errors, which are told.
   bool load_scene_plugins(const language::Object& root, const std::filesystem::path& file);
@@ -58,6 +72,9 @@ class Application {
   /// Evaluates `file` and tells its diagnostics; null when it has errors.
   std::unique_ptr<language::Object> evaluate(const std::filesystem::path& file,
                                              const std::vector<std::string>& settings);
+  /// The same, with all that the command line sets.
+  std::unique_ptr<language::Object> evaluate_set(const std::filesystem::path& file,
+                                                 const Settings& settings);
   /// The experiment of an evaluated file's world; its diagnostics are told, empty when it has
   /// errors.
   std::optional<simulation::Experiment> load(const language::Object& root) const;
@@ -79,6 +96,7 @@ class Application {
 
   PluginTrust trust_;
   Told tell_;
+  mutable std::set<std::string> warned_;  ///< place and message
   std::map<std::filesystem::path, std::string> given_;
   std::vector<std::filesystem::path> search_path_;
   std::vector<std::unique_ptr<Vocabulary>> vocabularies_;

@@ -43,7 +43,7 @@ void print_text(const simulation::Experiment& experiment, const Advice& advice) 
   if (!advice.controllers.empty())
     fmt::print("  with the loops of {}\n", simulation::first_of(advice.controllers));
   if (!advice.left_out.empty())
-    fmt::print("  not in it: {}\n", simulation::first_of(advice.left_out));
+    fmt::print("  feedback that is not in it: {}\n", simulation::first_of(advice.left_out));
   fmt::print("\nwhat to change:{}\n", advice.changes.empty() ? " nothing" : "");
   for (const std::string& change : advice.changes) fmt::print("  - {}\n", change);
 }
@@ -106,14 +106,16 @@ std::string first_material(const language::Object& root) {
 }
 
 /// A wish, read as the material's field would be: with its unit, range and messages.
-bool read_wish(Application& application, const AdviseArguments& arguments,
-               const std::string& material, const char* field,
+bool read_wish(Application& application, const std::filesystem::path& file,
+               const Settings& settings, const std::string& material, const char* field,
                double contact::MaterialConstants<double>::*member,
                const std::optional<std::string>& text, std::optional<double>& wish) {
   if (!text) return true;
-  std::vector<std::string> settings = arguments.settings;
-  settings.push_back(material + "." + field + "=" + *text);
-  const auto wished = application.load(arguments.file, settings);
+  Settings wishes = settings;
+  wishes.trails.push_back(material + "." + field + "=" + *text);
+  const auto root = application.evaluate_set(file, wishes);
+  if (!root) return false;
+  const auto wished = application.load(*root);
   if (!wished) return false;
   const std::string name = material.substr(material.rfind('.') + 1);
   for (const simulation::MaterialSpec& spec : wished->materials) {
@@ -127,16 +129,17 @@ bool read_wish(Application& application, const AdviseArguments& arguments,
 int advise(const AdviseArguments& arguments) {
   using Constants = contact::MaterialConstants<double>;
   Application application(arguments.allow_plugins);
-  const auto root = application.evaluate(arguments.file, arguments.settings);
+  const std::filesystem::path file = application.locate(arguments.file);
+  const auto root = application.evaluate_set(file, arguments.settings);
   if (!root) return wrong_input;
   const auto experiment = application.load(*root);
   if (!experiment) return wrong_input;
   const std::string material = first_material(*root);
   simulation::AdviceWishes wishes;
-  if (!read_wish(application, arguments, material, "nominal_penetration",
+  if (!read_wish(application, file, arguments.settings, material, "nominal_penetration",
                  &Constants::nominal_penetration, arguments.penetration, wishes.penetration) ||
-      !read_wish(application, arguments, material, "restitution", &Constants::restitution,
-                 arguments.rebound, wishes.rebound))
+      !read_wish(application, file, arguments.settings, material, "restitution",
+                 &Constants::restitution, arguments.rebound, wishes.rebound))
     return wrong_input;
   try {
     const Advice advice = simulation::advise(*experiment, wishes);

@@ -5,12 +5,21 @@
 #include "cli/application.h"
 #include "cli/commands.h"
 #include "cli/exit_status.h"
+#include "cli/study_plans.h"
 #include "output/file.h"
 
 namespace hookpoint::cli {
 namespace {
 
-bool holds_world(const language::Object& root) { return !root.children_of("World").empty(); }
+/// What `run` and `study` would find before anything runs, found.
+bool can_run(Application& application, const language::Object& root,
+             const std::filesystem::path& file, bool allow_plugins) {
+  if (!root.children_of("World").empty() && !application.load(root)) return false;
+  StudyArguments arguments;
+  arguments.file = file;
+  arguments.allow_plugins = allow_plugins;
+  return !holds_study(root) || plan_study_file(application, root, arguments).has_value();
+}
 
 /// Empty when the file cannot be read.
 std::optional<std::string> read_text(const std::filesystem::path& file) {
@@ -26,10 +35,10 @@ std::optional<std::string> read_text(const std::filesystem::path& file) {
 int check(const std::vector<std::filesystem::path>& files, bool allow_plugins) {
   Application application(allow_plugins);
   int status = fine;
-  for (const std::filesystem::path& file : files) {
+  for (const std::filesystem::path& named : files) {
+    const std::filesystem::path file = application.locate(named);
     const auto root = application.evaluate(file, {});
-    const bool good = root && (!holds_world(*root) || application.load(*root).has_value());
-    if (good) {
+    if (root && can_run(application, *root, file, allow_plugins)) {
       std::cout << file.string() << ": fine\n";
     } else {
       status = wrong_input;
@@ -65,10 +74,9 @@ int format(const std::vector<std::filesystem::path>& files, bool check_only) {
   return status;
 }
 
-int print(const std::filesystem::path& file, const std::vector<std::string>& settings,
-          bool allow_plugins) {
+int print(const std::filesystem::path& file, const Settings& settings, bool allow_plugins) {
   Application application(allow_plugins);
-  const auto root = application.evaluate(file, settings);
+  const auto root = application.evaluate_set(application.locate(file), settings);
   if (!root) return wrong_input;
   std::cout << language::print(*root);
   return fine;

@@ -5,6 +5,7 @@
 #include "cli/application.h"
 #include "cli/commands.h"
 #include "cli/exit_status.h"
+#include "output/terminal.h"
 #include "studies/comparison.h"
 
 namespace hookpoint::cli {
@@ -14,9 +15,9 @@ int compare(const CompareArguments& arguments) {
     const auto first = studies::read_run_folder(arguments.first);
     const auto second = studies::read_run_folder(arguments.second);
     const auto comparison = studies::compare_runs(first, second, arguments.tolerance);
-    std::cout << (arguments.json
-                      ? studies::comparison_json(comparison)
-                      : studies::comparison_text(comparison, {isatty(STDOUT_FILENO) != 0}));
+    std::cout << (arguments.json ? studies::comparison_json(comparison)
+                                 : studies::comparison_text(
+                                       comparison, {output::wants_colours(STDOUT_FILENO)}));
     return comparison.same() ? fine : truth_failed;
   } catch (const studies::RunFolderError& error) {
     print_error(error.what());

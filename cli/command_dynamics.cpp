@@ -91,10 +91,12 @@ void print_robot(const RobotDynamics& robot) {
 
 }  // namespace
 
-int dynamics(const std::filesystem::path& file, const std::vector<std::string>& settings, bool json,
+int dynamics(const std::filesystem::path& file, const Settings& settings, bool json,
              bool allow_plugins) {
   Application application(allow_plugins);
-  const auto experiment = application.load(file, settings);
+  const auto root = application.evaluate_set(application.locate(file), settings);
+  if (!root) return wrong_input;
+  const auto experiment = application.load(*root);
   if (!experiment) return wrong_input;
   const DynamicsReport report = simulation::evaluate_dynamics(*experiment);
   if (json) {

@@ -21,6 +21,16 @@ std::string handling_name(simulation::EngineGap::Handling handling) {
 
 }  // namespace
 
+std::string version_text() {
+  const Application application;
+  std::string text = "hookpoint " HOOKPOINT_VERSION "\n";
+  for (const auto& [name, engine] : application.engines())
+    if (engine.description.found)
+      text += fmt::format("engine {} {}\n", name, engine.description.version);
+  text.pop_back();
+  return text;
+}
+
 std::string engines_json(const Application& application) {
   output::JsonWriter json;
   json.begin_object().key("engines").begin_array();

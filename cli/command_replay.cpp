@@ -5,8 +5,11 @@
 #include "cli/commands.h"
 #include "cli/exit_status.h"
 #include "cli/opened_movie.h"
+#include "cli/run_loop.h"
+#include "language/characters.h"
 #include "output/json.h"
 #include "output/number.h"
+#include "simulation/port_search.h"
 
 namespace hookpoint::cli {
 namespace {
@@ -15,18 +18,9 @@ using simulation::Port;
 
 /// All ports, or those that are asked for under the names by which they are.
 std::vector<Port> wanted_ports(const simulation::Experiment& experiment, simulation::World& world,
-                               const std::vector<std::string>& trails) {
-  const std::vector<Port> all = world.ports();
-  std::vector<Port> ports;
-  if (trails.empty()) ports = all;
-  for (const std::string& trail : trails) {
-    ports.push_back(simulation::find_port(experiment, all, trail));
-    ports.back().trail = trail;
-  }
-  for (const Port& port : ports) {
-    if (port.lazy != nullptr) port.lazy->begin();
-  }
-  return ports;
+                               const std::vector<std::string>& patterns) {
+  return simulation::find_all_ports(experiment, world.ports(),
+                                    patterns.empty() ? std::vector<std::string>{"**"} : patterns);
 }
 
 void print_json(const std::string& world, const simulation::WorldState& state,
@@ -45,13 +39,15 @@ void print_table(const simulation::WorldState& state, const std::vector<Port>& p
     fmt::print("{:<56} {} {}\n", port.trail, output::shortest(*port.value), port.unit);
 }
 
-void print_summary(const output::MovieReader& movie) {
+void print_movie(const output::MovieReader& movie) {
   const output::MovieHeader& header = movie.header();
-  fmt::print("movie {}, {}\n", header.name,
+  fmt::print("movie {}, {}\n", language::printable(header.name),
              movie.complete() ? "complete" : "cut off: its last instants may be missing");
-  for (const auto& [key, value] : header.annotations) fmt::print("  {:<12} {}\n", key, value);
+  for (const auto& [key, value] : header.annotations)
+    fmt::print("  {:<12} {}\n", language::printable(key), language::printable(value));
   for (const output::MovieFile& file : header.files)
-    fmt::print("  {:<12} {} ({} bytes)\n", "file", file.name, file.content.size());
+    fmt::print("  {:<12} {} ({} bytes)\n", "file", language::printable(file.name),
+               file.content.size());
   const std::vector<double>& times = movie.times();
   fmt::print("  {:<12} {}, {} s apart\n", "instants", times.size(),
              output::shortest(header.period));
@@ -64,17 +60,23 @@ void print_summary(const output::MovieReader& movie) {
 int show(const ReplayArguments& arguments) {
   OpenedMovie movie(arguments.movie, arguments.allow_plugins);
   if (!arguments.at) {
-    print_summary(movie.reader());
+    print_movie(movie.reader());
     return fine;
   }
   simulation::Experiment experiment = movie.load();
   simulation::World world = movie.make_world(experiment);
   simulation::Rewind rewind(experiment, movie.reader(), world);
   const std::int64_t step = rewind.step_at(seconds(*arguments.at, "--at"));
-  const std::vector<Port> ports = wanted_ports(experiment, world, arguments.record);
+  const bool summary = arguments.record.empty() && !arguments.json;
+  std::vector<Port> ports;
+  if (!summary) ports = wanted_ports(experiment, world, arguments.record);
   rewind.approach(step);
   rewind.arrive(step);
-  if (arguments.json) {
+  if (summary) {
+    print_summary(experiment, world.state());
+    std::cerr << fmt::format("{} ports have a value then: --record \"**\" prints all\n",
+                             world.ports().size());
+  } else if (arguments.json) {
     print_json(experiment.world, world.state(), ports);
   } else {
     print_table(world.state(), ports);

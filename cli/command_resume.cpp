@@ -37,13 +37,18 @@ int go_on(const RunArguments& arguments) {
   rewind.approach(first);
   const std::filesystem::path folder =
       arguments.out.value_or(std::filesystem::path("runs") / (experiment.world + "-resumed"));
-  simulation::RunFiles files(
-      experiment, world, world.ports(),
-      {folder, arguments.record, movie.reader().header().experiment, arguments.out.has_value()},
-      first);
+  simulation::RunFiles files(experiment, world, world.ports(),
+                             {folder,
+                              arguments.record,
+                              movie.reader().header().experiment,
+                              arguments.out.has_value(),
+                              movie.describe_engine(experiment),
+                              {std::filesystem::absolute(*arguments.resume).string()}},
+                             first);
   rewind.arrive(first);
   const int status = step_through(experiment, world, files, last);
   files.close();
+  tell_files(files);
   print_summary(experiment, world.state());
   return status;
 }
@@ -54,7 +59,7 @@ int resume(const RunArguments& arguments) {
   if (!arguments.file.empty() || !arguments.settings.empty()) {
     print_error(
         "run --resume goes on with the experiment inside the movie: it takes neither a FILE nor "
-        "--set");
+        "--set or its short forms");
     return wrong_input;
   }
   return use_movie([&] { return go_on(arguments); });

@@ -1,24 +1,30 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <iostream>
 
 #include "cli/application.h"
 #include "cli/commands.h"
 #include "cli/exit_status.h"
 #include "cli/run_loop.h"
+#include "simulation/load.h"
 
 namespace hookpoint::cli {
 namespace {
 
 /// `--for` is the World's duration.
-std::vector<std::string> settings_with_duration(Application& application,
-                                                const RunArguments& arguments) {
-  std::vector<std::string> settings = arguments.settings;
-  if (!arguments.duration) return settings;
-  for (std::string& setting :
-       application.world_settings(arguments.file, "duration", *arguments.duration))
-    settings.push_back(std::move(setting));
+Settings settings_with_duration(const RunArguments& arguments) {
+  Settings settings = arguments.settings;
+  if (arguments.duration) settings.world.emplace_back("duration", *arguments.duration);
   return settings;
+}
+
+/// A file's windows are laid out and checked, and not shown yet.
+void tell_windows(const language::Object& root) {
+  if (root.children_of("Window").empty()) return;
+  std::cerr
+      << "hookpoint: note: the file's windows are not shown: this version has no viewer; what "
+         "sliders and buttons would set keeps its value\n";
 }
 
 }  // namespace
@@ -31,9 +37,8 @@ int run(const RunArguments& arguments) {
     return wrong_input;
   }
   Application application(arguments.allow_plugins);
-  if (!application.load_plugins(arguments.file)) return wrong_input;
-  const std::vector<std::string> settings = settings_with_duration(application, arguments);
-  const auto root = application.evaluate(arguments.file, settings);
+  const std::filesystem::path file = application.locate(arguments.file);
+  const auto root = application.evaluate_set(file, settings_with_duration(arguments));
   if (!root) return wrong_input;
   auto experiment = application.load(*root);
   if (!experiment) return wrong_input;
@@ -41,11 +46,14 @@ int run(const RunArguments& arguments) {
   try {
     const std::filesystem::path folder =
         arguments.out.value_or(std::filesystem::path("runs") / experiment->world);
+    simulation::write_chosen_step(*experiment, *root);
     if (arguments.movie) simulation::add_movie(*arguments.movie, *experiment);
     simulation::World world(*experiment, application.make_engine(*experiment));
     simulation::RunFiles files(
         *experiment, world, world.ports(),
-        {folder, arguments.record, language::print(*root), arguments.out.has_value()});
+        {folder, arguments.record, language::print(*root), arguments.out.has_value(),
+         application.describe_engine(*experiment), language::sources_of(*root)});
+    tell_windows(*root);
     tell_stability(*experiment);
     const auto steps =
         static_cast<std::int64_t>(std::llround(experiment->duration / experiment->deltat));
@@ -55,6 +63,7 @@ int run(const RunArguments& arguments) {
     const int status =
         step_through(*experiment, world, files, steps, expectations ? &*expectations : nullptr);
     files.close();
+    tell_files(files);
     print_summary(*experiment, world.state());
     if (status != fine || !expectations) return status;
     return print_expectations(*expectations);

@@ -5,22 +5,28 @@
 
 namespace hookpoint::cli {
 
-int study(const StudyArguments& arguments) {
-  Application application(arguments.allow_plugins);
+int study(const StudyArguments& asked) {
+  Application application(asked.allow_plugins);
+  StudyArguments arguments = asked;
+  arguments.file = application.locate(asked.file);
   const auto file = plan_study_file(application, arguments);
   if (!file) return wrong_input;
   if (file->size() == 0) {
     print_error(nothing_to_study(arguments.file));
     return wrong_input;
   }
-  const StudyCommand command{application.engines(), arguments, *file, rerun_command(arguments)};
+  const InterruptGuard guard;
+  const StudyCommand command{application.engines(), arguments, *file, rerun_command(arguments),
+                             guard};
   int status = fine;
-  for (const studies::StudyPlan& plan : file->studies)
-    status = std::max(status, run_one_study(command, plan));
-  for (const studies::WallPlan& plan : file->walls)
-    status = std::max(status, run_one_wall(command, plan));
-  for (const MatrixPlan& plan : file->matrices)
-    status = std::max(status, run_one_matrix(command, plan));
+  const auto run_all = [&](const auto& plans, auto run_one) {
+    // Once one was interrupted the others are not begun.
+    for (const auto& plan : plans)
+      if (status <= missing) status = std::max(status, run_one(command, plan));
+  };
+  run_all(file->studies, run_one_study);
+  run_all(file->walls, run_one_wall);
+  run_all(file->matrices, run_one_matrix);
   return status;
 }
 

@@ -5,18 +5,27 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace hookpoint::cli {
 
 class Application;
 
+/// What the command line sets in a file.
+struct Settings {
+  std::vector<std::string> trails;  ///< --set: trail=value
+  /// Fields of the file's World with their values: --dt and its like.
+  std::vector<std::pair<std::string, std::string>> world;
+  bool empty() const { return trails.empty() && world.empty(); }
+};
+
 struct RunArguments {
   std::filesystem::path file;
-  std::vector<std::string> settings;    ///< trail=value
+  Settings settings;
   std::optional<std::string> duration;  ///< "10 s"
   std::optional<std::filesystem::path> out;
-  std::vector<std::string> record;              ///< trails
+  std::vector<std::string> record;              ///< trails, vectors, globs
   std::optional<std::filesystem::path> movie;   ///< --movie; empty: movie.h5 in the run's folder
   std::optional<std::filesystem::path> resume;  ///< a movie to go on from, instead of `file`
   std::optional<std::string> at;                ///< moment of it; none: its last
@@ -29,11 +38,11 @@ int resume(const RunArguments& arguments);
 struct ReplayArguments {
   std::filesystem::path movie;
   std::optional<std::string> at;    ///< "2.5 s"; none: what the movie is
-  std::vector<std::string> record;  ///< trails; none: all
+  std::vector<std::string> record;  ///< trails, vectors, globs; none: a summary, as JSON all
   bool json = false;
   bool allow_plugins = false;
 };
-/// replay: every port at a moment of a movie.
+/// replay: what a movie is, or a moment of it.
 int replay(const ReplayArguments& arguments);
 
 /// recover: the record that a killed run left as a spool.
@@ -47,6 +56,7 @@ struct StudyArguments {
   bool resume = false;
   std::vector<std::string> only;  ///< subjects
   bool allow_plugins = false;
+  Settings settings{};  ///< of the file and of the scenes that it runs
 };
 int study(const StudyArguments& arguments);
 
@@ -55,24 +65,35 @@ int check(const std::vector<std::filesystem::path>& files, bool allow_plugins);
 /// fmt: rewrites each file in canonical layout; with `check_only` says which would change.
 int format(const std::vector<std::filesystem::path>& files, bool check_only);
 /// print: the experiment after includes, loops and expressions.
-int print(const std::filesystem::path& file, const std::vector<std::string>& settings,
-          bool allow_plugins);
+int print(const std::filesystem::path& file, const Settings& settings, bool allow_plugins);
 struct DescribeArguments {
   std::optional<std::string> type;             ///< a class; none: the list of all
   bool markdown = false;                       ///< the manual's reference page
   bool textmate = false;                       ///< the grammar for editors
+  bool man = false;                            ///< the command's own manual page
+  std::optional<std::string> completion;       ///< of its words, in this shell
   std::vector<std::filesystem::path> plugins;  ///< whose classes count too
   bool allow_plugins = false;
 };
 int describe(const DescribeArguments& arguments);
 
 /// dynamics: what the forces do at the file's initial state.
-int dynamics(const std::filesystem::path& file, const std::vector<std::string>& settings, bool json,
+int dynamics(const std::filesystem::path& file, const Settings& settings, bool json,
              bool allow_plugins);
+
+struct PortsArguments {
+  std::filesystem::path file;
+  std::optional<std::string> pattern;  ///< trail, vector or glob; none: all that changes
+  Settings settings;
+  bool json = false;
+  bool allow_plugins = false;
+};
+/// ports: what can be recorded, wired and expected of a world.
+int ports(const PortsArguments& arguments);
 
 struct AdviseArguments {
   std::filesystem::path file;
-  std::vector<std::string> settings;
+  Settings settings;
   std::optional<std::string> penetration;  ///< at rest, "1 mm"
   std::optional<std::string> rebound;      ///< speed after over before, "0.2"
   bool json = false;
@@ -93,6 +114,8 @@ int compare(const CompareArguments& arguments);
 int engines(bool json);
 /// The same as JSON.
 std::string engines_json(const Application& application);
+/// --version: the program's, then a line an engine that was found.
+std::string version_text();
 
 /// What FILE.hook without a command means: true when it holds a Study, false for a world; none when
 /// it has errors, which are printed.

@@ -8,6 +8,21 @@ enum ExitStatus : int {
   truth_failed = 1,  ///< a Truth failed or a run diverged
   wrong_input = 2,   ///< what the user wrote cannot be read or run
   missing = 3,       ///< something is not on this machine
+  // After a signal 128 and its number: 130 the interrupt key, 143 SIGTERM (InterruptGuard::status).
+};
+
+struct ExitMeaning {
+  int status;
+  const char* meaning;
+};
+
+/// For people.
+inline constexpr ExitMeaning exit_meanings[] = {
+    {fine, "fine"},
+    {truth_failed, "a truth failed or a run diverged"},
+    {wrong_input, "wrong input"},
+    {missing, "something is missing on this machine"},
+    {130, "interrupted (143 by SIGTERM)"},
 };
 
 }  // namespace hookpoint::cli

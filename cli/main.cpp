@@ -1,23 +1,36 @@
-// The command line: the one file that sees CLI11. It fills plain arguments and hands them to a
-// command.
+// The command line: it fills plain arguments and hands them to a command. This file and the manual
+// that is made from its table see CLI11.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
+#include <cstdio>
 #include <functional>
+#include <iostream>
+#include <map>
+#include <new>
+#include <system_error>
 
 #include "cli/application.h"
 #include "cli/commands.h"
 #include "cli/exit_status.h"
+#include "cli/manual_page.h"
+#include "cli/short_forms.h"
+#include "cli/standard_streams.h"
 #include "output/file.h"
+#include "output/result_folder.h"
 
 namespace hookpoint::cli {
 namespace {
 
-constexpr const char* about =
-    "hookpoint: dynamics of legged robots under comparable contact models.\n"
-    "`hookpoint FILE.hook` runs what the file holds: its studies, or else its world.\n"
-    "Exit status: 0 fine, 1 a truth failed or a run diverged, 2 wrong input, 3 something is "
-    "missing on this machine.";
+std::string about() {
+  std::string text =
+      "hookpoint: dynamics of legged robots under comparable contact models\n"
+      "`hookpoint FILE.hook` runs what the file holds: its studies, or else its world.\n"
+      "Exit status:";
+  for (const ExitMeaning& exit : exit_meanings)
+    text += (exit.status == fine ? " " : ", ") + std::to_string(exit.status) + " " + exit.meaning;
+  return text + ".";
+}
 
 /// What the command line asks for; `command` runs it.
 struct Request {
@@ -28,8 +41,9 @@ struct Request {
   CompareArguments compare;
   std::vector<std::filesystem::path> files;
   std::filesystem::path file;
-  std::vector<std::string> settings;
+  Settings settings;
   DescribeArguments describe;
+  PortsArguments ports;
   bool json = false, check_only = false, allow_plugins = false;
   std::function<int()> command;
 };
@@ -41,10 +55,11 @@ CLI::App* add_command(CLI::App& app, Request& request, const char* name, const c
   return added;
 }
 
-void add_settings(CLI::App* command, std::vector<std::string>& settings) {
+void add_trails(CLI::App* command, Settings& settings) {
   command
-      ->add_option("--set", settings,
-                   "TRAIL=VALUE: overrides a field or a Param, e.g. SimpleWorld.deltat=\"1 ms\"")
+      ->add_option("--set", settings.trails,
+                   "overrides a field or a Param, e.g. SimpleWorld.deltat=\"1 ms\" (may be "
+                   "repeated)")
       ->type_name("TRAIL=VALUE")
       ->expected(1)
       ->take_all()
@@ -52,6 +67,22 @@ void add_settings(CLI::App* command, std::vector<std::string>& settings) {
         return text.find('=') == std::string::npos ? "--set takes TRAIL=VALUE, not `" + text + "`"
                                                    : std::string();
       });
+}
+
+void add_short_form(CLI::App* command, Settings& settings, const ShortForm& form) {
+  command
+      ->add_option_function<std::string>(
+          form.option,
+          [&settings, field = form.field](const std::string& value) {
+            settings.world.emplace_back(field, value);
+          },
+          form.doc)
+      ->type_name(form.type);
+}
+
+void add_settings(CLI::App* command, Settings& settings) {
+  add_trails(command, settings);
+  for (const ShortForm& form : short_forms) add_short_form(command, settings, form);
 }
 
 constexpr const char* allow_plugins = "--allow-plugins";
@@ -82,9 +113,11 @@ void add_movie_tools(CLI::App& app, Request& request) {
   replay_app->add_option("MOVIE", request.replay.movie, "an .h5 file of run --movie")->required();
   replay_app
       ->add_option("--at", request.replay.at,
-                   "print the ports at this moment: \"2.5 s\" (default: what the movie is)")
+                   "where everything is at this moment: \"2.5 s\" (default: what the movie is)")
       ->type_name("TIME");
-  replay_app->add_option("--record", request.replay.record, "only these trails, joined by commas")
+  replay_app
+      ->add_option("--record", request.replay.record,
+                   "the ports that these trails name, joined by commas; globs as of `run`")
       ->type_name("TRAIL,...")
       ->delimiter(',');
   replay_app->add_flag("--json", request.replay.json, "as JSON, 17 significant digits");
@@ -111,7 +144,8 @@ void add_run_and_study(CLI::App& app, Request& request) {
       ->type_name("DIR");
   run_app
       ->add_option("--record", request.run.record,
-                   "trails to write to DIR/trace.csv, joined by commas")
+                   "ports to write to DIR/trace.csv, joined by commas: trails, vectors, globs (* "
+                   "within a name, ** across)")
       ->type_name("TRAIL,...")
       ->delimiter(',');
   add_movies(run_app, request.run);
@@ -119,6 +153,9 @@ void add_run_and_study(CLI::App& app, Request& request) {
   CLI::App* study_app = add_command(app, request, "study", "run the studies of a file",
                                     [&] { return study(request.study); });
   study_app->add_option("FILE", request.study.file, "a .hook file with a Study")->required();
+  add_trails(study_app, request.study.settings);
+  for (const ShortForm& form : short_forms)
+    if (form.in_studies) add_short_form(study_app, request.study.settings, form);
   add_plugins(study_app, request.study.allow_plugins);
   study_app
       ->add_option("--out", request.study.out, "folder of the results (default: runs/STUDY-HASH)")
@@ -142,6 +179,29 @@ void add_run_and_study(CLI::App& app, Request& request) {
       ->take_all();
 }
 
+/// What the short forms take, as the language has it.
+std::map<std::string, std::vector<std::string>> words_after_options() {
+  const Application application;
+  const language::ClassSchema& world = *application.schema().find("World");
+  std::map<std::string, std::vector<std::string>> words;
+  for (const ShortForm& form : short_forms) {
+    const std::vector<std::string>& choices = world.find(form.field)->choices;
+    if (!choices.empty()) words[form.option] = choices;
+  }
+  return words;
+}
+
+int describe_with(const CLI::App& app, const DescribeArguments& arguments) {
+  if (arguments.man) {
+    std::cout << manual_page(app, HOOKPOINT_VERSION);
+  } else if (arguments.completion) {
+    std::cout << bash_completion(app, words_after_options());
+  } else {
+    return describe(arguments);
+  }
+  return fine;
+}
+
 void add_language_tools(CLI::App& app, Request& request) {
   CLI::App* check_app = add_command(app, request, "check", "report what is wrong in files",
                                     [&] { return check(request.files, request.allow_plugins); });
@@ -158,14 +218,25 @@ void add_language_tools(CLI::App& app, Request& request) {
   add_settings(print_app, request.settings);
   add_plugins(print_app, request.allow_plugins);
   CLI::App* describe_app = add_command(app, request, "describe", "what a class of the language has",
-                                       [&] { return describe(request.describe); });
+                                       [&] { return describe_with(app, request.describe); });
   describe_app->add_option("TYPE", request.describe.type,
                            "a class, e.g. Base.mobile; without it all are listed");
   describe_app->add_flag("--markdown", request.describe.markdown,
                          "every class as the manual's reference page");
   describe_app->add_flag("--textmate", request.describe.textmate,
                          "the words of the language as a TextMate grammar, for editors");
-  describe_app->add_option("--plugin", request.describe.plugins, "with the classes of this plugin")
+  describe_app->add_flag("--man", request.describe.man, "the manual page of the command");
+  describe_app
+      ->add_option("--completion", request.describe.completion,
+                   "what completes the command's words in a shell: bash")
+      ->type_name("SHELL")
+      ->check([](const std::string& text) {
+        return text == "bash" ? std::string() : "--completion knows bash, not `" + text + "`";
+      });
+  describe_app
+      ->add_option("--plugin", request.describe.plugins,
+                   "with the classes of this plugin (may be "
+                   "repeated)")
       ->type_name("LIBRARY")
       ->expected(1)
       ->take_all();
@@ -212,6 +283,19 @@ void add_compare(CLI::App& app, Request& request) {
   compare_app->add_flag("--json", request.compare.json, "as JSON, every difference");
 }
 
+void add_ports(CLI::App& app, Request& request) {
+  CLI::App* ports_app =
+      add_command(app, request, "ports", "what can be recorded, wired and expected of a world",
+                  [&] { return ports(request.ports); });
+  ports_app->add_option("FILE", request.ports.file, "a .hook file with a World")->required();
+  ports_app->add_option("PATTERN", request.ports.pattern,
+                        "a trail, a vector or a glob: * within a name, ** across (default: all but "
+                        "the file's constants)");
+  ports_app->add_flag("--json", request.ports.json, "as JSON, 17 significant digits");
+  add_settings(ports_app, request.ports.settings);
+  add_plugins(ports_app, request.ports.allow_plugins);
+}
+
 void add_inspection(CLI::App& app, Request& request) {
   CLI::App* dynamics_app = add_command(
       app, request, "dynamics", "forces and accelerations at the initial state; no time passes",
@@ -256,13 +340,15 @@ std::vector<std::string> with_command(const CLI::App& app, std::vector<std::stri
 }
 
 int main_with(int count, char** words) {
-  CLI::App app(about, "hookpoint");
+  CLI::App app(about(), "hookpoint");
   app.require_subcommand(1);
-  app.set_version_flag("--version", HOOKPOINT_VERSION);
+  app.set_version_flag("-V,--version", version_text,
+                       "the version of the program and of the engines found");
   Request request;
   add_run_and_study(app, request);
   add_movie_tools(app, request);
   add_language_tools(app, request);
+  add_ports(app, request);
   add_inspection(app, request);
   add_advise(app, request);
   add_compare(app, request);
@@ -277,20 +363,38 @@ int main_with(int count, char** words) {
     print_error(std::string(error.what()) + " (`hookpoint --help` says what is possible)");
     return wrong_input;
   }
-  return request.command();
+  try {
+    return request.command();
+  } catch (const output::PlaceError& error) {
+    const bool may_move = app.got_subcommand("run") || app.got_subcommand("study");
+    throw output::FileError(std::string(error.what()) +
+                            (may_move ? "; --out names another folder" : ""));
+  }
+}
+
+int guarded_main(int count, char** words) {
+  try {
+    return main_with(count, words);
+  } catch (const output::FolderError& error) {
+    print_error(error.what());
+    return wrong_input;
+  } catch (const std::bad_alloc&) {
+    print_error("there is not enough memory for what was asked");
+    return missing;
+  } catch (const std::system_error& error) {
+    // Where it is of standard output, that is told once, at the end.
+    if (std::ferror(stdout) == 0) print_error(error.what());
+    return missing;
+  } catch (const std::exception& error) {
+    print_error(error.what());
+    return missing;
+  }
 }
 
 }  // namespace
 }  // namespace hookpoint::cli
 
 int main(int count, char** words) {
-  try {
-    return hookpoint::cli::main_with(count, words);
-  } catch (const hookpoint::output::FileError& error) {
-    hookpoint::cli::print_error(error.what());
-    return hookpoint::cli::missing;
-  } catch (const std::exception& error) {
-    hookpoint::cli::print_error(error.what());
-    return hookpoint::cli::missing;
-  }
+  hookpoint::cli::take_standard_streams();
+  return hookpoint::cli::finish_standard_output(hookpoint::cli::guarded_main(count, words));
 }

@@ -25,6 +25,9 @@ class OpenedMovie {
   simulation::Experiment load();
   /// At time 0. Throws simulation::ExperimentError.
   simulation::World make_world(const simulation::Experiment& experiment) const;
+  simulation::EngineDescription describe_engine(const simulation::Experiment& experiment) const {
+    return application_.describe_engine(experiment);
+  }
 
  private:
   output::MovieReader reader_;

@@ -1,17 +1,18 @@
 #include "cli/run_loop.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include <chrono>
 #include <cmath>
-#include <csignal>
 #include <iostream>
 
 #include "cli/application.h"
 #include "cli/exit_status.h"
+#include "cli/run_watch.h"
 #include "contact/force_law.h"
 #include "output/number.h"
-#include "output/progress.h"
+#include "simulation/automatic_step.h"
+#include "simulation/energy_watch.h"
 #include "simulation/stability.h"
 
 namespace hookpoint::cli {
@@ -19,30 +20,6 @@ namespace {
 
 using simulation::Experiment;
 using simulation::WorldState;
-
-volatile std::sig_atomic_t interrupted = 0;
-void interrupt(int) { interrupted = 1; }
-
-/// The bar appears only for work that takes a while.
-class LazyProgress {
- public:
-  LazyProgress(std::string label, std::int64_t steps) : label_(std::move(label)), steps_(steps) {}
-  void at(std::int64_t step) {
-    if (step % granularity != 0) return;
-    if (!bar_ && std::chrono::steady_clock::now() - start_ > std::chrono::seconds(2)) {
-      bar_.emplace(label_, static_cast<std::size_t>(steps_), static_cast<std::size_t>(step));
-    } else if (bar_) {
-      bar_->advance(granularity);
-    }
-  }
-
- private:
-  static constexpr std::int64_t granularity = 1024;
-  std::string label_;
-  std::int64_t steps_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  std::optional<output::Progress> bar_;
-};
 
 std::string how_computed(const Experiment& experiment) {
   if (experiment.engine != "dts")
@@ -53,9 +30,9 @@ std::string how_computed(const Experiment& experiment) {
                      own_time ? "" : ", " + experiment.integrator);
 }
 
-int report_failure(const simulation::StepStatus& status) {
-  print_error(
-      fmt::format("the run stopped at {:.6g} s: {}: {}", status.time, status.body, status.advice));
+int report_failure(RunWatch& watch, const simulation::StepStatus& status) {
+  watch.say(fmt::format("hookpoint: error: the run stopped at {:.6g} s: {}: {}", status.time,
+                        status.body, status.advice));
   return truth_failed;
 }
 
@@ -65,25 +42,31 @@ void tell_stability(const Experiment& experiment) {
   using Contacts = simulation::StabilityBound::Contacts;
   const simulation::StabilityBound bound = simulation::stability_bound(experiment);
   if (!std::isfinite(bound.step)) return;
-  const std::string scope = bound.contacts == Contacts::touching ? " resting on its ground"
-                            : bound.contacts == Contacts::worst
-                                ? " touching with its stiffest point"
-                                : "";
+  const std::string scope = bound.contacts == Contacts::touching  ? " resting on its ground"
+                            : bound.contacts == Contacts::landing ? " landing on its ground"
+                                                                  : "";
   const std::string limit = bound.step > 0. ? fmt::format("{:.4g} s", bound.step)
                             : bound.controllers.empty()
                                 ? "none, without damping it is unstable at any"
                                 : "none, its loops are unstable at any";
-  std::cerr << fmt::format("largest stable step of {} for {}{}: {} (deltat is {:.4g} s)\n",
-                           experiment.integrator, bound.robot, scope, limit, experiment.deltat);
+  const std::string chosen = experiment.chosen_from
+                                 ? fmt::format(", auto: at most {:g} of it", simulation::safe_part)
+                                 : std::string();
+  std::cerr << fmt::format("largest stable step of {} for {}{}: {} (deltat is {:.4g} s{})\n",
+                           experiment.integrator, bound.robot, scope, limit, experiment.deltat,
+                           chosen);
   if (!bound.left_out.empty())
-    std::cerr << "not in it: " << simulation::first_of(bound.left_out) << '\n';
+    std::cerr << "feedback that is not in it: " << simulation::first_of(bound.left_out) << '\n';
   if (experiment.deltat > bound.step) {
     const char* softer = bound.contacts == Contacts::none ? "" : "the ground softer, ";
-    const char* weaker = bound.controllers.empty() ? "" : "the controllers weaker, ";
+    const std::string controllers = simulation::controller_advice(bound);
     std::cerr << fmt::format(
         "hookpoint: warning: deltat is above the largest stable step: what springs back will gain "
-        "energy; make the step smaller, {}{}or choose another integrator\n",
-        softer, weaker);
+        "energy; {}\n",
+        controllers.empty()
+            ? fmt::format("make the step smaller (deltat = auto), {}or choose another integrator",
+                          softer)
+            : controllers);
   }
   if (std::isfinite(bound.resolved_speed)) {
     std::cerr << fmt::format(
@@ -138,32 +121,53 @@ int step_through(const Experiment& experiment, simulation::World& world,
                  simulation::RunFiles& files, std::int64_t last,
                  simulation::Expectations* expectations) {
   const std::int64_t first = world.state().step;
-  LazyProgress progress(experiment.world, last - first);
-  std::signal(SIGINT, interrupt);
-  std::signal(SIGTERM, interrupt);
+  RunWatch watch(experiment.world,
+                 {world.state().time, static_cast<double>(last) * experiment.deltat},
+                 [&files] { files.close_within_step(); });
+  // What is written is finite, or the run has stopped.
+  const auto written = [&] {
+    const std::string& trail = files.first_not_finite();
+    return trail.empty() ? simulation::StepStatus{}
+                         : simulation::not_finite(world.state().time, trail);
+  };
+  if (const auto status = written(); !status.ok()) return report_failure(watch, status);
   files.row(first, world.state().time);
   if (expectations != nullptr) expectations->observe(world.state().time);
+  simulation::EnergyWatch energy(experiment, world, last);
   std::size_t told = 0;
   const auto tell_notices = [&] {
     for (; told < world.state().notices.size(); ++told)
-      std::cerr << "hookpoint: note: " << world.state().notices[told] << '\n';
+      watch.say("hookpoint: note: " + world.state().notices[told]);
   };
-  for (std::int64_t step = first + 1; step <= last && !interrupted && world.ended().empty();
+  for (std::int64_t step = first + 1; step <= last && !watch.stopped() && world.ended().empty();
        ++step) {
-    const simulation::StepStatus status = world.step();
+    watch.begin_step();
+    simulation::StepStatus status = world.step();
+    watch.end_step(world.state().time);
+    if (status.ok()) status = written();
     tell_notices();
-    if (!status.ok()) return report_failure(status);
+    if (!status.ok()) return report_failure(watch, status);
     files.row(step, world.state().time);
     if (expectations != nullptr) expectations->observe(world.state().time);
-    progress.at(step - first);
+    energy.observe();
   }
+  if (const std::string finding = energy.finding(); !finding.empty())
+    watch.say("hookpoint: warning: " + finding);
   if (const std::string reason = world.ended(); !reason.empty())
-    std::cerr << fmt::format("hookpoint: note: the run ended at {:.6g} s: {}\n", world.state().time,
-                             reason);
-  if (!interrupted) return fine;
-  print_error(fmt::format("interrupted at {:.6g} s; what was recorded up to then is kept",
-                          world.state().time));
-  return truth_failed;
+    watch.say(
+        fmt::format("hookpoint: note: the run ended at {:.6g} s: {}", world.state().time, reason));
+  if (!watch.stopped()) return fine;
+  watch.say(
+      fmt::format("hookpoint: error: interrupted at {:.6g} s; what was recorded up to then "
+                  "is kept",
+                  world.state().time));
+  return watch.status();
+}
+
+void tell_files(const simulation::RunFiles& files) {
+  if (files.names().empty()) return;
+  std::cerr << fmt::format("wrote {}: {}\n", files.folder().string(),
+                           fmt::join(files.names(), ", "));
 }
 
 }  // namespace hookpoint::cli

@@ -19,6 +19,9 @@ int step_through(const simulation::Experiment& experiment, simulation::World& wo
                  simulation::RunFiles& files, std::int64_t last,
                  simulation::Expectations* expectations = nullptr);
 
+/// On stderr: where the files of a run that is over are. Nothing when it leaves none.
+void tell_files(const simulation::RunFiles& files);
+
 /// The truths that came with the scene beside what the run made of them, on stdout. Returns the
 /// exit status.
 int print_expectations(const simulation::Expectations& expectations);

@@ -43,8 +43,14 @@ struct StudyFile {
   }
 };
 
+/// Whether a file that was evaluated holds any of these blocks.
+bool holds_study(const language::Object& root);
+
 /// Nothing after errors, which are told.
 std::optional<StudyFile> plan_study_file(Application& application, const StudyArguments& arguments);
+/// The same of `arguments.file`, evaluated as `root`.
+std::optional<StudyFile> plan_study_file(Application& application, const language::Object& root,
+                                         const StudyArguments& arguments);
 
 /// What is said of a file that holds no block.
 std::string nothing_to_study(const std::filesystem::path& file);
@@ -52,6 +58,9 @@ std::string nothing_to_study(const std::filesystem::path& file);
 /// Of one block that runs into `folder` (empty: runs/NAME-HASH).
 studies::RunOptions run_options(const StudyArguments& arguments,
                                 const std::filesystem::path& folder);
+
+/// `text` as one word of a shell's command.
+std::string shell_word(const std::string& text);
 
 /// "hookpoint study FILE ..." as it was called.
 std::string rerun_command(const StudyArguments& arguments);

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 
 #include "cli/study_plans.h"
+#include "output/result_folder.h"
 #include "studies/matrix.h"
 #include "studies/report.h"
 #include "studies/run.h"
@@ -18,16 +20,22 @@ namespace hookpoint::cli {
 studies::ReportOutcome write_study_report(const studies::StudyRun& run, const std::string& command);
 
 /// All files of a Wall that ran.
-void write_wall(const std::filesystem::path& folder, const studies::WallPlan& plan,
-                const studies::WallResult& result, const studies::EngineTable& engines,
-                const std::string& command);
+void write_wall(const studies::WallRun& run, const studies::WallPlan& plan,
+                const studies::EngineTable& engines, const std::string& command);
 
-/// The result of a matrix with no study in it yet.
-studies::MatrixResult begin_matrix(const MatrixPlan& plan, const std::filesystem::path& file);
+/// A Matrix that runs, with the studies that are done.
+struct MatrixRun {
+  studies::MatrixResult result;
+  std::filesystem::path folder;
+  std::unique_ptr<output::ResultFolder> files;  ///< locks the folder
+};
+
+/// With no study in it yet, in its folder. Throws output::FolderError too.
+MatrixRun begin_matrix(const MatrixPlan& plan, const std::filesystem::path& file,
+                       const std::filesystem::path& folder);
 
 /// The files of a Matrix beside the folders of its studies. `text`: its file as printed.
-void write_matrix(const std::filesystem::path& folder, const MatrixPlan& plan,
-                  const studies::MatrixResult& result, const std::string& text,
+void write_matrix(const MatrixRun& run, const MatrixPlan& plan, const std::string& text,
                   const studies::EngineTable& engines, const std::string& command);
 
 }  // namespace hookpoint::cli

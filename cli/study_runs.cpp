@@ -1,6 +1,5 @@
 #include "cli/study_runs.h"
 
-#include <fmt/format.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -10,6 +9,8 @@
 #include "cli/exit_status.h"
 #include "cli/run_bar.h"
 #include "cli/study_reports.h"
+#include "output/file.h"
+#include "output/terminal.h"
 #include "studies/terminal_table.h"
 #include "studies/verdict.h"
 #include "studies/wall_report.h"
@@ -19,7 +20,7 @@ namespace {
 
 constexpr std::size_t wall_table_width = 120;
 
-bool on_terminal() { return isatty(STDOUT_FILENO) != 0; }
+bool coloured() { return output::wants_colours(STDOUT_FILENO); }
 
 std::size_t terminal_width() {
   winsize size{};
@@ -27,14 +28,34 @@ std::size_t terminal_width() {
   return std::max<std::size_t>(size.ws_col, 60);
 }
 
-/// Says that what is finished is kept in `folder`, and how to go on. The exit status.
-int interrupted(const StudyCommand& command, const std::filesystem::path& folder) {
+/// That what is finished is kept in `folder`, and how to go on; "" when nothing is.
+std::string how_to_go_on(const StudyCommand& command, const std::filesystem::path& folder) {
+  std::error_code error;
+  if (std::filesystem::is_empty(folder, error) || error) return "";
   const auto& named = command.arguments.out;
-  const std::string out = named ? " --out " + named->string() : "";
-  print_error("interrupted; what is finished is kept in " + folder.string() + ": `" +
-              command.command + out + " --resume` goes on from there");
-  return truth_failed;
+  const std::string out = named ? " --out " + shell_word(named->string()) : "";
+  return "; what is finished is kept in " + folder.string() + ": `" + command.command + out +
+         " --resume` goes on from there";
 }
+
+int interrupted(const StudyCommand& command, const std::filesystem::path& folder) {
+  print_error("interrupted" + how_to_go_on(command, folder));
+  return command.guard.status();
+}
+
+/// What `work` makes, which writes into `folder`; when the disk refuses, its error says how to go
+/// on.
+template <class Work>
+auto writing_into(const StudyCommand& command, const std::filesystem::path& folder,
+                  const Work& work) {
+  try {
+    return work();
+  } catch (const output::FileError& error) {
+    throw output::FileError(error.what() + how_to_go_on(command, folder));
+  }
+}
+
+void tell(const std::string& notice) { std::cerr << "hookpoint: note: " << notice << '\n'; }
 
 /// A study that ran.
 struct StudyOutcome {
@@ -45,13 +66,12 @@ struct StudyOutcome {
 
 StudyOutcome run_into(const StudyCommand& command, const studies::StudyPlan& plan,
                       const std::filesystem::path& folder) {
-  const studies::InterruptGuard guard;
   RunBar bar(plan.name);
-  studies::StudyRun run =
-      studies::run_study(plan, command.engines, bar.watch(run_options(command.arguments, folder)),
-                         studies::InterruptGuard::stop());
+  studies::RunOptions options = bar.watch(run_options(command.arguments, folder));
+  options.tell = tell;
+  studies::StudyRun run = studies::run_study(plan, command.engines, options, command.guard.stop());
   bar.end();
-  for (const std::string& notice : run.notices) std::cerr << "hookpoint: note: " << notice << '\n';
+  for (const std::string& notice : run.notices) tell(notice);
   if (run.interrupted) return {interrupted(command, run.folder), std::nullopt, {}};
   studies::ReportOutcome report = write_study_report(run, command.command);
   for (const std::string& message : report.messages) print_error(message);
@@ -64,46 +84,59 @@ StudyOutcome run_into(const StudyCommand& command, const studies::StudyPlan& pla
 }  // namespace
 
 int run_one_study(const StudyCommand& command, const studies::StudyPlan& plan) {
-  const StudyOutcome outcome = run_into(command, plan, command.folder(plan.name));
+  std::filesystem::path folder = command.folder(plan.name);
+  if (folder.empty()) folder = plan.folder();
+  const StudyOutcome outcome =
+      writing_into(command, folder, [&] { return run_into(command, plan, folder); });
   if (!outcome.run) return outcome.status;
-  std::cout << studies::terminal_table(outcome.run->result, {on_terminal(), terminal_width()});
+  std::cout << studies::terminal_table(outcome.run->result, {coloured(), terminal_width()});
   std::cout << "\nreport: " << (outcome.run->folder / "report.html").string() << '\n';
   return outcome.status;
 }
 
 int run_one_wall(const StudyCommand& command, const studies::WallPlan& plan) {
-  const studies::InterruptGuard guard;
   RunBar bar(plan.study.name);
-  const studies::RunOptions options =
+  studies::RunOptions options =
       bar.watch(run_options(command.arguments, command.folder(plan.study.name)));
+  options.tell = tell;
   const std::filesystem::path folder = studies::wall_folder(plan, options);
-  const auto result =
-      studies::run_wall(plan, command.engines, options, studies::InterruptGuard::stop());
-  bar.end();
-  if (!result) return interrupted(command, folder);
-  write_wall(folder, plan, *result, command.engines, command.command);
-  std::cout << studies::wall_terminal_table(*result, {on_terminal(), wall_table_width});
+  const auto run = writing_into(command, folder, [&] {
+    auto ran = studies::run_wall(plan, command.engines, options, command.guard.stop());
+    bar.end();
+    if (ran) write_wall(*ran, plan, command.engines, command.command);
+    return ran;
+  });
+  if (!run) return interrupted(command, folder);
+  std::cout << studies::wall_terminal_table(run->result, {coloured(), wall_table_width});
   std::cout << "\nreport: " << (folder / "report.html").string() << '\n';
-  return result->failed() == 0 ? fine : truth_failed;
+  return run->result.failed() == 0 ? fine : truth_failed;
 }
 
-int run_one_matrix(const StudyCommand& command, const MatrixPlan& plan) {
-  std::filesystem::path folder = command.folder(plan.name);
-  if (folder.empty())
-    folder = std::filesystem::path("runs") / fmt::format("{}-{}", plan.name, plan.hash);
-  studies::MatrixResult result = begin_matrix(plan, command.arguments.file);
+namespace {
+
+int run_matrix_into(const StudyCommand& command, const MatrixPlan& plan,
+                    const std::filesystem::path& folder) {
+  MatrixRun run = begin_matrix(plan, command.arguments.file, folder);
   int status = fine;
   for (const MatrixPart& part : plan.parts) {
     StudyOutcome outcome = run_into(command, part.plan, folder / part.plan.name);
     status = std::max(status, outcome.status);
     if (!outcome.run) return status;
-    result.studies.push_back(
+    run.result.studies.push_back(
         {std::move(outcome.run->result), part.text, std::move(outcome.figures)});
   }
-  write_matrix(folder, plan, result, command.file.text, command.engines, command.command);
-  std::cout << studies::matrix_terminal_table(result, on_terminal());
+  write_matrix(run, plan, command.file.text, command.engines, command.command);
+  std::cout << studies::matrix_terminal_table(run.result, coloured());
   std::cout << "\nmatrix: " << (folder / "matrix.html").string() << '\n';
   return status;
+}
+
+}  // namespace
+
+int run_one_matrix(const StudyCommand& command, const MatrixPlan& plan) {
+  std::filesystem::path folder = command.folder(plan.name);
+  if (folder.empty()) folder = studies::folder_of(plan.name, plan.hash);
+  return writing_into(command, folder, [&] { return run_matrix_into(command, plan, folder); });
 }
 
 }  // namespace hookpoint::cli

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "cli/application.h"
+#include "cli/interrupt.h"
 #include "cli/study_plans.h"
 
 namespace hookpoint::cli {
@@ -15,6 +16,7 @@ struct StudyCommand {
   const StudyArguments& arguments;
   const StudyFile& file;
   std::string command;  ///< that does all again
+  const InterruptGuard& guard;
 
   /// Of the block `name`; empty without --out: its runner then takes runs/NAME-HASH.
   std::filesystem::path folder(const std::string& name) const {

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "output/file.h"
+#include "output/result_folder.h"
 
 namespace hookpoint::python {
 namespace {
@@ -68,6 +69,8 @@ void add_errors(py::module_& module) {
     try {
       if (thrown) std::rethrow_exception(thrown);
     } catch (const simulation::ExperimentError& error) {
+      PyErr_SetString(error_class, error.what());
+    } catch (const output::FolderError& error) {
       PyErr_SetString(error_class, error.what());
     } catch (const output::FileError& error) {
       PyErr_SetString(PyExc_OSError, error.what());

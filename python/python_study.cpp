@@ -140,32 +140,35 @@ class StudyRunner {
 
   py::dict wall(const studies::WallPlan& plan) {
     const std::filesystem::path to = folder(plan.study.name);
-    const studies::RunOptions options = cli::run_options(arguments_, to);
-    const auto result = run_beside([&](const std::atomic<bool>& stop) {
+    std::vector<std::string> told;
+    const studies::RunOptions options = options_into(to, told);
+    const auto run = run_beside([&](const std::atomic<bool>& stop) {
       return studies::run_wall(plan, engines_, options, stop);
     });
-    if (kept()) cli::write_wall(to, plan, *result, engines_, command_);
+    for (const std::string& message : told) warn(message);
+    if (kept()) cli::write_wall(*run, plan, engines_, command_);
+    const studies::WallResult& result = run->result;
     py::dict made;
-    made["table"] = columns_of(studies::wall_results_table(*result));
-    made["passed"] = result->passed();
-    made["failed"] = result->failed();
-    made["warnings"] = list_of(result->warnings);
+    made["table"] = columns_of(studies::wall_results_table(result));
+    made["passed"] = result.passed();
+    made["failed"] = result.failed();
+    made["warnings"] = list_of(result.warnings);
     return made;
   }
 
   py::dict matrix(const cli::MatrixPlan& plan) {
     const std::filesystem::path to = folder(plan.name);
-    studies::MatrixResult result = cli::begin_matrix(plan, arguments_.file);
+    cli::MatrixRun whole = cli::begin_matrix(plan, arguments_.file, to);
     py::dict parts;
     for (const cli::MatrixPart& part : plan.parts) {
       Finished finished = run(part.plan, to / part.plan.name);
       parts[py::str(part.plan.name)] = result_of(finished.run);
-      result.studies.push_back(
+      whole.result.studies.push_back(
           {std::move(finished.run.result), part.text, std::move(finished.report.figures)});
     }
-    if (kept()) cli::write_matrix(to, plan, result, file_.text, engines_, command_);
+    if (kept()) cli::write_matrix(whole, plan, file_.text, engines_, command_);
     py::dict made;
-    made["table"] = columns_of(studies::matrix_table(result));
+    made["table"] = columns_of(studies::matrix_table(whole.result));
     made["studies"] = parts;
     return made;
   }
@@ -181,12 +184,22 @@ class StudyRunner {
     return kept() ? file_.folder(*arguments_.out, name) : unkept_.path() / name;
   }
 
+  /// What the run has to tell goes to `told`, since it runs in a thread that is not Python's.
+  studies::RunOptions options_into(const std::filesystem::path& to,
+                                   std::vector<std::string>& told) const {
+    studies::RunOptions options = cli::run_options(arguments_, to);
+    options.tell = [&told](const std::string& message) { told.push_back(message); };
+    return options;
+  }
+
   Finished run(const studies::StudyPlan& plan, const std::filesystem::path& to) {
-    const studies::RunOptions options = cli::run_options(arguments_, to);
+    std::vector<std::string> told;
+    const studies::RunOptions options = options_into(to, told);
     Finished finished{run_beside([&](const std::atomic<bool>& stop) {
                         return studies::run_study(plan, engines_, options, stop);
                       }),
                       {}};
+    for (const std::string& message : told) warn(message);
     if (!kept()) return finished;
     finished.report = cli::write_study_report(finished.run, command_);
     for (const std::string& message : finished.report.messages) warn(message);

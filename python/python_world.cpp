@@ -8,6 +8,7 @@
 
 #include "output/number.h"
 #include "python/errors.h"
+#include "simulation/load.h"
 
 namespace hookpoint::python {
 namespace {
@@ -63,7 +64,9 @@ PythonWorld::PythonWorld(const Source& source)
   experiment_ = application_->load(*root);
   if (!experiment_) application_.fail();
   application_.pass_on_warnings();
+  simulation::write_chosen_step(*experiment_, *root);
   text_ = language::print(*root);
+  sources_ = language::sources_of(*root);
   world_ =
       std::make_unique<simulation::World>(*experiment_, application_->make_engine(*experiment_));
   ports_ = world_->ports();
@@ -131,6 +134,7 @@ std::string PythonWorld::text_of_run(const RunOptions& options) {
   const auto root = application_->evaluate(
       source_.file, settings_with("duration", output::shortest(*options.duration)));
   if (!root) application_.fail();
+  simulation::write_chosen_step(*experiment_, *root);
   return language::print(*root);
 }
 
@@ -143,7 +147,9 @@ std::unique_ptr<simulation::RunFiles> PythonWorld::open_files(const RunOptions& 
   if (options.movie) simulation::add_movie(*options.movie, written);
   return std::make_unique<simulation::RunFiles>(
       written, *world_, ports_,
-      simulation::RunRequest{*options.output, options.trails, text_of_run(options), true}, steps());
+      simulation::RunRequest{*options.output, options.trails, text_of_run(options), true,
+                             application_->describe_engine(*experiment_), sources_},
+      steps());
 }
 
 py::dict PythonWorld::run(const RunOptions& options) {

@@ -95,6 +95,7 @@ class PythonWorld {
   QuietApplication application_;
   std::optional<simulation::Experiment> experiment_;
   std::string text_;
+  std::vector<std::string> sources_;  ///< files that it was made from
   std::unique_ptr<simulation::World> world_;
   std::vector<simulation::Port> ports_;
   std::unordered_map<std::string, simulation::Port> found_;

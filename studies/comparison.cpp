@@ -137,7 +137,10 @@ bool TrajectoryComparison::differs() const {
 }
 
 bool Comparison::same() const {
-  if (nothing_measured) return experiment.empty();
+  if (nothing_measured)
+    return experiment.empty() && std::ranges::none_of(provenance, [](const auto& each) {
+             return each.trail.starts_with("inputs.");
+           });
   const bool metrics_agree = std::ranges::all_of(
       metrics, [](const auto& metric) { return metric.timing || metric.differences.empty(); });
   return metrics_agree && only_first.empty() && only_second.empty() && words.empty() &&

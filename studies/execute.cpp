@@ -10,6 +10,7 @@
 #include <memory>
 #include <string>
 
+#include "simulation/energy_watch.h"
 #include "simulation/world.h"
 
 namespace hookpoint::studies {
@@ -170,14 +171,18 @@ std::optional<RowOutcome> execute(const StudyPlan& plan, const RowPlan& row,
                    fmt::format("skipped: engine {} is not on this machine", row.experiment.engine));
   if (!row.refusal.empty()) return not_run(plan, "refused: " + row.refusal);
   try {
-    RunContext context = make_context(row.experiment, plan.settle, plan.duration);
+    const simulation::Experiment experiment = row.whole();
+    RunContext context = make_context(experiment, plan.settle, plan.duration);
     context.make = engine->make;
     const std::int64_t steps = std::llround(plan.duration / row.experiment.deltat);
-    auto made = engine->make(row.experiment);
+    auto made = engine->make(experiment);
     if (std::ranges::any_of(plan.metrics, &MetricDefinition::needs_forces))
       made->publish_ground_forces();
-    simulation::World world(row.experiment, std::move(made));
+    simulation::World world(experiment, std::move(made));
+    if (std::ranges::any_of(plan.metrics, &MetricDefinition::needs_contact_force))
+      world.publish_contact_forces();
     Watch watch(plan, row, context, steps);
+    simulation::EnergyWatch energy(experiment, world, steps);
     StepStatus status;
     watch.observe(world);
     std::string ended = world.ended();
@@ -185,11 +190,14 @@ std::optional<RowOutcome> execute(const StudyPlan& plan, const RowPlan& row,
       if (stop.load(std::memory_order_relaxed)) return std::nullopt;
       status = world.step();
       if (status.ok()) watch.observe(world);
+      if (status.ok()) energy.observe();
       ended = world.ended();
     }
     RowOutcome outcome;
     if (!status.ok()) outcome.status = failure(status);
     outcome.notices = world.state().notices;
+    if (std::string finding = energy.finding(); !finding.empty())
+      outcome.notices.push_back(std::move(finding));
     const bool cut_short = status.ok() && world.state().step < steps;
     if (cut_short) outcome.status = fmt::format("ended at {:.6g} s: {}", world.state().time, ended);
     watch.finish(outcome, status.ok() && !cut_short, !status.ok());
@@ -207,7 +215,8 @@ std::vector<std::optional<double>> execute_timing(const StudyPlan& plan, const R
   constexpr int steps = 200;
   std::array<double, 5> stretches{};
   std::vector<std::optional<double>> values(plan.metrics.size());
-  simulation::World world(row.experiment, engine.make(row.experiment));
+  const simulation::Experiment experiment = row.whole();
+  simulation::World world(experiment, engine.make(experiment));
   for (double& seconds : stretches) {
     const std::clock_t start = std::clock();
     for (int step = 0; step < steps; ++step)

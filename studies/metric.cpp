@@ -14,6 +14,9 @@ constexpr auto metrics = std::to_array<MetricDefinition>({
     {"creep_speed", "m/s",
      "least-squares slope of the downhill displacement over [settle, duration]", make_creep_speed,
      false, Regime::holds},
+    {"creep_sideways", "m/s",
+     "the same of the displacement across the fall, along normal x downhill", make_creep_sideways,
+     false, Regime::holds},
     {"slip_acceleration", "m/s^2", "least-squares parabola of the same: its second derivative",
      make_slip_acceleration, false, Regime::slides},
     {"friction", "",
@@ -27,7 +30,7 @@ constexpr auto metrics = std::to_array<MetricDefinition>({
     {"stick_displacement", "m", "mean downhill displacement of the points that touch at the end",
      make_stick_displacement, true, Regime::holds},
     {"slip_distance", "m", "longest tangential path of a boundary point while it is loaded",
-     make_slip_distance, true},
+     make_slip_distance, true, Regime::none, MetricScope::run, false, true},
     {"stopping_distance", "m", "displacement at the end, if the body rests then",
      make_stopping_distance},
     {"slip_onset", "rad",
@@ -45,7 +48,8 @@ constexpr auto metrics = std::to_array<MetricDefinition>({
     {"contact_breaks", "1/s", "contacts lost per second after `settle`", make_contact_breaks},
     {"impacts", "1/s", "impulses per second after `settle` (event-driven laws)", make_impacts},
     {"support_force", "N",
-     "mean force of the ground along its normal after `settle`, on all bodies", make_support_force},
+     "mean force of the ground along its normal after `settle`, on all bodies", make_support_force,
+     false, Regime::none, MetricScope::run, false, true},
     {"force_residual", "N",
      "mean after `settle` of what the ground's single forces owe Signorini, Coulomb and maximum "
      "dissipation: the sum of its parts _normal, _cone and _dissipation; nothing for an engine "

@@ -123,7 +123,8 @@ struct MetricDefinition {
   bool needs_points = false;
   Regime regime = Regime::none;  ///< the only one in which it says something; none: any
   MetricScope scope = MetricScope::run;
-  bool needs_forces = false;  ///< WorldState::ground_forces
+  bool needs_forces = false;         ///< WorldState::ground_forces
+  bool needs_contact_force = false;  ///< that of bodies
   bool timing() const { return scope == MetricScope::timing; }
 };
 
@@ -181,6 +182,7 @@ double mechanical_energy(const RunContext& context, const simulation::WorldState
 
 // The factories, each in the file of its family.
 std::unique_ptr<Metric> make_creep_speed(const RunContext&);
+std::unique_ptr<Metric> make_creep_sideways(const RunContext&);
 std::unique_ptr<Metric> make_slip_acceleration(const RunContext&);
 std::unique_ptr<Metric> make_friction(const RunContext&);
 std::unique_ptr<Metric> make_settle_shift(const RunContext&);

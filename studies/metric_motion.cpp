@@ -7,20 +7,30 @@
 namespace hookpoint::studies {
 namespace {
 
-/// Least-squares fit of s(t) by a polynomial, one sample at a time. Time runs over [-1, 1] and s
-/// from its first sample, so that the sums stay well conditioned.
+double downhill(const RunContext&, const Observation& observation) {
+  return observation.displacement;
+}
+double sideways(const RunContext& context, const Observation& observation) {
+  return dot(observation.body.position - context.start, cross(context.normal, context.downhill));
+}
+
+/// Least-squares fit of a displacement s(t) by a polynomial, one sample at a time. Time runs over
+/// [-1, 1] and s from its first sample, so that the sums stay well conditioned.
 class DisplacementFit : public Metric {
  public:
-  explicit DisplacementFit(const RunContext& context)
+  explicit DisplacementFit(const RunContext& context,
+                           double (*displacement)(const RunContext&, const Observation&) = downhill)
       : context_(context),
+        displacement_(displacement),
         middle_(0.5 * (context.settle + context.duration)),
         half_(0.5 * (context.duration - context.settle)) {}
 
   void observe(const Observation& observation) override {
     if (!settled(context_, observation)) return;
-    if (count_ == 0) first_ = observation.displacement;
+    const double now = displacement_(context_, observation);
+    if (count_ == 0) first_ = now;
     const double tau = (observation.world.time - middle_) / half_;
-    const double s = observation.displacement - first_;
+    const double s = now - first_;
     ++count_;
     double power = 1.;
     for (int k = 0; k <= 4; ++k, power *= tau) {
@@ -48,6 +58,7 @@ class DisplacementFit : public Metric {
 
  private:
   const RunContext& context_;
+  double (*displacement_)(const RunContext&, const Observation&);
   double middle_, half_, first_ = 0.;
   long count_ = 0;
   double time_sums_[5] = {}, sums_[3] = {};
@@ -170,6 +181,9 @@ class SpinMax : public Metric {
 
 std::unique_ptr<Metric> make_creep_speed(const RunContext& context) {
   return std::make_unique<CreepSpeed>(context);
+}
+std::unique_ptr<Metric> make_creep_sideways(const RunContext& context) {
+  return std::make_unique<CreepSpeed>(context, sideways);
 }
 std::unique_ptr<Metric> make_slip_acceleration(const RunContext& context) {
   return std::make_unique<SlipAcceleration>(context);

@@ -6,12 +6,15 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "contact/force_law.h"
 #include "language/names.h"
+#include "output/hash.h"
+#include "simulation/identity.h"
 #include "simulation/load.h"
-#include "studies/hash.h"
 #include "studies/plan_parts.h"
+#include "studies/scene_settings.h"
 #include "studies/step_warning.h"
 
 namespace hookpoint::studies {
@@ -49,6 +52,59 @@ std::vector<std::size_t> StudyPlan::rows_along(std::size_t row, int sweep) const
   return found;
 }
 
+std::filesystem::path StudyPlan::folder() const { return folder_of(name, hash); }
+
+std::string StudyPlan::name_of(const RowPlan& row) const {
+  std::string text = name + " (" + subjects[static_cast<std::size_t>(row.subject)].info.name;
+  for (std::size_t i = 0; i < sweeps.size(); ++i)
+    text += ", " + sweeps[i].column.name + " = " +
+            sweeps[i].texts[static_cast<std::size_t>(row.values[i])];
+  return text + ")";
+}
+
+std::string StudyPlan::identity_of(const RowPlan& row, const EngineTable& engines) const {
+  const auto engine = engines.find(row.experiment.engine);
+  const simulation::EngineDescription description =
+      engine == engines.end()
+          ? simulation::EngineDescription{row.experiment.engine, {}, {}, false, {}}
+          : engine->second.description;
+  output::Hash identity;
+  identity.add(printed).add(name_of(row)).add(fmt::format("{} {}", settle, duration));
+  return identity.add(simulation::run_hash(row.hash, description)).text();
+}
+
+std::filesystem::path folder_of(const std::string& name, const std::string& hash) {
+  constexpr std::size_t digits = 12;
+  return std::filesystem::path("runs") / (name + "-" + hash.substr(0, digits));
+}
+
+namespace {
+
+/// The grid under the experiment; null of another ground.
+simulation::GridSpec* grid_of(simulation::Experiment& experiment) {
+  return experiment.terrain ? std::get_if<simulation::GridSpec>(&experiment.terrain->surface)
+                            : nullptr;
+}
+
+}  // namespace
+
+void SharedHeights::take(RowPlan& row) {
+  simulation::GridSpec* grid = grid_of(row.experiment);
+  if (grid == nullptr) return;
+  const std::string_view bytes(reinterpret_cast<const char*>(grid->heights.data()),
+                               grid->heights.size() * sizeof(double));
+  RowPlan::Heights& known = known_[output::Hash().add(bytes).text()];
+  std::vector<double> heights = std::exchange(grid->heights, std::vector<double>());
+  if (known == nullptr) known = std::make_shared<const std::vector<double>>(std::move(heights));
+  row.heights = known;
+}
+
+simulation::Experiment RowPlan::whole() const {
+  simulation::Experiment result = experiment;
+  if (heights) grid_of(result)->heights = *heights;
+  return result;
+}
+
 namespace {
 
 using language::Diagnostics;
@@ -75,6 +131,13 @@ class SceneLoader {
       where += fmt::format(", {} = {}", sweep.column.name, text);
     }
     if (!find_world(options)) return false;
+    for (const language::Override& setting : settings_) {
+      if (const auto problem = problem_of(setting, plan, subject)) {
+        diagnostics_.error(study.position, *problem);
+        return false;
+      }
+      options.overrides.push_back(setting);
+    }
     const auto set = [&](const char* field, const std::string& value) {
       if (!value.empty()) options.overrides.push_back({world_ + "." + field, value});
     };
@@ -114,8 +177,11 @@ class SceneLoader {
     plan.warnings.push_back(subject + ": " + *what);
   }
 
-  std::vector<Assignment> fixes;     ///< the study's own
-  std::vector<std::string> plugins;  ///< the scene's
+  std::vector<Assignment> fixes;        ///< the study's own
+  SceneSettings settings;               ///< from outside
+  std::vector<std::string> parameters;  ///< the scene's
+  std::vector<std::string> settable;    ///< names at the scene's top
+  std::set<std::string> inputs;         ///< files that the rows so far were made from and read
 
  private:
   /// Fills the row's experiment and its text; false after errors.
@@ -123,9 +189,12 @@ class SceneLoader {
                 Diagnostics& found) {
     const auto tree = library_.evaluate(scene_, options, found);
     std::optional<simulation::Experiment> experiment;
-    if (tree) experiment = simulation::load_experiment(*tree, found);
+    if (tree) experiment = simulation::load_experiment(*tree, found, library_.search_path());
     if (!experiment || found.has_errors()) return false;
+    simulation::write_chosen_step(*experiment, *tree);
     row.experiment = std::move(*experiment);
+    inputs.merge(simulation::files_read(row.experiment));
+    for (std::string& source : language::sources_of(*tree)) inputs.insert(std::move(source));
     printed = language::print(*tree);
     return true;
   }
@@ -134,6 +203,16 @@ class SceneLoader {
     for (const language::Diagnostic& diagnostic : found.all())
       if (diagnostic.severity == language::Severity::error) return diagnostic.message;
     return "";
+  }
+
+  std::optional<std::string> problem_of(const language::Override& setting, const StudyPlan& plan,
+                                        const SubjectPlan& subject) const {
+    for (const SweepPlan& sweep : plan.sweeps)
+      if (sweep.column.name == setting.trail)
+        return fmt::format("`{}` is swept: it cannot be set as well", setting.trail);
+    if (setting.trail == world_ + ".duration")
+      return fmt::format("a run lasts as long as its study says: set `{}.duration`", plan.name);
+    return setting_problem(setting, world_, subject);
   }
 
   /// The trail of the scene's World, once.
@@ -147,7 +226,9 @@ class SceneLoader {
       return false;
     }
     world_ = worlds.front()->trail();
-    plugins = tree->plugins;
+    settings_ = settings_of_scene(settings, parameters, *tree, world_);
+    settable = parameters;
+    for (const auto& child : tree->children) settable.push_back(child->name);
     return true;
   }
 
@@ -169,6 +250,7 @@ class SceneLoader {
   std::filesystem::path scene_;
   Diagnostics& diagnostics_;
   std::string world_;
+  std::vector<language::Override> settings_;  ///< those that the scene takes
   std::set<std::string> told_;
   std::set<std::pair<std::string, double>> stepped_;  ///< subjects and steps that were warned of
 };
@@ -183,7 +265,8 @@ bool next_combination(const std::vector<SweepPlan>& sweeps, std::vector<int>& va
 }
 
 bool plan_rows(StudyPlan& plan, const Object& study, SceneLoader& loader,
-               const PlanOptions& options, Hash& hash) {
+               const PlanOptions& options, output::Hash& hash) {
+  SharedHeights heights;
   std::vector<int> values(plan.sweeps.size(), 0);
   do {
     for (std::size_t i = 0; i < plan.subjects.size(); ++i) {
@@ -199,8 +282,10 @@ bool plan_rows(StudyPlan& plan, const Object& study, SceneLoader& loader,
       if (!loader.load(plan, study, row, printed)) return false;
       row.experiment.duration = plan.duration;
       if (row.refusal.empty()) loader.warn_of_step(plan, study, row);
-      hash.add(printed);
+      row.hash = simulation::experiment_hash(printed, row.experiment);
+      hash.add(row.hash);
       if (plan.rows.empty()) plan.scene_printed = printed;
+      heights.take(row);
       plan.rows.push_back(std::move(row));
     }
   } while (next_combination(plan.sweeps, values));
@@ -262,18 +347,22 @@ std::optional<StudyPlan> make_plan(const Object& root, const Object& study, cons
     return std::nullopt;
   }
   SceneLoader loader(library, scene, diagnostics);
-  loader.fixes =
-      plan_parts(plan, study, library.parameters(scene, diagnostics), options, diagnostics);
+  const auto parameters = library.parameters(scene, diagnostics);
+  for (const language::ParameterDeclaration& parameter : parameters)
+    loader.parameters.push_back(parameter.name);
+  loader.settings = options.settings;
+  loader.fixes = plan_parts(plan, study, parameters, options, diagnostics);
   if (diagnostics.has_errors()) return std::nullopt;
   plan.printed = language::print(root);
-  Hash hash;
+  output::Hash hash;
   hash.add(plan.printed);
   hash.add(fmt::format("{} {} {} {}", plan.name, language::join(options.only, ","), plan.settle,
                        plan.duration));
   if (!plan_rows(plan, study, loader, options, hash)) return std::nullopt;
-  hash.add_files(root.plugins);
-  hash.add_files(loader.plugins);
+  plan.settable = loader.settable;
   plan.hash = hash.text();
+  for (std::string& source : language::sources_of(root)) loader.inputs.insert(std::move(source));
+  plan.inputs = simulation::hashed(loader.inputs);
   if (plan.rows.empty()) {
     diagnostics.error(study.position,
                       "the study has no run: no Subject, or none that its Only blocks allow");

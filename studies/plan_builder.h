@@ -29,6 +29,7 @@ class PlanBuilder {
   void add_truth(const language::Object& block);
   void add_plot(const language::Object& block);
   void check_only_option(const language::Object& study);
+  void check_size(const language::Object& study);
   std::vector<Assignment> fixes(const language::Object& owner);
 
  private:
@@ -37,6 +38,8 @@ class PlanBuilder {
   std::vector<std::string> sweep_names() const;
   int sweep_index(const std::string& name) const;  ///< -1 for none
   bool parameter_exists(const language::Object& block);
+  /// Whether a Sweep may have so many; if not, an error at its `field`.
+  bool may_have_values(const language::Object& block, const char* field, double count);
   std::vector<double> sweep_values(const language::Object& block, const WrittenUnit& unit);
   std::vector<Condition> conditions(const language::Object& owner);
   std::string conditions_words(const std::vector<Condition>& conditions) const;

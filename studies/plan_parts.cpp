@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "language/budget.h"
 #include "language/names.h"
 #include "output/number.h"
 #include "studies/plan_builder.h"
@@ -49,6 +50,22 @@ bool PlanBuilder::parameter_exists(const Object& block) {
   return false;
 }
 
+bool PlanBuilder::may_have_values(const Object& block, const char* field, double count) {
+  if (count <= static_cast<double>(most_runs)) return true;
+  diagnostics_.error(
+      block.find(field)->position,
+      fmt::format("the Sweep asks for {}", language::too_many(count, most_runs, "values")));
+  return false;
+}
+
+void PlanBuilder::check_size(const Object& study) {
+  auto count = static_cast<double>(plan_.subjects.size());
+  for (const SweepPlan& sweep : plan_.sweeps) count *= static_cast<double>(sweep.si.size());
+  if (count > static_cast<double>(most_runs))
+    diagnostics_.error(study.position, fmt::format("the study's sweeps and subjects ask for {}",
+                                                   language::too_many(count, most_runs, "runs")));
+}
+
 std::vector<double> PlanBuilder::sweep_values(const Object& block, const WrittenUnit& unit) {
   if (options_.quick && block.find("quick_values") != nullptr)
     return in_unit(block.numbers("quick_values"), unit);
@@ -58,10 +75,15 @@ std::vector<double> PlanBuilder::sweep_values(const Object& block, const Written
   } else if (block.find("from") != nullptr && block.find("to") != nullptr) {
     const double from = unit.from_si(block.number("from")), to = unit.from_si(block.number("to"));
     const bool logarithmic = block.word("scale") == "log";
-    if (block.find("step") != nullptr && block.number("step") > 0. && to >= from)
-      values = stepped(from, to, unit.from_si(block.number("step")));
-    else if (block.find("count") != nullptr && (!logarithmic || (from > 0. && to > 0.)))
-      values = spaced(from, to, static_cast<int>(block.number("count")), logarithmic);
+    if (block.find("step") != nullptr && block.number("step") > 0. && to >= from) {
+      const double step = unit.from_si(block.number("step"));
+      if (!may_have_values(block, "step", stepped_count(from, to, step))) return {};
+      values = stepped(from, to, step);
+    } else if (block.find("count") != nullptr && (!logarithmic || (from > 0. && to > 0.))) {
+      const double count = block.number("count");
+      if (!may_have_values(block, "count", count)) return {};
+      values = spaced(from, to, static_cast<int>(count), logarithmic);
+    }
   }
   if (values.empty())
     diagnostics_.error(block.position,
@@ -93,8 +115,7 @@ std::vector<Assignment> PlanBuilder::fixes(const Object& owner) {
                          fmt::format("`{}` is swept: it cannot be fixed as well", block->name));
       continue;
     }
-    const WrittenUnit unit = written_unit(*block->find("value"));
-    result.push_back({block->name, unit.with_unit(tidy(unit.from_si(block->number("value"))))});
+    result.push_back({block->name, text_of(*block->find("value"))});
   }
   return result;
 }
@@ -288,6 +309,7 @@ std::vector<Assignment> plan_parts(StudyPlan& plan, const Object& study,
   for (const Object* block : study.children_of("Truth")) parts.add_truth(*block);
   for (const Object* block : study.children_of("Plot")) parts.add_plot(*block);
   parts.check_only_option(study);
+  parts.check_size(study);
   return parts.fixes(study);
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "studies/plan_builder.h"
+#include "studies/results_csv.h"
 #include "studies/summary.h"
 
 namespace hookpoint::studies {
@@ -91,6 +92,10 @@ void PlanBuilder::add_plot(const Object& block) {
   PlotPlan plot;
   PlotSpec& spec = plot.spec;
   spec.name = block.name;
+  if (std::ranges::find(table_names(), spec.name) != table_names().end())
+    diagnostics_.error(block.position, fmt::format("the study itself leaves {}.csv; give the Plot "
+                                                   "another name",
+                                                   spec.name));
   spec.title = block.find("title") != nullptr ? block.word("title") : block.name;
   spec.x = block.word("x");
   spec.y = block.word("y");

@@ -45,6 +45,11 @@ WrittenUnit written_unit(const language::Field& field) {
   return {std::string(rest.substr(0, scanned->length)), scanned->unit};
 }
 
+std::string text_of(const language::Field& field) {
+  const std::string unit = language::unit_text(field.dimension);
+  return output::shortest(field.numbers.at(0)) + (unit.empty() ? "" : " " + unit);
+}
+
 double tidy(double value) {
   char digits[32];
   const auto written =
@@ -54,10 +59,14 @@ double tidy(double value) {
   return result;
 }
 
+double stepped_count(double from, double to, double step) {
+  return std::floor((to - from) / step + 1e-6) + 1.;
+}
+
 std::vector<double> stepped(double from, double to, double step) {
   std::vector<double> values;
-  const double count = std::floor((to - from) / step + 1e-6);
-  for (double i = 0.; i <= count; ++i) values.push_back(tidy(from + i * step));
+  const double count = stepped_count(from, to, step);
+  for (double i = 0.; i < count; ++i) values.push_back(tidy(from + i * step));
   return values;
 }
 

@@ -23,9 +23,18 @@ struct WrittenUnit {
 /// The unit of the first number of the field's value in its source text.
 WrittenUnit written_unit(const language::Field& field);
 
+/// The field's number as text that the language reads back to the same double, in SI with its unit:
+/// what stands for it elsewhere, where the names of its own file mean nothing.
+std::string text_of(const language::Field& field);
+
 /// To 12 significant digits: 0.30000000000000004 is 0.3.
 double tidy(double value);
 
+/// Runs that a study may ask for, and values of one Sweep.
+inline constexpr std::size_t most_runs = 1'000'000;
+
+/// How many values `stepped` gives: 1e15 for a step of 1e-15 from 0 to 1.
+double stepped_count(double from, double to, double step);
 /// from, from + step, ... up to `to` (half a millionth of a step of tolerance), tidied.
 std::vector<double> stepped(double from, double to, double step);
 /// `count` values from `from` to `to`, evenly spaced or in geometric progression, tidied.

@@ -30,6 +30,13 @@ std::optional<double> creep_speed(const RunContext& context, const BodyOnPlane& 
   return body.slip_acceleration() * 0.5 * (context.settle + context.duration);
 }
 
+/// Friction that knows no direction points along the fall at every contact, and so does the motion.
+std::optional<double> creep_sideways(const RunContext& context, const BodyOnPlane& body,
+                                     const PeerContact& peer) {
+  if (body.peer && body.sticks()) return peer.creep_sideways;
+  return creep_speed(context, body, peer) ? std::optional(0.) : std::nullopt;
+}
+
 std::optional<double> slip_acceleration(const BodyOnPlane& body) {
   if (body.speed > 0.) return std::nullopt;
   return body.sticks() ? 0. : body.slip_acceleration();
@@ -93,6 +100,7 @@ std::optional<double> predict(std::string_view metric, const RunContext& context
     return metric == "slip_acceleration" ? rolling_acceleration(context) : std::nullopt;
   const BodyOnPlane body = body_on_plane(context);
   if (metric == "creep_speed") return creep_speed(context, body, peer);
+  if (metric == "creep_sideways") return creep_sideways(context, body, peer);
   if (metric == "slip_acceleration") return slip_acceleration(body);
   if (metric == "friction") return friction(body);
   if (metric == "anisotropy" && body.speed == 0.) return 0.;

@@ -13,6 +13,7 @@ namespace hookpoint::studies {
 struct PeerContact {
   std::optional<double> creep;     ///< `creep_speed` where friction holds [m/s]
   std::optional<double> softness;  ///< depth per newton at which a contact comes to rest [m/N]
+  std::optional<double> creep_sideways = {};  ///< `creep_sideways` where friction holds [m/s]
 };
 
 /// The closed form of `metric` for the run described by `context`, or nothing where there is none

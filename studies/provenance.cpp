@@ -8,6 +8,7 @@
 #include <set>
 #include <thread>
 
+#include "output/hash.h"
 #include "output/json.h"
 
 namespace hookpoint::studies {
@@ -24,6 +25,8 @@ std::string utc_now() {
 
 }  // namespace
 
+output::Manifest manifest_of(const StudyPlan& plan) { return {plan.hash, {}, {}, {}}; }
+
 Provenance make_provenance(const StudyPlan& plan, const EngineTable& engines) {
   utsname host{};
   uname(&host);
@@ -35,7 +38,9 @@ Provenance make_provenance(const StudyPlan& plan, const EngineTable& engines) {
   provenance.hash = plan.hash;
   provenance.quick = plan.quick;
   provenance.hookpoint = HOOKPOINT_VERSION;
+  provenance.program = output::hash_of_program();
   provenance.compiler = HOOKPOINT_FLAGS;
+  provenance.inputs = plan.inputs;
   for (const auto& [name, entry] : engines)
     provenance.engines.emplace_back(name, entry.description);
   provenance.seeds.assign(seeds.begin(), seeds.end());
@@ -55,13 +60,17 @@ std::string provenance_json(const Provenance& provenance) {
       .member("hash", provenance.hash)
       .member("quick", provenance.quick)
       .member("hookpoint", provenance.hookpoint)
+      .member("program", provenance.program)
       .member("compiler", provenance.compiler);
   json.key("engines").begin_object();
   for (const auto& [name, engine] : provenance.engines) {
     json.key(name).begin_object().member("found", engine.found);
     json.member("version", engine.version).member("precision", engine.precision).end_object();
   }
-  json.end_object().key("seeds").begin_array();
+  json.end_object().key("inputs").begin_array();
+  for (const output::InputFile& input : provenance.inputs)
+    json.begin_object().member("path", input.path).member("hash", input.hash).end_object();
+  json.end_array().key("seeds").begin_array();
   for (const std::uint64_t seed : provenance.seeds) json.value(seed);
   json.end_array().key("host").begin_object();
   json.member("name", provenance.host).member("system", provenance.system);
@@ -75,6 +84,7 @@ std::vector<std::pair<std::string, std::string>> provenance_lines(const Provenan
       {"study", provenance.study + " of " + provenance.file + (provenance.quick ? ", quick" : "")},
       {"hash of the experiment", provenance.hash},
       {"hookpoint", provenance.hookpoint},
+      {"hash of the program", provenance.program},
       {"compiler", provenance.compiler}};
   for (const auto& [name, engine] : provenance.engines)
     lines.emplace_back(name, engine.found ? engine.version + ", " + engine.precision + " precision"

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "output/result_folder.h"
 #include "studies/engine_table.h"
 #include "studies/plan.h"
 
@@ -15,12 +16,17 @@ struct Provenance {
   std::string study, file, hash;
   bool quick = false;
   std::string hookpoint, compiler;  ///< versions and flags
+  std::string program;              ///< hash of its own bytes
+  std::vector<output::InputFile> inputs;
   std::vector<std::pair<std::string, simulation::EngineDescription>> engines;
   std::vector<std::uint64_t> seeds;
   std::string host, system, machine;
   unsigned cores = 0;
   std::string date;  ///< UTC, ISO 8601
 };
+
+/// What files.json says of the folder of `plan`; its inputs are in provenance.json.
+output::Manifest manifest_of(const StudyPlan& plan);
 
 /// Of a run of `plan` on this machine, now.
 Provenance make_provenance(const StudyPlan& plan, const EngineTable& engines);

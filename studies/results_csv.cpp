@@ -50,6 +50,10 @@ std::vector<std::string> table_row(const StudyResult& result, const RunResult& r
   return fields;
 }
 
+std::string trace_file(const std::string& plot, std::size_t row) {
+  return fmt::format("traces/{}_{:05}.csv", plot, row);
+}
+
 /// traces/<plot>_<row>.csv: a time column and the signal.
 void write_traces(const std::filesystem::path& folder, const StudyResult& result) {
   for (std::size_t row = 0; row < result.rows.size(); ++row) {
@@ -62,7 +66,7 @@ void write_traces(const std::filesystem::path& folder, const StudyResult& result
                       output::column_title(plot.y, plot.y_unit)};
       for (std::size_t k = 0; k < trace.time.size(); ++k)
         table.rows.push_back({output::shortest(trace.time[k]), output::shortest(trace.value[k])});
-      output::write_csv(folder / "traces" / fmt::format("{}_{:05}.csv", plot.name, row), table);
+      output::write_csv(folder / trace_file(plot.name, row), table);
     }
   }
 }
@@ -98,6 +102,23 @@ output::CsvTable results_table(const StudyResult& result, bool timing) {
   table.header = header(result, timing);
   for (const RunResult& run : result.rows) table.rows.push_back(table_row(result, run, timing));
   return table;
+}
+
+const std::vector<std::string>& table_names() {
+  static const std::vector<std::string> names{"results", "timing", "peer_distance"};
+  return names;
+}
+
+std::vector<std::string> study_files(const StudyPlan& plan) {
+  std::vector<std::string> files{"rows/", "experiment.hook", "scene.hook", "provenance.json",
+                                 "report.html"};
+  for (const std::string& table : table_names()) files.push_back(table + ".csv");
+  for (const PlotPlan& plot : plan.plots) {
+    for (const char* type : {".svg", ".csv", ".gp"}) files.push_back(plot.spec.name + type);
+    for (std::size_t row = 0; row < plan.rows.size() && plot.signal != nullptr; ++row)
+      files.push_back(trace_file(plot.spec.name, row));
+  }
+  return files;
 }
 
 void write_study_files(const std::filesystem::path& folder, const StudyPlan& plan,

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "output/csv.h"
 #include "studies/plan.h"
@@ -15,6 +17,12 @@ namespace hookpoint::studies {
 /// `_predicted` and `_ok`, then `status`. `timing` chooses the timing metrics (timing.csv) or all
 /// others (results.csv, the same bytes every time).
 output::CsvTable results_table(const StudyResult& result, bool timing);
+
+/// The names of all that a study may leave in its folder, reports and figures too, and rows/.
+std::vector<std::string> study_files(const StudyPlan& plan);
+
+/// Names of a study's own tables, which no figure may have.
+const std::vector<std::string>& table_names();
 
 /// Writes all of them into `folder`. Throws output::FileError.
 void write_study_files(const std::filesystem::path& folder, const StudyPlan& plan,

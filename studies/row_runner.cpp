@@ -1,5 +1,7 @@
 #include "studies/row_runner.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <exception>
 #include <thread>
@@ -21,27 +23,59 @@ void ProgressMeter::advance(bool resumed) {
   if (options_.progress) options_.progress(progress_);
 }
 
+namespace {
+
+void on_one_line(std::string& text) { std::ranges::replace(text, '\n', ' '); }
+
+/// Takes what the store has of the rows; those that are left to run.
+std::vector<std::size_t> take_finished(std::span<const std::size_t> order, const RowWork& work,
+                                       const RunOptions& options, const RowStore& store,
+                                       ProgressMeter& meter, std::vector<RowOutcome>& outcomes) {
+  std::vector<std::size_t> left;
+  std::size_t others = 0;
+  for (const std::size_t row : order) {
+    auto outcome = store.load(row, work.identity(row), work.metrics(row), work.plots);
+    if (outcome) {
+      outcomes[row] = std::move(*outcome);
+      meter.advance(true);
+      continue;
+    }
+    if (store.has(row)) ++others;
+    left.push_back(row);
+  }
+  if (others > 0 && options.tell)
+    options.tell(fmt::format(
+        "{} of the finished rows {} of another study, scene, input file, program or engine, or "
+        "damaged: {} anew",
+        others, others == 1 ? "is" : "are", others == 1 ? "it is run" : "they are run"));
+  return left;
+}
+
+}  // namespace
+
 bool run_rows(std::span<const std::size_t> order, const RowWork& work, const RunOptions& options,
               const RowStore& store, ProgressMeter& meter, std::vector<RowOutcome>& outcomes) {
+  const std::vector<std::size_t> left =
+      options.resume ? take_finished(order, work, options, store, meter, outcomes)
+                     : std::vector<std::size_t>(order.begin(), order.end());
   std::atomic<std::size_t> next{0};
   std::atomic<bool> cut_short{false};
   std::exception_ptr failure;
   std::mutex failure_mutex;
   const auto run = [&] {
     try {
-      for (std::size_t i = next++; i < order.size() && !cut_short; i = next++) {
-        const std::size_t row = order[i];
-        auto outcome =
-            options.resume ? store.load(row, work.metrics(row), work.plots) : std::nullopt;
-        const bool resumed = outcome.has_value();
-        if (!resumed) outcome = work.execute(row);
+      for (std::size_t i = next++; i < left.size() && !cut_short; i = next++) {
+        const std::size_t row = left[i];
+        auto outcome = work.execute(row);
         if (!outcome) {
           cut_short = true;
           return;
         }
-        if (!resumed) store.save(row, *outcome);
+        on_one_line(outcome->status);
+        for (std::string& notice : outcome->notices) on_one_line(notice);
+        store.save(row, work.identity(row), *outcome);
         outcomes[row] = std::move(*outcome);
-        meter.advance(resumed);
+        meter.advance(false);
       }
     } catch (...) {
       const std::lock_guard lock(failure_mutex);

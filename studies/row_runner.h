@@ -30,12 +30,14 @@ class ProgressMeter {
 /// How a row of the plan is run, and what it leaves.
 struct RowWork {
   std::function<std::optional<RowOutcome>(std::size_t row)> execute;  ///< nothing: interrupted
-  std::function<std::size_t(std::size_t row)> metrics;  ///< how many values an outcome has
-  std::size_t plots = 0;                                ///< how many traces
+  std::function<std::string(std::size_t row)> identity;  ///< of the run (StudyPlan::identity_of)
+  std::function<std::size_t(std::size_t row)> metrics;   ///< how many values an outcome has
+  std::size_t plots = 0;                                 ///< how many traces
 };
 
 /// All rows of `order` by `options.jobs` workers, each outcome into its own slot; with
-/// `options.resume` those that the store has are not run again. False when interrupted: what is
+/// `options.resume` those that the store has are not run again, and `options.tell` hears of those
+/// that it has of other runs. False when interrupted: what is
 /// finished is in the store. Rethrows what a worker throws.
 bool run_rows(std::span<const std::size_t> order, const RowWork& work, const RunOptions& options,
               const RowStore& store, ProgressMeter& meter, std::vector<RowOutcome>& outcomes);

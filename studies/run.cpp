@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <csignal>
+#include <map>
 #include <numeric>
+#include <set>
 
+#include "simulation/energy_watch.h"
 #include "studies/execute.h"
 #include "studies/results_csv.h"
 #include "studies/row_runner.h"
@@ -14,38 +16,46 @@
 namespace hookpoint::studies {
 namespace {
 
-std::atomic<bool> interrupt_requested{false};
-static_assert(std::atomic<bool>::is_always_lock_free, "set from a signal handler");
-
-void request_interrupt(int signal) {
-  interrupt_requested = true;
-  std::signal(signal, SIG_DFL);
-}
-
 const EngineEntry* find_engine(const EngineTable& engines, const std::string& name) {
   const auto entry = engines.find(name);
   return entry == engines.end() ? nullptr : &entry->second;
 }
 
-/// What a row is called: "creep (dts_hookpoint, slope = 5 deg)".
-std::string name_of(const StudyPlan& plan, const RowPlan& row) {
-  std::string name =
-      plan.name + " (" + plan.subjects[static_cast<std::size_t>(row.subject)].info.name;
-  for (std::size_t i = 0; i < plan.sweeps.size(); ++i) {
-    const SweepPlan& sweep = plan.sweeps[i];
-    name += ", " + sweep.column.name + " = " + sweep.texts[static_cast<std::size_t>(row.values[i])];
+/// What several rows have in common to say: `text` with a # for each number.
+std::string kind_of(const std::string& text) {
+  if (text.starts_with(simulation::energy_finding)) return std::string(simulation::energy_finding);
+  std::string plain;
+  for (const char c : text) {
+    const bool digit = c >= '0' && c <= '9';
+    if (!digit || plain.empty() || plain.back() != '#') plain += digit ? '#' : c;
   }
-  return name + ")";
+  return plain;
 }
 
+/// Each once, with the first row that says so and how many others do, whatever the numbers in it.
 std::vector<std::string> collect_notices(const StudyPlan& plan,
                                          const std::vector<RowOutcome>& outcomes) {
-  std::vector<std::string> notices;
+  struct Notice {
+    std::size_t row;
+    std::string text;
+    std::set<std::size_t> rows;
+  };
+  std::vector<Notice> found;
+  std::map<std::string, std::size_t> places;
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     for (const std::string& notice : outcomes[i].notices) {
-      const std::string text = name_of(plan, plan.rows[i]) + ": " + notice;
-      if (std::ranges::find(notices, text) == notices.end()) notices.push_back(text);
+      const auto [place, is_new] = places.try_emplace(kind_of(notice), found.size());
+      if (is_new) found.push_back({i, notice, {}});
+      found[place->second].rows.insert(i);
     }
+  }
+  std::vector<std::string> notices;
+  for (const Notice& notice : found) {
+    const std::size_t others = notice.rows.size() - 1;
+    notices.push_back(plan.name_of(plan.rows[notice.row]) + ": " + notice.text +
+                      (others == 0   ? ""
+                       : others == 1 ? " (so does 1 more run)"
+                                     : fmt::format(" (so do {} more runs)", others)));
   }
   return notices;
 }
@@ -71,10 +81,10 @@ bool run_timing(const StudyPlan& plan, const EngineTable& engines, const std::at
 StudyRun run_study(const StudyPlan& plan, const EngineTable& engines, const RunOptions& options,
                    const std::atomic<bool>& stop) {
   StudyRun run;
-  run.folder = options.folder.empty()
-                   ? std::filesystem::path("runs") / fmt::format("{}-{}", plan.name, plan.hash)
-                   : options.folder;
-  const RowStore store(run.folder / "rows", plan.hash, options.resume);
+  run.folder = options.folder.empty() ? plan.folder() : options.folder;
+  run.files =
+      std::make_unique<output::ResultFolder>(run.folder, manifest_of(plan), study_files(plan));
+  const RowStore store(run.folder / "rows", options.resume);
   std::vector<RowOutcome> outcomes(plan.rows.size());
   const bool timed = std::any_of(plan.metrics.begin(), plan.metrics.end(),
                                  [](const MetricDefinition* metric) { return metric->timing(); });
@@ -85,28 +95,19 @@ StudyRun run_study(const StudyPlan& plan, const EngineTable& engines, const RunO
                        return execute(plan, plan.rows[row],
                                       find_engine(engines, plan.rows[row].experiment.engine), stop);
                      },
+                     [&](std::size_t row) { return plan.identity_of(plan.rows[row], engines); },
                      [&](std::size_t) { return plan.metrics.size(); }, plan.plots.size()};
   run.interrupted = !run_rows(order, work, options, store, meter, outcomes) ||
                     (timed && !run_timing(plan, engines, stop, meter, outcomes));
   run.notices = collect_notices(plan, outcomes);
-  if (run.interrupted) return run;
+  if (run.interrupted) {
+    run.files.reset();
+    return run;
+  }
   run.result = assemble(plan, engines, outcomes);
   run.provenance = make_provenance(plan, engines);
   write_study_files(run.folder, plan, run.result, run.provenance);
   return run;
 }
-
-InterruptGuard::InterruptGuard() {
-  interrupt_requested = false;
-  std::signal(SIGINT, request_interrupt);
-  std::signal(SIGTERM, request_interrupt);
-}
-
-InterruptGuard::~InterruptGuard() {
-  std::signal(SIGINT, SIG_DFL);
-  std::signal(SIGTERM, SIG_DFL);
-}
-
-const std::atomic<bool>& InterruptGuard::stop() { return interrupt_requested; }
 
 }  // namespace hookpoint::studies

@@ -6,8 +6,11 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <span>
+#include <string>
 
+#include "output/result_folder.h"
 #include "studies/engine_table.h"
 #include "studies/plan.h"
 #include "studies/provenance.h"
@@ -26,32 +29,26 @@ struct RunOptions {
   bool resume = false;                            ///< take over the finished rows of an earlier run
   std::filesystem::path folder;                   ///< of the results; empty: runs/<study>-<hash>
   std::function<void(const Progress&)> progress;  ///< one call at a time, from any thread
+  std::function<void(const std::string&)> tell;   ///< what the user should know
 };
 
 struct StudyRun {
   StudyResult result;
   Provenance provenance;
-  std::filesystem::path folder;      ///< where the files are
-  std::vector<std::string> notices;  ///< of engines, each with its run's name, none twice
+  std::filesystem::path folder;  ///< where the files are
+  /// Locks the folder for what `study_files` names; who has written all calls finish(). None of a
+  /// study that was interrupted.
+  std::unique_ptr<output::ResultFolder> files;
+  std::vector<std::string> notices;  ///< of engines, none twice, with the first run that gave it
   bool interrupted = false;  ///< `stop` was set: finished rows are kept, no tables are written
 };
 
 /// Runs all rows of `plan`, then the timing metrics alone, and writes results.csv, timing.csv (with
-/// timing metrics), experiment.hook, scene.hook, provenance.json and traces/. Each row is isolated:
-/// one that diverges or cannot run is a row with that status. `stop` may be set at any time, also
-/// from a signal handler. Throws output::FileError when the disk refuses.
+/// timing metrics), experiment.hook, scene.hook, provenance.json, traces/ and files.json, after
+/// what an earlier run left in the folder. Each row is isolated: one that diverges or cannot run is
+/// a row with that status. `stop` may be set at any time, also from a signal handler. Throws
+/// output::FolderError when the folder is not to be had, output::FileError when the disk refuses.
 StudyRun run_study(const StudyPlan& plan, const EngineTable& engines, const RunOptions& options,
                    const std::atomic<bool>& stop);
-
-/// While it lives, the interrupt key (SIGINT) and SIGTERM set `stop()` instead of ending the
-/// program; a second one ends it.
-class InterruptGuard {
- public:
-  InterruptGuard();
-  ~InterruptGuard();
-  InterruptGuard(const InterruptGuard&) = delete;
-  InterruptGuard& operator=(const InterruptGuard&) = delete;
-  static const std::atomic<bool>& stop();
-};
 
 }  // namespace hookpoint::studies

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "output/csv.h"
+#include "output/result_folder.h"
 
 namespace hookpoint::studies {
 
@@ -23,15 +24,17 @@ using SettingList = std::vector<std::pair<std::string, std::string>>;
 
 struct RunFolder {
   std::filesystem::path path;
-  SettingList experiment;  ///< of experiment.hook and, after it, a study's scene.hook
-  SettingList provenance;  ///< of provenance.json, by path; empty for a run, which has none
+  SettingList experiment;     ///< of experiment.hook and, after it, a study's scene.hook
+  SettingList provenance;     ///< of provenance.json, by path; of a run what files.json says
+  output::Manifest manifest;  ///< its files.json
   std::optional<output::CsvTable> results, timing;       ///< of a study, a Wall or a matrix
   std::map<std::string, output::CsvTable> trajectories;  ///< by file name, "trace.csv"
   std::map<std::string, std::filesystem::path> records;  ///< in formats that are not text
   std::vector<std::string> notes;  ///< "trace.csv is of a run that did not end"
 };
 
-/// Throws RunFolderError: no such folder, not a run's, a file in it that cannot be read.
+/// Throws RunFolderError: no such folder, not a run's, a file in it that cannot be read or is not
+/// of that run, as its files.json has it.
 RunFolder read_run_folder(const std::filesystem::path& folder);
 
 /// The objects and fields of a text that language::print wrote, by trail: {"world.deltat",

@@ -30,6 +30,12 @@ FieldSchema number(std::string name, std::string unit, std::string doc) {
   return field;
 }
 
+FieldSchema integer(std::string name, std::string doc) {
+  FieldSchema field = number(std::move(name), "", std::move(doc));
+  field.type = FieldType::integer;
+  return field;
+}
+
 FieldSchema at_least_zero(FieldSchema field) {
   field.minimum = 0.;
   return field;
@@ -193,13 +199,14 @@ void add_study_classes(Schema& schema) {
             {of_world(schema, "engine", "which engine runs the scene"),
              of_world(schema, "contact", "the contact law, of engine dts"),
              of_world(schema, "integrator", "the integrator, of engine dts"),
-             of_world(schema, "settings", "a peer's settings: default, recommended, matched")},
+             of_world(schema, "settings",
+                      "a peer's settings: default, recommended, matched, and noslip of mujoco")},
             {"Fix", "Only"}));
   schema.add(named(
       "Sweep", "A Param of the scene to vary: `values`, or `from`, `to` and `step` (or `count`).",
       {values("values", "the values, in order"), number("from", "?", "first value"),
        number("to", "?", "last value"), number("step", "?", "distance between values"),
-       at_least_zero(number("count", "", "how many values from `from` to `to`")),
+       at_least_zero(integer("count", "how many values from `from` to `to`")),
        choice("scale", {"linear", "log"}, "linear", "how `count` values are spaced"),
        values("quick_values", "the values under --quick; default: first and last")}));
   schema.add(

@@ -59,7 +59,11 @@ std::optional<bool> judge(const StudyPlan& plan, const StudyResult& result, std:
 
 PeerContact peer_contact(const EngineEntry& engine, const simulation::Experiment& experiment) {
   PeerContact contact;
-  if (engine.creep != nullptr) contact.creep = engine.creep(experiment);
+  if (engine.creep != nullptr)
+    if (const auto creep = engine.creep(experiment)) {
+      contact.creep = creep->downhill;
+      contact.creep_sideways = creep->sideways;
+    }
   if (engine.softness != nullptr) contact.softness = engine.softness(experiment);
   return contact;
 }
@@ -76,11 +80,12 @@ RunResult run_result(const StudyPlan& plan, const EngineTable& engines, const Ro
     run.metrics.push_back({measured, std::nullopt, std::nullopt});
   const auto engine = engines.find(row.experiment.engine);
   try {
-    const RunContext context = make_context(row.experiment, plan.settle, plan.duration);
+    const simulation::Experiment experiment = row.whole();
+    const RunContext context = make_context(experiment, plan.settle, plan.duration);
     run.regime = regime_of(context);
     const bool ran = !has(run, RunOutcome::skipped) && !has(run, RunOutcome::refused);
     if (!ran || engine == engines.end()) return run;
-    const PeerContact peer = peer_contact(engine->second, row.experiment);
+    const PeerContact peer = peer_contact(engine->second, experiment);
     for (std::size_t i = 0; i < plan.metrics.size(); ++i)
       run.metrics[i].predicted = predict(plan.metrics[i]->name, context, peer);
   } catch (const simulation::ExperimentError&) {

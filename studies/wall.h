@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -53,6 +54,13 @@ struct WallResult {
   int failed() const;
 };
 
+/// A Wall that ran, before its files are written.
+struct WallRun {
+  WallResult result;
+  std::filesystem::path folder;                 ///< where the files go
+  std::unique_ptr<output::ResultFolder> files;  ///< locks it
+};
+
 /// The file that a Scene of a Wall means, as an Include would name it.
 std::string scene_file(const language::Object& scene);
 /// Where a Wall's files go: `options.folder`, or runs/<wall>-<hash>.
@@ -67,17 +75,17 @@ std::optional<WallPlan> make_wall_plan(const language::Object& root, const langu
 
 /// Runs all, by `options.jobs` threads, with the same result for any number of them; nothing when
 /// `stop` was set. Finished runs are kept in rows/ of the Wall's folder; with `options.resume` they
-/// are not run again. A run that diverges or cannot run is a cell with that status.
-std::optional<WallResult> run_wall(const WallPlan& plan, const EngineTable& engines,
-                                   const RunOptions& options, const std::atomic<bool>& stop);
+/// are not run again. A run that diverges or cannot run is a cell with that status. Throws
+/// output::FolderError, output::FileError.
+std::optional<WallRun> run_wall(const WallPlan& plan, const EngineTable& engines,
+                                const RunOptions& options, const std::atomic<bool>& stop);
 
 /// A row a truth and subject: scene, truth, subject, engine, law, integrator, measured, expected,
 /// unit, error, allowed, ok, status.
 output::CsvTable wall_results_table(const WallResult& result);
 
-/// results.csv (the table), experiment.hook and provenance.json in `folder`.
+/// results.csv (the table), experiment.hook and provenance.json in the Wall's folder.
 /// Throws output::FileError.
-void write_wall_files(const std::filesystem::path& folder, const WallPlan& plan,
-                      const WallResult& result, const Provenance& provenance);
+void write_wall_files(const WallRun& run, const WallPlan& plan, const Provenance& provenance);
 
 }  // namespace hookpoint::studies

@@ -5,8 +5,11 @@
 #include <set>
 
 #include "language/names.h"
+#include "output/hash.h"
+#include "simulation/identity.h"
 #include "simulation/load.h"
-#include "studies/hash.h"
+#include "studies/plan_values.h"
+#include "studies/scene_settings.h"
 #include "studies/step_warning.h"
 #include "studies/wall.h"
 
@@ -27,13 +30,6 @@ SubjectPlan plan_subject(const Object& block) {
   subject.integrator = word("integrator");
   subject.settings = word("settings");
   return subject;
-}
-
-std::string fixed_text(const Object& fix) {
-  const language::Field& value = *fix.find("value");
-  const std::string_view text = value.position.file->text;
-  const std::string_view rest = text.substr(value.position.offset);
-  return std::string(rest.substr(0, rest.find_first_of(";}")));
 }
 
 class WallPlanner {
@@ -68,18 +64,25 @@ class WallPlanner {
                          "the scene has no Expect that covers one of the Wall's subjects");
   }
 
-  Hash& hash() { return hash_; }
+  output::Hash& hash() { return hash_; }
+  std::set<std::string>& inputs() { return inputs_; }
 
  private:
-  /// Fix blocks of the subject count where the scene has such a Param; those of the Scene must.
-  bool set_parameters(const Object& block, const std::filesystem::path& path, std::size_t subject,
-                      language::EvaluateOptions& evaluate) {
+  /// Of the scene's Params.
+  std::vector<std::string> names_of(const std::filesystem::path& path) {
     std::vector<std::string> names;
     for (const auto& parameter : library_.parameters(path, diagnostics_))
       names.push_back(parameter.name);
+    return names;
+  }
+
+  /// Fix blocks of the subject count where the scene has such a Param; those of the Scene must.
+  bool set_parameters(const Object& block, const std::filesystem::path& path, std::size_t subject,
+                      language::EvaluateOptions& evaluate) {
+    const std::vector<std::string> names = names_of(path);
     for (const Object* fix : subjects_[subject]->children_of("Fix")) {
       if (std::ranges::find(names, fix->name) != names.end())
-        evaluate.parameters[fix->name] = fixed_text(*fix);
+        evaluate.parameters[fix->name] = text_of(*fix->find("value"));
     }
     for (const Object* fix : block.children_of("Fix")) {
       if (std::ranges::find(names, fix->name) == names.end()) {
@@ -88,7 +91,7 @@ class WallPlanner {
                                        language::did_you_mean(fix->name, names)));
         return false;
       }
-      evaluate.parameters[fix->name] = fixed_text(*fix);
+      evaluate.parameters[fix->name] = text_of(*fix->find("value"));
     }
     return true;
   }
@@ -101,10 +104,22 @@ class WallPlanner {
     if (!plain) return;
     const auto worlds = plain->children_of("World");
     if (worlds.empty()) return diagnostics_.error(block.position, "the scene has no World");
+    const std::string world = worlds.front()->trail();
+    for (const std::string& name : names_of(path)) plan_.study.settable.push_back(name);
+    for (const auto& child : plain->children) plan_.study.settable.push_back(child->name);
+    for (const language::Override& setting :
+         settings_of_scene(options_.settings, names_of(path), *plain, world)) {
+      if (const auto problem = setting_problem(setting, world, subject))
+        return diagnostics_.error(block.position, *problem);
+      if (evaluate.parameters.contains(setting.trail))
+        return diagnostics_.error(block.position, fmt::format("a Fix sets `{}`: it cannot be set "
+                                                              "as well",
+                                                              setting.trail));
+      evaluate.overrides.push_back(setting);
+    }
     const bool has_ground = !worlds.front()->children_of("Terrain.").empty();
     const auto set = [&](const char* field, const std::string& value) {
-      if (!value.empty())
-        evaluate.overrides.push_back({worlds.front()->trail() + "." + field, value});
+      if (!value.empty()) evaluate.overrides.push_back({world + "." + field, value});
     };
     set("engine", subject.engine);
     set("contact", has_ground ? subject.contact : "");
@@ -114,17 +129,18 @@ class WallPlanner {
     Diagnostics found;
     const auto tree = library_.evaluate(path, evaluate, found);
     std::optional<simulation::Experiment> experiment;
-    if (tree) experiment = simulation::load_experiment(*tree, found);
+    if (tree) experiment = simulation::load_experiment(*tree, found, library_.search_path());
     tell(found, block, subject.info.name);
     if (!experiment) return;
-    hash_.add_files(tree->plugins);
+    for (std::string& source : language::sources_of(*tree)) inputs_.insert(std::move(source));
+    simulation::write_chosen_step(*experiment, *tree);
     add_row(block, std::move(*experiment), language::print(*tree), index);
   }
 
   /// Before the scene is loaded under a law that it may not be made for.
-  static bool covers_some(const Object& scene, const SubjectPlan& subject) {
+  bool covers_some(const Object& scene, const SubjectPlan& subject) const {
     Diagnostics untold;
-    const auto experiment = simulation::load_experiment(scene, untold);
+    const auto experiment = simulation::load_experiment(scene, untold, library_.search_path());
     if (!experiment) return true;  // what is wrong is told when it is loaded for its run
     const std::string& law = subject.contact.empty() ? experiment->contact : subject.contact;
     const std::string& integrator =
@@ -140,12 +156,15 @@ class WallPlanner {
     if (!experiment.terrain && experiment.engine == "dts" &&
         !covered_.insert(experiment.integrator).second)
       return;
-    hash_.add(printed);
     warn_of_step(block, experiment, index);
     RowPlan row;
+    row.hash = simulation::experiment_hash(printed, experiment);
+    hash_.add(row.hash);
+    inputs_.merge(simulation::files_read(experiment));
     row.values = {static_cast<int>(plan_.scenes.size()) - 1};
     row.subject = static_cast<int>(index);
     row.experiment = std::move(experiment);
+    heights_.take(row);
     plan_.study.rows.push_back(std::move(row));
   }
 
@@ -173,7 +192,9 @@ class WallPlanner {
   Diagnostics& diagnostics_;
   std::vector<const Object*> subjects_;
   std::set<std::string> covered_;
-  Hash hash_;
+  output::Hash hash_;
+  SharedHeights heights_;
+  std::set<std::string> inputs_;  ///< files that the rows were made from and read
 };
 
 /// A subject that names no engine has that of its scenes.
@@ -210,6 +231,8 @@ std::optional<WallPlan> make_wall_plan(const Object& root, const Object& wall,
   plan.study.printed = language::print(root);
   planner.hash().add(plan.study.printed);
   plan.study.hash = planner.hash().text();
+  for (std::string& source : language::sources_of(root)) planner.inputs().insert(std::move(source));
+  plan.study.inputs = simulation::hashed(planner.inputs());
   complete_subjects(plan.study);
   return plan;
 }

@@ -39,8 +39,9 @@ std::optional<RowOutcome> run_scene(const RowPlan& row, const EngineTable& engin
     return outcome;
   }
   try {
-    simulation::World world(row.experiment, engine->second.make(row.experiment));
-    simulation::Expectations expectations(row.experiment, world.ports());
+    const simulation::Experiment experiment = row.whole();
+    simulation::World world(experiment, engine->second.make(experiment));
+    simulation::Expectations expectations(experiment, world.ports());
     const std::int64_t steps = std::llround(row.experiment.duration / row.experiment.deltat);
     expectations.observe(0.);
     for (std::int64_t step = 0; step < steps && world.ended().empty(); ++step) {
@@ -135,29 +136,36 @@ int WallResult::failed() const { return count_cells(*this, false); }
 
 std::filesystem::path wall_folder(const WallPlan& plan, const RunOptions& options) {
   if (!options.folder.empty()) return options.folder;
-  return std::filesystem::path("runs") / fmt::format("{}-{}", plan.study.name, plan.study.hash);
+  return plan.study.folder();
 }
 
-std::optional<WallResult> run_wall(const WallPlan& plan, const EngineTable& engines,
-                                   const RunOptions& options, const std::atomic<bool>& stop) {
+std::optional<WallRun> run_wall(const WallPlan& plan, const EngineTable& engines,
+                                const RunOptions& options, const std::atomic<bool>& stop) {
   const std::vector<RowPlan>& rows = plan.study.rows;
-  const RowStore store(wall_folder(plan, options) / "rows", plan.study.hash, options.resume);
+  WallRun run{{}, wall_folder(plan, options), nullptr};
+  run.files = std::make_unique<output::ResultFolder>(
+      run.folder, manifest_of(plan.study),
+      std::vector<std::string>{"rows/", "results.csv", "experiment.hook", "provenance.json",
+                               "report.html"});
+  const RowStore store(run.folder / "rows", options.resume);
   std::vector<RowOutcome> outcomes(rows.size());
   ProgressMeter meter(rows.size(), options);
   const RowWork work{[&](std::size_t row) { return run_scene(rows[row], engines, stop); },
+                     [&](std::size_t row) { return plan.study.identity_of(rows[row], engines); },
                      [&](std::size_t row) { return covering(rows[row]).size(); }, 0};
   if (!run_rows(by_length(rows), work, options, store, meter, outcomes)) return std::nullopt;
-  WallResult result{plan.study.name,
-                    plan.study.title,
-                    plan.study.question,
-                    plan.study.file,
-                    plan.scenes,
-                    {},
-                    {},
-                    plan.study.warnings};
+  WallResult& result = run.result;
+  result = {plan.study.name,
+            plan.study.title,
+            plan.study.question,
+            plan.study.file,
+            plan.scenes,
+            {},
+            {},
+            plan.study.warnings};
   for (const SubjectPlan& subject : plan.study.subjects) result.subjects.push_back(subject.info);
   for (std::size_t i = 0; i < outcomes.size(); ++i) add_outcome(result, rows[i], outcomes[i]);
-  return result;
+  return run;
 }
 
 output::CsvTable wall_results_table(const WallResult& result) {
@@ -184,11 +192,10 @@ output::CsvTable wall_results_table(const WallResult& result) {
   return table;
 }
 
-void write_wall_files(const std::filesystem::path& folder, const WallPlan& plan,
-                      const WallResult& result, const Provenance& provenance) {
-  output::write_csv(folder / "results.csv", wall_results_table(result));
-  output::write_file(folder / "experiment.hook", plan.study.printed);
-  output::write_file(folder / "provenance.json", provenance_json(provenance));
+void write_wall_files(const WallRun& run, const WallPlan& plan, const Provenance& provenance) {
+  output::write_csv(run.folder / "results.csv", wall_results_table(run.result));
+  output::write_file(run.folder / "experiment.hook", plan.study.printed);
+  output::write_file(run.folder / "provenance.json", provenance_json(provenance));
 }
 
 }  // namespace hookpoint::studies

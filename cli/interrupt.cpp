@@ -1,0 +1,72 @@
+#include "cli/interrupt.h"
+
+#include <semaphore.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <ctime>
+
+namespace hookpoint::cli {
+namespace {
+
+std::atomic<bool> stop_requested{false};
+std::atomic<int> signal_received{0};
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free,
+              "set from a signal handler");
+sem_t woken;
+
+int status_of(int signal) { return 128 + signal; }
+
+void request_stop(int signal) {
+  if (stop_requested.exchange(true)) _exit(status_of(signal));
+  signal_received = signal;
+  const int saved = errno;
+  sem_post(&woken);
+  errno = saved;
+}
+
+void handle(void (*handler)(int)) {
+  struct sigaction action {};
+  action.sa_handler = handler;
+  action.sa_flags = SA_RESTART;
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+}  // namespace
+
+InterruptGuard::InterruptGuard() {
+  stop_requested = false;
+  signal_received = 0;
+  sem_init(&woken, 0, 0);
+  handle(request_stop);
+}
+
+InterruptGuard::~InterruptGuard() {
+  handle(SIG_DFL);
+  sem_destroy(&woken);
+}
+
+const std::atomic<bool>& InterruptGuard::stop() const { return stop_requested; }
+
+int InterruptGuard::status() const { return status_of(signal_received); }
+
+void InterruptGuard::wait() const {
+  while (sem_wait(&woken) != 0 && errno == EINTR) {
+  }
+}
+
+void InterruptGuard::wait_for(std::chrono::milliseconds time) const {
+  timespec until{};
+  clock_gettime(CLOCK_MONOTONIC, &until);
+  const long nanoseconds = until.tv_nsec + time.count() % 1000 * 1'000'000;
+  until.tv_sec += time.count() / 1000 + nanoseconds / 1'000'000'000;
+  until.tv_nsec = nanoseconds % 1'000'000'000;
+  while (sem_clockwait(&woken, CLOCK_MONOTONIC, &until) != 0 && errno == EINTR) {
+  }
+}
+
+void InterruptGuard::wake() const { sem_post(&woken); }
+
+}  // namespace hookpoint::cli
