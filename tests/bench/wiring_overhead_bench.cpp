@@ -69,7 +69,7 @@ class Wired {
       : experiment_(experiment(format, rate)),
         world_(experiment_, simulation::make_dts(experiment_)),
         folder_(std::filesystem::temp_directory_path() / "hookpoint_overhead"),
-        records_(experiment_, world_.ports(), folder_, "") {}
+        records_(experiment_, world_.ports(), folder_, {}) {}
   ~Wired() {
     records_.close();
     std::filesystem::remove_all(folder_);

@@ -20,10 +20,10 @@ inline void require(bool good, const char* what) {
 /// A folder in memory where there is one, gone with the program.
 class Folder {
  public:
-  Folder() {
+  explicit Folder(const std::string& name = "files") {
     const bool memory = std::filesystem::is_directory("/dev/shm");
     path_ = (memory ? std::filesystem::path("/dev/shm") : std::filesystem::temp_directory_path()) /
-            ("hookpoint_fuzz_" + std::to_string(getpid()));
+            ("hookpoint_fuzz_" + name + "_" + std::to_string(getpid()));
     std::filesystem::create_directories(path_);
   }
   ~Folder() {

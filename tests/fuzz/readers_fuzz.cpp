@@ -9,10 +9,22 @@
 #include <string>
 
 #include "contact/ascii_grid.h"
+#include "contact/png_grid.h"
+#include "control/elf_constant.h"
+#include "control/plugin_abi.h"
 #include "control/rational.h"
 #include "control/table.h"
+#include "language/characters.h"
 #include "language/units.h"
+#include "output/csv.h"
+#include "output/hash.h"
+#include "output/json_reader.h"
+#include "output/movie.h"
+#include "output/record_spool.h"
+#include "output/unicode.h"
 #include "simulation/urdf.h"
+#include "studies/row_store.h"
+#include "studies/run_folder.h"
 #include "tests/fuzz/fuzz.h"
 
 namespace hookpoint {
@@ -86,9 +98,93 @@ void read_urdf(const std::string& bytes) {
     fuzz::require(diagnostic.position.offset <= bytes.size(), "a place outside the file");
 }
 
+void read_movie(const std::string& bytes) {
+  const output::MovieReader movie(written(bytes, "movie.h5"));
+  std::vector<double> state(movie.header().size);
+  const std::size_t count = std::min<std::size_t>(movie.times().size(), 3);
+  for (std::size_t i = 0; i < count; ++i) movie.read(i, state);
+}
+
+void read_spool(const std::string& bytes) {
+  output::SpoolReader spool(written(bytes, "record.mat.spool"));
+  std::vector<std::vector<double>> columns(
+      std::min<std::size_t>(spool.header().channels.size(), 2) + 1);
+  spool.read(0, columns);
+  for (const std::vector<double>& column : columns)
+    fuzz::require(column.size() == static_cast<std::size_t>(spool.rows()), "a column of rows");
+}
+
+void read_json(const std::string& bytes) {
+  const auto leaves = output::json_leaves(bytes);
+  if (!leaves) return;
+  for (const auto& [path, text] : *leaves)
+    fuzz::require(path.size() <= bytes.size() * 12, "a path that is longer than its document");
+}
+
+void read_table(const std::string& bytes) {
+  const auto table = output::parse_csv(bytes);
+  if (!table) return;
+  for (const auto& row : table->rows)
+    fuzz::require(row.size() == table->header.size(), "a row of another width");
+  fuzz::require(output::parse_csv(table->text())->rows == table->rows, "a table that changes");
+}
+
+void read_png(const std::string& bytes) {
+  const contact::PngGridResult result = contact::read_png_grid(written(bytes, "grid.png"), 0., 1.);
+  fuzz::require(result.grid.has_value() == result.message.empty(), "a grid and a message");
+  if (!result.grid) return;
+  for (const double height : result.grid->heights)
+    fuzz::require(height >= 0. && height <= 1., "a height out of its range");
+}
+
+void read_elf(const std::string& bytes) {
+  const control::ElfConstant constant = control::read_constant(bytes, control::plugin_symbol);
+  fuzz::require(constant.problem.empty() || constant.bytes.empty(), "a constant and a problem");
+}
+
+/// As it is, and with the hash that a whole row ends with, without which nothing of it is looked
+/// at.
+void read_row(const std::string& bytes) {
+  const std::string whole = bytes + "\nend " + output::Hash().add(bytes).text() + "\n";
+  for (const std::string& file : {bytes, whole}) {
+    const studies::RowStore store(written(file, "00000.row").parent_path(), true);
+    const auto row = store.load(0, "hash", 2, 1);
+    if (row) fuzz::require(row->measured.size() == 2 && row->traces.size() == 1, "a row cut short");
+  }
+}
+
+/// The first byte chooses which file of a run it is.
+void read_folder(const std::string& bytes) {
+  static const fuzz::Folder folder("run");
+  constexpr const char* names[] = {"experiment.hook", "results.csv", "provenance.json", "trace.csv",
+                                   "timing.csv",      "scene.hook",  "files.json"};
+  if (bytes.empty()) return;
+  for (const char* name : names) std::ofstream(folder.path() / name, std::ios::binary);
+  // As a run lists them that did not end: without hashes, which none of these bytes would have.
+  std::ofstream(folder.path() / "files.json")
+      << "{\"experiment\": \"e\", \"files\": {\"experiment.hook\": \"\", \"results.csv\": \"\", "
+         "\"provenance.json\": \"\", \"trace.csv\": \"\", \"timing.csv\": \"\", "
+         "\"scene.hook\": \"\"}}";
+  const char* chosen = names[static_cast<unsigned char>(bytes[0]) % std::size(names)];
+  std::ofstream(folder.path() / chosen, std::ios::binary) << bytes.substr(1);
+  studies::read_run_folder(folder.path());
+}
+
+/// What is shown commands nothing, and a second time is the same.
+void read_text(const std::string& bytes) {
+  const std::string shown = language::printable(bytes);
+  fuzz::require(language::find_control(shown) == std::string::npos, "a command to the terminal");
+  fuzz::require(language::printable(shown) == shown, "a text that changes");
+  fuzz::require(language::display_width(shown) <= 2 * bytes.size(), "a text that is too wide");
+  const std::string repaired = output::repaired(bytes);
+  fuzz::require(output::repaired(repaired) == repaired, "a text that is not repaired");
+}
+
 void run(char kind, const std::string& bytes) {
-  constexpr void (*readers[])(const std::string&) = {read_csv,  read_mat,      read_grid,
-                                                     read_unit, read_rational, read_urdf};
+  constexpr void (*readers[])(const std::string&) = {
+      read_csv,  read_mat,   read_grid,  read_unit,   read_rational,
+      read_urdf, read_movie, read_spool, read_json,   read_table,
+      read_png,  read_elf,   read_row,   read_folder, read_text};
   try {
     readers[static_cast<unsigned char>(kind) % std::size(readers)](bytes);
   } catch (const std::exception&) {

@@ -205,6 +205,24 @@ TEST(ResumedThrow, BristlesAreExactUnderAdaptiveIntegrators) {
   }
 }
 
+// Where dry friction of joints is hooked goes along.
+TEST(ResumedDryJoints, AreExactUnderEveryIntegratorAndImpulseLaw) {
+  const testing::Workplace place;
+  std::vector<std::string> settings{"contact = impulse;"};
+  for (const integrators::StepperDescription& stepper : integrators::stepper_table())
+    settings.push_back("integrator = " + std::string(stepper.name) + ";");
+  for (const std::string& setting : settings) {
+    SCOPED_TRACE(setting);
+    expect_exact(loaded(place, "World w { deltat = 2 ms; " + setting + R"(
+  Robot arm { Base.fixed { location = 0, 0, 2; orientation = 0, 90 deg, 0; } Chain c {
+    Link a { mass = 1; center_of_mass = 0.2, 0, 0; inertia = 0.01, 0.01, 0.01, 0, 0, 0; friction = 0.4; rate = 2; }
+    Link b { dhlength = 0.4; joint = prismatic; mass = 1; inertia = 0.01, 0.01, 0.01, 0, 0, 0; friction = 1;
+      lower_limit = -0.05; stiffness = 300; } } } }
+)"),
+                 {1, 60, 200, 333}, 400);
+  }
+}
+
 TEST(Resumed, PausedAndQuitRunsStayWhatTheyAre) {
   const testing::Workplace place;
   const Experiment experiment = loaded(place, thrown("") + R"(

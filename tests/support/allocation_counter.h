@@ -1,4 +1,5 @@
-// Counts calls of operator new in a test that links hookpoint_test_support: "a step allocates nothing".
+// Counts calls of operator new in a test that links hookpoint_test_support: "a step allocates
+// nothing".
 #pragma once
 
 namespace hookpoint::testing {

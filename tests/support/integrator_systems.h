@@ -79,7 +79,7 @@ class FreeBody : public integrators::System {
                        std::span<double> a) override {
     const Matrix3d R = rotation_matrix(Quaterniond{q[0], q[1], q[2], q[3]});
     const Vector3d w = transpose_times(R, Vector3d{v[0], v[1], v[2]});
-    const Vector3d torque = -cross(w, Vector3d{A * w.x, A * w.y, C * w.z});
+    const Vector3d torque = -hookpoint::cross(w, Vector3d{A * w.x, A * w.y, C * w.z});
     const Vector3d dw = R * Vector3d{torque.x / A, torque.y / A, torque.z / C};
     a[0] = dw.x, a[1] = dw.y, a[2] = dw.z;
     return Status::ok;

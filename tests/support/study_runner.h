@@ -2,6 +2,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <stdlib.h>
 
 #include <filesystem>
 #include <fstream>
@@ -76,11 +77,8 @@ inline std::string replaced(std::string text, const std::string& from, const std
 class StudyRunner : public ::testing::Test {
  protected:
   StudyRunner() {
-    folder_ = std::filesystem::temp_directory_path() /
-              (std::string("hookpoint_studies_") +
-               ::testing::UnitTest::GetInstance()->current_test_info()->name());
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
+    std::string pattern = (std::filesystem::temp_directory_path() / "hookpoint-XXXXXX").string();
+    folder_ = mkdtemp(pattern.data());
     simulation::add_experiment_classes(schema_);
     add_study_classes(schema_);
     write("scene.hook", slider_scene);
@@ -112,7 +110,7 @@ class StudyRunner : public ::testing::Test {
   }
   StudyRun run(const StudyPlan& plan, const std::string& name, int jobs = 1, bool resume = false,
                std::function<void(const Progress&)> progress = {}) {
-    RunOptions options{jobs, resume, folder_ / name, std::move(progress)};
+    RunOptions options{jobs, resume, folder_ / name, std::move(progress), {}};
     return run_study(plan, engines_, options, stop_);
   }
   std::string first_error() const {

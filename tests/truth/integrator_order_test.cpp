@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -195,6 +196,15 @@ TEST(StabilityBound, HasTheTextbookLimits) {
     EXPECT_TRUE(std::isinf(largest_stable_step(row.name, {0., 0., 1.}).value()));
   }
   EXPECT_FALSE(largest_stable_step("cvode_bdf", undamped).has_value());
+}
+
+TEST(StabilityBound, OfWhatGrowsIsNoneAndOfWhatDoesNothingAny) {
+  for (const std::complex<double> grows : {std::complex{1., 0.}, {1e-3, 5.}, {300., -1.}}) {
+    EXPECT_EQ(rk4_bound(grows), 0.);
+    EXPECT_EQ(explicit_euler_bound(grows), 0.);
+  }
+  EXPECT_TRUE(std::isinf(rk4_bound(std::complex{0., 0.})));
+  EXPECT_TRUE(std::isinf(explicit_euler_bound(std::complex{0., 0.})));
 }
 
 }  // namespace

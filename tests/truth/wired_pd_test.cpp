@@ -214,7 +214,7 @@ TEST(WiredPd, WhatTheBoundLeavesOutIsNamed) {
   EXPECT_EQ(
       left_out(held_slide("rk4", 10., 1e-3) + "Gain g { Wire FROM w.bot.c.l.rate TO input; Wire "
                                               "TO p.goal; }"),
-      Names{"g: not from a joint's angle to its torque"});
+      Names{"g: a Gain is not one of the PD and PID controllers whose feedback is computed"});
 }
 
 // At rest the drive bears gravity: kp (goal - angle) = m g l cos(angle) for a bar from the

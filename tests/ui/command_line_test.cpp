@@ -109,7 +109,7 @@ TEST(CommandLine, WhatTheBoundHoldsAndLeavesOutIsTold) {
   EXPECT_NE(run.err.find("largest stable step of semi_implicit_euler for r: 0.07808 s"),
             std::string::npos)
       << run.err;
-  EXPECT_NE(run.err.find("not in it: watching: not from a joint's angle to its torque"),
+  EXPECT_NE(run.err.find("not in it: watching: a Gain is not one of the PD and PID"),
             std::string::npos)
       << run.err;
   const auto biped = work.hookpoint("advise " + config("scenes/standing_biped.hook"));

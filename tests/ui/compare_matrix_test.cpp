@@ -1,5 +1,6 @@
 // What stands on many runs: `compare` of two folders, the page of a `Matrix`.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cmath>
 #include <map>
@@ -138,6 +139,18 @@ TEST(Compare, StudiesAreJoinedByTheirSweepsNotByTheirRows) {
   EXPECT_EQ(found["changed[0].first"], "false");
   EXPECT_EQ(found["changed[0].second"], "true");
   EXPECT_EQ(found.count("changed[1].what"), 0u) << "at 25 deg it holds with both";
+}
+
+TEST(Compare, WhatIsNoFileIsNoTrajectory) {
+  const Workplace work;
+  run(work, "a", falling("9.81"));
+  std::filesystem::create_directory(work.folder() / "a/folder.csv");
+  ASSERT_EQ(mkfifo((work.folder() / "a/pipe.csv").c_str(), 0600), 0);
+  const CommandResult same = work.hookpoint("compare a a");
+  EXPECT_EQ(same.status, 0) << same.err;
+  const CommandResult file = work.hookpoint("compare a/trace.csv a");
+  EXPECT_EQ(file.status, 2);
+  EXPECT_NE(file.err.find("a/trace.csv is a file"), std::string::npos) << file.err;
 }
 
 TEST(Compare, WhatIsNoRunIsToldWithAdvice) {

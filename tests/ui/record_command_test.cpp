@@ -59,27 +59,6 @@ TEST(RecordCommand, MistakesAreSaidTogetherAndNothingIsWritten) {
   EXPECT_FALSE(std::filesystem::exists(place.folder() / "out"));
 }
 
-TEST(RecordCommand, InterruptLeavesACompleteRecord) {
-  const testing::Workplace place;
-  place.file("run.hook", scene("Record fall { trails = time; format = wl; }"));
-  // Bounded, should the interrupt fail: 10^6 rows, some seconds.
-  const std::string script =
-      "cd '" + place.folder().string() +
-      "'; '" HOOKPOINT_BINARY_DIR
-      "/hookpoint' run run.hook --for 1000s --out out >.out 2>.err & pid=$!; cd '" +
-      place.folder().string() +
-      "'; while [ $(stat -c %s out/fall.wl.partial 2>/dev/null || echo 0) -lt 20000 ]; do sleep "
-      "0.02; done; "
-      "kill -TERM $pid; wait $pid";
-  const int raw = std::system(script.c_str());
-  ASSERT_TRUE(WIFEXITED(raw));
-  EXPECT_EQ(WEXITSTATUS(raw), 1) << place.read(".err");
-  EXPECT_NE(place.read(".err").find("interrupted at "), std::string::npos);
-  const std::string record = place.read("out/fall.wl");
-  EXPECT_NE(record.find("\"complete\"->True|>"), std::string::npos)
-      << record.substr(record.size() - std::min<std::size_t>(record.size(), 200));
-}
-
 TEST(RecordCommand, FullDiskIsSaid) {
   const testing::Workplace place;
   place.file("run.hook", scene("Record fall { trails = time; }"));

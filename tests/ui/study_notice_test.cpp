@@ -19,7 +19,8 @@ TEST(StudyNotices, AreToldOnceWithTheRowsName) {
   const Workplace work;
   work.file(
       "slide.hook",
-      "Param v0 = 1 m/s; World w { Terrain.Flat g { size = 2; } Robot block { Base.mobile { "
+      "Param v0 = 1 m/s; World w { deltat = 0.2 ms; Terrain.Flat g { size = 2; } Robot block { "
+      "Base.mobile { "
       "rest_on = g; velocity = v0, 0, 0; Shape.Box { dimensions = .2, .2, .1; mass = 1; } } } "
       "}");
   work.file(
@@ -31,6 +32,24 @@ TEST(StudyNotices, AreToldOnceWithTheRowsName) {
   const std::string note = "hookpoint: note: slides (ours, v0 = 9 m/s): block: a boundary point at";
   EXPECT_EQ(count(result.err, note), 1U) << result.err;
   EXPECT_EQ(count(result.err, "has left the terrain"), 1U) << result.err;
+}
+
+TEST(StudyNotices, OfSeveralRowsAreOne) {
+  const Workplace work;
+  work.file(
+      "slide.hook",
+      "Param v0 = 1 m/s; World w { deltat = 0.2 ms; Terrain.Flat g { size = 2; } Robot block { "
+      "Base.mobile { "
+      "rest_on = g; velocity = v0, 0, 0; Shape.Box { dimensions = .2, .2, .1; mass = 1; } } } "
+      "}");
+  work.file(
+      "study.hook",
+      "Study slides { scene = \"slide.hook\"; duration = 1 s; settle = 0 s; Sweep v0 { values "
+      "= 8 m/s, 9 m/s, 10 m/s; } Measure slip_distance; Subject ours { engine = dts; } }");
+  const auto result = work.hookpoint("study study.hook --jobs 2 --out here");
+  EXPECT_EQ(count(result.err, "has left the terrain"), 1U) << result.err;
+  EXPECT_EQ(count(result.err, "slides (ours, v0 = 8 m/s): "), 1U) << result.err;
+  EXPECT_EQ(count(result.err, " (so do 2 more runs)"), 1U) << result.err;
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <array>
 #include <cstdlib>
 #include <limits>
+#include <stdexcept>
+#include <vector>
 
 #include "integrators/stepper.h"
 #include "tests/support/integrator_systems.h"
@@ -97,6 +99,71 @@ TEST(AdaptiveStepper, LeavesTheStateAloneWhenItFindsNoStep) {
       EXPECT_EQ(q, 1.) << row.name;
       EXPECT_EQ(v, 0.5) << row.name;
     }
+  });
+}
+
+/// x'' = -w^2 x, w = 1e7 rad/s: a second of it has more than a million swings.
+class Humming final : public OneCoordinate {
+ public:
+  Status accelerations(Stage, double, std::span<const double> q, std::span<const double>,
+                       std::span<double> a) override {
+    a[0] = -1e14 * q[0];
+    return Status::ok;
+  }
+};
+
+TEST(AdaptiveStepper, GivesUpAStepThatNeedsTooMuch) {
+  for_each_adaptive([](const StepperDescription& row) {
+    Humming system;
+    double q = 1., v = 0.;
+    const auto stepper = row.make(system, {});
+    EXPECT_EQ(stepper->step(system, 0., 1., {&q, 1}, {&v, 1}), Status::too_long) << row.name;
+    EXPECT_EQ(q, 1.) << row.name;
+    EXPECT_EQ(v, 0.) << row.name;
+    EXPECT_LE(stepper->statistics().evaluations, 300010.) << row.name;
+    // Only this step was too long.
+    EXPECT_EQ(stepper->step(system, 0., 1e-6, {&q, 1}, {&v, 1}), Status::ok) << row.name;
+  });
+}
+
+TEST(AdaptiveStepper, IsNotMadeOfWhatTheLibraryRefuses) {
+  for_each_adaptive([](const StepperDescription& row) {
+    Pendulum system;
+    EXPECT_THROW(row.make(system, {-1e-6, 1e-8}), std::runtime_error) << row.name;
+    EXPECT_THROW(row.make(system, {1e-6, -1e-8}), std::runtime_error) << row.name;
+  });
+}
+
+/// x = t - t^2/4 passes 3/4 upwards at t = 1 and downwards at t = 3.
+class Tossed final : public OneCoordinate {
+ public:
+  std::vector<int> directions;
+  Status accelerations(Stage, double, std::span<const double>, std::span<const double>,
+                       std::span<double> a) override {
+    a[0] = -0.5;
+    return Status::ok;
+  }
+  std::size_t event_count() const override { return 2; }
+  void event_values(double, std::span<const double> q, std::span<const double>,
+                    std::span<double> values) override {
+    values[0] = 1.;
+    values[1] = q[0] - 0.75;
+  }
+  void cross(std::span<const int> crossed) override {
+    EXPECT_EQ(crossed[0], 0);
+    directions.push_back(crossed[1]);
+  }
+};
+
+TEST(AdaptiveStepper, TellsWhichWayAnEventWasCrossed) {
+  for_each_adaptive([](const StepperDescription& row) {
+    Tossed system;
+    double q = 0., v = 1.;
+    const auto stepper = row.make(system, {});
+    // A step that came all the way would see no sign change.
+    for (const double start : {0., 2.})
+      EXPECT_EQ(stepper->step(system, start, 2., {&q, 1}, {&v, 1}), Status::ok);
+    EXPECT_EQ(system.directions, (std::vector{1, -1})) << row.name;
   });
 }
 

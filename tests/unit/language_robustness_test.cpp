@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <functional>
 #include <random>
 
@@ -139,16 +138,12 @@ std::string repeated(const std::string& text) {
   return all;
 }
 
-TEST_P(LargeFile, IsAnsweredInTime) {
+// What is quadratic takes hours: ctest's deadline ends it, whatever else the machine does.
+TEST_P(LargeFile, IsAnswered) {
   const Folder folder;
   const auto file = folder.write("large.hook", GetParam().second());
-  const auto begin = std::chrono::steady_clock::now();
   const Evaluated result = evaluate_file(file);
-  const std::chrono::duration<double> duration = std::chrono::steady_clock::now() - begin;
   EXPECT_LT(result.errors().size(), 20000U);
-  // Far above what it takes even unoptimised: what is quadratic takes hours.
-  EXPECT_LT(duration.count(), 60.);
-  RecordProperty("seconds", std::to_string(duration.count()));
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -113,9 +113,8 @@ const Case cases[] = {
      "move the robot or enlarge "
      "the terrain\n"},
     {"no_grid_file", "World w { Terrain.Grid g {\nfile = \"nowhere.txt\"; } }",
-     "error 2:8 there is no file \"nowhere.txt\" beside this one or along the search path (the "
-     "project's configs/, "
-     "HOOKPOINT_PATH)\n"},
+     "error 2:8 there is no file \"nowhere.txt\" beside this one, in the configs/ of a folder "
+     "above it or along the search path (HOOKPOINT_PATH, the installation's configs/)\n"},
     {"friction_upside_down",
      "World w { Material m { static_friction = 0.3;\nkinetic_friction = 0.5; } }",
      "error 2:20 kinetic_friction 0.5 is above static_friction 0.3: sliding would hold better than "

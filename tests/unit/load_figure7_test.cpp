@@ -76,6 +76,5 @@ TEST(LoadPorts, AWireMayReadAContactForce) {
   EXPECT_TRUE(loaded.experiment) << loaded.diagnostics;
 }
 
-
 }  // namespace
 }  // namespace hookpoint

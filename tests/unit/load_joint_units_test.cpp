@@ -33,6 +33,35 @@ TEST(JointUnits, APrismaticJointIsGivenInItsOwn) {
   EXPECT_EQ(joint.upper_limit, 0.09);
 }
 
+TEST(JointUnits, StopsAndFrictionHaveTheirOwnForBothKinds) {
+  const Loaded sliding =
+      load_text(link("joint = prismatic; limit_stiffness = 2 kN/m; limit_damping = 3 N.s/m; "
+                     "friction_deflection = 4 um; friction_speed = 5 mm/s;"));
+  ASSERT_TRUE(sliding.experiment) << sliding.diagnostics;
+  EXPECT_EQ(link_of(sliding).limit_stiffness, 2000.);
+  EXPECT_EQ(link_of(sliding).limit_damping, 3.);
+  EXPECT_EQ(link_of(sliding).friction_deflection, 4e-6);
+  EXPECT_EQ(link_of(sliding).friction_speed, 0.005);
+  EXPECT_EQ(load_text(link("joint = prismatic; friction_speed = 1 rad/s;")).diagnostics,
+            "error 2:37 `friction_speed` takes a value in m/s where `joint` is prismatic, not in "
+            "rad/s\n");
+  EXPECT_EQ(load_text(link("friction_deflection = 0;")).diagnostics,
+            "error 2:23 `friction_deflection` must be greater than 0, not 0\n");
+}
+
+TEST(JointUnits, DefaultsAreThoseOfTheKind) {
+  const simulation::LinkSpec turning = link_of(load_text(link("friction = 1;")));
+  EXPECT_EQ(turning.limit_stiffness, 1000.);
+  EXPECT_EQ(turning.limit_damping, 1.);
+  EXPECT_EQ(turning.friction_deflection, 1e-3);
+  EXPECT_EQ(turning.friction_speed, 0.05);
+  const simulation::LinkSpec sliding = link_of(load_text(link("joint = prismatic;")));
+  EXPECT_EQ(sliding.limit_stiffness, 1e5);
+  EXPECT_EQ(sliding.limit_damping, 100.);
+  EXPECT_EQ(sliding.friction_deflection, 1e-4);
+  EXPECT_EQ(sliding.friction_speed, 0.005);
+}
+
 TEST(JointUnits, NumbersWithoutAUnitAreSIForBoth) {
   for (const char* kind : {"revolute", "prismatic"}) {
     const Loaded loaded =

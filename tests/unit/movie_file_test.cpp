@@ -3,18 +3,17 @@
 #include <gtest/gtest.h>
 
 #include <bit>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <limits>
 #include <sstream>
-#include <thread>
 
 #include "output/movie.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/command.h"
 #include "tests/support/read_record.h"
 #include "tests/support/record_scene.h"
+#include "tests/support/shifted_clock.h"
 
 namespace hookpoint {
 namespace {
@@ -65,6 +64,43 @@ void expect_instants(const output::MovieReader& movie, int count) {
   }
 }
 
+/// A short movie, and in it what the lines of Python do to the HDF5 file `f`.
+std::filesystem::path damaged_movie(const testing::Workplace& place, const std::string& lines) {
+  const std::filesystem::path path = place.folder() / "film.h5";
+  const auto writer = output::make_movie_writer(path, header());
+  write_instants(*writer, 0, 3);
+  writer->close();
+  const std::string script = place.file(
+      "damage.py", "import h5py\nf = h5py.File('" + path.string() + "', 'r+')\n" + lines);
+  EXPECT_EQ(testing::run_reader("/usr/bin/python3 '" + script + "'").status, 0);
+  return path;
+}
+
+void expect_damaged(const std::filesystem::path& path) {
+  try {
+    const output::MovieReader movie(path);
+    FAIL() << "read " << movie.times().size() << " instants";
+  } catch (const output::MovieError& error) {
+    EXPECT_NE(std::string(error.what()).find("is damaged"), std::string::npos) << error.what();
+  }
+}
+
+TEST(MovieFile, ThatClaimsMoreInstantsThanItCanHoldIsRefused) {
+  const testing::Workplace place;
+  const auto path = damaged_movie(place,
+                                  "f['time'].resize((10**10,))\n"
+                                  "f['state'].resize((21, 10**10))\n");
+  EXPECT_LT(std::filesystem::file_size(path), 200'000U);
+  expect_damaged(path);
+}
+
+TEST(MovieFile, WithListsInThePlaceOfValuesIsRefused) {
+  const testing::Workplace place;
+  expect_damaged(damaged_movie(place, "f.attrs['period'] = [1.] * 1000\n"));
+  expect_damaged(damaged_movie(place, "f.attrs['name'] = [b'film'] * 1000\n"));
+  expect_damaged(damaged_movie(place, "del f['layout']\nf['layout'] = [b'text'] * 1000\n"));
+}
+
 TEST(MovieFile, ComesBackToTheLastBit) {
   const testing::Workplace place;
   const std::filesystem::path path = place.folder() / "new/film.h5";
@@ -96,8 +132,8 @@ TEST(MovieFile, SameInstantsSameBytes) {
     const auto writer = output::make_movie_writer(place.folder() / name, header());
     write_instants(*writer, 0, 600);
     writer->close();
-    // No clock shows: HDF5 counts seconds.
-    std::this_thread::sleep_for(std::chrono::milliseconds(1100));
+    // No clock shows: HDF5 and MATLAB's header count seconds.
+    testing::clock_shift += 100'000;
   }
   EXPECT_EQ(place.read("a.h5"), place.read("b.h5"));
 }

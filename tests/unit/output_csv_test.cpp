@@ -117,6 +117,14 @@ TEST_F(Csv, ATableReadsBackAsItWas) {
   EXPECT_EQ(read->rows, table.rows);
 }
 
+TEST_F(Csv, LinesMayEndAsOnWindows) {
+  const auto read = parse_csv("a,b [m]\r\n1,2\r\n\"x\r\ny\",\"3\"\r\n");
+  ASSERT_TRUE(read.has_value());
+  EXPECT_EQ(read->header, (std::vector<std::string>{"a", "b [m]"}));
+  const std::vector<std::vector<std::string>> wanted{{"1", "2"}, {"x\r\ny", "3"}};
+  EXPECT_EQ(read->rows, wanted);
+}
+
 TEST_F(Csv, WhatIsNoTableIsNotRead) {
   EXPECT_FALSE(parse_csv("").has_value());
   EXPECT_FALSE(parse_csv("a,b\n1\n").has_value()) << "a row is short";
@@ -129,8 +137,10 @@ TEST_F(Csv, UnwritablePlaceIsSaid) {
   try {
     write_file(folder_ / "file" / "results.csv", "");
     FAIL() << "expected a FileError";
-  } catch (const FileError& error) {
-    EXPECT_NE(std::string(error.what()).find("results.csv"), std::string::npos);
+  } catch (const PlaceError& error) {
+    EXPECT_EQ(std::string(error.what()), "cannot create " +
+                                             (folder_ / "file" / "results.csv").string() +
+                                             ": its folder cannot be made: Not a directory");
   }
 }
 

@@ -54,6 +54,27 @@ TEST(Json, LeavesReadBackByTheirPaths) {
   EXPECT_EQ(*leaves, wanted);
 }
 
+TEST(Json, EveryEscapeOfTheStandardIsRead) {
+  // RFC 8259, section 7: any character may be escaped, one above U+FFFF as two surrogates.
+  const auto leaves = json_leaves(
+      R"({"caf\u00e9": "\u00e9\u4e16\ud83d\ude00\/\b\f\r", "n": -0, "f": 1E+2, "u": "\u0000x"})");
+  ASSERT_TRUE(leaves.has_value());
+  const std::vector<std::pair<std::string, std::string>> wanted{
+      {"caf\u00e9", "\u00e9\u4e16\U0001f600/\b\f\r"},
+      {"n", "0"},
+      {"f", "1E+2"},
+      {"u", std::string("\0x", 2)}};
+  EXPECT_EQ(*leaves, wanted);
+  for (const char* text : {R"("\ud83d")", R"("\ude00\ud83d")", R"("\u12")", "\"\xff\"", "01"})
+    EXPECT_FALSE(json_leaves(text).has_value()) << text;
+}
+
+TEST(Json, BytesThatAreNoTextBecomeReadable) {
+  const auto leaves = json_leaves("[" + json_string("a\xff/b") + "]");
+  ASSERT_TRUE(leaves.has_value());
+  EXPECT_EQ((*leaves)[0].second, "a\ufffd/b");
+}
+
 TEST(Json, WhatIsNoDocumentIsNotRead) {
   for (const char* text :
        {"", "{", "{\"a\" 1}", "{\"a\": 1", "[1,]", "inf", "tru", "1 2", "\"open", "\"\\x\""})

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <set>
 
+#include "output/file.h"
 #include "output/plot.h"
 #include "output/plot_legend.h"
 #include "output/plot_scale.h"
@@ -200,6 +201,47 @@ TEST_F(Figures, PanelsAreDrawnWithOneLegend) {
   EXPECT_EQ(count(outcome.svg, ">rigid<"), 1u);
   EXPECT_EQ(count(outcome.svg, "dt = 2 ms"), 1u);
   EXPECT_EQ(count(inline_svg(outcome.svg, "p"), "rgb(  0,   0,   0)"), 0u);
+}
+
+/// Text that would be a command if a line of gnuplot's could end in it, or a shell read it.
+std::string hostile(const fs::path& mark) {
+  const std::string command = "touch " + mark.string();
+  return "x'\nsystem(\"" + command + "\")\n#\r`" + command + "`$(" + command + ")\"; !" + command +
+         "\n!" + command + "\n@" + command + "\\";
+}
+
+TEST_F(Figures, NoTextIsACommand) {
+  const fs::path mark = folder_ / "stolen";
+  Plot plot = sample();
+  plot.title = plot.subtitle = plot.x.label = plot.x.unit = hostile(mark);
+  plot.y.label = plot.y.unit = plot.series[0].label = plot.title;
+  const PlotOutcome outcome = draw(plot, folder_);
+  EXPECT_TRUE(outcome.drawn) << outcome.message;
+  EXPECT_FALSE(fs::exists(mark));
+  PanelPlot panels = two_panels();
+  for (Plot& panel : panels.panels) panel.title = hostile(mark);
+  panels.title = panels.subtitle = hostile(mark);
+  EXPECT_TRUE(draw(panels, folder_).drawn);
+  EXPECT_FALSE(fs::exists(mark));
+}
+
+TEST_F(Figures, ANameThatIsACommandIsRefused) {
+  for (const std::string name : {"< touch stolen", "| touch stolen", "../away", "a\nb", ""}) {
+    Plot plot = sample();
+    plot.name = name;
+    EXPECT_THROW(draw(plot, folder_), FileError) << name;
+  }
+}
+
+TEST_F(Figures, AProgramInTheFolderOfResultsIsNotRun) {
+  fs::create_directories(folder_);
+  std::ofstream(folder_ / "gnuplot") << "#!/bin/sh\ntouch stolen\n";
+  fs::permissions(folder_ / "gnuplot", fs::perms::owner_all);
+  const std::string path = std::getenv("PATH");
+  ::setenv("PATH", (".::" + path).c_str(), 1);
+  EXPECT_TRUE(draw(sample(), folder_).drawn);
+  ::setenv("PATH", path.c_str(), 1);
+  EXPECT_FALSE(fs::exists(folder_ / "stolen"));
 }
 
 TEST_F(Figures, AMissingGnuplotIsSaidAndLeavesDataAndScript) {

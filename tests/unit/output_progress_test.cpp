@@ -25,6 +25,16 @@ TEST(Progress, ResumedPiecesSayNothingAboutSpeed) {
   EXPECT_NE(progress_line("creep", 60, 100, 5., 50).find("20 s left"), std::string::npos);
 }
 
+TEST(Progress, OfARunIsItsSimulatedTime) {
+  // A quarter of the way from 2 s to 10 s is 4 s; the rest takes three times as long.
+  EXPECT_EQ(time_progress_line("w", 4., 2., 10., 30.),
+            "w  [#######-----------------------]  25 %  4/10 s  1 min 30 s left");
+  EXPECT_EQ(time_progress_line("w", 2., 2., 10., 5.),
+            "w  [------------------------------]   0 %  2/10 s");
+  EXPECT_EQ(time_progress_line("w", 0.01, 0., 0.01, 61.),
+            "w  [##############################] 100 %  0.01/0.01 s  in 1 min 01 s");
+}
+
 TEST(Progress, DurationsReadWell) {
   EXPECT_EQ(duration_text(0.2), "1 s");
   EXPECT_EQ(duration_text(200.), "3 min 20 s");

@@ -121,6 +121,19 @@ TEST(CreepSpeed, OfAParabolaIsTheSpeedHalfWay) {
   EXPECT_NEAR(*value, 1.7 * 2.5, 1e-11);
 }
 
+TEST(CreepSideways, IsTheSlopeAcrossTheFallWhateverTheAzimuth) {
+  for (const double azimuth : {0., 0.7, -2.}) {
+    const auto aside = [](const RunContext& context, WorldState& world) {
+      const double t = world.time;
+      world.bodies[0].position +=
+          3e-5 * t * context.downhill + 0.1 * t * t * context.normal +
+          (t < 1.5 ? 5. : 1. - 4e-6 * t) * cross(context.normal, context.downhill);
+    };
+    EXPECT_NEAR(*measure(block_on_slope(0.3, azimuth), "creep_sideways", 2., 10., aside), -4e-6,
+                1e-14);
+  }
+}
+
 TEST(SlipAcceleration, IsExactForAParabola) {
   const auto value = measure(block_on_slope(0.3, 0.), "slip_acceleration", 1., 4.,
                              downhill([](double t) { return 0.3 - 2. * t + 0.5 * 1.7 * t * t; }));

@@ -74,6 +74,22 @@ TEST(CreepPrediction, APeersIsItsOwnWhereFrictionHolds) {
   EXPECT_NEAR(*prediction(experiment, "creep_speed", 6e-11), 12.5 * 3.2058582, 1e-5);
 }
 
+// Friction that knows no direction holds or pulls along the fall; a peer's closed form may go
+// aside.
+TEST(CreepPrediction, GoesAsideOnlyWhereAPeersFormSaysSo) {
+  EXPECT_EQ(prediction(body(20., 0.8, "hookpoint"), "creep_sideways"), 0.);
+  EXPECT_EQ(prediction(body(20., 0.8, "hunt_crossley"), "creep_sideways"), 0.);
+  EXPECT_EQ(prediction(body(30., 0.2, "hookpoint"), "creep_sideways"), 0.);
+  Experiment peer = body(15., 0.5, "hookpoint");
+  peer.engine = "mujoco";
+  const RunContext context = make_context(peer, 5., 20.);
+  PeerContact contact;
+  EXPECT_FALSE(predict("creep_sideways", context, contact));
+  contact.creep = 6e-11;
+  contact.creep_sideways = -2e-11;
+  EXPECT_EQ(predict("creep_sideways", context, contact), -2e-11);
+}
+
 TEST(CreepPrediction, AboveTheConeTheLineThroughTheParabola) {
   // a = 9.81 (sin 30 - 0.2 cos 30) = 3.205858 m/s^2; over 5..20 s the best line has slope 12.5 a.
   EXPECT_NEAR(*prediction(body(30., 0.2, "hookpoint"), "creep_speed"), 12.5 * 3.2058582, 1e-5);

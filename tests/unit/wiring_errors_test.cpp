@@ -69,7 +69,8 @@ const Case cases[] = {
      "hip_force, hip_moment, hip_orientation, one\nnote 1:38 this Chain\n"},
     {"no_default_port", "Wire FROM w.bot TO w.bot.leg.one.torque;",
      "error 2:11 a Robot has no output of its own: the wire needs FROM and a port; its outputs are "
-     "position, orientation, velocity, angular_velocity, linear_acceleration, angular_acceleration, "
+     "position, orientation, velocity, angular_velocity, linear_acceleration, "
+     "angular_acceleration, "
      "contact.force, contact.count, kinetic_energy, potential_energy, center_of_mass\n"},
     {"noise_in_another_unit",
      "Controller.PD p { Wire FROM w.bot.leg.one.angle TO current { noise = 2 mm; } }",
@@ -116,8 +117,8 @@ const Case cases[] = {
     {"cannot_start", "Test.Three t { gains = -1; }",
      "error 2:1 the first gain is below 0; raise it\n"},
     {"no_file", "Data d { file = \"nowhere.csv\"; column = \"force\"; }",
-     "error 2:17 there is no file \"nowhere.csv\" beside this one or along the search path (the "
-     "project's configs/, HOOKPOINT_PATH)\n"},
+     "error 2:17 there is no file \"nowhere.csv\" beside this one, in the configs/ of a folder "
+     "above it or along the search path (HOOKPOINT_PATH, the installation's configs/)\n"},
     {"delay_too_long",
      "Controller.PD p { Wire FROM w.bot.leg.one.angle TO current { delay = 1e8 s; } }",
      "error 2:19 more than ten million samples would be under way: shorten the delay or lower the "

@@ -1,0 +1,393 @@
+#include "tests/fuzz/generated_experiment.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <random>
+#include <set>
+
+#include "language/field.h"
+#include "simulation/schema.h"
+
+namespace hookpoint::fuzz {
+namespace {
+
+using language::ClassSchema;
+using language::Direction;
+using language::FieldSchema;
+using language::FieldType;
+
+/// Where values of a unit usually lie: magnitudes, log-uniform.
+struct Usual {
+  double least, greatest;
+};
+
+Usual usual(const std::string& unit) {
+  static const std::map<std::string, Usual> table{
+      {"m", {0.02, 0.5}},     {"kg", {0.1, 5.}},       {"rad", {0.02, 1.5}},
+      {"s", {1e-3, 0.1}},     {"m/s", {0.01, 1.}},     {"rad/s", {0.01, 3.}},
+      {"N", {0.1, 30.}},      {"N.m", {0.1, 10.}},     {"N/m", {1e3, 1e5}},
+      {"N.s/m", {1., 300.}},  {"Hz", {20., 1000.}},    {"m/s^2", {1., 10.}},
+      {"N.m/rad", {1., 50.}}, {"kg.m^2", {1e-3, 0.1}}, {"N.m.s/rad", {0.01, 1.}}};
+  const auto found = table.find(unit);
+  return found == table.end() ? Usual{0.1, 2.} : found->second;
+}
+
+/// A port that a wire may start at or end at.
+struct Port {
+  std::string trail, unit;
+};
+
+class Generator {
+ public:
+  Generator(const language::Schema& schema, std::uint64_t seed)
+      : schema_(schema),
+        random_(seed * 2654435761u + 1),
+        degenerate_(seed % 3 == 0   ? 0.
+                    : seed % 3 == 1 ? 0.01
+                                    : 0.08) {}
+
+  GeneratedExperiment world() {
+    const std::string contact = one_of(choices("World", "contact"));
+    const std::string integrator = one_of(choices("World", "integrator"));
+    // One step of an adaptive integrator may take as many evaluations as it is allowed.
+    const bool adaptive = integrator.starts_with("cvode") || integrator.starts_with("arkode");
+    write("World w {");
+    write("deltat = " + number(step_) + "; duration = " +
+          std::to_string(adaptive ? 1 : 3 + below(8)) + " * " + number(step_) + ";");
+    write("contact = " + contact + ";");
+    if (!contact.starts_with("impulse") || chance(0.05)) write("integrator = " + integrator + ";");
+    std::set<std::string> said{"deltat", "duration", "contact",          "integrator",
+                               "engine", "gravity",  "constraint_mixing"};
+    if (chance(0.25)) {
+      write("engine = " + one_of(choices("World", "engine")) + ";");
+    } else {
+      said.insert("settings");  // of a peer
+    }
+    if (chance(0.3)) write(chance(0.5) ? "gravity = 9.81;" : "gravity = 0.5,0,-9.7;");
+    fields("World", said);
+    for (std::size_t i = below(3); i > 0; --i) object("Material", "m", materials_, {});
+    if (!chance(0.2)) terrain();
+    for (std::size_t i = 1 + below(2); i > 0; --i) robot();
+    for (std::size_t i = below(3); i > 0; --i) force();
+    for (std::size_t i = below(5); i > 0; --i) component();
+    write("}");
+    return {std::move(text_), std::move(trails_)};
+  }
+
+ private:
+  std::size_t below(std::size_t n) { return n == 0 ? 0 : random_() % n; }
+  bool chance(double part) { return static_cast<double>(random_() >> 11) * 0x1p-53 < part; }
+  double between(double least, double greatest) {
+    return least + (greatest - least) * static_cast<double>(random_() >> 11) * 0x1p-53;
+  }
+  template <class Element>
+  const Element& one_of(const std::vector<Element>& list) {
+    return list[below(list.size())];
+  }
+
+  void write(const std::string& line) { text_ += line + "\n"; }
+  static std::string number(double value) { return language::number_text(value); }
+  const std::vector<std::string>& choices(const std::string& type, const std::string& field) {
+    return schema_.find(type)->find(field)->choices;
+  }
+
+  static bool in_range(const FieldSchema& field, double value) {
+    const bool above = field.exclusive_minimum ? value > field.minimum : value >= field.minimum;
+    const bool below = field.exclusive_maximum ? value < field.maximum : value <= field.maximum;
+    return above && below;
+  }
+
+  double degenerate_number(const FieldSchema& field) {
+    static constexpr std::array values{0.,  -1.,  5e-324, 1e-300,  1e-12,  1e-6,
+                                       1e6, 1e12, 1e300,  1.7e308, -1e-12, -1e12};
+    for (int tries = 0; tries < 8; ++tries) {
+      const double value = values[below(values.size())];
+      if (in_range(field, value) || chance(0.03)) return value;
+    }
+    return std::isfinite(field.minimum) && !field.exclusive_minimum ? field.minimum : 1.;
+  }
+
+  double usual_number(const FieldSchema& field) {
+    Usual range = usual(field.unit);
+    char* end = nullptr;
+    const double preset = std::strtod(field.default_text.c_str(), &end);
+    if (end != field.default_text.c_str() && *end == '\0' && preset != 0. &&
+        std::abs(preset) < 1e6 && chance(0.7))
+      range = {0.3 * std::abs(preset), 3. * std::abs(preset)};
+    double value = range.least * std::pow(range.greatest / range.least, between(0., 1.));
+    if (field.minimum < 0. && chance(0.4)) value = -value;
+    value = std::min(std::max(value, field.minimum), field.maximum);
+    return in_range(field, value) ? value : 1.;
+  }
+
+  std::string one_number(const FieldSchema& field) {
+    return number(chance(degenerate_) ? degenerate_number(field) : usual_number(field));
+  }
+
+  std::string inertia() {
+    const double a = between(0.5, 1.), size = 1e-2 * std::pow(10., between(-1., 1.));
+    return number(a * size) + "," + number(size) + "," + number(1.2 * size) + ",0,0,0";
+  }
+
+  std::string value_of(const FieldSchema& field) {
+    switch (field.type) {
+      case FieldType::number:
+        return one_number(field);
+      case FieldType::integer: {
+        if (field.name == "boundary_points" && !chance(degenerate_))
+          return std::to_string(3 * below(2));
+        const double greatest = std::min(field.maximum, 4.);
+        return number(chance(degenerate_)
+                          ? std::floor(degenerate_number(field))
+                          : std::max(field.minimum, std::floor(between(0., greatest))));
+      }
+      case FieldType::boolean:
+        return chance(0.5) ? "true" : "false";
+      case FieldType::choice:
+        return one_of(field.choices);
+      case FieldType::numbers: {
+        if (field.name == "inertia" && !chance(degenerate_)) return inertia();
+        // One for all, or one each; never a number between.
+        const bool all = chance(0.5);
+        std::string list;
+        for (int i = all ? field.max_count : field.min_count; i > 0; --i)
+          list += one_number(field) + (i > 1 ? "," : "");
+        return list;
+      }
+      case FieldType::orientation:
+        if (chance(degenerate_)) return chance(0.5) ? "0,0,0,0" : "1e-300,0,0,1e300";
+        if (chance(0.5)) return "0.5,-0.5,0.5,0.5";
+        return number(between(-3., 3.)) + "," + number(between(-1.5, 1.5)) + "," +
+               number(between(-3., 3.));
+      case FieldType::object:
+        return referred(field.refers_to);
+      default:
+        return "";
+    }
+  }
+
+  /// The trail of an object that a field may refer to; "" where there is none.
+  std::string referred(const std::string& classes) {
+    const auto pick = [&](const std::vector<std::string>& list) {
+      return list.empty() ? std::string() : one_of(list);
+    };
+    if (classes == "Link") return pick(links_);
+    if (classes.starts_with("Material")) return pick(materials_);
+    if (classes.starts_with("Terrain")) return pick(terrains_);
+    if (classes.starts_with("Robot")) return pick(robots_);
+    if (classes.find("Base") != std::string::npos || classes.empty()) return pick(bodies_);
+    return "";
+  }
+
+  /// Some of the class's fields, the required ones all, but for those in `without`.
+  void fields(const std::string& type, const std::set<std::string>& without,
+              const std::set<std::string>& always = {}) {
+    for (const FieldSchema& field : schema_.find(type)->fields) {
+      if (!field.setting || without.contains(field.name) || field.type == FieldType::text) continue;
+      if (!field.required && !always.contains(field.name) && !chance(0.12)) continue;
+      const std::string value = value_of(field);
+      if (!value.empty()) write(field.name + " = " + value + ";");
+    }
+  }
+
+  std::string object(const std::string& type, const std::string& letter,
+                     std::vector<std::string>& names, const std::set<std::string>& without) {
+    const std::string name = object(type, letter, without);
+    names.push_back(name);
+    return name;
+  }
+  std::string object(const std::string& type, const std::string& letter,
+                     const std::set<std::string>& without) {
+    const std::string name = letter + std::to_string(named_++);
+    write(type + " " + name + " {");
+    fields(type, without);
+    write("}");
+    return name;
+  }
+
+  /// On what moves; now and then on what does not.
+  void force() {
+    const std::vector<std::string>& bodies = chance(0.02) ? bodies_ : moving_;
+    if (bodies.empty()) return;
+    const std::string kind = chance(0.5) ? "Force" : "Push";
+    write(kind + " f" + std::to_string(named_++) + " {");
+    write("body = " + one_of(bodies) + ";");
+    fields(kind, {"body", "to"}, {"force", "duration"});
+    write("}");
+  }
+
+  void terrain() {
+    static const std::vector<std::string> kinds{"Terrain.Flat", "Terrain.Slope", "Terrain.Steps",
+                                                "Terrain.Rough"};
+    const std::string& kind = one_of(kinds);
+    const std::string name = "g" + std::to_string(named_++);
+    write(kind + " " + name + " {");
+    // Of computed grounds the size and spacing decide how many tiles are laid out.
+    if (kind == "Terrain.Steps" || kind == "Terrain.Rough") {
+      write("size = 2; spacing = 0.05; " +
+            std::string(kind == "Terrain.Steps" ? "run" : "wavelength") + " = 0.4;");
+      fields(kind, {"size", "spacing", "run", "wavelength"}, {"material"});
+    } else {
+      fields(kind, {}, {"material"});
+    }
+    if (!materials_.empty() && chance(0.2)) {
+      write("Patch {");
+      fields("Patch", {});
+      write("}");
+    }
+    write("}");
+    terrains_.push_back(name);
+  }
+
+  void shape(bool with_mass) {
+    static const std::vector<std::string> shapes{"Shape.Box", "Shape.Cube", "Shape.Sphere",
+                                                 "Shape.Cylinder", "Shape.Legcone"};
+    const std::string& kind = one_of(shapes);
+    write(kind + " {");
+    fields(kind, with_mass ? std::set<std::string>{} : std::set<std::string>{"mass"});
+    write("}");
+  }
+
+  /// What stands in a body: its mass and inertia, given or of its shapes, and points.
+  void body(const std::string& type, std::set<std::string> without) {
+    const bool careless = chance(degenerate_);
+    std::set<std::string> always;  // to be given
+    const std::size_t shapes = below(3);
+    if (!careless) {
+      always.insert("mass");
+      if (shapes == 0) always.insert("inertia");
+      without.insert({"lower_limit", "upper_limit"});
+      if (type == "Link" && chance(0.2))
+        write("lower_limit = -1.5; upper_limit = " + number(between(0., 1.5)) + "; angle = -0.01;");
+    }
+    fields(type, without, always);
+    for (std::size_t i = shapes; i > 0; --i) shape(careless);
+    for (std::size_t i = chance(0.3) ? 1 + below(3) : 0; i > 0; --i) {
+      write("ContactPoint {");
+      fields("ContactPoint", {});
+      write("}");
+    }
+  }
+
+  void joint_ports(const std::string& link, bool turns) {
+    sources_.push_back({link + ".angle", turns ? "rad" : "m"});
+    sources_.push_back({link + ".rate", turns ? "rad/s" : "m/s"});
+    drives_.push_back({link + ".torque", turns ? "N.m" : "N"});
+    for (const char* port : {".angle", ".rate", ".acceleration", ".total_torque"})
+      trails_.push_back("w." + link + port);
+  }
+
+  void chain(const std::string& robot) {
+    const std::string name = "c" + std::to_string(named_++);
+    write("Chain " + name + " {");
+    fields("Chain", {});
+    for (std::size_t i = chance(0.3 * degenerate_) ? 0 : 1 + below(3); i > 0; --i) {
+      const std::string link = "l" + std::to_string(named_++),
+                        trail = robot + "." + name + "." + link;
+      write("Link " + link + " {");
+      const bool turns = chance(0.75);
+      if (!turns) write("joint = prismatic;");
+      body("Link", {"joint", "angle"});
+      write("}");
+      links_.push_back(trail);
+      bodies_.push_back(trail);
+      moving_.push_back(trail);
+      joint_ports(trail, turns);
+    }
+    write("}");
+  }
+
+  void robot() {
+    const std::string name = "r" + std::to_string(named_++);
+    const bool fixed = chance(0.3);
+    write("Robot " + name + " {");
+    write(fixed ? "Base.fixed {" : "Base.mobile {");
+    const bool placed = !chance(0.5) || terrains_.empty();
+    if (placed && !fixed) write("location = 0, 0, " + number(between(0., 0.6)) + ";");
+    if (!placed && !fixed) write("rest_on = " + one_of(terrains_) + ";");
+    std::set<std::string> without{"rest_on", "at", "yaw", "location"};
+    if (!placed) without = {"rest_on", "location", "orientation"};
+    if (fixed) without.insert({"velocity", "angular_velocity"});
+    body(fixed ? "Base.fixed" : "Base.mobile", without);
+    write("}");
+    bodies_.push_back(name + ".base");
+    if (!fixed) moving_.push_back(name + ".base");
+    for (const char* port :
+         {".base.location.x", ".base.location.z", ".base.velocity.y", ".base.angular_velocity.x",
+          ".base.contact.force.z", ".base.linear_acceleration.z", ".kinetic_energy"})
+      trails_.push_back("w." + name + port);
+    sources_.push_back({name + ".base.location.z", "m"});
+    sources_.push_back({name + ".base.velocity.x", "m/s"});
+    for (std::size_t i = chance(0.3) ? 0 : 1 + below(3); i > 0; --i) chain(name);
+    write("}");
+    robots_.push_back(name);
+  }
+
+  /// Classes that may stand where a controller does and need no file.
+  const std::vector<std::string>& component_classes() {
+    if (!components_.empty()) return components_;
+    for (const auto& [name, type] : schema_.classes()) {
+      const bool file = type.find("file") != nullptr;
+      for (const std::string& family : simulation::component_families()) {
+        if (!file && (name == family || (family.ends_with(".") && name.starts_with(family))))
+          components_.push_back(name);
+      }
+    }
+    return components_;
+  }
+
+  void component() {
+    const std::string& type = one_of(component_classes());
+    const ClassSchema& described = *schema_.find(type);
+    const std::string name = "k" + std::to_string(named_++);
+    write(type + " " + name + " {");
+    std::set<std::string> attached;
+    for (const FieldSchema& field : described.fields) {
+      if (field.type == FieldType::object) attached.insert(field.name);
+    }
+    fields(type, {}, attached);
+    for (const FieldSchema& field : described.fields) {
+      const bool scalar = field.type == FieldType::number;
+      const bool out = field.port == Direction::output && !field.setting;
+      const bool in = field.port == Direction::both || field.port == Direction::input;
+      if (scalar && in && chance(0.1)) {
+        std::vector<Port> fitting;
+        std::ranges::copy_if(sources_, std::back_inserter(fitting), [&](const Port& source) {
+          return field.unit == "?" || field.unit == source.unit;
+        });
+        if (!fitting.empty())
+          write("Wire FROM " + one_of(fitting).trail + " TO " + field.name + ";");
+      }
+      if (!scalar || !out) continue;
+      for (auto drive = drives_.begin(); drive != drives_.end(); ++drive) {
+        if (!(field.unit == "?" || field.unit == drive->unit) || !chance(0.3)) continue;
+        write("Wire FROM " + field.name + " TO " + drive->trail + ";");
+        drives_.erase(drive);  // an input takes one wire
+        break;
+      }
+      trails_.push_back("w." + name + "." + field.name);
+      if (field.unit != "?") sources_.push_back({name + "." + field.name, field.unit});
+    }
+    write("}");
+  }
+
+  const language::Schema& schema_;
+  std::mt19937_64 random_;
+  const double degenerate_;  ///< part of values that are
+  const double step_ = 1e-5 * std::pow(10., between(0., 2.5));
+  std::string text_;
+  std::vector<std::string> trails_, materials_, terrains_, robots_, links_, bodies_, moving_,
+      components_;
+  std::vector<Port> sources_, drives_;
+  std::size_t named_ = 0;
+};
+
+}  // namespace
+
+GeneratedExperiment generate_experiment(const language::Schema& schema, std::uint64_t seed) {
+  return Generator(schema, seed).world();
+}
+
+}  // namespace hookpoint::fuzz

@@ -1,0 +1,162 @@
+// Runs experiments drawn at random (generated_experiment.h), each in a process of its own:
+//   fuzz_generated [--first SEED] [--count N] [--print SEED]
+// A finding is one that ends by a signal, needs more than its processor time, ends with a status
+// that the manual does not know, says what only a programmer understands, or ends well with a
+// number that is none.
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <string>
+
+#include "cli/commands.h"
+#include "cli/exit_status.h"
+#include "output/file.h"
+#include "simulation/schema.h"
+#include "tests/fuzz/fuzz.h"
+#include "tests/fuzz/generated_experiment.h"
+
+namespace hookpoint::fuzz {
+namespace {
+
+constexpr rlim_t processor_seconds = 400;  ///< of one experiment, under the sanitizers
+constexpr unsigned wall_seconds = 900;     ///< for one that waits instead of computing
+
+std::string read(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+/// Whether a text has `nan` or `inf` as a word, as printed numbers are.
+bool has_non_finite(std::string text) {
+  std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
+  const auto letter = [&](std::size_t i) {
+    return i < text.size() && std::isalpha(static_cast<unsigned char>(text[i])) != 0;
+  };
+  for (const std::string word : {"nan", "inf"}) {
+    for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
+      if (!letter(at - 1) && !letter(at + word.size())) return true;
+    }
+  }
+  return false;
+}
+
+/// The experiment run as the command does it, and every third one's dynamics. Does not return.
+[[noreturn]] void run_alone(const std::filesystem::path& folder, const GeneratedExperiment& drawn,
+                            bool dynamics) {
+  const rlimit limit{processor_seconds, processor_seconds};
+  setrlimit(RLIMIT_CPU, &limit);
+  const rlimit no_core{0, 0};
+  setrlimit(RLIMIT_CORE, &no_core);
+  alarm(wall_seconds);
+  std::freopen((folder / "stdout").c_str(), "w", stdout);
+  std::freopen((folder / "stderr").c_str(), "w", stderr);
+  int status = cli::missing;
+  try {
+    cli::RunArguments arguments;
+    arguments.file = folder / "drawn.hook";
+    arguments.out = folder / "out";
+    arguments.record = drawn.trails;
+    status = cli::run(arguments);
+    if (dynamics) status = std::max(status, cli::dynamics(arguments.file, {}, true, false));
+  } catch (const output::FileError& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "unforeseen: %s\n", error.what());
+  }
+  std::fflush(nullptr);
+  _exit(status);
+}
+
+/// "" or what is wrong with how an experiment ended.
+std::string finding(int status, const std::filesystem::path& folder) {
+  if (WIFSIGNALED(status)) {
+    const int signal = WTERMSIG(status);
+    const bool late = signal == SIGXCPU || signal == SIGALRM || signal == SIGKILL;
+    return late ? "it does not end" : "signal " + std::to_string(signal);
+  }
+  const std::string told = read(folder / "stderr");
+  for (const char* alien : {"unforeseen:", "bad_alloc", "std::", "basic_string",
+                            "vector::", "Sanitizer", "runtime error:"}) {
+    if (told.find(alien) != std::string::npos) return std::string("it says ") + alien;
+  }
+  const int code = WEXITSTATUS(status);
+  if (code > cli::missing) return "status " + std::to_string(code);
+  if (code == cli::wrong_input && std::filesystem::exists(folder / "out"))
+    return "wrong input, and yet something is written";
+  if (code == cli::fine &&
+      has_non_finite(read(folder / "out" / "trace.csv") + read(folder / "stdout")))
+    return "it ends well with a number that is none";
+  if (code != cli::fine && told.empty()) return "it fails without a word";
+  return "";
+}
+
+struct Tally {
+  std::map<int, std::size_t> ended;  ///< by exit status
+  std::size_t findings = 0;
+};
+
+void run_one(const language::Schema& schema, std::uint64_t seed, const Folder& home, Tally& tally) {
+  const GeneratedExperiment drawn = generate_experiment(schema, seed);
+  const std::filesystem::path folder = home.path() / std::to_string(seed);
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "drawn.hook") << drawn.text;
+  std::fflush(nullptr);
+  const pid_t child = fork();
+  if (child == 0) run_alone(folder, drawn, seed % 3 == 0);
+  int status = 0;
+  waitpid(child, &status, 0);
+  if (WIFEXITED(status)) ++tally.ended[WEXITSTATUS(status)];
+  const std::string wrong = finding(status, folder);
+  if (!wrong.empty()) {
+    ++tally.findings;
+    std::printf("seed %llu: %s\n", static_cast<unsigned long long>(seed), wrong.c_str());
+    std::printf("%.1500s\n", read(folder / "stderr").c_str());
+    std::fflush(stdout);
+  }
+  std::filesystem::remove_all(folder);
+}
+
+std::uint64_t whole_number(const char* text) { return std::strtoull(text, nullptr, 10); }
+
+}  // namespace
+}  // namespace hookpoint::fuzz
+
+int main(int count, char** words) {
+  using namespace hookpoint;
+  std::uint64_t first = 1, wanted = 100;
+  language::Schema schema;
+  simulation::add_experiment_classes(schema);
+  for (int i = 1; i + 1 < count; i += 2) {
+    const std::string option = words[i];
+    if (option == "--print") {
+      std::fputs(fuzz::generate_experiment(schema, fuzz::whole_number(words[i + 1])).text.c_str(),
+                 stdout);
+      return 0;
+    }
+    (option == "--first" ? first : wanted) = fuzz::whole_number(words[i + 1]);
+  }
+  const fuzz::Folder home;
+  fuzz::Tally tally;
+  for (std::uint64_t seed = first; seed < first + wanted; ++seed)
+    fuzz::run_one(schema, seed, home, tally);
+  std::printf(
+      "%llu experiments from seed %llu: %zu ran, %zu stopped with a message, %zu refused, %zu "
+      "lacked an engine, %zu findings\n",
+      static_cast<unsigned long long>(wanted), static_cast<unsigned long long>(first),
+      tally.ended[0], tally.ended[1], tally.ended[2], tally.ended[3], tally.findings);
+  // Files of which most are refused test the checker alone.
+  const bool enough = 4 * tally.ended[0] >= wanted;
+  if (!enough) std::printf("too few ran\n");
+  return tally.findings == 0 && enough ? 0 : 1;
+}

@@ -1,0 +1,86 @@
+// The program beside the test: signals reach it at known moments of its work, never after a time.
+#pragma once
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace hookpoint::testing {
+
+class ChildProcess {
+ public:
+  /// `hookpoint WORDS` in `folder`, its streams in .out and .err there.
+  ChildProcess(const std::filesystem::path& folder, std::vector<std::string> words)
+      : folder_(folder) {
+    words.insert(words.begin(), HOOKPOINT_BINARY_DIR "/hookpoint");
+    std::vector<char*> arguments;
+    for (std::string& word : words) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    const std::string out = folder / ".out", err = folder / ".err";
+    for (const std::string& stream : {out, err}) std::filesystem::remove(stream);
+    process_ = fork();
+    if (process_ != 0) return;
+    if (chdir(folder.c_str()) != 0) _exit(126);
+    dup2(open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDOUT_FILENO);
+    dup2(open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDERR_FILENO);
+    execv(arguments.front(), arguments.data());
+    _exit(127);
+  }
+  ~ChildProcess() {
+    if (process_ <= 0) return;
+    kill(process_, SIGKILL);
+    wait();
+  }
+  ChildProcess(const ChildProcess&) = delete;
+  ChildProcess& operator=(const ChildProcess&) = delete;
+
+  /// Nothing once it has ended.
+  void signal(int number) const {
+    if (process_ > 0) kill(process_, number);
+  }
+  std::string out() const { return read(folder_ / ".out"); }
+  std::string err() const { return read(folder_ / ".err"); }
+  /// Waits for as long as it takes until `reached`; false when the program has ended before.
+  bool wait_until(const std::function<bool()>& reached) {
+    while (!reached()) {
+      if (ended()) return reached();
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    return true;
+  }
+  /// Its exit status; 1000 and the signal's number when a signal has ended it.
+  int wait() {
+    if (process_ > 0) take(waitpid(process_, &raw_, 0));
+    return WIFEXITED(raw_) ? WEXITSTATUS(raw_) : 1000 + WTERMSIG(raw_);
+  }
+
+ private:
+  bool ended() {
+    if (process_ > 0) take(waitpid(process_, &raw_, WNOHANG));
+    return process_ <= 0;
+  }
+  void take(pid_t found) {
+    if (found == process_) process_ = 0;
+  }
+  static std::string read(const std::filesystem::path& file) {
+    std::ostringstream text;
+    text << std::ifstream(file, std::ios::binary).rdbuf();
+    return text.str();
+  }
+
+  std::filesystem::path folder_;
+  pid_t process_ = 0;
+  int raw_ = 0;
+};
+
+}  // namespace hookpoint::testing

@@ -1,0 +1,319 @@
+// Options that make the command short to write, and what it says of itself.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <set>
+#include <sstream>
+
+#include "tests/support/command.h"
+
+namespace hookpoint {
+namespace {
+
+using testing::CommandResult;
+using testing::config;
+using testing::Workplace;
+namespace fs = std::filesystem;
+
+const std::string block = config("scenes/sloped_block.hook");
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+    ++found;
+  return found;
+}
+
+std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+TEST(ShortForms, AreTheSettingsThatTheyStandFor) {
+  const Workplace work;
+  const auto printed = [&](const std::string& settings) {
+    const CommandResult result = work.hookpoint("print " + block + settings);
+    EXPECT_EQ(result.status, 0) << result.err;
+    return result.out;
+  };
+  EXPECT_EQ(printed(" --engine bullet --settings recommended --dt '2 ms'"),
+            printed(" --set world.engine=bullet --set world.settings=recommended --set "
+                    "world.deltat='2 ms'"));
+  EXPECT_EQ(printed(" --contact lugre --integrator rk4"),
+            printed(" --set world.contact=lugre --set world.integrator=rk4"));
+  const CommandResult run = work.hookpoint("run " + block + " --for 2ms --contact nominal");
+  EXPECT_TRUE(has(run.out, "contact nominal")) << run.out << run.err;
+  for (const char* command : {"dynamics", "advise", "ports"})
+    EXPECT_EQ(work.hookpoint(std::string(command) + " " + block + " --dt 1ms").status, 0);
+  const CommandResult wrong = work.hookpoint("run " + block + " --contact lugr");
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_TRUE(has(wrong.err, "did you mean `lugre`?")) << wrong.err;
+}
+
+TEST(ShortForms, CountInAFileThatNeedsASetting) {
+  const Workplace work;
+  work.file("ball.hook",
+            "Param height;\nWorld w { deltat = 1 ms; Robot ball { Base.mobile { location = 0, 0, "
+            "height; mass = 1; inertia = 1, 1, 1, 0, 0, 0; } } }");
+  const CommandResult run = work.hookpoint("run ball.hook --set height='3 m' --for 2ms");
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_TRUE(has(run.out, "w at 0.002 s")) << run.out;
+}
+
+TEST(RecordOption, TakesVectorsAndGlobs) {
+  const Workplace work;
+  const auto header = [&](const std::string& trails) {
+    const CommandResult result =
+        work.hookpoint("run " + block + " --for 1ms --out here --record " + trails);
+    EXPECT_EQ(result.status, 0) << result.err;
+    return first_line(work.read("here/trace.csv"));
+  };
+  EXPECT_EQ(header("block.position"),
+            "time [s],block.position.x [m],block.position.y [m],block.position.z [m]");
+  EXPECT_EQ(header("'**.base.contact.force'"),
+            "time [s],world.block.base.contact.force.x [N],world.block.base.contact.force.y [N],"
+            "world.block.base.contact.force.z [N]");
+  EXPECT_EQ(header("'block.*_energy'"),
+            "time [s],block.kinetic_energy [J],block.potential_energy [J]");
+  const CommandResult none = work.hookpoint("run " + block + " --record 'block.bsae.*' --out no");
+  EXPECT_EQ(none.status, 2);
+  EXPECT_TRUE(has(none.err, "did you mean `block.base.*`?")) << none.err;
+  EXPECT_FALSE(fs::exists(work.folder() / "no"));
+}
+
+TEST(PortsCommand, ListsTrailUnitKindValueAndMeaning) {
+  const Workplace work;
+  work.file("ball.hook",
+            "World w { Robot ball { Base.mobile { location = 1, 2, 3; mass = 1; inertia = 1, 1, 1, "
+            "0, 0, 0; } } Push kick { body = ball.base; force = 5, 0, 0; duration = 1 s; } }");
+  const CommandResult all = work.hookpoint("ports ball.hook");
+  EXPECT_EQ(all.status, 0) << all.err;
+  EXPECT_TRUE(has(all.out, "w.ball.base.location ")) << all.out;
+  EXPECT_TRUE(has(all.out, "simulated time")) << all.out;
+  EXPECT_FALSE(has(all.out, "constant")) << all.out;
+  EXPECT_EQ(work.hookpoint("ports ball.hook ball.base.location").out,
+            "ball.base.location  m  out       1, 2, 3  of the base frame's origin, world axes\n");
+  EXPECT_TRUE(has(work.hookpoint("ports ball.hook kick.force").out, "N  in        5, 0, 0"));
+  EXPECT_TRUE(has(work.hookpoint("ports ball.hook '**.mass'").out, "kg  constant  1"));
+  const std::string json = work.hookpoint("ports ball.hook ball.base.location.y --json").out;
+  EXPECT_TRUE(has(json, "\"trail\": \"ball.base.location.y\"")) << json;
+  EXPECT_TRUE(has(json, "\"initial\": 2")) << json;
+  const CommandResult wrong = work.hookpoint("ports ball.hook ball.bse.location");
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_TRUE(has(wrong.err, "did you mean `ball.base.location`?")) << wrong.err;
+}
+
+TEST(RunCommand, SaysWhereItWrote) {
+  const Workplace work;
+  const CommandResult run = work.hookpoint("run " + block + " --for 1ms --out here --record time");
+  EXPECT_TRUE(has(run.err, "wrote here: experiment.hook, trace.csv")) << run.err;
+  EXPECT_FALSE(has(work.hookpoint("run " + block + " --for 1ms").err, "wrote"));
+}
+
+TEST(RunCommand, FindsInstalledScenes) {
+  const Workplace work;
+  const CommandResult run = work.hookpoint("run scenes/sloped_block.hook --for 1ms");
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_TRUE(has(run.err, "scenes/sloped_block.hook is /")) << run.err;
+  EXPECT_EQ(work.hookpoint("scenes/sloped_block.hook --for 1ms").status, 0);
+  EXPECT_EQ(work.hookpoint("check studies/creep.hook").status, 0);
+  // One's own comes first.
+  work.file("mine.hook",
+            "World w { Robot r { Base.mobile { mass = 1; inertia = 1,1,1,0,0,0; } } }");
+  EXPECT_FALSE(has(work.hookpoint("run mine.hook --for 1ms").err, "note"));
+}
+
+TEST(RunCommand, SaysOnceThatWindowsAreNotShown) {
+  const Workplace work;
+  const CommandResult run =
+      work.hookpoint("run " + config("paper/fig7_two_joint_arm.hook") + " --for 1ms");
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(count(run.err, "windows are not shown"), 1U) << run.err;
+  EXPECT_FALSE(has(work.hookpoint("run " + block + " --for 1ms").err, "windows"));
+}
+
+TEST(ReplayCommand, OfAMomentIsShortUnlessPortsAreAskedFor) {
+  const Workplace work;
+  ASSERT_EQ(work.hookpoint("run " + block + " --for 10ms --movie m.h5").status, 0);
+  const CommandResult moment = work.hookpoint("replay m.h5 --at 5ms");
+  EXPECT_EQ(moment.status, 0) << moment.err;
+  EXPECT_TRUE(has(moment.out, "block.base ")) << moment.out;
+  EXPECT_LT(count(moment.out, "\n"), 5U) << moment.out;
+  EXPECT_EQ(work.hookpoint("replay m.h5 --at 5ms --record block.position").out.substr(0, 18),
+            "time 0.005 s, step");
+  EXPECT_GT(count(work.hookpoint("replay m.h5 --at 5ms --record '**'").out, "\n"), 40U);
+}
+
+/// A short study of the block.
+std::string study_of(const std::string& rest) {
+  return "Param seconds = 0.02;\nStudy s { scene = \"scenes/sloped_block.hook\"; duration = "
+         "seconds "
+         "* 1 s; settle = 0.01 s; Measure slip_distance;\n" +
+         rest + "}\n";
+}
+
+TEST(StudySet, HoldsForTheScenesAndTheFile) {
+  const Workplace work;
+  work.file("s.hook", study_of("Subject ours { engine = dts; } Fix mu { value = 0.5; }"));
+  const auto run = [&](const std::string& settings, const std::string& folder) {
+    const CommandResult result = work.hookpoint("study s.hook --out " + folder + settings);
+    EXPECT_EQ(result.status, 0) << result.err;
+    return result;
+  };
+  run("", "plain");
+  run(" --set mu=0.7 --set seconds=0.03 --set world.surface.normal_damping='50 N.s/m' --dt '0.5 "
+      "ms'",
+      "set");
+  const std::string scene = work.read("set/scene.hook");
+  EXPECT_TRUE(has(scene, "static_friction = 0.7")) << scene;
+  EXPECT_TRUE(has(scene, "normal_damping = 50")) << scene;
+  EXPECT_TRUE(has(scene, "deltat = 5e-04") || has(scene, "deltat = 0.0005")) << scene;
+  EXPECT_TRUE(has(work.read("set/experiment.hook"), "duration = 0.03"));
+  const auto hash = [&](const std::string& folder) {
+    const std::string text = work.read(folder + "/provenance.json");
+    return text.substr(text.find("\"hash\""), 40);
+  };
+  EXPECT_NE(hash("plain"), hash("set"));
+  EXPECT_TRUE(has(work.read("set/report.html"), "--dt")) << "the command that runs it again";
+}
+
+TEST(StudySet, IsRefusedWhereTheStudyDecides) {
+  const Workplace work;
+  work.file("s.hook",
+            study_of("Subject ours { engine = dts; contact = lugre; Fix azimuth { value = 0 deg; } "
+                     "} Sweep slope { values = 5 deg, 10 deg; }"));
+  const auto refused = [&](const std::string& setting, const std::string& says) {
+    const CommandResult result = work.hookpoint("study s.hook --out no --set " + setting);
+    EXPECT_EQ(result.status, 2) << setting;
+    EXPECT_TRUE(has(result.err, says)) << result.err;
+    EXPECT_FALSE(fs::exists(work.folder() / "no"));
+  };
+  refused("slope='3 deg'", "`slope` is swept: it cannot be set as well");
+  refused("azimuth='3 deg'", "subject ours fixes `azimuth`");
+  refused("world.contact=nominal", "subject ours says its contact itself");
+  refused("world.duration='1 s'", "set `s.duration`");
+  refused("wrld.deltat='1 ms'", "did you mean `world`?");
+  refused("world.deltt='1 ms'", "did you mean `deltat`?");
+}
+
+TEST(StudyWarnings, AreToldOnceAndNotOfWhatASubjectChose) {
+  const Workplace work;
+  work.file("block.hook",
+            "Param tolerance = 1e-6;\nParam mu = 0.8;\nWorld w { relative_tolerance = tolerance; "
+            "Terrain.Flat g; Robot b { Base.mobile { rest_on = g; Shape.Box { dimensions = .2, .2, "
+            ".1; mass = 1; } } } }");
+  const std::string study =
+      " { scene = \"block.hook\"; duration = 2 ms; settle = 1 ms; Measure slip_distance; Subject ";
+  work.file("chosen.hook", "Study one" + study + "ours { integrator = rk4; } }");
+  const std::string says = "relative_tolerance says nothing to";
+  EXPECT_FALSE(has(work.hookpoint("study chosen.hook --out a").err, says));
+  work.file("plain.hook", "Study one" + study + "ours { engine = dts; } }\nStudy two" + study +
+                              "ours { engine = dts; } }");
+  EXPECT_EQ(count(work.hookpoint("study plain.hook --out b").err, says), 1U);
+}
+
+TEST(Version, NamesTheProgramAndItsEngines) {
+  const Workplace work;
+  const CommandResult version = work.hookpoint("--version");
+  EXPECT_EQ(version.status, 0);
+  EXPECT_TRUE(version.out.starts_with("hookpoint ")) << version.out;
+  EXPECT_TRUE(has(version.out, "engine dts ")) << version.out;
+  EXPECT_TRUE(has(version.out, "engine ode ")) << version.out;
+  EXPECT_EQ(work.hookpoint("-V").out, version.out);
+}
+
+TEST(Describe, SaysWhatAListTakes) {
+  const Workplace work;
+  EXPECT_TRUE(has(work.hookpoint("describe Sum").out, "in  1 or 8 numbers"));
+  work.file("sum.hook",
+            "World w { Robot r { Base.mobile { mass = 1; inertia = 1,1,1,0,0,0; } } }\n"
+            "Sum s { in = 1, 2, 3; }");
+  EXPECT_EQ(work.hookpoint("check sum.hook").status, 2);
+}
+
+/// The names of options ("--set") in a text of help.
+std::set<std::string> options_in(const std::string& text) {
+  std::set<std::string> found;
+  for (std::size_t at = text.find("--"); at != std::string::npos; at = text.find("--", at + 2)) {
+    std::size_t end = at + 2;
+    while (end < text.size() &&
+           (std::isalnum(static_cast<unsigned char>(text[end])) != 0 || text[end] == '-'))
+      ++end;
+    if (end > at + 2 && (at == 0 || text[at - 1] != '-')) found.insert(text.substr(at, end - at));
+  }
+  return found;
+}
+
+std::string content(const fs::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+/// The commands that --help lists.
+std::vector<std::string> commands(const std::string& help) {
+  std::vector<std::string> names;
+  std::istringstream lines(help.substr(help.find("Subcommands:")));
+  std::string line;
+  std::getline(lines, line);
+  while (std::getline(lines, line)) {
+    std::istringstream words(line);
+    std::string name;
+    if (line.starts_with("  ") && line[2] != ' ' && words >> name) names.push_back(name);
+  }
+  return names;
+}
+
+TEST(Manual, PageCompletionAndDocumentationHaveEveryOptionOfHelp) {
+  const Workplace work;
+  std::string page = work.hookpoint("describe --man").out;
+  for (std::size_t at = page.find("\\-"); at != std::string::npos; at = page.find("\\-", at))
+    page.erase(at, 1);
+  const std::string completion = work.hookpoint("describe --completion bash").out;
+  const std::string manual = content(HOOKPOINT_SOURCE_DIR "/docs/command_line.md");
+  const std::vector<std::string> names = commands(work.hookpoint("--help").out);
+  EXPECT_GT(names.size(), 12U);
+  for (const std::string& command : names) {
+    EXPECT_TRUE(has(page, ".SS " + command + " ")) << command;
+    EXPECT_TRUE(has(completion, "    " + command + ") options=")) << command;
+    EXPECT_TRUE(has(manual, "hookpoint " + command + " ")) << command;
+    for (const std::string& option : options_in(work.hookpoint(command + " --help").out)) {
+      EXPECT_TRUE(has(page, "\\fB" + option + "\\fR")) << command << ' ' << option;
+      EXPECT_TRUE(has(completion, " " + option)) << command << ' ' << option;
+      EXPECT_TRUE(has(manual, option)) << command << ' ' << option;
+    }
+  }
+  for (const char* status : {"0", "1", "2", "3", "130"})
+    EXPECT_TRUE(has(page, std::string("\\fB") + status + "\\fR")) << status;
+}
+
+TEST(Manual, FilesOfTheBuildAreThoseThatTheProgramPrints) {
+  const Workplace work;
+  EXPECT_EQ(content(HOOKPOINT_BINARY_DIR "/hookpoint.1"), work.hookpoint("describe --man").out);
+  EXPECT_EQ(content(HOOKPOINT_BINARY_DIR "/hookpoint.bash"),
+            work.hookpoint("describe --completion bash").out);
+}
+
+TEST(Manual, BashCompletesCommandsOptionsAndTheirWords) {
+  const Workplace work;
+  work.file("mine.hook", "");
+  const auto completed = [&](const std::string& words, int at) {
+    const std::string script =
+        "cd '" + work.folder().string() +
+        "' && bash -c 'source " HOOKPOINT_BINARY_DIR "/hookpoint.bash; COMP_WORDS=(" + words +
+        "); COMP_CWORD=" + std::to_string(at) + "; _hookpoint; echo \"${COMPREPLY[*]}\"' > .out";
+    EXPECT_EQ(std::system(script.c_str()), 0);
+    return work.read(".out");
+  };
+  EXPECT_EQ(completed("hookpoint ru", 1), "run\n");
+  EXPECT_EQ(completed("hookpoint mi", 1), "mine.hook\n");
+  EXPECT_EQ(completed("hookpoint run --eng", 2), "--engine\n");
+  EXPECT_EQ(completed("hookpoint run --engine bul", 3), "bullet\n");
+  EXPECT_EQ(completed("hookpoint study --qu", 2), "--quick\n");
+  EXPECT_EQ(completed("hookpoint run mi", 2), "mine.hook\n");
+  EXPECT_EQ(completed("hookpoint describe --completion b", 3), "bash\n");
+}
+
+}  // namespace
+}  // namespace hookpoint

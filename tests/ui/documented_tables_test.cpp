@@ -1,0 +1,25 @@
+// Tables of the manual that are made of results are those of this program.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <string>
+
+#include "reference/engines.h"
+#include "tests/support/command.h"
+
+namespace hookpoint {
+namespace {
+
+TEST(DocumentedTables, TheCreepOfEveryPeerIsThatOfItsStudy) {
+  for (const auto& peer : reference::known_peers())
+    if (!peer.describe().found) GTEST_SKIP() << "engine " << peer.name << " is not found";
+  const testing::Workplace work;
+  const std::string command = "HOOKPOINT='" HOOKPOINT_BINARY_DIR
+                              "/hookpoint' '" HOOKPOINT_SOURCE_DIR
+                              "/scripts/documented_tables' --check peer_creep >'" +
+                              (work.folder() / "out").string() + "' 2>&1";
+  EXPECT_EQ(std::system(command.c_str()), 0) << work.read("out");
+}
+
+}  // namespace
+}  // namespace hookpoint

@@ -1,0 +1,119 @@
+// The interrupt key at known moments: what is kept, what is said, and the exit status.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/support/child_process.h"
+#include "tests/support/command.h"
+
+namespace hookpoint {
+namespace {
+
+using testing::ChildProcess;
+using testing::Workplace;
+namespace fs = std::filesystem;
+
+constexpr const char* falling = R"(World w {
+  gravity = 9.81; deltat = 1 ms; duration = 1e6;
+  Robot ball { Base.mobile { location = 0, 0, 100; mass = 1; inertia = 1, 1, 1, 0, 0, 0; } }
+  Record fall { trails = time; format = wl; }
+}
+)";
+
+/// Two studies of one file, each of far too many steps.
+constexpr const char* endless =
+    R"(Study first { scene = "run.hook"; duration = 100000 s; settle = 0 s;
+  Measure slip_distance; Subject dts { engine = dts; } }
+Study second { scene = "run.hook"; duration = 100000 s; settle = 0 s;
+  Measure slip_distance; Subject dts { engine = dts; } }
+)";
+
+constexpr const char* block = R"(World w {
+  Terrain.Flat ground;
+  Robot block { Base.mobile { rest_on = ground; Shape.Box { dimensions = .2, .2, .1; mass = 1; } } }
+}
+)";
+
+bool is_larger(const fs::path& file, std::uintmax_t size) {
+  std::error_code none;
+  const std::uintmax_t found = fs::file_size(file, none);
+  return !none && found > size;
+}
+
+class Interrupt : public ::testing::TestWithParam<int> {};
+
+INSTANTIATE_TEST_SUITE_P(Signals, Interrupt, ::testing::Values(SIGINT, SIGTERM));
+
+TEST_P(Interrupt, OfARunKeepsWhatWasRecorded) {
+  const Workplace place;
+  place.file("run.hook", falling);
+  ChildProcess run(place.folder(), {"run", "run.hook", "--out", "out", "--record", "w.time"});
+  ASSERT_TRUE(run.wait_until([&] {
+    return is_larger(place.folder() / "out/trace.csv.partial", 20'000);
+  })) << run.err();
+  run.signal(GetParam());
+  EXPECT_EQ(run.wait(), 128 + GetParam());
+  EXPECT_NE(run.err().find("interrupted at "), std::string::npos) << run.err();
+  EXPECT_NE(place.read("out/fall.wl").find("\"complete\"->True|>"), std::string::npos);
+  EXPECT_TRUE(place.read("out/trace.csv").ends_with('\n'));
+}
+
+TEST_P(Interrupt, OfAStepThatDoesNotEndKeepsTheRowsBefore) {
+  const Workplace place;
+  fs::copy_file(fs::path(HOOKPOINT_BINARY_DIR) / "tests/plugins/libplugin_stalls.so",
+                place.folder() / "libstalls.so");
+  place.file("run.hook", "Plugin \"libstalls.so\";\n" + std::string(falling) +
+                             "Test.Stalls stalls { at = 49.5 ms; }\nMovie film;\n");
+  ChildProcess run(place.folder(),
+                   {"run", "run.hook", "--out", "out", "--record", "w.time", "--allow-plugins"});
+  ASSERT_TRUE(run.wait_until([&] { return run.err().find("stalled") != std::string::npos; }))
+      << run.err();
+  run.signal(GetParam());
+  EXPECT_EQ(run.wait(), 128 + GetParam());
+  EXPECT_NE(run.err().find("interrupted at 0.049 s, within a step that does not end"),
+            std::string::npos)
+      << run.err();
+  const std::string trace = place.read("out/trace.csv");
+  EXPECT_EQ(std::count(trace.begin(), trace.end(), '\n'), 1 + 50) << "0, 1, ... 49 ms";
+  EXPECT_NE(place.read("out/fall.wl").find("\"complete\"->True|>"), std::string::npos);
+  const auto film = place.hookpoint("replay out/film.h5 --allow-plugins");
+  EXPECT_NE(film.out.find("complete"), std::string::npos) << film.err;
+  EXPECT_NE(film.out.find("0 s to 0.049 s"), std::string::npos) << film.out;
+}
+
+TEST_P(Interrupt, ASecondOneEndsAtOnce) {
+  const Workplace place;
+  fs::copy_file(fs::path(HOOKPOINT_BINARY_DIR) / "tests/plugins/libplugin_stalls.so",
+                place.folder() / "libstalls.so");
+  place.file("block.hook", "Plugin \"libstalls.so\";\n" + std::string(block) +
+                               "Test.Stalls stalls { at = 49.5 ms; }\n");
+  place.file("study.hook",
+             "Study s { scene = \"block.hook\"; duration = 1 s; settle = 0 s; Measure "
+             "slip_distance; Subject dts { engine = dts; } }");
+  // A study ends between steps: of the first interrupt nothing is seen here.
+  ChildProcess study(place.folder(), {"study", "study.hook", "--out", "out", "--allow-plugins"});
+  ASSERT_TRUE(study.wait_until([&] { return study.err().find("stalled") != std::string::npos; }))
+      << study.err();
+  // Two that come together count as one: again, until it ends.
+  study.wait_until([&] {
+    study.signal(GetParam());
+    return false;
+  });
+  EXPECT_EQ(study.wait(), 128 + GetParam());
+}
+
+TEST(InterruptedStudy, BeginsNoOther) {
+  const Workplace place;
+  place.file("run.hook", block);
+  place.file("study.hook", endless);
+  ChildProcess study(place.folder(), {"study", "study.hook", "--out", "out", "--jobs", "1"});
+  ASSERT_TRUE(study.wait_until([&] { return fs::exists(place.folder() / "out/first/rows"); }))
+      << study.err();
+  study.signal(SIGINT);
+  EXPECT_EQ(study.wait(), 130);
+  EXPECT_NE(study.err().find("--resume` goes on from there"), std::string::npos) << study.err();
+  EXPECT_FALSE(fs::exists(place.folder() / "out/second"));
+}
+
+}  // namespace
+}  // namespace hookpoint

@@ -1,0 +1,62 @@
+// Studies that ask for more than any machine has: one diagnostic at the Sweep, exit status 2, at
+// once.
+#include <gtest/gtest.h>
+
+#include "tests/support/command.h"
+
+namespace hookpoint::testing {
+namespace {
+
+constexpr int wrong_input = 2;
+
+std::string study(const std::string& sweeps) {
+  return "Study many {\n  scene = \"scene.hook\"; duration = 0.1 s;\n" + sweeps +
+         "  Subject ours { }\n  Measure creep_speed { }\n}\n";
+}
+
+CommandResult run_study(const Workplace& place, const std::string& sweeps) {
+  place.file("scene.hook",
+             "Param mass = 1 kg; Param height = 1 m;\n"
+             "World w { Robot r { Base.mobile { mass = mass; location = 0, 0, height; "
+             "Shape.Cube dimensions = 1, 1, 1; } } }\n");
+  place.file("many.hook", study(sweeps));
+  return place.hookpoint("study many.hook --out results");
+}
+
+TEST(StudyBudget, ASweepOfTooManyValuesIsRefused) {
+  const Workplace place;
+  const CommandResult stepped =
+      run_study(place, "  Sweep mass { from = 1 kg; to = 2 kg; step = 1e-12 kg; }\n");
+  EXPECT_EQ(stepped.status, wrong_input);
+  EXPECT_NE(
+      stepped.err.find("many.hook:3:47: error: the Sweep asks for 1e+12 values, more than the "
+                       "1000000 allowed"),
+      std::string::npos)
+      << stepped.err;
+  const CommandResult counted =
+      run_study(place, "  Sweep mass { from = 1 kg; to = 2 kg; count = 1e12; }\n");
+  EXPECT_EQ(counted.status, wrong_input);
+  EXPECT_NE(counted.err.find("the Sweep asks for 1e+12 values"), std::string::npos) << counted.err;
+  const CommandResult half =
+      run_study(place, "  Sweep mass { from = 1 kg; to = 2 kg; count = 2.5; }\n");
+  EXPECT_EQ(half.status, wrong_input);
+  EXPECT_NE(half.err.find("`count` takes a whole number"), std::string::npos) << half.err;
+  EXPECT_FALSE(std::filesystem::exists(place.folder() / "results"));
+}
+
+TEST(StudyBudget, RunsAreCountedOverAllSweeps) {
+  const Workplace place;
+  const CommandResult result =
+      run_study(place,
+                "  Sweep mass { from = 1 kg; to = 2 kg; count = 2000; }\n"
+                "  Sweep height { from = 1 m; to = 2 m; count = 3000; }\n");
+  EXPECT_EQ(result.status, wrong_input);
+  EXPECT_NE(result.err.find("the study's sweeps and subjects ask for 6e+06 runs, more than the "
+                            "1000000 allowed"),
+            std::string::npos)
+      << result.err;
+  EXPECT_FALSE(std::filesystem::exists(place.folder() / "results"));
+}
+
+}  // namespace
+}  // namespace hookpoint::testing

@@ -1,0 +1,200 @@
+// The largest stable step against closed forms, what is said about controllers, and the watch over
+// energy.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "simulation/convex_hull.h"
+#include "simulation/energy_watch.h"
+#include "simulation/stability.h"
+#include "tests/support/run_text.h"
+
+namespace hookpoint {
+namespace {
+
+constexpr double g = 9.81;
+
+simulation::StabilityBound bound_of(const std::string& text) {
+  const Loaded loaded = load_text(text);
+  EXPECT_TRUE(loaded.experiment) << loaded.diagnostics;
+  return simulation::stability_bound(*loaded.experiment);
+}
+
+/// Of m x'' + c x' + k x = 0 under semi-implicit Euler.
+double semi_implicit(double k, double c, double m) {
+  return (std::sqrt(c * c + 4. * k * m) - c) / k;
+}
+
+std::string dropped_box(const std::string& place) {
+  return "World w { Material m { normal_stiffness = 20 kN/m; normal_damping = 40; "
+         "tangential_stiffness = 20 kN/m; tangential_damping = 40; } Terrain.Flat f { material = "
+         "m; "
+         "} Robot b { Base.mobile { " +
+         place + " Shape.Box { dimensions = 0.2, 0.2, 0.1; mass = 1; } } } }";
+}
+
+TEST(StabilityBound, OfABoxHasItsFourCornersWhereverItStartsAboveTheGround) {
+  const double resting = bound_of(dropped_box("rest_on = f;")).step;
+  for (const char* height : {"0.05", "0.1", "0.6"})
+    EXPECT_NEAR(bound_of(dropped_box(fmt::format("location = 0, 0, {};", height))).step, resting,
+                1e-3 * resting)
+        << height;
+}
+
+// Tilted by 10 deg from 10 cm: it trembled for ever at 1 ms, with a bound of 1.034 ms printed.
+TEST(StabilityBound, OfTheDefaultBoxDroppedOnAnEdgeIsBelowTheDefaultStep) {
+  const simulation::StabilityBound bound = bound_of(
+      "World w { Terrain.Flat f { } Robot b { Base.mobile { location = 0, 0, 0.16; orientation = "
+      "10 deg, 0, 0; Shape.Box { dimensions = 0.1, 0.1, 0.1; mass = 1; } } } }");
+  EXPECT_LT(bound.step, 0.5e-3);
+  EXPECT_EQ(bound.contacts, simulation::StabilityBound::Contacts::landing);
+}
+
+/// A slide of 2 kg pressed on the ground below it with 100 N.
+std::string ram(const std::string& law) {
+  return "World w { contact = " + law +
+         "; Material m { exponential_rate = 1150; exponential_force = 0.5; hysteresis_damping = "
+         "0.3; exponent = 1.5; normal_stiffness = 1e6; normal_damping = 3000; tangential_stiffness "
+         "= 1; tangential_damping = 0; static_friction = 0; } Terrain.Flat f { material = m; } "
+         "Robot b { Base.fixed { location = 0, 0, 0.5; orientation = 180 deg, 0, 0; } Chain c { "
+         "Link l { joint = prismatic; mass = 2; inertia = 1, 1, 1, 0, 0, 0; torque = 100; "
+         "ContactPoint tip { location = 0, 0, 0.5; } } } } }";
+}
+
+TEST(StabilityBound, IsThatOfTheLoadWhichAJointPresses) {
+  const double N = 100. + 2. * g;
+  EXPECT_NEAR(bound_of(ram("exponential")).step, semi_implicit(1150. * N, 0.3 * N, 2.), 1e-8);
+  const double depth = std::pow(N / 1e6, 2. / 3.);
+  EXPECT_NEAR(bound_of(ram("hunt_crossley")).step,
+              semi_implicit(1.5e6 * std::sqrt(depth), 0.3 * N, 2.), 1e-8);
+  EXPECT_NEAR(bound_of(ram("azad_featherstone")).step,
+              semi_implicit(1.5e6 * std::sqrt(depth), 3000. * std::sqrt(depth), 2.), 1e-8);
+}
+
+TEST(StabilityBound, OfAPressedPointIsThatOfAForceAndOfAPush) {
+  const std::string point =
+      "World w { contact = exponential; Material m { exponential_rate = 1150; exponential_force = "
+      "0.5; hysteresis_damping = 0.3; tangential_stiffness = 1; tangential_damping = 0; } "
+      "Terrain.Flat f { material = m; } Robot b { Base.mobile { rest_on = f; mass = 1; inertia = "
+      "1, "
+      "1, 1, 0, 0, 0; ContactPoint tip { location = 0, 0, 0; } } } ";
+  const auto pressed = [](double N) { return semi_implicit(1150. * N, 0.3 * N, 1.); };
+  EXPECT_NEAR(bound_of(point + "}").step, pressed(g), 1e-6);
+  EXPECT_NEAR(bound_of(point + "Force p { body = b.base; force = 0, 0, -50; } }").step,
+              pressed(g + 50.), 1e-6);
+  EXPECT_NEAR(
+      bound_of(point + "Push p { body = b.base; force = 0, 0, -50; from = 1; to = 2; } }").step,
+      pressed(g + 50.), 1e-6);
+}
+
+/// A rod of 0.2 kg on a hinge, let go at `angle` [deg] from straight down.
+std::string rod(const std::string& integrator, double angle) {
+  return fmt::format(
+      "World w {{ gravity = 0, 9.81, 0; integrator = {}; Robot b {{ Base.fixed {{ orientation = 0, "
+      "0, 90 deg; }} Chain c {{ Link l {{ angle = {} deg; mass = 0.2; center_of_mass = 0.25, 0, 0; "
+      "inertia = 1e-3, 4e-3, 4e-3, 0, 0, 0; damping = 1e-4; }} }} }} }}",
+      integrator, angle);
+}
+
+TEST(StabilityBound, HasThePendulumsOwnStiffnessWhereverItIsLetGo) {
+  const double m = 0.2, l = 0.25, J = 4e-3 + m * l * l, k = m * g * l, c = 1e-4;
+  for (const double angle : {0., 30., 90., 120.}) {
+    EXPECT_NEAR(bound_of(rod("semi_implicit_euler", angle)).step, semi_implicit(k, c, J), 1e-6)
+        << angle;
+    EXPECT_NEAR(bound_of(rod("explicit_euler", angle)).step, c / k, 1e-9) << angle;
+  }
+}
+
+TEST(HullFaces, OfAPrismAreItsSidesAndItsEnds) {
+  std::vector<Vector3d> points;
+  constexpr int sides = 12;
+  for (int i = 0; i < sides; ++i) {
+    const double angle = 2. * M_PI * i / sides + 0.1;
+    for (const double z : {-0.2, 0.2}) points.push_back({std::cos(angle), std::sin(angle), z});
+  }
+  const auto faces = simulation::hull_faces(points, 1e-9);
+  EXPECT_EQ(faces.size(), sides + 2u);
+  std::size_t ends = 0;
+  for (const simulation::HullFace& face : faces) {
+    EXPECT_NEAR(norm(face.normal), 1., 1e-12);
+    ends += face.points.size() == sides;
+    EXPECT_TRUE(face.points.size() == 4 || face.points.size() == sides);
+    for (const Vector3d& p : points) EXPECT_LE(dot(p - points[face.points[0]], face.normal), 1e-9);
+  }
+  EXPECT_EQ(ends, 2u);
+}
+
+TEST(HullFaces, OfPointsWithoutVolumeAreTheirTwoSidesOrAllAtOnce) {
+  const std::vector<Vector3d> square{{0., 0., 0.}, {1., 0., 0.}, {1., 1., 0.}, {0., 1., 0.}};
+  EXPECT_EQ(simulation::hull_faces(square, 0.).size(), 2u);
+  const auto line = simulation::hull_faces(std::vector{square[0], square[1]}, 0.);
+  ASSERT_EQ(line.size(), 1u);
+  EXPECT_EQ(line[0].points.size(), 2u);
+  EXPECT_EQ(simulation::hull_faces(std::vector{square[0]}, 0.).size(), 1u);
+}
+
+std::string held_slide(const std::string& controller) {
+  return "World w { gravity = 0; duration = 5 s; Robot b { Base.fixed { } Chain c { Link l { joint "
+         "= "
+         "prismatic; angle = 1; mass = 1; } } } } " +
+         controller;
+}
+
+TEST(Stability, NamesAControllerWhoseGainIsTooHighForItsRate) {
+  const std::string text = held_slide(
+      "Controller.PD squat { rate = 250 Hz; pconstant = 10000; dconstant = 1000; rate_in = 0; Wire "
+      "FROM w.b.c.l.angle TO current; Wire FROM w.b.c.l.rate TO rate_in; Wire TO w.b.c.l.torque; "
+      "}");
+  const simulation::StabilityBound bound = bound_of(text);
+  EXPECT_EQ(bound.step, 0.);
+  const std::string advice = simulation::controller_advice(bound);
+  EXPECT_NE(advice.find("squat (at 250 Hz)"), std::string::npos) << advice;
+  EXPECT_NE(advice.find("raise the rate"), std::string::npos) << advice;
+  EXPECT_EQ(advice.find("step smaller"), std::string::npos) << advice;
+  Running running(text);
+  simulation::StepStatus status;
+  while ((status = running.world().step()).ok()) {
+  }
+  EXPECT_NE(status.advice.find("squat (at 250 Hz)"), std::string::npos) << status.advice;
+  EXPECT_EQ(status.advice.find("make the step smaller"), std::string::npos) << status.advice;
+}
+
+TEST(Stability, SaysPlainlyWhyFeedbackIsLeftOut) {
+  const simulation::StabilityBound bound = bound_of(
+      held_slide("Controller.PD squat { pconstant = 10; Wire FROM w.b.c.l.rate TO current; Wire TO "
+                 "w.b.c.l.torque; }"));
+  ASSERT_EQ(bound.left_out.size(), 1u);
+  EXPECT_EQ(bound.left_out[0], "squat: it reads w.b.c.l.rate, not straight the angle of a joint");
+}
+
+std::string finding(const std::string& text, int steps) {
+  const Loaded loaded = load_text(text);
+  EXPECT_TRUE(loaded.experiment) << loaded.diagnostics;
+  Running running(loaded);
+  simulation::EnergyWatch watch(*loaded.experiment, running.world(), steps);
+  for (int i = 0; i < steps; ++i) {
+    running.step();
+    watch.observe();
+  }
+  return watch.finding();
+}
+
+TEST(EnergyWatch, FindsWhatExplicitEulerGivesAPendulum) {
+  const std::string found = finding(rod("explicit_euler", 40.), 20000);
+  EXPECT_TRUE(found.starts_with(simulation::energy_finding)) << found;
+  EXPECT_EQ(finding(rod("rk4", 40.), 20000), "");
+  EXPECT_EQ(finding(rod("semi_implicit_euler", 40.), 20000), "");
+}
+
+TEST(EnergyWatch, LeavesARestingBouncingOrDrivenWorldAlone) {
+  EXPECT_EQ(finding(dropped_box("location = 0, 0, 0.3;"), 5000), "");
+  EXPECT_EQ(finding(dropped_box("rest_on = f; velocity = 1, 0, 0;"), 5000), "");
+  EXPECT_FALSE(simulation::is_passive(*load_text(held_slide("Controller.PD p { pconstant = 1; Wire "
+                                                            "FROM w.b.c.l.angle TO current; Wire "
+                                                            "TO w.b.c.l.torque; }"))
+                                           .experiment));
+}
+
+}  // namespace
+}  // namespace hookpoint
