@@ -33,6 +33,10 @@ class AdaptiveStepper : public Stepper {
  protected:
   /// Of the whole interval: a step that should be shorter still is given up.
   static constexpr double least_step = 1e-12;
+  /// Of one internal step in a row. After an event the first may be tried with a length of before
+  /// it, and at the pace at which the libraries shorten a step, to 0.3 of it or less, their own
+  /// limit of 7 lies far above `least_step`, which is what shall decide: 0.3^40 < 1e-20.
+  static constexpr int most_rejections = 40;
 
   /// How an internal step ended.
   struct Arrival {

@@ -23,22 +23,20 @@ class Arkode final : public AdaptiveStepper {
         context_(sundials::make_context()) {
     create();
   }
-  ~Arkode() override { ARKStepFree(&memory_); }
-  Arkode(const Arkode&) = delete;
-  Arkode& operator=(const Arkode&) = delete;
 
  private:
   static constexpr double growth = 1.2;  ///< of the first step tried, while none is rejected
 
   void create() {
-    ARKStepFree(&memory_);
+    memory_.reset();
     y_ = sundials::vector_over(unknowns_, context_.get());
-    memory_ = ARKStepCreate(explicit_part_, implicit_part_, 0., y_.get(), context_.get());
+    memory_.reset(ARKStepCreate(explicit_part_, implicit_part_, 0., y_.get(), context_.get()));
     sundials::require_made(memory_, "ARKODE");
     ARKStepSetErrHandlerFn(memory_, sundials::silent, nullptr);
     require(ARKStepSetUserData(memory_, static_cast<AdaptiveStepper*>(this)), "ARKStepSetUserData");
     require(ARKStepSStolerances(memory_, tolerances_.relative, tolerances_.absolute),
             "ARKStepSStolerances");
+    require(ARKStepSetMaxErrTestFails(memory_, most_rejections), "ARKStepSetMaxErrTestFails");
     // A higher interpolant evaluates rates of its own, and whether it does depends on more than
     // this step: a run that is resumed would count others.
     require(ARKStepSetInterpolantDegree(memory_, 3), "ARKStepSetInterpolantDegree");
@@ -108,7 +106,7 @@ class Arkode final : public AdaptiveStepper {
   sundials::Owner<SUNContext> context_;
   sundials::Owner<N_Vector> y_;
   sundials::LinearSolver linear_;
-  void* memory_ = nullptr;
+  sundials::SolverMemory<ARKStepFree> memory_;
   double longest_ = 0.;  ///< step taken since `begin` [s]
 };
 

@@ -20,15 +20,12 @@ class Cvode final : public AdaptiveStepper {
         context_(sundials::make_context()) {
     create();
   }
-  ~Cvode() override { CVodeFree(&memory_); }
-  Cvode(const Cvode&) = delete;
-  Cvode& operator=(const Cvode&) = delete;
 
  private:
   void create() {
-    CVodeFree(&memory_);
+    memory_.reset();
     y_ = sundials::vector_over(unknowns_, context_.get());
-    memory_ = CVodeCreate(method_, context_.get());
+    memory_.reset(CVodeCreate(method_, context_.get()));
     sundials::require_made(memory_, "CVODE");
     CVodeSetErrHandlerFn(memory_, sundials::silent, nullptr);
     require(CVodeInit(memory_, sundials::rates<&AdaptiveStepper::rates>, 0., y_.get()),
@@ -36,6 +33,7 @@ class Cvode final : public AdaptiveStepper {
     require(CVodeSetUserData(memory_, static_cast<AdaptiveStepper*>(this)), "CVodeSetUserData");
     require(CVodeSStolerances(memory_, tolerances_.relative, tolerances_.absolute),
             "CVodeSStolerances");
+    require(CVodeSetMaxErrTestFails(memory_, most_rejections), "CVodeSetMaxErrTestFails");
     require(CVodeSetNoInactiveRootWarn(memory_), "CVodeSetNoInactiveRootWarn");
     if (events_ > 0) require(CVodeRootInit(memory_, events_, sundials::events), "CVodeRootInit");
     if (method_ == CV_BDF) {
@@ -91,7 +89,7 @@ class Cvode final : public AdaptiveStepper {
   sundials::Owner<N_Vector> y_;
   sundials::LinearSolver linear_;
   sundials::Owner<SUNNonlinearSolver> corrector_;
-  void* memory_ = nullptr;
+  sundials::SolverMemory<CVodeFree> memory_;
 };
 
 }  // namespace

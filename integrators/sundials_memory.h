@@ -30,6 +30,25 @@ struct Free {
 template <class Pointer>
 using Owner = std::unique_ptr<std::remove_pointer_t<Pointer>, Free>;
 
+/// Owns what CVODE and ARKODE call a solver's memory, which each frees by a function of its own.
+template <auto release>
+class SolverMemory {
+ public:
+  SolverMemory() = default;
+  ~SolverMemory() { release(&memory_); }
+  SolverMemory(const SolverMemory&) = delete;
+  SolverMemory& operator=(const SolverMemory&) = delete;
+  /// Frees what it had; then owns `made`.
+  void reset(void* made = nullptr) {
+    release(&memory_);
+    memory_ = made;
+  }
+  operator void*() const { return memory_; }
+
+ private:
+  void* memory_ = nullptr;
+};
+
 /// Throws where a function of the library could not set up what it was asked to: no memory, or a
 /// tolerance that is not positive.
 inline void require(int flag, const char* function) {
