@@ -6,7 +6,7 @@
 
 namespace hookpoint::cli {
 
-PluginTrust::PluginTrust(bool all, std::vector<std::filesystem::path> folders) : all_(all) {
+PluginTrust::PluginTrust(bool all, const std::vector<std::filesystem::path>& folders) : all_(all) {
   for (const std::filesystem::path& folder : folders) {
     std::error_code error;
     std::filesystem::path real = std::filesystem::canonical(folder, error);

@@ -11,7 +11,7 @@ namespace hookpoint::cli {
 class PluginTrust {
  public:
   /// `all`: --allow-plugins. `folders`: what lies in them, at any depth, is trusted.
-  PluginTrust(bool all, std::vector<std::filesystem::path> folders);
+  PluginTrust(bool all, const std::vector<std::filesystem::path>& folders);
 
   /// "" or why `library` may not be loaded, as a predicate. Its real path counts, so that neither a
   /// link nor `..` leads out of a trusted folder.

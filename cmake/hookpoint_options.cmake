@@ -29,6 +29,16 @@ if(HOOKPOINT_ISA STREQUAL "x86-64-v3")
   target_compile_options(hookpoint_options INTERFACE -march=x86-64-v3)
 endif()
 
+# The fastest linker that is there: each of the tests is a program, and half the time that one takes is its linking.
+include(CheckLinkerFlag)
+foreach(linker lld gold)
+  check_linker_flag(CXX -fuse-ld=${linker} HOOKPOINT_HAS_${linker})
+  if(HOOKPOINT_HAS_${linker})
+    target_link_options(hookpoint_options INTERFACE -fuse-ld=${linker})
+    break()
+  endif()
+endforeach()
+
 # A structure of numbers or packs is larger than GCC keeps in registers or copies by whole registers unless told to; only speed depends on it.
 include(CheckCXXCompilerFlag)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")

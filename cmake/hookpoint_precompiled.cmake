@@ -1,5 +1,5 @@
-# Headers that most files include, read once. A file still includes all that it uses: the presets dev, asan, ci and tidy build without
-# (CMAKE_DISABLE_PRECOMPILE_HEADERS).
+# Headers that most files include, read once. A file still includes all that it uses: the presets dev, asan, ci and tidy build all
+# but the tests without (CMAKE_DISABLE_PRECOMPILE_HEADERS).
 set(HOOKPOINT_PRECOMPILED
   <algorithm> <array> <charconv> <chrono> <cmath> <cstdint> <filesystem> <fstream> <functional> <limits> <map> <memory> <numbers>
   <optional> <set> <span> <sstream> <stdexcept> <string> <string_view> <unordered_map> <utility> <variant> <vector>)

@@ -129,7 +129,8 @@ class FirstLook {
     file_.read(header, sizeof header);
     const std::string_view order(header + 126, 2);
     swapped_ = order == "MI";
-    const int version = swapped_ ? header[124] : header[125], minor = header[swapped_ ? 125 : 124];
+    const int minor = static_cast<unsigned char>(header[swapped_ ? 125 : 124]);
+    const int version = static_cast<unsigned char>(header[swapped_ ? 124 : 125]);
     if (!file_ || (order != "IM" && !swapped_) || minor != 0) return false;
     if (version != 1) return version == 2;
     while (at_ + 8 <= end_) {

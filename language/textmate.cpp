@@ -80,9 +80,8 @@ std::string describe_textmate(const Schema& schema) {
   const std::vector<std::string> rules{
       match("comment.line.double-slash", "//.*$"),
       R"({ "name": "comment.block.hook", "begin": "/\\*", "end": "\\*/" })",
-      R"({ "name": "string.quoted.double.hook", "begin": "\"", "end": "\"|$",)"
-      "\n      "
-      R"("patterns": [{ "name": "constant.character.escape.hook", "match": "\\\\." }] })",
+      R"({ "name": "string.quoted.double.hook", "begin": "\"", "end": "\"|$",
+      "patterns": [{ "name": "constant.character.escape.hook", "match": "\\\\." }] })",
       number_rule(),
       word_rule("keyword.control", std::move(reserved)),
       word_rule("keyword.control", {"FROM", "TO", "in"}),

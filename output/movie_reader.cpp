@@ -21,7 +21,7 @@ double read_number(hid_t object, const char* name) {
   return value;
 }
 
-std::string cut_at_zero(std::string text) { return text.substr(0, text.find('\0')); }
+std::string cut_at_zero(const std::string& text) { return text.substr(0, text.find('\0')); }
 
 /// Texts are written in the file itself, not on its heap: they are no longer than what is `stored`.
 std::string room_for(hid_t type, hsize_t stored) {

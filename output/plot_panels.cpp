@@ -72,8 +72,9 @@ class Script {
   }
 
   Frame frame_of(std::size_t index) const {
+    const std::size_t row = index / across_;
     const auto column = static_cast<double>(index % across_);
-    const auto below = static_cast<double>(down_ - 1 - index / across_);
+    const auto below = static_cast<double>(down_ - 1 - row);
     const double left = PlotPage::left_margin + column * (panel_width + gap_across);
     const double bottom = PlotPage::bottom_margin + below * (panel_height_ + gap_down);
     return {

@@ -65,6 +65,7 @@ void add_errors(py::module_& module) {
                               "A step could not be taken: `time` [s], `body`, `advice`. What was "
                               "recorded before is World.recorded.",
                               error_class);
+  // NOLINTNEXTLINE(performance-unnecessary-value-param): the signature is pybind11's.
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
       if (thrown) std::rethrow_exception(thrown);

@@ -220,7 +220,7 @@ class DartWorld final : public PeerWorld {
     if (settings_.tessellated && plane != nullptr && near_width > 0.)
       near_ground_ = NearGround{joint, eigen(plane->normal), near_width};
     const DartGround ground = make_dart_ground(plan, near_ground_ ? near_width : far_width);
-    detector_->ground.emplace(contact::Terrain(*experiment.terrain));
+    detector_->ground.emplace(DartGroundParts{contact::Terrain(*experiment.terrain), {}});
     const std::size_t materials = std::max<std::size_t>(experiment.materials.size(), 1);
     for (std::size_t i = 0; i < materials; ++i) {
       const auto material = material_at(experiment, static_cast<int>(i));

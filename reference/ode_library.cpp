@@ -16,7 +16,7 @@ std::mutex& random_mutex() {
 
 /// ODE calls abort() if this returns, so it does not. The library's frames hold nothing that an
 /// exception would leak but the step's scratch memory, which belongs to the world.
-[[noreturn]] void report(int, const char* format, va_list arguments) {
+[[noreturn, gnu::format(printf, 2, 0)]] void report(int, const char* format, va_list arguments) {
   std::array<char, 256> text{};
   std::vsnprintf(text.data(), text.size(), format, arguments);
   throw OdeFailure(text.data());
@@ -26,7 +26,7 @@ thread_local OdeMessages* listener = nullptr;
 
 /// ODE goes on after a message. Left to itself it prints it to standard error, in the midst of
 /// whatever is there.
-void pass_on(int, const char* format, va_list arguments) {
+[[gnu::format(printf, 2, 0)]] void pass_on(int, const char* format, va_list arguments) {
   if (listener == nullptr) return;
   std::array<char, 256> text{};
   std::vsnprintf(text.data(), text.size(), format, arguments);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <variant>
 
 #include "reference/ground.h"
@@ -52,7 +53,7 @@ std::optional<RestingBody> resting_body(const simulation::Experiment& experiment
     return dot(rotate(robot.orientation, point), plane->normal);
   };
   const std::vector<Vector3d> points = candidates(experiment);
-  double lowest = INFINITY;
+  double lowest = std::numeric_limits<double>::infinity();
   for (const Vector3d& point : points) lowest = std::min(lowest, height(point));
   for (const Vector3d& point : points)
     if (height(point) - lowest < 1e-6)

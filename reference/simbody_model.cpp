@@ -188,12 +188,12 @@ struct Model::Parts {
 
 Model::Parts::Parts(const Description& description) {
   forces_.setNumberOfThreads(1);
-  SimTK::Force::UniformGravity(forces_, matter_, simtk(description.gravity));
+  const SimTK::Force::UniformGravity gravity(forces_, matter_, simtk(description.gravity));
   set_contact(description.material);
   if (description.ground) add_ground(*description.ground);
   for (const Body& body : description.bodies) add_body(body, static_cast<int>(mobilities_.size()));
   const auto bodies = static_cast<int>(description.bodies.size());
-  SimTK::Force::Custom(
+  const SimTK::Force::Custom ground(
       forces_,
       new GroundImpulse(forces_, bodies, [this](const SimTK::State& state, SimTK::Vector& forces) {
         add_ground_forces(state, forces);

@@ -59,8 +59,9 @@ void warn_of_unstated_constants(const language::Object& world, Loading& loading)
   for (const std::string_view field : own->fields)
     constants += (constants.empty() ? "" : ", ") + with_default(field);
   const std::set<int> used = materials_in_use(*experiment.terrain);
-  for (const auto& [material, index] : loading.materials) {
-    if (!used.contains(index)) continue;
+  for (const auto& used_or_not : loading.materials) {
+    if (!used.contains(used_or_not.second)) continue;
+    const language::Object* const material = used_or_not.first;
     const bool states = material != nullptr && std::ranges::any_of(own->fields, [&](auto field) {
                           return material->given(field);
                         });

@@ -83,7 +83,8 @@ class Values {
     add_missing(object, "inertia", {I.xx, I.yy, I.zz, I.xy, I.xz, I.yz});
   }
 
-  void add_missing(const language::Object& object, const char* name, std::vector<double> numbers) {
+  void add_missing(const language::Object& object, const char* name,
+                   const std::vector<double>& numbers) {
     if (object.find(name) == nullptr) add(object, *object.schema->find(name), numbers, false);
   }
 

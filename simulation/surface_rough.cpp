@@ -43,15 +43,16 @@ struct Wave {
 /// cosines are needed of a column or a row alone.
 [[gnu::flatten]] void add_waves(const std::vector<Wave>& waves, double spacing, GridSpec& grid) {
   const std::size_t columns = static_cast<std::size_t>(grid.columns);
+  const int middle_row = grid.rows / 2, middle_column = grid.columns / 2;
   std::vector<SineCosine<double>> along_x;
   for (const Wave& wave : waves) {
     for (int column = 0; column < grid.columns; ++column) {
-      const double x = (column - grid.columns / 2) * spacing;
+      const double x = (column - middle_column) * spacing;
       along_x.push_back(polynomial_sine_cosine(wave.k_x * x));
     }
   }
   for (int row = 0; row < grid.rows; ++row) {
-    const double y = (row - grid.rows / 2) * spacing;
+    const double y = (row - middle_row) * spacing;
     double* heights = grid.heights.data() + static_cast<std::size_t>(row) * columns;
     for (std::size_t n = 0; n < waves.size(); ++n) {
       const SineCosine<double> b = polynomial_sine_cosine(waves[n].k_y * y + waves[n].phase);
@@ -74,11 +75,12 @@ double roughness_at(const RoughGround& rough, double x, double y) {
 /// Calls `change(height, x, y)` for every vertex.
 template <class Change>
 void for_every_vertex(GridSpec& grid, double spacing, Change change) {
+  const int middle_row = grid.rows / 2, middle_column = grid.columns / 2;
   std::size_t vertex = 0;
   for (int row = 0; row < grid.rows; ++row) {
     for (int column = 0; column < grid.columns; ++column) {
-      change(grid.heights[vertex++], (column - grid.columns / 2) * spacing,
-             (row - grid.rows / 2) * spacing);
+      change(grid.heights[vertex++], (column - middle_column) * spacing,
+             (row - middle_row) * spacing);
     }
   }
 }

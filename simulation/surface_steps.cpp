@@ -20,11 +20,12 @@ std::string steps_problem(const StepsGround& steps, const Extent& extent) {
 [[gnu::flatten]] GridSpec steps_surface(const StepsGround& steps, const Extent& extent) {
   GridSpec grid = level_grid(extent);
   const SineCosine<double> uphill = polynomial_sine_cosine(steps.azimuth);
+  const int middle_row = grid.rows / 2, middle_column = grid.columns / 2;
   std::size_t vertex = 0;
   for (int row = 0; row < grid.rows; ++row) {
     for (int column = 0; column < grid.columns; ++column) {
-      const double x = (column - grid.columns / 2) * extent.spacing;
-      const double y = (row - grid.rows / 2) * extent.spacing;
+      const double x = (column - middle_column) * extent.spacing;
+      const double y = (row - middle_row) * extent.spacing;
       const double along = uphill.cosine * x + uphill.sine * y - steps.from;
       const double climbed = std::floor(along / steps.run);
       const double on_riser = std::min((along - climbed * steps.run) / extent.spacing, 1.);

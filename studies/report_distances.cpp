@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "output/number.h"
 #include "studies/report_page.h"
@@ -34,7 +35,7 @@ struct Scale {
 };
 
 Scale scale_of(const Matrix& matrix) {
-  double least = INFINITY, greatest = least_coloured;
+  double least = std::numeric_limits<double>::infinity(), greatest = least_coloured;
   for (const auto& distance : matrix) {
     if (!distance || !(*distance > least_coloured)) continue;
     least = std::min(least, *distance);

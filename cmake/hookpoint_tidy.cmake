@@ -1,0 +1,10 @@
+# The preset tidy reads many files as one. These have names in their unnamed namespaces that others of their folder have too.
+if(CMAKE_UNITY_BUILD)
+  function(hookpoint_read_apart folder)
+    list(TRANSFORM ARGN PREPEND ${PROJECT_SOURCE_DIR}/${folder}/)
+    set_source_files_properties(${ARGN} TARGET_DIRECTORY hookpoint_${folder} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  endfunction()
+  hookpoint_read_apart(output hdf5_times.cpp heat_map.cpp movie_writer.cpp)
+  hookpoint_read_apart(simulation vibration.cpp)
+  hookpoint_read_apart(reference ground.cpp mujoco_engine.cpp mujoco_model.cpp ode_shapes.cpp ode_world.cpp robot_tree.cpp)
+endif()
