@@ -37,8 +37,8 @@ struct RowWork {
 
 /// All rows of `order` by `options.jobs` workers, each outcome into its own slot; with
 /// `options.resume` those that the store has are not run again, and `options.tell` hears of those
-/// that it has of other runs. False when interrupted: what is
-/// finished is in the store. Rethrows what a worker throws.
+/// that it has of other runs. False when interrupted: what is finished is in the store. Rethrows
+/// what a worker throws.
 bool run_rows(std::span<const std::size_t> order, const RowWork& work, const RunOptions& options,
               const RowStore& store, ProgressMeter& meter, std::vector<RowOutcome>& outcomes);
 
