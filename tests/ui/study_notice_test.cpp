@@ -2,32 +2,30 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/command.h"
+#include "tests/support/text.h"
 
 namespace hookpoint {
 namespace {
 
+using testing::count;
 using testing::Workplace;
 
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t found = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
-    ++found;
-  return found;
+/// A study of a block that slides on 2 m of ground, at each of `speeds`.
+testing::CommandResult slides(const Workplace& work, const std::string& speeds) {
+  work.file("slide.hook",
+            "Param v0 = 1 m/s; World w { deltat = 0.2 ms; Terrain.Flat g { size = 2; } Robot block "
+            "{ Base.mobile { rest_on = g; velocity = v0, 0, 0; Shape.Box { dimensions = .2, .2, "
+            ".1; mass = 1; } } } }");
+  work.file("study.hook",
+            "Study slides { scene = \"slide.hook\"; duration = 1 s; settle = 0 s; Sweep v0 { "
+            "values = " +
+                speeds + "; } Measure slip_distance; Subject ours { engine = dts; } }");
+  return work.hookpoint("study study.hook --jobs 2 --out here");
 }
 
 TEST(StudyNotices, AreToldOnceWithTheRowsName) {
   const Workplace work;
-  work.file(
-      "slide.hook",
-      "Param v0 = 1 m/s; World w { deltat = 0.2 ms; Terrain.Flat g { size = 2; } Robot block { "
-      "Base.mobile { "
-      "rest_on = g; velocity = v0, 0, 0; Shape.Box { dimensions = .2, .2, .1; mass = 1; } } } "
-      "}");
-  work.file(
-      "study.hook",
-      "Study slides { scene = \"slide.hook\"; duration = 1 s; settle = 0 s; Sweep v0 { values "
-      "= 0.5 m/s, 9 m/s; } Measure slip_distance; Subject ours { engine = dts; } }");
-  const auto result = work.hookpoint("study study.hook --jobs 2 --out here");
+  const auto result = slides(work, "0.5 m/s, 9 m/s");
   EXPECT_EQ(result.status, 0) << result.err;
   const std::string note = "hookpoint: note: slides (ours, v0 = 9 m/s): block: a boundary point at";
   EXPECT_EQ(count(result.err, note), 1U) << result.err;
@@ -36,17 +34,8 @@ TEST(StudyNotices, AreToldOnceWithTheRowsName) {
 
 TEST(StudyNotices, OfSeveralRowsAreOne) {
   const Workplace work;
-  work.file(
-      "slide.hook",
-      "Param v0 = 1 m/s; World w { deltat = 0.2 ms; Terrain.Flat g { size = 2; } Robot block { "
-      "Base.mobile { "
-      "rest_on = g; velocity = v0, 0, 0; Shape.Box { dimensions = .2, .2, .1; mass = 1; } } } "
-      "}");
-  work.file(
-      "study.hook",
-      "Study slides { scene = \"slide.hook\"; duration = 1 s; settle = 0 s; Sweep v0 { values "
-      "= 8 m/s, 9 m/s, 10 m/s; } Measure slip_distance; Subject ours { engine = dts; } }");
-  const auto result = work.hookpoint("study study.hook --jobs 2 --out here");
+  const auto result = slides(work, "8 m/s, 9 m/s, 10 m/s");
+  EXPECT_EQ(result.status, 0) << result.err;
   EXPECT_EQ(count(result.err, "has left the terrain"), 1U) << result.err;
   EXPECT_EQ(count(result.err, "slides (ours, v0 = 8 m/s): "), 1U) << result.err;
   EXPECT_EQ(count(result.err, " (so do 2 more runs)"), 1U) << result.err;
