@@ -127,6 +127,7 @@ int run_one_wall(const StudyCommand& command, const studies::WallPlan& plan) {
     return ran;
   });
   if (!run) return interrupted(command, folder);
+  for (const std::string& notice : run->notices) tell(notice);
   std::cout << studies::wall_terminal_table(run->result, {coloured(), wall_table_width});
   std::cout << "\nreport: " << (folder / "report.html").string() << '\n';
   return run->result.failed() == 0 ? fine : truth_failed;

@@ -6,6 +6,7 @@
 #include <functional>
 #include <mutex>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "studies/execute.h"
@@ -41,5 +42,11 @@ struct RowWork {
 /// what a worker throws.
 bool run_rows(std::span<const std::size_t> order, const RowWork& work, const RunOptions& options,
               const RowStore& store, ProgressMeter& meter, std::vector<RowOutcome>& outcomes);
+
+/// What the rows have to say: each once, with the first row that says so and how many others do,
+/// whatever the numbers in it.
+std::vector<std::string> collect_notices(
+    const std::vector<RowOutcome>& outcomes,
+    const std::function<std::string(std::size_t row)>& name_of);
 
 }  // namespace hookpoint::studies

@@ -41,5 +41,23 @@ TEST(StudyNotices, OfSeveralRowsAreOne) {
   EXPECT_EQ(count(result.err, " (so do 2 more runs)"), 1U) << result.err;
 }
 
+TEST(WallNotices, AreToldWithTheSceneAndTheSubject) {
+  const Workplace work;
+  // Explicit Euler gives a pendulum energy.
+  work.file("swing.hook",
+            "World w { gravity = 0, 9.81, 0; deltat = 1 ms; duration = 10 s; Robot r { Base.fixed "
+            "{ orientation = 0, 0, 90 deg; } Chain c { Link l { angle = 40 deg; mass = 0.2; "
+            "center_of_mass = 0.25, 0, 0; inertia = 1e-3, 4e-3, 4e-3, 0, 0, 0; } } } }\n"
+            "Expect end { of = w.time; take = maximum; equals = 10; within = 1e-9; }\n");
+  work.file("wall.hook",
+            "Wall w { Subject steady { engine = dts; integrator = rk4; } Subject euler { engine = "
+            "dts; integrator = explicit_euler; } Scene swing { file = \"swing.hook\"; } }\n");
+  const auto result = work.hookpoint("study wall.hook --jobs 1 --out here");
+  EXPECT_EQ(result.status, 0) << result.err;
+  const std::string note = "nothing drives it, yet its energy rose";
+  EXPECT_EQ(count(result.err, "hookpoint: note: swing under euler: " + note), 1U) << result.err;
+  EXPECT_EQ(count(result.err, note), 1U) << result.err;
+}
+
 }  // namespace
 }  // namespace hookpoint
