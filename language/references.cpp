@@ -107,8 +107,11 @@ std::optional<Target> Names::descend(const Object& object,
                   std::string(parts[next + 1]) + "`";
     std::string rest(parts[next]);
     for (std::size_t i = next + 1; i < parts.size(); ++i) rest += '.' + std::string(parts[i]);
-    why.message +=
-        letters.empty() ? did_you_mean(rest, names_in(object, want_field)) : "; its parts are";
+    std::vector<std::string> longer = names_in(object, want_field);
+    std::erase_if(longer,
+                  [&](const std::string& name) { return !name.starts_with(whole->name + '.'); });
+    why.message += did_you_mean(rest, longer);
+    if (!letters.empty()) why.message += "; its parts are";
     for (const char letter : letters)
       why.message += std::string(letter == letters.front() ? " " : ", ") + letter;
   } else {
