@@ -172,12 +172,17 @@ std::vector<std::string> Application::world_settings(const std::filesystem::path
   return settings;
 }
 
-std::filesystem::path Application::locate(const std::filesystem::path& file) {
+std::filesystem::path Application::find(const std::filesystem::path& file) {
   std::error_code ignored;
   if (file.empty() || std::filesystem::exists(file, ignored)) return file;
   std::filesystem::path found = library().find(file, {});
-  if (found.empty()) return file;
-  std::cerr << "hookpoint: note: " << file.string() << " is " << found.string() << '\n';
+  return found.empty() ? file : found;
+}
+
+std::filesystem::path Application::locate(const std::filesystem::path& file) {
+  std::filesystem::path found = find(file);
+  if (found != file)
+    std::cerr << "hookpoint: note: " << file.string() << " is " << found.string() << '\n';
   return found;
 }
 

@@ -60,8 +60,9 @@ class Application {
   std::vector<std::string> world_settings(const std::filesystem::path& file,
                                           const std::string& field, const std::string& value,
                                           const std::vector<std::string>& beside = {});
-  /// `file` as it is written from here; one that is not there is looked up as an Include is, and
-  /// what was found is told on stderr.
+  /// `file` as it is written from here; one that is not there is looked up as an Include is.
+  std::filesystem::path find(const std::filesystem::path& file);
+  /// The same, and what was found elsewhere is told on stderr.
   std::filesystem::path locate(const std::filesystem::path& file);
   /// Loads the plugins of the scenes that the file's studies run, which the file itself need not
   /// name. False after errors, which are told.

@@ -1,6 +1,4 @@
-#include <fstream>
 #include <iostream>
-#include <sstream>
 
 #include "cli/application.h"
 #include "cli/commands.h"
@@ -19,15 +17,6 @@ bool can_run(Application& application, const language::Object& root,
   arguments.file = file;
   arguments.allow_plugins = allow_plugins;
   return !holds_study(root) || plan_study_file(application, root, arguments).has_value();
-}
-
-/// Empty when the file cannot be read.
-std::optional<std::string> read_text(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream || std::filesystem::is_directory(file)) return std::nullopt;
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
 }
 
 }  // namespace
@@ -50,7 +39,7 @@ int check(const std::vector<std::filesystem::path>& files, bool allow_plugins) {
 int format(const std::vector<std::filesystem::path>& files, bool check_only) {
   int status = fine;
   for (const std::filesystem::path& file : files) {
-    const auto text = read_text(file);
+    const auto text = output::read_file(file);
     if (!text) {
       print_error("cannot read " + file.string());
       status = wrong_input;

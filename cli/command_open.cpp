@@ -1,14 +1,22 @@
+#include <vector>
+
 #include "cli/application.h"
 #include "cli/commands.h"
 #include "cli/study_plans.h"
 
 namespace hookpoint::cli {
 
-std::optional<bool> holds_study(const std::filesystem::path& file, bool allow_plugins) {
-  Application application(allow_plugins);
-  const auto root = application.evaluate(application.locate(file), {});
-  if (!root) return std::nullopt;
-  return holds_study(*root);
+std::optional<bool> holds_study(const std::filesystem::path& file, const Settings& settings,
+                                bool allow_plugins) {
+  std::vector<language::Diagnostics> found;
+  Application application(allow_plugins, [&](const language::Diagnostics& diagnostics) {
+    found.push_back(diagnostics);
+  });
+  const auto root = evaluate_file(application, application.find(file), settings).root;
+  if (root) return holds_study(*root);
+  application.locate(file);
+  for (const language::Diagnostics& diagnostics : found) print_diagnostics(diagnostics);
+  return std::nullopt;
 }
 
 }  // namespace hookpoint::cli

@@ -118,7 +118,8 @@ std::string engines_json(const Application& application);
 std::string version_text();
 
 /// What FILE.hook without a command means: true when it holds a Study, false for a world; none when
-/// it has errors, which are printed.
-std::optional<bool> holds_study(const std::filesystem::path& file, bool allow_plugins);
+/// it has errors, which are printed. Anything else is for the command to tell.
+std::optional<bool> holds_study(const std::filesystem::path& file, const Settings& settings,
+                                bool allow_plugins);
 
 }  // namespace hookpoint::cli

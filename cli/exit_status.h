@@ -5,7 +5,7 @@ namespace hookpoint::cli {
 
 enum ExitStatus : int {
   fine = 0,
-  truth_failed = 1,  ///< a Truth failed or a run diverged
+  truth_failed = 1,  ///< a Truth failed, a run diverged, or files differ
   wrong_input = 2,   ///< what the user wrote cannot be read or run
   missing = 3,       ///< something is not on this machine
   // After a signal 128 and its number: 130 the interrupt key, 143 SIGTERM (InterruptGuard::status).
@@ -19,7 +19,7 @@ struct ExitMeaning {
 /// For people.
 inline constexpr ExitMeaning exit_meanings[] = {
     {fine, "fine"},
-    {truth_failed, "a truth failed or a run diverged"},
+    {truth_failed, "a truth failed, a run diverged, or files differ"},
     {wrong_input, "wrong input"},
     {missing, "something is missing on this machine"},
     {130, "interrupted (143 by SIGTERM)"},

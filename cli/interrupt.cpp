@@ -19,19 +19,25 @@ sem_t woken;
 int status_of(int signal) { return 128 + signal; }
 
 void request_stop(int signal) {
-  if (stop_requested.exchange(true)) _exit(status_of(signal));
-  signal_received = signal;
+  // The number comes before the flag: who sees the flag asks for the status.
+  int none = 0;
+  if (!signal_received.compare_exchange_strong(none, signal)) _exit(status_of(signal));
+  stop_requested = true;
   const int saved = errno;
   sem_post(&woken);
   errno = saved;
 }
 
+/// A signal that the program was told to ignore, as in the background of a script, stays ignored.
 void handle(void (*handler)(int)) {
   struct sigaction action {};
   action.sa_handler = handler;
   action.sa_flags = SA_RESTART;
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
+  for (const int signal : {SIGINT, SIGTERM}) {
+    struct sigaction before {};
+    sigaction(signal, nullptr, &before);
+    if (before.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);
+  }
 }
 
 }  // namespace

@@ -7,7 +7,8 @@
 namespace hookpoint::cli {
 
 /// While it lives, the interrupt key (SIGINT) and SIGTERM set `stop()` instead of ending the
-/// program; a second one ends it at once, with the exit status of an interrupt. One at a time.
+/// program; a second one ends it at once, with the exit status of an interrupt. One that was
+/// ignored before stays ignored. One guard at a time.
 class InterruptGuard {
  public:
   InterruptGuard();

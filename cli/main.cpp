@@ -85,10 +85,8 @@ void add_settings(CLI::App* command, Settings& settings) {
   for (const ShortForm& form : short_forms) add_short_form(command, settings, form);
 }
 
-constexpr const char* allow_plugins = "--allow-plugins";
-
 void add_plugins(CLI::App* command, bool& allowed) {
-  command->add_flag(allow_plugins, allowed,
+  command->add_flag("--allow-plugins", allowed,
                     "run the code of any plugin that the file names, not only of those in "
                     "HOOKPOINT_TRUSTED_PLUGINS");
 }
@@ -318,6 +316,25 @@ std::vector<std::string> command_names(const CLI::App& app) {
   return names;
 }
 
+/// Whether FILE.hook, the first of `words`, is a study's with what the others set in it. What is
+/// wrong with them the command tells that they are for.
+std::optional<bool> holds_study(const std::vector<std::string>& words) {
+  CLI::App app;
+  app.set_help_flag();
+  app.allow_extras();
+  std::filesystem::path file;
+  Settings settings;
+  bool allowed = false;
+  app.add_option("FILE", file);
+  add_settings(&app, settings);
+  add_plugins(&app, allowed);
+  try {
+    app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
+  } catch (const CLI::ParseError&) {
+  }
+  return holds_study(words[0], settings, allowed);
+}
+
 /// The words as a command would have them: `FILE.hook ...` gets `study` or `run` in front, by what
 /// the file holds. Empty when the first word is neither a command, an option nor a file, or the
 /// file has errors; the user has been told.
@@ -326,8 +343,7 @@ std::vector<std::string> with_command(const CLI::App& app, std::vector<std::stri
   const std::vector<std::string> names = command_names(app);
   if (std::find(names.begin(), names.end(), words[0]) != names.end()) return words;
   if (std::filesystem::path(words[0]).extension() == ".hook") {
-    const bool allowed = std::find(words.begin(), words.end(), allow_plugins) != words.end();
-    const std::optional<bool> study = holds_study(words[0], allowed);
+    const std::optional<bool> study = holds_study(words);
     if (!study) return {};
     words.insert(words.begin(), *study ? "study" : "run");
     return words;

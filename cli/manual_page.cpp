@@ -1,5 +1,7 @@
 #include "cli/manual_page.h"
 
+#include <algorithm>
+
 #include "cli/exit_status.h"
 #include "language/names.h"
 
@@ -127,10 +129,11 @@ std::string bash_completion(const CLI::App& app,
       "  case \"$command:$before\" in\n";
   std::vector<std::string> commands;
   std::string options = "  case $command in\n";
-  const auto add = [&](const CLI::App& of, const std::string& name) {
+  const auto add = [&](const std::vector<const CLI::Option*>& possible, const std::string& name) {
     std::vector<std::string> all;
-    for (const CLI::Option* option : options_of(of)) {
+    for (const CLI::Option* option : possible) {
       const std::vector<std::string> names = names_of(*option);
+      if (!names.empty() && std::ranges::find(all, names.back()) != all.end()) continue;
       all.insert(all.end(), names.begin(), names.end());
       if (names.empty() || !takes_value(*option)) continue;
       const std::string offered = offer(*option, words);
@@ -142,10 +145,14 @@ std::string bash_completion(const CLI::App& app,
   };
   for (const CLI::App* command : commands_of(app)) {
     commands.push_back(command->get_name());
-    add(*command, command->get_name());
+    add(options_of(*command), command->get_name());
   }
-  add(app, "");
+  add(options_of(app), "");
   // The first word is a command or a file; FILE.hook takes what `run` and `study` take.
+  std::vector<const CLI::Option*> of_file = options_of(*app.get_subcommand("run"));
+  const auto of_study = options_of(*app.get_subcommand("study"));
+  of_file.insert(of_file.end(), of_study.begin(), of_study.end());
+  add(of_file, "*.hook");
   text += "  esac\n" + options +
           "    *) options='--help' ;;\n  esac\n"
           "  if [ -z \"$command\" ]; then options=\"$options " +

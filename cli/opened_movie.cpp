@@ -2,12 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
-#include <cmath>
 #include <cstdlib>
 
 #include "cli/exit_status.h"
-#include "language/units.h"
+#include "language/document.h"
 #include "simulation/load.h"
 
 namespace hookpoint::cli {
@@ -62,17 +60,9 @@ simulation::World OpenedMovie::make_world(const simulation::Experiment& experime
 }
 
 double seconds(const std::string& text, const char* option) {
-  double value = 0.;
-  const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, value);
-  std::string_view unit(stop, static_cast<std::size_t>(end - stop));
-  while (unit.starts_with(' ')) unit.remove_prefix(1);
-  const auto given = language::parse_unit(unit.empty() ? "s" : unit);
-  const bool is_time = given && given->dimension == language::find_unit("s")->dimension;
-  if (error != std::errc{} || !is_time || !std::isfinite(value))
-    throw output::MovieError(
-        fmt::format("{} takes a time such as \"2.5 s\" or \"300 ms\", not `{}`", option, text));
-  return value * given->numerator / given->denominator;
+  if (const auto value = language::number_of(text, "s")) return *value;
+  throw output::MovieError(
+      fmt::format("{} takes a time such as \"2.5 s\" or \"300 ms\", not `{}`", option, text));
 }
 
 int use_movie(const std::function<int()>& work) {

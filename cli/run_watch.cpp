@@ -11,6 +11,7 @@
 #include "cli/application.h"
 #include "cli/exit_status.h"
 #include "output/progress.h"
+#include "output/terminal.h"
 
 namespace hookpoint::cli {
 namespace {
@@ -25,7 +26,7 @@ RunWatch::RunWatch(std::string label, RunSpan span, std::function<void()> close)
     : label_(std::move(label)),
       span_(span),
       close_(std::move(close)),
-      terminal_(isatty(STDERR_FILENO) == 1),
+      terminal_(output::is_able_terminal(STDERR_FILENO)),
       time_(span.first),
       thread_([this] { watch(); }) {}
 

@@ -13,8 +13,8 @@ struct ShortForm {
 
 inline constexpr ShortForm short_forms[] = {
     {"--engine", "engine", "NAME", "the World's engine: dts or a peer", false},
-    {"--settings", "settings", "NAME", "how a peer is set up: default, recommended, matched",
-     false},
+    {"--settings", "settings", "NAME",
+     "how a peer is set up: default, recommended, matched, or noslip of mujoco", false},
     {"--contact", "contact", "LAW", "the World's contact law", false},
     {"--integrator", "integrator", "NAME", "the World's integrator", true},
     {"--dt", "deltat", "TIME", "the World's time step: \"0.5 ms\"", true},

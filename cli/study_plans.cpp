@@ -1,24 +1,17 @@
 #include "cli/study_plans.h"
 
 #include <algorithm>
-#include <fstream>
-#include <sstream>
 #include <string_view>
 #include <thread>
 
 #include "cli/short_forms.h"
 #include "language/names.h"
+#include "output/file.h"
 #include "output/hash.h"
 #include "studies/scene_settings.h"
 
 namespace hookpoint::cli {
 namespace {
-
-std::string content(const std::filesystem::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
 
 /// The plans of all Study blocks of `root`, evaluated from `file`; nothing after errors, which are
 /// told.
@@ -45,36 +38,6 @@ studies::PlanOptions plan_options(const StudyArguments& arguments,
     options.settings.trails.push_back(override_from(setting));
   options.settings.world = arguments.settings.world;
   return options;
-}
-
-/// `file` with those of the settings that it has a Param or an object for.
-struct SetFile {
-  std::unique_ptr<language::Object> root;  ///< null after errors, which are told
-  std::vector<std::string> settable;       ///< Params and objects at its top
-};
-
-SetFile evaluate_file(Application& application, const std::filesystem::path& file,
-                      const Settings& settings) {
-  SetFile set;
-  if (!application.load_plugins(file)) return set;
-  language::Diagnostics untold;
-  for (const auto& parameter : application.library().parameters(file, untold))
-    set.settable.push_back(parameter.name);
-  const auto own = [&] {
-    std::vector<std::string> found;
-    for (const std::string& setting : settings.trails)
-      if (std::ranges::find(set.settable, studies::first_name(override_from(setting).trail)) !=
-          set.settable.end())
-        found.push_back(setting);
-    return found;
-  };
-  // Of the objects nothing is known before the Params have their values.
-  if (!settings.trails.empty()) {
-    if (const auto plain = application.library().evaluate(file, options_from(own()), untold))
-      for (const auto& child : plain->children) set.settable.push_back(child->name);
-  }
-  set.root = application.evaluate(file, own());
-  return set;
 }
 
 /// What is set but stands nowhere; "" when all does.
@@ -156,7 +119,7 @@ bool plan_part(Application& application, const language::Object& part,
       return refuse("a second study is called `" + plan.name + "`");
     plan.file = name;
     plan.settable.insert(plan.settable.end(), set.settable.begin(), set.settable.end());
-    planned.push_back({std::move(plan), content(file)});
+    planned.push_back({std::move(plan), output::read_file(file).value_or("")});
   }
   return true;
 }
@@ -192,6 +155,30 @@ std::string shell_word(const std::string& text) {
   std::string quoted = "'";
   for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return quoted + "'";
+}
+
+SetFile evaluate_file(Application& application, const std::filesystem::path& file,
+                      const Settings& settings) {
+  SetFile set;
+  if (!application.load_plugins(file)) return set;
+  language::Diagnostics untold;
+  for (const auto& parameter : application.library().parameters(file, untold))
+    set.settable.push_back(parameter.name);
+  const auto own = [&] {
+    std::vector<std::string> found;
+    for (const std::string& setting : settings.trails)
+      if (std::ranges::find(set.settable, studies::first_name(override_from(setting).trail)) !=
+          set.settable.end())
+        found.push_back(setting);
+    return found;
+  };
+  // Of the objects nothing is known before the Params have their values.
+  if (!settings.trails.empty()) {
+    if (const auto plain = application.library().evaluate(file, options_from(own()), untold))
+      for (const auto& child : plain->children) set.settable.push_back(child->name);
+  }
+  set.root = application.evaluate(file, own());
+  return set;
 }
 
 bool holds_study(const language::Object& root) {

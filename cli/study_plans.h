@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -42,6 +43,14 @@ struct StudyFile {
     return size() > 1 ? out / name : out;
   }
 };
+
+/// A file with those of the settings that it has a Param or an object for.
+struct SetFile {
+  std::unique_ptr<language::Object> root;  ///< null after errors, which are told
+  std::vector<std::string> settable;       ///< Params and objects at its top
+};
+SetFile evaluate_file(Application& application, const std::filesystem::path& file,
+                      const Settings& settings);
 
 /// Whether a file that was evaluated holds any of these blocks.
 bool holds_study(const language::Object& root);

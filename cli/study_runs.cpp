@@ -10,6 +10,7 @@
 #include "cli/run_bar.h"
 #include "cli/study_reports.h"
 #include "output/file.h"
+#include "output/result_folder.h"
 #include "output/terminal.h"
 #include "studies/terminal_table.h"
 #include "studies/verdict.h"
@@ -30,8 +31,8 @@ std::size_t terminal_width() {
 
 /// That what is finished is kept in `folder`, and how to go on; "" when nothing is.
 std::string how_to_go_on(const StudyCommand& command, const std::filesystem::path& folder) {
-  std::error_code error;
-  if (std::filesystem::is_empty(folder, error) || error) return "";
+  std::error_code ignored;
+  if (!std::filesystem::exists(folder / output::Manifest::file_name, ignored)) return "";
   const auto& named = command.arguments.out;
   const std::string out = named ? " --out " + shell_word(named->string()) : "";
   return "; what is finished is kept in " + folder.string() + ": `" + command.command + out +
@@ -50,6 +51,8 @@ auto writing_into(const StudyCommand& command, const std::filesystem::path& fold
                   const Work& work) {
   try {
     return work();
+  } catch (const output::PlaceError& error) {
+    throw output::PlaceError(error.what() + how_to_go_on(command, folder));
   } catch (const output::FileError& error) {
     throw output::FileError(error.what() + how_to_go_on(command, folder));
   }
@@ -81,6 +84,23 @@ StudyOutcome run_into(const StudyCommand& command, const studies::StudyPlan& pla
   return {status, std::move(run), std::move(report.figures)};
 }
 
+int run_matrix_into(const StudyCommand& command, const MatrixPlan& plan,
+                    const std::filesystem::path& folder) {
+  MatrixRun run = begin_matrix(plan, command.arguments.file, folder);
+  int status = fine;
+  for (const MatrixPart& part : plan.parts) {
+    StudyOutcome outcome = run_into(command, part.plan, folder / part.plan.name);
+    status = std::max(status, outcome.status);
+    if (!outcome.run) return status;
+    run.result.studies.push_back(
+        {std::move(outcome.run->result), part.text, std::move(outcome.figures)});
+  }
+  write_matrix(run, plan, command.file.text, command.engines, command.command);
+  std::cout << studies::matrix_terminal_table(run.result, coloured());
+  std::cout << "\nmatrix: " << (folder / "matrix.html").string() << '\n';
+  return status;
+}
+
 }  // namespace
 
 int run_one_study(const StudyCommand& command, const studies::StudyPlan& plan) {
@@ -107,31 +127,11 @@ int run_one_wall(const StudyCommand& command, const studies::WallPlan& plan) {
     return ran;
   });
   if (!run) return interrupted(command, folder);
+  for (const std::string& notice : run->notices) tell(notice);
   std::cout << studies::wall_terminal_table(run->result, {coloured(), wall_table_width});
   std::cout << "\nreport: " << (folder / "report.html").string() << '\n';
   return run->result.failed() == 0 ? fine : truth_failed;
 }
-
-namespace {
-
-int run_matrix_into(const StudyCommand& command, const MatrixPlan& plan,
-                    const std::filesystem::path& folder) {
-  MatrixRun run = begin_matrix(plan, command.arguments.file, folder);
-  int status = fine;
-  for (const MatrixPart& part : plan.parts) {
-    StudyOutcome outcome = run_into(command, part.plan, folder / part.plan.name);
-    status = std::max(status, outcome.status);
-    if (!outcome.run) return status;
-    run.result.studies.push_back(
-        {std::move(outcome.run->result), part.text, std::move(outcome.figures)});
-  }
-  write_matrix(run, plan, command.file.text, command.engines, command.command);
-  std::cout << studies::matrix_terminal_table(run.result, coloured());
-  std::cout << "\nmatrix: " << (folder / "matrix.html").string() << '\n';
-  return status;
-}
-
-}  // namespace
 
 int run_one_matrix(const StudyCommand& command, const MatrixPlan& plan) {
   std::filesystem::path folder = command.folder(plan.name);

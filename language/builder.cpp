@@ -234,14 +234,14 @@ void Builder::lay_wire(FileScope& scope, const Item& item) {
   Wire wire;
   wire.position = position(scope, item.place);
   if (!take(Resource::objects, 1, wire.position)) return;
-  const auto take = [&](bool has, const Trail& trail, std::optional<Reference>& end) {
+  const auto take_end = [&](bool has, const Trail& trail, std::optional<Reference>& end) {
     if (!has) return true;
     const std::optional<std::string> text = evaluate.trail_text(trail);
     if (text) end = Reference{*text, nullptr, "", position(scope, trail.span)};
     return text.has_value();
   };
-  const bool good =
-      take(detail.has_from, detail.from, wire.from) && take(detail.has_to, detail.to, wire.to);
+  const bool good = take_end(detail.has_from, detail.from, wire.from) &&
+                    take_end(detail.has_to, detail.to, wire.to);
   const ClassSchema& schema = *schema_.schema().find("Wire");
   for (std::uint32_t i = item.items.begin; i < item.items.end; ++i) {
     const Item& inner = scope.file.syntax.items[i];

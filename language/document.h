@@ -105,6 +105,10 @@ std::string describe_markdown(const Schema& schema);
 /// The language's words as a TextMate grammar (JSON), for editors.
 std::string describe_textmate(const Schema& schema);
 
+/// The value of `text` ("2 * 3 ms") as a field that takes one number in `unit` would have it, in
+/// SI; nothing when such a field would refuse it.
+std::optional<double> number_of(const std::string& text, const std::string& unit);
+
 /// The name of `candidates` nearest to `name` (edit distance at most a third of its length), or ""
 /// if none is near.
 std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates);

@@ -58,6 +58,8 @@ class FieldMaker {
   bool check_count(std::size_t count, int least, int most, std::string_view noun);
   /// The values of the list; nothing after an error.
   bool evaluate();
+  /// Field::unit.
+  std::string written_unit() const;
   /// The trail that is all of the one expression, else null: no variable's value.
   const Trail* lone_trail() const;
   /// The word that is all of the one expression, else "".
@@ -113,6 +115,25 @@ bool FieldMaker::evaluate() {
   std::optional<std::vector<Value>> values = context_.evaluator.evaluate_list(value_);
   if (values) values_ = std::move(*values);
   return values.has_value();
+}
+
+std::string FieldMaker::written_unit() const {
+  const Syntax& syntax = context_.evaluator.syntax();
+  for (std::uint32_t i = value_.begin; i < value_.end; ++i) {
+    const Range code = syntax.expressions[i].code;
+    for (std::uint32_t at = code.begin; at < code.end; ++at) {
+      const Instruction& instruction = syntax.code[at];
+      if (instruction.operation != Operation::push_number) continue;
+      if (syntax.quantities[instruction.operand].dimension != field_.dimension) continue;
+      const std::string_view number = context_.evaluator.text(instruction.span);
+      double value = 0.;
+      const auto [end, error] =
+          std::from_chars(number.data(), number.data() + number.size(), value);
+      const std::string_view rest = number.substr(static_cast<std::size_t>(end - number.data()));
+      return std::string(rest.substr(std::min(rest.find_first_not_of(" \t"), rest.size())));
+    }
+  }
+  return "";
 }
 
 const Trail* FieldMaker::lone_trail() const {
@@ -205,6 +226,7 @@ bool FieldMaker::make_numbers() {
     }
     field_.numbers.push_back(value.quantity.value);
   }
+  if (schema_.unit == "?") field_.unit = written_unit();
   return true;
 }
 

@@ -34,7 +34,10 @@ struct Field {
   std::vector<Position> places;    ///< of each of several `words`
   Reference reference;             ///< object, port
   Dimension dimension;  ///< of `numbers` where the schema's unit is "?" (else the schema's)
-  Position position;    ///< of the value
+  /// Of the first number in that dimension, as it is written ("deg"), where the schema's unit is
+  /// "?"; "" when none is written.
+  std::string unit;
+  Position position;  ///< of the value
 };
 
 struct Wire {

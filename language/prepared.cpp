@@ -95,28 +95,49 @@ void PreparedSchema::check_names(const ClassSchema& schema) {
   }
 }
 
+namespace {
+
+/// The field that `file`, whose text is `name = value`, gives it; nothing after errors.
+std::optional<Field> make_alone(ParsedFile& file, const FieldSchema& field,
+                                const Dimension& dimension, const Dimension& other_dimension,
+                                Report& report) {
+  index_lines(file.source);
+  parse_override(file);
+  report.append(file.report);
+  if (report.has_errors()) return std::nullopt;
+  const Variables none;
+  Budget budget;
+  const ExpressionEvaluator evaluator(file, none, report, budget);
+  return make_field({field, dimension, other_dimension, evaluator, report},
+                    file.syntax.items[file.syntax.top.begin].value);
+}
+
+}  // namespace
+
+std::optional<double> number_of(const std::string& text, const std::string& unit) {
+  FieldSchema schema;
+  schema.name = "value";
+  schema.unit = unit;
+  ParsedFile file;
+  file.source.text = schema.name + " = " + text;
+  Report report;
+  const std::optional<Field> field =
+      make_alone(file, schema, parse_unit(unit).value_or(Unit{}).dimension, {}, report);
+  return field ? std::optional(field->numbers.front()) : std::nullopt;
+}
+
 void PreparedSchema::add_default(const ClassSchema& owner, const FieldSchema& field,
                                  PreparedClass& prepared) {
   auto file = std::make_unique<ParsedFile>();
   file->source.path = "<default of " + owner.name + ">";
   file->source.text = field.name + " = " + field.default_text;
-  index_lines(file->source);
-  parse_override(*file);
   Report report;
-  report.append(file->report);
-  if (!report.has_errors()) {
-    const Variables none;
-    Budget budget;
-    const ExpressionEvaluator evaluator(*file, none, report, budget);
-    const Range value = file->syntax.items[file->syntax.top.begin].value;
-    std::optional<Field> made = make_field(
-        {field, prepared.dimensions.back(), prepared.other_dimensions.back(), evaluator, report},
-        value);
-    if (made && (field.type == FieldType::object || field.type == FieldType::port)) {
-      report.error({}, "a reference cannot have a default");
-    }
-    if (made) prepared.defaults.push_back(std::move(*made));
+  std::optional<Field> made = make_alone(*file, field, prepared.dimensions.back(),
+                                         prepared.other_dimensions.back(), report);
+  if (made && (field.type == FieldType::object || field.type == FieldType::port)) {
+    report.error({}, "a reference cannot have a default");
   }
+  if (made) prepared.defaults.push_back(std::move(*made));
   default_texts_.push_back(std::move(file));
   if (!report.has_errors()) return;
   Diagnostics diagnostics;

@@ -105,6 +105,12 @@ std::optional<Target> Names::descend(const Object& object,
     const std::string_view letters = part_letters(*whole);
     why.message = "`" + whole->name + "` of " + called(object) + " has no part `" +
                   std::string(parts[next + 1]) + "`";
+    std::string rest(parts[next]);
+    for (std::size_t i = next + 1; i < parts.size(); ++i) rest += '.' + std::string(parts[i]);
+    std::vector<std::string> longer = names_in(object, want_field);
+    std::erase_if(longer,
+                  [&](const std::string& name) { return !name.starts_with(whole->name + '.'); });
+    why.message += did_you_mean(rest, longer);
     if (!letters.empty()) why.message += "; its parts are";
     for (const char letter : letters)
       why.message += std::string(letter == letters.front() ? " " : ", ") + letter;
@@ -131,9 +137,7 @@ std::optional<Target> Names::field_of(const Object& object,
                                       const std::vector<std::string_view>& parts,
                                       std::size_t next) const {
   if (object.schema == nullptr) return std::nullopt;
-  // A port's own name may hold a dot: contact.force.
   const FieldSchema* field = nullptr;
-  std::size_t end = next;
   if (const auto [list, element] = split_element(parts[next]);
       element && parts.size() == next + 1) {
     field = object.schema->find(list);
@@ -142,9 +146,17 @@ std::optional<Target> Names::field_of(const Object& object,
     if (!has) return std::nullopt;
     return Target{&object, field, *element, field->name + part_name(*field, *element)};
   }
-  for (std::string name; field == nullptr && end < parts.size(); ++end) {
-    if (!name.empty()) name += '.';
-    field = object.schema->find(name += parts[end]);
+  // A port's own name may hold a dot (contact.force) and begin with another's (integrator.steps):
+  // the longest counts.
+  std::size_t end = next;
+  std::string name;
+  for (std::size_t i = next; i < parts.size(); ++i) {
+    if (i > next) name += '.';
+    name += parts[i];
+    if (const FieldSchema* longer = object.schema->find(name)) {
+      field = longer;
+      end = i + 1;
+    }
   }
   if (field == nullptr || parts.size() > end + 1) return std::nullopt;
   if (parts.size() == end) return Target{&object, field, -1, field->name};

@@ -5,7 +5,8 @@
 
 #include <cerrno>
 #include <cstring>
-#include <string>
+#include <fstream>
+#include <iterator>
 #include <utility>
 
 namespace hookpoint::output {
@@ -84,6 +85,16 @@ void PartialFile::write_at(std::uint64_t offset, std::string_view text) {
 void PartialFile::complete() {
   if (::close(std::exchange(descriptor_, -1)) != 0) fail_file("write", partial_);
   rename_file(partial_, path_);
+}
+
+std::optional<std::string> read_file(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return std::nullopt;
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) return std::nullopt;
+  std::string text(std::istreambuf_iterator<char>(stream), {});
+  if (stream.bad()) return std::nullopt;
+  return text;
 }
 
 void write_file(const std::filesystem::path& path, std::string_view text) {

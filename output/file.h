@@ -1,9 +1,11 @@
-// A file that appears under its own name only when it is complete.
+// Files are read whole, and appear under their own names only when they are complete.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 
 namespace hookpoint::output {
@@ -64,6 +66,10 @@ class PartialFile {
   int descriptor_ = -1;
   std::uint64_t size_ = 0;
 };
+
+/// All of a regular file; nothing when there is none that can be read. Nobody may ever write to a
+/// pipe: it is not read.
+std::optional<std::string> read_file(const std::filesystem::path& path);
 
 /// `text` as the whole of `path`, all or nothing. Throws FileError.
 void write_file(const std::filesystem::path& path, std::string_view text);

@@ -17,7 +17,8 @@ class Hash {
   Hash& operator=(const Hash&) = delete;
 
   Hash& add(std::string_view text);
-  /// The bytes of a file, alone as what `hash_of_file` tells. Throws FileError.
+  /// The bytes of a file, without their length: of one file alone it is hash_of_file's. Throws
+  /// FileError.
   Hash& add_file(const std::filesystem::path& file);
   /// 32 hexadecimal digits, of all so far.
   std::string text() const;

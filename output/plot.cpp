@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <fstream>
-#include <iterator>
 #include <utility>
 
 #include "output/child.h"
@@ -17,11 +15,6 @@ namespace {
 /// gnuplot takes `<name` and `|name` for commands.
 bool names_a_file(const std::string& name) {
   return !name.empty() && name.find_first_of("/<|") == std::string::npos && one_line(name) == name;
-}
-
-std::string read_file(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 void replace_all(std::string& text, const std::string& from, const std::string& to) {
@@ -102,7 +95,7 @@ PlotOutcome draw_files(const std::string& name, const std::string& data, const s
                 "gnuplot could not draw " + (folder / (name + ".gp")).string() + ": " + run->output,
             .svg = ""};
   }
-  return {.drawn = true, .message = "", .svg = read_file(svg)};
+  return {.drawn = true, .message = "", .svg = read_file(svg).value_or("")};
 }
 
 std::string inline_svg(const std::string& svg, const std::string& prefix) {

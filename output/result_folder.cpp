@@ -7,9 +7,7 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <fstream>
 #include <set>
-#include <sstream>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -31,6 +29,11 @@ bool is_folder(const std::string& name) { return name.ends_with('/'); }
 bool there(const fs::path& path) {
   std::error_code ignored;
   return fs::exists(fs::symlink_status(path, ignored));
+}
+
+/// What a list of files names may be removed: nothing outside the list's own folder.
+bool stays_inside(const fs::path& name) {
+  return !name.empty() && name.is_relative() && std::ranges::find(name, "..") == name.end();
 }
 
 /// A folder without anything in it takes nobody's place.
@@ -90,13 +93,13 @@ std::vector<std::string> stages_of(const std::string& name) {
 std::optional<Manifest> read_manifest(const fs::path& folder) {
   const fs::path path = folder / Manifest::file_name;
   if (!there(path)) return std::nullopt;
-  std::ostringstream text;
-  if (fs::is_regular_file(path)) text << std::ifstream(path, std::ios::binary).rdbuf();
-  const auto leaves = json_leaves(text.str());
+  const auto leaves = json_leaves(read_file(path).value_or(""));
   Manifest manifest;
   if (leaves)
     for (const auto& [key, value] : *leaves) read_leaf(key, value, manifest);
-  if (manifest.experiment.empty())
+  const bool inside = std::ranges::all_of(
+      manifest.files, [](const auto& file) { return stays_inside(file.first); });
+  if (manifest.experiment.empty() || !inside)
     throw FolderError(path.string() + " is not a list of files that hookpoint wrote; " + advice);
   return manifest;
 }

@@ -38,7 +38,8 @@ struct Manifest {
   std::map<std::string, std::string> files;
 };
 
-/// Nothing when there is no files.json. Throws FolderError when it cannot be read as one.
+/// Nothing when there is no files.json. Throws FolderError when it cannot be read as one, or names
+/// a file outside the folder.
 std::optional<Manifest> read_manifest(const std::filesystem::path& folder);
 
 class ResultFolder {

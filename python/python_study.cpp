@@ -152,6 +152,7 @@ class StudyRunner {
     made["table"] = columns_of(studies::wall_results_table(result));
     made["passed"] = result.passed();
     made["failed"] = result.failed();
+    made["notices"] = list_of(run->notices);
     made["warnings"] = list_of(result.warnings);
     return made;
   }

@@ -3,19 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <optional>
-#include <sstream>
 
+#include "output/file.h"
 #include "simulation/identity.h"
 
 namespace hookpoint::simulation {
 namespace {
 
 output::MovieFile file_of(const FileSpec& spec) {
-  std::ostringstream content;
-  content << std::ifstream(spec.path, std::ios::binary).rdbuf();
-  return {spec.name, spec.path, std::move(content).str()};
+  return {spec.name, spec.path, output::read_file(spec.path).value_or("")};
 }
 
 }  // namespace

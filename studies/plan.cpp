@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <set>
 #include <utility>
 
@@ -131,13 +132,17 @@ class SceneLoader {
       where += fmt::format(", {} = {}", sweep.column.name, text);
     }
     if (!find_world(options)) return false;
-    for (const language::Override& setting : settings_) {
+    for (const language::Override& setting : taken_) {
       if (const auto problem = problem_of(setting, plan, subject)) {
         diagnostics_.error(study.position, *problem);
         return false;
       }
-      options.overrides.push_back(setting);
     }
+    if (const language::Override* decided = decided_by_study(options.parameters)) {
+      diagnostics_.error(study.position, decided_already(*decided));
+      return false;
+    }
+    options.overrides = taken_;
     const auto set = [&](const char* field, const std::string& value) {
       if (!value.empty()) options.overrides.push_back({world_ + "." + field, value});
     };
@@ -215,6 +220,36 @@ class SceneLoader {
     return setting_problem(setting, world_, subject);
   }
 
+  /// A field that is set from outside although it hangs on what the study sets; null for none.
+  const language::Override* decided_by_study(const std::map<std::string, std::string>& values) {
+    if (std::ranges::all_of(taken_, [this](const auto& set) { return is_parameter(set); }) ||
+        !compared_.insert(values).second)
+      return nullptr;
+    Diagnostics untold;
+    if (plain_ == nullptr) plain_ = library_.evaluate(scene_, with_parameters({}), untold);
+    auto tree = library_.evaluate(scene_, with_parameters(values), untold);
+    // What is wrong with it is told when the row is loaded.
+    if (tree == nullptr) return nullptr;
+    if (plain_ != nullptr) return changed_setting(taken_, *plain_, *tree);
+    // The scene has a Param without a value: the first row is what others are compared with.
+    plain_ = std::move(tree);
+    return nullptr;
+  }
+
+  /// Without the fields that are set from outside; its Params have their values from there.
+  language::EvaluateOptions with_parameters(
+      const std::map<std::string, std::string>& values) const {
+    language::EvaluateOptions options{values, {}};
+    std::ranges::copy_if(
+        taken_, std::back_inserter(options.overrides),
+        [this](const language::Override& setting) { return is_parameter(setting); });
+    return options;
+  }
+
+  bool is_parameter(const language::Override& setting) const {
+    return std::ranges::find(parameters, setting.trail) != parameters.end();
+  }
+
   /// The trail of the scene's World, once.
   bool find_world(const language::EvaluateOptions& options) {
     if (!world_.empty()) return true;
@@ -226,7 +261,7 @@ class SceneLoader {
       return false;
     }
     world_ = worlds.front()->trail();
-    settings_ = settings_of_scene(settings, parameters, *tree, world_);
+    taken_ = settings_of_scene(settings, parameters, *tree, world_);
     settable = parameters;
     for (const auto& child : tree->children) settable.push_back(child->name);
     return true;
@@ -250,7 +285,9 @@ class SceneLoader {
   std::filesystem::path scene_;
   Diagnostics& diagnostics_;
   std::string world_;
-  std::vector<language::Override> settings_;  ///< those that the scene takes
+  std::vector<language::Override> taken_;                  ///< the settings that the scene takes
+  std::unique_ptr<Object> plain_;                          ///< the scene without them
+  std::set<std::map<std::string, std::string>> compared_;  ///< Params of rows compared with it
   std::set<std::string> told_;
   std::set<std::pair<std::string, double>> stepped_;  ///< subjects and steps that were warned of
 };

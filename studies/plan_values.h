@@ -20,7 +20,7 @@ struct WrittenUnit {
   std::string with_unit(double value) const;
 };
 
-/// The unit of the first number of the field's value in its source text.
+/// The unit that the field's value is written in.
 WrittenUnit written_unit(const language::Field& field);
 
 /// The field's number as text that the language reads back to the same double, in SI with its unit:

@@ -4,7 +4,11 @@
 
 #include <algorithm>
 #include <exception>
+#include <map>
+#include <set>
 #include <thread>
+
+#include "simulation/energy_watch.h"
 
 namespace hookpoint::studies {
 
@@ -24,6 +28,17 @@ void ProgressMeter::advance(bool resumed) {
 }
 
 namespace {
+
+/// What several rows have in common to say: `text` with a # for each number.
+std::string kind_of(const std::string& text) {
+  if (text.starts_with(simulation::energy_finding)) return std::string(simulation::energy_finding);
+  std::string plain;
+  for (const char c : text) {
+    const bool digit = c >= '0' && c <= '9';
+    if (!digit || plain.empty() || plain.back() != '#') plain += digit ? '#' : c;
+  }
+  return plain;
+}
 
 void on_one_line(std::string& text) { std::ranges::replace(text, '\n', ' '); }
 
@@ -89,6 +104,34 @@ bool run_rows(std::span<const std::size_t> order, const RowWork& work, const Run
   }
   if (failure) std::rethrow_exception(failure);
   return !cut_short;
+}
+
+std::vector<std::string> collect_notices(
+    const std::vector<RowOutcome>& outcomes,
+    const std::function<std::string(std::size_t row)>& name_of) {
+  struct Notice {
+    std::size_t row;
+    std::string text;
+    std::set<std::size_t> rows;
+  };
+  std::vector<Notice> found;
+  std::map<std::string, std::size_t> places;
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    for (const std::string& notice : outcomes[i].notices) {
+      const auto [place, is_new] = places.try_emplace(kind_of(notice), found.size());
+      if (is_new) found.push_back({i, notice, {}});
+      found[place->second].rows.insert(i);
+    }
+  }
+  std::vector<std::string> notices;
+  for (const Notice& notice : found) {
+    const std::size_t others = notice.rows.size() - 1;
+    notices.push_back(name_of(notice.row) + ": " + notice.text +
+                      (others == 0   ? ""
+                       : others == 1 ? " (so does 1 more run)"
+                                     : fmt::format(" (so do {} more runs)", others)));
+  }
+  return notices;
 }
 
 }  // namespace hookpoint::studies

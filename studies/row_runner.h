@@ -6,6 +6,7 @@
 #include <functional>
 #include <mutex>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "studies/execute.h"
@@ -37,9 +38,15 @@ struct RowWork {
 
 /// All rows of `order` by `options.jobs` workers, each outcome into its own slot; with
 /// `options.resume` those that the store has are not run again, and `options.tell` hears of those
-/// that it has of other runs. False when interrupted: what is
-/// finished is in the store. Rethrows what a worker throws.
+/// that it has of other runs. False when interrupted: what is finished is in the store. Rethrows
+/// what a worker throws.
 bool run_rows(std::span<const std::size_t> order, const RowWork& work, const RunOptions& options,
               const RowStore& store, ProgressMeter& meter, std::vector<RowOutcome>& outcomes);
+
+/// What the rows have to say: each once, with the first row that says so and how many others do,
+/// whatever the numbers in it.
+std::vector<std::string> collect_notices(
+    const std::vector<RowOutcome>& outcomes,
+    const std::function<std::string(std::size_t row)>& name_of);
 
 }  // namespace hookpoint::studies

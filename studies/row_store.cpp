@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <fstream>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -53,9 +52,7 @@ constexpr std::string_view end_mark = "\nend ";
 
 /// The text before the end mark; nothing unless the hash behind it is that text's.
 std::optional<std::string> whole_text(const std::filesystem::path& path) {
-  std::ostringstream content;
-  content << std::ifstream(path, std::ios::binary).rdbuf();
-  std::string text = content.str();
+  std::string text = output::read_file(path).value_or("");
   const std::size_t end = text.rfind(end_mark);
   if (end == std::string::npos) return std::nullopt;
   const std::string hash = text.substr(end + end_mark.size());

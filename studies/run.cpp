@@ -1,13 +1,8 @@
 #include "studies/run.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <map>
 #include <numeric>
-#include <set>
 
-#include "simulation/energy_watch.h"
 #include "studies/execute.h"
 #include "studies/results_csv.h"
 #include "studies/row_runner.h"
@@ -19,45 +14,6 @@ namespace {
 const EngineEntry* find_engine(const EngineTable& engines, const std::string& name) {
   const auto entry = engines.find(name);
   return entry == engines.end() ? nullptr : &entry->second;
-}
-
-/// What several rows have in common to say: `text` with a # for each number.
-std::string kind_of(const std::string& text) {
-  if (text.starts_with(simulation::energy_finding)) return std::string(simulation::energy_finding);
-  std::string plain;
-  for (const char c : text) {
-    const bool digit = c >= '0' && c <= '9';
-    if (!digit || plain.empty() || plain.back() != '#') plain += digit ? '#' : c;
-  }
-  return plain;
-}
-
-/// Each once, with the first row that says so and how many others do, whatever the numbers in it.
-std::vector<std::string> collect_notices(const StudyPlan& plan,
-                                         const std::vector<RowOutcome>& outcomes) {
-  struct Notice {
-    std::size_t row;
-    std::string text;
-    std::set<std::size_t> rows;
-  };
-  std::vector<Notice> found;
-  std::map<std::string, std::size_t> places;
-  for (std::size_t i = 0; i < outcomes.size(); ++i) {
-    for (const std::string& notice : outcomes[i].notices) {
-      const auto [place, is_new] = places.try_emplace(kind_of(notice), found.size());
-      if (is_new) found.push_back({i, notice, {}});
-      found[place->second].rows.insert(i);
-    }
-  }
-  std::vector<std::string> notices;
-  for (const Notice& notice : found) {
-    const std::size_t others = notice.rows.size() - 1;
-    notices.push_back(plan.name_of(plan.rows[notice.row]) + ": " + notice.text +
-                      (others == 0   ? ""
-                       : others == 1 ? " (so does 1 more run)"
-                                     : fmt::format(" (so do {} more runs)", others)));
-  }
-  return notices;
 }
 
 /// The timing metrics of the rows that ran to their end, one after the other. False when stopped.
@@ -99,7 +55,8 @@ StudyRun run_study(const StudyPlan& plan, const EngineTable& engines, const RunO
                      [&](std::size_t) { return plan.metrics.size(); }, plan.plots.size()};
   run.interrupted = !run_rows(order, work, options, store, meter, outcomes) ||
                     (timed && !run_timing(plan, engines, stop, meter, outcomes));
-  run.notices = collect_notices(plan, outcomes);
+  run.notices =
+      collect_notices(outcomes, [&](std::size_t row) { return plan.name_of(plan.rows[row]); });
   if (run.interrupted) {
     run.files.reset();
     return run;

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <sstream>
 #include <string_view>
 
+#include "output/file.h"
 #include "output/hash.h"
 #include "output/json_reader.h"
 
@@ -19,11 +19,9 @@ constexpr const char* what_to_give =
     "compare takes the folder that `hookpoint run --out` or `hookpoint study` left";
 
 std::string content(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw RunFolderError(file.string() + " cannot be read");
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
+  auto text = output::read_file(file);
+  if (!text) throw RunFolderError(file.string() + " cannot be read");
+  return std::move(*text);
 }
 
 bool is_run(const fs::path& folder) { return fs::is_regular_file(folder / "experiment.hook"); }

@@ -21,6 +21,14 @@ std::vector<language::Override> settings_of_scene(const SceneSettings& settings,
                                                   const language::Object& scene,
                                                   const std::string& world);
 
+/// The first of `settings` that sets a field which `one` and `other`, the same scene without the
+/// settings, have with different values; null for none.
+const language::Override* changed_setting(const std::vector<language::Override>& settings,
+                                          const language::Object& one,
+                                          const language::Object& other);
+/// What is said of it.
+std::string decided_already(const language::Override& setting);
+
 /// Why a run of `subject` cannot have `setting`, as it decides of it otherwise; nothing when it
 /// can.
 std::optional<std::string> setting_problem(const language::Override& setting,

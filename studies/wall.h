@@ -59,6 +59,7 @@ struct WallRun {
   WallResult result;
   std::filesystem::path folder;                 ///< where the files go
   std::unique_ptr<output::ResultFolder> files;  ///< locks it
+  std::vector<std::string> notices;             ///< of its runs (collect_notices)
 };
 
 /// The file that a Scene of a Wall means, as an Include would name it.

@@ -107,16 +107,21 @@ class WallPlanner {
     const std::string world = worlds.front()->trail();
     for (const std::string& name : names_of(path)) plan_.study.settable.push_back(name);
     for (const auto& child : plain->children) plan_.study.settable.push_back(child->name);
-    for (const language::Override& setting :
-         settings_of_scene(options_.settings, names_of(path), *plain, world)) {
+    const auto taken = settings_of_scene(options_.settings, names_of(path), *plain, world);
+    for (const language::Override& setting : taken) {
       if (const auto problem = setting_problem(setting, world, subject))
-        return diagnostics_.error(block.position, *problem);
+        return refuse(block, *problem);
       if (evaluate.parameters.contains(setting.trail))
-        return diagnostics_.error(block.position, fmt::format("a Fix sets `{}`: it cannot be set "
-                                                              "as well",
-                                                              setting.trail));
-      evaluate.overrides.push_back(setting);
+        return refuse(block,
+                      fmt::format("a Fix sets `{}`: it cannot be set as well", setting.trail));
     }
+    if (!taken.empty() && !evaluate.parameters.empty()) {
+      Diagnostics untold;  // of a Param that only the Fix gives a value
+      const auto unfixed = library_.evaluate(path, {}, untold);
+      const auto* decided = unfixed ? changed_setting(taken, *unfixed, *plain) : nullptr;
+      if (decided != nullptr) return refuse(block, decided_already(*decided));
+    }
+    evaluate.overrides = taken;
     const bool has_ground = !worlds.front()->children_of("Terrain.").empty();
     const auto set = [&](const char* field, const std::string& value) {
       if (!value.empty()) evaluate.overrides.push_back({world + "." + field, value});
@@ -135,6 +140,12 @@ class WallPlanner {
     for (std::string& source : language::sources_of(*tree)) inputs_.insert(std::move(source));
     simulation::write_chosen_step(*experiment, *tree);
     add_row(block, std::move(*experiment), language::print(*tree), index);
+  }
+
+  /// What is wrong with a scene under several subjects is told once.
+  void refuse(const Object& block, const std::string& problem) {
+    if (refused_.insert(block.name + ": " + problem).second)
+      diagnostics_.error(block.position, problem);
   }
 
   /// Before the scene is loaded under a law that it may not be made for.
@@ -192,6 +203,7 @@ class WallPlanner {
   Diagnostics& diagnostics_;
   std::vector<const Object*> subjects_;
   std::set<std::string> covered_;
+  std::set<std::string> refused_;  ///< scenes, each with what is wrong
   output::Hash hash_;
   SharedHeights heights_;
   std::set<std::string> inputs_;  ///< files that the rows were made from and read

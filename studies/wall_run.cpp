@@ -8,6 +8,7 @@
 #include "output/csv.h"
 #include "output/file.h"
 #include "output/number.h"
+#include "simulation/energy_watch.h"
 #include "simulation/expectation.h"
 #include "simulation/world.h"
 #include "studies/row_runner.h"
@@ -42,17 +43,23 @@ std::optional<RowOutcome> run_scene(const RowPlan& row, const EngineTable& engin
     const simulation::Experiment experiment = row.whole();
     simulation::World world(experiment, engine->second.make(experiment));
     simulation::Expectations expectations(experiment, world.ports());
-    const std::int64_t steps = std::llround(row.experiment.duration / row.experiment.deltat);
+    const std::int64_t steps = std::llround(experiment.duration / experiment.deltat);
+    simulation::EnergyWatch energy(experiment, world, steps);
     expectations.observe(0.);
     for (std::int64_t step = 0; step < steps && world.ended().empty(); ++step) {
       if (stop.load(std::memory_order_relaxed)) return std::nullopt;
       const simulation::StepStatus status = world.step();
       if (!status.ok()) {
         outcome.status = fmt::format("stopped at {:.6g} s: {}", status.time, status.advice);
-        return outcome;
+        break;
       }
       expectations.observe(world.state().time);
+      energy.observe();
     }
+    outcome.notices = world.state().notices;
+    if (std::string finding = energy.finding(); !finding.empty())
+      outcome.notices.push_back(std::move(finding));
+    if (outcome.status != "ok") return outcome;
     const std::vector<ExpectationResult> results = expectations.results();
     for (std::size_t i = 0; i < results.size(); ++i) outcome.measured[i] = results[i].measured;
   } catch (const simulation::ExperimentError& error) {
@@ -142,7 +149,7 @@ std::filesystem::path wall_folder(const WallPlan& plan, const RunOptions& option
 std::optional<WallRun> run_wall(const WallPlan& plan, const EngineTable& engines,
                                 const RunOptions& options, const std::atomic<bool>& stop) {
   const std::vector<RowPlan>& rows = plan.study.rows;
-  WallRun run{{}, wall_folder(plan, options), nullptr};
+  WallRun run{{}, wall_folder(plan, options), nullptr, {}};
   run.files = std::make_unique<output::ResultFolder>(
       run.folder, manifest_of(plan.study),
       std::vector<std::string>{"rows/", "results.csv", "experiment.hook", "provenance.json",
@@ -165,6 +172,11 @@ std::optional<WallRun> run_wall(const WallPlan& plan, const EngineTable& engines
             plan.study.warnings};
   for (const SubjectPlan& subject : plan.study.subjects) result.subjects.push_back(subject.info);
   for (std::size_t i = 0; i < outcomes.size(); ++i) add_outcome(result, rows[i], outcomes[i]);
+  run.notices = collect_notices(outcomes, [&](std::size_t row) {
+    const auto scene = static_cast<std::size_t>(rows[row].values[0]);
+    const auto subject = static_cast<std::size_t>(rows[row].subject);
+    return plan.scenes[scene].name + " under " + plan.study.subjects[subject].info.name;
+  });
   return run;
 }
 

@@ -352,6 +352,7 @@ class Study(unittest.TestCase):
         wall = result["truths"]
         self.assert_table(wall["table"], command["results.csv"])
         self.assertEqual(wall["failed"], 0)
+        self.assertEqual(wall["notices"], [])
         self.assertEqual(wall["passed"], sum(wall["table"]["ok"] == "true"))
         self.assertGreater(wall["passed"], 1)
         relative = np.abs(wall["table"]["measured"] - wall["table"]["expected"])

@@ -59,6 +59,11 @@ echo "$bare" >"$work/has"
 build release hookpoint
 expect "without their libraries no tests" "$(grep -c 'BUILD_TESTING=OFF --fresh' <<<"$configured")" 1
 
+: >"$work/has"
+build release hookpoint
+build release hookpoint
+expect "without dpkg it configures once" "$said$configured" ""
+
 touch "$work/ninja_fails"
 status=0
 build release hookpoint || status=$?

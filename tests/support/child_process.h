@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -19,8 +20,10 @@ namespace hookpoint::testing {
 
 class ChildProcess {
  public:
-  /// `hookpoint WORDS` in `folder`, its streams in .out and .err there.
-  ChildProcess(const std::filesystem::path& folder, std::vector<std::string> words)
+  /// `hookpoint WORDS` in `folder`, its streams in .out and .err there, in a process group of its
+  /// own. It is told to ignore `ignored`, and no other signal, whatever the test itself ignores.
+  ChildProcess(const std::filesystem::path& folder, std::vector<std::string> words,
+               const std::vector<int>& ignored = {})
       : folder_(folder) {
     words.insert(words.begin(), HOOKPOINT_BINARY_DIR "/hookpoint");
     std::vector<char*> arguments;
@@ -29,7 +32,12 @@ class ChildProcess {
     const std::string out = folder / ".out", err = folder / ".err";
     for (const std::string& stream : {out, err}) std::filesystem::remove(stream);
     process_ = fork();
+    // Here and there: whichever comes first.
+    setpgid(process_, process_);
     if (process_ != 0) return;
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    for (const int number : {SIGINT, SIGTERM}) ::signal(number, SIG_DFL);
+    for (const int number : ignored) ::signal(number, SIG_IGN);
     if (chdir(folder.c_str()) != 0) _exit(126);
     dup2(open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDOUT_FILENO);
     dup2(open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDERR_FILENO);
@@ -38,15 +46,15 @@ class ChildProcess {
   }
   ~ChildProcess() {
     if (process_ <= 0) return;
-    kill(process_, SIGKILL);
+    signal(SIGKILL);
     wait();
   }
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
-  /// Nothing once it has ended.
+  /// To it and what it has started; nothing once it has ended.
   void signal(int number) const {
-    if (process_ > 0) kill(process_, number);
+    if (process_ > 0) kill(-process_, number);
   }
   std::string out() const { return read(folder_ / ".out"); }
   std::string err() const { return read(folder_ / ".err"); }

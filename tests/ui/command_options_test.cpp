@@ -1,17 +1,20 @@
 // Options that make the command short to write, and what it says of itself.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cstdlib>
 #include <set>
 #include <sstream>
 
 #include "tests/support/command.h"
+#include "tests/support/text.h"
 
 namespace hookpoint {
 namespace {
 
 using testing::CommandResult;
 using testing::config;
+using testing::count;
 using testing::Workplace;
 namespace fs = std::filesystem;
 
@@ -19,13 +22,6 @@ const std::string block = config("scenes/sloped_block.hook");
 
 bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
-}
-
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t found = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
-    ++found;
-  return found;
 }
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
@@ -51,14 +47,25 @@ TEST(ShortForms, AreTheSettingsThatTheyStandFor) {
   EXPECT_TRUE(has(wrong.err, "did you mean `lugre`?")) << wrong.err;
 }
 
+/// A World of a ball with these fields of its base; `more` stands in the World.
+std::string ball(const std::string& base = "", const std::string& more = "") {
+  return "World w { deltat = 1 ms; Robot ball { Base.mobile { mass = 1; inertia = 1, 1, 1, 0, 0, "
+         "0; " +
+         base + "} } " + more + "}\n";
+}
+
 TEST(ShortForms, CountInAFileThatNeedsASetting) {
   const Workplace work;
-  work.file("ball.hook",
-            "Param height;\nWorld w { deltat = 1 ms; Robot ball { Base.mobile { location = 0, 0, "
-            "height; mass = 1; inertia = 1, 1, 1, 0, 0, 0; } } }");
-  const CommandResult run = work.hookpoint("run ball.hook --set height='3 m' --for 2ms");
-  EXPECT_EQ(run.status, 0) << run.err;
-  EXPECT_TRUE(has(run.out, "w at 0.002 s")) << run.out;
+  work.file("ball.hook", "Param height;\n" + ball("location = 0, 0, height; "));
+  for (const char* command : {"run ", ""}) {
+    const CommandResult run =
+        work.hookpoint(command + std::string("ball.hook --set height='3 m' --for 2ms"));
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_TRUE(has(run.out, "w at 0.002 s")) << run.out;
+  }
+  const CommandResult without = work.hookpoint("ball.hook --for 2ms");
+  EXPECT_EQ(without.status, 2);
+  EXPECT_EQ(count(without.err, "the Param `height` has no value"), 1U) << without.err;
 }
 
 TEST(RecordOption, TakesVectorsAndGlobs) {
@@ -84,9 +91,8 @@ TEST(RecordOption, TakesVectorsAndGlobs) {
 
 TEST(PortsCommand, ListsTrailUnitKindValueAndMeaning) {
   const Workplace work;
-  work.file("ball.hook",
-            "World w { Robot ball { Base.mobile { location = 1, 2, 3; mass = 1; inertia = 1, 1, 1, "
-            "0, 0, 0; } } Push kick { body = ball.base; force = 5, 0, 0; duration = 1 s; } }");
+  work.file("ball.hook", ball("location = 1, 2, 3; ",
+                              "Push kick { body = ball.base; force = 5, 0, 0; duration = 1 s; } "));
   const CommandResult all = work.hookpoint("ports ball.hook");
   EXPECT_EQ(all.status, 0) << all.err;
   EXPECT_TRUE(has(all.out, "w.ball.base.location ")) << all.out;
@@ -104,6 +110,32 @@ TEST(PortsCommand, ListsTrailUnitKindValueAndMeaning) {
   EXPECT_TRUE(has(wrong.err, "did you mean `ball.base.location`?")) << wrong.err;
 }
 
+TEST(PortsCommand, KnowsNamesThatBeginWithAnothers) {
+  const Workplace work;
+  const std::string record = "Record steps { trails = w.integrator.";
+  work.file("ball.hook", ball() + record + "steps; }\n");
+  const CommandResult ports = work.hookpoint("ports ball.hook '**.integrator.*'");
+  EXPECT_EQ(ports.status, 0) << ports.err;
+  EXPECT_TRUE(has(ports.out, "w.integrator.steps ")) << ports.out;
+  EXPECT_TRUE(has(ports.out, "steps so far, of an adaptive integrator its internal ones"))
+      << ports.out;
+  const CommandResult run = work.hookpoint("run ball.hook --for 3ms --out here");
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_TRUE(has(work.read("here/steps.csv"), "\n0.003,3\n")) << work.read("here/steps.csv");
+  work.file("wrong.hook", ball() + record + "stps; }\n");
+  const CommandResult wrong = work.hookpoint("run wrong.hook --for 3ms");
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_TRUE(has(wrong.err, "did you mean `integrator.steps`?")) << wrong.err;
+}
+
+TEST(FormatCommand, WaitsForNoPipe) {
+  const Workplace work;
+  ASSERT_EQ(mkfifo((work.folder() / "pipe.hook").c_str(), 0600), 0);
+  const CommandResult result = work.hookpoint("fmt pipe.hook");
+  EXPECT_EQ(result.status, 2);
+  EXPECT_TRUE(has(result.err, "cannot read pipe.hook")) << result.err;
+}
+
 TEST(RunCommand, SaysWhereItWrote) {
   const Workplace work;
   const CommandResult run = work.hookpoint("run " + block + " --for 1ms --out here --record time");
@@ -116,11 +148,12 @@ TEST(RunCommand, FindsInstalledScenes) {
   const CommandResult run = work.hookpoint("run scenes/sloped_block.hook --for 1ms");
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_TRUE(has(run.err, "scenes/sloped_block.hook is /")) << run.err;
-  EXPECT_EQ(work.hookpoint("scenes/sloped_block.hook --for 1ms").status, 0);
+  const CommandResult opened = work.hookpoint("scenes/sloped_block.hook --for 1ms");
+  EXPECT_EQ(opened.status, 0);
+  EXPECT_EQ(count(opened.err, "scenes/sloped_block.hook is /"), 1U) << opened.err;
   EXPECT_EQ(work.hookpoint("check studies/creep.hook").status, 0);
   // One's own comes first.
-  work.file("mine.hook",
-            "World w { Robot r { Base.mobile { mass = 1; inertia = 1,1,1,0,0,0; } } }");
+  work.file("mine.hook", ball());
   EXPECT_FALSE(has(work.hookpoint("run mine.hook --for 1ms").err, "note"));
 }
 
@@ -197,6 +230,27 @@ TEST(StudySet, IsRefusedWhereTheStudyDecides) {
   refused("world.deltt='1 ms'", "did you mean `deltat`?");
 }
 
+TEST(StudySet, IsRefusedForAFieldThatHangsOnASweep) {
+  const Workplace work;
+  const std::string step = " Sweep dt { values = 1 ms, 0.1 ms; }";
+  work.file("swept.hook", study_of("Subject ours { engine = dts; }" + step));
+  work.file("fixed.hook", study_of("Subject ours { engine = dts; Fix dt { value = 2 ms; } }"));
+  for (const char* file : {"swept.hook", "fixed.hook"}) {
+    for (const char* setting : {"--dt '0.5 ms'", "--set world.deltat='0.5 ms'"}) {
+      const CommandResult result =
+          work.hookpoint("study " + std::string(file) + " --out no " + setting);
+      EXPECT_EQ(result.status, 2) << file << setting;
+      EXPECT_TRUE(result.err.starts_with(
+          file + std::string(":2:1: error: the study decides of `world.deltat`: it cannot be set")))
+          << result.err;
+      EXPECT_EQ(count(result.err, "error:"), 1U) << result.err;
+      EXPECT_FALSE(fs::exists(work.folder() / "no"));
+    }
+  }
+  // What hangs on another Param may be set.
+  EXPECT_EQ(work.hookpoint("study swept.hook --out yes --set world.seed=7").status, 0);
+}
+
 TEST(StudyWarnings, AreToldOnceAndNotOfWhatASubjectChose) {
   const Workplace work;
   work.file("block.hook",
@@ -226,9 +280,7 @@ TEST(Version, NamesTheProgramAndItsEngines) {
 TEST(Describe, SaysWhatAListTakes) {
   const Workplace work;
   EXPECT_TRUE(has(work.hookpoint("describe Sum").out, "in  1 or 8 numbers"));
-  work.file("sum.hook",
-            "World w { Robot r { Base.mobile { mass = 1; inertia = 1,1,1,0,0,0; } } }\n"
-            "Sum s { in = 1, 2, 3; }");
+  work.file("sum.hook", ball() + "Sum s { in = 1, 2, 3; }");
   EXPECT_EQ(work.hookpoint("check sum.hook").status, 2);
 }
 
@@ -311,6 +363,9 @@ TEST(Manual, BashCompletesCommandsOptionsAndTheirWords) {
   EXPECT_EQ(completed("hookpoint run --eng", 2), "--engine\n");
   EXPECT_EQ(completed("hookpoint run --engine bul", 3), "bullet\n");
   EXPECT_EQ(completed("hookpoint study --qu", 2), "--quick\n");
+  EXPECT_EQ(completed("hookpoint mine.hook --qu", 2), "--quick\n");
+  EXPECT_EQ(completed("hookpoint mine.hook --quick --rec", 3), "--record\n");
+  EXPECT_EQ(completed("hookpoint mine.hook --engine bul", 3), "bullet\n");
   EXPECT_EQ(completed("hookpoint run mi", 2), "mine.hook\n");
   EXPECT_EQ(completed("hookpoint describe --completion b", 3), "bash\n");
 }

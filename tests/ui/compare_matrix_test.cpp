@@ -8,12 +8,14 @@
 #include <string>
 
 #include "output/json_reader.h"
-#include "tests/support/command.h"
+#include "tests/support/falling_ball.h"
 
 namespace hookpoint {
 namespace {
 
 using testing::CommandResult;
+using testing::falling;
+using testing::run_into;
 using testing::Workplace;
 
 constexpr double pi = 3.14159265358979323846;
@@ -25,25 +27,10 @@ std::map<std::string, std::string> leaves(const std::string& json) {
              : std::map<std::string, std::string>();
 }
 
-/// A body that falls from 100 m for 1 s under gravity `g`.
-std::string falling(const std::string& gravity, const std::string& step = "1 ms") {
-  return "World w { gravity = " + gravity + "; deltat = " + step +
-         "; duration = 1 s; integrator = rk4;\n"
-         "  Robot ball { Base.mobile { location = 0, 0, 100; Shape.Sphere { radius = 0.1; mass = "
-         "1 kg; } } } }\n";
-}
-
-void run(const Workplace& work, const std::string& name, const std::string& text) {
-  work.file(name + ".hook", text);
-  const auto result =
-      work.hookpoint("run " + name + ".hook --record w.ball.base.location.z --out " + name);
-  ASSERT_EQ(result.status, 0) << result.err;
-}
-
 TEST(Compare, ARunIsTheSameAsItself) {
   const Workplace work;
-  run(work, "a", falling("9.81"));
-  run(work, "b", falling("9.81"));
+  ASSERT_EQ(run_into(work, "a", falling("9.81")).status, 0);
+  ASSERT_EQ(run_into(work, "b", falling("9.81")).status, 0);
   const CommandResult result = work.hookpoint("compare a b --tolerance 0");
   EXPECT_EQ(result.status, 0) << result.out;
   EXPECT_NE(result.out.find("settings: the same"), std::string::npos) << result.out;
@@ -53,8 +40,8 @@ TEST(Compare, ARunIsTheSameAsItself) {
 // (g2 - g1) t^2/2 passes 1e-5 of 100 m at sqrt(2e-3/0.01) = 0.44721 s.
 TEST(Compare, TrajectoriesPartWhereTheClosedFormSays) {
   const Workplace work;
-  run(work, "a", falling("9.81"));
-  run(work, "b", falling("9.82"));
+  ASSERT_EQ(run_into(work, "a", falling("9.81")).status, 0);
+  ASSERT_EQ(run_into(work, "b", falling("9.82")).status, 0);
   const CommandResult result = work.hookpoint("compare a b --tolerance 1e-5 --json");
   EXPECT_EQ(result.status, 1) << result.err;
   auto found = leaves(result.out);
@@ -72,8 +59,8 @@ TEST(Compare, TrajectoriesPartWhereTheClosedFormSays) {
 // Steps of 3 ms and 10 ms meet at 0 and every 30 ms.
 TEST(Compare, RowsOfOtherStepsMeetWhereTheirTimesDo) {
   const Workplace work;
-  run(work, "a", falling("9.81", "3 ms"));
-  run(work, "b", falling("9.81", "10 ms"));
+  ASSERT_EQ(run_into(work, "a", falling("9.81", "", "3 ms")).status, 0);
+  ASSERT_EQ(run_into(work, "b", falling("9.81", "", "10 ms")).status, 0);
   auto found = leaves(work.hookpoint("compare a b --json").out);
   EXPECT_EQ(found["trajectories[0].instants"], "34");
   EXPECT_EQ(found["trajectories[0].interpolated"], "false");
@@ -83,8 +70,8 @@ TEST(Compare, RowsOfOtherStepsMeetWhereTheirTimesDo) {
 // Linear between the rows of the second at 0 and 0.7 s, the parabola lies below by g/2 t (0.7 - t).
 TEST(Compare, WithoutCommonTimesTheSecondIsTakenLinearly) {
   const Workplace work;
-  run(work, "a", falling("9.81", "0.2 s"));
-  run(work, "b", falling("9.81", "0.7 s"));
+  ASSERT_EQ(run_into(work, "a", falling("9.81", "", "0.2 s")).status, 0);
+  ASSERT_EQ(run_into(work, "b", falling("9.81", "", "0.7 s")).status, 0);
   auto found = leaves(work.hookpoint("compare a b --json").out);
   EXPECT_EQ(found["trajectories[0].interpolated"], "true");
   EXPECT_EQ(found["trajectories[0].instants"], "4");
@@ -94,11 +81,11 @@ TEST(Compare, WithoutCommonTimesTheSecondIsTakenLinearly) {
 
 TEST(Compare, SettingsAreComparedByTrailNotByLine) {
   const Workplace work;
-  run(work, "a", falling("9.81"));
+  ASSERT_EQ(run_into(work, "a", falling("9.81")).status, 0);
   std::string moved = falling("9.81");
   moved.replace(moved.find("gravity = 9.81; "), 16, "");
   moved.insert(moved.find("integrator"), "gravity = 9.81;\n");
-  run(work, "b", "// the same in another order\n" + moved);
+  ASSERT_EQ(run_into(work, "b", "// the same in another order\n" + moved).status, 0);
   const CommandResult result = work.hookpoint("compare a b");
   EXPECT_EQ(result.status, 0);
   EXPECT_NE(result.out.find("settings: the same"), std::string::npos) << result.out;
@@ -143,7 +130,7 @@ TEST(Compare, StudiesAreJoinedByTheirSweepsNotByTheirRows) {
 
 TEST(Compare, WhatIsNoFileIsNoTrajectory) {
   const Workplace work;
-  run(work, "a", falling("9.81"));
+  ASSERT_EQ(run_into(work, "a", falling("9.81")).status, 0);
   std::filesystem::create_directory(work.folder() / "a/folder.csv");
   ASSERT_EQ(mkfifo((work.folder() / "a/pipe.csv").c_str(), 0600), 0);
   const CommandResult same = work.hookpoint("compare a a");
@@ -155,7 +142,7 @@ TEST(Compare, WhatIsNoFileIsNoTrajectory) {
 
 TEST(Compare, WhatIsNoRunIsToldWithAdvice) {
   const Workplace work;
-  run(work, "a", falling("9.81"));
+  ASSERT_EQ(run_into(work, "a", falling("9.81")).status, 0);
   study(work, "s", sliding("20 deg", 0.2));
   study(
       work, "t",
@@ -165,7 +152,7 @@ TEST(Compare, WhatIsNoRunIsToldWithAdvice) {
   const std::pair<const char*, const char*> cases[] = {
       {"a nowhere", "there is no folder nowhere; compare takes the folder that"},
       {"a empty", "empty has no experiment.hook; compare takes the folder that"},
-      {"a a.hook", "a.hook is a file"},
+      {"a run.hook", "run.hook is a file"},
       {"a .", "holds several runs; compare one of ./a, ./s, ./t"},
       {"a s", "a is a single run and s a study"},
       {"s t", "one run has several with ours; it varies mu, subject, and both vary subject only"},

@@ -102,6 +102,22 @@ TEST_P(Interrupt, ASecondOneEndsAtOnce) {
   EXPECT_EQ(study.wait(), 128 + GetParam());
 }
 
+// As in the background of a script.
+TEST(IgnoredInterrupt, StaysIgnored) {
+  const Workplace place;
+  place.file("run.hook", falling);
+  ChildProcess run(place.folder(), {"run", "run.hook", "--out", "out", "--record", "w.time"},
+                   {SIGINT});
+  const fs::path trace = place.folder() / "out/trace.csv.partial";
+  ASSERT_TRUE(run.wait_until([&] { return is_larger(trace, 20'000); })) << run.err();
+  run.signal(SIGINT);
+  run.signal(SIGINT);
+  const std::uintmax_t size = fs::file_size(trace);
+  ASSERT_TRUE(run.wait_until([&] { return is_larger(trace, size + 20'000); })) << run.err();
+  run.signal(SIGTERM);
+  EXPECT_EQ(run.wait(), 128 + SIGTERM);
+}
+
 TEST(InterruptedStudy, BeginsNoOther) {
   const Workplace place;
   place.file("run.hook", block);

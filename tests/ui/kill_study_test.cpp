@@ -1,8 +1,5 @@
 // A study that is killed, at whatever moment, and gone on with: the same bytes as one that was not.
-#include <fcntl.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <csignal>
@@ -11,11 +8,13 @@
 #include <regex>
 #include <thread>
 
+#include "tests/support/child_process.h"
 #include "tests/support/command.h"
 
 namespace hookpoint {
 namespace {
 
+using testing::ChildProcess;
 using testing::Workplace;
 
 constexpr const char* study =
@@ -43,30 +42,19 @@ std::map<std::string, std::string> files_of(const Workplace& work, const std::st
 
 class Killed : public ::testing::Test {
  protected:
-  /// The study into the folder `cut`, in a process group of its own.
-  pid_t start(bool resume) const {
-    const pid_t child = fork();
-    if (child != 0) return child;
-    setpgid(0, 0);
-    if (chdir(work_.folder().c_str()) != 0) _exit(126);
-    const int nowhere = open("/dev/null", O_WRONLY);
-    dup2(nowhere, STDOUT_FILENO);
-    dup2(nowhere, STDERR_FILENO);
-    const char* program = HOOKPOINT_BINARY_DIR "/hookpoint";
-    execl(program, program, "study", "study.hook", "--jobs", "2", "--out", "cut",
-          resume ? "--resume" : nullptr, nullptr);
-    _exit(127);
+  /// The study into the folder `cut`.
+  ChildProcess start(bool resume) const {
+    std::vector<std::string> words{"study", "study.hook", "--jobs", "2", "--out", "cut"};
+    if (resume) words.emplace_back("--resume");
+    return {work_.folder(), words};
   }
   /// Whether it was killed before it ended.
-  static bool kill_after(pid_t child, std::chrono::microseconds delay) {
+  static bool kill_after(ChildProcess child, std::chrono::microseconds delay) {
     std::this_thread::sleep_for(delay);
-    kill(-child, SIGKILL);
-    kill(child, SIGKILL);
-    int status = 0;
-    waitpid(child, &status, 0);
-    if (WIFSIGNALED(status)) return true;
-    EXPECT_EQ(WEXITSTATUS(status), 0);
-    return false;
+    child.signal(SIGKILL);
+    const int status = child.wait();
+    EXPECT_TRUE(status == 0 || status == 1000 + SIGKILL) << status << '\n' << child.err();
+    return status != 0;
   }
   Workplace work_;
 };

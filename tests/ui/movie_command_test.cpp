@@ -147,6 +147,9 @@ TEST_F(MovieCommand, GoesOnBeyondTheEnd) {
   const std::string rest = place.read("rest/trace.csv");
   EXPECT_TRUE(place.read("whole/trace.csv").ends_with(rest.substr(rest.find('\n'))));
   expect_refused("run --resume first.h5", "nothing is left to run from 1 s on");
+  fine("run --resume first.h5 --for '1/4 * 2 s' --out half --record " + std::string(trails));
+  EXPECT_EQ(place.read("half/trace.csv"), rest);
+  expect_refused("run --resume first.h5 --for '1/2 s'", "--for takes a time such as");
 }
 
 TEST_F(MovieCommand, FilesOfTheExperimentAreInside) {

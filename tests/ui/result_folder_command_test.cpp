@@ -4,7 +4,7 @@
 
 #include "output/hash.h"
 #include "output/result_folder.h"
-#include "tests/support/command.h"
+#include "tests/support/falling_ball.h"
 #include "tests/support/png_file.h"
 #include "tests/support/record_scene.h"
 
@@ -12,30 +12,17 @@ namespace hookpoint {
 namespace {
 
 using testing::CommandResult;
+using testing::falling;
+using testing::record_height;
+using testing::run_into;
 using testing::Workplace;
-
-/// A ball that falls from 100 m.
-std::string falling(const std::string& gravity, const std::string& more = "") {
-  return "World w { gravity = " + gravity + "; deltat = 1 ms; duration = 0.1 s;\n" + more +
-         "  Robot ball { Base.mobile { location = 0, 0, 100; Shape.Sphere { radius = 0.1; mass = "
-         "1 kg; } } } }\n";
-}
-
-const std::string record = " --record w.ball.base.location.z";
-
-/// Runs `text` into the folder `name`.
-CommandResult run(const Workplace& work, const std::string& name, const std::string& text,
-                  const std::string& arguments = record) {
-  work.file("run.hook", text);
-  return work.hookpoint("run run.hook --out " + name + arguments);
-}
 
 TEST(UsedAgain, NothingStaleStaysAndCompareIsNotFooled) {
   const Workplace work;
-  ASSERT_EQ(run(work, "a", falling("9.81")).status, 0);
-  ASSERT_EQ(run(work, "b", falling("9.81")).status, 0);
+  ASSERT_EQ(run_into(work, "a", falling("9.81")).status, 0);
+  ASSERT_EQ(run_into(work, "b", falling("9.81")).status, 0);
   const std::string stale = work.read("b/trace.csv");
-  ASSERT_EQ(run(work, "b", falling("1.62"), "").status, 0);
+  ASSERT_EQ(run_into(work, "b", falling("1.62"), "").status, 0);
   EXPECT_FALSE(std::filesystem::exists(work.folder() / "b/trace.csv"));
   EXPECT_EQ(work.hookpoint("compare a b").status, 1);
 
@@ -47,7 +34,7 @@ TEST(UsedAgain, NothingStaleStaysAndCompareIsNotFooled) {
             std::string::npos)
       << fooled.err;
 
-  ASSERT_EQ(run(work, "c", falling("1.62")).status, 0);
+  ASSERT_EQ(run_into(work, "c", falling("1.62")).status, 0);
   work.file("c/trace.csv", stale);
   const CommandResult exchanged = work.hookpoint("compare a c");
   EXPECT_EQ(exchanged.status, 2);
@@ -59,7 +46,7 @@ TEST(UsedAgain, WhatIsNotHookpointsIsRefusedAndKept) {
   const Workplace work;
   std::filesystem::create_directory(work.folder() / "a");
   work.file("a/trace.csv", "mine");
-  const CommandResult result = run(work, "a", falling("9.81"));
+  const CommandResult result = run_into(work, "a", falling("9.81"));
   EXPECT_EQ(result.status, 2);
   EXPECT_NE(result.err.find("a/trace.csv stands in the way, and hookpoint did not write it; move "
                             "it away, or name another folder with --out"),
@@ -68,21 +55,21 @@ TEST(UsedAgain, WhatIsNotHookpointsIsRefusedAndKept) {
   EXPECT_EQ(work.read("a/trace.csv"), "mine");
   EXPECT_EQ(result.out, "");
   EXPECT_FALSE(std::filesystem::exists(work.folder() / "a/experiment.hook"));
-  EXPECT_EQ(run(work, "a", falling("9.81"), "").status, 0) << "nothing of it is in the way";
+  EXPECT_EQ(run_into(work, "a", falling("9.81"), "").status, 0) << "nothing of it is in the way";
 }
 
 TEST(UsedAgain, ARunInItsOwnFolderRepeatsIt) {
   const Workplace work;
-  ASSERT_EQ(run(work, "a", falling("9.81")).status, 0);
+  ASSERT_EQ(run_into(work, "a", falling("9.81")).status, 0);
   const std::string trace = work.read("a/trace.csv");
-  const CommandResult again = work.hookpoint("run a/experiment.hook --out a" + record);
+  const CommandResult again = work.hookpoint("run a/experiment.hook --out a" + record_height);
   EXPECT_EQ(again.status, 0) << again.err;
   EXPECT_EQ(work.read("a/trace.csv"), trace);
 }
 
 TEST(UsedAgain, AMovieThatIsResumedIsNotClearedAway) {
   const Workplace work;
-  ASSERT_EQ(run(work, "a", falling("9.81"), " --movie").status, 0);
+  ASSERT_EQ(run_into(work, "a", falling("9.81"), " --movie").status, 0);
   const CommandResult result = work.hookpoint("run --resume a/movie.h5 --at 50ms --out a");
   EXPECT_EQ(result.status, 2) << result.err;
   EXPECT_NE(result.err.find("is what this run reads"), std::string::npos) << result.err;
@@ -93,7 +80,7 @@ TEST(Folder, EveryFileIsTiedToItsExperiment) {
   const Workplace work;
   const std::string records =
       "Record t { trails = time; } Record h { trails = time; format = hdf5; } Movie film;";
-  ASSERT_EQ(run(work, "a", falling("9.81", records)).status, 0);
+  ASSERT_EQ(run_into(work, "a", falling("9.81", records)).status, 0);
   const auto manifest = output::read_manifest(work.folder() / "a");
   ASSERT_TRUE(manifest);
   for (const auto& entry : std::filesystem::directory_iterator(work.folder() / "a")) {
@@ -128,18 +115,16 @@ TEST(Folder, TheRunsOwnFilesAreNoRecords) {
       {"Record a { trails = time; file = \"a\\nb\"; }",
        "takes characters that can be seen, on one line"}};
   for (const auto& [text, says] : cases) {
-    const CommandResult result = run(work, "a", falling("9.81", text), "");
+    const CommandResult result = run_into(work, "a", falling("9.81", text), "");
     EXPECT_EQ(result.status, 2) << text;
     EXPECT_NE(result.err.find(says), std::string::npos) << text << '\n' << result.err;
     EXPECT_FALSE(std::filesystem::exists(work.folder() / "a")) << text;
   }
 }
 
-TEST(Compare, RefusesAFolderWithoutAListAndTakesNoFolderForATable) {
+TEST(Compare, RefusesAFolderWithoutAList) {
   const Workplace work;
-  ASSERT_EQ(run(work, "a", falling("9.81")).status, 0);
-  std::filesystem::create_directory(work.folder() / "a/x.csv");
-  EXPECT_EQ(work.hookpoint("compare a a").status, 0);
+  ASSERT_EQ(run_into(work, "a", falling("9.81")).status, 0);
   std::filesystem::remove(work.folder() / "a/files.json");
   const CommandResult result = work.hookpoint("compare a a");
   EXPECT_EQ(result.status, 2);
@@ -250,12 +235,12 @@ TEST(FullDisk, KeepsTheRowsAndSaysHowToGoOn) {
 
 TEST(FullDisk, LeavesTheResultsOfBefore) {
   const Workplace work;
-  ASSERT_EQ(run(work, "a", falling("9.81")).status, 0);
+  ASSERT_EQ(run_into(work, "a", falling("9.81")).status, 0);
   const std::string trace = work.read("a/trace.csv");
   work.file("run.hook", falling("1.62"));
   {
     const testing::FileSizeLimit full(100);
-    EXPECT_EQ(work.hookpoint("run run.hook --out a" + record).status, 3);
+    EXPECT_EQ(work.hookpoint("run run.hook --out a" + record_height).status, 3);
   }
   EXPECT_EQ(work.read("a/trace.csv"), trace);
   EXPECT_EQ(work.hookpoint("compare a a").status, 0);
@@ -265,17 +250,31 @@ TEST(Folder, ThatCannotBeMadeIsToldWithTheReason) {
   const Workplace work;
   work.file("file", "");
   for (const char* place : {"file/sub", "/proc/nowhere"}) {
-    const CommandResult result = run(work, place, falling("9.81"));
+    const CommandResult result = run_into(work, place, falling("9.81"));
     EXPECT_EQ(result.status, 3) << result.err;
     EXPECT_NE(result.err.find(std::string("cannot make the folder ") + place + ": "),
               std::string::npos)
         << result.err;
     EXPECT_NE(result.err.find("--out names another folder"), std::string::npos) << result.err;
   }
-  const CommandResult read_only = run(work, "/proc", falling("9.81"));
+  const CommandResult read_only = run_into(work, "/proc", falling("9.81"));
   EXPECT_EQ(read_only.status, 3);
   EXPECT_NE(read_only.err.find("cannot write into the folder /proc: "), std::string::npos)
       << read_only.err;
+  write_image(work, '\xff');
+  write_hills(work);
+  const CommandResult study = work.hookpoint("study study.hook --out /proc");
+  EXPECT_EQ(study.status, 3);
+  EXPECT_EQ(study.err.find("what is finished is kept"), std::string::npos) << study.err;
+}
+
+TEST(Folder, WhoseListNamesFilesElsewhereIsRefused) {
+  const Workplace work;
+  std::filesystem::create_directory(work.folder() / "a");
+  work.file("precious.txt", "mine");
+  work.file("a/files.json", R"({"experiment": "e", "files": {"../precious.txt": ""}})");
+  EXPECT_EQ(run_into(work, "a", falling("9.81")).status, 2);
+  EXPECT_EQ(work.read("precious.txt"), "mine");
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ constexpr const char* world =
     "  Robot r { Base.mobile { mass = 1; location = 0, 0, 1; Shape.Cube dimensions = 1, 1, 1; } } "
     "}\n";
 
-/// The exit status of a script for bash in which $H is the program.
+/// What a script for bash, in which $H is the program, ends with and says.
 CommandResult script(const Workplace& place, const std::string& text) {
   place.file("script.sh", "H='" HOOKPOINT_BINARY_DIR "/hookpoint'\n" + text);
   const std::string folder = place.folder().string();
@@ -104,9 +104,10 @@ TEST(Disk, AFullOneIsSaid) {
   // A limit on the size of files refuses as a full disk does.
   const CommandResult result =
       script(place,
-             "trap '' XFSZ; ulimit -f 0; $H run w.hook --out run --record w.r.base.location.z 2>&1 "
-             "| cat >message; exit ${PIPESTATUS[0]}\n");
-  EXPECT_EQ(result.status, missing) << result.err;
+             "trap '' XFSZ; mkfifo said; cat <said & (ulimit -f 0; $H run w.hook --out run "
+             "--record w.r.base.location.z >said 2>&1); status=$?; wait; exit $status\n");
+  EXPECT_EQ(result.status, missing) << result.out;
+  EXPECT_NE(result.out.find("File too large"), std::string::npos) << result.out;
 }
 
 }  // namespace

@@ -2,11 +2,13 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/command.h"
+#include "tests/support/text.h"
 
 namespace hookpoint {
 namespace {
 
 using testing::CommandResult;
+using testing::count;
 using testing::Workplace;
 
 constexpr const char* block_study =
@@ -122,6 +124,27 @@ TEST(WallFix, IsTheValueThatItsFileMeans) {
             "  Scene fall { file = \"fall.hook\"; Fix g { value = m; } } }\n");
   const CommandResult result = work.hookpoint("study wall.hook --jobs 1 --out w");
   EXPECT_EQ(result.status, 0) << result.out << result.err;
+}
+
+TEST(WallFix, DecidesOfTheFieldsThatHangOnIt) {
+  const Workplace work;
+  work.file("fall.hook",
+            "Param dt = 1 ms; World w { deltat = dt; duration = 10 ms;\n"
+            "  Robot ball { Base.mobile { mass = 1; inertia = 1, 1, 1, 0, 0, 0; } } }\n"
+            "Expect speed { of = w.ball.base.velocity.z; equals = -0.0981; within = 1e-9; }\n");
+  const std::string wall =
+      "Wall w { Subject one { engine = dts; } Subject two { engine = dts; integrator = rk4; }\n"
+      "  Scene fall { file = \"fall.hook\"; ";
+  work.file("free.hook", wall + "} }\n");
+  work.file("fixed.hook", wall + "Fix dt { value = 0.5 ms; } } }\n");
+  const std::string finer = " --jobs 1 --out w --dt '0.25 ms'";
+  EXPECT_EQ(work.hookpoint("study free.hook" + finer).status, 0);
+  const CommandResult refused = work.hookpoint("study fixed.hook" + finer);
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_TRUE(refused.err.starts_with(
+      "fixed.hook:2:3: error: the study decides of `w.deltat`: it cannot be set as well\n"))
+      << refused.err;
+  EXPECT_EQ(count(refused.err, "error:"), 1U) << refused.err;
 }
 
 }  // namespace

@@ -2,32 +2,30 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/command.h"
+#include "tests/support/text.h"
 
 namespace hookpoint {
 namespace {
 
+using testing::count;
 using testing::Workplace;
 
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t found = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
-    ++found;
-  return found;
+/// A study of a block that slides on 2 m of ground, at each of `speeds`.
+testing::CommandResult slides(const Workplace& work, const std::string& speeds) {
+  work.file("slide.hook",
+            "Param v0 = 1 m/s; World w { deltat = 0.2 ms; Terrain.Flat g { size = 2; } Robot block "
+            "{ Base.mobile { rest_on = g; velocity = v0, 0, 0; Shape.Box { dimensions = .2, .2, "
+            ".1; mass = 1; } } } }");
+  work.file("study.hook",
+            "Study slides { scene = \"slide.hook\"; duration = 1 s; settle = 0 s; Sweep v0 { "
+            "values = " +
+                speeds + "; } Measure slip_distance; Subject ours { engine = dts; } }");
+  return work.hookpoint("study study.hook --jobs 2 --out here");
 }
 
 TEST(StudyNotices, AreToldOnceWithTheRowsName) {
   const Workplace work;
-  work.file(
-      "slide.hook",
-      "Param v0 = 1 m/s; World w { deltat = 0.2 ms; Terrain.Flat g { size = 2; } Robot block { "
-      "Base.mobile { "
-      "rest_on = g; velocity = v0, 0, 0; Shape.Box { dimensions = .2, .2, .1; mass = 1; } } } "
-      "}");
-  work.file(
-      "study.hook",
-      "Study slides { scene = \"slide.hook\"; duration = 1 s; settle = 0 s; Sweep v0 { values "
-      "= 0.5 m/s, 9 m/s; } Measure slip_distance; Subject ours { engine = dts; } }");
-  const auto result = work.hookpoint("study study.hook --jobs 2 --out here");
+  const auto result = slides(work, "0.5 m/s, 9 m/s");
   EXPECT_EQ(result.status, 0) << result.err;
   const std::string note = "hookpoint: note: slides (ours, v0 = 9 m/s): block: a boundary point at";
   EXPECT_EQ(count(result.err, note), 1U) << result.err;
@@ -36,20 +34,29 @@ TEST(StudyNotices, AreToldOnceWithTheRowsName) {
 
 TEST(StudyNotices, OfSeveralRowsAreOne) {
   const Workplace work;
-  work.file(
-      "slide.hook",
-      "Param v0 = 1 m/s; World w { deltat = 0.2 ms; Terrain.Flat g { size = 2; } Robot block { "
-      "Base.mobile { "
-      "rest_on = g; velocity = v0, 0, 0; Shape.Box { dimensions = .2, .2, .1; mass = 1; } } } "
-      "}");
-  work.file(
-      "study.hook",
-      "Study slides { scene = \"slide.hook\"; duration = 1 s; settle = 0 s; Sweep v0 { values "
-      "= 8 m/s, 9 m/s, 10 m/s; } Measure slip_distance; Subject ours { engine = dts; } }");
-  const auto result = work.hookpoint("study study.hook --jobs 2 --out here");
+  const auto result = slides(work, "8 m/s, 9 m/s, 10 m/s");
+  EXPECT_EQ(result.status, 0) << result.err;
   EXPECT_EQ(count(result.err, "has left the terrain"), 1U) << result.err;
   EXPECT_EQ(count(result.err, "slides (ours, v0 = 8 m/s): "), 1U) << result.err;
   EXPECT_EQ(count(result.err, " (so do 2 more runs)"), 1U) << result.err;
+}
+
+TEST(WallNotices, AreToldWithTheSceneAndTheSubject) {
+  const Workplace work;
+  // Explicit Euler gives a pendulum energy.
+  work.file("swing.hook",
+            "World w { gravity = 0, 9.81, 0; deltat = 1 ms; duration = 10 s; Robot r { Base.fixed "
+            "{ orientation = 0, 0, 90 deg; } Chain c { Link l { angle = 40 deg; mass = 0.2; "
+            "center_of_mass = 0.25, 0, 0; inertia = 1e-3, 4e-3, 4e-3, 0, 0, 0; } } } }\n"
+            "Expect end { of = w.time; take = maximum; equals = 10; within = 1e-9; }\n");
+  work.file("wall.hook",
+            "Wall w { Subject steady { engine = dts; integrator = rk4; } Subject euler { engine = "
+            "dts; integrator = explicit_euler; } Scene swing { file = \"swing.hook\"; } }\n");
+  const auto result = work.hookpoint("study wall.hook --jobs 1 --out here");
+  EXPECT_EQ(result.status, 0) << result.err;
+  const std::string note = "nothing drives it, yet its energy rose";
+  EXPECT_EQ(count(result.err, "hookpoint: note: swing under euler: " + note), 1U) << result.err;
+  EXPECT_EQ(count(result.err, note), 1U) << result.err;
 }
 
 }  // namespace

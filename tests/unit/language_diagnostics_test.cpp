@@ -42,35 +42,39 @@ INSTANTIATE_TEST_SUITE_P(All, WrongFile, ::testing::ValuesIn(wrong_files()),
 
 TEST(Diagnostics, ThereAreEnoughWrongFiles) { EXPECT_GE(wrong_files().size(), 36U); }
 
-TEST(Diagnostics, ShowTheLineTheCaretAndColours) {
+SourceFile source(const std::string& text, const std::string& path = "a.hook") {
   SourceFile file;
-  file.path = "a.hook";
-  file.text = "one\n\tt\xC3\xA9 two;\r\n";
+  file.path = path;
+  file.text = text;
   index_lines(file);
+  return file;
+}
+
+std::string shown(const Diagnostics& diagnostics, bool colours = false) {
+  std::ostringstream out;
+  diagnostics.print(out, colours);
+  return out.str();
+}
+
+TEST(Diagnostics, ShowTheLineTheCaretAndColours) {
+  const SourceFile file = source("one\n\tt\xC3\xA9 two;\r\n");
   Diagnostics diagnostics;
   diagnostics.error({&file, 9, 3}, "expected three");
   diagnostics.note({}, "without a place");
-  std::ostringstream plain, coloured;
-  diagnostics.print(plain, false);
-  EXPECT_EQ(plain.str(),
+  EXPECT_EQ(shown(diagnostics),
             "a.hook:2:5: error: expected three\n"
             " 2 | \tt\xC3\xA9 two;\n"
             "   | \t   ^~~\n"
             "note: without a place\n");
-  diagnostics.print(coloured, true);
-  EXPECT_NE(coloured.str().find("\033[1;31merror: \033[0mexpected three"), std::string::npos);
+  EXPECT_NE(shown(diagnostics, true).find("\033[1;31merror: \033[0mexpected three"),
+            std::string::npos);
 }
 
 TEST(Diagnostics, ALongLineIsShownAroundItsCaret) {
-  SourceFile file;
-  file.path = "a.hook";
-  file.text = std::string(100000, 'x') + "!" + std::string(100000, 'y');
-  index_lines(file);
+  const SourceFile file = source(std::string(100000, 'x') + "!" + std::string(100000, 'y'));
   Diagnostics diagnostics;
   diagnostics.error({&file, 100000, 1}, "here");
-  std::ostringstream out;
-  diagnostics.print(out, false);
-  const std::string text = out.str();
+  const std::string text = shown(diagnostics);
   EXPECT_LT(text.size(), 500U);
   const std::size_t mark = text.find('!'), caret = text.find('^');
   EXPECT_EQ(mark - text.rfind('\n', mark), caret - text.rfind('\n', caret));
@@ -79,30 +83,21 @@ TEST(Diagnostics, ALongLineIsShownAroundItsCaret) {
 }
 
 TEST(Diagnostics, TheCaretStandsUnderWideCharacters) {
-  SourceFile file;
-  file.path = "a.hook";
   // Two columns each, then an e with an accent of its own, which takes none.
-  file.text = "\u4e16\u754c e\u0301 x = 1;\n";
-  index_lines(file);
+  const SourceFile file = source("\u4e16\u754c e\u0301 x = 1;\n");
   Diagnostics diagnostics;
   diagnostics.error({&file, file.text.find('x'), 1}, "here");
   diagnostics.error({&file, 0, 6}, "there");
-  std::ostringstream out;
-  diagnostics.print(out, false);
-  EXPECT_NE(out.str().find("\n   |        ^\n"), std::string::npos) << out.str();
-  EXPECT_NE(out.str().find("\n   | ^~~~\n"), std::string::npos) << out.str();
+  const std::string text = shown(diagnostics);
+  EXPECT_NE(text.find("\n   |        ^\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("\n   | ^~~~\n"), std::string::npos) << text;
 }
 
 TEST(Diagnostics, NothingCommandsTheTerminal) {
-  SourceFile file;
-  file.path = "a\033[31m.hook";
-  file.text = "b\033]0;title\a \u009b31m \xff c;\n";
-  index_lines(file);
+  const SourceFile file = source("b\033]0;title\a \u009b31m \xff c;\n", "a\033[31m.hook");
   Diagnostics diagnostics;
   diagnostics.error({&file, 0, 1}, "no `\033[2J` nor\nerror: of its own");
-  std::ostringstream out;
-  diagnostics.print(out, false);
-  EXPECT_EQ(out.str(),
+  EXPECT_EQ(shown(diagnostics),
             "a?[31m.hook:1:1: error: no `?[2J` nor?error: of its own\n"
             " 1 | b?]0;title? ??31m ? c;\n"
             "   | ^\n");

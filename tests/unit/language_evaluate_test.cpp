@@ -313,6 +313,44 @@ TEST(LanguageLibrary, EvaluatesInManyThreadsAlike) {
   for (std::size_t i = 0; i < masses.size(); ++i) EXPECT_EQ(masses[i], static_cast<double>(i + 1));
 }
 
+TEST(LanguageNumber, IsWhatAFieldOfItsUnitWouldTake) {
+  EXPECT_EQ(number_of("300 ms", "s"), 0.3);
+  EXPECT_EQ(number_of("2.5", "s"), 2.5);
+  EXPECT_EQ(number_of("1/2 * 3 s", "s"), 1.5);
+  EXPECT_EQ(number_of("-(2 + 1) * 1 s", "s"), -3.);
+  for (const char* wrong :
+       {"", "s", "2 kg", "1, 2", "soon", "1/2 s", "2 s; x = 3", "1e999", "true"})
+    EXPECT_EQ(number_of(wrong, "s"), std::nullopt) << wrong;
+}
+
+TEST(LanguageUnit, OfAValueIsTheOneThatItsFirstNumberIsWrittenIn) {
+  Schema schema;
+  FieldSchema values;
+  values.name = "values";
+  values.type = FieldType::numbers;
+  values.unit = "?";
+  values.max_count = 9;
+  ClassSchema sweep;
+  sweep.name = "Sweep";
+  sweep.top_level = true;
+  sweep.fields = {values};
+  schema.add(sweep);
+  const std::pair<const char*, const char*> cases[] = {
+      {"5 deg, 1 rad", "deg"}, {"a /* 3 kg */, 10 deg", "deg"},
+      {"2 * 5deg", "deg"},     {"10 m / 2 s, 3 mm/s", "mm/s"},
+      {"a, 2 * a", ""},        {"1, 2 // 3 kg\n", ""}};
+  for (const auto& [text, unit] : cases) {
+    const Folder folder;
+    const auto file =
+        folder.write("test.hook", "Let a = 5 deg; Sweep s { values = " + std::string(text) + "; }");
+    Library library(schema, {});
+    Diagnostics diagnostics;
+    const auto root = library.evaluate(file, {}, diagnostics);
+    ASSERT_TRUE(root) << text;
+    EXPECT_EQ(root->children.front()->find("values")->unit, unit) << text;
+  }
+}
+
 TEST(LanguagePaper, Figure7ParsesAndChecksWhole) {
   Evaluated result = evaluate_file(std::filesystem::path(HOOKPOINT_SOURCE_DIR) /
                                    "configs/paper/fig7_two_joint_arm.hook");

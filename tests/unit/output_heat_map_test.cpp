@@ -5,9 +5,12 @@
 #include <filesystem>
 
 #include "output/heat_map.h"
+#include "tests/support/text.h"
 
 namespace hookpoint::output {
 namespace {
+
+using testing::count;
 
 /// Two columns, three rows: a value each but one that stopped and one that was not run; the closed
 /// form differs between the columns of the upper two rows.
@@ -28,12 +31,6 @@ HeatMap sample() {
                          {true, 0.75, 0.},
                          {true, 1., 1.}}});
   return map;
-}
-
-std::size_t count(const std::string& text, const std::string& what) {
-  std::size_t found = 0;
-  for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++found;
-  return found;
 }
 
 TEST(HeatMapData, ARowForEveryRunInOrder) {

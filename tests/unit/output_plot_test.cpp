@@ -10,9 +10,12 @@
 #include "output/plot.h"
 #include "output/plot_legend.h"
 #include "output/plot_scale.h"
+#include "tests/support/text.h"
 
 namespace hookpoint::output {
 namespace {
+
+using testing::count;
 
 namespace fs = std::filesystem;
 
@@ -38,12 +41,6 @@ class Figures : public ::testing::Test {
   ~Figures() override { fs::remove_all(folder_); }
   fs::path folder_;
 };
-
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t found = 0;
-  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
-  return found;
-}
 
 TEST(PlotStyle, FortySubjectsLookDifferent) {
   std::set<std::pair<std::string, int>> looks;

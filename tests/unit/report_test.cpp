@@ -13,22 +13,18 @@
 #include "studies/summary.h"
 #include "studies/terminal_table.h"
 #include "tests/support/synthetic_study.h"
+#include "tests/support/text.h"
 
 namespace hookpoint::studies {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::count;
 using testing::synthetic_creep;
 using testing::synthetic_study;
 
 bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
-}
-
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t found = 0;
-  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
-  return found;
 }
 
 TEST(Summary, CountsRunsAndVerdicts) {

@@ -111,6 +111,22 @@ TEST_F(Results, AListThatIsNoneIsRefused) {
   }
 }
 
+TEST_F(Results, AListThatNamesWhatLiesOutsideRemovesNothing) {
+  const testing::Workplace outside;
+  const std::string precious = outside.file("precious.txt", "mine");
+  const fs::path beside = fs::path("..") / outside.folder().filename() / "precious.txt";
+  for (const std::string& name : {precious, beside.string(), "rows/../" + beside.string(),
+                                  outside.folder().string() + "/", std::string()}) {
+    place_.file("files.json", R"({"experiment": "first", "files": {")" + name + R"(": ""}})");
+    EXPECT_NE(refusal({"a.csv"}).find("is not a list of files that hookpoint wrote"),
+              std::string::npos)
+        << name;
+    EXPECT_EQ(outside.read("precious.txt"), "mine") << name;
+  }
+  place_.file("files.json", R"({"experiment": "first", "files": {"a..csv": ""}})");
+  EXPECT_EQ(refusal({"b.csv"}), "");
+}
+
 TEST_F(Results, AFolderThatIsKeptStaysHookpoints) {
   run("first", {"rows/", "a.csv"});
   fs::create_directory(place_.folder() / "rows");

@@ -24,6 +24,15 @@ Study creep {
 }
 )";
 
+TEST_F(StudyRunner, ASweepTakesNoUnitFromAComment) {
+  const auto plan = this->plan(
+      "Let a = 5 deg; Study s { scene = \"scene.hook\"; duration = 1 s; settle = 0 s;\n"
+      "  Sweep slope { values = a /* 3 kg */, 10 deg; } Subject ours { engine = dts; }\n"
+      "  Measure slip_distance; }");
+  ASSERT_TRUE(plan) << first_error();
+  EXPECT_EQ(plan->sweeps[0].texts, (std::vector<std::string>{"5 deg", "10 deg"}));
+}
+
 TEST_F(StudyRunner, RowsAreOrderedSweepsOutermostSubjectsInnermost) {
   const auto plan = this->plan(study);
   ASSERT_TRUE(plan) << first_error();
