@@ -33,12 +33,6 @@ LoadedBristle<Real> loaded_bristle(const PointKinematics<Real>& point,
   return bristle;
 }
 
-/// The shortest time in which a bristle relaxes under steps `dt` [s].
-template <class Real>
-Real least_time(const Real& dt) {
-  return max(dt, Real(shortest_relaxation));
-}
-
 /// The rate of a bristle and how much of it a step resolves.
 template <class Real>
 struct BristleRate {
@@ -56,7 +50,8 @@ BristleRate<Real> bristle_rate(const LoadedBristle<Real>& bristle, const Real& a
   const Real drag = material.tangential_stiffness * bristle.speed;  // k_t |v|
   const Vector3<Real> numerator =
       bristle.steady * bristle.velocity - (alpha * drag) * bristle.deflection;
-  const Real divisor = positive_or_one(Real(max(bristle.steady, drag * least_time(dt))));
+  const Real least_time = max(dt, Real(shortest_relaxation));
+  const Real divisor = positive_or_one(Real(max(bristle.steady, drag * least_time)));
   return {(1. / divisor) * numerator, bristle.steady / divisor};
 }
 
@@ -66,7 +61,7 @@ BristleRate<Real> bristle_rate(const LoadedBristle<Real>& bristle, const Real& a
 /// bristle gives back no more energy than it took, at any speed. What a step does not resolve of
 /// the relaxation is Coulomb's friction, and so takes energy too: without dampers
 ///   f.v - k_t z.z' = (1 - s) g |v| + s alpha |v| (k_t z)^2/g >= 0   for any s and alpha, and any z
-/// that mu_s N holds. What it does not hold lets go in the `least_time`, without a force. [N]
+/// that mu_s N holds, as every accepted state's is. [N]
 template <class Real>
 Reaction<Real> lugre_reaction(const PointKinematics<Real>& point,
                               const LoadedBristle<Real>& bristle, const Real& alpha,
@@ -85,8 +80,6 @@ Reaction<Real> lugre_reaction(const PointKinematics<Real>& point,
   friction.force = select(loaded, force, Vector3<Real>{});
   // More of the motion is slip than bending.
   friction.slips = 0.5 * bristle.speed * bristle.speed > dot(friction.rate, bristle.velocity);
-  // A fixed step lets go once, at its start (held_point); an adaptive integrator as the load falls.
-  friction.rate -= (1. / least_time(dt)) * (bristle.deflection - bristle.held);
   return bristle_reaction(point, point.depth > Real(0.), bristle.normal_force, bristle.held,
                           friction);
 }

@@ -204,21 +204,6 @@ TEST(AdaptiveContact, ATiltedBoxFallsAtEveryUsualTolerance) {
   }
 }
 
-/// What a falling load no longer holds lets go as it falls, not where an output interval or an
-/// event ends: short fixed steps, which let go at each of them, tend to the same.
-TEST(AdaptiveContact, ABristleLetsGoAsTheLoadFallsWhateverTheOutputInterval) {
-  for (const char* law : {"lugre", "elastoplastic"}) {
-    const Experiment under = tilted_box(law);
-    const auto place = [&](const char* integrator, double interval) {
-      return run(with(under, integrator, interval, 1e-8), 0.2).bodies[0].position;
-    };
-    const Vector3d often = place("arkode", 0.01);
-    EXPECT_LE(norm(place("arkode", 0.1) - often), 1e-7) << law;
-    EXPECT_LE(norm(place("cvode_adams", 0.1) - often), 1e-7) << law;
-    EXPECT_LE(norm(place("rk4", 2e-6) - often), 2e-6) << law;
-  }
-}
-
 /// What a joint and a hip publish is of the whole of the forces, also where an integrator takes
 /// them apart.
 TEST(AdaptiveContact, ALyingArmIsStillUnderEveryIntegrator) {
