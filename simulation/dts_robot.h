@@ -22,9 +22,6 @@ dts::RobotDescription describe_robot(const RobotSpec& robot);
 /// The robot's initial state. Joint positions add to theta (revolute) or d (prismatic).
 dts::State<double> initial_state(const RobotSpec& robot);
 
-/// What a joint does by itself.
-dts::JointProperties<double> joint_properties(const LinkSpec& link);
-
 /// A boundary point and what the law made of it at the state that was refreshed last.
 struct ContactPoint {
   std::size_t body = 0;               ///< 0 the base, then links chain by chain
@@ -139,6 +136,8 @@ class DtsRobot final : public integrators::System {
   /// Where the dry friction of each is hooked.
   const std::vector<double>& anchors() const { return anchors_; }
   const std::vector<ContactPoint>& contact_points() const { return points_; }
+  /// Which of the experiment's forces act on the robot.
+  std::span<const std::size_t> forces() const { return forces_; }
   /// Whether a boundary point has left the terrain, whose edge tile then goes on, and what to tell
   /// the user.
   const std::string& notice() const { return notice_; }
@@ -208,8 +207,8 @@ class DtsRobot final : public integrators::System {
   const contact::Terrain* ground_;
   const WorldInputs* inputs_;
   std::size_t first_joint_;  ///< where the robot's joints begin in WorldInputs::joint_torques
-  bool has_forces_ = false;  ///< one of the experiment's forces acts on this robot
-  bool adaptive_ = false;    ///< the integrator chooses its own steps
+  std::span<const std::size_t> forces_;  ///< of the experiment's, those that act on this robot
+  bool adaptive_ = false;                ///< the integrator chooses its own steps
   contact::ForceLaw law_;
   std::size_t bristle_states_ = 0;  ///< numbers that the law integrates, of a point
   bool semi_implicit_ = false;      ///< its positions move with the new velocities

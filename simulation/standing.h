@@ -13,7 +13,8 @@ namespace hookpoint::simulation {
 /// A boundary point that touches, and what it carries.
 struct CarryingPoint {
   dts::BodyPoint<double> point;
-  Vector3d normal;  ///< of the ground there
+  Eigen::MatrixXd lever;  ///< RobotAtRest::lever of the point
+  Vector3d normal;        ///< of the ground there, unit
   int material = 0;
   double load = 0.;  ///< along the normal [N]
 };
@@ -36,7 +37,8 @@ struct Stances {
 
 /// Of a robot with boundary points above a ground, in the experiment's gravity. `control`: the
 /// joints that it drives hold their angles, whatever that takes, but for those whose controller has
-/// a goal of its own. O(points links^2) for each try of an equilibrium.
+/// a goal of its own. O(points links^2) for the levers and for each of the tries of an equilibrium,
+/// of which each face takes a few dozen at most, and what convex_hull.h costs.
 Stances find_stances(const Experiment& experiment, std::size_t index, const RobotAtRest& rest,
                      const WiredControl& control);
 
@@ -45,7 +47,10 @@ Stances find_stances(const Experiment& experiment, std::size_t index, const Robo
 bool hang(const Experiment& experiment, std::size_t index, const WiredControl& control,
           DtsRobot& robot);
 
-/// The weight of all that moves of a robot [N].
-double weight_of(const Experiment& experiment, const RobotSpec& robot);
+/// Of all that moves of a robot [kg].
+double mass_of(const RobotSpec& robot);
+
+/// What the law reads of the experiment's material of that number.
+const contact::MaterialConstants<double>& constants_of(const Experiment& experiment, int material);
 
 }  // namespace hookpoint::simulation

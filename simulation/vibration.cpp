@@ -77,8 +77,6 @@ Eigen::MatrixXd inverse_mass_matrix(const DtsRobot& robot, Workspace& workspace)
   return 0.5 * (inverse + inverse.transpose());
 }
 
-Eigen::Vector3d eigen(const Vector3d& v) { return {v.x, v.y, v.z}; }
-
 /// -d(passive_joint_torque)/d(position), /d(rate) at rest.
 struct JointSpring {
   double stiffness = 0., damping = 0.;
@@ -265,9 +263,8 @@ Vibration linear_vibration(const RobotAtRest& rest, const std::vector<ContactSpr
                            const std::vector<SteadyLoad>& loads) {
   Vibration vibration = rest.joints_alone();
   for (const ContactSpring& spring : springs) {
-    const Eigen::MatrixXd moved = rest.lever(spring.point);
-    vibration.stiffness += moved * spring.stiffness * moved.transpose();
-    vibration.damping += moved * spring.damping * moved.transpose();
+    vibration.stiffness += spring.lever * spring.stiffness * spring.lever.transpose();
+    vibration.damping += spring.lever * spring.damping * spring.lever.transpose();
   }
   vibration.stiffness += rest.stiffness_of(loads);
   return vibration;
