@@ -137,8 +137,9 @@ class Engine {
   /// From now on, after each step, `state().ground_forces` is kept up to date. An engine that does
   /// not know them leaves `ground_force_time` unknown.
   virtual void publish_ground_forces() {}
-  /// What the ground's springs hold at the published state, 0 where it has none [J]; none where the
-  /// engine does not tell.
+  /// What the ground's springs hold at the published state [J]; none where the engine does not
+  /// tell, or where the ground gives energy by its law: impulses hold a body still by throwing it
+  /// up.
   virtual std::optional<double> ground_energy() const { return std::nullopt; }
   /// Its state as numbers; null for an engine whose solver remembers what nobody can read or set.
   virtual Resumable* resumable() { return nullptr; }

@@ -61,7 +61,6 @@ class ImpulseEngine final : public Engine, public Resumable {
 
   const WorldState& state() const override { return state_; }
   WorldInputs& inputs() override { return inputs_; }
-  std::optional<double> ground_energy() const override { return 0.; }  // impulses store nothing
   Resumable* resumable() override { return this; }
 
   std::size_t state_size() const override {
