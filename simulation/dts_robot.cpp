@@ -49,7 +49,7 @@ StepStatus explain(integrators::Status status, double time, std::string body) {
                         "relative_tolerance and absolute_tolerance, bring the constants of ground "
                         "and joints nearer to each other, make deltat smaller, or choose a "
                         "fixed-step integrator",
-                        integrators::Tolerances{}.most_evaluations)};
+                        integrators::most_evaluations)};
   }
   if (status == integrators::Status::no_step) {
     return {StepStatus::Kind::solver_failed, time, std::move(body),

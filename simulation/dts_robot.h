@@ -160,7 +160,7 @@ class DtsRobot final : public integrators::System {
   void weigh_at(double weight, std::span<const double> q, std::span<const double> v) override;
   void commit(double time, double dt, std::span<const double> q,
               std::span<const double> v) override;
-  void cross(std::span<const int> directions) override;
+  void cross_events(std::span<const int> directions) override;
   void begin_anew(std::span<double> v) override;
   /// Events: each boundary point's depth and, while it is in the ground, its law's switching_value;
   /// each joint limit; where each joint with dry friction begins to slip, or its slip reverses.

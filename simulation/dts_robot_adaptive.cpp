@@ -51,7 +51,7 @@ void DtsRobot::commit(double /*time*/, double /*dt*/, std::span<const double> q,
   commit_anchors();
 }
 
-void DtsRobot::cross(std::span<const int> directions) {
+void DtsRobot::cross_events(std::span<const int> directions) {
   for (std::size_t i = 0; i < points_.size(); ++i) {
     ContactPoint& point = points_[i];
     const int direction = directions[2 * i + 1];

@@ -157,6 +157,7 @@ StabilityBound robot_bound(const Experiment& experiment, std::size_t index,
     }
     least.resolved_speed = resolved;
   }
+  least.evaluations = stances.evaluations;
   return least;
 }
 
@@ -192,11 +193,14 @@ StabilityBound stability_bound(const Experiment& experiment) {
   const auto ground = make_ground(experiment);
   const WiredControl control = wired_control(experiment);
   const WorldInputs inputs = initial_inputs(experiment);
+  std::int64_t evaluations = 0;
   for (std::size_t i = 0; i < experiment.robots.size(); ++i) {
     const StabilityBound bound =
         robot_bound(experiment, i, ground ? &*ground : nullptr, control, inputs);
+    evaluations += bound.evaluations;
     if (bound.step < least.step) least = bound;
   }
+  least.evaluations = evaluations;
   least.left_out = control.left_out;
   return least;
 }

@@ -36,13 +36,14 @@ struct Pushes {
 class Settling {
  public:
   Settling(const Experiment& experiment, const RobotAtRest& rest, std::span<const Support> supports,
-           const Pushes& pushes, const MatrixXd& joints)
+           const Pushes& pushes, const MatrixXd& joints, std::int64_t& evaluations)
       : law_(*contact::find_force_law(experiment.contact)),
         experiment_(experiment),
         rest_(rest),
         supports_(supports),
         push_(pushes.torques),
-        joints_(joints) {
+        joints_(joints),
+        evaluations_(evaluations) {
     for (const SteadyLoad& load : pushes.loads) push_ += rest.lever(load.point) * eigen(load.force);
     for (const Support& support : supports) normals_.push_back(eigen(support.place.normal));
     for (const Support& a : supports)
@@ -114,6 +115,7 @@ class Settling {
 
   /// Of a point at rest `depth` deep [N].
   double load(std::size_t i, double depth) const {
+    ++evaluations_;
     contact::PointKinematics<double> point;
     point.normal = {0., 0., 1.};
     point.depth = depth;
@@ -173,6 +175,7 @@ class Settling {
   std::span<const Support> supports_;
   VectorXd push_;
   const MatrixXd& joints_;
+  std::int64_t& evaluations_;
   std::vector<Eigen::Vector3d> normals_;
   double size_ = 0.;  ///< of what stands [m]
 };
@@ -227,27 +230,27 @@ class StanceFinder {
     }
   }
 
-  Stances find() const {
-    Stances stances;
+  Stances find() {
     const Vector3d& gravity = experiment_.gravity;
     for (const bool pushed : {false, true}) {
       if (pushed && !has_windows()) continue;
       const Pushes now = pushes(gravity, pushed);
       if (const auto loads = settle(supports_, now, standing_tilt)) {
-        stances.all.push_back(stance(supports_, *loads, now));
+        stances_.all.push_back(stance(supports_, *loads, now));
       } else if (!pushed) {
-        stances.lands = true;
+        stances_.lands = true;
       }
     }
-    if (stances.lands) add_landings(stances.all);
-    return stances;
+    if (stances_.lands) add_landings();
+    return std::move(stances_);
   }
 
  private:
   std::optional<std::vector<double>> settle(std::span<const Support> supports, const Pushes& pushes,
-                                            double most_tilt) const {
+                                            double most_tilt) {
     const MatrixXd joints = joint_stiffness(supports);
-    return Settling(experiment_, rest_, supports, pushes, joints).settle(most_tilt);
+    return Settling(experiment_, rest_, supports, pushes, joints, stances_.evaluations)
+        .settle(most_tilt);
   }
 
   bool has_windows() const {
@@ -318,10 +321,10 @@ class StanceFinder {
     return stance;
   }
 
-  void add_landings(std::vector<Stance>& stances) const {
+  void add_landings() {
     const double sink = deepest_sink();
     if (rest_.robot().model().mobile()) {
-      add_faces(supports_, sink, stances);
+      add_faces(supports_, sink);
       return;
     }
     // What hangs from a fixed base lands with one link or another.
@@ -329,7 +332,7 @@ class StanceFinder {
       const auto last = std::find_if(first, supports_.end(), [&](const Support& support) {
         return support.place.point.body != first->place.point.body;
       });
-      add_faces({first, last}, sink, stances);
+      add_faces({first, last}, sink);
       first = last;
     }
   }
@@ -345,8 +348,7 @@ class StanceFinder {
     return deepest;
   }
 
-  void add_faces(std::span<const Support> supports, double sink,
-                 std::vector<Stance>& stances) const {
+  void add_faces(std::span<const Support> supports, double sink) {
     std::vector<Vector3d> points;
     for (const Support& support : supports) points.push_back(support.place.point.p_WP);
     const Vector3d down = -supports.front().place.normal;
@@ -366,11 +368,11 @@ class StanceFinder {
         return downwards(face) < std::min(best, looks_down);
       });
     }
-    for (const HullFace& face : faces) stances.push_back(lying_on(face, supports));
+    for (const HullFace& face : faces) stances_.all.push_back(lying_on(face, supports));
   }
 
   /// The robot on that face, as its ground would lie there.
-  Stance lying_on(const HullFace& face, std::span<const Support> supports) const {
+  Stance lying_on(const HullFace& face, std::span<const Support> supports) {
     std::vector<Support> lying;
     double lowest = -HUGE_VAL;
     for (const std::size_t i : face.points)
@@ -398,6 +400,7 @@ class StanceFinder {
   VectorXd joint_torques_;  ///< of all joints, over z
   double weight_;           ///< [N]
   std::vector<Support> supports_;
+  Stances stances_;
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 // that each carries (docs/contact.md, "Largest stable step").
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -32,13 +33,14 @@ struct Stances {
   /// may make. Of one that falls or tips over, one for each face that it may come to lie on: those
   /// of the hull of its boundary points, of a robot with joints the ones that look down.
   std::vector<Stance> all;
-  bool lands = false;  ///< the ground does not carry it near its initial state
+  bool lands = false;            ///< the ground does not carry it near its initial state
+  std::int64_t evaluations = 0;  ///< of the law at a point: what the equilibria have cost
 };
 
 /// Of a robot with boundary points above a ground, in the experiment's gravity. `control`: the
 /// joints that it drives hold their angles, whatever that takes, but for those whose controller has
 /// a goal of its own. O(points links^2) for the levers and for each of the tries of an equilibrium,
-/// of which each face takes a few dozen at most, and what convex_hull.h costs.
+/// 200 at most for a face, and what convex_hull.h costs.
 Stances find_stances(const Experiment& experiment, std::size_t index, const RobotAtRest& rest,
                      const WiredControl& control);
 

@@ -133,7 +133,7 @@ class LedPoint final : public integrators::System {
   void commit(double t, double dt, std::span<const double> at, std::span<const double> u) override {
     robot_.commit(t, dt, at, own(u));
   }
-  void cross(std::span<const int> directions) override { robot_.cross(directions); }
+  void cross_events(std::span<const int> directions) override { robot_.cross_events(directions); }
   void begin_anew(std::span<double> u) override { robot_.begin_anew(own(u)); }
   std::size_t event_count() const override { return robot_.event_count(); }
   void event_values(double t, std::span<const double> at, std::span<const double> u,

@@ -135,7 +135,7 @@ class EnergyLedger final : public integrators::System {
     robot_.commit(time, dt, q, own(v));
     for (std::size_t i = 0; i < robot_.contact_points().size(); ++i) let_go_ -= stored(i, v);
   }
-  void cross(std::span<const int> directions) override { robot_.cross(directions); }
+  void cross_events(std::span<const int> directions) override { robot_.cross_events(directions); }
   void begin_anew(std::span<double> v) override {
     for (std::size_t i = 0; i < robot_.contact_points().size(); ++i) let_go_ += stored(i, v);
     robot_.begin_anew(own(v));
