@@ -46,7 +46,7 @@ double semi_implicit_euler_bound(const Mode& mode) {
 }
 
 double rk4_bound(std::complex<double> eigenvalue) {
-  constexpr double least_growth = 1e-4;
+  constexpr double least_growth = 1e-9;
   const double modulus = std::abs(eigenvalue);
   if (modulus == 0.) return infinity;
   const std::complex<double> direction = eigenvalue / modulus;

@@ -241,6 +241,11 @@ TEST_P(Friction, NeverGivesWhatWasNotStored) {
           // The semi-implicit step's inequality is exact, an adaptive one's to its tolerance.
           const double allowed = moves_first ? 1e-12 : method.adaptive() ? 1e-6 : gift.unresolved;
           EXPECT_LE(gift.most, allowed) << law << " c_t " << c_t << " dt " << dt << " path " << i;
+          // Whatever its own forces say: where a step resolves the path, whose fastest turn takes
+          // 10 ms, in a hundred parts, it gives a small part of what it took.
+          if (dt == 1e-4) {
+            EXPECT_LE(gift.most, 0.2 * gift.taken + 1e-9) << law << " c_t " << c_t << " path " << i;
+          }
           taken = std::max(taken, gift.taken);
         }
         EXPECT_GT(taken, 1e-4) << law;  // else nothing has been tried
