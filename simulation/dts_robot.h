@@ -43,7 +43,7 @@ struct ContactPoint {
   /// surface where the law begins, `reach` above the ground [m], until the event at which it
   /// crosses has been reached, so that no step meets a jump.
   double depth_on_side(double depth_now, double reach) const;
-  /// Changes sign where the point leaves its side, a hair behind that surface: there it is on the
+  /// Changes sign where the point leaves its side, just behind that surface: there it is on the
   /// other side, and the event is not met again at its own restart.
   double side_event(double depth_now, double reach) const;
 

@@ -117,6 +117,10 @@ double semi_implicit_euler_step(const Vibration& vibration, double least) {
   return low;
 }
 
+/// Of an eigenvalue in units of the fastest, times its own size: what rounding adds to it, some
+/// sizes of a matrix whose positions and velocities differ by that size.
+constexpr double eigenvalue_rounding = 1e-14;
+
 /// Of z'' + C z' + K z = 0, for all but motions that nothing resists and those that fall over by
 /// themselves, whose eigenvalue is real and above 0 (K of steady loads may have negative ones).
 std::vector<std::complex<double>> eigenvalues(const Vibration& vibration) {
@@ -128,7 +132,9 @@ std::vector<std::complex<double>> eigenvalues(const Vibration& vibration) {
       -vibration.stiffness / (unit * unit), -vibration.damping / unit;
   const Eigen::VectorXcd all = general_eigenvalues(system);
   std::vector<std::complex<double>> resisted;
-  for (const std::complex<double>& value : all) {
+  for (std::complex<double> value : all) {
+    // No growth, but a swing that nothing damps.
+    if (value.real() > 0. && value.real() * std::abs(value) < eigenvalue_rounding) value.real(0.);
     const bool falls = value.real() > 0. && std::abs(value.imag()) < 1e-6 * value.real();
     if (std::abs(value) > least_eigenvalue && !falls) resisted.push_back(unit * value);
   }

@@ -57,6 +57,6 @@ class World {
 };
 
 /// Of a port that is no longer finite.
-StepStatus not_finite(double time, const std::string& trail);
+StepStatus stopped_by_port(double time, const std::string& trail);
 
 }  // namespace hookpoint::simulation

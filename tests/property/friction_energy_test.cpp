@@ -13,6 +13,7 @@
 
 #include "simulation/dts_robot.h"
 #include "simulation/ground.h"
+#include "tests/support/drawn.h"
 #include "tests/support/load_text.h"
 
 namespace hookpoint {
@@ -20,6 +21,7 @@ namespace {
 
 using integrators::Stage;
 using integrators::Status;
+using testing::drawn;
 
 /// A sum of three sines [m/s] and its rate.
 struct Wave {
@@ -41,19 +43,15 @@ struct Path {
   Wave x, y, z;
 };
 
-double number(std::mt19937_64& random, double low, double high) {
-  return low + (high - low) * (static_cast<double>(random() >> 11) * 0x1p-53);
-}
-
 Path any_path(std::mt19937_64& random) {
   Path path;
   for (Wave* wave : {&path.x, &path.y, &path.z})
     for (std::size_t i = 0; i < 3; ++i) {
-      wave->size[i] = number(random, 0.02, 0.2);
-      wave->rate[i] = number(random, 50., 600.);
-      wave->phase[i] = number(random, 0., 6.28);
+      wave->size[i] = drawn(random, 0.02, 0.2);
+      wave->rate[i] = drawn(random, 50., 600.);
+      wave->phase[i] = drawn(random, 0., 6.28);
       // To and fro by some 0.4 mm about a depth of 0.5 mm.
-      if (wave == &path.z) wave->size[i] = number(random, 1e-4, 4e-4) * wave->rate[i];
+      if (wave == &path.z) wave->size[i] = drawn(random, 1e-4, 4e-4) * wave->rate[i];
     }
   return path;
 }
@@ -172,11 +170,11 @@ World w {
   experiment.contact = law;
   experiment.integrator = integrator;
   experiment.deltat = dt;
-  const double k = std::pow(10., number(random, 3., 5.));
-  const double k_t = std::pow(10., number(random, 3., 5.));
-  const double c = number(random, 0., 50.);
-  const double mu_k = number(random, 0.2, 1.);
-  const double mu_s = mu_k + std::max(0., number(random, -0.3, 0.3));
+  const double k = std::pow(10., drawn(random, 3., 5.));
+  const double k_t = std::pow(10., drawn(random, 3., 5.));
+  const double c = drawn(random, 0., 50.);
+  const double mu_k = drawn(random, 0.2, 1.);
+  const double mu_s = mu_k + std::max(0., drawn(random, -0.3, 0.3));
   for (simulation::MaterialSpec& material : experiment.materials) {
     auto& constants = material.constants;
     constants.normal_stiffness = constants.nominal_stiffness = k;

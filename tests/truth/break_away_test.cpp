@@ -10,6 +10,7 @@
 
 #include "contact/force_law.h"
 #include "simulation/dts_engine.h"
+#include "tests/support/drawn.h"
 #include "tests/support/load_text.h"
 
 namespace hookpoint {
@@ -24,9 +25,7 @@ struct Case {
 };
 
 Case any_case(std::mt19937_64& random) {
-  const auto number = [&](double low, double high) {
-    return low + (high - low) * (static_cast<double>(random() >> 11) * 0x1p-53);
-  };
+  const auto number = [&](double low, double high) { return testing::drawn(random, low, high); };
   Case drawn{};
   drawn.mass = number(0.5, 5.);
   drawn.stiffness = number(2e3, 5e4);

@@ -140,6 +140,24 @@ TEST(StabilityBound, HasThePendulumsOwnStiffnessWhereverItIsLetGo) {
   }
 }
 
+// Undamped, and one mode ten thousand times as slow as the other: its eigenvalue is less exact, and
+// what rounding adds to it is no growth.
+TEST(StabilityBound, OfAnUndampedRobotTakesRoundingForNoGrowth) {
+  for (const double k : {1e9, 1e6, 1e3}) {
+    const double fast = std::sqrt(k / 0.5);
+    const double bound =
+        bound_of(
+            fmt::format("World w {{ gravity = 0; integrator = rk4; Robot b {{ Base.fixed {{ }} "
+                        "Chain c {{ Link l {{ joint = prismatic; stiffness = 2.5; mass = 1; "
+                        "inertia = 1, 1, 1, 0, 0, 0; }} Link m {{ joint = prismatic; stiffness "
+                        "= {}; mass = 1; inertia = 1, 1, 1, 0, 0, 0; }} }} }} }}",
+                        k))
+            .step;
+    // Of two masses on one line, held together by k: w^2 = 2 k, but for 2.5/k of it.
+    EXPECT_NEAR(bound * std::sqrt(2. * k), 2. * std::sqrt(2.), 1e-2) << k << " " << fast;
+  }
+}
+
 TEST(HullFaces, OfAPrismAreItsSidesAndItsEnds) {
   std::vector<Vector3d> points;
   constexpr int sides = 12;
