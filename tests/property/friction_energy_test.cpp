@@ -11,8 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "simulation/dts_robot.h"
-#include "simulation/ground.h"
+#include "tests/support/accompanied_robot.h"
 #include "tests/support/drawn.h"
 #include "tests/support/load_text.h"
 
@@ -58,14 +57,10 @@ Path any_path(std::mt19937_64& random) {
 
 /// The engine's robot, a point of 1 kg, that moves as the path says whatever the ground does to it;
 /// beside its velocities the work that friction has done on it [J].
-class LedPoint final : public integrators::System {
+class LedPoint final : public testing::AccompaniedRobot<1> {
  public:
   LedPoint(const simulation::Experiment& experiment, const Path& path)
-      : experiment_(experiment),
-        path_(path),
-        inputs_(simulation::initial_inputs(experiment_)),
-        ground_(simulation::make_ground(experiment_)),
-        robot_(experiment_, 0, &*ground_, inputs_) {
+      : AccompaniedRobot(experiment), path_(path) {
     q.resize(position_size());
     v.resize(velocity_size());
     robot_.write_positions(q);
@@ -97,12 +92,6 @@ class LedPoint final : public integrators::System {
     robot_.begin_anew(own(v));
   }
 
-  std::size_t position_size() const override { return robot_.position_size(); }
-  std::size_t velocity_size() const override { return robot_.velocity_size() + 1; }
-  std::size_t moving_size() const override { return robot_.moving_size(); }
-  bool evolves(std::size_t i) const override {
-    return i >= robot_.velocity_size() || robot_.evolves(i);
-  }
   Status accelerations(Stage stage, double t, std::span<const double> at, std::span<const double> u,
                        std::span<double> a) override {
     const Status status = robot_.accelerations(stage, t, at, own(u), a.first(a.size() - 1));
@@ -119,40 +108,9 @@ class LedPoint final : public integrators::System {
     std::swap_ranges(a_free.begin(), a_free.begin() + 6, a_contact.begin());
     return status;
   }
-  void retract(std::span<const double> q0, std::span<const double> u,
-               std::span<double> out) const override {
-    robot_.retract(q0, own(u), out);
-  }
-  void tangent_rate(std::span<const double> u, std::span<const double> w,
-                    std::span<double> du) const override {
-    robot_.tangent_rate(own(u), own(w), du.first(du.size() - 1));
-    du.back() = 0.;
-  }
-  void commit(double t, double dt, std::span<const double> at, std::span<const double> u) override {
-    robot_.commit(t, dt, at, own(u));
-  }
-  void cross_events(std::span<const int> directions) override { robot_.cross_events(directions); }
-  void begin_anew(std::span<double> u) override { robot_.begin_anew(own(u)); }
-  std::size_t event_count() const override { return robot_.event_count(); }
-  void event_values(double t, std::span<const double> at, std::span<const double> u,
-                    std::span<double> values) override {
-    robot_.event_values(t, at, own(u), values);
-  }
 
  private:
-  template <class Number>
-  static std::span<Number> own(std::span<Number> numbers) {
-    return numbers.first(numbers.size() - 1);
-  }
-  static std::span<double> own(std::vector<double>& numbers) {
-    return own(std::span<double>(numbers));
-  }
-
-  simulation::Experiment experiment_;
   Path path_;
-  simulation::WorldInputs inputs_;
-  std::optional<contact::Terrain> ground_;
-  simulation::DtsRobot robot_;
 };
 
 simulation::Experiment any_experiment(std::mt19937_64& random, const std::string& law,
