@@ -15,7 +15,7 @@ namespace hookpoint::integrators {
 /// resumed goes on bit for bit (docs/decisions/0010). Time is counted from the step's start.
 class AdaptiveStepper : public Stepper {
  public:
-  explicit AdaptiveStepper(const System& system);
+  AdaptiveStepper(const System& system, long most_evaluations);
   Status step(System& system, double t, double dt, std::span<double> q, std::span<double> v) final;
 
   // For the library's callbacks, at `time` since the step's start [s]; y and the results have
@@ -28,7 +28,7 @@ class AdaptiveStepper : public Stepper {
   bool implicit_rates(double time, const double* y, double* rate);
   void event_values(double time, const double* y, double* values);
   /// The library may ask no more: this step has had its share.
-  bool spent() const { return evaluations_ > most_evaluations; }
+  bool spent() const { return evaluations_ > most_evaluations_; }
 
  protected:
   /// Of the whole interval: a step that should be shorter still is given up.
@@ -73,6 +73,7 @@ class AdaptiveStepper : public Stepper {
   bool integrate_on_the_way(double from, double to);
 
   std::size_t moving_, group_;         ///< System::moving_size, group_size
+  long most_evaluations_;              ///< of a `step`
   std::vector<std::size_t> evolving_;  ///< of the states of first order
   System* system_ = nullptr;           ///< during `step`
   double start_ = 0.;                  ///< time of the step's start [s]

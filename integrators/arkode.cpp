@@ -14,7 +14,7 @@ using sundials::require;
 class Arkode final : public AdaptiveStepper {
  public:
   Arkode(const System& system, const Tolerances& tolerances, bool imex)
-      : AdaptiveStepper(system),
+      : AdaptiveStepper(system, tolerances.most_evaluations),
         explicit_part_(imex ? sundials::rates<&AdaptiveStepper::explicit_rates>
                             : sundials::rates<&AdaptiveStepper::rates>),
         implicit_part_(imex ? sundials::rates<&AdaptiveStepper::implicit_rates> : nullptr),

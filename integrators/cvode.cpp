@@ -13,7 +13,7 @@ using sundials::require;
 class Cvode final : public AdaptiveStepper {
  public:
   Cvode(const System& system, const Tolerances& tolerances, int method)
-      : AdaptiveStepper(system),
+      : AdaptiveStepper(system, tolerances.most_evaluations),
         tolerances_(tolerances),
         method_(method),
         events_(static_cast<int>(system.event_count())),

@@ -20,6 +20,7 @@ inline constexpr long most_evaluations = 300000;
 struct Tolerances {
   double relative = 1e-6;
   double absolute = 1e-8;
+  long most_evaluations = integrators::most_evaluations;
 };
 
 /// What the integration has cost since the stepper was made: counts, exact up to 2^53.

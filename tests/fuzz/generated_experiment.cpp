@@ -79,8 +79,10 @@ class Generator {
 
  private:
   std::size_t below(std::size_t n) { return n == 0 ? 0 : random_() % n; }
-  bool chance(double part) { return testing::drawn_part(random_) < part; }
-  double between(double least, double greatest) { return testing::drawn(random_, least, greatest); }
+  bool chance(double part) { return test_support::drawn_part(random_) < part; }
+  double between(double least, double greatest) {
+    return test_support::drawn(random_, least, greatest);
+  }
   template <class Element>
   const Element& one_of(const std::vector<Element>& list) {
     return list[below(list.size())];

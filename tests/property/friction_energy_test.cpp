@@ -20,7 +20,7 @@ namespace {
 
 using integrators::Stage;
 using integrators::Status;
-using testing::drawn;
+using test_support::drawn;
 
 /// A sum of three sines [m/s] and its rate.
 struct Wave {
@@ -57,7 +57,7 @@ Path any_path(std::mt19937_64& random) {
 
 /// The engine's robot, a point of 1 kg, that moves as the path says whatever the ground does to it;
 /// beside its velocities the work that friction has done on it [J].
-class LedPoint final : public testing::AccompaniedRobot<1> {
+class LedPoint final : public test_support::AccompaniedRobot<1> {
  public:
   LedPoint(const simulation::Experiment& experiment, const Path& path)
       : AccompaniedRobot(experiment), path_(path) {

@@ -227,6 +227,12 @@ std::vector<Vector3d> forces_along(const ForceLaw& law, const std::vector<Vector
     point.normal = tile.normal;
     point.depth = tile.depth;
     point.bristle = bristle;
+    // As an accepted state of a fixed step: its bristle has let go of what the load does not hold.
+    point = std::visit(
+        [&](const auto& chosen) {
+          return held_point(chosen, point, memory, materials[tile.material], dt);
+        },
+        law);
     const Reaction<double> reaction = evaluate(law, point, memory, materials[tile.material], dt);
     forces.push_back(reaction.force);
     memory = reaction.next;

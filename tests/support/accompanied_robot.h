@@ -10,7 +10,7 @@
 #include "simulation/dts_robot.h"
 #include "simulation/ground.h"
 
-namespace hookpoint::testing {
+namespace hookpoint::test_support {
 
 /// What it leaves to a test: accelerations, whose last `more` numbers are the rates of its own.
 template <std::size_t more>
@@ -65,4 +65,4 @@ class AccompaniedRobot : public integrators::System {
   simulation::DtsRobot robot_;
 };
 
-}  // namespace hookpoint::testing
+}  // namespace hookpoint::test_support

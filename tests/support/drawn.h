@@ -2,7 +2,7 @@
 // the standard library are not.
 #pragma once
 
-namespace hookpoint::testing {
+namespace hookpoint::test_support {
 
 /// Of [0, 1).
 template <class Generator>
@@ -16,4 +16,4 @@ double drawn(Generator& random, double low, double high) {
   return low + (high - low) * drawn_part(random);
 }
 
-}  // namespace hookpoint::testing
+}  // namespace hookpoint::test_support

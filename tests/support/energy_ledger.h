@@ -67,7 +67,7 @@ double tangential_heat(const contact::Reaction<double>& reaction, const Vector3d
 
 /// One robot under an adaptive integrator, and beside its own velocities two numbers more: the heat
 /// and the work so far [J].
-class EnergyLedger final : public testing::AccompaniedRobot<2> {
+class EnergyLedger final : public AccompaniedRobot<2> {
  public:
   explicit EnergyLedger(const simulation::Experiment& experiment)
       : AccompaniedRobot(experiment),

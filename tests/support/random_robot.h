@@ -15,7 +15,7 @@ class RandomRobots {
  public:
   explicit RandomRobots(std::uint64_t seed) : engine_(seed) {}
 
-  double uniform(double low, double high) { return testing::drawn(engine_, low, high); }
+  double uniform(double low, double high) { return test_support::drawn(engine_, low, high); }
   int integer(int low, int high) { return int(std::floor(uniform(low, high + 1.))); }
   bool chance(double probability) { return uniform(0., 1.) < probability; }
 

@@ -25,7 +25,9 @@ struct Case {
 };
 
 Case any_case(std::mt19937_64& random) {
-  const auto number = [&](double low, double high) { return testing::drawn(random, low, high); };
+  const auto number = [&](double low, double high) {
+    return test_support::drawn(random, low, high);
+  };
   Case drawn{};
   drawn.mass = number(0.5, 5.);
   drawn.stiffness = number(2e3, 5e4);
