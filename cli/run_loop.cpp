@@ -128,7 +128,7 @@ int step_through(const Experiment& experiment, simulation::World& world,
   const auto written = [&] {
     const std::string& trail = files.first_not_finite();
     return trail.empty() ? simulation::StepStatus{}
-                         : simulation::not_finite(world.state().time, trail);
+                         : simulation::stopped_by_port(world.state().time, trail);
   };
   if (const auto status = written(); !status.ok()) return report_failure(watch, status);
   files.row(first, world.state().time);

@@ -94,8 +94,11 @@ template <class Law>
 double switching_value(const Law& /*law*/, const PointKinematics<double>& point,
                        const Memory<double>& memory,
                        const MaterialConstants<double>& /*material*/) {
-  if constexpr (Law::bristle_states == 0) return 1.;
-  return slip_reversal(point, memory);
+  if constexpr (Law::bristle_states == 0) {
+    return 1.;
+  } else {
+    return slip_reversal(point, memory);
+  }
 }
 
 /// If friction falls as a point breaks away: where it does, and where it comes to stick again.

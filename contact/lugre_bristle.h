@@ -68,13 +68,13 @@ Reaction<Real> lugre_reaction(const PointKinematics<Real>& point,
                               const MaterialConstants<Real>& material, const Real& dt) {
   const Mask<Real> loaded = bristle.normal_force > Real(0.);
   BristleFriction<Real> friction;
-  const BristleRate<Real> bends = bristle_rate(bristle, alpha, material, dt);
-  friction.rate = bends.rate;
+  const BristleRate<Real> bending = bristle_rate(bristle, alpha, material, dt);
+  friction.rate = bending.rate;
   const Real sigma1 =
       material.tangential_damping * bristle.steady /
       positive_or_one(Real(bristle.steady + material.tangential_damping * bristle.speed));
-  const Real unresolved = (1. - bends.resolved) * bristle.steady / positive_or_one(bristle.speed);
-  const Vector3<Real> force = (bends.resolved * material.tangential_stiffness) * bristle.held +
+  const Real unresolved = (1. - bending.resolved) * bristle.steady / positive_or_one(bristle.speed);
+  const Vector3<Real> force = (bending.resolved * material.tangential_stiffness) * bristle.held +
                               sigma1 * friction.rate +
                               (unresolved + material.viscous_friction) * bristle.velocity;
   friction.force = select(loaded, force, Vector3<Real>{});

@@ -31,7 +31,7 @@ Status AdaptiveStepper::step(System& system, double t, double dt, std::span<doub
   start_ = t;
   at_start_ = true;
   lost_ = false;
-  asked_ = 0;
+  evaluations_ = 0;
   start_from(q, v);
   const Status reached = integrate(dt);
   if (reached != Status::ok) return reached;
@@ -40,15 +40,17 @@ Status AdaptiveStepper::step(System& system, double t, double dt, std::span<doub
 }
 
 // Two nodes of Gauss: exact for cubics.
-void AdaptiveStepper::weigh_way(double from, double to) {
-  if (!system_->has_integrals()) return;
+bool AdaptiveStepper::integrate_on_the_way(double from, double to) {
+  if (!system_->has_integrals()) return true;
   constexpr double node = 0.28867513459481287;  // 1/sqrt(12)
   const double middle = 0.5 * (from + to), length = to - from;
   for (const double sign : {-1., 1.}) {
-    interpolate(middle + sign * node * length, std::span(between_).first(unknowns_.size()));
+    if (!interpolate(middle + sign * node * length, std::span(between_).first(unknowns_.size())))
+      return false;
     read(between_.data());
     system_->weigh_at(0.5 * length, q_, v_);
   }
+  return true;
 }
 
 Status AdaptiveStepper::integrate(double dt) {
@@ -60,17 +62,22 @@ Status AdaptiveStepper::integrate(double dt) {
       count();
       return why_failed();
     }
-    weigh_way(reached, arrival.time);
+    if (!integrate_on_the_way(reached, arrival.time)) {
+      count();
+      return Status::no_step;
+    }
     reached = arrival.time;
     const bool event = arrival.kind == Arrival::Kind::event;
     const bool over = arrival.kind == Arrival::Kind::at_end || dt - arrival.time <= least_step * dt;
     if (event) ++statistics_.events;
+    // The caller commits the end of the whole. An event there is committed and crossed here: the
+    // next step begins at its zero, where nothing tells any more which way it went.
     if (event || !over) {
       read(unknowns_.data());
       system_->commit(start_ + arrival.time, arrival.time - committed, q_, v_);
       committed = arrival.time;
     }
-    if (event) system_->cross(directions_);
+    if (event) system_->cross_events(directions_);
     if (over) {
       count();
       return Status::ok;
@@ -126,7 +133,7 @@ bool AdaptiveStepper::write_rates(Status status, std::span<const double> u_rate,
 }
 
 bool AdaptiveStepper::rates(double time, const double* y, double* rate) {
-  ++asked_;
+  ++evaluations_;
   read(y);
   system_->tangent_rate(u_, v_, u_rate_);
   if (at_start_) {
@@ -139,7 +146,7 @@ bool AdaptiveStepper::rates(double time, const double* y, double* rate) {
 
 bool AdaptiveStepper::explicit_rates(double time, const double* y, double* rate) {
   read(y);
-  asked_ += 2;
+  evaluations_ += 2;
   statistics_.evaluations += 2;
   const Status status = system_->split_accelerations(start_ + time, q_, v_, v_rate_, other_rate_);
   return write_rates(status, zero_, v_rate_, rate);
@@ -148,14 +155,14 @@ bool AdaptiveStepper::explicit_rates(double time, const double* y, double* rate)
 bool AdaptiveStepper::implicit_rates(double time, const double* y, double* rate) {
   read(y);
   system_->tangent_rate(u_, v_, u_rate_);
-  asked_ += 2;
+  evaluations_ += 2;
   statistics_.evaluations += 2;
   const Status status = system_->split_accelerations(start_ + time, q_, v_, other_rate_, v_rate_);
   return write_rates(status, u_rate_, v_rate_, rate);
 }
 
 void AdaptiveStepper::event_values(double time, const double* y, double* values) {
-  ++asked_;
+  ++evaluations_;
   read(y);
   system_->event_values(start_ + time, q_, v_, {values, system_->event_count()});
 }

@@ -28,7 +28,7 @@ class AdaptiveStepper : public Stepper {
   bool implicit_rates(double time, const double* y, double* rate);
   void event_values(double time, const double* y, double* values);
   /// The library may ask no more: this step has had its share.
-  bool spent() const { return asked_ > most_evaluations_; }
+  bool spent() const { return evaluations_ > most_evaluations_; }
 
  protected:
   /// Of the whole interval: a step that should be shorter still is given up.
@@ -49,8 +49,9 @@ class AdaptiveStepper : public Stepper {
   virtual bool begin(double time, double end) = 0;
   /// Takes one internal step, leaving y in `unknowns_` and, of an event, `directions_`.
   virtual Arrival advance(double end) = 0;
-  /// Writes y at `time` on the way of the internal step just taken, by the method's interpolant.
-  virtual void interpolate(double time, std::span<double> y) = 0;
+  /// Writes y at `time` [s] on the way of the internal step just taken, by the method's
+  /// interpolant. False where the library refuses.
+  virtual bool interpolate(double time, std::span<double> y) = 0;
   /// Adds what the library counted since the last `begin` to the statistics.
   virtual void count() = 0;
 
@@ -69,7 +70,7 @@ class AdaptiveStepper : public Stepper {
                    double* rate);
   Status integrate(double dt);
   Status why_failed() const;
-  void weigh_way(double from, double to);
+  bool integrate_on_the_way(double from, double to);
 
   std::size_t moving_, group_;         ///< System::moving_size, group_size
   long most_evaluations_;              ///< of a `step`
@@ -78,7 +79,7 @@ class AdaptiveStepper : public Stepper {
   double start_ = 0.;                  ///< time of the step's start [s]
   bool at_start_ = false;              ///< the next rates are those that Stage::first gave
   bool lost_ = false;                  ///< the latest rates are not finite
-  long asked_ = 0;                     ///< evaluations of this `step`
+  long evaluations_ = 0;               ///< of this `step`
   std::vector<double> origin_, q_, u_, v_, u_rate_, v_rate_, other_rate_, zero_, first_;
   std::vector<double> between_;  ///< y on the way of an internal step
 };

@@ -30,6 +30,7 @@ class Arkode final : public AdaptiveStepper {
   void create() {
     memory_.reset();
     y_ = sundials::vector_over(unknowns_, context_.get());
+    between_ = sundials::vector_over(unknowns_, context_.get());
     memory_.reset(ARKStepCreate(explicit_part_, implicit_part_, 0., y_.get(), context_.get()));
     sundials::require_made(memory_, "ARKODE");
     ARKStepSetErrHandlerFn(memory_, sundials::silent, nullptr);
@@ -79,13 +80,13 @@ class Arkode final : public AdaptiveStepper {
     if (flag == ARK_SUCCESS) return {Arrival::Kind::inside, time};
     if (flag == ARK_TSTOP_RETURN) return {Arrival::Kind::at_end, time};
     if (flag != ARK_ROOT_RETURN) return {};
-    ARKStepGetRootInfo(memory_, directions_.data());
+    if (ARKStepGetRootInfo(memory_, directions_.data()) != ARK_SUCCESS) return {};
     return {Arrival::Kind::event, time};
   }
 
-  void interpolate(double time, std::span<double> y) override {
-    const auto at = sundials::vector_over(y, context_.get());
-    ARKStepGetDky(memory_, time, 0, at.get());
+  bool interpolate(double time, std::span<double> y) override {
+    N_VSetArrayPointer(y.data(), between_.get());
+    return ARKStepGetDky(memory_, time, 0, between_.get()) == ARK_SUCCESS;
   }
 
   void count() override {
@@ -105,6 +106,7 @@ class Arkode final : public AdaptiveStepper {
   int events_;
   sundials::Owner<SUNContext> context_;
   sundials::Owner<N_Vector> y_;
+  sundials::Owner<N_Vector> between_;  ///< over what `interpolate` is given
   sundials::LinearSolver linear_;
   sundials::SolverMemory<ARKStepFree> memory_;
   double longest_ = 0.;  ///< step taken since `begin` [s]

@@ -25,6 +25,7 @@ class Cvode final : public AdaptiveStepper {
   void create() {
     memory_.reset();
     y_ = sundials::vector_over(unknowns_, context_.get());
+    between_ = sundials::vector_over(unknowns_, context_.get());
     memory_.reset(CVodeCreate(method_, context_.get()));
     sundials::require_made(memory_, "CVODE");
     CVodeSetErrHandlerFn(memory_, sundials::silent, nullptr);
@@ -62,16 +63,16 @@ class Cvode final : public AdaptiveStepper {
       case CV_TSTOP_RETURN:
         return {Arrival::Kind::at_end, time};
       case CV_ROOT_RETURN:
-        CVodeGetRootInfo(memory_, directions_.data());
+        if (CVodeGetRootInfo(memory_, directions_.data()) != CV_SUCCESS) return {};
         return {Arrival::Kind::event, time};
       default:
         return {};
     }
   }
 
-  void interpolate(double time, std::span<double> y) override {
-    const auto at = sundials::vector_over(y, context_.get());
-    CVodeGetDky(memory_, time, 0, at.get());
+  bool interpolate(double time, std::span<double> y) override {
+    N_VSetArrayPointer(y.data(), between_.get());
+    return CVodeGetDky(memory_, time, 0, between_.get()) == CV_SUCCESS;
   }
 
   void count() override {
@@ -87,6 +88,7 @@ class Cvode final : public AdaptiveStepper {
   int method_, events_;
   sundials::Owner<SUNContext> context_;
   sundials::Owner<N_Vector> y_;
+  sundials::Owner<N_Vector> between_;  ///< over what `interpolate` is given
   sundials::LinearSolver linear_;
   sundials::Owner<SUNNonlinearSolver> corrector_;
   sundials::SolverMemory<CVodeFree> memory_;

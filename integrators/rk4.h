@@ -17,7 +17,7 @@ class RungeKutta4 final : public Stepper {
               std::span<double> v) override;
 
  private:
-  /// k = F at y0 + reach (k of the stage before), and sum += weight k.
+  /// k = F at y0 + reach (k of the stage before), and sum += weight k; `reach` and `dt` [s].
   Status trial(System& system, double t, double dt, double reach, double weight,
                std::span<const double> q, std::span<const double> v);
 

@@ -46,12 +46,12 @@ double semi_implicit_euler_bound(const Mode& mode) {
 }
 
 double rk4_bound(std::complex<double> eigenvalue) {
-  constexpr double least_growth = 1e-4;
+  constexpr double least_growth = 1e-12;
   const double modulus = std::abs(eigenvalue);
   if (modulus == 0.) return infinity;
   const std::complex<double> direction = eigenvalue / modulus;
-  // What grows by itself grows with every step that is short enough. Growth of no more than the
-  // rounding of eigenvalues is none.
+  // What grows by itself grows with every step that is short enough. Growth below round-off of
+  // the modulus is none.
   if (direction.real() > least_growth) return 0.;
   // The region |R| <= 1 ends between 2.6 and 3.4 from the origin in the left half plane; march out,
   // then bisect. Below 1 an undamped mode's |R| = 1 - O(|z|^6) is too near 1 to be compared.

@@ -10,14 +10,17 @@
 
 namespace hookpoint::integrators {
 
+/// Evaluations of rates and events that one `step` of an adaptive integrator may need. What needs
+/// more crawls, over a discontinuity or a stiffness that it cannot take, and says so rather than go
+/// on for ever.
+inline constexpr long most_evaluations = 300000;
+
 /// What an adaptive integrator holds its local error to: of an unknown y (position along the
 /// tangent, velocity; m, rad, and per s) at most about relative |y| + absolute a step.
 struct Tolerances {
   double relative = 1e-6;
   double absolute = 1e-8;
-  /// Evaluations of rates and events that one `step` may need. What needs more crawls, over a
-  /// discontinuity or a stiffness that it cannot take, and says so rather than go on for ever.
-  long most_evaluations = 300000;
+  long most_evaluations = integrators::most_evaluations;
 };
 
 /// What the integration has cost since the stepper was made: counts, exact up to 2^53.

@@ -67,7 +67,7 @@ class System {
   /// After an event's commit: of each event function -1 where it has become negative, +1 where it
   /// has become positive, 0 elsewhere. Its value at the event is 0 but for rounding; which side the
   /// system is on from there is said here.
-  virtual void cross(std::span<const int> /*directions*/) {}
+  virtual void cross_events(std::span<const int> /*directions*/) {}
 
   /// After an event's commit: `v` as the motion goes on with it. A system may drop from it what the
   /// event has ended (the bristle of a point that has left the ground).

@@ -17,7 +17,7 @@ namespace hookpoint::reference {
 /// What a base meets the ground with, where it has no chains and does not touch by points.
 struct BulletSurface {
   std::unique_ptr<BulletShape> shape;  ///< in the base's principal frame; null: it meets nothing
-  double friction = 0., restitution = 0.;
+  double friction = 0., restitution = 0.;  ///< [1]
 };
 
 class BulletRobot {

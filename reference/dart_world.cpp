@@ -65,7 +65,7 @@ class DartWorld final : public PeerWorld {
     for (const auto& skeleton : skeletons_) world_->addSkeleton(skeleton);
     for (const TreeBody& body : tree.bodies) now_.push_back(body.initial);
     joints_now_.resize(tree.joints);
-    see();
+    read_motion();
   }
 
   std::string advance(const simulation::WorldInputs& inputs) override {
@@ -74,7 +74,7 @@ class DartWorld final : public PeerWorld {
     const DartConstantsTurn turn(settings_);
     const auto step = [this] {
       world_->step();
-      see();
+      read_motion();
     };
     if (survives_abort(step)) return {};
     // Neither its destructor nor anything else of it can be called any more.
@@ -135,7 +135,7 @@ class DartWorld final : public PeerWorld {
   };
 
   /// Reads the motion: the library works it out when it is asked, assertions included.
-  void see() {
+  void read_motion() {
     for (const Body& body : bodies_) {
       if (!body.mobile) continue;
       BodyState& state = now_[body.index];

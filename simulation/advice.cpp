@@ -16,6 +16,7 @@
 #include "simulation/engine.h"
 #include "simulation/ground.h"
 #include "simulation/stability.h"
+#include "simulation/standing.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -43,14 +44,6 @@ void check_applicable(const Experiment& experiment) {
                           "` has no stiffness and no damping: there is nothing to advise on");
   if (!experiment.terrain)
     throw ExperimentError("the World has no terrain: there is no contact to advise on");
-}
-
-double mass_of(const RobotSpec& robot) {
-  double mass = robot.mobile ? robot.base.mass.mass : 0.;
-  for (const ChainSpec& chain : robot.chains) {
-    for (const LinkSpec& link : chain.links) mass += link.body.mass.mass;
-  }
-  return mass;
 }
 
 std::vector<const ContactPoint*> carrying_points(const DtsRobot& robot) {
@@ -155,9 +148,8 @@ void advise_constants(GroundAdvice& ground, const contact::ForceLaw& law,
 
 /// One a material under the robot's carrying points.
 std::vector<GroundAdvice> advise_robot(const Experiment& experiment, int index,
-                                       const contact::Terrain& terrain,
+                                       const contact::Terrain& terrain, const WorldInputs& inputs,
                                        const AdviceWishes& wishes) {
-  const WorldInputs inputs = initial_inputs(experiment);
   DtsRobot robot(experiment, index, &terrain, inputs);
   dts::articulated_inertias(robot.model(), robot.workspace());
   const std::vector<const ContactPoint*> carrying = carrying_points(robot);
@@ -221,9 +213,11 @@ StabilityBound bound_under(Experiment experiment, std::string_view integrator) {
 Advice advise(const Experiment& experiment, const AdviceWishes& wishes) {
   check_applicable(experiment);
   const auto terrain = make_ground(experiment);
+  const WorldInputs inputs = initial_inputs(experiment);
   Advice advice;
   for (std::size_t i = 0; i < experiment.robots.size(); ++i) {
-    for (GroundAdvice& ground : advise_robot(experiment, static_cast<int>(i), *terrain, wishes))
+    for (GroundAdvice& ground :
+         advise_robot(experiment, static_cast<int>(i), *terrain, inputs, wishes))
       advice.grounds.push_back(std::move(ground));
   }
   const Experiment advised = advised_experiment(experiment, advice.grounds);

@@ -41,55 +41,76 @@ std::vector<Culprit> culprits() {
        &Constants::nominal_stiffness, &Constants::exponential_rate}};
 }
 
-/// The bound with the culprit's constants `factor` times as large in all materials.
-double bound_with(const Experiment& experiment, const Culprit& culprit, double factor) {
-  Experiment changed = experiment;
-  for (MaterialSpec& material : changed.materials) {
-    for (const Member member : culprit) material.constants.*member *= factor;
-  }
-  return stability_bound(changed).step;
-}
-
-/// The largest factor below 1 with which the step is stable; none when even a ten-thousandth is not
-/// enough.
-std::optional<double> factor_for_step(const Experiment& experiment, const Culprit& culprit) {
-  const double wanted = step_margin * experiment.deltat;
-  double low = 1e-4, high = 1.;
-  if (bound_with(experiment, culprit, low) < wanted) return std::nullopt;
-  for (int i = 0; i < 30; ++i) {
-    const double middle = std::sqrt(low * high);
-    (bound_with(experiment, culprit, middle) < wanted ? high : low) = middle;
-  }
-  return low;
-}
-
-/// Whether the law reads the constant, about some load.
-bool reads(const contact::ForceLaw& law, const Constants& material, Member member) {
+/// Whether the law reads the constant about that load.
+bool reads(const contact::ForceLaw& law, double load, const Constants& material, Member member) {
   Constants more = material;
   more.*member = 1.001 * material.*member;
-  const auto now = contact::linearise(law, 1., material), then = contact::linearise(law, 1., more);
+  const auto now = contact::linearise(law, load, material);
+  const auto then = contact::linearise(law, load, more);
   return now.normal_stiffness != then.normal_stiffness ||
          now.normal_damping != then.normal_damping ||
          now.tangential_stiffness != then.tangential_stiffness ||
          now.tangential_damping != then.tangential_damping;
 }
 
-/// "surface.normal_damping = 1.41 N.s/m": the culprit's constants `factor` times as large, of the
-/// grounds that carry.
-std::string lowered(const Experiment& experiment, const Advice& advice, const Culprit& culprit,
-                    double factor) {
+/// A constant of one of the experiment's materials.
+struct Place {
+  std::size_t material = 0;
+  MaterialField field;
+};
+
+/// Those of the culprit's that the law reads of the grounds that carry: each point its share of the
+/// weight, or one all of it.
+std::vector<Place> places(const Experiment& experiment, const Advice& advice,
+                          const Culprit& culprit) {
   const contact::ForceLaw law = *contact::find_force_law(experiment.contact);
-  std::string text;
-  for (const MaterialSpec& material : experiment.materials) {
-    if (std::ranges::find(advice.grounds, material.name, &GroundAdvice::material) ==
-        advice.grounds.end())
-      continue;
+  std::vector<Place> places;
+  for (std::size_t i = 0; i < experiment.materials.size(); ++i) {
+    const MaterialSpec& material = experiment.materials[i];
     for (const MaterialField& field : material_fields()) {
       if (std::ranges::find(culprit, field.member) == culprit.end()) continue;
-      if (!reads(law, material.constants, field.member)) continue;
-      text += fmt::format("{}{}.{} = {:.3g} {}", text.empty() ? "" : " and ", material.name,
-                          field.name, factor * material.constants.*field.member, field.unit);
+      const bool matters = std::ranges::any_of(advice.grounds, [&](const GroundAdvice& ground) {
+        if (ground.material != material.name) return false;
+        const double whole = ground.load * static_cast<double>(ground.points);
+        return reads(law, ground.load, material.constants, field.member) ||
+               reads(law, whole, material.constants, field.member);
+      });
+      if (matters) places.push_back({i, field});
     }
+  }
+  return places;
+}
+
+/// The bound with those constants `factor` times as large.
+double bound_with(const Experiment& experiment, const std::vector<Place>& places, double factor) {
+  Experiment changed = experiment;
+  for (const Place& place : places)
+    changed.materials[place.material].constants.*place.field.member *= factor;
+  return stability_bound(changed).step;
+}
+
+/// The largest factor below 1 with which the step is stable; none when even a ten-thousandth is not
+/// enough.
+std::optional<double> factor_for_step(const Experiment& experiment,
+                                      const std::vector<Place>& places) {
+  const double wanted = step_margin * experiment.deltat;
+  double low = 1e-4, high = 1.;
+  if (places.empty() || bound_with(experiment, places, low) < wanted) return std::nullopt;
+  for (int i = 0; i < 30; ++i) {
+    const double middle = std::sqrt(low * high);
+    (bound_with(experiment, places, middle) < wanted ? high : low) = middle;
+  }
+  return low;
+}
+
+/// "surface.normal_damping = 1.41 N.s/m": those constants `factor` times as large.
+std::string lowered(const Experiment& experiment, const std::vector<Place>& places, double factor) {
+  std::string text;
+  for (const Place& place : places) {
+    const MaterialSpec& material = experiment.materials[place.material];
+    text += fmt::format("{}{}.{} = {:.3g} {}", text.empty() ? "" : " and ", material.name,
+                        place.field.name, factor * material.constants.*place.field.member,
+                        place.field.unit);
   }
   return text;
 }
@@ -115,13 +136,13 @@ void advise_step(const Experiment& experiment, const Advice& advice,
   std::string smaller = bound > 0. ? fmt::format("deltat = {:.3g} s", bound / step_margin)
                                    : std::string("some damping");
   for (const Culprit& culprit : culprits()) {
-    const auto factor = factor_for_step(experiment, culprit);
+    const std::vector<Place> changed = places(experiment, advice, culprit);
+    const auto factor = factor_for_step(experiment, changed);
     if (!factor) continue;
     changes.push_back(fmt::format(
         "deltat {:.4g} s is above the largest stable step {:.4g} s of {}: set {}, or {}{}",
-        experiment.deltat, bound, experiment.integrator,
-        lowered(experiment, advice, culprit, *factor), smaller,
-        another_integrator(experiment, advice)));
+        experiment.deltat, bound, experiment.integrator, lowered(experiment, changed, *factor),
+        smaller, another_integrator(experiment, advice)));
     return;
   }
   changes.push_back(fmt::format(

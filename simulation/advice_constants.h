@@ -9,7 +9,7 @@
 
 namespace hookpoint::simulation {
 
-/// The field of that name; the first for a name that there is not.
+/// The field of that name. Throws std::logic_error for a name that there is not.
 MaterialField field_named(std::string_view name);
 
 /// The constant that the law's depth at rest depends on: of `nominal` the stiffness below the

@@ -74,7 +74,7 @@ ChosenStep choose_step(const Experiment& experiment) {
   const std::vector<double> rates = rates_of(experiment);
   int largest = static_cast<int>(std::ceil(3. * std::log10(safe_part * bound))) + 3;
   while (round_step(largest) > safe_part * bound) --largest;
-  constexpr int tries = 6;
+  constexpr int tries = 6;  // two decades
   for (int n = largest; n > largest - tries; --n) {
     if (divides(round_step(n), rates)) return {round_step(n), bound, ""};
   }

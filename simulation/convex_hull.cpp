@@ -20,14 +20,16 @@ std::size_t farthest(std::span<const Vector3d> points, const Measure& measure) {
 
 /// A plane that has all points on its inner side, and one of them on it.
 struct Plane {
-  Vector3d normal;  ///< outwards
-  Vector3d point;
+  Vector3d normal;  ///< unit, outwards
+  Vector3d point;   ///< any of it [m]
 };
 
 class Wrapping {
  public:
   Wrapping(std::span<const Vector3d> points, double tolerance)
-      : points_(points), tolerance_(tolerance) {
+      : points_(points),
+        tolerance_(tolerance),
+        most_faces_(std::clamp<std::size_t>(most_looks / points.size(), 50, 20000)) {
     const Vector3d& first = points[0];
     const auto along = [&](const Vector3d& p) { return norm(p - first); };
     const Vector3d far = points[farthest(points, along)] - first;
@@ -52,7 +54,7 @@ class Wrapping {
       return std::move(faces_);
     }
     add(first_face());
-    for (std::size_t i = 0; i < planes_.size() && planes_.size() < most_faces; ++i) {
+    for (std::size_t i = 0; i < planes_.size() && planes_.size() < most_faces_; ++i) {
       const std::vector<std::size_t> corners = polygon(planes_[i]);
       for (std::size_t j = 0; j < corners.size(); ++j) {
         const Vector3d& from = points_[corners[j]];
@@ -64,7 +66,8 @@ class Wrapping {
   }
 
  private:
-  static constexpr std::size_t most_faces = 20000;
+  /// Points times faces: a rounded body of more has its first faces alone, and a bound from them.
+  static constexpr std::size_t most_looks = 20'000'000;
 
   std::vector<std::size_t> on_plane(const Plane& plane, double within) const {
     std::vector<std::size_t> on;
@@ -110,7 +113,8 @@ class Wrapping {
       return norm(other.normal - plane.normal) < 1e-6 &&
              std::abs(dot(other.point - plane.point, plane.normal)) <= 1e-6 * size_;
     };
-    if (!has_area(plane) || std::ranges::any_of(planes_, same)) return;
+    // Each edge turns up twice: most planes are known, which costs less to see than an area.
+    if (std::ranges::any_of(planes_, same) || !has_area(plane)) return;
     planes_.push_back(plane);
     faces_.push_back({plane.normal, on_plane(plane, tolerance_)});
   }
@@ -147,8 +151,10 @@ class Wrapping {
   }
 
   std::span<const Vector3d> points_;
-  double tolerance_;
-  double size_ = 0., near_ = 0.;
+  double tolerance_;  ///< [m]
+  std::size_t most_faces_;
+  double size_ = 0.;  ///< of all points together [m]
+  double near_ = 0.;  ///< nearer than that is on a line or a plane [m]
   bool is_line_ = true, is_flat_ = false;
   Vector3d flat_normal_;
   std::vector<Plane> planes_;

@@ -16,7 +16,8 @@ struct HullFace {
 
 /// The faces of the convex hull of `points`, by gift wrapping; coplanar points make one face. Of
 /// points in a plane its two sides, of points on a line or of a single one all of them, once.
-/// `tolerance` [m]: how far from its plane a point belongs to a face. O(faces points).
+/// `tolerance` [m]: how far from its plane a point belongs to a face. O(faces (faces + points)); of
+/// many points not all faces are looked for: 2e7/points, and 50 at least.
 std::vector<HullFace> hull_faces(std::span<const Vector3d> points, double tolerance);
 
 }  // namespace hookpoint::simulation

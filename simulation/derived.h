@@ -19,7 +19,7 @@ class Derived {
   /// nothing.
   void update();
 
-  /// Whether all that is asked for is.
+  /// Whether every number that somebody asked for is finite.
   bool finite() const { return finite_; }
   /// The engine's state has become another one: differences begin anew.
   void restart();

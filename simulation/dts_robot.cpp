@@ -12,6 +12,7 @@
 #include "dts/forward_dynamics.h"
 #include "integrators/adaptive.h"
 #include "integrators/rotation_rate.h"
+#include "simulation/joint_properties.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -48,7 +49,7 @@ StepStatus explain(integrators::Status status, double time, std::string body) {
                         "relative_tolerance and absolute_tolerance, bring the constants of ground "
                         "and joints nearer to each other, make deltat smaller, or choose a "
                         "fixed-step integrator",
-                        integrators::Tolerances{}.most_evaluations)};
+                        integrators::most_evaluations)};
   }
   if (status == integrators::Status::no_step) {
     return {StepStatus::Kind::solver_failed, time, std::move(body),
@@ -69,29 +70,7 @@ contact::ForceLaw law_of(const Experiment& experiment) {
   return is_adaptive(experiment.integrator) ? contact::flow(law) : law;
 }
 
-std::size_t joints_before(const Experiment& experiment, int robot) {
-  std::size_t joints = 0;
-  for (int i = 0; i < robot; ++i)
-    for_each_link(experiment.robots[i], [&](const LinkSpec&) { ++joints; });
-  return joints;
-}
-
 }  // namespace
-
-dts::JointProperties<double> joint_properties(const LinkSpec& link) {
-  dts::JointProperties<double> joint;
-  joint.damping = link.damping;
-  joint.friction = link.friction;
-  joint.friction_deflection = link.friction_deflection;
-  joint.friction_speed = link.friction_speed;
-  joint.stiffness = link.stiffness;
-  joint.rest_position = link.rest_angle;
-  if (link.lower_limit) joint.lower_limit = *link.lower_limit;
-  if (link.upper_limit) joint.upper_limit = *link.upper_limit;
-  joint.limit_stiffness = link.limit_stiffness;
-  joint.limit_damping = link.limit_damping;
-  return joint;
-}
 
 dts::RobotDescription describe_robot(const RobotSpec& robot) {
   dts::RobotDescription description{robot.mobile, mass_properties(robot.base.mass), {}};
@@ -123,7 +102,8 @@ DtsRobot::DtsRobot(const Experiment& experiment, int index, const contact::Terra
       index_(index),
       ground_(ground),
       inputs_(&inputs),
-      first_joint_(joints_before(experiment, index)),
+      first_joint_(inputs.first_joints[static_cast<std::size_t>(index)]),
+      forces_(inputs.forces_of[static_cast<std::size_t>(index)]),
       adaptive_(is_adaptive(experiment.integrator)),
       law_(law_of(experiment)),
       bristle_states_(contact::bristle_states(law_)),
@@ -139,7 +119,6 @@ DtsRobot::DtsRobot(const Experiment& experiment, int index, const contact::Terra
   for (std::size_t i = 0; i < joints_.size(); ++i)
     if (joints_[i].friction > 0.) dry_joints_.push_back({i});
   anchors_ = anchors_before_ = state_.joint_positions;
-  for (const ForceSpec& force : experiment.forces) has_forces_ |= force.robot == index_;
   for (std::size_t body = 0; body <= model_.body_count(); ++body) {
     const auto first = std::ranges::lower_bound(points_, body, {}, &ContactPoint::body);
     first_points_.push_back(static_cast<std::size_t>(first - points_.begin()));
@@ -162,9 +141,8 @@ DtsRobot::DtsRobot(const Experiment& experiment, int index, const contact::Terra
 
 void DtsRobot::apply_external_forces() {
   dts::clear_external_forces(workspace_);
-  for (std::size_t i = 0; i < experiment_->forces.size(); ++i) {
+  for (const std::size_t i : forces_) {
     const ForceSpec& force = experiment_->forces[i];
-    if (force.robot != index_) continue;
     const ForceInput& input = inputs_->forces[i];
     const dts::BodyMotion<double>& body = workspace_.bodies[force.body];
     dts::add_external_force(workspace_, force.body, input.force,
@@ -175,7 +153,7 @@ void DtsRobot::apply_external_forces() {
 
 // The state was refreshed before its inputs were known; contact does not depend on them.
 void DtsRobot::take_inputs() {
-  if (!has_forces_) return;
+  if (forces_.empty()) return;
   apply_external_forces();
   for (const ContactPoint& point : points_) {
     if (point.pending.attached)

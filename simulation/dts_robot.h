@@ -22,9 +22,6 @@ dts::RobotDescription describe_robot(const RobotSpec& robot);
 /// The robot's initial state. Joint positions add to theta (revolute) or d (prismatic).
 dts::State<double> initial_state(const RobotSpec& robot);
 
-/// What a joint does by itself.
-dts::JointProperties<double> joint_properties(const LinkSpec& link);
-
 /// A boundary point and what the law made of it at the state that was refreshed last.
 struct ContactPoint {
   std::size_t body = 0;               ///< 0 the base, then links chain by chain
@@ -46,7 +43,7 @@ struct ContactPoint {
   /// surface where the law begins, `reach` above the ground [m], until the event at which it
   /// crosses has been reached, so that no step meets a jump.
   double depth_on_side(double depth_now, double reach) const;
-  /// Changes sign where the point leaves its side, a hair behind that surface: there it is on the
+  /// Changes sign where the point leaves its side, just behind that surface: there it is on the
   /// other side, and the event is not met again at its own restart.
   double side_event(double depth_now, double reach) const;
 
@@ -139,6 +136,8 @@ class DtsRobot final : public integrators::System {
   /// Where the dry friction of each is hooked.
   const std::vector<double>& anchors() const { return anchors_; }
   const std::vector<ContactPoint>& contact_points() const { return points_; }
+  /// Which of the experiment's forces act on the robot.
+  std::span<const std::size_t> forces() const { return forces_; }
   /// Whether a boundary point has left the terrain, whose edge tile then goes on, and what to tell
   /// the user.
   const std::string& notice() const { return notice_; }
@@ -161,7 +160,7 @@ class DtsRobot final : public integrators::System {
   void weigh_at(double weight, std::span<const double> q, std::span<const double> v) override;
   void commit(double time, double dt, std::span<const double> q,
               std::span<const double> v) override;
-  void cross(std::span<const int> directions) override;
+  void cross_events(std::span<const int> directions) override;
   void begin_anew(std::span<double> v) override;
   /// Events: each boundary point's depth and, while it is in the ground, its law's switching_value;
   /// each joint limit; where each joint with dry friction begins to slip, or its slip reverses.
@@ -208,8 +207,8 @@ class DtsRobot final : public integrators::System {
   const contact::Terrain* ground_;
   const WorldInputs* inputs_;
   std::size_t first_joint_;  ///< where the robot's joints begin in WorldInputs::joint_torques
-  bool has_forces_ = false;  ///< one of the experiment's forces acts on this robot
-  bool adaptive_ = false;    ///< the integrator chooses its own steps
+  std::span<const std::size_t> forces_;  ///< of the experiment's, those that act on this robot
+  bool adaptive_ = false;                ///< the integrator chooses its own steps
   contact::ForceLaw law_;
   std::size_t bristle_states_ = 0;  ///< numbers that the law integrates, of a point
   bool semi_implicit_ = false;      ///< its positions move with the new velocities

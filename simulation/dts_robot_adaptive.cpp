@@ -19,7 +19,7 @@ namespace {
 constexpr double surface = 1e-11;
 /// The same of dry friction: part of the deflection and of the speed by which an event is beyond
 /// the change that it marks.
-constexpr double hair = 1e-9;
+constexpr double beyond = 1e-9;
 
 }  // namespace
 
@@ -51,7 +51,7 @@ void DtsRobot::commit(double /*time*/, double /*dt*/, std::span<const double> q,
   commit_anchors();
 }
 
-void DtsRobot::cross(std::span<const int> directions) {
+void DtsRobot::cross_events(std::span<const int> directions) {
   for (std::size_t i = 0; i < points_.size(); ++i) {
     ContactPoint& point = points_[i];
     const int direction = directions[2 * i + 1];
@@ -101,8 +101,8 @@ void DtsRobot::event_values(double /*time*/, std::span<const double> q, std::spa
     const dts::JointProperties<double>& joint = joints_[dry.joint];
     const double stretch = state_.joint_positions[dry.joint] - anchors_[dry.joint];
     *value++ = dry.slips ? std::copysign(1., stretch) * state_.joint_rates[dry.joint] +
-                               hair * joint.friction_speed
-                         : (1. + hair) * joint.friction_deflection - std::abs(stretch);
+                               beyond * joint.friction_speed
+                         : (1. + beyond) * joint.friction_deflection - std::abs(stretch);
   }
 }
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "dts/joint_forces.h"
-#include "simulation/dts_robot.h"
+#include "simulation/joint_properties.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -40,9 +40,18 @@ bool is_passive(const Experiment& experiment) {
 EnergyWatch::EnergyWatch(const Experiment& experiment, const World& world, std::int64_t last)
     : experiment_(experiment), world_(world) {
   const std::int64_t steps = last - world.state().step;
-  if (!is_passive(experiment) || steps < 10 * windows) return;
+  if (!is_passive(experiment) || !world.ground_energy() || steps < 10 * windows) return;
   stride_ = std::max<std::int64_t>(1, steps / (windows * samples_a_window));
   samples_.reserve(static_cast<std::size_t>(steps / stride_ + 2));
+  std::size_t bodies = 0;
+  for (const RobotSpec& robot : experiment.robots) {
+    first_bodies_.push_back(bodies++);
+    for (const ChainSpec& chain : robot.chains) {
+      bodies += chain.links.size();
+      for (const LinkSpec& link : chain.links)
+        most_in_friction_ += 0.5 * link.friction * link.friction_deflection;
+    }
+  }
 }
 
 void EnergyWatch::sample() {
@@ -57,9 +66,7 @@ void EnergyWatch::sample() {
     now.kinetic += 0.5 * (mass.mass * dot(velocity, velocity) + dot(w, mass.inertia * w));
     now.energy -= mass.mass * dot(experiment_.gravity, motion.position + arm);
   };
-  for (std::size_t i = 0; i < experiment_.robots.size(); ++i) {
-    const RobotSpec& robot = experiment_.robots[i];
-    const auto base = body;
+  for (const RobotSpec& robot : experiment_.robots) {
     if (robot.mobile) add(robot.base.mass, *body);
     ++body;
     for (const ChainSpec& chain : robot.chains) {
@@ -68,11 +75,11 @@ void EnergyWatch::sample() {
         now.energy += spring_energy(joint_properties(link), (joint++)->angle, link.torque);
       }
     }
-    for (const ForceSpec& force : experiment_.forces) {
-      if (static_cast<std::size_t>(force.robot) != i) continue;
-      const BodyState& pushed = *(base + force.body);
-      now.energy -= dot(force.force, pushed.position + rotate(pushed.orientation, force.point));
-    }
+  }
+  for (const ForceSpec& force : experiment_.forces) {
+    const std::size_t first = first_bodies_[static_cast<std::size_t>(force.robot)];
+    const BodyState& pushed = state.bodies[first + static_cast<std::size_t>(force.body)];
+    now.energy -= dot(force.force, pushed.position + rotate(pushed.orientation, force.point));
   }
   now.energy += now.kinetic;
   samples_.push_back(now);
@@ -100,7 +107,7 @@ std::string EnergyWatch::finding() const {
   for (auto window = least; window != all.end(); ++window)
     kinetic = std::max(kinetic, window->kinetic);
   const double rise = most->energy - least->energy;
-  if (!(rise > wavering * kinetic + rounding * scale)) return "";
+  if (!(rise > wavering * kinetic + rounding * scale + most_in_friction_)) return "";
   return fmt::format(
       "{} by {:.3g} J between {:.4g} and {:.4g} s: deltat {:.4g} s is too large for how it moves; "
       "halve it, soften the ground, or choose another integrator",

@@ -17,8 +17,9 @@ namespace hookpoint::simulation {
 bool is_passive(const Experiment& experiment);
 
 /// T + V of all that moves [J]: kinetic energy, weights, Forces, springs and constant torques of
-/// joints, stops, and what the ground holds, as far as the engine tells. Nothing of a world that is
-/// driven. From published values. O(bodies + boundary points).
+/// joints, stops, and what the ground holds. Nothing is said of a world that is driven, or whose
+/// engine does not tell what its ground holds. What joints' dry friction holds is not published:
+/// the most that it can hold counts as no rise. From published values. O(bodies + boundary points).
 class EnergyWatch {
  public:
   /// Of a run from the world's present step to step `last`.
@@ -35,13 +36,16 @@ class EnergyWatch {
 
  private:
   struct Sample {
-    double time = 0., kinetic = 0., energy = 0.;
+    double time = 0.;                  ///< [s]
+    double kinetic = 0., energy = 0.;  ///< the part that is kinetic, and the whole [J]
   };
   void sample();
 
   const Experiment& experiment_;
   const World& world_;
-  std::int64_t stride_ = 0;
+  std::int64_t stride_ = 0;                ///< steps from one look to the next; 0: nothing is said
+  double most_in_friction_ = 0.;           ///< that springs of joints' dry friction can hold [J]
+  std::vector<std::size_t> first_bodies_;  ///< of each robot, in WorldState::bodies
   std::vector<Sample> samples_;
 };
 

@@ -101,8 +101,12 @@ struct WorldInputs {
   std::vector<double> joint_torques;
   /// One a ForceSpec, in order. At first as written; a force over a window starts at zero.
   std::vector<ForceInput> forces;
+  // Of each robot, where its own are among them:
+  std::vector<std::size_t> first_joints;
+  std::vector<std::vector<std::size_t>> forces_of;
 };
 
+/// O(joints + forces).
 WorldInputs initial_inputs(const Experiment& experiment);
 
 /// Why a step was not taken. Nothing is repaired silently: a run that fails stops and says this.
@@ -133,8 +137,9 @@ class Engine {
   /// From now on, after each step, `state().ground_forces` is kept up to date. An engine that does
   /// not know them leaves `ground_force_time` unknown.
   virtual void publish_ground_forces() {}
-  /// What the ground's springs hold at the published state [J]; none where the engine has none or
-  /// does not say.
+  /// What the ground's springs hold at the published state [J]; none where the engine does not
+  /// tell, or where the ground gives energy by its law: impulses hold a body still by throwing it
+  /// up.
   virtual std::optional<double> ground_energy() const { return std::nullopt; }
   /// Its state as numbers; null for an engine whose solver remembers what nobody can read or set.
   virtual Resumable* resumable() { return nullptr; }

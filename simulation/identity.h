@@ -19,7 +19,8 @@ std::vector<std::string> plugins_of(const Experiment& experiment);
 /// images, data, plugins), wherever these lie. Throws output::FileError.
 std::string experiment_hash(const std::string& text, const Experiment& experiment);
 
-/// Of a run of it: that, this program's own bytes, and the engine with its version and precision.
+/// Hash of a run: of its experiment's hash, this program's bytes, and the engine's name, version,
+/// precision and whether it is found.
 std::string run_hash(const std::string& experiment, const EngineDescription& engine);
 
 /// The files that its run reads, by absolute path.

@@ -55,8 +55,7 @@ void ImpulseBody::publish(std::span<BodyState> bodies, std::span<JointState> /*j
 contact::ImpulseLoad ImpulseBody::load() const {
   contact::ImpulseLoad load{experiment_.gravity, {}, {}};
   const BodySpec& body = experiment_.robots[index_].base;
-  for (std::size_t k = 0; k < experiment_.forces.size(); ++k) {
-    if (experiment_.forces[k].robot != static_cast<int>(index_)) continue;
+  for (const std::size_t k : inputs_.forces_of[index_]) {
     const ForceInput& force = inputs_.forces[k];
     load.force += force.force;
     load.torque += force.torque;

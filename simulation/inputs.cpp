@@ -5,11 +5,14 @@ namespace hookpoint::simulation {
 WorldInputs initial_inputs(const Experiment& experiment) {
   WorldInputs inputs;
   for (const RobotSpec& robot : experiment.robots) {
+    inputs.first_joints.push_back(inputs.joint_torques.size());
     for (const ChainSpec& chain : robot.chains) {
       for (const LinkSpec& link : chain.links) inputs.joint_torques.push_back(link.torque);
     }
   }
+  inputs.forces_of.resize(experiment.robots.size());
   for (const ForceSpec& force : experiment.forces) {
+    inputs.forces_of[static_cast<std::size_t>(force.robot)].push_back(inputs.forces.size());
     const bool waits = force.window.has_value();
     inputs.forces.push_back(
         {force.point, waits ? Vector3d{} : force.force, waits ? Vector3d{} : force.torque});

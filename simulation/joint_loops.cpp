@@ -48,11 +48,13 @@ class LoopFinder {
       into_.emplace(wire.to, &wire);
       out_of_.emplace(wire.from, &wire);
     }
+    for (const RobotSpec& robot : experiment.robots) robots_.insert(robot.name);
   }
 
   WiredControl find() {
     WiredControl control;
     const std::set<std::size_t> reacting = reacting_components();
+    double under_way = 0.;
     for (std::size_t i = 0; i < components_.size(); ++i) {
       const ComponentSpec& spec = experiment_.components[i];
       std::string why = terminals(spec).empty()
@@ -64,24 +66,32 @@ class LoopFinder {
       bool whole = true;
       for (const Terminals& ends : terminals(spec))
         whole = add_loop(i, ends, control, why) && whole;
-      if (whole && control.loops.size() > before && fits(control.loops, before, why)) continue;
+      if (whole && control.loops.size() > before && fits(control.loops, before, why, under_way))
+        continue;
       control.loops.resize(before);
       if (reacting.contains(i)) control.left_out.push_back(spec.trail + ": " + why);
     }
-    control.driven = driven_joints(control.loops);
+    for (const WireSpec& wire : experiment_.wires) {
+      if (is_of_a_robot(wire.from) && !components_.find(wire.to) &&
+          wire.to.starts_with(experiment_.world + "."))
+        control.left_out.push_back(wire.to + ": it follows " + wire.from +
+                                   " by a wire alone, without a controller");
+    }
+    std::ranges::stable_sort(control.loops, {}, &JointLoop::robot);
+    control.driven = driven_joints(control);
     return control;
   }
 
  private:
-  std::vector<DrivenJoint> driven_joints(const std::vector<JointLoop>& loops) const {
+  std::vector<DrivenJoint> driven_joints(const WiredControl& control) const {
     std::vector<DrivenJoint> driven;
     for (const auto& [trail, wire] : into_) {
       const JointPlace* place = joint_at(trail, "torque");
       if (!place) continue;
       DrivenJoint& joint = driven.emplace_back(DrivenJoint{place->robot, place->joint, {}, 0.});
+      const auto loops = loops_of(control, place->robot);
       const auto loop = std::ranges::find_if(loops, [&](const JointLoop& each) {
-        return each.robot == place->robot && each.driven == place->joint &&
-               each.sensed == each.driven && each.integral == 0.;
+        return each.driven == place->joint && each.sensed == each.driven && each.integral == 0.;
       });
       if (loop == loops.end() || wire_into(loop->controller + ".goal")) continue;
       const auto component = components_.find(loop->controller + ".output");
@@ -89,6 +99,8 @@ class LoopFinder {
       joint.goal = value(component->component, "goal");
       joint.proportional = loop->proportional;
     }
+    std::ranges::sort(driven, {},
+                      [](const DrivenJoint& joint) { return std::pair(joint.robot, joint.joint); });
     return driven;
   }
 
@@ -110,23 +122,25 @@ class LoopFinder {
     return all;
   }
 
-  /// Whether the loops from `first` on go into one map with those before them.
-  static bool fits(const std::vector<JointLoop>& loops, std::size_t first, std::string& why) {
-    double under_way = 0.;
-    for (std::size_t i = 0; i < loops.size(); ++i) {
+  /// Whether the loops from `first` on go into one map with those before them. `under_way`: the
+  /// samples of all that do.
+  static bool fits(const std::vector<JointLoop>& loops, std::size_t first, std::string& why,
+                   double& under_way) {
+    double with_these = under_way;
+    for (std::size_t i = first; i < loops.size(); ++i) {
       const double delay = loops[i].delay + loops[i].rate_delay;
-      if (delay > 0.) under_way += delay / loops[i].period;
-      if (i < first) continue;
+      if (delay > 0.) with_these += delay / loops[i].period;
       if (loops[i].period != loops.front().period)
         why = "does not update at the rate of " + loops.front().controller;
       else if (delay > 0. && loops[i].period == 0.)
         why = "late, without a rate";
-      else if (under_way > most_under_way)
+      else if (with_these > most_under_way)
         why = fmt::format("more than {} samples under way", most_under_way);
       else
         continue;
       return false;
     }
+    under_way = with_these;
     return true;
   }
 
@@ -233,22 +247,33 @@ class LoopFinder {
   }
 
   bool is_of_a_robot(const std::string& trail) const {
-    return std::ranges::any_of(experiment_.robots, [&](const RobotSpec& robot) {
-      return trail.starts_with(experiment_.world + "." + robot.name + ".");
-    });
+    const std::string world = experiment_.world + ".";
+    if (!trail.starts_with(world)) return false;
+    const std::size_t end = trail.find('.', world.size());
+    return end != std::string::npos &&
+           robots_.contains(trail.substr(world.size(), end - world.size()));
   }
 
   const Experiment& experiment_;
   Components components_;
   std::map<std::string, JointPlace> joints_;
+  std::set<std::string> robots_;
   std::map<std::string, const WireSpec*> into_;
   std::multimap<std::string, const WireSpec*> out_of_;
 };
 
 }  // namespace
 
+std::span<const JointLoop> loops_of(const WiredControl& control, std::size_t robot) {
+  return {std::ranges::equal_range(control.loops, robot, {}, &JointLoop::robot)};
+}
+
+std::span<const DrivenJoint> driven_of(const WiredControl& control, std::size_t robot) {
+  return {std::ranges::equal_range(control.driven, robot, {}, &DrivenJoint::robot)};
+}
+
 WiredControl wired_control(const Experiment& experiment) {
-  if (experiment.components.empty()) return {};
+  if (experiment.wires.empty()) return {};
   return LoopFinder(experiment).find();
 }
 

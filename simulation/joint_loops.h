@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,17 +30,22 @@ struct JointLoop {
 struct DrivenJoint {
   std::size_t robot = 0, joint = 0;
   /// Of a PD alone, with a goal that no wire moves: torque = proportional (goal - q) at rest.
-  std::optional<double> goal;
-  double proportional = 0.;
+  std::optional<double> goal;  ///< [rad or m]
+  double proportional = 0.;    ///< [N m/rad or N/m]
 };
 
 struct WiredControl {
-  std::vector<JointLoop> loops;
-  std::vector<DrivenJoint> driven;
-  /// Components whose outputs reach a force or a torque, that follow what robots do, and that are
-  /// no such loop, each with the reason in words.
+  std::vector<JointLoop> loops;     ///< robot by robot
+  std::vector<DrivenJoint> driven;  ///< robot by robot, joint by joint
+  /// What feeds back and is no such loop, each with the reason in words: components that follow
+  /// what robots do and whose outputs reach a force or a torque, and ports of robots that are wired
+  /// there straight.
   std::vector<std::string> left_out;
 };
+
+/// Those of one robot. O(log loops).
+std::span<const JointLoop> loops_of(const WiredControl& control, std::size_t robot);
+std::span<const DrivenJoint> driven_of(const WiredControl& control, std::size_t robot);
 
 /// Of `Controller.PD`, `.PID` and `.JointPD` between the `angle`, `rate` and `torque` of one
 /// robot's joints; limits of torques are not reached about a rest. O(wires log wires).

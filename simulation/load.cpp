@@ -50,12 +50,15 @@ Vector3d load_gravity(const language::Object& world, Loading& loading) {
   return {};
 }
 
+/// `deltat = auto`.
+bool is_automatic(const language::Object& world) { return !world.find("deltat")->words.empty(); }
+
 void load_world(const language::Object& world, Loading& loading) {
   Experiment& experiment = loading.experiment;
   experiment.world = world.name;
   experiment.gravity = load_gravity(world, loading);
   // An `auto` stands at the step that the caller gives.
-  if (world.find("deltat")->words.empty()) experiment.deltat = world.number("deltat");
+  if (!is_automatic(world)) experiment.deltat = world.number("deltat");
   experiment.integrator = world.word("integrator");
   experiment.relative_tolerance = world.number("relative_tolerance");
   experiment.absolute_tolerance = world.number("absolute_tolerance");
@@ -108,8 +111,6 @@ std::optional<Experiment> load_with_step(const language::Object& root,
 
 /// So fine that hardly a rate is too high for it [s].
 constexpr double finest_step = 1e-6;
-
-bool is_automatic(const language::Object& world) { return !world.find("deltat")->words.empty(); }
 
 }  // namespace
 

@@ -1,3 +1,7 @@
+#include <fmt/format.h>
+
+#include "output/number.h"
+#include "simulation/experiment.h"
 #include "simulation/schema.h"
 #include "simulation/schema_fields.h"
 
@@ -146,6 +150,13 @@ FieldSchema joint_field(std::string name, std::string unit, std::string sliding,
       number_field(std::move(name), std::move(unit), std::move(default_text), std::move(doc)));
 }
 
+/// "if not given, 1000 N.m/rad (prismatic: 1e5 N/m)".
+std::string unless_given(double (*usual)(JointKind), const char* unit, const char* sliding) {
+  return fmt::format("if not given, {} {} (prismatic: {} {})",
+                     output::rounded(usual(JointKind::revolute)), unit,
+                     output::rounded(usual(JointKind::prismatic)), sliding);
+}
+
 std::vector<FieldSchema> joint_fields() {
   return {
       choice_field("joint", {"revolute", "prismatic"}, "revolute",
@@ -165,21 +176,21 @@ std::vector<FieldSchema> joint_fields() {
       joint_field("lower_limit", "rad", "m", "", "least angle; none if not given"),
       joint_field("upper_limit", "rad", "m", "", "greatest angle; none if not given"),
       positive(joint_field("limit_stiffness", "N.m/rad", "N/m", "",
-                           "spring of the stop beyond a limit; if not given, 1000 N.m/rad "
-                           "(prismatic: 1e5 N/m)")),
-      not_negative(joint_field("limit_damping", "N.m.s/rad", "N.s/m", "",
-                               "damper of the stop; if not given, 1 N.m.s/rad (prismatic: 100 "
-                               "N.s/m)")),
+                           "spring of the stop beyond a limit; " +
+                               unless_given(default_limit_stiffness, "N.m/rad", "N/m"))),
+      not_negative(joint_field(
+          "limit_damping", "N.m.s/rad", "N.s/m", "",
+          "damper of the stop; " + unless_given(default_limit_damping, "N.m.s/rad", "N.s/m"))),
       not_negative(joint_field("damping", "N.m.s/rad", "N.s/m", "0", "torque = -damping rate")),
       not_negative(joint_field("friction", "N.m", "N", "0",
                                "dry friction: a joint that carries less than this sticks; one that "
                                "slips is braked by it")),
       positive(joint_field("friction_deflection", "rad", "m", "",
-                           "so far a joint that sticks gives way, as a spring, before it slips; if "
-                           "not given, 1e-3 rad (prismatic: 1e-4 m)")),
+                           "so far a joint that sticks gives way, as a spring, before it slips; " +
+                               unless_given(default_friction_deflection, "rad", "m"))),
       positive(joint_field("friction_speed", "rad/s", "m/s", "",
-                           "rate at which a joint that sticks is damped by its whole friction; if "
-                           "not given, 0.05 rad/s (prismatic: 0.005 m/s)")),
+                           "rate at which a joint that sticks is damped by its whole friction; " +
+                               unless_given(default_friction_speed, "rad/s", "m/s"))),
       not_negative(joint_field("stiffness", "N.m/rad", "N/m", "0",
                                "joint spring: torque = -stiffness (angle - rest_angle)")),
       joint_field("rest_angle", "rad", "m", "0", "angle at which the joint spring is slack"),

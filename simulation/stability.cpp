@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
+#include <span>
 
 #include "integrators/stepper.h"
 #include "simulation/dts_robot.h"
@@ -28,14 +28,13 @@ Eigen::Matrix3d along_and_across(const Eigen::Vector3d& n, double along, double 
 
 ContactSpring make_spring(const Experiment& experiment, const contact::ForceLaw& law,
                           const CarryingPoint& carrying) {
-  const auto& material =
-      experiment.materials[static_cast<std::size_t>(carrying.material)].constants;
+  const auto& material = constants_of(experiment, carrying.material);
   contact::LinearContact linear = contact::linearise(law, carrying.load, material);
   // Without friction nothing sticks.
   if (material.static_friction == 0.) linear.tangential_stiffness = 0.;
   if (material.static_friction == 0.) linear.tangential_damping = material.viscous_friction;
-  const Eigen::Vector3d n(carrying.normal.x, carrying.normal.y, carrying.normal.z);
-  return {carrying.point, along_and_across(n, linear.normal_stiffness, linear.tangential_stiffness),
+  const Eigen::Vector3d n = eigen(carrying.normal);
+  return {carrying.lever, along_and_across(n, linear.normal_stiffness, linear.tangential_stiffness),
           along_and_across(n, linear.normal_damping, linear.tangential_damping)};
 }
 
@@ -48,8 +47,8 @@ double resolved_speed(const Experiment& experiment, const contact::ForceLaw& law
   for (const CarryingPoint& point : stance.points) most = std::max(most, point.load);
   for (const CarryingPoint& point : stance.points) {
     if (point.load < least_share * most) continue;
-    const auto& material = experiment.materials[static_cast<std::size_t>(point.material)].constants;
-    least = std::min(least, contact::resolved_speed(law, point.load, experiment.deltat, material));
+    least = std::min(least, contact::resolved_speed(law, point.load, experiment.deltat,
+                                                    constants_of(experiment, point.material)));
   }
   return least;
 }
@@ -61,10 +60,9 @@ struct Springs {
   std::vector<SteadyLoad> loads;
 };
 
-StabilityBound bound_of(const Experiment& experiment, const RobotAtRest& rest,
-                        const Springs& springs, const std::vector<JointLoop>& loops,
-                        const std::string& name, Contacts contacts) {
-  const Vibration vibration = linear_vibration(rest, springs.contacts, springs.loads);
+StabilityBound bound_of(const Experiment& experiment, const Vibration& vibration,
+                        std::span<const JointLoop> loops, const std::string& name,
+                        Contacts contacts) {
   if (!vibration.stiffness.allFinite() || !vibration.damping.allFinite())
     return {infinity, 0., 0., name, contacts};
   StabilityBound bound{largest_stable_step(experiment.integrator, vibration, loops),
@@ -91,7 +89,7 @@ Springs springs_of(const Experiment& experiment, const contact::ForceLaw& law,
 /// Whether the law is stiffer or damps more under a greater load.
 bool depends_on_load(const Experiment& experiment, const contact::ForceLaw& law,
                      const CarryingPoint& point, double load) {
-  const auto& material = experiment.materials[static_cast<std::size_t>(point.material)].constants;
+  const auto& material = constants_of(experiment, point.material);
   const contact::LinearContact now = contact::linearise(law, point.load, material);
   const contact::LinearContact then = contact::linearise(law, load, material);
   return then.normal_stiffness > now.normal_stiffness || then.normal_damping > now.normal_damping ||
@@ -115,15 +113,15 @@ void add_single_points(const Experiment& experiment, const contact::ForceLaw& la
 
 /// Of a robot that touches nothing, at its initial posture and at the one in which it hangs still.
 StabilityBound free_bound(const Experiment& experiment, std::size_t index,
-                          const WiredControl& control, const std::vector<JointLoop>& loops,
-                          DtsRobot& robot) {
+                          const WiredControl& control, DtsRobot& robot) {
   const RobotSpec& spec = experiment.robots[index];
   const auto at_posture = [&] {
     const RobotAtRest rest(robot);
     // What falls freely feels no weight.
-    Springs alone;
-    if (!spec.mobile) alone.loads = rest.weights(experiment.gravity);
-    return bound_of(experiment, rest, alone, loops, spec.name, Contacts::none);
+    std::vector<SteadyLoad> loads;
+    if (!spec.mobile) loads = rest.weights(experiment.gravity);
+    return bound_of(experiment, linear_vibration(rest, {}, loads), loops_of(control, index),
+                    spec.name, Contacts::none);
   };
   const StabilityBound initial = at_posture();
   if (!hang(experiment, index, control, robot)) return initial;
@@ -132,22 +130,18 @@ StabilityBound free_bound(const Experiment& experiment, std::size_t index,
 }
 
 StabilityBound robot_bound(const Experiment& experiment, std::size_t index,
-                           const contact::Terrain* ground, const WiredControl& control) {
+                           const contact::Terrain* ground, const WiredControl& control,
+                           const WorldInputs& inputs) {
   const contact::ForceLaw law = *contact::find_force_law(experiment.contact);
   const RobotSpec& spec = experiment.robots[index];
-  const WorldInputs inputs = initial_inputs(experiment);
   DtsRobot robot(experiment, static_cast<int>(index), ground, inputs);
   const RobotAtRest rest(robot);
-  std::vector<JointLoop> loops;
-  std::ranges::copy_if(control.loops, std::back_inserter(loops),
-                       [&](const JointLoop& loop) { return loop.robot == index; });
   if (rest.size() == 0 || !rest.is_regular()) return {infinity, 0., 0., spec.name};
   if (ground == nullptr || robot.contact_points().empty())
-    return free_bound(experiment, index, control, loops, robot);
+    return free_bound(experiment, index, control, robot);
   Stances stances = find_stances(experiment, index, rest, control);
-  if (std::ranges::any_of(control.driven, [&](const DrivenJoint& joint) {
-        return joint.robot == index && !joint.goal;
-      }))
+  if (std::ranges::any_of(driven_of(control, index),
+                          [](const DrivenJoint& joint) { return !joint.goal; }))
     add_single_points(experiment, law, stances.all);
 
   const Contacts contacts = stances.lands ? Contacts::landing : Contacts::touching;
@@ -159,10 +153,11 @@ StabilityBound robot_bound(const Experiment& experiment, std::size_t index,
     const Vibration vibration = linear_vibration(rest, springs.contacts, springs.loads);
     if (&stance == &stances.all.front() ||
         largest_stable_step(experiment.integrator, vibration, least.step) < least.step) {
-      least = bound_of(experiment, rest, springs, loops, spec.name, contacts);
+      least = bound_of(experiment, vibration, loops_of(control, index), spec.name, contacts);
     }
     least.resolved_speed = resolved;
   }
+  least.evaluations = stances.evaluations;
   return least;
 }
 
@@ -197,10 +192,15 @@ StabilityBound stability_bound(const Experiment& experiment) {
   if (!contact::find_force_law(experiment.contact) || experiment.engine != "dts") return least;
   const auto ground = make_ground(experiment);
   const WiredControl control = wired_control(experiment);
+  const WorldInputs inputs = initial_inputs(experiment);
+  std::int64_t evaluations = 0;
   for (std::size_t i = 0; i < experiment.robots.size(); ++i) {
-    const StabilityBound bound = robot_bound(experiment, i, ground ? &*ground : nullptr, control);
+    const StabilityBound bound =
+        robot_bound(experiment, i, ground ? &*ground : nullptr, control, inputs);
+    evaluations += bound.evaluations;
     if (bound.step < least.step) least = bound;
   }
+  least.evaluations = evaluations;
   least.left_out = control.left_out;
   return least;
 }

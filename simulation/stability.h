@@ -2,6 +2,7 @@
 // into the contacts.
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <vector>
@@ -27,12 +28,18 @@ struct StabilityBound {
   std::vector<std::string> controllers = {};  ///< of the robot's joints, whose loops are in it
   double controller_rate = 0.;                ///< of their updates; 0: every step [Hz]
   std::vector<std::string> left_out = {};     ///< feedback that is not, with the reason
+  /// Of the law at a point, to find how the robots stand: the greater part of the cost where there
+  /// are many points.
+  std::int64_t evaluations = 0;
 };
 
 /// The bound at the experiment's initial state, the smallest of its robots; only for engine dts
 /// under a force law. Each contact is linearised about the load that it carries: K = k n n^T + k_t
 /// (1 - n n^T), C alike; springs and dampers of joints are in it, the stiffness of gravity, and
-/// wired controllers where they can be (docs/contact.md). O(faces (links^3 + points links^2)).
+/// wired controllers where they can be (docs/contact.md). Of each robot O(points links^2) for how
+/// its points move; for each face on which it may land, or once, an equilibrium of a few to 200
+/// tries of O(points links^2) over the face's points, and O(40 links^3) for the step; and the hull
+/// of the points (convex_hull.h).
 StabilityBound stability_bound(const Experiment& experiment);
 
 /// What to do about a step above a bound that the loops of its controllers set; "" where they do

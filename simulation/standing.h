@@ -2,6 +2,7 @@
 // that each carries (docs/contact.md, "Largest stable step").
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -13,7 +14,8 @@ namespace hookpoint::simulation {
 /// A boundary point that touches, and what it carries.
 struct CarryingPoint {
   dts::BodyPoint<double> point;
-  Vector3d normal;  ///< of the ground there
+  Eigen::MatrixXd lever;  ///< RobotAtRest::lever of the point
+  Vector3d normal;        ///< of the ground there, unit
   int material = 0;
   double load = 0.;  ///< along the normal [N]
 };
@@ -31,12 +33,14 @@ struct Stances {
   /// may make. Of one that falls or tips over, one for each face that it may come to lie on: those
   /// of the hull of its boundary points, of a robot with joints the ones that look down.
   std::vector<Stance> all;
-  bool lands = false;  ///< the ground does not carry it near its initial state
+  bool lands = false;            ///< the ground does not carry it near its initial state
+  std::int64_t evaluations = 0;  ///< of the law at a point: what the equilibria have cost
 };
 
 /// Of a robot with boundary points above a ground, in the experiment's gravity. `control`: the
 /// joints that it drives hold their angles, whatever that takes, but for those whose controller has
-/// a goal of its own. O(points links^2) for each try of an equilibrium.
+/// a goal of its own. O(points links^2) for the levers and for each of the tries of an equilibrium,
+/// 200 at most for a face, and what convex_hull.h costs.
 Stances find_stances(const Experiment& experiment, std::size_t index, const RobotAtRest& rest,
                      const WiredControl& control);
 
@@ -45,7 +49,10 @@ Stances find_stances(const Experiment& experiment, std::size_t index, const Robo
 bool hang(const Experiment& experiment, std::size_t index, const WiredControl& control,
           DtsRobot& robot);
 
-/// The weight of all that moves of a robot [N].
-double weight_of(const Experiment& experiment, const RobotSpec& robot);
+/// Of all that moves of a robot [kg].
+double mass_of(const RobotSpec& robot);
+
+/// What the law reads of the experiment's material of that number.
+const contact::MaterialConstants<double>& constants_of(const Experiment& experiment, int material);
 
 }  // namespace hookpoint::simulation

@@ -77,8 +77,6 @@ Eigen::MatrixXd inverse_mass_matrix(const DtsRobot& robot, Workspace& workspace)
   return 0.5 * (inverse + inverse.transpose());
 }
 
-Eigen::Vector3d eigen(const Vector3d& v) { return {v.x, v.y, v.z}; }
-
 /// -d(passive_joint_torque)/d(position), /d(rate) at rest.
 struct JointSpring {
   double stiffness = 0., damping = 0.;
@@ -119,6 +117,10 @@ double semi_implicit_euler_step(const Vibration& vibration, double least) {
   return low;
 }
 
+/// Of an eigenvalue in units of the fastest, times its own size: what rounding adds to it, some
+/// sizes of a matrix whose positions and velocities differ by that size.
+constexpr double eigenvalue_rounding = 1e-14;
+
 /// Of z'' + C z' + K z = 0, for all but motions that nothing resists and those that fall over by
 /// themselves, whose eigenvalue is real and above 0 (K of steady loads may have negative ones).
 std::vector<std::complex<double>> eigenvalues(const Vibration& vibration) {
@@ -130,7 +132,9 @@ std::vector<std::complex<double>> eigenvalues(const Vibration& vibration) {
       -vibration.stiffness / (unit * unit), -vibration.damping / unit;
   const Eigen::VectorXcd all = general_eigenvalues(system);
   std::vector<std::complex<double>> resisted;
-  for (const std::complex<double>& value : all) {
+  for (std::complex<double> value : all) {
+    // No growth, but a swing that nothing damps.
+    if (value.real() > 0. && value.real() * std::abs(value) < eigenvalue_rounding) value.real(0.);
     const bool falls = value.real() > 0. && std::abs(value.imag()) < 1e-6 * value.real();
     if (std::abs(value) > least_eigenvalue && !falls) resisted.push_back(unit * value);
   }
@@ -265,9 +269,8 @@ Vibration linear_vibration(const RobotAtRest& rest, const std::vector<ContactSpr
                            const std::vector<SteadyLoad>& loads) {
   Vibration vibration = rest.joints_alone();
   for (const ContactSpring& spring : springs) {
-    const Eigen::MatrixXd moved = rest.lever(spring.point);
-    vibration.stiffness += moved * spring.stiffness * moved.transpose();
-    vibration.damping += moved * spring.damping * moved.transpose();
+    vibration.stiffness += spring.lever * spring.stiffness * spring.lever.transpose();
+    vibration.damping += spring.lever * spring.damping * spring.lever.transpose();
   }
   vibration.stiffness += rest.stiffness_of(loads);
   return vibration;

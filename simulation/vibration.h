@@ -13,9 +13,11 @@
 
 namespace hookpoint::simulation {
 
+inline Eigen::Vector3d eigen(const Vector3d& v) { return {v.x, v.y, v.z}; }
+
 /// A contact about its load, world axes: force -K x - C v on the point.
 struct ContactSpring {
-  dts::BodyPoint<double> point;
+  Eigen::MatrixXd lever;               ///< RobotAtRest::lever of the point
   Eigen::Matrix3d stiffness, damping;  ///< symmetric [N/m, N s/m]
 };
 
@@ -81,7 +83,7 @@ double largest_eigenvalue(const Eigen::MatrixXd& symmetric);
 Eigen::VectorXd solve_positive(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
 
 /// The robot on its contacts `springs` under `loads`. Wired controllers are not in it
-/// (loop_stability.h). O(links^3).
+/// (loop_stability.h). O((springs + links) links^2).
 Vibration linear_vibration(const RobotAtRest& rest, const std::vector<ContactSpring>& springs,
                            const std::vector<SteadyLoad>& loads);
 

@@ -32,13 +32,13 @@ StepStatus World::step() {
 
 StepStatus World::update_signals() {
   if (signals_.update(engine_->state().step)) return {};
-  StepStatus status = not_finite(engine_->state().time, signals_.first_not_finite());
+  StepStatus status = stopped_by_port(engine_->state().time, signals_.first_not_finite());
   const std::string controllers = controller_advice(stability_bound(experiment_));
   if (!controllers.empty()) status.advice = "it is no longer a finite number: " + controllers;
   return status;
 }
 
-StepStatus not_finite(double time, const std::string& trail) {
+StepStatus stopped_by_port(double time, const std::string& trail) {
   return {StepStatus::Kind::not_finite, time, trail,
           "it is no longer a finite number: look at the gains, amplitudes and noise of what leads "
           "to it"};

@@ -23,7 +23,7 @@ class World {
   StepStatus step();
 
   const WorldState& state() const { return engine_->state(); }
-  /// What the ground's springs hold, where the engine says [J].
+  /// What the ground's springs hold, where the engine tells [J].
   std::optional<double> ground_energy() const { return engine_->ground_energy(); }
   /// What the next step is taken under.
   const WorldInputs& inputs() const { return engine_->inputs(); }
@@ -57,6 +57,6 @@ class World {
 };
 
 /// Of a port that is no longer finite.
-StepStatus not_finite(double time, const std::string& trail);
+StepStatus stopped_by_port(double time, const std::string& trail);
 
 }  // namespace hookpoint::simulation

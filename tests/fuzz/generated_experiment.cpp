@@ -9,6 +9,7 @@
 
 #include "language/field.h"
 #include "simulation/schema.h"
+#include "tests/support/drawn.h"
 
 namespace hookpoint::fuzz {
 namespace {
@@ -78,9 +79,9 @@ class Generator {
 
  private:
   std::size_t below(std::size_t n) { return n == 0 ? 0 : random_() % n; }
-  bool chance(double part) { return static_cast<double>(random_() >> 11) * 0x1p-53 < part; }
+  bool chance(double part) { return test_support::drawn_part(random_) < part; }
   double between(double least, double greatest) {
-    return least + (greatest - least) * static_cast<double>(random_() >> 11) * 0x1p-53;
+    return test_support::drawn(random_, least, greatest);
   }
   template <class Element>
   const Element& one_of(const std::vector<Element>& list) {

@@ -9,15 +9,6 @@
 #include "reference/engines.h"
 #include "tests/support/reference_scenes.h"
 
-#ifdef __SANITIZE_ADDRESS__
-// Where an assertion of DART's or a check of ODE's fails, what the library held at the time is
-// lost.
-extern "C" const char* __lsan_default_suppressions();
-extern "C" const char* __lsan_default_suppressions() {
-  return "leak:dart::\nleak:dxtemplateThreadingImplementation\nleak:hookpoint::reference";
-}
-#endif
-
 namespace hookpoint {
 namespace {
 

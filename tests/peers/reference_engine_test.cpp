@@ -13,14 +13,6 @@
 #include "reference/experiment_checks.h"
 #include "tests/support/reference_scenes.h"
 
-#ifdef __SANITIZE_ADDRESS__
-// A step that ODE gives up in leaves a few job records of 80 bytes that nothing can return to it.
-extern "C" const char* __lsan_default_suppressions();
-extern "C" const char* __lsan_default_suppressions() {
-  return "leak:dxtemplateThreadingImplementation";
-}
-#endif
-
 namespace hookpoint {
 namespace {
 

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "simulation/dts_robot.h"
-#include "simulation/ground.h"
+#include "tests/support/accompanied_robot.h"
+#include "tests/support/drawn.h"
 #include "tests/support/load_text.h"
 
 namespace hookpoint {
@@ -20,6 +20,7 @@ namespace {
 
 using integrators::Stage;
 using integrators::Status;
+using test_support::drawn;
 
 /// A sum of three sines [m/s] and its rate.
 struct Wave {
@@ -41,33 +42,25 @@ struct Path {
   Wave x, y, z;
 };
 
-double number(std::mt19937_64& random, double low, double high) {
-  return low + (high - low) * (static_cast<double>(random() >> 11) * 0x1p-53);
-}
-
 Path any_path(std::mt19937_64& random) {
   Path path;
   for (Wave* wave : {&path.x, &path.y, &path.z})
     for (std::size_t i = 0; i < 3; ++i) {
-      wave->size[i] = number(random, 0.02, 0.2);
-      wave->rate[i] = number(random, 50., 600.);
-      wave->phase[i] = number(random, 0., 6.28);
+      wave->size[i] = drawn(random, 0.02, 0.2);
+      wave->rate[i] = drawn(random, 50., 600.);
+      wave->phase[i] = drawn(random, 0., 6.28);
       // To and fro by some 0.4 mm about a depth of 0.5 mm.
-      if (wave == &path.z) wave->size[i] = number(random, 1e-4, 4e-4) * wave->rate[i];
+      if (wave == &path.z) wave->size[i] = drawn(random, 1e-4, 4e-4) * wave->rate[i];
     }
   return path;
 }
 
 /// The engine's robot, a point of 1 kg, that moves as the path says whatever the ground does to it;
 /// beside its velocities the work that friction has done on it [J].
-class LedPoint final : public integrators::System {
+class LedPoint final : public test_support::AccompaniedRobot<1> {
  public:
   LedPoint(const simulation::Experiment& experiment, const Path& path)
-      : experiment_(experiment),
-        path_(path),
-        inputs_(simulation::initial_inputs(experiment_)),
-        ground_(simulation::make_ground(experiment_)),
-        robot_(experiment_, 0, &*ground_, inputs_) {
+      : AccompaniedRobot(experiment), path_(path) {
     q.resize(position_size());
     v.resize(velocity_size());
     robot_.write_positions(q);
@@ -99,12 +92,6 @@ class LedPoint final : public integrators::System {
     robot_.begin_anew(own(v));
   }
 
-  std::size_t position_size() const override { return robot_.position_size(); }
-  std::size_t velocity_size() const override { return robot_.velocity_size() + 1; }
-  std::size_t moving_size() const override { return robot_.moving_size(); }
-  bool evolves(std::size_t i) const override {
-    return i >= robot_.velocity_size() || robot_.evolves(i);
-  }
   Status accelerations(Stage stage, double t, std::span<const double> at, std::span<const double> u,
                        std::span<double> a) override {
     const Status status = robot_.accelerations(stage, t, at, own(u), a.first(a.size() - 1));
@@ -121,40 +108,9 @@ class LedPoint final : public integrators::System {
     std::swap_ranges(a_free.begin(), a_free.begin() + 6, a_contact.begin());
     return status;
   }
-  void retract(std::span<const double> q0, std::span<const double> u,
-               std::span<double> out) const override {
-    robot_.retract(q0, own(u), out);
-  }
-  void tangent_rate(std::span<const double> u, std::span<const double> w,
-                    std::span<double> du) const override {
-    robot_.tangent_rate(own(u), own(w), du.first(du.size() - 1));
-    du.back() = 0.;
-  }
-  void commit(double t, double dt, std::span<const double> at, std::span<const double> u) override {
-    robot_.commit(t, dt, at, own(u));
-  }
-  void cross(std::span<const int> directions) override { robot_.cross(directions); }
-  void begin_anew(std::span<double> u) override { robot_.begin_anew(own(u)); }
-  std::size_t event_count() const override { return robot_.event_count(); }
-  void event_values(double t, std::span<const double> at, std::span<const double> u,
-                    std::span<double> values) override {
-    robot_.event_values(t, at, own(u), values);
-  }
 
  private:
-  template <class Number>
-  static std::span<Number> own(std::span<Number> numbers) {
-    return numbers.first(numbers.size() - 1);
-  }
-  static std::span<double> own(std::vector<double>& numbers) {
-    return own(std::span<double>(numbers));
-  }
-
-  simulation::Experiment experiment_;
   Path path_;
-  simulation::WorldInputs inputs_;
-  std::optional<contact::Terrain> ground_;
-  simulation::DtsRobot robot_;
 };
 
 simulation::Experiment any_experiment(std::mt19937_64& random, const std::string& law,
@@ -172,11 +128,11 @@ World w {
   experiment.contact = law;
   experiment.integrator = integrator;
   experiment.deltat = dt;
-  const double k = std::pow(10., number(random, 3., 5.));
-  const double k_t = std::pow(10., number(random, 3., 5.));
-  const double c = number(random, 0., 50.);
-  const double mu_k = number(random, 0.2, 1.);
-  const double mu_s = mu_k + std::max(0., number(random, -0.3, 0.3));
+  const double k = std::pow(10., drawn(random, 3., 5.));
+  const double k_t = std::pow(10., drawn(random, 3., 5.));
+  const double c = drawn(random, 0., 50.);
+  const double mu_k = drawn(random, 0.2, 1.);
+  const double mu_s = mu_k + std::max(0., drawn(random, -0.3, 0.3));
   for (simulation::MaterialSpec& material : experiment.materials) {
     auto& constants = material.constants;
     constants.normal_stiffness = constants.nominal_stiffness = k;
@@ -241,6 +197,11 @@ TEST_P(Friction, NeverGivesWhatWasNotStored) {
           // The semi-implicit step's inequality is exact, an adaptive one's to its tolerance.
           const double allowed = moves_first ? 1e-12 : method.adaptive() ? 1e-6 : gift.unresolved;
           EXPECT_LE(gift.most, allowed) << law << " c_t " << c_t << " dt " << dt << " path " << i;
+          // Whatever its own forces say: where a step resolves the path, whose fastest turn takes
+          // 10 ms, in a hundred parts, it gives a small part of what it took.
+          if (dt == 1e-4) {
+            EXPECT_LE(gift.most, 0.2 * gift.taken + 1e-9) << law << " c_t " << c_t << " path " << i;
+          }
           taken = std::max(taken, gift.taken);
         }
         EXPECT_GT(taken, 1e-4) << law;  // else nothing has been tried

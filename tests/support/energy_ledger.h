@@ -14,8 +14,7 @@
 #include "dts/configuration.h"
 #include "dts/energy.h"
 #include "dts/forward_kinematics.h"
-#include "simulation/dts_robot.h"
-#include "simulation/ground.h"
+#include "tests/support/accompanied_robot.h"
 
 namespace hookpoint::test_support {
 
@@ -68,14 +67,11 @@ double tangential_heat(const contact::Reaction<double>& reaction, const Vector3d
 
 /// One robot under an adaptive integrator, and beside its own velocities two numbers more: the heat
 /// and the work so far [J].
-class EnergyLedger final : public integrators::System {
+class EnergyLedger final : public AccompaniedRobot<2> {
  public:
   explicit EnergyLedger(const simulation::Experiment& experiment)
-      : experiment_(experiment),
-        inputs_(simulation::initial_inputs(experiment_)),
-        ground_(simulation::make_ground(experiment_)),
-        law_(contact::flow(*contact::find_force_law(experiment_.contact))),
-        robot_(experiment_, 0, &*ground_, inputs_) {
+      : AccompaniedRobot(experiment),
+        law_(contact::flow(*contact::find_force_law(experiment_.contact))) {
     for (const simulation::ChainSpec& chain : experiment_.robots[0].chains)
       for (const simulation::LinkSpec& link : chain.links) links_.push_back(link);
   }
@@ -102,8 +98,6 @@ class EnergyLedger final : public integrators::System {
     dts::get_velocity<double>(robot_.model(), robot_.state(), v);
   }
 
-  std::size_t position_size() const override { return robot_.position_size(); }
-  std::size_t velocity_size() const override { return robot_.velocity_size() + 2; }
   integrators::Status accelerations(integrators::Stage stage, double time,
                                     std::span<const double> q, std::span<const double> v,
                                     std::span<double> a) override {
@@ -119,15 +113,6 @@ class EnergyLedger final : public integrators::System {
     }
     return status;
   }
-  void retract(std::span<const double> q0, std::span<const double> u,
-               std::span<double> q) const override {
-    robot_.retract(q0, own(u), q);
-  }
-  void tangent_rate(std::span<const double> u, std::span<const double> v,
-                    std::span<double> du) const override {
-    robot_.tangent_rate(own(u), own(v), du.first(du.size() - 2));
-    du[du.size() - 2] = du[du.size() - 1] = 0.;
-  }
   void commit(double time, double dt, std::span<const double> q,
               std::span<const double> v) override {
     robot_.settle_at(q, own(v));
@@ -135,29 +120,13 @@ class EnergyLedger final : public integrators::System {
     robot_.commit(time, dt, q, own(v));
     for (std::size_t i = 0; i < robot_.contact_points().size(); ++i) let_go_ -= stored(i, v);
   }
-  void cross(std::span<const int> directions) override { robot_.cross(directions); }
   void begin_anew(std::span<double> v) override {
     for (std::size_t i = 0; i < robot_.contact_points().size(); ++i) let_go_ += stored(i, v);
     robot_.begin_anew(own(v));
     for (std::size_t i = 0; i < robot_.contact_points().size(); ++i) let_go_ -= stored(i, v);
   }
-  std::size_t event_count() const override { return robot_.event_count(); }
-  void event_values(double time, std::span<const double> q, std::span<const double> v,
-                    std::span<double> values) override {
-    robot_.event_values(time, q, own(v), values);
-  }
-  bool far(std::span<const double> u) const override { return robot_.far(own(u)); }
-  std::size_t moving_size() const override { return robot_.moving_size(); }
-  bool evolves(std::size_t i) const override {
-    return i >= robot_.velocity_size() || robot_.evolves(i);
-  }
 
  private:
-  template <class Number>
-  static std::span<Number> own(std::span<Number> numbers) {
-    return numbers.first(numbers.size() - 2);
-  }
-
   /// A boundary point at the robot's present state, as an adaptive integrator shows it to the law.
   contact::PointKinematics<double> kinematics(std::size_t index, std::span<const double> v) const {
     const simulation::ContactPoint& point = robot_.contact_points()[index];
@@ -200,11 +169,7 @@ class EnergyLedger final : public integrators::System {
         law_);
   }
 
-  simulation::Experiment experiment_;
-  simulation::WorldInputs inputs_;
-  std::optional<contact::Terrain> ground_;
   contact::ForceLaw law_;
-  simulation::DtsRobot robot_;
   std::vector<simulation::LinkSpec> links_;
   double let_go_ = 0.;
 };

@@ -7,6 +7,7 @@
 
 #include "dts/configuration.h"
 #include "tests/support/dense_dynamics.h"
+#include "tests/support/drawn.h"
 
 namespace hookpoint::tests {
 
@@ -14,9 +15,7 @@ class RandomRobots {
  public:
   explicit RandomRobots(std::uint64_t seed) : engine_(seed) {}
 
-  double uniform(double low, double high) {
-    return low + (high - low) * (double(engine_() >> 11) * 0x1p-53);
-  }
+  double uniform(double low, double high) { return test_support::drawn(engine_, low, high); }
   int integer(int low, int high) { return int(std::floor(uniform(low, high + 1.))); }
   bool chance(double probability) { return uniform(0., 1.) < probability; }
 

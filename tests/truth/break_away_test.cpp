@@ -10,6 +10,7 @@
 
 #include "contact/force_law.h"
 #include "simulation/dts_engine.h"
+#include "tests/support/drawn.h"
 #include "tests/support/load_text.h"
 
 namespace hookpoint {
@@ -25,7 +26,7 @@ struct Case {
 
 Case any_case(std::mt19937_64& random) {
   const auto number = [&](double low, double high) {
-    return low + (high - low) * (static_cast<double>(random() >> 11) * 0x1p-53);
+    return test_support::drawn(random, low, high);
   };
   Case drawn{};
   drawn.mass = number(0.5, 5.);

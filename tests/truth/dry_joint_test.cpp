@@ -62,31 +62,41 @@ TEST(DryJoint, StopsWhereCoulombSaysAndStaysThere) {
     Running run(slider(integrator, "friction = 5; rate = 0.2;"));
     run.step(4000);
     const double way = 0.5 * 20. * 0.2 * 0.2 / 5.;
-    EXPECT_NEAR(run["r.c.l.angle"], way, 1e-4 + 0.5 * 0.2 * 1e-3 + 1e-6);
+    EXPECT_NEAR(run["r.c.l.angle"], way, 1e-4 + 0.5 * 0.2 * 1e-3 + 1e-12);
     const double rest = run["r.c.l.angle"];
     run.step(10000);
-    EXPECT_NEAR(run["r.c.l.angle"], rest, 2e-5);
+    EXPECT_NEAR(run["r.c.l.angle"], rest, 1e-9);
     const double later = run["r.c.l.angle"];
     run.step(5000);
     EXPECT_LT(std::abs(run["r.c.l.angle"] - later) / 5., 1e-12);
   }
 }
 
-// The anchor goes on with the motion where slip reverses within a step of an adaptive method.
+// Coulomb's oscillator, m x'' = -k x - tau_f sign(x'), let go at 0.31 m: each turn lies 2 tau_f/k =
+// 0.04 m nearer to the middle than the one before, and at the first within tau_f/k of it, the
+// eighth, it stays. At each the friction's spring gives way by z_f = 0.1 mm. Slip reverses within
+// the long steps.
 TEST(DryJoint, AdaptiveMethodsMeetTheReversalsOfSlip) {
+  constexpr double k = 100., friction = 2., start = 0.31, give = 1e-4;
   for (const char* integrator : {"cvode_bdf", "cvode_adams", "arkode", "arkode_imex"}) {
     SCOPED_TRACE(integrator);
-    // Pushed to and fro at 8 N by a wire, it slips; long steps against short ones.
-    const auto after_a_second = [&](const std::string& deltat, int steps) {
+    const auto at = [&](const std::string& deltat, int steps) {
       Running run(
           "World w { gravity = 0; deltat = " + deltat +
           "; relative_tolerance = 1e-9; absolute_tolerance = 1e-12; integrator = " + integrator +
           "; Robot r { Base.fixed {} Chain c { Link l { joint = prismatic; mass = 1; "
-          "inertia = 1,1,1,0,0,0; friction = 2; stiffness = 100; angle = 0.3; } } } }");
+          "inertia = 1,1,1,0,0,0; friction = 2; stiffness = 100; angle = 0.31; } } } }");
       run.step(steps);
       return run["r.c.l.angle"];
     };
-    EXPECT_NEAR(after_a_second("100 ms", 10), after_a_second("1 ms", 1000), 1e-7);
+    EXPECT_NEAR(at("100 ms", 10), at("1 ms", 1000), 1e-7);
+    double turn = start, sign = 1.;
+    int swings = 0;
+    for (; turn > friction / k; ++swings, sign = -sign) turn -= 2. * friction / k;
+    EXPECT_EQ(swings, 8);
+    const double rest = at("200 ms", 40);
+    EXPECT_LE(k * std::abs(rest), friction);
+    EXPECT_NEAR(rest, sign * turn, swings * give);
   }
 }
 

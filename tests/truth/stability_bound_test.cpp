@@ -1,5 +1,7 @@
 // The printed largest stable step against motion: scenes drawn at random, run at 0.9 and at 1.1 of
-// it from a slightly disturbed equilibrium.
+// it from a slightly disturbed equilibrium. The table of kinds that it prints (scenes, at rest
+// below, moving above) is that of docs/advice.md; with HOOKPOINT_TELL set in the environment each
+// scene has a line of its own above it.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -285,11 +287,18 @@ Motion motion(Experiment experiment, double deltat, int steps) {
   return motion;
 }
 
+/// Of the disturbance, and from one tenth of a run to the next: less is left of what dies away.
+constexpr double dying = 0.7, fading = 0.99;
+/// Of the scenes whose bound is exact: so many may rest above it all the same, where what the bound
+/// sees grow is too small in what was disturbed.
+constexpr double may_rest = 0.05;
+
 /// Whether the disturbance dies away. `disturbance` [J]: the most that a much finer step sees. A
 /// tremble that has come to its size neither grows nor dies.
 bool comes_to_rest(const Experiment& experiment, double deltat, double disturbance) {
   const Motion seen = motion(experiment, deltat, 20000);
-  return seen.last < 0.7 * disturbance && (seen.last < 0.99 * seen.before || seen.last < rounding);
+  return seen.last < dying * disturbance &&
+         (seen.last < fading * seen.before || seen.last < rounding);
 }
 
 /// Whether what falls lies still at last, within 1e-9 of what lifts it by a metre.
@@ -341,7 +350,7 @@ TEST(StabilityBound, IsTheStepUpToWhichScenesDrawnAtRandomComeToRest) {
     }
   }
   EXPECT_GE(exact, 40);
-  EXPECT_LE(careful, exact / 20) << "rest at 1.1 of it, of " << exact;
+  EXPECT_LE(careful, may_rest * exact) << "rest at 1.1 of it, of " << exact;
   for (const auto& [kind, count] : counts)
     fmt::print("| {} | {} | {} | {} |\n", kind, count.scenes, count.rest_below,
                count.scenes - count.rest_above);

@@ -10,25 +10,14 @@
 
 #include "integrators/stepper.h"
 #include "tests/support/integrator_systems.h"
-
-// Counts what the library asks of malloc, which operator new does not see. Sanitizers bring a
-// malloc of their own.
-#if defined(__SANITIZE_ADDRESS__)
-static long mallocs = 0;
-#else
-static long mallocs = 0;
-extern "C" void* __libc_malloc(std::size_t size);
-extern "C" void* malloc(std::size_t size) {
-  ++mallocs;
-  return __libc_malloc(size);
-}
-#endif
+#include "tests/support/malloc_counter.h"
 
 namespace hookpoint::integrators {
 namespace {
 
 using testing::Ball;
 using testing::FreeBody;
+using testing::mallocs;
 using testing::OneCoordinate;
 using testing::Pendulum;
 
@@ -39,11 +28,21 @@ void for_each_adaptive(Check check) {
   }
 }
 
+/// Of which something is integrated along its way: the whole time, to have something to check.
+class Weighed final : public FreeBody {
+ public:
+  double weight = 0.;
+  bool has_integrals() const override { return true; }
+  void weigh_at(double part, std::span<const double>, std::span<const double>) override {
+    weight += part;
+  }
+};
+
 // The library makes a vector's header (three small blocks) for each Jacobian by difference
 // quotients, and nothing else.
 TEST(AdaptiveStepper, AllocatesOnlyForJacobiansAfterItsFirstStep) {
   for_each_adaptive([](const StepperDescription& row) {
-    FreeBody body;
+    Weighed body;
     const auto stepper = row.make(body, {});
     std::vector<double> q = FreeBody::start_orientation(), v = FreeBody::start_velocity();
     stepper->step(body, 0., 0.1, q, v);
@@ -54,6 +53,7 @@ TEST(AdaptiveStepper, AllocatesOnlyForJacobiansAfterItsFirstStep) {
     EXPECT_LE(static_cast<double>(mallocs - before), 3. * made) << row.name;
     const bool implicit = row.name == "cvode_bdf" || row.name == "arkode_imex";
     EXPECT_EQ(made > 0., implicit) << row.name;
+    EXPECT_NEAR(body.weight, 10., 1e-12) << row.name;
   });
 }
 
@@ -149,7 +149,7 @@ class Tossed final : public OneCoordinate {
     values[0] = 1.;
     values[1] = q[0] - 0.75;
   }
-  void cross(std::span<const int> crossed) override {
+  void cross_events(std::span<const int> crossed) override {
     EXPECT_EQ(crossed[0], 0);
     directions.push_back(crossed[1]);
   }

@@ -42,11 +42,6 @@ TEST(JointUnits, StopsAndFrictionHaveTheirOwnForBothKinds) {
   EXPECT_EQ(link_of(sliding).limit_damping, 3.);
   EXPECT_EQ(link_of(sliding).friction_deflection, 4e-6);
   EXPECT_EQ(link_of(sliding).friction_speed, 0.005);
-  EXPECT_EQ(load_text(link("joint = prismatic; friction_speed = 1 rad/s;")).diagnostics,
-            "error 2:37 `friction_speed` takes a value in m/s where `joint` is prismatic, not in "
-            "rad/s\n");
-  EXPECT_EQ(load_text(link("friction_deflection = 0;")).diagnostics,
-            "error 2:23 `friction_deflection` must be greater than 0, not 0\n");
 }
 
 TEST(JointUnits, DefaultsAreThoseOfTheKind) {
@@ -73,18 +68,26 @@ TEST(JointUnits, NumbersWithoutAUnitAreSIForBoth) {
 }
 
 TEST(JointUnits, ThoseOfTheOtherKindAreRefusedAtTheValue) {
-  EXPECT_EQ(load_text(link("angle = 10 mm;")).diagnostics,
-            "error 2:9 `angle` takes a value in rad where `joint` is revolute, not in m\n");
-  EXPECT_EQ(load_text(link("angle = 10 deg;\njoint = prismatic;")).diagnostics,
-            "error 2:9 `angle` takes a value in m where `joint` is prismatic, not in rad\n");
-  EXPECT_EQ(load_text(link("joint = prismatic; stiffness = 3 N.m/rad;")).diagnostics,
-            "error 2:32 `stiffness` takes a value in N/m where `joint` is prismatic, not in "
-            "kg.m^2/rad/s^2\n");
-  EXPECT_EQ(load_text(link("torque = 3 kg;")).diagnostics,
-            "error 2:10 `torque` takes a value in N.m (in N where `joint` is prismatic), not in "
-            "kg\n");
-  EXPECT_EQ(load_text(link("damping = -1;")).diagnostics,
-            "error 2:11 `damping` must be at least 0, not -1\n");
+  struct Refusal {
+    const char* fields;
+    const char* said;
+  };
+  for (const auto& [fields, said] : {
+           Refusal{"angle = 10 mm;",
+                   "2:9 `angle` takes a value in rad where `joint` is revolute, not in m"},
+           {"angle = 10 deg;\njoint = prismatic;",
+            "2:9 `angle` takes a value in m where `joint` is prismatic, not in rad"},
+           {"joint = prismatic; stiffness = 3 N.m/rad;",
+            "2:32 `stiffness` takes a value in N/m where `joint` is prismatic, not in "
+            "kg.m^2/rad/s^2"},
+           {"joint = prismatic; friction_speed = 1 rad/s;",
+            "2:37 `friction_speed` takes a value in m/s where `joint` is prismatic, not in rad/s"},
+           {"torque = 3 kg;",
+            "2:10 `torque` takes a value in N.m (in N where `joint` is prismatic), not in kg"},
+           {"damping = -1;", "2:11 `damping` must be at least 0, not -1"},
+           {"friction_deflection = 0;", "2:23 `friction_deflection` must be greater than 0, not 0"},
+       })
+    EXPECT_EQ(load_text(link(fields)).diagnostics, std::string("error ") + said + "\n");
 }
 
 TEST(JointUnits, WhatIsSetFromOutsideCountsToo) {

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <regex>
 
 #include "contact/predictions.h"
 #include "simulation/advice.h"
+#include "simulation/advice_constants.h"
 #include "simulation/engine.h"
 #include "simulation/stability.h"
 #include "tests/support/run_text.h"
@@ -80,6 +82,39 @@ TEST(Advice, NamesTheConstantThatMakesTheStepTooLarge) {
                  {});
   EXPECT_NE(stiff.changes.at(0).find(".normal_stiffness = "), std::string::npos)
       << stiff.changes[0];
+}
+
+// Which constants matter follows from the load: 49 N sink beyond the nominal depth of the first
+// ground, and there its second stiffness, of 1e9 N/m, is what makes the step too large.
+TEST(Advice, NamesConstantsWithWhichTheStepIsStable) {
+  const std::string nominal =
+      "World w { contact = nominal; Material m { normal_stiffness = 1e9; nominal_stiffness = 1e4; "
+      "nominal_penetration = 1 mm; } Terrain.Flat g { material = m; } Robot b { Base.mobile { "
+      "rest_on = g; Shape.Box { dimensions = 0.2, 0.2, 0.1; mass = 20; } } } }";
+  for (const std::string& text :
+       {nominal,
+        block("deltat = 1 ms;", "normal_damping = 50 N.s/m; tangential_damping = 30 kN.s/m;"),
+        block("deltat = 1 ms;", "normal_stiffness = 1e9 N/m; normal_damping = 0;"),
+        block("deltat = 1 ms; contact = exponential;", "exponential_rate = 1e7;")}) {
+    SCOPED_TRACE(text);
+    simulation::Experiment experiment = *load_text(text).experiment;
+    EXPECT_LT(simulation::stability_bound(experiment).step, experiment.deltat);
+    const std::string line = simulation::advise(experiment, {}).changes.at(0);
+    ASSERT_NE(line.find(": set "), std::string::npos) << line;
+    const std::string said =
+        line.substr(line.find(": set "), line.find(", or ") - line.find(": set "));
+    const std::regex setting(R"((\w+)\.(\w+) = ([0-9.e+-]+))");
+    int set = 0;
+    for (std::sregex_iterator it(said.begin(), said.end(), setting), end; it != end; ++it) {
+      const auto material =
+          std::ranges::find(experiment.materials, it->str(1), &simulation::MaterialSpec::name);
+      ASSERT_NE(material, experiment.materials.end()) << line;
+      material->constants.*simulation::field_named(it->str(2)).member = std::stod(it->str(3));
+      ++set;
+    }
+    EXPECT_GT(set, 0) << line;
+    EXPECT_GT(simulation::stability_bound(experiment).step, experiment.deltat) << line;
+  }
 }
 
 double bound(const std::string& text) {
