@@ -4,11 +4,11 @@
 
 namespace hookpoint::integrators {
 
-AdaptiveStepper::AdaptiveStepper(const System& system, long most_evaluations)
+AdaptiveStepper::AdaptiveStepper(const System& system, long most)
     : directions_(system.event_count()),
       moving_(system.moving_size()),
       group_(system.group_size()),
-      most_evaluations_(most_evaluations),
+      most_evaluations_(most),
       origin_(system.position_size()),
       q_(system.position_size()) {
   const std::size_t velocities = system.velocity_size();

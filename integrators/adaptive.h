@@ -15,7 +15,8 @@ namespace hookpoint::integrators {
 /// resumed goes on bit for bit (docs/decisions/0010). Time is counted from the step's start.
 class AdaptiveStepper : public Stepper {
  public:
-  AdaptiveStepper(const System& system, long most_evaluations);
+  /// `most`: Tolerances::most_evaluations.
+  AdaptiveStepper(const System& system, long most);
   Status step(System& system, double t, double dt, std::span<double> q, std::span<double> v) final;
 
   // For the library's callbacks, at `time` since the step's start [s]; y and the results have

@@ -140,11 +140,10 @@ TEST(StabilityBound, HasThePendulumsOwnStiffnessWhereverItIsLetGo) {
   }
 }
 
-// Undamped, and one mode ten thousand times as slow as the other: its eigenvalue is less exact, and
-// what rounding adds to it is no growth.
+// Undamped, and one mode a hundred thousand times as slow as the other: its eigenvalue is less
+// exact, and what rounding adds to it is no growth.
 TEST(StabilityBound, OfAnUndampedRobotTakesRoundingForNoGrowth) {
-  for (const double k : {1e9, 1e6, 1e3}) {
-    const double fast = std::sqrt(k / 0.5);
+  for (const double k : {1e10, 3e10, 1e11, 3e11}) {
     const double bound =
         bound_of(
             fmt::format("World w {{ gravity = 0; integrator = rk4; Robot b {{ Base.fixed {{ }} "
@@ -154,7 +153,7 @@ TEST(StabilityBound, OfAnUndampedRobotTakesRoundingForNoGrowth) {
                         k))
             .step;
     // Of two masses on one line, held together by k: w^2 = 2 k, but for 2.5/k of it.
-    EXPECT_NEAR(bound * std::sqrt(2. * k), 2. * std::sqrt(2.), 1e-2) << k << " " << fast;
+    EXPECT_NEAR(bound * std::sqrt(2. * k), 2. * std::sqrt(2.), 1e-2) << k;
   }
 }
 
