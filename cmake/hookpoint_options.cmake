@@ -23,6 +23,14 @@ target_compile_options(hookpoint_options INTERFACE
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   target_compile_options(hookpoint_options INTERFACE -Wno-restrict -Wno-stringop-overflow -Wno-stringop-overread -Wno-maybe-uninitialized -Wno-array-bounds)
 endif()
+# clang 13 does not know yet that a macro's `...` may stand for nothing.
+if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 14)
+  target_compile_options(hookpoint_options INTERFACE -Wno-gnu-zero-variadic-macro-arguments)
+endif()
+# clang 17 sees std::stable_sort, within GCC 12's library, use what C++17 deprecates.
+if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang" AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 17)
+  target_compile_options(hookpoint_options INTERFACE -Wno-deprecated-declarations)
+endif()
 # Position-independent code keeps each function apart, for another library to take its place, and loses its inlining; ours are never replaced.
 target_compile_options(hookpoint_options INTERFACE -fno-semantic-interposition)
 if(HOOKPOINT_ISA STREQUAL "x86-64-v3")

@@ -23,20 +23,28 @@ template <template <class> class Structure, class Real>
   return reinterpret_cast<const Real*>(&x);
 }
 
+/// Lanes of two vectors by their numbers, those of `b` counted on from those of `a`.
+template <int... lanes, class Vector>
+[[gnu::always_inline]] inline Vector picked(const Vector& a, const Vector& b) {
+#if __has_builtin(__builtin_shufflevector)
+  return __builtin_shufflevector(a, b, lanes...);
+#else  // GCC 11
+  return __builtin_shuffle(a, b, decltype(a < b){lanes...});
+#endif
+}
+
 /// Four packs as the rows of a matrix, turned into its columns.
 template <class Scalar>
 [[gnu::always_inline]] inline std::array<Pack<Scalar, 4>, 4> transposed(
     const std::array<Pack<Scalar, 4>, 4>& rows) {
   using P = Pack<Scalar, 4>;
   const auto& [a, b, c, d] = rows;
-  const auto ab_even = __builtin_shufflevector(a.lanes, b.lanes, 0, 4, 2, 6);
-  const auto ab_odd = __builtin_shufflevector(a.lanes, b.lanes, 1, 5, 3, 7);
-  const auto cd_even = __builtin_shufflevector(c.lanes, d.lanes, 0, 4, 2, 6);
-  const auto cd_odd = __builtin_shufflevector(c.lanes, d.lanes, 1, 5, 3, 7);
-  return {P(__builtin_shufflevector(ab_even, cd_even, 0, 1, 4, 5)),
-          P(__builtin_shufflevector(ab_odd, cd_odd, 0, 1, 4, 5)),
-          P(__builtin_shufflevector(ab_even, cd_even, 2, 3, 6, 7)),
-          P(__builtin_shufflevector(ab_odd, cd_odd, 2, 3, 6, 7))};
+  const auto ab_even = picked<0, 4, 2, 6>(a.lanes, b.lanes);
+  const auto ab_odd = picked<1, 5, 3, 7>(a.lanes, b.lanes);
+  const auto cd_even = picked<0, 4, 2, 6>(c.lanes, d.lanes);
+  const auto cd_odd = picked<1, 5, 3, 7>(c.lanes, d.lanes);
+  return {P(picked<0, 1, 4, 5>(ab_even, cd_even)), P(picked<0, 1, 4, 5>(ab_odd, cd_odd)),
+          P(picked<2, 3, 6, 7>(ab_even, cd_even)), P(picked<2, 3, 6, 7>(ab_odd, cd_odd))};
 }
 
 /// Calls `block(n)` with the first of every four of `count` numbers; where four do not divide them,

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cassert>
+#include <stdexcept>
 
 #include "output/number.h"
 #include "output/record_formats.h"
@@ -28,7 +29,7 @@ constexpr std::array<Factory, formats.size()> factories{make_csv_record,   make_
 }  // namespace
 
 void RecordWriter::row(double time, std::span<const double> values) {
-  assert(values.size() == channels_);
+  if (values.size() != channels_) throw std::logic_error("a row has not a value for each channel");
   assert(!closed_);
   if (!refusal_.empty()) throw FileError(refusal_);
   time_ = time;

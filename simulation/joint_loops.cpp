@@ -262,14 +262,21 @@ class LoopFinder {
   std::multimap<std::string, const WireSpec*> out_of_;
 };
 
+/// Those of a robot, out of a list that is in the order of robots.
+template <class Element>
+std::span<const Element> of_robot(const std::vector<Element>& all, std::size_t robot) {
+  const auto first = std::ranges::lower_bound(all, robot, {}, &Element::robot);
+  return {first, std::ranges::upper_bound(first, all.end(), robot, {}, &Element::robot)};
+}
+
 }  // namespace
 
 std::span<const JointLoop> loops_of(const WiredControl& control, std::size_t robot) {
-  return {std::ranges::equal_range(control.loops, robot, {}, &JointLoop::robot)};
+  return of_robot(control.loops, robot);
 }
 
 std::span<const DrivenJoint> driven_of(const WiredControl& control, std::size_t robot) {
-  return {std::ranges::equal_range(control.driven, robot, {}, &DrivenJoint::robot)};
+  return of_robot(control.driven, robot);
 }
 
 WiredControl wired_control(const Experiment& experiment) {
