@@ -112,7 +112,7 @@ struct Pack {
   }
 
   friend Pack sqrt(const Pack& a) {
-#ifdef __AVX__
+#if defined(__AVX__) && !defined(__clang__)  // clang makes one instruction of the loop
     if constexpr (width == 4 && std::is_same_v<Scalar, double>)
       return Pack(__builtin_ia32_sqrtpd256(a.lanes));
 #endif
