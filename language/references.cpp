@@ -10,16 +10,6 @@
 namespace hookpoint::language {
 namespace {
 
-std::vector<std::string_view> split(std::string_view trail) {
-  std::vector<std::string_view> parts;
-  while (true) {
-    const std::size_t dot = trail.find('.');
-    parts.push_back(trail.substr(0, dot));
-    if (dot == std::string_view::npos) return parts;
-    trail.remove_prefix(dot + 1);
-  }
-}
-
 std::string called(const Object& object) {
   if (object.parent == nullptr) return "the top of the file";
   return object.name.empty() ? "this " + object.type
@@ -48,6 +38,16 @@ std::string no_element(const Object& object, const FieldSchema& list, int elemen
 
 }  // namespace
 
+std::vector<std::string_view> parts_of_trail(std::string_view trail) {
+  std::vector<std::string_view> parts;
+  while (true) {
+    const std::size_t dot = trail.find('.');
+    parts.push_back(trail.substr(0, dot));
+    if (dot == std::string_view::npos) return parts;
+    trail.remove_prefix(dot + 1);
+  }
+}
+
 std::string_view part_letters(const FieldSchema& field) {
   if (field.type == FieldType::orientation) return "wxyz";
   if (field.type != FieldType::numbers || field.max_count < 2 || field.max_count > 3) return "";
@@ -56,7 +56,7 @@ std::string_view part_letters(const FieldSchema& field) {
 
 std::optional<Target> Names::resolve(const Object& from, std::string_view trail, bool want_field,
                                      Unresolved& why) {
-  const std::vector<std::string_view> parts = split(trail);
+  const std::vector<std::string_view> parts = parts_of_trail(trail);
   for (const Object* scope = &from; scope != nullptr; scope = scope->parent) {
     // A lone name is the enclosing object's own port before it is an object; a longer trail begins
     // with an object.

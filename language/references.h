@@ -60,6 +60,8 @@ class Names {
   std::unordered_map<const Object*, Table> tables_;
 };
 
+/// What stands between the dots of a trail.
+std::vector<std::string_view> parts_of_trail(std::string_view trail);
 /// The letters by which a field's parts are reached: "xyz", "wxyz", or "".
 std::string_view part_letters(const FieldSchema& field);
 /// How a trail names part `index` after the field's name: ".x", "[17]".

@@ -7,22 +7,12 @@
 #include <utility>
 
 #include "language/document.h"
-#include "language/names.h"
+#include "language/references.h"
 
 namespace hookpoint::simulation {
 namespace {
 
 bool is_glob(std::string_view pattern) { return pattern.find_first_of("*?") != pattern.npos; }
-
-std::vector<std::string> parts_of(std::string_view trail) {
-  std::vector<std::string> parts;
-  while (true) {
-    const std::size_t dot = trail.find('.');
-    parts.emplace_back(trail.substr(0, dot));
-    if (dot == std::string_view::npos) return parts;
-    trail.remove_prefix(dot + 1);
-  }
-}
 
 bool fits(const std::string& pattern, std::string_view trail) {
   const std::string_view whole = whole_of(trail);
@@ -36,16 +26,16 @@ struct Gap {
   std::set<std::string> names;
 };
 
-Gap first_gap(const std::vector<std::string>& pattern, const std::vector<std::string>& trails) {
+Gap first_gap(const std::vector<std::string_view>& pattern, const std::vector<std::string>& trails) {
   Gap gap;
-  std::vector<std::vector<std::string>> left;
-  for (const std::string& trail : trails) left.push_back(parts_of(trail));
+  std::vector<std::vector<std::string_view>> left;
+  for (const std::string& trail : trails) left.push_back(language::parts_of_trail(trail));
   for (; gap.part < pattern.size(); ++gap.part) {
-    std::vector<std::vector<std::string>> fitting;
+    std::vector<std::vector<std::string_view>> fitting;
     gap.names.clear();
-    for (std::vector<std::string>& parts : left) {
+    for (std::vector<std::string_view>& parts : left) {
       if (parts.size() <= gap.part) continue;
-      gap.names.insert(parts[gap.part]);
+      gap.names.emplace(parts[gap.part]);
       if (glob_fits(pattern[gap.part], parts[gap.part])) fitting.push_back(std::move(parts));
     }
     if (fitting.empty()) return gap;
@@ -56,14 +46,14 @@ Gap first_gap(const std::vector<std::string>& pattern, const std::vector<std::st
 
 /// "; did you mean `block.base.*`?": the glob with its first wrong name put right.
 std::string near_glob(const std::string& pattern, const std::vector<std::string>& trails) {
-  std::vector<std::string> parts = parts_of(pattern);
+  std::vector<std::string_view> parts = language::parts_of_trail(pattern);
   const Gap gap = first_gap(parts, trails);
   if (gap.part < parts.size()) {
-    std::string& wrong = parts[gap.part];
+    std::string_view& wrong = parts[gap.part];
     const std::string near = language::nearest_name(wrong, {gap.names.begin(), gap.names.end()});
     if (!near.empty()) {
       wrong = near;
-      return fmt::format("; did you mean `{}`?", language::join(parts, "."));
+      return fmt::format("; did you mean `{}`?", fmt::join(parts, "."));
     }
   }
   return "; `hookpoint ports FILE` lists them";

@@ -40,6 +40,12 @@ bool is_larger(const fs::path& file, std::uintmax_t size) {
   return !none && found > size;
 }
 
+/// Puts the plugin of Test.Stalls, whose step does not end, beside the files.
+void put_stalling_plugin(const Workplace& place) {
+  fs::copy_file(fs::path(HOOKPOINT_BINARY_DIR) / "tests/plugins/libplugin_stalls.so",
+                place.folder() / "libstalls.so");
+}
+
 class Interrupt : public ::testing::TestWithParam<int> {};
 
 INSTANTIATE_TEST_SUITE_P(Signals, Interrupt, ::testing::Values(SIGINT, SIGTERM));
@@ -60,8 +66,7 @@ TEST_P(Interrupt, OfARunKeepsWhatWasRecorded) {
 
 TEST_P(Interrupt, OfAStepThatDoesNotEndKeepsTheRowsBefore) {
   const Workplace place;
-  fs::copy_file(fs::path(HOOKPOINT_BINARY_DIR) / "tests/plugins/libplugin_stalls.so",
-                place.folder() / "libstalls.so");
+  put_stalling_plugin(place);
   place.file("run.hook", "Plugin \"libstalls.so\";\n" + std::string(falling) +
                              "Test.Stalls stalls { at = 49.5 ms; }\nMovie film;\n");
   ChildProcess run(place.folder(),
@@ -83,8 +88,7 @@ TEST_P(Interrupt, OfAStepThatDoesNotEndKeepsTheRowsBefore) {
 
 TEST_P(Interrupt, ASecondOneEndsAtOnce) {
   const Workplace place;
-  fs::copy_file(fs::path(HOOKPOINT_BINARY_DIR) / "tests/plugins/libplugin_stalls.so",
-                place.folder() / "libstalls.so");
+  put_stalling_plugin(place);
   place.file("block.hook", "Plugin \"libstalls.so\";\n" + std::string(block) +
                                "Test.Stalls stalls { at = 49.5 ms; }\n");
   place.file("study.hook",
