@@ -2,13 +2,13 @@
 
 #include <iostream>
 
-#include "cli/application.h"
+#include "application/application.h"
 #include "cli/commands.h"
 #include "cli/exit_status.h"
-#include "output/json.h"
-#include "output/number.h"
-#include "simulation/advice.h"
-#include "simulation/stability.h"
+#include "output/text/json.h"
+#include "output/text/number.h"
+#include "simulation/analysis/advice.h"
+#include "simulation/analysis/stability.h"
 
 namespace hookpoint::cli {
 namespace {
@@ -106,12 +106,12 @@ std::string first_material(const language::Object& root) {
 }
 
 /// A wish, read as the material's field would be: with its unit, range and messages.
-bool read_wish(Application& application, const std::filesystem::path& file,
-               const Settings& settings, const std::string& material, const char* field,
-               double contact::MaterialConstants<double>::*member,
+bool read_wish(application::Application& application, const std::filesystem::path& file,
+               const application::Settings& settings, const std::string& material,
+               const char* field, double contact::MaterialConstants<double>::*member,
                const std::optional<std::string>& text, std::optional<double>& wish) {
   if (!text) return true;
-  Settings wishes = settings;
+  application::Settings wishes = settings;
   wishes.trails.push_back(material + "." + field + "=" + *text);
   const auto root = application.evaluate_set(file, wishes);
   if (!root) return false;
@@ -128,7 +128,7 @@ bool read_wish(Application& application, const std::filesystem::path& file,
 
 int advise(const AdviseArguments& arguments) {
   using Constants = contact::MaterialConstants<double>;
-  Application application(arguments.allow_plugins);
+  application::Application application(arguments.allow_plugins);
   const std::filesystem::path file = application.locate(arguments.file);
   const auto root = application.evaluate_set(file, arguments.settings);
   if (!root) return wrong_input;
@@ -150,7 +150,7 @@ int advise(const AdviseArguments& arguments) {
     }
     return fine;
   } catch (const simulation::ExperimentError& error) {
-    print_error(error.what());
+    application::print_error(error.what());
     return wrong_input;
   }
 }

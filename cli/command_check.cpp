@@ -1,28 +1,29 @@
 #include <iostream>
 
-#include "cli/application.h"
+#include "application/application.h"
+#include "application/study_plans.h"
 #include "cli/commands.h"
 #include "cli/exit_status.h"
-#include "cli/study_plans.h"
 #include "output/file.h"
 
 namespace hookpoint::cli {
 namespace {
 
 /// What `run` and `study` would find before anything runs, found.
-bool can_run(Application& application, const language::Object& root,
+bool can_run(application::Application& application, const language::Object& root,
              const std::filesystem::path& file, bool allow_plugins) {
   if (!root.children_of("World").empty() && !application.load(root)) return false;
-  StudyArguments arguments;
+  application::StudyArguments arguments;
   arguments.file = file;
   arguments.allow_plugins = allow_plugins;
-  return !holds_study(root) || plan_study_file(application, root, arguments).has_value();
+  return !application::holds_study(root) ||
+         application::plan_study_file(application, root, arguments).has_value();
 }
 
 }  // namespace
 
 int check(const std::vector<std::filesystem::path>& files, bool allow_plugins) {
-  Application application(allow_plugins);
+  application::Application application(allow_plugins);
   int status = fine;
   for (const std::filesystem::path& named : files) {
     const std::filesystem::path file = application.locate(named);
@@ -41,13 +42,13 @@ int format(const std::vector<std::filesystem::path>& files, bool check_only) {
   for (const std::filesystem::path& file : files) {
     const auto text = output::read_file(file);
     if (!text) {
-      print_error("cannot read " + file.string());
+      application::print_error("cannot read " + file.string());
       status = wrong_input;
       continue;
     }
     language::Diagnostics diagnostics;
     const std::string canonical = language::format(file, *text, diagnostics);
-    print_diagnostics(diagnostics);
+    application::print_diagnostics(diagnostics);
     if (diagnostics.has_errors()) {
       status = wrong_input;
     } else if (canonical == *text) {
@@ -63,8 +64,9 @@ int format(const std::vector<std::filesystem::path>& files, bool check_only) {
   return status;
 }
 
-int print(const std::filesystem::path& file, const Settings& settings, bool allow_plugins) {
-  Application application(allow_plugins);
+int print(const std::filesystem::path& file, const application::Settings& settings,
+          bool allow_plugins) {
+  application::Application application(allow_plugins);
   const auto root = application.evaluate_set(application.locate(file), settings);
   if (!root) return wrong_input;
   std::cout << language::print(*root);

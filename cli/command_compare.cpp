@@ -2,11 +2,11 @@
 
 #include <iostream>
 
-#include "cli/application.h"
+#include "application/application.h"
 #include "cli/commands.h"
 #include "cli/exit_status.h"
-#include "output/terminal.h"
-#include "studies/comparison.h"
+#include "output/text/terminal.h"
+#include "studies/compare/comparison.h"
 
 namespace hookpoint::cli {
 
@@ -20,7 +20,7 @@ int compare(const CompareArguments& arguments) {
                                        comparison, {output::wants_colours(STDOUT_FILENO)}));
     return comparison.same() ? fine : truth_failed;
   } catch (const studies::RunFolderError& error) {
-    print_error(error.what());
+    application::print_error(error.what());
     return wrong_input;
   }
 }

@@ -1,21 +1,23 @@
 #include <iostream>
 
-#include "cli/application.h"
+#include "application/application.h"
 #include "cli/commands.h"
 #include "cli/exit_status.h"
-#include "output/csv.h"
+#include "language/names.h"
+#include "output/text/csv.h"
 #include "studies/metric.h"
 
 namespace hookpoint::cli {
 namespace {
 
 /// False after any is not loaded; which and why is printed.
-bool load_plugins(Application& application, const std::vector<std::filesystem::path>& plugins) {
+bool load_plugins(application::Application& application,
+                  const std::vector<std::filesystem::path>& plugins) {
   bool good = true;
   for (const std::filesystem::path& plugin : plugins) {
     const std::string problem = application.load_plugin(plugin);
     if (problem.empty()) continue;
-    print_error("the plugin `" + plugin.string() + "` " + problem);
+    application::print_error("the plugin `" + plugin.string() + "` " + problem);
     good = false;
   }
   return good;
@@ -24,7 +26,7 @@ bool load_plugins(Application& application, const std::vector<std::filesystem::p
 }  // namespace
 
 int describe(const DescribeArguments& arguments) {
-  Application application(arguments.allow_plugins);
+  application::Application application(arguments.allow_plugins);
   if (!load_plugins(application, arguments.plugins)) return wrong_input;
   const std::optional<std::string>& type = arguments.type;
   if (!type) {
@@ -50,9 +52,9 @@ int describe(const DescribeArguments& arguments) {
   for (const studies::MetricDefinition& metric : studies::metric_table())
     names.emplace_back(metric.name);
   const std::string nearest = language::nearest_name(*type, names);
-  print_error("there is no class or metric `" + *type + "`" +
-              (nearest.empty() ? "; `hookpoint describe` lists the classes"
-                               : "; did you mean `" + nearest + "`?"));
+  application::print_error("there is no class or metric `" + *type + "`" +
+                           (nearest.empty() ? "; `hookpoint describe` lists the classes"
+                                            : "; did you mean `" + nearest + "`?"));
   return wrong_input;
 }
 

@@ -2,11 +2,11 @@
 
 #include <iostream>
 
-#include "cli/application.h"
+#include "application/application.h"
 #include "cli/commands.h"
 #include "cli/exit_status.h"
-#include "output/json.h"
-#include "simulation/dynamics.h"
+#include "output/text/json.h"
+#include "simulation/analysis/dynamics.h"
 
 namespace hookpoint::cli {
 namespace {
@@ -91,9 +91,9 @@ void print_robot(const RobotDynamics& robot) {
 
 }  // namespace
 
-int dynamics(const std::filesystem::path& file, const Settings& settings, bool json,
+int dynamics(const std::filesystem::path& file, const application::Settings& settings, bool json,
              bool allow_plugins) {
-  Application application(allow_plugins);
+  application::Application application(allow_plugins);
   const auto root = application.evaluate_set(application.locate(file), settings);
   if (!root) return wrong_input;
   const auto experiment = application.load(*root);

@@ -3,26 +3,17 @@
 
 #include <iostream>
 
-#include "cli/application.h"
+#include "application/application.h"
+#include "application/engines_json.h"
 #include "cli/commands.h"
 #include "cli/exit_status.h"
 #include "contact/force_law.h"
 #include "integrators/stepper.h"
-#include "output/json.h"
 
 namespace hookpoint::cli {
 
-namespace {
-
-std::string handling_name(simulation::EngineGap::Handling handling) {
-  using enum simulation::EngineGap::Handling;
-  return handling == refused ? "refused" : handling == noticed ? "noticed" : "stated";
-}
-
-}  // namespace
-
 std::string version_text() {
-  const Application application;
+  const application::Application application;
   std::string text = "hookpoint " HOOKPOINT_VERSION "\n";
   for (const auto& [name, engine] : application.engines())
     if (engine.description.found)
@@ -31,51 +22,9 @@ std::string version_text() {
   return text;
 }
 
-std::string engines_json(const Application& application) {
-  output::JsonWriter json;
-  json.begin_object().key("engines").begin_array();
-  for (const auto& [name, engine] : application.engines()) {
-    const simulation::EngineDescription& d = engine.description;
-    json.begin_object()
-        .member("name", d.name)
-        .member("version", d.version)
-        .member("precision", d.precision)
-        .member("found", d.found);
-    json.key("settings").begin_array();
-    for (const std::string& setting : d.settings) json.value(setting);
-    json.end_array().key("gaps").begin_array();
-    for (const simulation::EngineGap& gap : d.gaps) {
-      json.begin_object()
-          .member("feature", gap.feature)
-          .member("handling", handling_name(gap.handling))
-          .member("instead", gap.instead)
-          .end_object();
-    }
-    json.end_array().end_object();
-  }
-  json.end_array().key("laws").begin_array();
-  for (const contact::LawDescription& law : contact::law_table()) {
-    json.begin_object()
-        .member("name", law.name)
-        .member("doc", law.summary)
-        .member("source", law.source)
-        .end_object();
-  }
-  json.end_array().key("integrators").begin_array();
-  for (const integrators::StepperDescription& stepper : integrators::stepper_table()) {
-    json.begin_object()
-        .member("name", stepper.name)
-        .member("order", stepper.order)
-        .member("doc", stepper.summary)
-        .end_object();
-  }
-  json.end_array().end_object();
-  return json.text();
-}
-
 namespace {
 
-void print_table(const Application& application) {
+void print_table(const application::Application& application) {
   fmt::print("{:<16} {:<10} {:<9} {:<6} {}\n", "engine", "version", "precision", "found",
              "settings");
   for (const auto& [name, engine] : application.engines()) {
@@ -95,9 +44,9 @@ void print_table(const Application& application) {
 }  // namespace
 
 int engines(bool json) {
-  const Application application;
+  const application::Application application;
   if (json) {
-    std::cout << engines_json(application);
+    std::cout << application::engines_json(application);
   } else {
     print_table(application);
   }

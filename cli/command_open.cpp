@@ -1,21 +1,22 @@
 #include <vector>
 
-#include "cli/application.h"
+#include "application/application.h"
+#include "application/study_plans.h"
 #include "cli/commands.h"
-#include "cli/study_plans.h"
 
 namespace hookpoint::cli {
 
-std::optional<bool> holds_study(const std::filesystem::path& file, const Settings& settings,
-                                bool allow_plugins) {
+std::optional<bool> holds_study(const std::filesystem::path& file,
+                                const application::Settings& settings, bool allow_plugins) {
   std::vector<language::Diagnostics> found;
-  Application application(allow_plugins, [&](const language::Diagnostics& diagnostics) {
-    found.push_back(diagnostics);
-  });
-  const auto root = evaluate_file(application, application.find(file), settings).root;
-  if (root) return holds_study(*root);
+  application::Application application(
+      allow_plugins,
+      [&](const language::Diagnostics& diagnostics) { found.push_back(diagnostics); });
+  const auto root = application::evaluate_file(application, application.find(file), settings).root;
+  if (root) return application::holds_study(*root);
   application.locate(file);
-  for (const language::Diagnostics& diagnostics : found) print_diagnostics(diagnostics);
+  for (const language::Diagnostics& diagnostics : found)
+    application::print_diagnostics(diagnostics);
   return std::nullopt;
 }
 

@@ -4,14 +4,14 @@
 #include <iostream>
 #include <set>
 
-#include "cli/application.h"
+#include "application/application.h"
 #include "cli/commands.h"
 #include "cli/exit_status.h"
-#include "language/references.h"
-#include "output/json.h"
-#include "output/number.h"
-#include "simulation/port_search.h"
-#include "simulation/world.h"
+#include "language/tree/references.h"
+#include "output/text/json.h"
+#include "output/text/number.h"
+#include "simulation/run/world.h"
+#include "simulation/wiring/port_search.h"
 
 namespace hookpoint::cli {
 namespace {
@@ -106,7 +106,7 @@ void print_table(const std::vector<Port>& ports, PortTexts& texts) {
 }  // namespace
 
 int ports(const PortsArguments& arguments) {
-  Application application(arguments.allow_plugins);
+  application::Application application(arguments.allow_plugins);
   const auto root =
       application.evaluate_set(application.locate(arguments.file), arguments.settings);
   if (!root) return wrong_input;
@@ -126,7 +126,7 @@ int ports(const PortsArguments& arguments) {
     }
     return fine;
   } catch (const simulation::ExperimentError& error) {
-    print_error(error.what());
+    application::print_error(error.what());
     return wrong_input;
   }
 }

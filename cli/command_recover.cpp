@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
-#include "cli/application.h"
+#include "application/application.h"
 #include "cli/commands.h"
 #include "cli/exit_status.h"
-#include "output/record_spool.h"
+#include "output/records/spool.h"
 
 namespace hookpoint::cli {
 
@@ -11,7 +11,7 @@ int recover(const std::filesystem::path& spool) {
   try {
     const output::SpoolReader whole(spool);
   } catch (const output::FileError& error) {
-    print_error(error.what());
+    application::print_error(error.what());
     return wrong_input;
   }
   const output::RecoveredRecord record = output::recover_spool(spool);

@@ -7,9 +7,9 @@
 #include "cli/opened_movie.h"
 #include "cli/run_loop.h"
 #include "language/characters.h"
-#include "output/json.h"
-#include "output/number.h"
-#include "simulation/port_search.h"
+#include "output/text/json.h"
+#include "output/text/number.h"
+#include "simulation/wiring/port_search.h"
 
 namespace hookpoint::cli {
 namespace {
@@ -88,7 +88,8 @@ int show(const ReplayArguments& arguments) {
 
 int replay(const ReplayArguments& arguments) {
   if (!arguments.at && (arguments.json || !arguments.record.empty())) {
-    print_error("--json and --record tell of a moment: give it with --at, e.g. --at \"2.5 s\"");
+    application::print_error(
+        "--json and --record tell of a moment: give it with --at, e.g. --at \"2.5 s\"");
     return wrong_input;
   }
   return use_movie([&] { return show(arguments); });

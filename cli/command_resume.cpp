@@ -57,7 +57,7 @@ int go_on(const RunArguments& arguments) {
 
 int resume(const RunArguments& arguments) {
   if (!arguments.file.empty() || !arguments.settings.empty()) {
-    print_error(
+    application::print_error(
         "run --resume goes on with the experiment inside the movie: it takes neither a FILE nor "
         "--set or its short forms");
     return wrong_input;

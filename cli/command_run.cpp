@@ -3,18 +3,18 @@
 #include <cmath>
 #include <iostream>
 
-#include "cli/application.h"
+#include "application/application.h"
 #include "cli/commands.h"
 #include "cli/exit_status.h"
 #include "cli/run_loop.h"
-#include "simulation/load.h"
+#include "simulation/scene/load.h"
 
 namespace hookpoint::cli {
 namespace {
 
 /// `--for` is the World's duration.
-Settings settings_with_duration(const RunArguments& arguments) {
-  Settings settings = arguments.settings;
+application::Settings settings_with_duration(const RunArguments& arguments) {
+  application::Settings settings = arguments.settings;
   if (arguments.duration) settings.world.emplace_back("duration", *arguments.duration);
   return settings;
 }
@@ -32,11 +32,12 @@ void tell_windows(const language::Object& root) {
 int run(const RunArguments& arguments) {
   if (arguments.resume) return resume(arguments);
   if (arguments.file.empty() || arguments.at) {
-    print_error(arguments.file.empty() ? "run takes a FILE, or --resume MOVIE"
-                                       : "--at is a moment of a movie: it goes with --resume");
+    application::print_error(arguments.file.empty()
+                                 ? "run takes a FILE, or --resume MOVIE"
+                                 : "--at is a moment of a movie: it goes with --resume");
     return wrong_input;
   }
-  Application application(arguments.allow_plugins);
+  application::Application application(arguments.allow_plugins);
   const std::filesystem::path file = application.locate(arguments.file);
   const auto root = application.evaluate_set(file, settings_with_duration(arguments));
   if (!root) return wrong_input;
@@ -68,7 +69,7 @@ int run(const RunArguments& arguments) {
     if (status != fine || !expectations) return status;
     return print_expectations(*expectations);
   } catch (const simulation::ExperimentError& error) {
-    print_error(error.what());
+    application::print_error(error.what());
     return wrong_input;
   }
 }

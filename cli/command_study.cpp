@@ -5,19 +5,19 @@
 
 namespace hookpoint::cli {
 
-int study(const StudyArguments& asked) {
-  Application application(asked.allow_plugins);
-  StudyArguments arguments = asked;
+int study(const application::StudyArguments& asked) {
+  application::Application application(asked.allow_plugins);
+  application::StudyArguments arguments = asked;
   arguments.file = application.locate(asked.file);
-  const auto file = plan_study_file(application, arguments);
+  const auto file = application::plan_study_file(application, arguments);
   if (!file) return wrong_input;
   if (file->size() == 0) {
-    print_error(nothing_to_study(arguments.file));
+    application::print_error(application::nothing_to_study(arguments.file));
     return wrong_input;
   }
   const InterruptGuard guard;
-  const StudyCommand command{application.engines(), arguments, *file, rerun_command(arguments),
-                             guard};
+  const StudyCommand command{application.engines(), arguments, *file,
+                             application::rerun_command(arguments), guard};
   int status = fine;
   const auto run_all = [&](const auto& plans, auto run_one) {
     // Once one was interrupted the others are not begun.

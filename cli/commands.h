@@ -5,24 +5,16 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
+
+#include "application/settings.h"
+#include "application/study_arguments.h"
 
 namespace hookpoint::cli {
 
-class Application;
-
-/// What the command line sets in a file.
-struct Settings {
-  std::vector<std::string> trails;  ///< --set: trail=value
-  /// Fields of the file's World with their values: --dt and its like.
-  std::vector<std::pair<std::string, std::string>> world;
-  bool empty() const { return trails.empty() && world.empty(); }
-};
-
 struct RunArguments {
   std::filesystem::path file;
-  Settings settings;
+  application::Settings settings;
   std::optional<std::string> duration;  ///< "10 s"
   std::optional<std::filesystem::path> out;
   std::vector<std::string> record;              ///< trails, vectors, globs
@@ -48,24 +40,15 @@ int replay(const ReplayArguments& arguments);
 /// recover: the record that a killed run left as a spool.
 int recover(const std::filesystem::path& spool);
 
-struct StudyArguments {
-  std::filesystem::path file;
-  std::optional<std::filesystem::path> out;
-  int jobs = 0;  ///< 0: one a core
-  bool quick = false;
-  bool resume = false;
-  std::vector<std::string> only;  ///< subjects
-  bool allow_plugins = false;
-  Settings settings{};  ///< of the file and of the scenes that it runs
-};
-int study(const StudyArguments& arguments);
+int study(const application::StudyArguments& arguments);
 
 /// check: every file's diagnostics.
 int check(const std::vector<std::filesystem::path>& files, bool allow_plugins);
 /// fmt: rewrites each file in canonical layout; with `check_only` says which would change.
 int format(const std::vector<std::filesystem::path>& files, bool check_only);
 /// print: the experiment after includes, loops and expressions.
-int print(const std::filesystem::path& file, const Settings& settings, bool allow_plugins);
+int print(const std::filesystem::path& file, const application::Settings& settings,
+          bool allow_plugins);
 struct DescribeArguments {
   std::optional<std::string> type;             ///< a class; none: the list of all
   bool markdown = false;                       ///< the manual's reference page
@@ -78,13 +61,13 @@ struct DescribeArguments {
 int describe(const DescribeArguments& arguments);
 
 /// dynamics: what the forces do at the file's initial state.
-int dynamics(const std::filesystem::path& file, const Settings& settings, bool json,
+int dynamics(const std::filesystem::path& file, const application::Settings& settings, bool json,
              bool allow_plugins);
 
 struct PortsArguments {
   std::filesystem::path file;
   std::optional<std::string> pattern;  ///< trail, vector or glob; none: all that changes
-  Settings settings;
+  application::Settings settings;
   bool json = false;
   bool allow_plugins = false;
 };
@@ -93,7 +76,7 @@ int ports(const PortsArguments& arguments);
 
 struct AdviseArguments {
   std::filesystem::path file;
-  Settings settings;
+  application::Settings settings;
   std::optional<std::string> penetration;  ///< at rest, "1 mm"
   std::optional<std::string> rebound;      ///< speed after over before, "0.2"
   bool json = false;
@@ -104,7 +87,7 @@ int advise(const AdviseArguments& arguments);
 
 struct CompareArguments {
   std::filesystem::path first, second;  ///< folders that runs or studies left
-  double tolerance = 1e-9;              ///< relative (studies/comparison.h)
+  double tolerance = 1e-9;              ///< relative (studies/compare/comparison.h)
   bool json = false;
 };
 /// compare: what differs between two runs.
@@ -112,14 +95,12 @@ int compare(const CompareArguments& arguments);
 
 /// engines: every engine, law and integrator.
 int engines(bool json);
-/// The same as JSON.
-std::string engines_json(const Application& application);
 /// --version: the program's, then a line an engine that was found.
 std::string version_text();
 
 /// What FILE.hook without a command means: true when it holds a Study, false for a world; none when
 /// it has errors, which are printed. Anything else is for the command to tell.
-std::optional<bool> holds_study(const std::filesystem::path& file, const Settings& settings,
-                                bool allow_plugins);
+std::optional<bool> holds_study(const std::filesystem::path& file,
+                                const application::Settings& settings, bool allow_plugins);
 
 }  // namespace hookpoint::cli

@@ -10,12 +10,13 @@
 #include <new>
 #include <system_error>
 
-#include "cli/application.h"
+#include "application/application.h"
+#include "application/short_forms.h"
 #include "cli/commands.h"
 #include "cli/exit_status.h"
 #include "cli/manual_page.h"
-#include "cli/short_forms.h"
 #include "cli/standard_streams.h"
+#include "language/names.h"
 #include "output/file.h"
 #include "output/result_folder.h"
 
@@ -35,13 +36,13 @@ std::string about() {
 /// What the command line asks for; `command` runs it.
 struct Request {
   RunArguments run;
-  StudyArguments study;
+  application::StudyArguments study;
   ReplayArguments replay;
   AdviseArguments advise;
   CompareArguments compare;
   std::vector<std::filesystem::path> files;
   std::filesystem::path file;
-  Settings settings;
+  application::Settings settings;
   DescribeArguments describe;
   PortsArguments ports;
   bool json = false, check_only = false, allow_plugins = false;
@@ -55,7 +56,7 @@ CLI::App* add_command(CLI::App& app, Request& request, const char* name, const c
   return added;
 }
 
-void add_trails(CLI::App* command, Settings& settings) {
+void add_trails(CLI::App* command, application::Settings& settings) {
   command
       ->add_option("--set", settings.trails,
                    "overrides a field or a Param, e.g. SimpleWorld.deltat=\"1 ms\" (may be "
@@ -69,7 +70,8 @@ void add_trails(CLI::App* command, Settings& settings) {
       });
 }
 
-void add_short_form(CLI::App* command, Settings& settings, const ShortForm& form) {
+void add_short_form(CLI::App* command, application::Settings& settings,
+                    const application::ShortForm& form) {
   command
       ->add_option_function<std::string>(
           form.option,
@@ -80,9 +82,10 @@ void add_short_form(CLI::App* command, Settings& settings, const ShortForm& form
       ->type_name(form.type);
 }
 
-void add_settings(CLI::App* command, Settings& settings) {
+void add_settings(CLI::App* command, application::Settings& settings) {
   add_trails(command, settings);
-  for (const ShortForm& form : short_forms) add_short_form(command, settings, form);
+  for (const application::ShortForm& form : application::short_forms)
+    add_short_form(command, settings, form);
 }
 
 void add_plugins(CLI::App* command, bool& allowed) {
@@ -152,7 +155,7 @@ void add_run_and_study(CLI::App& app, Request& request) {
                                     [&] { return study(request.study); });
   study_app->add_option("FILE", request.study.file, "a .hook file with a Study")->required();
   add_trails(study_app, request.study.settings);
-  for (const ShortForm& form : short_forms)
+  for (const application::ShortForm& form : application::short_forms)
     if (form.in_studies) add_short_form(study_app, request.study.settings, form);
   add_plugins(study_app, request.study.allow_plugins);
   study_app
@@ -179,10 +182,10 @@ void add_run_and_study(CLI::App& app, Request& request) {
 
 /// What the short forms take, as the language has it.
 std::map<std::string, std::vector<std::string>> words_after_options() {
-  const Application application;
+  const application::Application application;
   const language::ClassSchema& world = *application.schema().find("World");
   std::map<std::string, std::vector<std::string>> words;
-  for (const ShortForm& form : short_forms) {
+  for (const application::ShortForm& form : application::short_forms) {
     const std::vector<std::string>& choices = world.find(form.field)->choices;
     if (!choices.empty()) words[form.option] = choices;
   }
@@ -323,7 +326,7 @@ std::optional<bool> holds_study(const std::vector<std::string>& words) {
   app.set_help_flag();
   app.allow_extras();
   std::filesystem::path file;
-  Settings settings;
+  application::Settings settings;
   bool allowed = false;
   app.add_option("FILE", file);
   add_settings(&app, settings);
@@ -332,7 +335,7 @@ std::optional<bool> holds_study(const std::vector<std::string>& words) {
     app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
   } catch (const CLI::ParseError&) {
   }
-  return holds_study(words[0], settings, allowed);
+  return cli::holds_study(words[0], settings, allowed);
 }
 
 /// The words as a command would have them: `FILE.hook ...` gets `study` or `run` in front, by what
@@ -349,7 +352,7 @@ std::vector<std::string> with_command(const CLI::App& app, std::vector<std::stri
     return words;
   }
   const std::string nearest = language::nearest_name(words[0], names);
-  print_error(
+  application::print_error(
       "there is no command `" + words[0] + "`" +
       (nearest.empty() ? "; `hookpoint --help` lists them" : "; did you mean `" + nearest + "`?"));
   return {};
@@ -376,7 +379,8 @@ int main_with(int count, char** words) {
   } catch (const CLI::Success& asked) {
     return app.exit(asked);
   } catch (const CLI::ParseError& error) {
-    print_error(std::string(error.what()) + " (`hookpoint --help` says what is possible)");
+    application::print_error(std::string(error.what()) +
+                             " (`hookpoint --help` says what is possible)");
     return wrong_input;
   }
   try {
@@ -392,17 +396,17 @@ int guarded_main(int count, char** words) {
   try {
     return main_with(count, words);
   } catch (const output::FolderError& error) {
-    print_error(error.what());
+    application::print_error(error.what());
     return wrong_input;
   } catch (const std::bad_alloc&) {
-    print_error("there is not enough memory for what was asked");
+    application::print_error("there is not enough memory for what was asked");
     return missing;
   } catch (const std::system_error& error) {
     // Where it is of standard output, that is told once, at the end.
-    if (std::ferror(stdout) == 0) print_error(error.what());
+    if (std::ferror(stdout) == 0) application::print_error(error.what());
     return missing;
   } catch (const std::exception& error) {
-    print_error(error.what());
+    application::print_error(error.what());
     return missing;
   }
 }

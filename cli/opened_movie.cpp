@@ -6,7 +6,7 @@
 
 #include "cli/exit_status.h"
 #include "language/document.h"
-#include "simulation/load.h"
+#include "simulation/scene/load.h"
 
 namespace hookpoint::cli {
 namespace {
@@ -50,7 +50,7 @@ simulation::Experiment OpenedMovie::load() {
   if (!root) fail();
   language::Diagnostics diagnostics;
   auto experiment = simulation::load_experiment(*root, diagnostics, {}, files);
-  print_diagnostics(diagnostics);
+  application::print_diagnostics(diagnostics);
   if (!experiment) fail();
   return *experiment;
 }
@@ -69,9 +69,9 @@ int use_movie(const std::function<int()>& work) {
   try {
     return work();
   } catch (const output::MovieError& error) {
-    print_error(error.what());
+    application::print_error(error.what());
   } catch (const simulation::ExperimentError& error) {
-    print_error(error.what());
+    application::print_error(error.what());
   }
   return wrong_input;
 }

@@ -5,9 +5,9 @@
 #include <functional>
 #include <string>
 
-#include "cli/application.h"
-#include "output/movie.h"
-#include "simulation/rewind.h"
+#include "application/application.h"
+#include "output/movies/movie.h"
+#include "simulation/run/rewind.h"
 
 namespace hookpoint::cli {
 
@@ -31,7 +31,7 @@ class OpenedMovie {
 
  private:
   output::MovieReader reader_;
-  Application application_;
+  application::Application application_;
   std::filesystem::path folder_;  ///< of the files taken out; gone with this
 };
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "output/progress.h"
-#include "studies/run.h"
+#include "studies/run/run.h"
 
 namespace hookpoint::cli {
 

@@ -6,14 +6,14 @@
 #include <cmath>
 #include <iostream>
 
-#include "cli/application.h"
+#include "application/application.h"
 #include "cli/exit_status.h"
 #include "cli/run_watch.h"
 #include "contact/force_law.h"
-#include "output/number.h"
-#include "simulation/automatic_step.h"
-#include "simulation/energy_watch.h"
-#include "simulation/stability.h"
+#include "output/text/number.h"
+#include "simulation/analysis/automatic_step.h"
+#include "simulation/analysis/stability.h"
+#include "simulation/run/energy_watch.h"
 
 namespace hookpoint::cli {
 namespace {

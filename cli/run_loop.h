@@ -4,9 +4,9 @@
 
 #include <cstdint>
 
-#include "simulation/expectation.h"
-#include "simulation/run_files.h"
-#include "simulation/world.h"
+#include "simulation/run/expectation.h"
+#include "simulation/run/run_files.h"
+#include "simulation/run/world.h"
 
 namespace hookpoint::cli {
 

@@ -8,10 +8,10 @@
 #include <exception>
 #include <utility>
 
-#include "cli/application.h"
+#include "application/application.h"
 #include "cli/exit_status.h"
 #include "output/progress.h"
-#include "output/terminal.h"
+#include "output/text/terminal.h"
 
 namespace hookpoint::cli {
 namespace {
@@ -81,12 +81,12 @@ void RunWatch::end_within_step() {
   try {
     close_();
     if (drawn_) std::fputs("\n", stderr);
-    print_error(
+    application::print_error(
         fmt::format("interrupted at {:.6g} s, within a step that does not end; what was recorded "
                     "up to then is kept",
                     time_.load(std::memory_order_relaxed)));
   } catch (const std::exception& error) {
-    print_error(error.what());
+    application::print_error(error.what());
     end = missing;
   }
   // The step still runs: nothing that it uses may be taken down.

@@ -10,7 +10,7 @@
 #include <cstring>
 #include <iostream>
 
-#include "cli/application.h"
+#include "application/application.h"
 #include "cli/exit_status.h"
 
 namespace hookpoint::cli {
@@ -46,8 +46,9 @@ int finish_standard_output(int status) {
     std::raise(SIGPIPE);
   }
   const int reason = reason_of_failure();
-  print_error("cannot write to standard output" +
-              (reason == 0 ? std::string() : std::string(": ") + std::strerror(reason)));
+  application::print_error(
+      "cannot write to standard output" +
+      (reason == 0 ? std::string() : std::string(": ") + std::strerror(reason)));
   return status == fine ? missing : status;
 }
 

@@ -6,15 +6,15 @@
 #include <algorithm>
 #include <iostream>
 
+#include "application/study_reports.h"
 #include "cli/exit_status.h"
 #include "cli/run_bar.h"
-#include "cli/study_reports.h"
 #include "output/file.h"
 #include "output/result_folder.h"
-#include "output/terminal.h"
-#include "studies/terminal_table.h"
-#include "studies/verdict.h"
-#include "studies/wall_report.h"
+#include "output/text/terminal.h"
+#include "studies/compare/wall_report.h"
+#include "studies/report/terminal_table.h"
+#include "studies/run/verdict.h"
 
 namespace hookpoint::cli {
 namespace {
@@ -34,13 +34,13 @@ std::string how_to_go_on(const StudyCommand& command, const std::filesystem::pat
   std::error_code ignored;
   if (!std::filesystem::exists(folder / output::Manifest::file_name, ignored)) return "";
   const auto& named = command.arguments.out;
-  const std::string out = named ? " --out " + shell_word(named->string()) : "";
+  const std::string out = named ? " --out " + application::shell_word(named->string()) : "";
   return "; what is finished is kept in " + folder.string() + ": `" + command.command + out +
          " --resume` goes on from there";
 }
 
 int interrupted(const StudyCommand& command, const std::filesystem::path& folder) {
-  print_error("interrupted" + how_to_go_on(command, folder));
+  application::print_error("interrupted" + how_to_go_on(command, folder));
   return command.guard.status();
 }
 
@@ -70,32 +70,32 @@ struct StudyOutcome {
 StudyOutcome run_into(const StudyCommand& command, const studies::StudyPlan& plan,
                       const std::filesystem::path& folder) {
   RunBar bar(plan.name);
-  studies::RunOptions options = bar.watch(run_options(command.arguments, folder));
+  studies::RunOptions options = bar.watch(application::run_options(command.arguments, folder));
   options.tell = tell;
   studies::StudyRun run = studies::run_study(plan, command.engines, options, command.guard.stop());
   bar.end();
   for (const std::string& notice : run.notices) tell(notice);
   if (run.interrupted) return {interrupted(command, run.folder), std::nullopt, {}};
-  studies::ReportOutcome report = write_study_report(run, command.command);
-  for (const std::string& message : report.messages) print_error(message);
+  studies::ReportOutcome report = application::write_study_report(run, command.command);
+  for (const std::string& message : report.messages) application::print_error(message);
   const int status = !studies::all_truths_hold(run.result) ? truth_failed
                      : report.messages.empty()             ? fine
                                                            : missing;
   return {status, std::move(run), std::move(report.figures)};
 }
 
-int run_matrix_into(const StudyCommand& command, const MatrixPlan& plan,
+int run_matrix_into(const StudyCommand& command, const application::MatrixPlan& plan,
                     const std::filesystem::path& folder) {
-  MatrixRun run = begin_matrix(plan, command.arguments.file, folder);
+  application::MatrixRun run = application::begin_matrix(plan, command.arguments.file, folder);
   int status = fine;
-  for (const MatrixPart& part : plan.parts) {
+  for (const application::MatrixPart& part : plan.parts) {
     StudyOutcome outcome = run_into(command, part.plan, folder / part.plan.name);
     status = std::max(status, outcome.status);
     if (!outcome.run) return status;
     run.result.studies.push_back(
         {std::move(outcome.run->result), part.text, std::move(outcome.figures)});
   }
-  write_matrix(run, plan, command.file.text, command.engines, command.command);
+  application::write_matrix(run, plan, command.file.text, command.engines, command.command);
   std::cout << studies::matrix_terminal_table(run.result, coloured());
   std::cout << "\nmatrix: " << (folder / "matrix.html").string() << '\n';
   return status;
@@ -117,13 +117,13 @@ int run_one_study(const StudyCommand& command, const studies::StudyPlan& plan) {
 int run_one_wall(const StudyCommand& command, const studies::WallPlan& plan) {
   RunBar bar(plan.study.name);
   studies::RunOptions options =
-      bar.watch(run_options(command.arguments, command.folder(plan.study.name)));
+      bar.watch(application::run_options(command.arguments, command.folder(plan.study.name)));
   options.tell = tell;
   const std::filesystem::path folder = studies::wall_folder(plan, options);
   const auto run = writing_into(command, folder, [&] {
     auto ran = studies::run_wall(plan, command.engines, options, command.guard.stop());
     bar.end();
-    if (ran) write_wall(*ran, plan, command.engines, command.command);
+    if (ran) application::write_wall(*ran, plan, command.engines, command.command);
     return ran;
   });
   if (!run) return interrupted(command, folder);
@@ -133,7 +133,7 @@ int run_one_wall(const StudyCommand& command, const studies::WallPlan& plan) {
   return run->result.failed() == 0 ? fine : truth_failed;
 }
 
-int run_one_matrix(const StudyCommand& command, const MatrixPlan& plan) {
+int run_one_matrix(const StudyCommand& command, const application::MatrixPlan& plan) {
   std::filesystem::path folder = command.folder(plan.name);
   if (folder.empty()) folder = studies::folder_of(plan.name, plan.hash);
   return writing_into(command, folder, [&] { return run_matrix_into(command, plan, folder); });

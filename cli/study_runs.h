@@ -4,17 +4,17 @@
 #include <filesystem>
 #include <string>
 
-#include "cli/application.h"
+#include "application/application.h"
+#include "application/study_plans.h"
 #include "cli/interrupt.h"
-#include "cli/study_plans.h"
 
 namespace hookpoint::cli {
 
 /// What the runs of one command share.
 struct StudyCommand {
   const studies::EngineTable& engines;
-  const StudyArguments& arguments;
-  const StudyFile& file;
+  const application::StudyArguments& arguments;
+  const application::StudyFile& file;
   std::string command;  ///< that does all again
   const InterruptGuard& guard;
 
@@ -28,6 +28,6 @@ struct StudyCommand {
 int run_one_study(const StudyCommand& command, const studies::StudyPlan& plan);
 int run_one_wall(const StudyCommand& command, const studies::WallPlan& plan);
 /// Its studies one after the other, each into a folder of its own beside matrix.html.
-int run_one_matrix(const StudyCommand& command, const MatrixPlan& plan);
+int run_one_matrix(const StudyCommand& command, const application::MatrixPlan& plan);
 
 }  // namespace hookpoint::cli

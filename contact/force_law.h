@@ -8,15 +8,15 @@
 #include <string_view>
 #include <variant>
 
-#include "contact/azad_featherstone.h"
-#include "contact/elastoplastic.h"
-#include "contact/exponential.h"
-#include "contact/hook_flow.h"
-#include "contact/hookpoint.h"
-#include "contact/hookpoint_reset.h"
-#include "contact/hunt_crossley.h"
-#include "contact/lugre.h"
-#include "contact/nominal.h"
+#include "contact/laws/azad_featherstone.h"
+#include "contact/laws/elastoplastic.h"
+#include "contact/laws/exponential.h"
+#include "contact/laws/hook_flow.h"
+#include "contact/laws/hookpoint.h"
+#include "contact/laws/hookpoint_reset.h"
+#include "contact/laws/hunt_crossley.h"
+#include "contact/laws/lugre.h"
+#include "contact/laws/nominal.h"
 
 namespace hookpoint::contact {
 

@@ -11,24 +11,17 @@
 #include <vector>
 
 #include "language/diagnostics.h"
-#include "language/object.h"
-#include "language/schema.h"
+#include "language/schema/describe.h"
+#include "language/schema/schema.h"
+#include "language/syntax/format.h"
+#include "language/textmate.h"
+#include "language/tree/evaluate_options.h"
+#include "language/tree/number_of.h"
+#include "language/tree/object.h"
+#include "language/tree/print.h"
+#include "language/tree/references.h"
 
 namespace hookpoint::language {
-
-/// An assignment from outside the file (`--set SimpleWorld.deltat="1 ms"`, a study's subject):
-/// `value` is the language's text.
-struct Override {
-  std::string trail;  ///< from the top of the file, ending in a field:
-                      ///< SimpleWorld.simplebot.leg1.link1.angle
-  std::string value;
-};
-
-struct EvaluateOptions {
-  std::map<std::string, std::string>
-      parameters;  ///< values of the file's `Param`s, the language's text
-  std::vector<Override> overrides;
-};
 
 /// A file's Param as declared: for checking sweeps and for `describe`.
 struct ParameterDeclaration {
@@ -36,12 +29,6 @@ struct ParameterDeclaration {
   std::string default_text;  ///< "" when it is required
   Position position;
 };
-
-/// The object or port that `trail` means at the top of the file; errors in `diagnostics`, without a
-/// place. `want_port`: must end in a port that can be wired or recorded (an object alone then means
-/// its default output).
-std::optional<Reference> resolve(const Object& root, const std::string& trail, bool want_port,
-                                 Diagnostics& diagnostics);
 
 class Library {
  public:
@@ -84,33 +71,5 @@ class Library {
 
 /// The files that the tree was laid down from, as absolute paths in order, each once.
 std::vector<std::string> sources_of(const Object& root);
-
-/// The tree as a file: what was given, as SI values in the shortest form that reads back to the
-/// same double; references as trails from the top.
-std::string print(const Object& root);
-
-/// Canonical layout of a file's text, comments kept; idempotent. `diagnostics` gets the syntax
-/// errors; the text is then returned unchanged.
-std::string format(const std::filesystem::path& file, const std::string& text,
-                   Diagnostics& diagnostics);
-
-/// One class as a manual entry; `describe_all` is the index of all of them.
-std::string describe(const ClassSchema& schema);
-/// The same, with the classes that it may stand in.
-std::string describe(const ClassSchema& schema, const Schema& all);
-std::string describe_all(const Schema& schema);
-/// All classes as a page of the manual, in Markdown.
-std::string describe_markdown(const Schema& schema);
-
-/// The language's words as a TextMate grammar (JSON), for editors.
-std::string describe_textmate(const Schema& schema);
-
-/// The value of `text` ("2 * 3 ms") as a field that takes one number in `unit` would have it, in
-/// SI; nothing when such a field would refuse it.
-std::optional<double> number_of(const std::string& text, const std::string& unit);
-
-/// The name of `candidates` nearest to `name` (edit distance at most a third of its length), or ""
-/// if none is near.
-std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates);
 
 }  // namespace hookpoint::language

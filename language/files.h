@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "language/syntax.h"
+#include "language/syntax/syntax.h"
 
 namespace hookpoint::language {
 

@@ -1,11 +1,11 @@
 #include <set>
 
-#include "language/builder.h"
-#include "language/checker.h"
 #include "language/document.h"
 #include "language/files.h"
 #include "language/plugin_search.h"
-#include "language/prepared.h"
+#include "language/tree/builder.h"
+#include "language/tree/checker.h"
+#include "language/tree/prepared.h"
 
 namespace hookpoint::language {
 

@@ -7,8 +7,6 @@
 #include <string_view>
 #include <vector>
 
-#include "language/document.h"
-
 namespace hookpoint::language {
 namespace {
 

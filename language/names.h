@@ -8,6 +8,10 @@
 
 namespace hookpoint::language {
 
+/// The name of `candidates` nearest to `name` (edit distance at most a third of its length), or ""
+/// if none is near.
+std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates);
+
 /// "; did you mean `x`?" or "".
 std::string did_you_mean(std::string_view name, const std::vector<std::string>& candidates);
 std::string join(const std::vector<std::string>& words, std::string_view separator);

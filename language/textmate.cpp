@@ -1,12 +1,10 @@
-// The words of the language for editors: a TextMate grammar, from the tables of the lexer and the
-// schema. Editors match it line by line and know no syntax tree, so a word's part is told by what
-// stands beside it.
+#include "language/textmate.h"
+
 #include <algorithm>
 
-#include "language/document.h"
-#include "language/expression.h"
-#include "language/token.h"
+#include "language/syntax/token.h"
 #include "language/units.h"
+#include "language/values/expression.h"
 
 namespace hookpoint::language {
 namespace {

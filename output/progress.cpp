@@ -5,8 +5,8 @@
 #include <cmath>
 #include <mutex>
 
-#include "output/number.h"
-#include "output/terminal.h"
+#include "output/text/number.h"
+#include "output/text/terminal.h"
 
 namespace hookpoint::output {
 namespace {

@@ -12,9 +12,9 @@
 #include <system_error>
 #include <utility>
 
-#include "output/hash.h"
-#include "output/json.h"
-#include "output/json_reader.h"
+#include "output/text/hash.h"
+#include "output/text/json.h"
+#include "output/text/json_reader.h"
 
 namespace hookpoint::output {
 namespace {

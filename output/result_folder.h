@@ -23,7 +23,7 @@ struct FolderError : std::runtime_error {
 /// A file that an experiment reads.
 struct InputFile {
   std::string path;  ///< absolute
-  std::string hash;  ///< of its bytes (output/hash.h)
+  std::string hash;  ///< of its bytes (output/text/hash.h)
 };
 
 /// files.json: what lies in the folder, and which experiment it is of.

@@ -4,7 +4,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
-#include "cli/commands.h"
+#include "application/engines_json.h"
 #include "python/errors.h"
 #include "python/python_study.h"
 #include "python/python_world.h"
@@ -123,7 +123,7 @@ void add_functions(py::module_& module) {
   module.def(
       "engines",
       [] {
-        const std::string json = cli::engines_json(cli::Application());
+        const std::string json = application::engines_json(application::Application());
         return py::module_::import("json").attr("loads")(json);
       },
       "Every engine, contact law and integrator: {\"engines\", \"laws\", \"integrators\"}, lists "

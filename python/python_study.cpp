@@ -9,11 +9,11 @@
 #include <cmath>
 #include <future>
 
-#include "cli/study_plans.h"
-#include "cli/study_reports.h"
+#include "application/study_plans.h"
+#include "application/study_reports.h"
 #include "python/errors.h"
 #include "python/python_world.h"
-#include "studies/results_csv.h"
+#include "studies/run/results_csv.h"
 
 namespace hookpoint::python {
 namespace {
@@ -127,12 +127,12 @@ auto run_beside(const Work& work) {
 /// The blocks of one file, run one by one. Reports are drawn only for a folder that is kept.
 class StudyRunner {
  public:
-  StudyRunner(const cli::StudyArguments& arguments, const cli::StudyFile& file,
+  StudyRunner(const application::StudyArguments& arguments, const application::StudyFile& file,
               const studies::EngineTable& engines)
       : arguments_(arguments),
         file_(file),
         engines_(engines),
-        command_(cli::rerun_command(arguments)) {}
+        command_(application::rerun_command(arguments)) {}
 
   py::dict study(const studies::StudyPlan& plan) {
     return result_of(run(plan, folder(plan.name)).run);
@@ -146,7 +146,7 @@ class StudyRunner {
       return studies::run_wall(plan, engines_, options, stop);
     });
     for (const std::string& message : told) warn(message);
-    if (kept()) cli::write_wall(*run, plan, engines_, command_);
+    if (kept()) application::write_wall(*run, plan, engines_, command_);
     const studies::WallResult& result = run->result;
     py::dict made;
     made["table"] = columns_of(studies::wall_results_table(result));
@@ -157,17 +157,17 @@ class StudyRunner {
     return made;
   }
 
-  py::dict matrix(const cli::MatrixPlan& plan) {
+  py::dict matrix(const application::MatrixPlan& plan) {
     const std::filesystem::path to = folder(plan.name);
-    cli::MatrixRun whole = cli::begin_matrix(plan, arguments_.file, to);
+    application::MatrixRun whole = application::begin_matrix(plan, arguments_.file, to);
     py::dict parts;
-    for (const cli::MatrixPart& part : plan.parts) {
+    for (const application::MatrixPart& part : plan.parts) {
       Finished finished = run(part.plan, to / part.plan.name);
       parts[py::str(part.plan.name)] = result_of(finished.run);
       whole.result.studies.push_back(
           {std::move(finished.run.result), part.text, std::move(finished.report.figures)});
     }
-    if (kept()) cli::write_matrix(whole, plan, file_.text, engines_, command_);
+    if (kept()) application::write_matrix(whole, plan, file_.text, engines_, command_);
     py::dict made;
     made["table"] = columns_of(studies::matrix_table(whole.result));
     made["studies"] = parts;
@@ -188,7 +188,7 @@ class StudyRunner {
   /// What the run has to tell goes to `told`, since it runs in a thread that is not Python's.
   studies::RunOptions options_into(const std::filesystem::path& to,
                                    std::vector<std::string>& told) const {
-    studies::RunOptions options = cli::run_options(arguments_, to);
+    studies::RunOptions options = application::run_options(arguments_, to);
     options.tell = [&told](const std::string& message) { told.push_back(message); };
     return options;
   }
@@ -202,13 +202,13 @@ class StudyRunner {
                       {}};
     for (const std::string& message : told) warn(message);
     if (!kept()) return finished;
-    finished.report = cli::write_study_report(finished.run, command_);
+    finished.report = application::write_study_report(finished.run, command_);
     for (const std::string& message : finished.report.messages) warn(message);
     return finished;
   }
 
-  const cli::StudyArguments& arguments_;
-  const cli::StudyFile& file_;
+  const application::StudyArguments& arguments_;
+  const application::StudyFile& file_;
   const studies::EngineTable& engines_;
   std::string command_;
   TemporaryFolder unkept_;
@@ -216,11 +216,11 @@ class StudyRunner {
 
 }  // namespace
 
-py::dict run_studies(const cli::StudyArguments& arguments) {
+py::dict run_studies(const application::StudyArguments& arguments) {
   QuietApplication application(arguments.allow_plugins);
-  const auto file = cli::plan_study_file(*application, arguments);
+  const auto file = application::plan_study_file(*application, arguments);
   if (!file) application.fail();
-  if (file->size() == 0) throw_error(cli::nothing_to_study(arguments.file));
+  if (file->size() == 0) throw_error(application::nothing_to_study(arguments.file));
   application.pass_on_warnings();
   StudyRunner runner(arguments, *file, application->engines());
   py::dict results;
@@ -228,7 +228,7 @@ py::dict run_studies(const cli::StudyArguments& arguments) {
     results[py::str(plan.name)] = runner.study(plan);
   for (const studies::WallPlan& plan : file->walls)
     results[py::str(plan.study.name)] = runner.wall(plan);
-  for (const cli::MatrixPlan& plan : file->matrices)
+  for (const application::MatrixPlan& plan : file->matrices)
     results[py::str(plan.name)] = runner.matrix(plan);
   return results;
 }

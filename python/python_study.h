@@ -3,7 +3,7 @@
 
 #include <pybind11/pybind11.h>
 
-#include "cli/commands.h"
+#include "application/study_arguments.h"
 
 namespace hookpoint::python {
 
@@ -11,6 +11,6 @@ namespace hookpoint::python {
 /// "notices": list}; a Wall: {"table", "passed", "failed", "warnings"}; a Matrix: {"table",
 /// "studies": its studies by name}. With `out` that folder gets what `hookpoint study` leaves.
 /// Throws hookpoint.FileError, and KeyboardInterrupt.
-pybind11::dict run_studies(const cli::StudyArguments& arguments);
+pybind11::dict run_studies(const application::StudyArguments& arguments);
 
 }  // namespace hookpoint::python

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <utility>
 
-#include "output/number.h"
+#include "output/text/number.h"
 #include "python/errors.h"
-#include "simulation/load.h"
+#include "simulation/scene/load.h"
 
 namespace hookpoint::python {
 namespace {
@@ -39,7 +39,7 @@ py::array_t<double> array_of(const std::vector<double>& numbers) {
 
 QuietApplication::QuietApplication(bool allow_plugins)
     : told_(std::make_shared<Told>()),
-      application_(std::make_unique<cli::Application>(
+      application_(std::make_unique<application::Application>(
           allow_plugins, [told = told_](const language::Diagnostics& diagnostics) {
             told->last = diagnostics;
             for (const language::Diagnostic& diagnostic : diagnostics.all()) {

@@ -11,9 +11,9 @@
 #include <unordered_map>
 #include <vector>
 
-#include "cli/application.h"
-#include "simulation/run_files.h"
-#include "simulation/world.h"
+#include "application/application.h"
+#include "simulation/run/run_files.h"
+#include "simulation/run/world.h"
 
 namespace hookpoint::python {
 
@@ -21,8 +21,8 @@ namespace hookpoint::python {
 class QuietApplication {
  public:
   explicit QuietApplication(bool allow_plugins);
-  cli::Application& operator*() { return *application_; }
-  cli::Application* operator->() { return application_.get(); }
+  application::Application& operator*() { return *application_; }
+  application::Application* operator->() { return application_.get(); }
   /// Throws hookpoint.FileError with what was told last.
   [[noreturn]] void fail() const;
   /// Warnings told since the last call become warnings of Python, each with its place.
@@ -34,7 +34,7 @@ class QuietApplication {
     std::vector<std::string> warnings;
   };
   std::shared_ptr<Told> told_;
-  std::unique_ptr<cli::Application> application_;
+  std::unique_ptr<application::Application> application_;
 };
 
 /// What a run records and writes.

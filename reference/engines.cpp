@@ -6,9 +6,9 @@
 #include <stdexcept>
 #include <vector>
 
-#include "reference/bullet_world.h"
+#include "reference/bullet/world.h"
 #include "reference/experiment_checks.h"
-#include "reference/ode_world.h"
+#include "reference/ode/world.h"
 #include "reference/settings.h"
 
 namespace hookpoint::reference {

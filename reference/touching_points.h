@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "contact/terrain.h"
+#include "contact/terrain/terrain.h"
 #include "reference/robot_tree.h"
 
 namespace hookpoint::reference {

@@ -12,10 +12,10 @@
 #include <variant>
 #include <vector>
 
-#include "contact/terrain.h"
+#include "contact/terrain/terrain.h"
 #include "contact/vocabulary.h"
 #include "math/rotation.h"
-#include "output/recorder.h"
+#include "output/records/recorder.h"
 
 namespace hookpoint::simulation {
 

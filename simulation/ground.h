@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "contact/terrain.h"
+#include "contact/terrain/terrain.h"
 #include "simulation/experiment.h"
 
 namespace hookpoint::simulation {

@@ -1,7 +1,7 @@
 #include "simulation/identity.h"
 
 #include "control/registry.h"
-#include "output/hash.h"
+#include "output/text/hash.h"
 
 namespace hookpoint::simulation {
 

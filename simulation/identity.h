@@ -1,4 +1,4 @@
-// What makes a run the same run: hashes over all that decides its numbers (output/hash.h).
+// What makes a run the same run: hashes over all that decides its numbers (output/text/hash.h).
 #pragma once
 
 #include <filesystem>

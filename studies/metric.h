@@ -10,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
-#include "contact/rolling.h"
-#include "contact/terrain.h"
+#include "contact/terrain/rolling.h"
+#include "contact/terrain/terrain.h"
 #include "simulation/engine.h"
 #include "simulation/experiment.h"
 #include "studies/regime.h"

@@ -2,8 +2,10 @@
 // values.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -103,6 +105,9 @@ struct TruthResult {
   int passed = 0, failed = 0;  ///< rows
   int first_failure = -1;      ///< index into StudyResult::rows
 };
+
+/// Names of a study's own tables, which no figure may have.
+inline constexpr std::array<std::string_view, 3> table_names{"results", "timing", "peer_distance"};
 
 struct StudyResult {
   std::string name;

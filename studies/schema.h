@@ -2,7 +2,7 @@
 // Plot, Fix, Only.
 #pragma once
 
-#include "language/schema.h"
+#include "language/schema/schema.h"
 
 namespace hookpoint::studies {
 

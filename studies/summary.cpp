@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "output/number.h"
+#include "output/text/number.h"
 
 namespace hookpoint::studies {
 namespace {

@@ -1,7 +1,7 @@
 // The classes of a display as the language sees them: windows, cameras, sliders, buttons.
 #pragma once
 
-#include "language/schema.h"
+#include "language/schema/schema.h"
 
 namespace hookpoint::view {
 

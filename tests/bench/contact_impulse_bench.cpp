@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "contact/impulse_advance.h"
+#include "contact/impulse/impulse_advance.h"
 
 namespace hookpoint::contact {
 namespace {

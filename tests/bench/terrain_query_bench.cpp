@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "contact/terrain.h"
+#include "contact/terrain/terrain.h"
 
 namespace hookpoint::contact {
 namespace {

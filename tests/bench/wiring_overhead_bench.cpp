@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "control/registry.h"
-#include "simulation/dts_engine.h"
-#include "simulation/records.h"
-#include "simulation/world.h"
+#include "simulation/engine/dts_engine.h"
+#include "simulation/run/records.h"
+#include "simulation/run/world.h"
 #include "tests/support/load_text.h"
 
 namespace hookpoint::tests {

@@ -4,10 +4,10 @@
 #include <set>
 #include <string>
 
-#include "language/expression.h"
-#include "language/token.h"
+#include "language/syntax/token.h"
 #include "language/units.h"
-#include "simulation/schema.h"
+#include "language/values/expression.h"
+#include "simulation/scene/schema.h"
 #include "studies/schema.h"
 #include "view/schema.h"
 

@@ -12,8 +12,8 @@
 #include <string>
 
 #include "language/document.h"
-#include "simulation/load.h"
-#include "simulation/schema.h"
+#include "simulation/scene/load.h"
+#include "simulation/scene/schema.h"
 #include "studies/schema.h"
 #include "tests/fuzz/fuzz.h"
 #include "view/schema.h"

@@ -7,8 +7,8 @@
 #include <random>
 #include <set>
 
-#include "language/field.h"
-#include "simulation/schema.h"
+#include "language/tree/field.h"
+#include "simulation/scene/schema.h"
 #include "tests/support/drawn.h"
 
 namespace hookpoint::fuzz {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "language/schema.h"
+#include "language/schema/schema.h"
 
 namespace hookpoint::fuzz {
 

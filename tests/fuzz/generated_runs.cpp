@@ -22,7 +22,7 @@
 #include "cli/commands.h"
 #include "cli/exit_status.h"
 #include "output/file.h"
-#include "simulation/schema.h"
+#include "simulation/scene/schema.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/generated_experiment.h"
 

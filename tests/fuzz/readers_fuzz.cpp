@@ -8,23 +8,23 @@
 #include <stdexcept>
 #include <string>
 
-#include "contact/ascii_grid.h"
-#include "contact/png_grid.h"
-#include "control/elf_constant.h"
-#include "control/plugin_abi.h"
-#include "control/rational.h"
-#include "control/table.h"
+#include "control/core/rational.h"
+#include "control/data/table.h"
+#include "control/plugin/elf_constant.h"
+#include "control/plugin/plugin_abi.h"
 #include "language/characters.h"
 #include "language/units.h"
-#include "output/csv.h"
-#include "output/hash.h"
-#include "output/json_reader.h"
-#include "output/movie.h"
-#include "output/record_spool.h"
-#include "output/unicode.h"
-#include "simulation/urdf.h"
-#include "studies/row_store.h"
-#include "studies/run_folder.h"
+#include "output/movies/movie.h"
+#include "output/records/spool.h"
+#include "output/text/csv.h"
+#include "output/text/hash.h"
+#include "output/text/json_reader.h"
+#include "output/text/unicode.h"
+#include "simulation/scene/terrain/ascii_grid.h"
+#include "simulation/scene/terrain/png_grid.h"
+#include "simulation/scene/urdf/urdf.h"
+#include "studies/run/row_store.h"
+#include "studies/run/run_folder.h"
 #include "tests/fuzz/fuzz.h"
 
 namespace hookpoint {
@@ -63,10 +63,10 @@ void read_mat(const std::string& bytes) {
 
 void read_grid(const std::string& bytes) {
   std::istringstream stream(bytes);
-  const contact::AsciiGridResult result = contact::read_ascii_grid(stream);
+  const simulation::AsciiGridResult result = simulation::read_ascii_grid(stream);
   fuzz::require(result.grid.has_value() == result.message.empty(), "a grid and a message");
   if (!result.grid) return;
-  const contact::AsciiGrid& grid = *result.grid;
+  const simulation::AsciiGrid& grid = *result.grid;
   fuzz::require(grid.heights.size() ==
                     static_cast<std::size_t>(grid.rows) * static_cast<std::size_t>(grid.columns),
                 "a grid that is not full");
@@ -130,7 +130,8 @@ void read_table(const std::string& bytes) {
 }
 
 void read_png(const std::string& bytes) {
-  const contact::PngGridResult result = contact::read_png_grid(written(bytes, "grid.png"), 0., 1.);
+  const simulation::PngGridResult result =
+      simulation::read_png_grid(written(bytes, "grid.png"), 0., 1.);
   fuzz::require(result.grid.has_value() == result.message.empty(), "a grid and a message");
   if (!result.grid) return;
   for (const double height : result.grid->heights)

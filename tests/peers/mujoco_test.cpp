@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "reference/engines.h"
-#include "reference/mujoco_friction.h"
+#include "reference/mujoco/friction.h"
 #include "tests/support/reference_scenes.h"
 #include "tests/support/run_text.h"
 

@@ -7,7 +7,7 @@
 #include <bit>
 #include <cstdint>
 
-#include "output/number.h"
+#include "output/text/number.h"
 #include "tests/support/command.h"
 #include "tests/support/read_record.h"
 #include "tests/support/record_scene.h"

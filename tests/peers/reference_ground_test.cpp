@@ -4,9 +4,9 @@
 
 #include <random>
 
-#include "contact/terrain.h"
+#include "contact/terrain/terrain.h"
 #include "reference/engines.h"
-#include "simulation/surface.h"
+#include "simulation/scene/terrain/surface.h"
 #include "tests/support/reference_scenes.h"
 
 namespace hookpoint {

@@ -1,5 +1,5 @@
 // Built where a Component has another size.
-#include "control/plugin_abi.h"
+#include "control/plugin/plugin_abi.h"
 #include "tests/plugins/leaves_a_mark.h"
 
 namespace {

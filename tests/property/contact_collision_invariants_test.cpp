@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact/collision.h"
+#include "contact/impulse/collision.h"
 #include "math/rotation.h"
 
 namespace hookpoint::contact {

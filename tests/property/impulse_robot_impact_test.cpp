@@ -2,9 +2,9 @@
 // makes of it against the dense mass matrix, and what no impact may do.
 #include <gtest/gtest.h>
 
-#include "contact/impulse.h"
-#include "simulation/dts_engine.h"
-#include "simulation/impulse_robot.h"
+#include "contact/impulse/impulse.h"
+#include "simulation/engine/dts_engine.h"
+#include "simulation/engine/impulse_robot.h"
 #include "tests/support/dense_dynamics.h"
 #include "tests/support/impulse_scene.h"
 #include "tests/support/random_robot.h"

@@ -9,8 +9,8 @@
 
 #include "contact/force_law.h"
 #include "integrators/stepper.h"
-#include "simulation/dts_engine.h"
-#include "simulation/world.h"
+#include "simulation/engine/dts_engine.h"
+#include "simulation/run/world.h"
 #include "tests/support/command.h"
 #include "tests/support/load_text.h"
 

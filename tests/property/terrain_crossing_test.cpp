@@ -8,8 +8,8 @@
 #include <string>
 
 #include "contact/force_law.h"
-#include "contact/terrain.h"
-#include "simulation/surface.h"
+#include "contact/terrain/terrain.h"
+#include "simulation/scene/terrain/surface.h"
 
 namespace hookpoint::contact {
 namespace {

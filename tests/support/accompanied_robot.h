@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "simulation/dts_robot.h"
+#include "simulation/engine/dts_robot.h"
 #include "simulation/ground.h"
 
 namespace hookpoint::test_support {

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "dts/configuration.h"
-#include "simulation/impulse_engine.h"
+#include "simulation/engine/impulse_engine.h"
 
 namespace hookpoint::testing {
 

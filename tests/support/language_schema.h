@@ -2,7 +2,7 @@
 // it is when the application's classes grow, so that the expected diagnostics stay the same.
 #pragma once
 
-#include "language/schema.h"
+#include "language/schema/schema.h"
 
 namespace hookpoint::language::testing {
 

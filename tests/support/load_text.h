@@ -11,8 +11,8 @@
 #include <string>
 
 #include "language/document.h"
-#include "simulation/load.h"
-#include "simulation/schema.h"
+#include "simulation/scene/load.h"
+#include "simulation/scene/schema.h"
 #include "view/schema.h"
 
 namespace hookpoint {

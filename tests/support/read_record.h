@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "output/recorder.h"
+#include "output/records/recorder.h"
 
 namespace hookpoint::testing {
 

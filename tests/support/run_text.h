@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "simulation/dts_engine.h"
-#include "simulation/world.h"
+#include "simulation/engine/dts_engine.h"
+#include "simulation/run/world.h"
 #include "tests/support/load_text.h"
 
 namespace hookpoint {

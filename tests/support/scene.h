@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "language/document.h"
-#include "simulation/load.h"
-#include "simulation/schema.h"
+#include "simulation/scene/load.h"
+#include "simulation/scene/schema.h"
 
 namespace hookpoint::testing {
 

@@ -12,8 +12,8 @@
 #include <sstream>
 #include <string>
 
-#include "simulation/schema.h"
-#include "studies/run.h"
+#include "simulation/scene/schema.h"
+#include "studies/run/run.h"
 #include "studies/schema.h"
 
 namespace hookpoint::studies {

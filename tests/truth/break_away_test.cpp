@@ -9,7 +9,7 @@
 #include <string>
 
 #include "contact/force_law.h"
-#include "simulation/dts_engine.h"
+#include "simulation/engine/dts_engine.h"
 #include "tests/support/drawn.h"
 #include "tests/support/load_text.h"
 

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <vector>
 
-#include "contact/impulse_advance.h"
+#include "contact/impulse/impulse_advance.h"
 
 namespace hookpoint::contact {
 namespace {

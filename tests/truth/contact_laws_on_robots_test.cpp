@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "contact/force_law.h"
-#include "simulation/dts_engine.h"
-#include "simulation/stability.h"
+#include "simulation/analysis/stability.h"
+#include "simulation/engine/dts_engine.h"
 #include "tests/support/scene.h"
 
 namespace hookpoint {

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <optional>
 
-#include "control/transmission_line.h"
+#include "control/core/transmission_line.h"
 
 namespace hookpoint::control {
 namespace {

@@ -1,13 +1,13 @@
 // Impacts of articulated robots against what is solved by hand: hinged rods, pendulums, robots
 // whose chains have nothing to do; and the flight between impacts.
-#include "simulation/impulse_robot.h"
+#include "simulation/engine/impulse_robot.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "simulation/dts_engine.h"
+#include "simulation/engine/dts_engine.h"
 #include "tests/support/impulse_scene.h"
 #include "tests/support/random_robot.h"
 #include "tests/support/scene.h"

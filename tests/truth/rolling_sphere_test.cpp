@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "contact/force_law.h"
-#include "contact/rolling.h"
+#include "contact/terrain/rolling.h"
 #include "integrators/stepper.h"
 #include "tests/support/run_text.h"
 #include "tests/support/scene.h"

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "reference/engines.h"
-#include "simulation/dts_engine.h"
-#include "simulation/world.h"
+#include "simulation/engine/dts_engine.h"
+#include "simulation/run/world.h"
 #include "studies/metric.h"
 #include "tests/support/load_text.h"
 

@@ -10,7 +10,7 @@
 #include <map>
 #include <random>
 
-#include "simulation/stability.h"
+#include "simulation/analysis/stability.h"
 #include "tests/support/run_text.h"
 
 namespace hookpoint {

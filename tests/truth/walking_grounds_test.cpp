@@ -7,8 +7,8 @@
 #include <memory>
 #include <string>
 
-#include "simulation/dts_engine.h"
-#include "simulation/world.h"
+#include "simulation/engine/dts_engine.h"
+#include "simulation/run/world.h"
 #include "studies/metric.h"
 #include "tests/support/scene.h"
 

@@ -12,8 +12,8 @@
 #include <numbers>
 #include <string>
 
-#include "simulation/dts_engine.h"
-#include "simulation/world.h"
+#include "simulation/engine/dts_engine.h"
+#include "simulation/run/world.h"
 #include "tests/support/scene.h"
 
 namespace hookpoint::testing {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <string>
 
-#include "output/hash.h"
+#include "output/text/hash.h"
 #include "tests/support/command.h"
 
 namespace hookpoint {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "simulation/stability.h"
+#include "simulation/analysis/stability.h"
 #include "tests/support/run_text.h"
 
 namespace hookpoint {

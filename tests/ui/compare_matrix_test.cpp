@@ -7,7 +7,7 @@
 #include <sstream>
 #include <string>
 
-#include "output/json_reader.h"
+#include "output/text/json_reader.h"
 #include "tests/support/falling_ball.h"
 
 namespace hookpoint {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <map>
 
-#include "language/syntax.h"
-#include "language/token.h"
+#include "language/syntax/syntax.h"
+#include "language/syntax/token.h"
 #include "tests/support/command.h"
 
 namespace hookpoint {

@@ -6,7 +6,7 @@
 #include <csignal>
 #include <sstream>
 
-#include "control/table.h"
+#include "control/data/table.h"
 #include "tests/support/command.h"
 #include "tests/support/read_record.h"
 

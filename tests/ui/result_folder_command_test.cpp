@@ -2,8 +2,8 @@
 // and compared.
 #include <gtest/gtest.h>
 
-#include "output/hash.h"
 #include "output/result_folder.h"
+#include "output/text/hash.h"
 #include "tests/support/falling_ball.h"
 #include "tests/support/png_file.h"
 #include "tests/support/record_scene.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "contact/collision.h"
+#include "contact/impulse/collision.h"
 #include "math/rotation.h"
 
 namespace hookpoint::contact {

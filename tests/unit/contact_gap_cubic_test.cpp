@@ -4,8 +4,8 @@
 #include <cmath>
 #include <functional>
 
-#include "contact/gap_cubic.h"
-#include "contact/landing_time.h"
+#include "contact/impulse/gap_cubic.h"
+#include "contact/impulse/landing_time.h"
 
 namespace hookpoint::contact {
 namespace {

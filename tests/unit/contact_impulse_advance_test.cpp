@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "contact/impulse_advance.h"
+#include "contact/impulse/impulse_advance.h"
 #include "tests/support/allocation_counter.h"
 
 namespace hookpoint::contact {

@@ -8,8 +8,8 @@
 #include <random>
 #include <set>
 
-#include "contact/boundary_points.h"
-#include "contact/terrain.h"
+#include "contact/terrain/boundary_points.h"
+#include "contact/terrain/terrain.h"
 
 namespace hookpoint::contact {
 namespace {

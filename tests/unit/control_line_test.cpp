@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "control/transmission_line.h"
+#include "control/core/transmission_line.h"
 #include "tests/support/allocation_counter.h"
 
 namespace hookpoint::control {

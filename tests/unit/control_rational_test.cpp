@@ -6,7 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "control/rational.h"
+#include "control/core/rational.h"
 
 namespace hookpoint::control {
 namespace {

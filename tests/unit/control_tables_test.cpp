@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "output/recorder.h"
+#include "output/records/recorder.h"
 #include "tests/support/component_bench.h"
 
 namespace hookpoint {

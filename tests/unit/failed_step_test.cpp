@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "simulation/advice_constants.h"
-#include "simulation/impulse_engine.h"
+#include "simulation/analysis/advice_constants.h"
+#include "simulation/engine/impulse_engine.h"
 #include "tests/support/run_text.h"
 
 namespace hookpoint {

@@ -7,8 +7,8 @@
 
 #include "contact/force_law.h"
 #include "integrators/stepper.h"
-#include "simulation/dynamics.h"
-#include "simulation/stability.h"
+#include "simulation/analysis/dynamics.h"
+#include "simulation/analysis/stability.h"
 #include "tests/support/run_text.h"
 
 namespace hookpoint {

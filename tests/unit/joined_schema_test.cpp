@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "language/document.h"
-#include "simulation/schema.h"
+#include "simulation/scene/schema.h"
 #include "studies/schema.h"
 #include "view/schema.h"
 

@@ -5,7 +5,7 @@
 
 #include <limits>
 
-#include "language/budget.h"
+#include "language/values/budget.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/language_files.h"
 

@@ -1,7 +1,7 @@
 // What an experiment may ask for beyond the language's own account: points and samples in memory.
 #include <gtest/gtest.h>
 
-#include "studies/plan_values.h"
+#include "studies/plan/plan_values.h"
 #include "tests/support/load_text.h"
 
 namespace hookpoint {

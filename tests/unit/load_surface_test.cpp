@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "simulation/kinematics.h"
-#include "simulation/surface.h"
+#include "simulation/scene/terrain/surface.h"
 #include "tests/support/load_text.h"
 #include "tests/support/png_file.h"
 

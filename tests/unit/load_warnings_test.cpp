@@ -3,7 +3,7 @@
 
 #include "contact/force_law.h"
 #include "language/document.h"
-#include "simulation/stability.h"
+#include "simulation/analysis/stability.h"
 #include "tests/support/load_text.h"
 
 namespace hookpoint {

@@ -8,7 +8,7 @@
 #include <limits>
 #include <sstream>
 
-#include "output/movie.h"
+#include "output/movies/movie.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/command.h"
 #include "tests/support/read_record.h"

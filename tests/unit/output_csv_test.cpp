@@ -4,7 +4,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "output/csv.h"
+#include "output/text/csv.h"
 #include "tests/support/record_scene.h"
 
 namespace hookpoint::output {

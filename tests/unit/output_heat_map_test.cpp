@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "output/heat_map.h"
+#include "output/figures/heat_map.h"
 #include "tests/support/text.h"
 
 namespace hookpoint::output {

@@ -2,8 +2,8 @@
 
 #include <limits>
 
-#include "output/json.h"
-#include "output/json_reader.h"
+#include "output/text/json.h"
+#include "output/text/json_reader.h"
 
 namespace hookpoint::output {
 namespace {

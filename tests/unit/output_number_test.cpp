@@ -8,7 +8,7 @@
 #include <limits>
 #include <random>
 
-#include "output/number.h"
+#include "output/text/number.h"
 #include "tests/support/command.h"
 
 namespace hookpoint::output {

@@ -6,10 +6,10 @@
 #include <iterator>
 #include <set>
 
+#include "output/figures/plot.h"
+#include "output/figures/plot_legend.h"
+#include "output/figures/plot_scale.h"
 #include "output/file.h"
-#include "output/plot.h"
-#include "output/plot_legend.h"
-#include "output/plot_scale.h"
 #include "tests/support/text.h"
 
 namespace hookpoint::output {

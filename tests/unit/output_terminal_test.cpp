@@ -5,7 +5,7 @@
 
 #include <cstdlib>
 
-#include "output/terminal.h"
+#include "output/text/terminal.h"
 
 namespace hookpoint::output {
 namespace {

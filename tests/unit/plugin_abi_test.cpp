@@ -1,6 +1,6 @@
 // The promise behind the plugin ABI's number: what a plugin is compiled against is what it was when
 // the number was given.
-#include "control/plugin_abi.h"
+#include "control/plugin/plugin_abi.h"
 
 #include <gtest/gtest.h>
 
@@ -59,7 +59,8 @@ TEST(PluginAbi, TheNumberBelongsToTheseHeaders) {
   EXPECT_EQ(plugin_abi_version, 2U);
   EXPECT_EQ(fingerprint(installed_headers()), 2867488457132320737U)
       << "an installed header has changed: if a plugin compiled before would notice (a member, a "
-         "virtual function, a signature), raise plugin_abi_version in control/plugin_abi.h; then "
+         "virtual function, a signature), raise plugin_abi_version in control/plugin/plugin_abi.h; "
+         "then "
          "put the new fingerprint here";
 }
 

@@ -7,8 +7,8 @@
 #include <random>
 #include <sstream>
 
-#include "control/elf_constant.h"
-#include "control/plugin.h"
+#include "control/plugin/elf_constant.h"
+#include "control/plugin/plugin.h"
 
 namespace hookpoint::control {
 namespace {

@@ -1,5 +1,5 @@
 // What trails, vectors and globs name.
-#include "simulation/port_search.h"
+#include "simulation/wiring/port_search.h"
 
 #include <gtest/gtest.h>
 

@@ -7,11 +7,11 @@
 #include <fstream>
 
 #include "output/bytes.h"
-#include "output/matlab_names.h"
-#include "output/mcap_records.h"
-#include "output/record_spool.h"
-#include "output/unicode.h"
-#include "output/wolfram_text.h"
+#include "output/records/matlab_names.h"
+#include "output/records/mcap_records.h"
+#include "output/records/spool.h"
+#include "output/records/wolfram_text.h"
+#include "output/text/unicode.h"
 #include "tests/support/command.h"
 #include "tests/support/record_scene.h"
 #include "tests/support/shifted_clock.h"

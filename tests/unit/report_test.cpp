@@ -1,5 +1,5 @@
 // The report and the terminal's table of a made-up study whose every number is known.
-#include "studies/report.h"
+#include "studies/report/report.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -9,9 +9,9 @@
 #include <iterator>
 #include <sstream>
 
-#include "studies/figures.h"
+#include "studies/report/figures.h"
+#include "studies/report/terminal_table.h"
 #include "studies/summary.h"
-#include "studies/terminal_table.h"
 #include "tests/support/synthetic_study.h"
 #include "tests/support/text.h"
 

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "output/hash.h"
+#include "output/text/hash.h"
 #include "tests/support/command.h"
 
 namespace hookpoint::output {

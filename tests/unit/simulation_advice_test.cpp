@@ -7,10 +7,10 @@
 #include <regex>
 
 #include "contact/predictions.h"
-#include "simulation/advice.h"
-#include "simulation/advice_constants.h"
+#include "simulation/analysis/advice.h"
+#include "simulation/analysis/advice_constants.h"
+#include "simulation/analysis/stability.h"
 #include "simulation/engine.h"
-#include "simulation/stability.h"
 #include "tests/support/run_text.h"
 
 namespace hookpoint {

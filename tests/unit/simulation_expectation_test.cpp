@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "simulation/expectation.h"
+#include "simulation/run/expectation.h"
 #include "tests/support/load_text.h"
 
 namespace hookpoint {

@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "reference/engines.h"
-#include "simulation/convex_hull.h"
-#include "simulation/energy_watch.h"
-#include "simulation/stability.h"
+#include "simulation/analysis/convex_hull.h"
+#include "simulation/analysis/stability.h"
+#include "simulation/run/energy_watch.h"
 #include "tests/support/malloc_counter.h"
 #include "tests/support/run_text.h"
 

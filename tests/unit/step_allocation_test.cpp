@@ -1,7 +1,7 @@
 // A step allocates nothing: counted at operator new, for every law and integrator of ours.
 #include <gtest/gtest.h>
 
-#include "simulation/dts_engine.h"
+#include "simulation/engine/dts_engine.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/scene.h"
 

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "studies/group_metrics.h"
-#include "studies/report.h"
-#include "studies/report_distances.h"
+#include "studies/report/report.h"
+#include "studies/report/report_distances.h"
+#include "studies/run/group_metrics.h"
 #include "tests/support/study_runner.h"
 
 namespace hookpoint::studies {

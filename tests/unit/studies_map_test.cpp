@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "studies/figures.h"
+#include "studies/report/figures.h"
 #include "tests/support/synthetic_study.h"
 
 namespace hookpoint::studies {

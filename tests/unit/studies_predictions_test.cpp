@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "studies/predictions.h"
+#include "studies/predictions/predictions.h"
 
 namespace hookpoint::studies {
 namespace {

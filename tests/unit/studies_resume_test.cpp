@@ -1,6 +1,6 @@
 // What --resume takes and what it does not: rows of the same run, whole.
-#include "output/hash.h"
-#include "studies/row_store.h"
+#include "output/text/hash.h"
+#include "studies/run/row_store.h"
 #include "tests/support/study_runner.h"
 
 namespace hookpoint::studies {

@@ -2,8 +2,8 @@
 // results.csv, independence of the number of threads, resuming, failing rows.
 #include <gtest/gtest.h>
 
-#include "studies/results_csv.h"
-#include "studies/verdict.h"
+#include "studies/run/results_csv.h"
+#include "studies/run/verdict.h"
 #include "tests/support/study_runner.h"
 
 namespace hookpoint::studies {

@@ -8,7 +8,7 @@
 #include <complex>
 #include <numbers>
 
-#include "simulation/surface.h"
+#include "simulation/scene/terrain/surface.h"
 
 namespace hookpoint::simulation {
 namespace {

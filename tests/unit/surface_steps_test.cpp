@@ -5,8 +5,8 @@
 #include <limits>
 #include <numbers>
 
-#include "contact/terrain.h"
-#include "simulation/surface.h"
+#include "contact/terrain/terrain.h"
+#include "simulation/scene/terrain/surface.h"
 
 namespace hookpoint::simulation {
 namespace {

@@ -1,0 +1,98 @@
+// The collisions of one instant, for a single body and an articulated robot alike: which point is
+// hit next, by which impulse, until none approaches the ground (docs/contact_impulse.md). The robot
+// is known only by what it answers about its boundary points.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "contact/impulse/impulse.h"
+#include "contact/impulse/impulse_reversal.h"
+#include "contact/terrain/ground_query.h"
+
+namespace hookpoint::contact {
+
+/// How collisions are answered: each by itself, or microcollisions of all near points together
+/// (impulse_reversal.h).
+enum class ImpulseLaw { impulse, impulse_reversal };
+
+struct ImpulseOptions {
+  double tolerance =
+      1e-12;  ///< |gap| at which a point touches [m]; lower reaches rounding, higher hides u0
+  double largest_turn =
+      0.02;  ///< of one flight's orientation step [rad]; higher is faster and less exact
+  double largest_travel =
+      0.05;  ///< of the centre of mass in one flight step [m]: below the width of a ridge
+  int most_impacts = 20000;  ///< in one call; more is reported, not endured
+};
+
+enum class AdvanceStatus { ok, not_finite, inside_ground, too_many_impacts, unsolved_collision };
+/// What to change, one sentence.
+const char* advice(AdvanceStatus status);
+
+/// What the collisions of a step came to.
+struct ImpulseTally {
+  AdvanceStatus status = AdvanceStatus::ok;
+  std::int64_t impacts = 0;    ///< collisions resolved
+  std::int64_t lift_offs = 0;  ///< times that a point which had been hit left the ground
+  int contacts = 0;            ///< boundary points that were hit at least once
+  double deepest = 0.;  ///< greatest -gap of a boundary point at an impact or at the end, >= 0 [m]
+};
+
+/// A robot at the instant of its collisions: its configuration does not change, its velocities
+/// change by `strike`. Boundary points are numbered; world axes, SI.
+class StruckRobot {
+ public:
+  virtual ~StruckRobot() = default;
+  virtual std::size_t point_count() const = 0;
+  virtual const GroundPoint& ground(std::size_t point) const = 0;
+  /// u [m/s], now.
+  virtual Vector3d velocity(std::size_t point) const = 0;
+  /// Speed [m/s] up to which an approach is the rounding of none.
+  virtual double rounding() const { return 0.; }
+  /// K, du = K dp [1/kg], symmetric positive definite.
+  virtual Symmetric3d collision_matrix(std::size_t point) = 0;
+  /// Takes the impulse p [N s] at the point.
+  virtual void strike(std::size_t point, const Vector3d& impulse) = 0;
+
+  /// Readies `flight_acceleration` for the present velocities; a_n, the acceleration [m/s^2] with
+  /// which the robot would fall back on the ground under `struck` if it flew.
+  virtual double begin_reversal(std::size_t struck) = 0;
+  /// a of the point in flight [m/s^2].
+  virtual Vector3d flight_acceleration(std::size_t point) const = 0;
+  /// reverse_together of impulse_reversal.h for `points`, whose numbers are `index`: the impulses,
+  /// if there are any; nothing is struck.
+  virtual bool find_reversal(std::span<ReversalPoint> points, std::span<const std::size_t> index,
+                             double tolerance) = 0;
+};
+
+class ImpulseResolution {
+ public:
+  /// Allocates; nothing else does.
+  ImpulseResolution(std::size_t point_count, ImpulseLaw law, const ImpulseOptions& options);
+
+  /// A step begins: no point has been hit.
+  void begin_step();
+  /// Resolves impacts at one instant one after another, the fastest approach first (of equals the
+  /// first point), until no touching point approaches. Adds to `tally`; its status is the caller's.
+  AdvanceStatus resolve(StruckRobot& robot, ImpulseTally& tally);
+  /// Whether the point has been hit since `begin_step`.
+  bool hit(std::size_t point) const { return hit_[point] != 0; }
+  /// How many have.
+  int contacts() const;
+
+ private:
+  int fastest_approach(const StruckRobot& robot) const;
+  bool reverse(StruckRobot& robot, std::size_t hit, ImpulseTally& tally);
+  void strike(StruckRobot& robot, std::size_t point, const Vector3d& impulse, ImpulseTally& tally);
+
+  ImpulseLaw law_;
+  ImpulseOptions options_;
+  // Those that a microcollision reverses together, and their numbers.
+  std::vector<ReversalPoint> near_;
+  std::vector<std::size_t> near_index_;
+  std::vector<char> hit_now_, hit_;
+};
+
+}  // namespace hookpoint::contact

@@ -1,0 +1,252 @@
+#include "output/figures/heat_map.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <charconv>
+#include <cmath>
+#include <locale>
+#include <sstream>
+
+#include "output/text/csv.h"
+#include "output/text/number.h"
+
+namespace hookpoint::output {
+namespace {
+
+constexpr double least_width = 46., cell_height = 40.;  // of a cell [px]
+constexpr double air = 10.;                             // between numbers side by side [px]
+constexpr double number_font = 11., tick_font = 13.;    // [px]
+constexpr double left_margin = 100., panel_gap = 40., right_margin = 120.;
+constexpr double top_margin = 92., bottom_margin = 84., band_gap = 108.;
+constexpr double widest = 1800.;  // of a drawing whose panels stand side by side
+
+std::string axis_title(const Axis& axis) { return typeset(column_title(axis.label, axis.unit)); }
+
+/// About how wide a number is drawn, from the letters of a common sans serif font [px].
+double width_of(const std::string& number, double font) {
+  double width = 0.;
+  for (const char c : number) width += c == '.' || c == '-' ? 0.36 : c == '+' ? 0.84 : 0.64;
+  return font * width;
+}
+
+/// As gnuplot writes it with `number_format`.
+std::string number_text(const HeatMap& map, double value) {
+  std::array<char, 32> text{};
+  const bool scientific = map.color.logarithmic;
+  const auto format = scientific ? std::chars_format::scientific : std::chars_format::general;
+  const auto end = std::to_chars(text.begin(), text.end(), value, format, scientific ? 0 : 3).ptr;
+  return {text.begin(), end};
+}
+const char* number_format(const HeatMap& map) { return map.color.logarithmic ? "%.0e" : "%.3g"; }
+
+/// Of all cells: so that each number and each tick has room.
+double cell_width(const HeatMap& map) {
+  double width = least_width - air;
+  for (const HeatMapPanel& panel : map.panels)
+    for (const HeatMapCell& cell : panel.cells)
+      if (cell.value) width = std::max(width, width_of(number_text(map, *cell.value), number_font));
+  for (const double tick : map.x_values)
+    width = std::max(width, width_of(rounded(tick, 4), tick_font));
+  return std::ceil(width + air);
+}
+
+class Script {
+ public:
+  explicit Script(const HeatMap& map)
+      : map_(map),
+        columns_(map.x_values.size()),
+        rows_(map.y_values.size()),
+        panel_width_(cell_width(map) * static_cast<double>(columns_)),
+        panel_height_(cell_height * static_cast<double>(rows_)) {
+    const std::size_t panels = std::max<std::size_t>(1, map.panels.size());
+    const double room = widest - left_margin - right_margin + panel_gap;
+    const double fit = std::max(1., std::floor(room / (panel_width_ + panel_gap)));
+    across_ = std::min(panels, static_cast<std::size_t>(fit));
+    bands_ = (panels + across_ - 1) / across_;
+    const auto across = static_cast<double>(across_), bands = static_cast<double>(bands_);
+    width_ = left_margin + across * (panel_width_ + panel_gap) - panel_gap + right_margin;
+    height_ = top_margin + bands * (panel_height_ + band_gap) - band_gap + bottom_margin;
+    out_.imbue(std::locale::classic());
+  }
+
+  std::string text() {
+    set_page();
+    set_colors();
+    std::size_t row = 0;
+    for (std::size_t i = 0; i < map_.panels.size(); ++i) row = draw_panel(i, row);
+    out_ << "unset multiplot\n";
+    return out_.str();
+  }
+
+ private:
+  void set_page() {
+    const std::string shown = one_line(map_.name);
+    out_ << "# Draws " << shown << ".svg from " << shown << ".csv: gnuplot " << shown
+         << ".gp\nset encoding utf8\nset terminal svg size " << width_ << "," << height_
+         << " enhanced font 'Helvetica,13' background '#ffffff' name " << gnuplot_quoted(map_.name)
+         << "\nset output " << gnuplot_quoted(map_.name + ".svg")
+         << "\nset datafile separator ','\nunset key\nset multiplot\n";
+    page_label("{/:Bold " + gnuplot_escaped(typeset(map_.title)) + "}", height_ - 22., "15", "");
+    if (!map_.subtitle.empty())
+      page_label(gnuplot_escaped(typeset(map_.subtitle)), height_ - 43., "12", " tc rgb '#777777'");
+    std::string key;
+    if (has_cross()) key += "×: no value, the robot fell or the run stopped.  ";
+    if (has_line()) key += "Dashed: closed form.";
+    if (!key.empty()) page_label(key, 16., "12", " tc rgb '#777777'");
+  }
+
+  void page_label(const std::string& text, double height, const char* size,
+                  const std::string& color) {
+    out_ << "set label " << gnuplot_quoted(text) << " at screen "
+         << rounded(left_margin / width_, 5) << ", screen " << rounded(height / height_, 5)
+         << " left font 'Helvetica," << size << "'" << color << "\n";
+  }
+
+  /// Light everywhere, so that a cell's number can be read: from an orange for the least to a blue
+  /// for the greatest, told apart by colour-blind readers too.
+  void set_colors() {
+    double least = 0., greatest = 0.;
+    bool first = true;
+    for (const HeatMapPanel& panel : map_.panels) {
+      for (const HeatMapCell& cell : panel.cells) {
+        if (!cell.value) continue;
+        least = first ? *cell.value : std::min(least, *cell.value);
+        greatest = first ? *cell.value : std::max(greatest, *cell.value);
+        first = false;
+      }
+    }
+    if (map_.color.logarithmic) least = std::max(least, map_.color.floor);
+    if (greatest <= least) greatest = map_.color.logarithmic ? 10. * least : least + 1.;
+    if (map_.color.logarithmic) out_ << "set logscale cb\nset format cb '10^{%T}'\n";
+    out_ << "set palette defined (0 '#f6b26b', 0.5 '#f7f3e8', 1 '#7fb8e6')\nset cbrange ["
+         << shortest(least) << ":" << shortest(greatest)
+         << "]\nset border 0\nset xrange [-0.5:" << shortest(static_cast<double>(columns_) - 0.5)
+         << "]\nset yrange [-0.5:" << shortest(static_cast<double>(rows_) - 0.5)
+         << "]\nset tics scale 0\nset xtics nomirror (" << ticks(map_.x_values) << ")\nset xlabel "
+         << gnuplot_quoted(axis_title(map_.x)) << " noenhanced\nset cblabel "
+         << gnuplot_quoted(axis_title(map_.color)) << " noenhanced\n";
+  }
+
+  static std::string ticks(const std::vector<double>& values) {
+    std::string text;
+    for (std::size_t i = 0; i < values.size(); ++i)
+      text += (i > 0 ? ", " : "") + gnuplot_quoted(rounded(values[i], 4)) + " " + std::to_string(i);
+    return text;
+  }
+
+  /// From row `first` of the data on; returns the row after the panel's last.
+  std::size_t draw_panel(std::size_t index, std::size_t first) {
+    const HeatMapPanel& panel = map_.panels[index];
+    assert(panel.cells.size() == columns_ * rows_);
+    const std::size_t column = index % across_, bands_below = bands_ - 1 - index / across_;
+    const double left = left_margin + static_cast<double>(column) * (panel_width_ + panel_gap);
+    const double bottom =
+        bottom_margin + static_cast<double>(bands_below) * (panel_height_ + band_gap);
+    const auto screen = [](double pixels, double whole) { return rounded(pixels / whole, 5); };
+    out_ << "set lmargin at screen " << screen(left, width_) << "\nset rmargin at screen "
+         << screen(left + panel_width_, width_) << "\nset bmargin at screen "
+         << screen(bottom, height_) << "\nset tmargin at screen "
+         << screen(bottom + panel_height_, height_) << "\nset title " << gnuplot_quoted(panel.title)
+         << " noenhanced offset 0,-0.4\n";
+    if (column == 0)
+      out_ << "set ytics scale 0 nomirror (" << ticks(map_.y_values) << ")\nset ylabel "
+           << gnuplot_quoted(axis_title(map_.y)) << " noenhanced\n";
+    else
+      out_ << "unset ylabel\nunset ytics\n";
+    out_ << (index + 1 == map_.panels.size() ? "set colorbox\n" : "unset colorbox\n");
+    set_line(panel);
+    const std::size_t count = static_cast<std::size_t>(std::count_if(
+        panel.cells.begin(), panel.cells.end(), [](const HeatMapCell& cell) { return cell.run; }));
+    plot_cells(first, count);
+    out_ << "unset label\nunset arrow\n";
+    return first + count;
+  }
+
+  void plot_cells(std::size_t first, std::size_t count) {
+    if (count == 0) return;
+    const std::string from = gnuplot_quoted(map_.name + ".csv") +
+                             " skip 1 every ::" + std::to_string(first) +
+                             "::" + std::to_string(first + count - 1);
+    const bool logarithmic = map_.color.logarithmic;
+    out_ << "given(v) = strlen(v) > 0\nshade(v) = "
+         << (logarithmic
+                 ? "v < " + shortest(map_.color.floor) + " ? " + shortest(map_.color.floor) + " : v"
+                 : "v")
+         << "\nplot " << from
+         << " using 5:6:($5-0.48):($5+0.48):($6-0.48):($6+0.48):(given(strcol(4)) ? shade($4) : "
+            "NaN) with boxxyerror fs solid noborder lc palette, \\\n  "
+         << from << " using 5:6:(given(strcol(4)) ? sprintf('" << number_format(map_)
+         << "', $4) : '') with labels tc rgb '#222222' font 'Helvetica,11', \\\n  " << from
+         << " using 5:(given(strcol(4)) ? NaN : $6) with points pt 2 ps 1 lw 2 lc rgb '#D55E00'\n";
+  }
+
+  /// Between neighbours whose predictions differ.
+  void set_line(const HeatMapPanel& panel) {
+    const auto differ = [&](std::size_t a, std::size_t b) {
+      const auto &one = panel.cells[a].predicted, &other = panel.cells[b].predicted;
+      return one && other && *one != *other;
+    };
+    const auto segment = [&](double x0, double y0, double x1, double y1) {
+      out_ << "set arrow from " << shortest(x0) << "," << shortest(y0) << " to " << shortest(x1)
+           << "," << shortest(y1) << " nohead front lw 2.4 dt (5,3) lc rgb '#0072B2'\n";
+    };
+    for (std::size_t row = 0; row < rows_; ++row) {
+      for (std::size_t column = 0; column < columns_; ++column) {
+        const std::size_t cell = row * columns_ + column;
+        const double x = static_cast<double>(column), y = static_cast<double>(row);
+        if (column + 1 < columns_ && differ(cell, cell + 1))
+          segment(x + 0.5, y - 0.5, x + 0.5, y + 0.5);
+        if (row + 1 < rows_ && differ(cell, cell + columns_))
+          segment(x - 0.5, y + 0.5, x + 0.5, y + 0.5);
+      }
+    }
+  }
+
+  template <class Holds>
+  bool any_cell(Holds holds) const {
+    return std::any_of(map_.panels.begin(), map_.panels.end(), [&](const HeatMapPanel& panel) {
+      return std::any_of(panel.cells.begin(), panel.cells.end(), holds);
+    });
+  }
+  bool has_cross() const {
+    return any_cell([](const HeatMapCell& cell) { return cell.run && !cell.value; });
+  }
+  bool has_line() const {
+    return any_cell([](const HeatMapCell& cell) { return cell.predicted.has_value(); });
+  }
+
+  const HeatMap& map_;
+  std::size_t columns_, rows_;
+  double panel_width_, panel_height_;   // [px]
+  std::size_t across_ = 1, bands_ = 1;  // panels in a row, rows of panels
+  double width_ = 0., height_ = 0.;     // of the drawing [px]
+  std::ostringstream out_;
+};
+
+}  // namespace
+
+std::string heat_map_data(const HeatMap& map) {
+  CsvTable table;
+  const auto title = [](const Axis& axis) { return column_title(axis.label, axis.unit); };
+  table.header = {"panel", title(map.x), title(map.y), title(map.color), "column", "row"};
+  for (const HeatMapPanel& panel : map.panels) {
+    for (std::size_t i = 0; i < panel.cells.size(); ++i) {
+      const HeatMapCell& cell = panel.cells[i];
+      if (!cell.run) continue;
+      const std::size_t column = i % map.x_values.size(), row = i / map.x_values.size();
+      table.rows.push_back({panel.title, shortest(map.x_values[column]),
+                            shortest(map.y_values[row]), cell.value ? shortest(*cell.value) : "",
+                            std::to_string(column), std::to_string(row)});
+    }
+  }
+  return table.text();
+}
+
+std::string heat_map_script(const HeatMap& map) { return Script(map).text(); }
+
+PlotOutcome draw(const HeatMap& map, const std::filesystem::path& folder) {
+  return draw_files(map.name, heat_map_data(map), heat_map_script(map), folder);
+}
+
+}  // namespace hookpoint::output

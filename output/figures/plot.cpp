@@ -1,0 +1,120 @@
+#include "output/figures/plot.h"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+#include "output/child.h"
+#include "output/file.h"
+#include "output/text/csv.h"
+#include "output/text/number.h"
+
+namespace hookpoint::output {
+namespace {
+
+/// gnuplot takes `<name` and `|name` for commands.
+bool names_a_file(const std::string& name) {
+  return !name.empty() && name.find_first_of("/<|") == std::string::npos && one_line(name) == name;
+}
+
+void replace_all(std::string& text, const std::string& from, const std::string& to) {
+  for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
+}
+
+void add_rows(CsvTable& table, const std::string& series, const char* kind,
+              const std::vector<double>& x, const std::vector<double>* y) {
+  for (std::size_t i = 0; i < x.size(); ++i)
+    table.rows.push_back({series, kind, shortest(x[i]), y == nullptr ? "" : shortest((*y)[i])});
+}
+
+std::vector<std::string> header_of(const Plot& plot) {
+  return {"series", "kind", column_title(plot.x.label, plot.x.unit),
+          column_title(plot.y.label, plot.y.unit)};
+}
+
+void add_curves(CsvTable& table, const Plot& plot) {
+  for (const Series& series : plot.series) {
+    assert(series.measured.x.size() == series.measured.y.size());
+    assert(series.predicted.x.size() == series.predicted.y.size());
+    const char* line = series.reference ? "reference" : "predicted";
+    add_rows(table, series.label, "measured", series.measured.x, &series.measured.y);
+    add_rows(table, series.label, line, series.predicted.x, &series.predicted.y);
+    add_rows(table, series.label, "unfinished", series.unfinished, nullptr);
+  }
+}
+
+}  // namespace
+
+std::string plot_data(const Plot& plot) {
+  CsvTable table;
+  table.header = header_of(plot);
+  add_curves(table, plot);
+  return table.text();
+}
+
+std::string panel_data(const PanelPlot& plot) {
+  CsvTable table;
+  table.header = header_of(plot.panels.front());
+  table.header.emplace_back("panel");
+  for (const Plot& panel : plot.panels) {
+    const std::size_t first = table.rows.size();
+    add_curves(table, panel);
+    for (std::size_t i = first; i < table.rows.size(); ++i) table.rows[i].push_back(panel.title);
+  }
+  return table.text();
+}
+
+PlotOutcome draw(const Plot& plot, const std::filesystem::path& folder) {
+  return draw_files(plot.name, plot_data(plot), plot_script(plot), folder);
+}
+
+PlotOutcome draw(const PanelPlot& plot, const std::filesystem::path& folder) {
+  return draw_files(plot.name, panel_data(plot), panel_script(plot), folder);
+}
+
+PlotOutcome draw_files(const std::string& name, const std::string& data, const std::string& script,
+                       const std::filesystem::path& folder) {
+  if (!names_a_file(name)) throw FileError("`" + one_line(name) + "` is no name of a figure");
+  write_file(folder / (name + ".csv"), data);
+  write_file(folder / (name + ".gp"), script);
+  const std::filesystem::path svg = folder / (name + ".svg");
+  std::error_code ignored;
+  std::filesystem::remove(svg, ignored);  // an older drawing must not pass for this one
+  const std::optional<ChildResult> run =
+      run_program("gnuplot", {"--default-settings", name + ".gp"}, folder);
+  if (!run)
+    return {.drawn = false,
+            .message = "gnuplot is not installed (Debian: gnuplot-nox), so " + name +
+                       ".svg was not drawn; its data and script are in " + folder.string(),
+            .svg = ""};
+  if (run->status != 0) {
+    std::filesystem::remove(svg, ignored);
+    return {.drawn = false,
+            .message =
+                "gnuplot could not draw " + (folder / (name + ".gp")).string() + ": " + run->output,
+            .svg = ""};
+  }
+  return {.drawn = true, .message = "", .svg = read_file(svg).value_or("")};
+}
+
+std::string inline_svg(const std::string& svg, const std::string& prefix) {
+  std::string text = svg.substr(std::min(svg.find("<svg"), svg.size()));
+  const auto background = text.find("<rect x=\"0\" y=\"0\"");
+  if (background != std::string::npos)
+    text.erase(background, text.find("/>", background) + 2 - background);
+  for (const std::string quote : {"'", "\""}) {
+    replace_all(text, " id=" + quote, " id=" + quote + prefix + "-");
+    replace_all(text, "xlink:href=" + quote + "#", "href=" + quote + "#" + prefix + "-");
+    for (const std::string black : {"black", "rgb(  0,   0,   0)"})
+      replace_all(text, "stroke=" + quote + black + quote,
+                  "stroke=" + quote + "currentColor" + quote);
+    replace_all(text, "fill=" + quote + "black" + quote, "fill=" + quote + "currentColor" + quote);
+    replace_all(text, " color=" + quote + "black" + quote, "");
+    replace_all(text, quote + "rgb(221, 221, 221)" + quote,
+                quote + "rgba(128, 128, 128, 0.3)" + quote);
+  }
+  return text;
+}
+
+}  // namespace hookpoint::output

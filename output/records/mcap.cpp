@@ -1,0 +1,213 @@
+// MCAP: a topic a channel, messages {"value": number} as JSON with a schema that has the unit and
+// the range, in chunks with their indexes. A file that was cut off misses its summary; readers then
+// go through the chunks.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "output/bytes.h"
+#include "output/records/formats.h"
+#include "output/records/mcap_records.h"
+#include "output/text/json.h"
+#include "output/text/number.h"
+
+namespace hookpoint::output {
+namespace {
+
+using mcap::Opcode;
+
+std::string_view json_type(const Channel& channel) {
+  if (channel.type == "bool") return "boolean";
+  return channel.type == "int" ? "integer" : "number";
+}
+
+std::string json_schema(const Channel& channel) {
+  const std::string described = channel.doc + (channel.doc.empty() ? "[" : " [") +
+                                (channel.unit.empty() ? "1" : channel.unit) + "]";
+  JsonWriter json;
+  json.begin_object().member("title", channel.path).member("type", "object");
+  json.member("description", described);
+  json.key("properties").begin_object().key("value").begin_object();
+  json.member("type", json_type(channel));
+  json.member("description", described + "; null when not finite").member("unit", channel.unit);
+  if (std::isfinite(channel.minimum)) json.member("minimum", channel.minimum);
+  if (std::isfinite(channel.maximum)) json.member("maximum", channel.maximum);
+  json.end_object().end_object().end_object();
+  return json.text();
+}
+
+void append_value(std::string& bytes, std::string_view type, double value) {
+  bytes += "{\"value\":";
+  if (!std::isfinite(value)) {
+    bytes += "null";
+  } else if (type == "boolean" && (value == 0. || value == 1.)) {
+    bytes += value == 1. ? "true" : "false";
+  } else {
+    append_shortest(bytes, value);
+  }
+  bytes += '}';
+}
+
+/// The nearest nanosecond; whole seconds apart, so that hours lose no digits.
+std::uint64_t nanoseconds(double time) {
+  const double whole = std::floor(time);
+  return static_cast<std::uint64_t>(whole) * 1'000'000'000U +
+         static_cast<std::uint64_t>(std::llround((time - whole) * 1e9));
+}
+
+/// Bytes of a message record: prefix, channel, sequence, two times, {"value":...} of 24 digits.
+constexpr std::size_t longest_message = mcap::prefix_bytes + 2 + 4 + 8 + 8 + 34;
+constexpr std::size_t chunk_bytes = 1U << 20U;  ///< about; a run that is killed loses no more
+constexpr std::size_t most_rows = 512;          ///< of a chunk
+
+class McapRecord final : public RecordWriter {
+ public:
+  McapRecord(const std::filesystem::path& path, const RecordHeader& header)
+      : RecordWriter(header.channels.size()),
+        file_(path),
+        channels_(static_cast<std::uint16_t>(header.channels.size())) {
+    if (header.channels.size() >= 0xffffU)
+      throw FileError("cannot write " + path.string() + ": MCAP has at most 65534 channels");
+    for (const Channel& channel : header.channels) types_.push_back(json_type(channel));
+    write_start(header);
+    chunk_rows_ =
+        std::clamp<std::size_t>(chunk_bytes / (longest_message * (channels_ + 1U)), 1, most_rows);
+    records_.reserve(chunk_rows_ * channels_ * longest_message);
+    block_.reserve(records_.capacity() + 64 + channels_ * (16 + 16 * chunk_rows_));
+    places_.resize(chunk_rows_ * channels_);
+    times_.resize(chunk_rows_);
+    chunks_.reserve(4096);
+  }
+
+ private:
+  void write_start(const RecordHeader& header) {
+    for (std::uint16_t i = 0; i < channels_; ++i) {
+      const Channel& channel = header.channels[i];
+      const auto id = static_cast<std::uint16_t>(i + 1);
+      mcap::append_schema(definitions_.first, id, channel.path, json_schema(channel));
+      mcap::append_channel(definitions_.second, id, id, channel.path,
+                           {{"unit", channel.unit},
+                            {"type", channel.type},
+                            {"minimum", shortest(channel.minimum)},
+                            {"maximum", shortest(channel.maximum)},
+                            {"doc", channel.doc}});
+    }
+    std::string bytes(mcap::magic);
+    mcap::append_header(bytes, "hookpoint");
+    mcap::TextPairs about{{"name", header.name},
+                          {"period", shortest(header.period)},
+                          {"experiment", header.experiment}};
+    about.insert(about.end(), header.annotations.begin(), header.annotations.end());
+    const std::uint64_t place = bytes.size();
+    mcap::append_metadata(bytes, "record", about);
+    metadata_.push_back({"record", place, bytes.size() - place});
+    write_data(bytes + definitions_.first + definitions_.second);
+  }
+
+  /// Into the data section, over which the CRC runs.
+  void write_data(std::string_view bytes) {
+    file_.write(bytes);
+    data_crc_ = mcap::crc32(bytes, data_crc_);
+  }
+
+  void append(double time, std::span<const double> values) override {
+    times_[waiting_] = nanoseconds(time);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      places_[i * chunk_rows_ + waiting_] = records_.size();
+      const std::size_t record = mcap::begin_record(records_, Opcode::message);
+      append_integer(records_, static_cast<std::uint16_t>(i + 1));
+      append_integer(records_, static_cast<std::uint32_t>(rows_ + waiting_));
+      append_integer(records_, times_[waiting_]);
+      append_integer(records_, times_[waiting_]);
+      append_value(records_, types_[i], values[i]);
+      mcap::end_record(records_, record);
+    }
+    if (++waiting_ == chunk_rows_) write_chunk();
+  }
+
+  /// The chunk that waits, then an index a channel, in one piece.
+  void write_chunk() {
+    if (waiting_ == 0) return;
+    mcap::ChunkPlace place{times_[0], times_[waiting_ - 1], file_.size(),
+                           0,         records_.size(),      waiting_};
+    block_.clear();
+    const std::size_t chunk = mcap::begin_record(block_, Opcode::chunk);
+    append_integer(block_, place.start_time);
+    append_integer(block_, place.end_time);
+    append_integer(block_, std::uint64_t{records_.size()});
+    append_integer(block_, mcap::crc32(records_));
+    append_string(block_, "");  // no compression
+    append_integer(block_, std::uint64_t{records_.size()});
+    block_ += records_;
+    mcap::end_record(block_, chunk);
+    place.length = block_.size();
+    for (std::size_t i = 0; i < channels_; ++i) {
+      const std::size_t index = mcap::begin_record(block_, Opcode::message_index);
+      append_integer(block_, static_cast<std::uint16_t>(i + 1));
+      append_integer(block_, static_cast<std::uint32_t>(16 * waiting_));
+      for (std::size_t row = 0; row < waiting_; ++row) {
+        append_integer(block_, times_[row]);
+        append_integer(block_, places_[i * chunk_rows_ + row]);
+      }
+      mcap::end_record(block_, index);
+    }
+    write_data(block_);
+    chunks_.push_back(place);
+    rows_ += waiting_;
+    waiting_ = 0;
+    records_.clear();
+  }
+
+  void write_ending(bool complete) {
+    std::string closing;
+    mcap::append_metadata(
+        closing, "end",
+        {{"complete", complete ? "true" : "false"}, {"rows", std::to_string(rows_)}});
+    std::vector<mcap::MetadataPlace> metadata = metadata_;
+    metadata.push_back({"end", file_.size(), closing.size()});
+    const mcap::Totals totals{rows_, channels_, static_cast<std::uint32_t>(metadata.size()),
+                              chunks_};
+    file_.write(closing + mcap::ending(file_.size() + closing.size(),
+                                       mcap::crc32(closing, data_crc_), definitions_, totals,
+                                       metadata));
+  }
+  void finish() override {
+    write_chunk();
+    write_ending(true);
+    file_.complete();
+  }
+  Kept keep() override {
+    const Kept kept{file_.partial(), static_cast<std::int64_t>(rows_)};
+    // The chunk that did not fit often leaves room for a summary; readers can do without it.
+    try {
+      write_ending(false);
+    } catch (const FileError&) {
+      return kept;
+    }
+    return kept;
+  }
+
+  PartialFile file_;
+  std::uint16_t channels_;
+  std::vector<std::string_view> types_;
+  std::pair<std::string, std::string> definitions_;  ///< schemas, channels
+  std::vector<mcap::MetadataPlace> metadata_;
+  std::uint32_t data_crc_ = 0;
+  std::size_t chunk_rows_ = 1;
+  std::string records_;                ///< messages that wait for their chunk
+  std::string block_;                  ///< a chunk and its indexes on the way to the disk
+  std::vector<std::uint64_t> places_;  ///< of the messages in `records_`, channel by channel
+  std::vector<std::uint64_t> times_;   ///< of the waiting rows [ns]
+  std::vector<mcap::ChunkPlace> chunks_;
+  std::uint64_t rows_ = 0;  ///< in the file
+  std::size_t waiting_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<RecordWriter> make_mcap_record(const std::filesystem::path& path,
+                                               const RecordHeader& header) {
+  return std::make_unique<McapRecord>(path, header);
+}
+
+}  // namespace hookpoint::output

@@ -1,0 +1,53 @@
+#include "reference/mujoco/library.h"
+
+#include <array>
+#include <cstring>
+#include <mutex>
+
+namespace hookpoint::reference {
+namespace {
+
+/// MuJoCo ends the process if this returns, so it does not. Its frames hold nothing that an
+/// exception would leak: its scratch memory belongs to mjData.
+[[noreturn]] void report(const char* message) { throw MujocoFailure(message); }
+
+/// Warnings are counted in mjData too, and are read from there (mujoco_world.cpp). Left to itself
+/// the library prints them and writes MUJOCO_LOG.TXT into the current folder.
+void ignore(const char*) {}
+
+void prepare_mujoco() {
+  static const bool prepared = [] {
+    mju_user_error = report;
+    mju_user_warning = ignore;
+    return true;
+  }();
+  static_cast<void>(prepared);
+}
+
+}  // namespace
+
+MujocoPointer<mjModel> compile_mujoco(const std::string& mjcf) {
+  static std::mutex mutex;
+  const std::lock_guard<std::mutex> lock(mutex);
+  prepare_mujoco();
+  constexpr const char* name = "model.xml";
+  const auto files = std::make_unique<mjVFS>();  // 2 MB
+  mj_defaultVFS(files.get());
+  mj_makeEmptyFileVFS(files.get(), name, static_cast<int>(mjcf.size()));
+  std::memcpy(files->filedata[0], mjcf.data(), mjcf.size());
+  std::array<char, 1000> message{};
+  MujocoPointer<mjModel> model(
+      mj_loadXML(name, files.get(), message.data(), static_cast<int>(message.size())));
+  mj_deleteVFS(files.get());
+  mj_freeLastXML();
+  if (!model) throw MujocoFailure(message.data());
+  return model;
+}
+
+MujocoPointer<mjData> make_mujoco_data(const mjModel& model) {
+  MujocoPointer<mjData> data(mj_makeData(&model));
+  if (!data) throw MujocoFailure("MuJoCo is out of memory");
+  return data;
+}
+
+}  // namespace hookpoint::reference

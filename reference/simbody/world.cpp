@@ -1,0 +1,222 @@
+#include "reference/simbody/world.h"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "reference/experiment_checks.h"
+#include "reference/extremes.h"
+#include "reference/ground.h"
+#include "reference/robot_tree.h"
+#include "reference/simbody/model.h"
+#include "reference/touching_points.h"
+
+namespace hookpoint::reference {
+namespace {
+
+using simulation::BodyState;
+using simulation::JointState;
+
+simbody::Vec plain(const Vector3d& a) { return {a.x, a.y, a.z}; }
+Vector3d vector(const simbody::Vec& a) { return {a[0], a[1], a[2]}; }
+simbody::Frame frame(const Vector3d& position, const Quaterniond& q) {
+  return {plain(position), {q.w, q.x, q.y, q.z}};
+}
+
+simbody::Body::Mobility mobility(const TreeBody& body) {
+  using enum simbody::Body::Mobility;
+  if (body.link != nullptr) return body.turns() ? turning : sliding;
+  return body.mobile ? free : fixed;
+}
+
+simbody::Body describe(const TreeBody& tree) {
+  const simulation::MassSpec& mass = tree.body->mass;
+  const Symmetric3d& I = mass.inertia;
+  simbody::Body body;
+  body.mobility = mobility(tree);
+  body.parent = tree.parent;
+  body.X_PL0 = tree.link != nullptr ? frame(tree.X_PL0.position, tree.X_PL0.orientation)
+                                    : frame(tree.initial.position, tree.initial.orientation);
+  body.mass = mass.mass;
+  body.center_of_mass = plain(mass.center_of_mass);
+  body.inertia = {I.xx, I.yy, I.zz, I.xy, I.xz, I.yz};
+  body.velocity = plain(tree.initial.velocity);
+  body.angular_velocity = plain(tree.initial.angular_velocity);
+  if (tree.link != nullptr) {
+    body.angle = tree.link->angle;
+    body.rate = tree.link->rate;
+  }
+  return body;
+}
+
+simbody::Surface describe(const TouchingPoint& point, int index) {
+  using Kind = simbody::Surface::Kind;
+  simbody::Surface surface;
+  surface.kind = point.radius == 0. ? Kind::point : Kind::ball;
+  surface.X_BS.position = plain(point.p_BP);
+  surface.radius = point.radius == 0. ? point_ball_radius : point.radius;
+  surface.point = index;
+  return surface;
+}
+
+/// A box or a sphere: others are refused before (describe_simbody).
+simbody::Surface describe(const simulation::ShapeSpec& shape) {
+  simbody::Surface surface;
+  surface.X_BS = frame(shape.location, shape.orientation);
+  if (const auto* sphere = std::get_if<simulation::Sphere>(&shape.geometry)) {
+    surface.kind = simbody::Surface::Kind::ball;
+    surface.radius = sphere->radius;
+  } else {
+    surface.half_lengths = plain(0.5 * std::get<simulation::Box>(shape.geometry).dimensions);
+  }
+  return surface;
+}
+
+simbody::Description describe(const simulation::Experiment& experiment, const RobotTree& tree,
+                              const SimbodySettings& settings) {
+  const auto material = ground_material(experiment);
+  simbody::Description result;
+  result.gravity = plain(experiment.gravity);
+  result.accuracy = settings.accuracy;
+  result.material = {
+      settings.stiffness,        settings.dissipation,         material.static_friction,
+      material.kinetic_friction, settings.transition_velocity, settings.penalty,
+      material.normal_stiffness, material.normal_damping,      material.tangential_damping};
+  if (experiment.terrain) {
+    const auto plane = std::get<GroundPlane>(ground_of(*experiment.terrain));
+    result.ground = {plain(plane.normal), plane.offset, point_ball_radius};
+  }
+  for (const TreeBody& body : tree.bodies) {
+    result.bodies.push_back(describe(body));
+    if (!body.mobile || touches_by_points(experiment, body.robot)) continue;
+    for (const auto& shape : body.body->shapes)
+      result.bodies.back().surfaces.push_back(describe(shape));
+  }
+  const auto points = touching_points(experiment, tree);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    result.bodies[points[i].body].surfaces.push_back(describe(points[i], static_cast<int>(i)));
+  return result;
+}
+
+class SimbodyWorld final : public PeerWorld {
+ public:
+  SimbodyWorld(const simulation::Experiment& experiment, const SimbodySettings& settings)
+      : deltat_(experiment.deltat) {
+    const RobotTree tree = robot_tree(experiment);
+    for (const auto& force : experiment.forces)
+      forced_.push_back(tree.index(force.robot, force.body));
+    for (std::size_t i = 0; i < tree.bodies.size(); ++i) {
+      const TreeBody& body = tree.bodies[i];
+      bodies_.push_back({body.mobile, body.link == nullptr ? -1 : body.joint});
+      if (!moderate(body.initial.velocity) || !moderate(body.initial.angular_velocity))
+        refused_ = i;
+    }
+    on_bodies_.resize(bodies_.size());
+    on_joints_.resize(bodies_.size());
+    if (!refused_) model_.emplace(describe(experiment, tree, settings));
+  }
+
+  std::string advance(const simulation::WorldInputs& inputs) override {
+    if (!take(inputs))
+      return "a force, torque or speed is beyond what Simbody's integrator ends with";
+    try {
+      model_->apply(on_bodies_, on_joints_);
+      model_->step_to(static_cast<double>(++steps_) * deltat_);
+      return {};
+    } catch (const std::exception& error) {
+      lost_ = true;
+      return std::string("Simbody gave up: ") + error.what();
+    }
+  }
+
+  void read(std::span<BodyState> bodies, std::span<JointState> joints) const override {
+    // Where a step was refused, the state that it would have led to.
+    if (refused_) bodies[*refused_].velocity.x = std::numeric_limits<double>::infinity();
+    if (!model_ || lost_) return;
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      bodies[i].contacts = 0;
+      if (!bodies_[i].mobile) continue;
+      bodies[i].contact_force =
+          (1. / deltat_) * vector(model_->ground_impulse(static_cast<int>(i)));
+      const simbody::Motion motion = model_->motion(static_cast<int>(i));
+      const auto& q = motion.frame.orientation;
+      bodies[i].position = vector(motion.frame.position);
+      bodies[i].orientation = {q[0], q[1], q[2], q[3]};
+      if (refused_ != i) bodies[i].velocity = vector(motion.velocity);
+      bodies[i].angular_velocity = vector(motion.angular_velocity);
+      if (bodies_[i].joint < 0) continue;
+      joints[static_cast<std::size_t>(bodies_[i].joint)].angle = motion.angle;
+      joints[static_cast<std::size_t>(bodies_[i].joint)].rate = motion.rate;
+    }
+    for (const simbody::Touch& touch : model_->touches()) {
+      BodyState& state = bodies[static_cast<std::size_t>(touch.body)];
+      if (norm(vector(touch.force)) > 0.) state.contacts += touch.count;
+    }
+  }
+
+  void read_points(std::span<Vector3d> forces) const override {
+    std::ranges::fill(forces, Vector3d{});
+    if (!model_) return;
+    for (const simbody::Touch& touch : model_->touches())
+      if (touch.point >= 0) forces[static_cast<std::size_t>(touch.point)] += vector(touch.force);
+  }
+
+  void read_shapes(std::vector<ShapeForce>& forces) const override {
+    if (!model_) return;
+    for (const simbody::Touch& touch : model_->touches())
+      if (touch.point < 0)
+        forces.push_back(
+            {static_cast<std::size_t>(touch.body), vector(touch.position), vector(touch.force)});
+  }
+  simulation::GroundForceTime force_time() const override {
+    return simulation::GroundForceTime::now;
+  }
+
+ private:
+  struct Body {
+    bool mobile;
+    int joint;  ///< as published; -1: a base
+  };
+
+  /// What acts over the step; false where it is extreme, and `refused_` then says on whom.
+  bool take(const simulation::WorldInputs& inputs) {
+    std::ranges::fill(on_bodies_, simbody::Load{});
+    for (std::size_t i = 0; i < forced_.size() && !refused_; ++i) {
+      const simulation::ForceInput& input = inputs.forces[i];
+      if (!moderate(input.force) || !moderate(input.torque)) refused_ = forced_[i];
+      const auto q = model_->motion(static_cast<int>(forced_[i])).frame.orientation;
+      const Vector3d arm = rotate(Quaterniond{q[0], q[1], q[2], q[3]}, input.point);
+      simbody::Load& load = on_bodies_[forced_[i]];
+      load.force = plain(vector(load.force) + input.force);
+      load.torque = plain(vector(load.torque) + input.torque + cross(arm, input.force));
+    }
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      if (bodies_[i].joint < 0) continue;
+      on_joints_[i] = inputs.joint_torques[static_cast<std::size_t>(bodies_[i].joint)];
+      if (!moderate({on_joints_[i], 0., 0.})) refused_ = i;
+    }
+    return !refused_;
+  }
+
+  double deltat_;
+  std::vector<Body> bodies_;
+  std::vector<std::size_t> forced_;  ///< the body of each force
+  std::vector<simbody::Load> on_bodies_;
+  std::vector<double> on_joints_;  ///< one a body
+  std::optional<std::size_t> refused_;
+  bool lost_ = false;  ///< the integrator gave up, and its state is not to be asked for
+  std::optional<simbody::Model> model_;  ///< none where the experiment starts beyond its range
+  std::int64_t steps_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<PeerWorld> make_simbody_world(const simulation::Experiment& experiment,
+                                              const SimbodySettings& settings) {
+  return std::make_unique<SimbodyWorld>(experiment, settings);
+}
+
+}  // namespace hookpoint::reference

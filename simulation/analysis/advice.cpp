@@ -1,0 +1,236 @@
+#include "simulation/analysis/advice.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "contact/predictions.h"
+#include "dts/impulse_response.h"
+#include "integrators/stability_bound.h"
+#include "integrators/stepper.h"
+#include "simulation/analysis/advice_changes.h"
+#include "simulation/analysis/advice_constants.h"
+#include "simulation/analysis/stability.h"
+#include "simulation/analysis/standing.h"
+#include "simulation/engine.h"
+#include "simulation/engine/dts_robot.h"
+#include "simulation/ground.h"
+
+namespace hookpoint::simulation {
+namespace {
+
+/// Wanted where neither the user nor the material says: a blow leaves a tenth of its speed.
+constexpr double usual_rebound = 0.1;
+/// Below it a damper would have to be endlessly strong.
+constexpr double least_rebound = 0.01;
+
+/// Of the load: what an exponential spring may carry where the ground begins. More, and a robot
+/// stands on what is not there yet.
+constexpr double surface_share = 0.1;
+
+using Aim = ConstantAdvice::Aim;
+
+/// How far above its lowest point a robot that does not touch is taken to stand [m].
+constexpr double standing_reach = 1e-3;
+
+void check_applicable(const Experiment& experiment) {
+  if (experiment.engine != "dts")
+    throw ExperimentError("advice is for the laws of engine dts, not for `" + experiment.engine +
+                          "`: give --set " + experiment.world + ".engine=dts");
+  if (!contact::find_force_law(experiment.contact))
+    throw ExperimentError("the law `" + experiment.contact +
+                          "` has no stiffness and no damping: there is nothing to advise on");
+  if (!experiment.terrain)
+    throw ExperimentError("the World has no terrain: there is no contact to advise on");
+}
+
+std::vector<const ContactPoint*> carrying_points(const DtsRobot& robot) {
+  double deepest = -HUGE_VAL;
+  for (const ContactPoint& point : robot.contact_points()) deepest = std::max(deepest, point.depth);
+  const double least = deepest > 0. ? 0. : deepest - standing_reach;
+  std::vector<const ContactPoint*> carrying;
+  for (const ContactPoint& point : robot.contact_points()) {
+    if (point.depth > least) carrying.push_back(&point);
+  }
+  return carrying;
+}
+
+/// 1/(n . K n), K the collision matrix: what a blow along the normal feels.
+double effective_mass(DtsRobot& robot, const ContactPoint& point) {
+  const Matrix3d K =
+      dts::collision_matrix(robot.model(), robot.workspace(), {point.body, point.position});
+  return 1. / dot(point.normal, K * point.normal);
+}
+
+double wanted_rebound(const AdviceWishes& wishes,
+                      const contact::MaterialConstants<double>& material) {
+  if (wishes.rebound && *wishes.rebound < least_rebound)
+    throw ExperimentError(fmt::format(
+        "a damper takes all speed of a blow only when it is endlessly strong: ask for a rebound of "
+        "{} or more",
+        least_rebound));
+  if (wishes.rebound) return *wishes.rebound;
+  return material.restitution >= least_rebound ? material.restitution : usual_rebound;
+}
+
+/// Sets `field` to `value` among the advised constants.
+void advise_constant(GroundAdvice& ground, const contact::MaterialConstants<double>& present,
+                     ConstantAdvice::Aim aim, const MaterialField& field, double value,
+                     std::string reason) {
+  ground.advised.*field.member = value;
+  ground.constants.push_back(
+      {aim, field.name, field.unit, present.*field.member, value, std::move(reason)});
+}
+
+/// The vertical speed about rest at which a body just leaves what the law reaches, without its
+/// damper: m v^2/2 = W (d + reach) - U(d) [m/s].
+double survival_speed(const contact::ForceLaw& law, const GroundAdvice& ground,
+                      const contact::MaterialConstants<double>& material) {
+  const double depth = contact::static_depth(law, ground.load, material);
+  const double reach =
+      std::visit([&](const auto& chosen) { return double(chosen.reach(material)); }, law);
+  const double energy =
+      ground.load * (depth + reach) - contact::stored_energy(law, depth, {}, material);
+  return std::sqrt(2. * std::max(0., energy) / ground.mass);
+}
+
+/// The constant that sets the depth; of a law that acts above the tile the force there too, where
+/// it is more than `surface_share`. False for a law without one.
+bool advise_depth(GroundAdvice& ground, const contact::ForceLaw& law,
+                  const contact::MaterialConstants<double>& present) {
+  using Constants = contact::MaterialConstants<double>;
+  const auto stiffness = stiffness_field(law, ground.load, present);
+  if (!stiffness) return false;
+  if (stiffness->member == &Constants::nominal_stiffness)
+    ground.advised.nominal_penetration = ground.wanted_depth;
+  ground.advised.*stiffness->member =
+      stiffness_for_depth(law, *stiffness, ground.load, ground.wanted_depth, ground.advised);
+  if (carries_above_ground(law, ground.load, surface_share, ground.advised)) {
+    ground.advised =
+        exponential_for_depth(ground.load, ground.wanted_depth, surface_share, ground.advised);
+    advise_constant(
+        ground, present, Aim::depth, field_named("exponential_force"),
+        ground.advised.exponential_force,
+        fmt::format("the ground carries {:.3g} % of that where it begins", 100. * surface_share));
+  }
+  advise_constant(
+      ground, present, Aim::depth, *stiffness, ground.advised.*stiffness->member,
+      fmt::format("{:.4g} N rest {:.3g} mm deep", ground.load, 1e3 * ground.wanted_depth));
+  return true;
+}
+
+void advise_constants(GroundAdvice& ground, const contact::ForceLaw& law,
+                      const contact::MaterialConstants<double>& present, double speed) {
+  ground.advised = present;
+  if (!advise_depth(ground, law, present)) return;
+  const auto damping = damping_field(law, ground.mass, speed, present);
+  if (damping) {
+    advise_constant(ground, present, Aim::rebound, *damping,
+                    damping_for_rebound(law, *damping, ground.mass, speed, ground.wanted_rebound,
+                                        ground.advised),
+                    fmt::format("{:.4g} kg rebound with {:.3g} of the speed", ground.mass,
+                                ground.wanted_rebound));
+  }
+  if (reads_tangential_stiffness(law, ground.load, present))
+    advise_constant(ground, present, Aim::friction, field_named("tangential_stiffness"),
+                    ground.load / ground.wanted_depth,
+                    "a hook gives as much along the ground as the point sinks");
+  if (damping && reads_tangential_damping(law, ground.load, present)) {
+    const double zeta = contact::kelvin_voigt_damping_ratio(ground.wanted_rebound);
+    const double stiffness = ground.load / ground.wanted_depth;
+    advise_constant(ground, present, Aim::friction, field_named("tangential_damping"),
+                    2. * zeta * std::sqrt(stiffness * ground.mass),
+                    "a hook swings back as a linear spring rebounds");
+  }
+}
+
+/// One a material under the robot's carrying points.
+std::vector<GroundAdvice> advise_robot(const Experiment& experiment, int index,
+                                       const contact::Terrain& terrain, const WorldInputs& inputs,
+                                       const AdviceWishes& wishes) {
+  DtsRobot robot(experiment, index, &terrain, inputs);
+  dts::articulated_inertias(robot.model(), robot.workspace());
+  const std::vector<const ContactPoint*> carrying = carrying_points(robot);
+  const contact::ForceLaw law = *contact::find_force_law(experiment.contact);
+  const double gravity = norm(experiment.gravity);
+  const double mass = mass_of(experiment.robots[index]);
+
+  std::map<int, GroundAdvice> by_material;
+  for (const ContactPoint* point : carrying) {
+    GroundAdvice& ground = by_material[point->material];
+    const double effective = effective_mass(robot, *point);
+    ground.least_mass = ground.points == 0 ? effective : std::min(ground.least_mass, effective);
+    ++ground.points;
+  }
+  std::vector<GroundAdvice> grounds;
+  for (auto& [material, ground] : by_material) {
+    const MaterialSpec& spec = experiment.materials[material];
+    ground.robot = experiment.robots[index].name;
+    ground.material = spec.name;
+    ground.mass = mass / static_cast<double>(carrying.size());
+    ground.load = ground.mass * gravity;
+    ground.depth = contact::static_depth(law, ground.load, spec.constants);
+    ground.rebound = contact::restitution(law, ground.mass, wishes.impact_speed, spec.constants);
+    ground.wanted_depth = wishes.penetration.value_or(spec.constants.nominal_penetration);
+    ground.wanted_rebound = wanted_rebound(wishes, spec.constants);
+    advise_constants(ground, law, spec.constants, wishes.impact_speed);
+    ground.survival_present = survival_speed(law, ground, spec.constants);
+    ground.survival_advised = survival_speed(law, ground, ground.advised);
+    grounds.push_back(std::move(ground));
+  }
+  return grounds;
+}
+
+/// The experiment on the advised ground. Of two robots on one material the stiffer advice counts.
+Experiment advised_experiment(const Experiment& experiment,
+                              const std::vector<GroundAdvice>& grounds) {
+  const contact::ForceLaw law = *contact::find_force_law(experiment.contact);
+  const auto stiffness = [&](const GroundAdvice& ground) {
+    return contact::linearise(law, ground.load, ground.advised).normal_stiffness;
+  };
+  Experiment advised = experiment;
+  for (MaterialSpec& material : advised.materials) {
+    const GroundAdvice* stiffest = nullptr;
+    for (const GroundAdvice& ground : grounds) {
+      if (ground.material == material.name &&
+          (stiffest == nullptr || stiffness(ground) > stiffness(*stiffest)))
+        stiffest = &ground;
+    }
+    if (stiffest != nullptr) material.constants = stiffest->advised;
+  }
+  return advised;
+}
+
+StabilityBound bound_under(Experiment experiment, std::string_view integrator) {
+  experiment.integrator = integrator;
+  return stability_bound(experiment);
+}
+
+}  // namespace
+
+Advice advise(const Experiment& experiment, const AdviceWishes& wishes) {
+  check_applicable(experiment);
+  const auto terrain = make_ground(experiment);
+  const WorldInputs inputs = initial_inputs(experiment);
+  Advice advice;
+  for (std::size_t i = 0; i < experiment.robots.size(); ++i) {
+    for (GroundAdvice& ground :
+         advise_robot(experiment, static_cast<int>(i), *terrain, inputs, wishes))
+      advice.grounds.push_back(std::move(ground));
+  }
+  const Experiment advised = advised_experiment(experiment, advice.grounds);
+  for (const integrators::StepperDescription& stepper : integrators::stepper_table()) {
+    if (!integrators::largest_stable_step(stepper.name, {1., 1., 1.})) continue;
+    StabilityBound present = bound_under(experiment, stepper.name);
+    advice.steps.push_back(
+        {std::string(stepper.name), present.step, bound_under(advised, stepper.name).step});
+    advice.controllers = std::move(present.controllers);
+    advice.left_out = std::move(present.left_out);
+  }
+  advice.changes = advise_changes(experiment, advice);
+  return advice;
+}
+
+}  // namespace hookpoint::simulation

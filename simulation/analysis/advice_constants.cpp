@@ -1,0 +1,117 @@
+#include "simulation/analysis/advice_constants.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <initializer_list>
+#include <stdexcept>
+
+namespace hookpoint::simulation {
+namespace {
+
+using contact::ForceLaw;
+using Constants = contact::MaterialConstants<double>;
+
+/// The first of `names` whose constant changes `prediction` when it grows by a part in a thousand.
+template <class Prediction>
+std::optional<MaterialField> first_that_matters(std::initializer_list<std::string_view> names,
+                                                const Constants& material,
+                                                const Prediction& prediction) {
+  for (const std::string_view name : names) {
+    const MaterialField field = field_named(name);
+    Constants more = material;
+    const double value = material.*field.member;
+    more.*field.member = value > 0. ? 1.001 * value : 1.;
+    if (prediction(more) != prediction(material)) return field;
+  }
+  return std::nullopt;
+}
+
+/// x in [10^low, 10^high] with f(x) = 0 for an f that falls with x; an end where it has no zero.
+/// The zero is bracketed from below: far beyond it a prediction that is integrated may not be had.
+template <class Function>
+double bisect_decades(const Function& f, double low, double high) {
+  if (f(std::pow(10., low)) <= 0.) return std::pow(10., low);
+  while (low < high && f(std::pow(10., low + 1.)) > 0.) low += 1.;
+  if (low >= high) return std::pow(10., high);
+  high = low + 1.;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (f(std::pow(10., middle)) > 0. ? low : high) = middle;
+  }
+  return std::pow(10., 0.5 * (low + high));
+}
+
+}  // namespace
+
+MaterialField field_named(std::string_view name) {
+  for (const MaterialField& field : material_fields()) {
+    if (name == field.name) return field;
+  }
+  throw std::logic_error(fmt::format("a Material has no constant `{}`", name));
+}
+
+std::optional<MaterialField> stiffness_field(const ForceLaw& law, double load,
+                                             const Constants& material) {
+  return first_that_matters(
+      {"nominal_stiffness", "normal_stiffness", "exponential_rate"}, material,
+      [&](const Constants& changed) { return contact::static_depth(law, load, changed); });
+}
+
+std::optional<MaterialField> damping_field(const ForceLaw& law, double mass, double speed,
+                                           const Constants& material) {
+  return first_that_matters(
+      {"normal_damping", "hysteresis_damping"}, material,
+      [&](const Constants& changed) { return contact::restitution(law, mass, speed, changed); });
+}
+
+bool reads_tangential_stiffness(const ForceLaw& law, double load, const Constants& material) {
+  return first_that_matters({"tangential_stiffness"}, material,
+                            [&](const Constants& changed) {
+                              return contact::linearise(law, load, changed).tangential_stiffness;
+                            })
+      .has_value();
+}
+
+bool reads_tangential_damping(const ForceLaw& law, double load, const Constants& material) {
+  return first_that_matters({"tangential_damping"}, material,
+                            [&](const Constants& changed) {
+                              return contact::linearise(law, load, changed).tangential_damping;
+                            })
+      .has_value();
+}
+
+double stiffness_for_depth(const ForceLaw& law, const MaterialField& field, double load,
+                           double depth, Constants material) {
+  return bisect_decades(
+      [&](double stiffness) {
+        material.*field.member = stiffness;
+        return contact::static_depth(law, load, material) - depth;
+      },
+      -6., 18.);
+}
+
+bool carries_above_ground(const ForceLaw& law, double load, double share,
+                          const Constants& material) {
+  return contact::static_depth(law, share * load, material) < 0.;
+}
+
+Constants exponential_for_depth(double load, double depth, double share, Constants material) {
+  // d1 exp(d2 (d + d0)) = W and d1 exp(d2 d0) = s W (docs/advice.md).
+  material.exponential_rate = -std::log(share) / depth;
+  material.exponential_force =
+      share * load * std::exp(-material.exponential_rate * material.exponential_height);
+  return material;
+}
+
+double damping_for_rebound(const ForceLaw& law, const MaterialField& field, double mass,
+                           double speed, double rebound, Constants material) {
+  const auto excess = [&](double damping) {
+    material.*field.member = damping;
+    return contact::restitution(law, mass, speed, material) - rebound;
+  };
+  if (excess(0.) <= 0.) return 0.;
+  return bisect_decades(excess, -12., 18.);
+}
+
+}  // namespace hookpoint::simulation

@@ -1,0 +1,84 @@
+#include "simulation/analysis/automatic_step.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <vector>
+
+#include "contact/force_law.h"
+#include "integrators/stepper.h"
+#include "simulation/analysis/stability.h"
+
+namespace hookpoint::simulation {
+namespace {
+
+/// Of controllers, wires, records and movies [Hz].
+std::vector<double> rates_of(const Experiment& experiment) {
+  std::vector<double> rates;
+  const auto add = [&](const auto& parts) {
+    for (const auto& part : parts) {
+      if (part.rate) rates.push_back(*part.rate);
+    }
+  };
+  add(experiment.components);
+  add(experiment.wires);
+  add(experiment.records);
+  add(experiment.movies);
+  return rates;
+}
+
+bool divides(double step, const std::vector<double>& rates) {
+  return std::ranges::all_of(rates, [&](double rate) {
+    const double steps = 1. / (rate * step);
+    return steps > 0.5 && std::abs(steps - std::round(steps)) < 1e-9 * steps;
+  });
+}
+
+/// The `n`-th of 1, 2, 5, 10, 20 ... [s]; exact as a decimal fraction reads.
+double round_step(int n) {
+  constexpr const char* digits[] = {"1", "2", "5"};
+  const int decade = n >= 0 ? n / 3 : -((2 - n) / 3);
+  const std::string text = fmt::format("{}e{}", digits[n - 3 * decade], decade);
+  double step = 0.;
+  std::from_chars(text.data(), text.data() + text.size(), step);
+  return step;
+}
+
+std::string why_no_bound(const Experiment& experiment) {
+  if (experiment.engine != "dts") return "engine " + experiment.engine + " tells none";
+  const contact::LawDescription* law = contact::find_law(experiment.contact);
+  if (law != nullptr && law->is_impulse_law)
+    return "contact law " + experiment.contact + " advances time from impact to impact";
+  const integrators::StepperDescription* stepper = integrators::find_stepper(experiment.integrator);
+  if (stepper != nullptr && stepper->adaptive())
+    return experiment.integrator + " chooses its own steps, and deltat is how often it tells";
+  return "";
+}
+
+}  // namespace
+
+ChosenStep choose_step(const Experiment& experiment) {
+  std::string why = why_no_bound(experiment);
+  const double bound = why.empty() ? stability_bound(experiment).step : HUGE_VAL;
+  if (why.empty() && !std::isfinite(bound)) why = "nothing in it springs back";
+  if (!why.empty())
+    return {0., bound,
+            "there is no largest stable step to choose it from: " + why + "; give deltat a number"};
+  if (!(bound > 0.))
+    return {0., bound,
+            fmt::format("no step is stable under {}: give deltat a number, and what vibrates some "
+                        "damping",
+                        experiment.integrator)};
+  const std::vector<double> rates = rates_of(experiment);
+  int largest = static_cast<int>(std::ceil(3. * std::log10(safe_part * bound))) + 3;
+  while (round_step(largest) > safe_part * bound) --largest;
+  constexpr int tries = 6;  // two decades
+  for (int n = largest; n > largest - tries; --n) {
+    if (divides(round_step(n), rates)) return {round_step(n), bound, ""};
+  }
+  return {round_step(largest), bound, ""};
+}
+
+}  // namespace hookpoint::simulation

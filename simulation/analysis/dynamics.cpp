@@ -1,0 +1,74 @@
+#include "simulation/analysis/dynamics.h"
+
+#include <cmath>
+
+#include "dts/energy.h"
+#include "simulation/analysis/stability.h"
+#include "simulation/engine/dts_robot.h"
+#include "simulation/ground.h"
+#include "simulation/names.h"
+
+namespace hookpoint::simulation {
+namespace {
+
+std::vector<ChainDynamics> chain_dynamics(const RobotSpec& spec,
+                                          const dts::Workspace<double>& workspace) {
+  std::vector<ChainDynamics> chains;
+  auto acceleration = workspace.joint_accelerations.begin();
+  for (std::size_t c = 0; c < spec.chains.size(); ++c) {
+    const auto end = acceleration + static_cast<std::ptrdiff_t>(spec.chains[c].links.size());
+    const dts::Wrench<double>& hip = workspace.hip_wrenches[c];
+    chains.push_back({spec.chains[c].name, {acceleration, end}, hip.force, hip.moment});
+    acceleration = end;
+  }
+  return chains;
+}
+
+RobotDynamics robot_dynamics(const Experiment& experiment, int index,
+                             const contact::Terrain* ground, const WorldInputs& inputs,
+                             const std::vector<std::string>& body_names) {
+  const RobotSpec& spec = experiment.robots[index];
+  DtsRobot robot(experiment, index, ground, inputs);
+  const dts::Workspace<double>& workspace = robot.workspace();
+
+  RobotDynamics report;
+  report.name = spec.name;
+  report.base_acceleration = workspace.base_acceleration;
+  report.base_angular_acceleration = workspace.base_angular_acceleration;
+  report.chains = chain_dynamics(spec, workspace);
+  report.kinetic_energy = dts::kinetic_energy(robot.model(), workspace);
+  report.potential_energy = dts::potential_energy(robot.model(), experiment.gravity, workspace);
+  report.linear_momentum = dts::linear_momentum(robot.model(), workspace);
+  report.angular_momentum = dts::angular_momentum(robot.model(), workspace);
+  for (const ContactPoint& point : robot.contact_points()) {
+    if (point.depth > 0.)
+      report.contacts.push_back(
+          {body_names[point.body], point.depth, point.position, point.normal, point.force});
+  }
+  return report;
+}
+
+}  // namespace
+
+DynamicsReport evaluate_dynamics(const Experiment& experiment) {
+  DynamicsReport report;
+  report.world = experiment.world;
+  const bool has_forces = contact::find_force_law(experiment.contact).has_value();
+  const auto ground = has_forces ? make_ground(experiment) : std::nullopt;
+  const std::vector<std::string> names = body_trails(experiment);
+  const WorldInputs inputs = initial_inputs(experiment);
+  auto first_body = names.begin();
+  for (std::size_t i = 0; i < experiment.robots.size(); ++i) {
+    std::size_t bodies = 1;
+    for (const ChainSpec& chain : experiment.robots[i].chains) bodies += chain.links.size();
+    const auto end = first_body + static_cast<std::ptrdiff_t>(bodies);
+    report.robots.push_back(robot_dynamics(experiment, static_cast<int>(i),
+                                           ground ? &*ground : nullptr, inputs, {first_body, end}));
+    first_body = end;
+  }
+  const double step = stability_bound(experiment).step;
+  if (std::isfinite(step)) report.largest_stable_step = step;
+  return report;
+}
+
+}  // namespace hookpoint::simulation

@@ -1,0 +1,30 @@
+#include "simulation/analysis/failure.h"
+
+#include <fmt/format.h>
+
+#include "simulation/analysis/stability.h"
+
+namespace hookpoint::simulation {
+
+StepStatus explained(StepStatus status, const Experiment& experiment) {
+  const StabilityBound bound = stability_bound(experiment);
+  if (experiment.deltat <= bound.step) {
+    if (bound.left_out.empty() || status.kind != StepStatus::Kind::not_finite) return status;
+    status.advice = fmt::format(
+        "its accelerations are no longer finite, with a step below the bound {:.4g} s, which "
+        "leaves out what feeds back otherwise: {}; lower its gains or raise its rate",
+        bound.step, first_of(bound.left_out));
+    return status;
+  }
+  status.kind = StepStatus::Kind::step_too_large;
+  const std::string controllers = controller_advice(bound);
+  status.advice = fmt::format(
+      "deltat {:.4g} s is above the largest stable step {:.4g} s of {}: {}", experiment.deltat,
+      bound.step, experiment.integrator,
+      controllers.empty() ? "make the step smaller, the ground softer, or choose another "
+                            "integrator"
+                          : controllers);
+  return status;
+}
+
+}  // namespace hookpoint::simulation

@@ -1,0 +1,13 @@
+// Why a step failed, as far as the stability of the experiment tells.
+#pragma once
+
+#include "simulation/engine.h"
+
+namespace hookpoint::simulation {
+
+/// `status`, with better advice where it is a failure of engine dts: one above the largest stable
+/// step is the step's or its controllers', one below it may be of feedback that the bound leaves
+/// out. Costs a stability_bound.
+StepStatus explained(StepStatus status, const Experiment& experiment);
+
+}  // namespace hookpoint::simulation

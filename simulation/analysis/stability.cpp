@@ -1,0 +1,208 @@
+#include "simulation/analysis/stability.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include "integrators/stepper.h"
+#include "simulation/analysis/loop_stability.h"
+#include "simulation/analysis/standing.h"
+#include "simulation/analysis/vibration.h"
+#include "simulation/engine/dts_robot.h"
+#include "simulation/ground.h"
+
+namespace hookpoint::simulation {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+/// Of the greatest load: a point that carries less only touches.
+constexpr double least_share = 1e-3;
+
+Eigen::Matrix3d along_and_across(const Eigen::Vector3d& n, double along, double across) {
+  const Eigen::Matrix3d projection = n * n.transpose();
+  return along * projection + across * (Eigen::Matrix3d::Identity() - projection);
+}
+
+ContactSpring make_spring(const Experiment& experiment, const contact::ForceLaw& law,
+                          const CarryingPoint& carrying) {
+  const auto& material = constants_of(experiment, carrying.material);
+  contact::LinearContact linear = contact::linearise(law, carrying.load, material);
+  // Without friction nothing sticks.
+  if (material.static_friction == 0.) linear.tangential_stiffness = 0.;
+  if (material.static_friction == 0.) linear.tangential_damping = material.viscous_friction;
+  const Eigen::Vector3d n = eigen(carrying.normal);
+  return {carrying.lever, along_and_across(n, linear.normal_stiffness, linear.tangential_stiffness),
+          along_and_across(n, linear.normal_damping, linear.tangential_damping)};
+}
+
+/// The least speed up to which the step resolves the bristles of the points that carry [m/s].
+double resolved_speed(const Experiment& experiment, const contact::ForceLaw& law,
+                      const Stance& stance) {
+  const integrators::StepperDescription* stepper = integrators::find_stepper(experiment.integrator);
+  double least = infinity, most = 0.;
+  if (stepper == nullptr || stepper->adaptive()) return least;
+  for (const CarryingPoint& point : stance.points) most = std::max(most, point.load);
+  for (const CarryingPoint& point : stance.points) {
+    if (point.load < least_share * most) continue;
+    least = std::min(least, contact::resolved_speed(law, point.load, experiment.deltat,
+                                                    constants_of(experiment, point.material)));
+  }
+  return least;
+}
+
+using Contacts = StabilityBound::Contacts;
+
+struct Springs {
+  std::vector<ContactSpring> contacts;
+  std::vector<SteadyLoad> loads;
+};
+
+StabilityBound bound_of(const Experiment& experiment, const Vibration& vibration,
+                        std::span<const JointLoop> loops, const std::string& name,
+                        Contacts contacts) {
+  if (!vibration.stiffness.allFinite() || !vibration.damping.allFinite())
+    return {infinity, 0., 0., name, contacts};
+  StabilityBound bound{largest_stable_step(experiment.integrator, vibration, loops),
+                       std::max(0., largest_eigenvalue(vibration.stiffness)),
+                       std::max(0., largest_eigenvalue(vibration.damping)), name, contacts};
+  bound.without_controllers =
+      loops.empty() ? bound.step : largest_stable_step(experiment.integrator, vibration);
+  for (const JointLoop& loop : loops) {
+    if (loop.period > 0.) bound.controller_rate = 1. / loop.period;
+    if (bound.controllers.empty() || bound.controllers.back() != loop.controller)
+      bound.controllers.push_back(loop.controller);
+  }
+  return bound;
+}
+
+Springs springs_of(const Experiment& experiment, const contact::ForceLaw& law,
+                   const Stance& stance) {
+  Springs springs{{}, stance.loads};
+  for (const CarryingPoint& point : stance.points)
+    springs.contacts.push_back(make_spring(experiment, law, point));
+  return springs;
+}
+
+/// Whether the law is stiffer or damps more under a greater load.
+bool depends_on_load(const Experiment& experiment, const contact::ForceLaw& law,
+                     const CarryingPoint& point, double load) {
+  const auto& material = constants_of(experiment, point.material);
+  const contact::LinearContact now = contact::linearise(law, point.load, material);
+  const contact::LinearContact then = contact::linearise(law, load, material);
+  return then.normal_stiffness > now.normal_stiffness || then.normal_damping > now.normal_damping ||
+         then.tangential_damping > now.tangential_damping;
+}
+
+/// Where the loads vary, under a law that stiffens with them: each point may carry all alone.
+void add_single_points(const Experiment& experiment, const contact::ForceLaw& law,
+                       std::vector<Stance>& stances) {
+  for (std::size_t i = 0, count = stances.size(); i < count; ++i) {
+    double total = 0.;
+    for (const CarryingPoint& point : stances[i].points) total += point.load;
+    const std::vector<CarryingPoint> points = stances[i].points;
+    for (CarryingPoint alone : points) {
+      if (!depends_on_load(experiment, law, alone, total)) continue;
+      alone.load = total;
+      stances.push_back({{alone}, {}});
+    }
+  }
+}
+
+/// Of a robot that touches nothing, at its initial posture and at the one in which it hangs still.
+StabilityBound free_bound(const Experiment& experiment, std::size_t index,
+                          const WiredControl& control, DtsRobot& robot) {
+  const RobotSpec& spec = experiment.robots[index];
+  const auto at_posture = [&] {
+    const RobotAtRest rest(robot);
+    // What falls freely feels no weight.
+    std::vector<SteadyLoad> loads;
+    if (!spec.mobile) loads = rest.weights(experiment.gravity);
+    return bound_of(experiment, linear_vibration(rest, {}, loads), loops_of(control, index),
+                    spec.name, Contacts::none);
+  };
+  const StabilityBound initial = at_posture();
+  if (!hang(experiment, index, control, robot)) return initial;
+  const StabilityBound hanging = at_posture();
+  return hanging.step < initial.step ? hanging : initial;
+}
+
+StabilityBound robot_bound(const Experiment& experiment, std::size_t index,
+                           const contact::Terrain* ground, const WiredControl& control,
+                           const WorldInputs& inputs) {
+  const contact::ForceLaw law = *contact::find_force_law(experiment.contact);
+  const RobotSpec& spec = experiment.robots[index];
+  DtsRobot robot(experiment, static_cast<int>(index), ground, inputs);
+  const RobotAtRest rest(robot);
+  if (rest.size() == 0 || !rest.is_regular()) return {infinity, 0., 0., spec.name};
+  if (ground == nullptr || robot.contact_points().empty())
+    return free_bound(experiment, index, control, robot);
+  Stances stances = find_stances(experiment, index, rest, control);
+  if (std::ranges::any_of(driven_of(control, index),
+                          [](const DrivenJoint& joint) { return !joint.goal; }))
+    add_single_points(experiment, law, stances.all);
+
+  const Contacts contacts = stances.lands ? Contacts::landing : Contacts::touching;
+  StabilityBound least{infinity, 0., 0., spec.name, contacts};
+  for (const Stance& stance : stances.all) {
+    const Springs springs = springs_of(experiment, law, stance);
+    const double resolved = std::min(least.resolved_speed, resolved_speed(experiment, law, stance));
+    // The contacts alone decide which stance is worst; the loops then join it.
+    const Vibration vibration = linear_vibration(rest, springs.contacts, springs.loads);
+    if (&stance == &stances.all.front() ||
+        largest_stable_step(experiment.integrator, vibration, least.step) < least.step) {
+      least = bound_of(experiment, vibration, loops_of(control, index), spec.name, contacts);
+    }
+    least.resolved_speed = resolved;
+  }
+  least.evaluations = stances.evaluations;
+  return least;
+}
+
+}  // namespace
+
+std::string controller_advice(const StabilityBound& bound) {
+  if (bound.controllers.empty() || !(bound.step < bound.without_controllers)) return "";
+  std::string who = first_of(bound.controllers);
+  if (bound.controller_rate > 0.) who += fmt::format(" (at {:.4g} Hz)", bound.controller_rate);
+  if (bound.step > 0.)
+    return fmt::format(
+        "it is {} that the step is too large for: lower the gains, or make the step "
+        "smaller",
+        who);
+  return fmt::format(
+      "{} is unstable however small the step: its gains are too high for its rate "
+      "and its delay; raise the rate, shorten the delay, or lower the gains",
+      who);
+}
+
+std::string first_of(const std::vector<std::string>& names) {
+  constexpr std::size_t shown = 3;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(shown, names.size()); ++i)
+    text += (i == 0 ? "" : "; ") + names[i];
+  if (names.size() > shown) text += "; and " + std::to_string(names.size() - shown) + " more";
+  return text;
+}
+
+StabilityBound stability_bound(const Experiment& experiment) {
+  StabilityBound least{infinity};
+  if (!contact::find_force_law(experiment.contact) || experiment.engine != "dts") return least;
+  const auto ground = make_ground(experiment);
+  const WiredControl control = wired_control(experiment);
+  const WorldInputs inputs = initial_inputs(experiment);
+  std::int64_t evaluations = 0;
+  for (std::size_t i = 0; i < experiment.robots.size(); ++i) {
+    const StabilityBound bound =
+        robot_bound(experiment, i, ground ? &*ground : nullptr, control, inputs);
+    evaluations += bound.evaluations;
+    if (bound.step < least.step) least = bound;
+  }
+  least.evaluations = evaluations;
+  least.left_out = control.left_out;
+  return least;
+}
+
+}  // namespace hookpoint::simulation

@@ -1,0 +1,292 @@
+#include "simulation/analysis/vibration.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+
+#include "dts/configuration.h"
+#include "dts/external_forces.h"
+#include "dts/forward_dynamics.h"
+#include "integrators/stability_bound.h"
+#include "simulation/analysis/eigen_decompositions.h"
+
+namespace hookpoint::simulation {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+/// Of the fastest: below, an eigenvalue is a motion that nothing resists, and round-off.
+constexpr double least_eigenvalue = 1e-6;
+
+using Workspace = dts::Workspace<double>;
+
+Eigen::Index velocity_size(const DtsRobot& robot) {
+  return static_cast<Eigen::Index>(dts::velocity_count(robot.model()));
+}
+
+/// M^-1 J^T P, the answer to an impulse.
+Eigen::VectorXd to_impulse(const DtsRobot& robot, Workspace& workspace,
+                           const dts::BodyPoint<double>& point, const Vector3d& impulse_W) {
+  Eigen::VectorXd change(velocity_size(robot));
+  dts::velocity_change<double>(robot.model(), workspace, point, impulse_W,
+                               {change.data(), static_cast<std::size_t>(change.size())});
+  return change;
+}
+
+/// To the moment [N m s] that two opposite impulses at the base make.
+Eigen::VectorXd to_moment_on_base(const DtsRobot& robot, Workspace& workspace, const Vector3d& arm,
+                                  const Vector3d& impulse_W) {
+  const Vector3d origin = workspace.bodies[0].p_WB;
+  return to_impulse(robot, workspace, {0, origin + arm}, impulse_W) -
+         to_impulse(robot, workspace, {0, origin}, impulse_W);
+}
+
+Eigen::VectorXd to_joint(const DtsRobot& robot, Workspace& workspace, std::size_t joint) {
+  const dts::Model<double>& model = robot.model();
+  std::vector<double> torques(model.link_count(), 0.);
+  torques[joint] = 1.;
+  dts::forward_dynamics<double>(model, {}, torques, workspace);
+  Eigen::VectorXd change(velocity_size(robot));
+  if (model.mobile())
+    dts::write_base_velocity<double>(workspace.base_angular_acceleration,
+                                     workspace.base_acceleration,
+                                     {change.data(), static_cast<std::size_t>(change.size())});
+  for (std::size_t l = 0; l < model.link_count(); ++l)
+    change[change.size() - static_cast<Eigen::Index>(model.link_count() - l)] =
+        workspace.joint_accelerations[l];
+  return change;
+}
+
+Eigen::MatrixXd inverse_mass_matrix(const DtsRobot& robot, Workspace& workspace) {
+  const Eigen::Index size = velocity_size(robot);
+  const auto links = static_cast<Eigen::Index>(robot.model().link_count());
+  Eigen::MatrixXd inverse(size, size);
+  if (robot.model().mobile()) {
+    const Vector3d x{1., 0., 0.}, y{0., 1., 0.}, z{0., 0., 1.};
+    const dts::BodyPoint<double> origin{0, workspace.bodies[0].p_WB};
+    inverse.col(0) = to_moment_on_base(robot, workspace, y, z);
+    inverse.col(1) = to_moment_on_base(robot, workspace, z, x);
+    inverse.col(2) = to_moment_on_base(robot, workspace, x, y);
+    inverse.col(3) = to_impulse(robot, workspace, origin, x);
+    inverse.col(4) = to_impulse(robot, workspace, origin, y);
+    inverse.col(5) = to_impulse(robot, workspace, origin, z);
+  }
+  for (Eigen::Index joint = 0; joint < links; ++joint)
+    inverse.col(size - links + joint) = to_joint(robot, workspace, static_cast<std::size_t>(joint));
+  return 0.5 * (inverse + inverse.transpose());
+}
+
+/// -d(passive_joint_torque)/d(position), /d(rate) at rest.
+struct JointSpring {
+  double stiffness = 0., damping = 0.;
+};
+
+JointSpring joint_spring(const dts::JointProperties<double>& joint, double position) {
+  JointSpring spring{joint.stiffness + joint.friction / joint.friction_deflection,
+                     joint.damping + joint.friction / joint.friction_speed};
+  if (position < joint.lower_limit || position > joint.upper_limit) {
+    spring.stiffness += joint.limit_stiffness;
+    spring.damping += joint.limit_damping;
+  }
+  return spring;
+}
+
+/// Whether h^2 K + 2 h C has all eigenvalues below 4.
+bool bears(const Vibration& vibration, double h) {
+  const Eigen::Index n = vibration.stiffness.rows();
+  const Eigen::LLT<Eigen::MatrixXd> factors(4. * Eigen::MatrixXd::Identity(n, n) -
+                                            h * h * vibration.stiffness -
+                                            2. * h * vibration.damping);
+  return factors.info() == Eigen::Success;
+}
+
+/// The step h at which h^2 K + 2 h C first has the eigenvalue 4: there a mode turns round in every
+/// step. Exact for symmetric K and C (docs/contact.md).
+double semi_implicit_euler_step(const Vibration& vibration, double least) {
+  if (std::isfinite(least) && bears(vibration, least)) return least;
+  const double k = std::max(0., largest_eigenvalue(vibration.stiffness));
+  const double c = std::max(0., largest_eigenvalue(vibration.damping));
+  if (k == 0. && c == 0.) return infinity;
+  double low = integrators::semi_implicit_euler_bound({k, c, 1.});
+  double high = std::min(2. / std::sqrt(k), 2. / c);
+  for (int i = 0; i < 40 && high - low > 1e-12 * high; ++i) {
+    const double h = 0.5 * (low + high);
+    (bears(vibration, h) ? low : high) = h;
+  }
+  return low;
+}
+
+/// Of an eigenvalue in units of the fastest, times its own size: what rounding adds to it, some
+/// sizes of a matrix whose positions and velocities differ by that size.
+constexpr double eigenvalue_rounding = 1e-14;
+
+/// Of z'' + C z' + K z = 0, for all but motions that nothing resists and those that fall over by
+/// themselves, whose eigenvalue is real and above 0 (K of steady loads may have negative ones).
+std::vector<std::complex<double>> eigenvalues(const Vibration& vibration) {
+  const Eigen::Index n = vibration.stiffness.rows();
+  // Rates in units of the fastest, so that positions and velocities are of one size.
+  const double unit = std::max(std::sqrt(vibration.stiffness.norm()), vibration.damping.norm());
+  Eigen::MatrixXd system(2 * n, 2 * n);
+  system << Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd::Identity(n, n),
+      -vibration.stiffness / (unit * unit), -vibration.damping / unit;
+  const Eigen::VectorXcd all = general_eigenvalues(system);
+  std::vector<std::complex<double>> resisted;
+  for (std::complex<double> value : all) {
+    // No growth, but a swing that nothing damps.
+    if (value.real() > 0. && value.real() * std::abs(value) < eigenvalue_rounding) value.real(0.);
+    const bool falls = value.real() > 0. && std::abs(value.imag()) < 1e-6 * value.real();
+    if (std::abs(value) > least_eigenvalue && !falls) resisted.push_back(unit * value);
+  }
+  return resisted;
+}
+
+}  // namespace
+
+double largest_eigenvalue(const Eigen::MatrixXd& symmetric) {
+  if (symmetric.size() == 0) return 0.;  // a fixed base alone: nothing moves
+  return symmetric_eigenvalues(symmetric).maxCoeff();
+}
+
+Eigen::VectorXd solve_positive(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
+  return Eigen::LLT<Eigen::MatrixXd>(A).solve(b);
+}
+
+RobotAtRest::RobotAtRest(const DtsRobot& robot) : robot_(&robot), workspace_(robot.workspace()) {
+  dts::State<double> still = robot.state();
+  still.base_velocity = still.base_angular_velocity = {};
+  for (double& rate : still.joint_rates) rate = 0.;
+  dts::clear_external_forces(workspace_);
+  dts::forward_kinematics(robot.model(), still, workspace_);
+  dts::articulated_inertias(robot.model(), workspace_);
+  // A force J^T f moves z = R^-1 q by R^T J^T f = R^-1 (M^-1 J^T) f.
+  const Eigen::LLT<Eigen::MatrixXd> factors(inverse_mass_matrix(robot, workspace_));
+  root_ = factors.matrixL();
+  regular_ = factors.info() == Eigen::Success && root_.allFinite();
+  chain_starts_.push_back(0);
+  for (std::size_t body = 1; body < robot.model().body_count(); ++body)
+    chain_starts_.push_back(robot.model().seat_of(body).link == 0 ? body : chain_starts_.back());
+}
+
+Eigen::MatrixXd RobotAtRest::lever(const dts::BodyPoint<double>& point) const {
+  Eigen::MatrixXd moved(size(), 3);
+  moved << to_impulse(*robot_, workspace_, point, {1., 0., 0.}),
+      to_impulse(*robot_, workspace_, point, {0., 1., 0.}),
+      to_impulse(*robot_, workspace_, point, {0., 0., 1.});
+  root_.triangularView<Eigen::Lower>().solveInPlace(moved);
+  return moved;
+}
+
+Eigen::MatrixXd RobotAtRest::joint_levers() const { return root_.bottomRows(robot_links()); }
+
+Eigen::VectorXd RobotAtRest::base_motion(const Vector3d& rotation,
+                                         const Vector3d& translation) const {
+  Eigen::VectorXd q = Eigen::VectorXd::Zero(size());
+  q.head(3) = eigen(rotation);
+  q.segment(3, 3) = eigen(translation);
+  root_.triangularView<Eigen::Lower>().solveInPlace(q);
+  return q;
+}
+
+Vector3d RobotAtRest::base_rotation(const Eigen::VectorXd& z) const {
+  if (!robot_->model().mobile()) return {};
+  const Eigen::Vector3d rotation = root_.topRows(3) * z;
+  return {rotation.x(), rotation.y(), rotation.z()};
+}
+
+Vibration RobotAtRest::joints_alone() const {
+  const Eigen::MatrixXd levers = joint_levers();
+  Vibration vibration{Eigen::MatrixXd::Zero(size(), size()), Eigen::MatrixXd::Zero(size(), size()),
+                      levers};
+  for (Eigen::Index joint = 0; joint < levers.rows(); ++joint) {
+    const auto l = static_cast<std::size_t>(joint);
+    const JointSpring spring =
+        joint_spring(robot_->joints()[l], robot_->state().joint_positions[l]);
+    if (spring.stiffness == 0. && spring.damping == 0.) continue;
+    const Eigen::VectorXd moved = levers.row(joint).transpose();
+    vibration.stiffness += spring.stiffness * moved * moved.transpose();
+    vibration.damping += spring.damping * moved * moved.transpose();
+  }
+  return vibration;
+}
+
+// Where the coordinate i stands before j on the way to the point, turning by i turns all that j
+// does to it: d^2 p/dq_i dq_j = a_i x J_j, a_i the axis of i, 0 for one that slides. Rotations of
+// the base follow one another in no order, and count half in each.
+Eigen::MatrixXd RobotAtRest::stiffness_of(const std::vector<SteadyLoad>& loads) const {
+  Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(size(), size());
+  struct Coordinate {
+    Eigen::Index index;
+    Vector3d axis, lever;
+  };
+  std::vector<Coordinate> way;
+  for (const SteadyLoad& load : loads) {
+    way.clear();
+    if (robot_->model().mobile()) {
+      const Vector3d arm = load.point.p_WP - workspace_.bodies[0].p_WB;
+      Eigen::Index index = 0;
+      for (const Vector3d& axis :
+           {Vector3d{1., 0., 0.}, Vector3d{0., 1., 0.}, Vector3d{0., 0., 1.}})
+        way.push_back({index++, axis, cross(axis, arm)});
+    }
+    const std::size_t turns = way.size();
+    for (std::size_t body = std::max<std::size_t>(1, chain_starts_[load.point.body]);
+         body <= load.point.body; ++body) {
+      const dts::BodyMotion<double>& link = workspace_.bodies[body];
+      const Vector3d z = link.R_WB * Vector3d{0., 0., 1.};
+      const dts::Seat& seat = robot_->model().seat_of(body);
+      const bool slides =
+          robot_->model().groups()[seat.group].links[seat.link].joint == dts::JointType::prismatic;
+      way.push_back({first_joint() + static_cast<Eigen::Index>(body) - 1, slides ? Vector3d{} : z,
+                     slides ? z : cross(z, load.point.p_WP - link.p_WB)});
+    }
+    for (std::size_t i = 0; i < way.size(); ++i) {
+      for (std::size_t j = i; j < way.size(); ++j) {
+        double second = dot(load.force, cross(way[i].axis, way[j].lever));
+        if (j < turns) second = 0.5 * (second + dot(load.force, cross(way[j].axis, way[i].lever)));
+        stiffness(way[i].index, way[j].index) -= second;
+        if (i != j) stiffness(way[j].index, way[i].index) -= second;
+      }
+    }
+  }
+  return root_.transpose() * stiffness * root_;
+}
+
+std::vector<SteadyLoad> RobotAtRest::weights(const Vector3d& gravity) const {
+  std::vector<SteadyLoad> loads;
+  for (std::size_t body = robot_->model().mobile() ? 0 : 1; body < robot_->model().body_count();
+       ++body) {
+    const dts::RigidInertia<double>& inertia = robot_->model().inertia(body);
+    if (inertia.mass == 0.) continue;
+    const dts::BodyMotion<double>& motion = workspace_.bodies[body];
+    const Vector3d center = (1. / inertia.mass) * inertia.mass_moment;
+    loads.push_back({{body, motion.p_WB + motion.R_WB * center}, inertia.mass * gravity});
+  }
+  return loads;
+}
+
+Vibration linear_vibration(const RobotAtRest& rest, const std::vector<ContactSpring>& springs,
+                           const std::vector<SteadyLoad>& loads) {
+  Vibration vibration = rest.joints_alone();
+  for (const ContactSpring& spring : springs) {
+    vibration.stiffness += spring.lever * spring.stiffness * spring.lever.transpose();
+    vibration.damping += spring.lever * spring.damping * spring.lever.transpose();
+  }
+  vibration.stiffness += rest.stiffness_of(loads);
+  return vibration;
+}
+
+double largest_stable_step(std::string_view integrator, const Vibration& vibration, double least) {
+  if (vibration.stiffness.isZero(0.) && vibration.damping.isZero(0.)) return infinity;
+  if (!vibration.stiffness.allFinite() || !vibration.damping.allFinite()) return infinity;
+  if (integrator == "semi_implicit_euler") return semi_implicit_euler_step(vibration, least);
+  const bool rk4 = integrator == "rk4";
+  if (!rk4 && integrator != "explicit_euler") return infinity;
+  double bound = infinity;
+  for (const std::complex<double>& eigenvalue : eigenvalues(vibration))
+    bound = std::min(bound, rk4 ? integrators::rk4_bound(eigenvalue)
+                                : integrators::explicit_euler_bound(eigenvalue));
+  return bound;
+}
+
+}  // namespace hookpoint::simulation

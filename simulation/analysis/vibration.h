@@ -1,0 +1,97 @@
+// A robot that stands, as a linear vibration: its mass matrix, the springs and dampers of its
+// contacts and joints, and the stiffness that steady loads have by themselves (a pendulum's). What
+// the stability bound of an integrator follows from.
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+#include <string_view>
+#include <vector>
+
+#include "dts/impulse_response.h"
+#include "simulation/engine/dts_robot.h"
+
+namespace hookpoint::simulation {
+
+inline Eigen::Vector3d eigen(const Vector3d& v) { return {v.x, v.y, v.z}; }
+
+/// A contact about its load, world axes: force -K x - C v on the point.
+struct ContactSpring {
+  Eigen::MatrixXd lever;               ///< RobotAtRest::lever of the point
+  Eigen::Matrix3d stiffness, damping;  ///< symmetric [N/m, N s/m]
+};
+
+/// A force that keeps its size and direction while its point moves with the body.
+struct SteadyLoad {
+  dts::BodyPoint<double> point;
+  Vector3d force;  ///< world axes [N]
+};
+
+/// z'' + C z' + K z = 0 in coordinates z with the mass matrix 1; both symmetric.
+struct Vibration {
+  Eigen::MatrixXd stiffness;  ///< K [1/s^2]
+  Eigen::MatrixXd damping;    ///< C [1/s]
+  Eigen::MatrixXd joints;     ///< a row a joint: its position over z; a torque moves z by the row
+};
+
+/// A refreshed robot at its present posture, at rest, in coordinates z in which its mass matrix
+/// is 1.
+class RobotAtRest {
+ public:
+  explicit RobotAtRest(const DtsRobot& robot);
+
+  const DtsRobot& robot() const { return *robot_; }
+  Eigen::Index size() const { return root_.rows(); }
+  /// False where a body that moves has no mass: there are no such coordinates.
+  bool is_regular() const { return regular_; }
+
+  /// size() x 3: how a force at the point moves z, world axes; transposed, how the point moves.
+  Eigen::MatrixXd lever(const dts::BodyPoint<double>& point) const;
+  /// How torques of joints move z, a row a joint; transposed, how joints move.
+  Eigen::MatrixXd joint_levers() const;
+  /// z of a motion of the base [rad, m], joints still. Of a mobile base.
+  Eigen::VectorXd base_motion(const Vector3d& rotation, const Vector3d& translation) const;
+  /// The rotation of the base in z [rad]; 0 of a fixed one.
+  Vector3d base_rotation(const Eigen::VectorXd& z) const;
+
+  /// What the joints do by themselves: spring, damper, dry friction that sticks, a stop that is
+  /// reached.
+  Vibration joints_alone() const;
+  /// -d(J^T f)/dz of loads that stay as they are while their points move: of gravity a pendulum's
+  /// m g l. Exact where the loads are in equilibrium with all else.
+  Eigen::MatrixXd stiffness_of(const std::vector<SteadyLoad>& loads) const;
+  /// The weights of all bodies, in a gravity of that direction and size [m/s^2].
+  std::vector<SteadyLoad> weights(const Vector3d& gravity) const;
+
+ private:
+  Eigen::Index first_joint() const { return size() - robot_links(); }
+  Eigen::Index robot_links() const {
+    return static_cast<Eigen::Index>(robot_->model().link_count());
+  }
+
+  const DtsRobot* robot_;
+  mutable dts::Workspace<double> workspace_;  ///< articulated inertias, and what a response needs
+  Eigen::MatrixXd root_;                      ///< R of M^-1 = R R^T, z = R^-1 q
+  bool regular_ = true;
+  std::vector<std::size_t> chain_starts_;  ///< of each body, the first body of its chain
+};
+
+/// Of a symmetric matrix; 0 of one without rows.
+double largest_eigenvalue(const Eigen::MatrixXd& symmetric);
+
+/// x of A x = b for a symmetric positive definite A.
+Eigen::VectorXd solve_positive(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
+
+/// The robot on its contacts `springs` under `loads`. Wired controllers are not in it
+/// (loop_stability.h). O((springs + links) links^2).
+Vibration linear_vibration(const RobotAtRest& rest, const std::vector<ContactSpring>& springs,
+                           const std::vector<SteadyLoad>& loads);
+
+/// The largest step with which the integrator of that name lets no mode of the vibration grow [s];
+/// infinity for a vibration without forces and for an adaptive integrator. Motions that nothing
+/// resists and those that fall over by themselves do not count. Of a bound that is not below
+/// `least` only that is said: it may be any number that is not below.
+double largest_stable_step(std::string_view integrator, const Vibration& vibration,
+                           double least = std::numeric_limits<double>::infinity());
+
+}  // namespace hookpoint::simulation

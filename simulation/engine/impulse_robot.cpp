@@ -1,0 +1,256 @@
+#include "simulation/engine/impulse_robot.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "contact/impulse/gap_cubic.h"
+#include "contact/impulse/landing_time.h"
+#include "simulation/kinematics.h"
+
+namespace hookpoint::simulation {
+namespace {
+
+using contact::AdvanceStatus;
+
+constexpr double kDeepestStart = 1e-9;  // what rounding of a pose between steps may cost [m]
+// Share of the robot's speeds that is no approach: what rounding leaves of a point that was
+// stopped, or that nothing can move along its normal.
+constexpr double kRounding = 1e-11;
+constexpr int kInterpolations = 6;  // trials by interpolation before halving
+constexpr int kMostTrials = 60;
+constexpr int kMostFlightsPerImpact = 10;
+
+// The time in which something that moves at `speed` and gains `acceleration` covers `way`.
+double time_to_cover(double way, double speed, double acceleration) {
+  return 2. * way / std::max(speed + std::sqrt(speed * speed + 2. * acceleration * way), 1e-300);
+}
+
+}  // namespace
+
+ImpulseRobot::ImpulseRobot(const Experiment& experiment, std::size_t index, contact::ImpulseLaw law,
+                           bool has_ground, const WorldInputs& inputs,
+                           const contact::ImpulseOptions& options)
+    : experiment_(experiment),
+      options_(options),
+      robot_(experiment, static_cast<int>(index), nullptr, inputs),
+      flight_(robot_),
+      points_(has_ground ? boundary_points(experiment.robots[index]) : std::vector<Point>{}),
+      resolution_(points_.size(), law, options),
+      change_(robot_.velocity_size()),
+      q_before_(robot_.position_size()),
+      v_before_(robot_.velocity_size()),
+      impulses_(robot_.model().body_count()),
+      impulses_before_(impulses_),
+      contacts_(robot_.model().body_count()),
+      contacts_before_(contacts_) {
+  if (law != contact::ImpulseLaw::impulse_reversal) return;
+  const std::size_t most = std::min(points_.size(), kMostTogether);
+  couplings_.resize(most * most);
+  velocities_.resize(most);
+  work_.resize(most);
+}
+
+std::vector<ImpulseRobot::Point> ImpulseRobot::boundary_points(const RobotSpec& robot) {
+  std::vector<Point> points;
+  const std::vector<const BodySpec*> bodies = bodies_of(robot);
+  // A fixed base cannot be moved by the ground.
+  for (std::size_t body = robot.mobile ? 0 : 1; body < bodies.size(); ++body) {
+    for (std::size_t i = 0; i < bodies[body]->boundary_points.size(); ++i) {
+      Point& point = points.emplace_back();
+      point.body = body;
+      point.p_BP = bodies[body]->boundary_points[i];
+      point.radius = bodies[body]->boundary_radius(i);
+    }
+  }
+  return points;
+}
+
+void ImpulseRobot::locate(const contact::GroundQuery& ground) {
+  inertias_ready_ = false;
+  const auto& bodies = robot_.workspace().bodies;
+  for (Point& point : points_) {
+    const dts::BodyMotion<double>& body = bodies[point.body];
+    point.center = body.R_WB * point.p_BP;
+    point.ground = ground(body.p_WB + point.center);
+    point.ground.gap -= point.radius;
+    point.arm = point.center - point.radius * point.ground.normal;
+  }
+}
+
+double ImpulseRobot::lowest_gap() const {
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const Point& point : points_) lowest = std::min(lowest, point.ground.gap);
+  return lowest;
+}
+
+double ImpulseRobot::greatest_speed() const {
+  double fastest = 0.;
+  for (const Point& point : points_) {
+    const dts::BodyMotion<double>& body = robot_.workspace().bodies[point.body];
+    fastest = std::max(fastest, norm(body.v_WB) + norm(body.w_WB) * norm(point.arm));
+  }
+  return fastest;
+}
+
+// No body turns by more than `largest_turn` or goes farther than `largest_travel`, as far as the
+// accelerations at the start tell.
+double ImpulseRobot::longest_flight(double left) const {
+  const auto& bodies = robot_.workspace().bodies;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const dts::Motion<double>& a = flight_.body_accelerations()[i];
+    left =
+        std::min({left, time_to_cover(options_.largest_turn, norm(bodies[i].w_WB), norm(a.angular)),
+                  time_to_cover(options_.largest_travel, norm(bodies[i].v_WB), norm(a.linear))});
+  }
+  return left;
+}
+
+// When the first point lands, at most `longest`, by the quadratic of its gap; remembers where the
+// points start.
+double ImpulseRobot::safe_time(double longest) {
+  double safe = longest;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    Point& point = points_[i];
+    const Vector3d& n = point.ground.normal;
+    point.start_gap = point.ground.gap;
+    point.start_rate = dot(n, velocity(i));
+    const double acceleration = dot(n, flight_acceleration(i));
+    safe = std::min(safe, contact::landing_time(point.start_gap, point.start_rate, acceleration,
+                                                0.5 * options_.tolerance));
+  }
+  return safe;
+}
+
+// The first landing of a point that has come below `floor` in the flight of `duration`; `duration`
+// if none has.
+double ImpulseRobot::landing(double duration, double floor) const {
+  double first = duration;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const Point& point = points_[i];
+    const double rate = dot(point.ground.normal, velocity(i));
+    const bool dips = point.start_rate < 0. && rate > 0.;
+    if (point.ground.gap >= floor && !dips) continue;
+    const contact::GapCubic gap({point.start_gap, point.start_rate}, {point.ground.gap, rate},
+                                duration);
+    first = std::min(first, gap.landing(floor));
+  }
+  return first;
+}
+
+// One flight of at most `longest`, ended at the first impact. What the quadratic promises is tried,
+// and believed only if no point is below the ground at its end and none has been on its way;
+// otherwise the landing between is interpolated, and if that does not converge (another tile came
+// under a point) the flight is halved.
+AdvanceStatus ImpulseRobot::fly_above(const contact::GroundQuery& ground, double longest,
+                                      double* duration) {
+  const double floor = std::min(0., lowest_gap()) - options_.tolerance;
+  *duration = safe_time(longest);
+  for (int trial = 0; trial < kMostTrials; ++trial) {
+    if (flight_.fly(*duration) != integrators::Status::ok) return AdvanceStatus::not_finite;
+    locate(ground);
+    const double first = landing(*duration, floor);
+    if (first >= *duration) {
+      // A landing that the interpolation cannot place is one all the same.
+      if (lowest_gap() >= floor) return AdvanceStatus::ok;
+      *duration *= 0.5;
+    } else {
+      *duration = trial < kInterpolations && first > 0. ? first : 0.5 * *duration;
+    }
+  }
+  flight_.go_back();
+  locate(ground);
+  *duration = 0.;
+  return lowest_gap() < -kDeepestStart ? AdvanceStatus::inside_ground : AdvanceStatus::ok;
+}
+
+AdvanceStatus ImpulseRobot::run(const contact::GroundQuery& ground, contact::ImpulseTally& tally) {
+  locate(ground);
+  if (lowest_gap() < -kDeepestStart) return AdvanceStatus::inside_ground;
+  double left = experiment_.deltat;
+  const std::int64_t most_flights =
+      kMostFlightsPerImpact * static_cast<std::int64_t>(options_.most_impacts);
+  for (std::int64_t flights = 0; left > 0.; ++flights) {
+    if (flights > most_flights) return AdvanceStatus::too_many_impacts;
+    rounding_ = kRounding * greatest_speed();
+    const AdvanceStatus collided = resolution_.resolve(*this, tally);
+    if (collided != AdvanceStatus::ok) return collided;
+    if (flight_.begin() != integrators::Status::ok) return AdvanceStatus::not_finite;
+    double duration = 0.;
+    const AdvanceStatus flown = fly_above(ground, longest_flight(left), &duration);
+    if (flown != AdvanceStatus::ok) return flown;
+    left -= duration;
+  }
+  tally.deepest = std::max(tally.deepest, -lowest_gap());
+  return AdvanceStatus::ok;
+}
+
+contact::ImpulseTally ImpulseRobot::advance(const contact::GroundQuery& ground) {
+  contact::ImpulseTally tally;
+  flight_.read();
+  std::copy(flight_.positions().begin(), flight_.positions().end(), q_before_.begin());
+  std::copy(flight_.velocities().begin(), flight_.velocities().end(), v_before_.begin());
+  robot_.keep_anchors();
+  robot_.refresh();  // under the present inputs
+  impulses_before_.swap(impulses_);
+  contacts_before_.swap(contacts_);
+  std::fill(impulses_.begin(), impulses_.end(), Vector3d{});
+  std::fill(contacts_.begin(), contacts_.end(), 0);
+  resolution_.begin_step();
+  tally.status = run(ground, tally);
+  if (tally.status != AdvanceStatus::ok) {
+    undo();
+    return tally;
+  }
+  tally.contacts = resolution_.contacts();
+  for (std::size_t i = 0; i < points_.size(); ++i) contacts_[points_[i].body] += resolution_.hit(i);
+  return tally;
+}
+
+void ImpulseRobot::undo() {
+  robot_.undo_anchors();
+  flight_.go_to(q_before_, v_before_);
+  impulses_ = impulses_before_;
+  contacts_ = contacts_before_;
+}
+
+void ImpulseRobot::publish(std::span<BodyState> bodies, std::span<JointState> joints) const {
+  robot_.publish(bodies, joints);
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    bodies[i].contact_force = (1. / experiment_.deltat) * impulses_[i];
+    bodies[i].contacts = contacts_[i];
+  }
+}
+
+template <class Self, class Archive>
+void ImpulseRobot::exchange(Self& self, Archive& archive) {
+  for (auto& impulse : self.impulses_) archive(impulse);
+  for (auto& contacts : self.contacts_) archive(contacts);
+}
+
+std::size_t ImpulseRobot::state_size() const {
+  StateCount count;
+  exchange(*this, count);
+  return robot_.state_size() + count.count();
+}
+
+std::string ImpulseRobot::state_layout() const {
+  return fmt::format("{} impulse[{}][3] contacts[{}]", robot_.state_layout(), body_count(),
+                     body_count());
+}
+
+void ImpulseRobot::save(std::span<double> numbers, std::span<const BodyState> bodies) const {
+  robot_.save(numbers.first(robot_.state_size()), bodies);
+  StateSaver saver(numbers.subspan(robot_.state_size()));
+  exchange(*this, saver);
+}
+
+void ImpulseRobot::restore(std::span<const double> numbers, std::span<BodyState> bodies) {
+  robot_.restore(numbers.first(robot_.state_size()), bodies);
+  StateRestorer restorer(numbers.subspan(robot_.state_size()));
+  exchange(*this, restorer);
+}
+
+}  // namespace hookpoint::simulation

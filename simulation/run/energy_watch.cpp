@@ -1,0 +1,117 @@
+#include "simulation/run/energy_watch.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "dts/joint_forces.h"
+#include "simulation/joint_properties.h"
+
+namespace hookpoint::simulation {
+namespace {
+
+constexpr std::int64_t windows = 20, samples_a_window = 64;
+/// Of the kinetic energy: by so much the maxima of a bounded vibration differ.
+constexpr double wavering = 0.05;
+/// Of the energies summed: what rounding leaves.
+constexpr double rounding = 1e-9;
+
+double spring_energy(const dts::JointProperties<double>& joint, double position, double torque) {
+  const double below = std::max(0., joint.lower_limit - position);
+  const double above = std::max(0., position - joint.upper_limit);
+  const double stretch = position - joint.rest_position;
+  return 0.5 * (joint.stiffness * stretch * stretch +
+                joint.limit_stiffness * (below * below + above * above)) -
+         torque * position;
+}
+
+}  // namespace
+
+bool is_passive(const Experiment& experiment) {
+  for (const ForceSpec& force : experiment.forces) {
+    if (force.window || !(force.torque == Vector3d{})) return false;
+  }
+  return std::ranges::none_of(experiment.wires, [&](const WireSpec& wire) {
+    return wire.to.starts_with(experiment.world + ".");
+  });
+}
+
+EnergyWatch::EnergyWatch(const Experiment& experiment, const World& world, std::int64_t last)
+    : experiment_(experiment), world_(world) {
+  const std::int64_t steps = last - world.state().step;
+  if (!is_passive(experiment) || !world.ground_energy() || steps < 10 * windows) return;
+  stride_ = std::max<std::int64_t>(1, steps / (windows * samples_a_window));
+  samples_.reserve(static_cast<std::size_t>(steps / stride_ + 2));
+  std::size_t bodies = 0;
+  for (const RobotSpec& robot : experiment.robots) {
+    first_bodies_.push_back(bodies++);
+    for (const ChainSpec& chain : robot.chains) {
+      bodies += chain.links.size();
+      for (const LinkSpec& link : chain.links)
+        most_in_friction_ += 0.5 * link.friction * link.friction_deflection;
+    }
+  }
+}
+
+void EnergyWatch::sample() {
+  const WorldState& state = world_.state();
+  Sample now{state.time, 0., world_.ground_energy().value_or(0.)};
+  auto body = state.bodies.begin();
+  auto joint = state.joints.begin();
+  const auto add = [&](const MassSpec& mass, const BodyState& motion) {
+    const Vector3d arm = rotate(motion.orientation, mass.center_of_mass);
+    const Vector3d velocity = motion.velocity + cross(motion.angular_velocity, arm);
+    const Vector3d w = rotate(conjugate(motion.orientation), motion.angular_velocity);
+    now.kinetic += 0.5 * (mass.mass * dot(velocity, velocity) + dot(w, mass.inertia * w));
+    now.energy -= mass.mass * dot(experiment_.gravity, motion.position + arm);
+  };
+  for (const RobotSpec& robot : experiment_.robots) {
+    if (robot.mobile) add(robot.base.mass, *body);
+    ++body;
+    for (const ChainSpec& chain : robot.chains) {
+      for (const LinkSpec& link : chain.links) {
+        add(link.body.mass, *body++);
+        now.energy += spring_energy(joint_properties(link), (joint++)->angle, link.torque);
+      }
+    }
+  }
+  for (const ForceSpec& force : experiment_.forces) {
+    const std::size_t first = first_bodies_[static_cast<std::size_t>(force.robot)];
+    const BodyState& pushed = state.bodies[first + static_cast<std::size_t>(force.body)];
+    now.energy -= dot(force.force, pushed.position + rotate(pushed.orientation, force.point));
+  }
+  now.energy += now.kinetic;
+  samples_.push_back(now);
+}
+
+std::string EnergyWatch::finding() const {
+  const auto count = static_cast<std::int64_t>(samples_.size()) / windows;
+  if (count == 0) return "";
+  struct Window {
+    double end = 0., energy = -HUGE_VAL, kinetic = 0.;
+  };
+  std::vector<Window> all(windows);
+  double scale = 0.;
+  for (std::int64_t i = 0; i < windows * count; ++i) {
+    const Sample& sample = samples_[static_cast<std::size_t>(i)];
+    Window& window = all[static_cast<std::size_t>(i / count)];
+    window.end = sample.time;
+    window.energy = std::max(window.energy, sample.energy);
+    window.kinetic = std::max(window.kinetic, sample.kinetic);
+    scale = std::max(scale, std::abs(sample.energy) + sample.kinetic);
+  }
+  const auto least = std::ranges::min_element(all, {}, &Window::energy);
+  const auto most = std::ranges::max_element(least, all.end(), {}, &Window::energy);
+  double kinetic = 0.;
+  for (auto window = least; window != all.end(); ++window)
+    kinetic = std::max(kinetic, window->kinetic);
+  const double rise = most->energy - least->energy;
+  if (!(rise > wavering * kinetic + rounding * scale + most_in_friction_)) return "";
+  return fmt::format(
+      "{} by {:.3g} J between {:.4g} and {:.4g} s: deltat {:.4g} s is too large for how it moves; "
+      "halve it, soften the ground, or choose another integrator",
+      energy_finding, rise, least->end, most->end, experiment_.deltat);
+}
+
+}  // namespace hookpoint::simulation

@@ -1,0 +1,88 @@
+#include "simulation/run/records.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+
+namespace hookpoint::simulation {
+namespace {
+
+output::RecordHeader header_of(const RecordSpec& spec, const Experiment& experiment,
+                               const RunText& text) {
+  output::RecordHeader header;
+  header.name = spec.name;
+  header.channels = spec.channels;
+  header.annotations = run_annotations(experiment, text.hash);
+  header.experiment = text.text;
+  return header;
+}
+
+}  // namespace
+
+control::Schedule row_schedule(const std::optional<double>& rate, double deltat) {
+  std::optional<control::Rational> exact;
+  if (rate) exact = control::Rational::from(*rate);
+  return {exact, control::Rational::from(deltat)};
+}
+
+std::vector<std::pair<std::string, std::string>> run_annotations(const Experiment& experiment,
+                                                                 const std::string& hash) {
+  return {{"hash", hash},
+          {"hookpoint", HOOKPOINT_VERSION},
+          {"world", experiment.world},
+          {"engine", experiment.engine},
+          {"contact", experiment.contact},
+          {"integrator", experiment.integrator},
+          {"deltat", fmt::format("{}", experiment.deltat)},
+          {"seed", fmt::format("{}", experiment.seed)}};
+}
+
+Records::Records(const Experiment& experiment, const std::vector<Port>& ports,
+                 const std::filesystem::path& folder, const RunText& text,
+                 std::int64_t first_step) {
+  for (const RecordSpec& spec : experiment.records) {
+    Record record{row_schedule(spec.rate, experiment.deltat), {}, {}, {}, nullptr};
+    output::RecordHeader header = header_of(spec, experiment, text);
+    for (std::int64_t step = 0; step < first_step; ++step) record.schedule.due(step);
+    header.period = record.schedule.period();
+    for (output::Channel& channel : header.channels) {
+      const Port port = find_port(experiment, ports, channel.path);
+      if (channel.unit.empty()) channel.unit = port.unit;
+      record.sources.push_back(port.value);
+      record.trails.push_back(port.trail);
+    }
+    record.values.resize(record.sources.size());
+    record.writer = output::make_record_writer(spec.format, folder / spec.file, header);
+    records_.push_back(std::move(record));
+  }
+}
+
+void Records::row(std::int64_t step, double time) {
+  std::optional<output::FileError> refused;
+  for (Record& record : records_) {
+    if (!record.schedule.due(step)) continue;
+    for (std::size_t i = 0; i < record.sources.size(); ++i) record.values[i] = *record.sources[i];
+    try {
+      record.writer->row(time, record.values);
+    } catch (const output::FileError& error) {
+      if (!refused) refused = error;
+    }
+  }
+  if (refused) throw *refused;
+}
+
+const std::string& Records::first_not_finite() const {
+  static const std::string none;
+  for (const Record& record : records_) {
+    for (std::size_t i = 0; i < record.sources.size(); ++i)
+      if (!std::isfinite(*record.sources[i])) return record.trails[i];
+  }
+  return none;
+}
+
+void Records::close() {
+  for (Record& record : records_) record.writer->close();
+}
+
+}  // namespace hookpoint::simulation

@@ -1,0 +1,124 @@
+#include "simulation/run/rewind.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <sstream>
+
+#include "output/text/number.h"
+#include "simulation/run/movies.h"
+
+namespace hookpoint::simulation {
+namespace {
+
+using output::MovieError;
+
+/// What stands in the one text first and not in the other.
+std::string first_difference(const std::string& movie, const std::string& here) {
+  std::istringstream ours(here), theirs(movie);
+  for (std::string a, b;;) {
+    const bool more_ours = static_cast<bool>(std::getline(ours, a));
+    const bool more_theirs = static_cast<bool>(std::getline(theirs, b));
+    if (!more_ours && !more_theirs) return "nothing";
+    if (!more_theirs) return fmt::format("the movie lacks `{}`", a);
+    if (!more_ours) return fmt::format("here is no `{}`", b);
+    if (a != b) return fmt::format("the movie has `{}`, here is `{}`", b, a);
+  }
+}
+
+std::string version_of(const output::MovieHeader& header) {
+  for (const auto& [key, value] : header.annotations) {
+    if (key == "hookpoint") return value;
+  }
+  return "?";
+}
+
+}  // namespace
+
+Rewind::Rewind(const Experiment& experiment, const output::MovieReader& movie, World& world)
+    : experiment_(experiment), movie_(movie), world_(world), sections_(world.state_layout()) {
+  const std::string here = layout_text(sections_);
+  if (movie.header().layout != here || movie.header().size != world.state_size())
+    throw MovieError(fmt::format(
+        "the movie's numbers are not those of this program (hookpoint {}; the movie is of {}): {}",
+        HOOKPOINT_VERSION, version_of(movie.header()),
+        first_difference(movie.header().layout, here)));
+  if (movie.times().empty()) throw MovieError("the movie has no instant");
+  for (const double time : movie.times())
+    steps_.push_back(static_cast<std::int64_t>(std::llround(time / experiment.deltat)));
+  recorded_.resize(movie.header().size);
+  computed_.resize(movie.header().size);
+}
+
+std::int64_t Rewind::first() const { return steps_.front() == 0 ? 0 : steps_.front() + 1; }
+
+std::string Rewind::time_text(std::int64_t step) const {
+  return output::shortest(static_cast<double>(step) * experiment_.deltat);
+}
+
+std::int64_t Rewind::step_at(double time) const {
+  constexpr double tolerance = 1e-6;  // of a step: what rounding leaves of a decimal number
+  const double steps = time / experiment_.deltat;
+  if (!(steps > static_cast<double>(first()) - 0.5 && steps < static_cast<double>(last()) + 0.5))
+    throw MovieError(fmt::format("there is no moment {} s in the movie: it goes from {} s to {} s",
+                                 output::shortest(time), time_text(first()), time_text(last())));
+  const auto step = static_cast<std::int64_t>(std::llround(steps));
+  if (std::abs(steps - static_cast<double>(step)) > tolerance)
+    throw MovieError(
+        fmt::format("there is no step at {} s: steps are {} s long, the nearest is at "
+                    "{} s",
+                    output::shortest(time), output::shortest(experiment_.deltat), time_text(step)));
+  return step;
+}
+
+void Rewind::approach(std::int64_t step) {
+  const auto at = std::ranges::lower_bound(steps_, step);
+  const auto after = static_cast<std::size_t>(at - steps_.begin());
+  if (after == 0) return compare(0);
+  put(after - 1);
+  run_to(steps_[after]);
+  compare(after);
+  put(after - 1);
+}
+
+void Rewind::arrive(std::int64_t step) { run_to(step); }
+
+void Rewind::put(std::size_t instant) {
+  movie_.read(instant, recorded_);
+  world_.restore(recorded_);
+}
+
+void Rewind::run_to(std::int64_t step) {
+  while (world_.state().step < step) {
+    const std::int64_t before = world_.state().step;
+    const StepStatus status = world_.step();
+    if (!status.ok() || world_.state().step == before)
+      throw MovieError(
+          fmt::format("the run cannot be repeated: no step leads on from {} s", time_text(before)));
+  }
+}
+
+/// Bits, not values: -0 is not 0, and what is not a number equals itself.
+void Rewind::compare(std::size_t instant) {
+  movie_.read(instant, recorded_);
+  world_.save(computed_);
+  const auto same = [](double a, double b) {
+    return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+  };
+  const auto differs = std::ranges::mismatch(recorded_, computed_, same).in1;
+  if (differs == recorded_.end()) return;
+  auto index = static_cast<std::size_t>(differs - recorded_.begin());
+  auto section = sections_.begin();
+  for (; index >= section->size; ++section) index -= section->size;
+  throw MovieError(fmt::format(
+      "the run does not repeat: at {} s number {} of `{}` is {} in the movie and {} here. The "
+      "movie is of hookpoint {}, this is {}; another build, another machine or a changed plugin "
+      "computes other last digits",
+      time_text(steps_[instant]), index, section->name, output::seventeen_digits(*differs),
+      output::seventeen_digits(computed_[static_cast<std::size_t>(differs - recorded_.begin())]),
+      version_of(movie_.header()), HOOKPOINT_VERSION));
+}
+
+}  // namespace hookpoint::simulation

@@ -1,0 +1,48 @@
+// Back to a moment of a movie: the world is put to the instant before it and steps there, so that
+// everything is as the run had it, what only a step computes included.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "output/movies/movie.h"
+#include "simulation/run/world.h"
+
+namespace hookpoint::simulation {
+
+class Rewind {
+ public:
+  /// `world`: of the movie's experiment, at time 0. Both outlive it. Throws output::MovieError when
+  /// the world's numbers are not those of the movie, ExperimentError for an engine that cannot be
+  /// resumed.
+  Rewind(const Experiment& experiment, const output::MovieReader& movie, World& world);
+
+  /// The first and the last step that can be reached.
+  std::int64_t first() const;
+  std::int64_t last() const { return steps_.back(); }
+  /// The step at `time` [s]. Throws output::MovieError when none is there or it is out of reach.
+  std::int64_t step_at(double time) const;
+
+  /// Puts the world to the last instant before `step` (that of time 0 stays as it is), after making
+  /// sure that the run between the instants around `step` repeats to the last bit. Throws
+  /// output::MovieError when it does not.
+  void approach(std::int64_t step);
+  /// From there to `step`.
+  void arrive(std::int64_t step);
+
+ private:
+  void put(std::size_t instant);
+  void run_to(std::int64_t step);
+  void compare(std::size_t instant);
+  std::string time_text(std::int64_t step) const;
+
+  const Experiment& experiment_;
+  const output::MovieReader& movie_;
+  World& world_;
+  std::vector<StateSection> sections_;
+  std::vector<std::int64_t> steps_;  ///< of the instants
+  std::vector<double> recorded_, computed_;
+};
+
+}  // namespace hookpoint::simulation

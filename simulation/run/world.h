@@ -1,0 +1,62 @@
+// A run: an engine and the signals around it, step by step. The same for every engine.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "simulation/wiring/signals.h"
+
+namespace hookpoint::simulation {
+
+class World {
+ public:
+  /// At time 0, all signals evaluated: the first row of a record can be read. `experiment` outlives
+  /// the world. Throws ExperimentError.
+  World(const Experiment& experiment, std::unique_ptr<Engine> engine);
+
+  /// From the present row to the next: the engine steps under the present inputs, then the signals
+  /// follow its new state. Between two steps every port holds what is visible at `state().time`.
+  /// While `World.running` is false nothing moves. Allocates nothing. A signal that is no longer
+  /// finite stops the run as a state does, at the instant at which it is seen, time 0 included.
+  StepStatus step();
+
+  const WorldState& state() const { return engine_->state(); }
+  /// What the ground's springs hold, where the engine tells [J].
+  std::optional<double> ground_energy() const { return engine_->ground_energy(); }
+  /// What the next step is taken under.
+  const WorldInputs& inputs() const { return engine_->inputs(); }
+  /// From the next step on the bodies' `contact_force` in `state()` is right, as it is anyway once
+  /// somebody reads its port.
+  void publish_contact_forces() { engine_->publish_contact_forces(true); }
+  /// Every port of the run. O(ports).
+  std::vector<Port> ports() { return signals_.ports(); }
+  /// Why a run without windows ends here, or "" while it goes on: `Simulator.quit` is true, or
+  /// `World.running` is false, which nothing can change any more once time stands still.
+  std::string ended() const;
+
+  /// Everything that evolves, as numbers: a world of the same experiment that restores them goes on
+  /// bit for bit as this one does. Ports that tell of the step that led to an instant (joints'
+  /// acceleration and total_torque, bodies' accelerations, hip forces) are right again after the
+  /// next step. Throws ExperimentError when the engine cannot be saved.
+  std::vector<StateSection> state_layout() const;
+  std::size_t state_size() const;
+  /// `numbers`: state_size() of them. Allocates nothing.
+  void save(std::span<double> numbers) const;
+  void restore(std::span<const double> numbers);
+
+ private:
+  Resumable& resumable() const;
+  StepStatus update_signals();
+
+  const Experiment& experiment_;
+  std::unique_ptr<Engine> engine_;
+  Signals signals_;
+  StepStatus start_;  ///< of the signals at time 0
+};
+
+/// Of a port that is no longer finite.
+StepStatus stopped_by_port(double time, const std::string& trail);
+
+}  // namespace hookpoint::simulation

@@ -1,0 +1,156 @@
+#include "simulation/scene/load.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <utility>
+
+#include "simulation/analysis/automatic_step.h"
+#include "simulation/scene/load_parts.h"
+
+namespace hookpoint::simulation {
+namespace {
+
+/// The one World, or null after saying why there is none.
+const language::Object* find_world(const language::Object& root, Loading& loading) {
+  const std::vector<const language::Object*> worlds = root.children_of("World");
+  if (worlds.empty()) {
+    loading.error(root.position,
+                  "there is no World in this file; a run needs one: World NAME { ... }");
+    return nullptr;
+  }
+  for (std::size_t i = 1; i < worlds.size(); ++i) {
+    loading.error(worlds[i]->position, "a second World; a file to run holds exactly one");
+    loading.diagnostics.note(worlds[0]->position, "the first is here");
+  }
+  return worlds[0];
+}
+
+/// Modules may hold these at their top, to be laid down in a World; in a file to run they would be
+/// left out.
+void check_strays(const language::Object& root, Loading& loading) {
+  constexpr std::array<std::pair<const char*, const char*>, 4> homes{
+      {{"Robot", "World"}, {"Terrain.", "World"}, {"Chain", "Robot"}, {"Link", "Chain"}}};
+  for (const auto& [type, home] : homes) {
+    for (const language::Object* stray : root.children_of(type)) {
+      loading.error(stray->position,
+                    fmt::format("{} stands at the top of the file to run; move it into the {}",
+                                stray->type, home));
+    }
+  }
+}
+
+Vector3d load_gravity(const language::Object& world, Loading& loading) {
+  const std::vector<double>& gravity = world.numbers("gravity");
+  if (gravity.size() == 1) return {0., 0., -gravity[0]};
+  if (gravity.size() == 3) return {gravity[0], gravity[1], gravity[2]};
+  loading.error(
+      place_of(world, "gravity"),
+      "gravity has two components; give one number g for 0,0,-g, or the three of the vector");
+  return {};
+}
+
+/// `deltat = auto`.
+bool is_automatic(const language::Object& world) { return !world.find("deltat")->words.empty(); }
+
+void load_world(const language::Object& world, Loading& loading) {
+  Experiment& experiment = loading.experiment;
+  experiment.world = world.name;
+  experiment.gravity = load_gravity(world, loading);
+  // An `auto` stands at the step that the caller gives.
+  if (!is_automatic(world)) experiment.deltat = world.number("deltat");
+  experiment.integrator = world.word("integrator");
+  experiment.relative_tolerance = world.number("relative_tolerance");
+  experiment.absolute_tolerance = world.number("absolute_tolerance");
+  experiment.contact = world.word("contact");
+  experiment.engine = world.word("engine");
+  experiment.settings = world.word("settings");
+  if (world.given("constraint_mixing"))
+    experiment.constraint_mixing = world.number("constraint_mixing");
+  experiment.duration = world.number("duration");
+  experiment.seed = static_cast<std::uint64_t>(world.number("seed"));
+}
+
+void load_signals(const language::Object& root, Loading& loading) {
+  const std::size_t errors_before = loading.diagnostics.error_count();
+  load_values(root, loading);
+  load_points(loading);
+  load_components(root, loading);
+  if (loading.diagnostics.error_count() == errors_before) load_wires(root, loading);
+  load_records(root, loading);
+  load_movies(root, loading);
+  load_expectations(root, loading);
+}
+
+/// A load with `deltat` [s] where the World says auto.
+std::optional<Experiment> load_with_step(const language::Object& root,
+                                         language::Diagnostics& diagnostics,
+                                         const std::vector<std::filesystem::path>& search_path,
+                                         const std::vector<FileSpec>& given,
+                                         const ChosenStep& chosen) {
+  Loading loading{diagnostics, search_path, given, {}, {}, {}, {}, {}, {}};
+  const std::size_t errors_before = diagnostics.error_count();
+  const language::Object* world = find_world(root, loading);
+  check_strays(root, loading);
+  if (world == nullptr) return std::nullopt;
+  loading.experiment.deltat = chosen.step;
+  if (chosen.bound > 0.) loading.experiment.chosen_from = chosen.bound;
+  load_world(*world, loading);
+  load_materials(root, loading);
+  load_terrain(*world, loading);
+  warn_of_unstated_constants(*world, loading);
+  load_robots(*world, loading);
+  load_forces(*world, loading);
+  check_combinations(*world, loading);
+  // A pose on the ground means something only for robots and ground that are right.
+  if (diagnostics.error_count() == errors_before) place_on_terrain(loading);
+  if (diagnostics.error_count() == errors_before) load_signals(root, loading);
+  if (diagnostics.error_count() != errors_before) return std::nullopt;
+  return std::move(loading.experiment);
+}
+
+/// So fine that hardly a rate is too high for it [s].
+constexpr double finest_step = 1e-6;
+
+}  // namespace
+
+std::optional<Experiment> load_experiment(const language::Object& root,
+                                          language::Diagnostics& diagnostics,
+                                          const std::vector<std::filesystem::path>& search_path,
+                                          const std::vector<FileSpec>& given) {
+  const auto worlds = root.children_of("World");
+  ChosenStep chosen{finest_step, 0., ""};
+  if (!worlds.empty() && is_automatic(*worlds[0])) {
+    language::Diagnostics untold;
+    const auto experiment = load_with_step(root, untold, search_path, given, chosen);
+    // What is wrong otherwise is told below.
+    if (experiment) chosen = choose_step(*experiment);
+    if (!chosen.problem.empty()) {
+      diagnostics.error(place_of(*worlds[0], "deltat"), "deltat = auto: " + chosen.problem);
+      return std::nullopt;
+    }
+  }
+  return load_with_step(root, diagnostics, search_path, given, chosen);
+}
+
+void write_chosen_step(const Experiment& experiment, language::Object& root) {
+  if (!experiment.chosen_from) return;
+  const auto worlds = root.children_of("World");
+  const auto write = [&](auto& self, language::Object& parent) -> void {
+    for (const auto& child : parent.children) {
+      if (child.get() != worlds[0]) {
+        self(self, *child);
+        continue;
+      }
+      for (language::Field& field : child->fields) {
+        if (field.schema->name != "deltat") continue;
+        field.words.clear();
+        field.numbers = {experiment.deltat};
+        field.dimension = language::Dimension{.time = 1};
+      }
+    }
+  };
+  write(write, root);
+}
+
+}  // namespace hookpoint::simulation

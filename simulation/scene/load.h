@@ -1,0 +1,28 @@
+// The load step: a checked object tree becomes an Experiment, every number resolved. What no single
+// field can show, because it needs the whole experiment, is checked here.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "language/diagnostics.h"
+#include "language/tree/object.h"
+#include "simulation/experiment.h"
+
+namespace hookpoint::simulation {
+
+/// The experiment of the one World below `root`; nothing when `diagnostics` got an error. A
+/// terrain's file is looked up beside the .hook file that names it, then along `search_path`. Cost:
+/// linear in the tree, plus the terrain's file. `given`: files that are taken instead of being
+/// looked up, by the names that the experiment gives them.
+std::optional<Experiment> load_experiment(
+    const language::Object& root, language::Diagnostics& diagnostics,
+    const std::vector<std::filesystem::path>& search_path = {},
+    const std::vector<FileSpec>& given = {});
+
+/// Puts the step that was chosen where the World of `root` says `deltat = auto`, so that what is
+/// printed of it runs the same.
+void write_chosen_step(const Experiment& experiment, language::Object& root);
+
+}  // namespace hookpoint::simulation

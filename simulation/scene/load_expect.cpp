@@ -1,0 +1,135 @@
+// Expectations: what the scene says that a run of it must show.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "contact/force_law.h"
+#include "integrators/stepper.h"
+#include "language/names.h"
+#include "language/tree/references.h"
+#include "language/units.h"
+#include "simulation/run/expectation.h"
+#include "simulation/scene/load_parts.h"
+
+namespace hookpoint::simulation {
+namespace {
+
+/// The text of a field's value as the file writes it, blanks joined.
+std::string written(const language::Field& field) {
+  if (field.position.file == nullptr) return "";
+  std::string_view text = field.position.file->text;
+  text = text.substr(std::min(field.position.offset, text.size()));
+  text = text.substr(0, text.find_first_of(";}\n"));
+  return std::string(text.substr(0, text.find_last_not_of(" \t\r") + 1));
+}
+
+class ExpectationLoader {
+ public:
+  ExpectationLoader(const language::Object& object, language::Names& names, Loading& loading)
+      : object_(object), names_(names), loading_(loading) {}
+
+  void run() {
+    spec_.name = object_.name;
+    spec_.take = *find_reduction(object_.word("take"));
+    spec_.from = object_.number("from");
+    if (object_.given("to")) spec_.to = object_.number("to");
+    if (object_.given("level")) spec_.level = object_.number("level");
+    spec_.expected = object_.number("equals");
+    spec_.tolerance = object_.number("tolerance");
+    if (object_.given("within")) spec_.within = object_.number("within");
+    spec_.formula = written(*object_.find("equals"));
+    if (object_.given("source")) spec_.source = object_.word("source");
+    check_times();
+    spec_.laws = known_words("laws", law_names());
+    spec_.except_laws = known_words("except_laws", law_names());
+    spec_.integrators = known_words("integrators", integrator_names());
+    // Under another law the port may not exist.
+    const Experiment& experiment = loading_.experiment;
+    if (spec_.covers(experiment)) find_number_port();
+    loading_.experiment.expectations.push_back(std::move(spec_));
+  }
+
+ private:
+  void find_number_port() {
+    const language::Field& of = *object_.find("of");
+    const auto port = find_number(object_, of.words[0], of.position, names_, loading_);
+    if (!port) return;
+    spec_.trail = port->trail;
+    check_unit(port->target);
+  }
+
+  static std::vector<std::string> law_names() {
+    std::vector<std::string> names;
+    for (const contact::LawDescription& law : contact::law_table()) names.emplace_back(law.name);
+    return names;
+  }
+  static std::vector<std::string> integrator_names() {
+    std::vector<std::string> names;
+    for (const integrators::StepperDescription& stepper : integrators::stepper_table())
+      names.emplace_back(stepper.name);
+    return names;
+  }
+
+  std::vector<std::string> known_words(const char* field, const std::vector<std::string>& known) {
+    if (!object_.given(field)) return {};
+    const language::Field& given = *object_.find(field);
+    for (std::size_t i = 0; i < given.words.size(); ++i) {
+      if (std::ranges::find(known, given.words[i]) == known.end())
+        loading_.error(
+            given.places[i],
+            fmt::format("there is no `{}` among the {}{}", given.words[i],
+                        field == std::string_view("integrators") ? "integrators" : "laws",
+                        language::did_you_mean(given.words[i], known)));
+    }
+    return given.words;
+  }
+
+  void check_times() {
+    if (spec_.to && *spec_.to <= spec_.from)
+      loading_.error(place_of(object_, "to"), "`to` must be later than `from`");
+    if (spec_.take == Reduction::time_at && !object_.given("level"))
+      loading_.error(place_of(object_, "take"),
+                     "`time_at` needs the `level` whose first crossing is meant");
+    if (spec_.tolerance == 0. && spec_.within == 0.)
+      loading_.error(object_.position,
+                     "no difference is allowed: give a `tolerance` (relative) or `within`");
+  }
+
+  /// The port's unit; a slope's is per second, a time's is the second.
+  void check_unit(const language::Target& target) {
+    const std::string& unit = target.object->unit_of(*target.field);
+    const auto parsed = language::parse_unit(unit == "?" ? "" : unit);
+    if (!parsed) return;
+    const language::Dimension second = language::parse_unit("s")->dimension;
+    language::Dimension wanted = parsed->dimension;
+    if (spec_.take == Reduction::slope) wanted = wanted / second;
+    if (spec_.take == Reduction::time_at) wanted = second;
+    spec_.unit = unit == "?" && spec_.take != Reduction::time_at ? "" : language::unit_text(wanted);
+    if (unit == "?") return;
+    for (const char* field : {"equals", "within"}) {
+      if (!object_.given(field)) continue;
+      const language::Field& given = *object_.find(field);
+      if (!language::fits(given.dimension, wanted))
+        loading_.error(given.position, fmt::format("`{}` is to be in {}, not in {}", field,
+                                                   language::describe_dimension(wanted),
+                                                   language::describe_dimension(given.dimension)));
+    }
+  }
+
+  const language::Object& object_;
+  language::Names& names_;
+  Loading& loading_;
+  ExpectationSpec spec_;
+};
+
+}  // namespace
+
+void load_expectations(const language::Object& root, Loading& loading) {
+  language::Names names;
+  for (const language::Object* expectation : collect_all(root, "Expect"))
+    ExpectationLoader(*expectation, names, loading).run();
+}
+
+}  // namespace hookpoint::simulation

@@ -1,0 +1,125 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "contact/force_law.h"
+#include "contact/terrain/terrain.h"
+#include "simulation/kinematics.h"
+#include "simulation/scene/load_parts.h"
+
+namespace hookpoint::simulation {
+namespace {
+
+/// A boundary point in base axes and the body it is on.
+struct RobotPoint {
+  Vector3d p_BP;
+  int body = 0;
+  double radius = 0.;
+};
+
+std::vector<RobotPoint> points_in_base(const RobotSpec& robot) {
+  std::vector<RobotPoint> points;
+  const std::vector<Pose> poses = body_poses(robot);
+  const std::vector<const BodySpec*> bodies = bodies_of(robot);
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const std::vector<Vector3d>& of_body = bodies[i]->boundary_points;
+    for (std::size_t k = 0; k < of_body.size(); ++k) {
+      points.push_back({poses[i].position + rotate(poses[i].orientation, of_body[k]),
+                        static_cast<int>(i), bodies[i]->boundary_radius(k)});
+    }
+  }
+  return points;
+}
+
+double total_mass(const RobotSpec& robot) {
+  double mass = 0.;
+  for (const BodySpec* body : bodies_of(robot)) mass += body->mass.mass;
+  return mass;
+}
+
+/// Depth at which `count` points bear the robot's weight across the tile: m g cos / n each. A peer,
+/// and a law without penetration, starts touching.
+double resting_depth(const RobotSpec& robot, int count, const contact::TilePoint& tile,
+                     const Experiment& experiment) {
+  const std::optional<contact::ForceLaw> law = contact::find_force_law(experiment.contact);
+  const double load = -total_mass(robot) * dot(experiment.gravity, tile.normal) / count;
+  if (experiment.engine != "dts" || !law || !(load > 0.)) return 0.;
+  return contact::static_depth(*law, load, experiment.materials[tile.material].constants);
+}
+
+/// How much the robot has to rise for its deepest boundary point to be at `depth` [m]: a point that
+/// moves straight up stays over its tile.
+double rise_to_depth(const contact::Terrain& ground, const std::vector<RobotPoint>& points,
+                     const RobotSpec& robot, double depth) {
+  double rise = -std::numeric_limits<double>::infinity();
+  for (const RobotPoint& point : points) {
+    const contact::TilePoint tile =
+        ground.query(robot.location + rotate(robot.orientation, point.p_BP));
+    rise = std::max(rise, (tile.depth + point.radius - depth) / tile.normal.z);
+  }
+  return rise;
+}
+
+/// Lays the robot down: its base's z along the tile's normal, so that heights over the tile are z
+/// in base axes.
+void lay_down(const language::Object& base, const contact::Terrain& ground, RobotSpec& robot,
+              Loading& loading) {
+  const std::vector<RobotPoint> points = points_in_base(robot);
+  if (points.empty()) {
+    return loading.error(
+        place_of(base, "rest_on"),
+        fmt::format("`{}` has no boundary points to rest on; give it a shape or a ContactPoint",
+                    robot.name));
+  }
+  double lowest = std::numeric_limits<double>::infinity();
+  const auto bottom = [](const RobotPoint& point) { return point.p_BP.z - point.radius; };
+  for (const RobotPoint& point : points) lowest = std::min(lowest, bottom(point));
+  constexpr double coplanar = 1e-9;  // [m]
+  const auto count = std::ranges::count_if(
+      points, [&](const RobotPoint& point) { return bottom(point) <= lowest + coplanar; });
+  const std::vector<double>& at = base.numbers("at");
+  const contact::TilePose pose = ground.pose_on_tile(at[0], at[1], base.number("yaw"));
+  const double depth = resting_depth(robot, static_cast<int>(count), pose.tile, loading.experiment);
+  // n . (p_WB + lowest n - p_tile) = -depth, with p_WB straight above p_tile.
+  robot.location = pose.position;
+  robot.location.z -= (depth + lowest) / pose.tile.normal.z;
+  robot.orientation = pose.orientation;
+  // Beside its tile uneven ground is higher or lower.
+  if (std::holds_alternative<GridSpec>(ground.description().surface)) {
+    robot.location.z += rise_to_depth(ground, points, robot, depth);
+  }
+}
+
+/// One error a robot: the first of its boundary points that starts off the terrain.
+void check_inside(const language::Object& base, const contact::Terrain& ground,
+                  const RobotSpec& robot, Loading& loading) {
+  for (const RobotPoint& point : points_in_base(robot)) {
+    if (point.body == 0 && !robot.mobile) continue;  // a base held in the world touches nothing
+    const Vector3d p_WP = robot.location + rotate(robot.orientation, point.p_BP);
+    if (!ground.query(p_WP).outside) continue;
+    const char* field = base.given("rest_on") ? "at" : "location";
+    return loading.error(
+        place_of(base, field),
+        fmt::format(
+            "`{}` starts off the terrain `{}`: a boundary point of it is at x,y = {:g},{:g}; move "
+            "the robot or enlarge the terrain",
+            robot.name, loading.experiment.terrain->name, p_WP.x, p_WP.y));
+  }
+}
+
+}  // namespace
+
+void place_on_terrain(Loading& loading) {
+  if (!loading.experiment.terrain) return;
+  const contact::Terrain ground(*loading.experiment.terrain);
+  for (std::size_t i = 0; i < loading.experiment.robots.size(); ++i) {
+    RobotSpec& robot = loading.experiment.robots[i];
+    const language::Object& base = *loading.bases[i];
+    if (base.given("rest_on")) lay_down(base, ground, robot, loading);
+    check_inside(base, ground, robot, loading);
+  }
+}
+
+}  // namespace hookpoint::simulation

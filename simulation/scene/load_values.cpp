@@ -1,0 +1,115 @@
+// Trails of all objects, and the numbers that can be read though nothing computes them.
+#include <set>
+
+#include "control/registry.h"
+#include "language/tree/references.h"
+#include "simulation/scene/load_parts.h"
+
+namespace hookpoint::simulation {
+namespace {
+
+using language::Direction;
+using language::FieldSchema;
+using language::FieldType;
+
+class Values {
+ public:
+  explicit Values(Loading& loading) : loading_(loading) {}
+
+  void run(const language::Object& root) {
+    visit(root);
+    loading_.experiment.values = std::make_shared<const std::vector<ValueSpec>>(std::move(values_));
+  }
+
+ private:
+  void visit(const language::Object& parent) {
+    for (const auto& object : parent.children) {
+      loading_.trails.emplace(object.get(), trail_for(*object));
+      add_fields(*object);
+      add_loaded(*object);
+      visit(*object);
+    }
+  }
+
+  /// An object without a name goes by its type; what stands in two objects without a name may be
+  /// called alike: #2, #3 ... tell them apart.
+  std::string trail_for(const language::Object& object) {
+    std::string trail = object.trail();
+    if (object.name.empty()) trail += (trail.empty() ? "" : ".") + object.type;
+    std::string unique = trail;
+    for (int n = 2; !taken_.insert(unique).second; ++n) unique = trail + "#" + std::to_string(n);
+    return unique;
+  }
+
+  void add_fields(const language::Object& object) {
+    const bool component = control::Registry::instance().find(object.type) != nullptr;
+    for (const FieldSchema& field : object.schema->fields) {
+      // A component's own ports are its values; what the stub says beside them is a constant.
+      if (component && (!field.setting || field.port != Direction::output)) continue;
+      if (field.port == Direction::none || field.type == FieldType::text ||
+          field.type == FieldType::choice || field.type == FieldType::words ||
+          field.type == FieldType::object || field.type == FieldType::port)
+        continue;
+      const language::Field* value = object.find(field.name);
+      const bool writable = field.port != Direction::output;
+      if (value != nullptr) {
+        const bool chosen = value->numbers.empty();  // a word stands for it: deltat = auto
+        add(object, field, chosen ? std::vector{loading_.experiment.deltat} : value->numbers,
+            writable);
+      } else if (writable && field.type != FieldType::numbers) {
+        values_.push_back(
+            {loading_.trails[&object] + "." + field.name, unit_of(object, field), {}, true});
+      }
+    }
+  }
+
+  /// What the load step worked out where the file left it open.
+  void add_loaded(const language::Object& object) {
+    const auto at = loading_.bodies.find(&object);
+    if (at == loading_.bodies.end()) return;
+    const RobotSpec& robot = loading_.experiment.robots[static_cast<std::size_t>(at->second.robot)];
+    const BodySpec* body = &robot.base;
+    int index = 0;
+    for (const ChainSpec& chain : robot.chains) {
+      for (const LinkSpec& link : chain.links) {
+        if (++index == at->second.body) body = &link.body;
+      }
+    }
+    const MassSpec& mass = body->mass;
+    add_missing(object, "mass", {mass.mass});
+    add_missing(object, "center_of_mass",
+                {mass.center_of_mass.x, mass.center_of_mass.y, mass.center_of_mass.z});
+    const Symmetric3d& I = mass.inertia;
+    add_missing(object, "inertia", {I.xx, I.yy, I.zz, I.xy, I.xz, I.yz});
+  }
+
+  void add_missing(const language::Object& object, const char* name,
+                   const std::vector<double>& numbers) {
+    if (object.find(name) == nullptr) add(object, *object.schema->find(name), numbers, false);
+  }
+
+  void add(const language::Object& object, const FieldSchema& field,
+           const std::vector<double>& numbers, bool writable) {
+    const bool list = field.type == FieldType::numbers || field.type == FieldType::orientation;
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      const std::string part =
+          list && numbers.size() > 1 ? language::part_name(field, static_cast<int>(i)) : "";
+      values_.push_back({loading_.trails[&object] + "." + field.name + part, unit_of(object, field),
+                         numbers[i], writable});
+    }
+  }
+
+  static std::string unit_of(const language::Object& object, const FieldSchema& field) {
+    return field.unit == "?" ? "" : object.unit_of(field);
+  }
+
+  Loading& loading_;
+  std::set<std::string> taken_;
+  std::vector<ValueSpec> values_;
+};
+
+}  // namespace
+
+void load_values(const language::Object& root, Loading& loading) { Values(loading).run(root); }
+
+}  // namespace hookpoint::simulation

@@ -1,0 +1,288 @@
+// Wires and attachments: one WireSpec a number, what their lines do to it, and what is wrong with
+// the whole of them.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <exception>
+
+#include "control/registry.h"
+#include "language/tree/references.h"
+#include "language/units.h"
+#include "language/values/budget.h"
+#include "simulation/scene/load_parts.h"
+#include "simulation/wiring/timing.h"
+#include "simulation/wiring/wiring_order.h"
+
+namespace hookpoint::simulation {
+namespace {
+
+using control::Attachment;
+using control::PortDescription;
+using control::PortKind;
+using language::FieldSchema;
+using language::FieldType;
+
+/// What an end of a wire names: the object, its port without a part, and the trails of its numbers.
+struct End {
+  const language::Object* object = nullptr;
+  const FieldSchema* field = nullptr;
+  std::vector<std::string> trails;
+};
+
+/// Something that drives inputs: a wire, or an attachment when `wire` is null.
+struct Driver {
+  const language::Object* from = nullptr;
+  const language::Object* to = nullptr;
+  const language::Wire* wire = nullptr;
+  const FieldSchema* field = nullptr;  ///< the output's; for its unit
+  const FieldSchema* input = nullptr;
+  language::Position position;
+};
+
+int parts_of(const FieldSchema& field) {
+  if (field.type == FieldType::orientation) return 4;
+  return field.type == FieldType::numbers ? field.max_count : 1;
+}
+
+class Wires {
+ public:
+  explicit Wires(Loading& loading) : loading_(loading), experiment_(loading.experiment) {}
+
+  void run(const language::Object& root) {
+    collect(root);
+    for (std::size_t i = 0; i < loading_.components.size(); ++i) attach(i);
+    if (loading_.diagnostics.error_count() != errors_before_) return;
+    const Components components(experiment_);
+    check_lines();
+    check_loop(components);
+    check_start();
+  }
+
+ private:
+  void collect(const language::Object& object) {
+    for (const language::Wire& wire : object.wires) add_wire(wire);
+    for (const auto& child : object.children) collect(*child);
+  }
+
+  End end_of(const language::Reference& reference) const {
+    End end{reference.object, nullptr, {}};
+    const std::string trail = loading_.trails.at(reference.object) + ".";
+    end.field = reference.object->schema->find(reference.port);
+    if (end.field == nullptr) {
+      const std::string whole = reference.port.substr(0, reference.port.find_last_of(".["));
+      end.field = reference.object->schema->find(whole);
+      end.trails.push_back(trail + reference.port);
+      return end;
+    }
+    const int parts = parts_of(*end.field);
+    for (int i = 0; i < parts; ++i)
+      end.trails.push_back(trail + reference.port +
+                           (parts > 1 ? language::part_name(*end.field, i) : ""));
+    return end;
+  }
+
+  void add_wire(const language::Wire& wire) {
+    const End from = end_of(*wire.from), to = end_of(*wire.to);
+    if (!has_value(from)) {
+      return loading_.error(wire.from->trail.empty() ? wire.position : wire.from->position,
+                            fmt::format("`{}` of this {} is not given, so there is nothing to read",
+                                        from.field->name, from.object->type));
+    }
+    if (const std::string why = missing_port(experiment_, *from.object, *from.field); !why.empty())
+      return loading_.error(wire.from->trail.empty() ? wire.position : wire.from->position, why);
+    for (std::size_t i = 0; i < from.trails.size(); ++i) {
+      add({from.object, to.object, &wire, from.field, to.field, wire.position}, from.trails[i],
+          to.trails[i]);
+    }
+  }
+
+  /// A setting that the file leaves open and nothing works out cannot be read.
+  bool has_value(const End& end) const {
+    if (!end.field->setting || end.field->port != language::Direction::output ||
+        end.object->find(end.field->name) != nullptr)
+      return true;
+    const auto& values = *experiment_.values;
+    return std::ranges::find(values, end.trails[0], &ValueSpec::trail) != values.end();
+  }
+
+  void add(const Driver& driver, const std::string& from, const std::string& to) {
+    const auto first = drivers_by_input_.emplace(to, drivers_.size());
+    if (!first.second) {
+      loading_.error(driver.position, fmt::format("a second signal into `{}`", to));
+      return loading_.diagnostics.note(drivers_[first.first->second].position,
+                                       "the first one is here");
+    }
+    WireSpec spec{from, to, {}, 0., 0.};
+    if (const language::Field* rate = property(driver, "rate")) spec.rate = rate->numbers[0];
+    if (const language::Field* delay = property(driver, "delay")) spec.delay = delay->numbers[0];
+    if (const language::Field* noise = property(driver, "noise")) spec.noise = noise->numbers[0];
+    drivers_.push_back(driver);
+    experiment_.wires.push_back(std::move(spec));
+  }
+
+  /// The wire's own; else that of the stub at its end; else that of the stub at its beginning.
+  const language::Field* property(const Driver& driver, std::string_view name) const {
+    if (driver.wire != nullptr) {
+      for (const language::Field& field : driver.wire->fields) {
+        if (field.schema->name == name) return &field;
+      }
+    }
+    for (const language::Object* stub : {driver.to, driver.from}) {
+      if (control::Registry::instance().find(stub->type) == nullptr || !stub->given(name)) continue;
+      const language::Field* field = stub->find(name);
+      if (name != "noise" || carries(driver, field->dimension)) return field;
+    }
+    return nullptr;
+  }
+
+  /// Whether the wire's value can have noise in that unit.
+  static bool carries(const Driver& driver, const language::Dimension& dimension) {
+    const std::string& unit = driver.field->unit == "?" ? driver.to->unit_of(*driver.input)
+                                                        : driver.from->unit_of(*driver.field);
+    return unit == "?" || language::fits(dimension, language::parse_unit(unit)->dimension);
+  }
+
+  /// What the component reads and drives where no wire says otherwise.
+  void attach(std::size_t index) {
+    const language::Object& object = *loading_.components[index];
+    const control::ComponentClass& type = *control::Registry::instance().find(object.type);
+    if (type.attachment == Attachment::none) return;
+    const std::string name = type.attachment == Attachment::joint ? "joint" : "body";
+    const language::Object* target = object.given(name) ? object.object(name) : nullptr;
+    std::vector<std::string> missing;
+    const auto component = type.make();
+    for (const PortDescription& port : component->ports()) {
+      if (port.attached.empty()) continue;
+      for (std::size_t i = 0; i < port.count; ++i) {
+        const std::string own =
+            experiment_.components[index].trail + "." + port.name + element_suffix(port, i);
+        if (is_wired(port, own, target, i)) continue;
+        if (target == nullptr) {
+          missing.push_back(port.name + element_suffix(port, i));
+        } else {
+          add_attachment(object, *target, port, i, own);
+        }
+      }
+    }
+    if (!missing.empty()) {
+      loading_.error(object.position,
+                     fmt::format("this {} is attached to nothing: give `{} = ...`, or wire its {}",
+                                 object.type, name, fmt::join(missing, ", ")));
+    }
+  }
+
+  /// Whether a wire takes the attachment's place: one into the input; one from the output to the
+  /// port that it would drive, or to anything where there is no such port. A wire from the output
+  /// to somewhere else only listens.
+  bool is_wired(const PortDescription& port, const std::string& own, const language::Object* target,
+                std::size_t i) const {
+    if (port.kind != PortKind::output) return drivers_by_input_.contains(own);
+    const std::string driven = target == nullptr ? "" : attached_trail(*target, port, i);
+    return std::ranges::any_of(experiment_.wires, [&](const WireSpec& wire) {
+      return wire.from == own && (target == nullptr || wire.to == driven);
+    });
+  }
+
+  /// Of the number of `target` that element `i` of `port` reads or drives.
+  std::string attached_trail(const language::Object& target, const PortDescription& port,
+                             std::size_t i) const {
+    const FieldSchema* field = target.schema->find(port.attached);
+    std::string trail = loading_.trails.at(&target) + "." + port.attached;
+    if (port.count > 1 && field != nullptr)
+      trail += language::part_name(*field, static_cast<int>(i));
+    return trail;
+  }
+
+  void add_attachment(const language::Object& object, const language::Object& target,
+                      const PortDescription& port, std::size_t i, const std::string& own) {
+    const FieldSchema* field = target.schema->find(port.attached);
+    const std::string other = attached_trail(target, port, i);
+    if (field == nullptr)
+      field = target.schema->find(port.attached.substr(0, port.attached.rfind('.')));
+    const char* name = object.given("joint") ? "joint" : "body";
+    const language::Position& position = place_of(object, name);
+    if (field == nullptr) {
+      return loading_.error(position, fmt::format("a {} has no port `{}`, which a {} needs",
+                                                  target.type, port.attached, object.type));
+    }
+    const FieldSchema* self = object.schema->find(port.name);
+    if (port.kind == PortKind::output) {
+      add({&object, &target, nullptr, self, field, position}, own, other);
+    } else {
+      add({&target, &object, nullptr, field, self, position}, other, own);
+    }
+  }
+
+  void check_lines() {
+    constexpr std::size_t most = 20'000'000;
+    std::size_t samples = 0;
+    for (std::size_t i = 0; i < experiment_.wires.size() && samples <= most; ++i) {
+      try {
+        samples += transmission_line(experiment_.wires[i], experiment_, 0.).state_size();
+      } catch (const std::exception& error) {
+        loading_.error(drivers_[i].position, error.what());
+      }
+      if (samples > most)
+        loading_.error(drivers_[i].position, "with this one the wires ask for " +
+                                                 language::too_many(static_cast<double>(samples),
+                                                                    most, "samples under way") +
+                                                 ": shorten the delays or lower the rates");
+    }
+  }
+
+  void check_loop(const Components& components) {
+    const std::vector<std::size_t> loop = order_wiring(experiment_, components).loop;
+    if (loop.empty()) return;
+    std::vector<std::string> members;
+    for (const std::size_t i : loop) members.push_back("`" + experiment_.wires[i].from + "`");
+    members.push_back(members.front());
+    loading_.error(
+        drivers_[loop[0]].position,
+        fmt::format("an algebraic loop: {} within one step; give one of these wires a delay",
+                    fmt::join(members, " to ")));
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      loading_.diagnostics.note(
+          drivers_[loop[i]].position,
+          fmt::format("from `{}` to `{}` here", experiment_.wires[loop[i]].from,
+                      experiment_.wires[loop[i]].to));
+    }
+  }
+
+  void check_start() {
+    for (std::size_t i = 0; i < experiment_.components.size(); ++i) {
+      try {
+        update_schedule(experiment_.components[i], experiment_.deltat);
+      } catch (const std::exception& error) {
+        return loading_.error(place_of(*loading_.components[i], "rate"), error.what());
+      }
+    }
+    Components components(experiment_);
+    for (const StartProblem& problem : components.start(experiment_))
+      loading_.error(place_of_problem(problem, components[problem.component]), problem.message);
+  }
+
+  /// A message that begins with the name of a data file is about the field that names it.
+  const language::Position& place_of_problem(const StartProblem& problem,
+                                             const control::Component& component) const {
+    const language::Object& object = *loading_.components[problem.component];
+    for (const auto& [index, text] : experiment_.components[problem.component].texts) {
+      if (text.empty() || !problem.message.starts_with(text)) continue;
+      for (const PortDescription& port : component.ports()) {
+        if (port.kind == PortKind::text && port.first == index) return place_of(object, port.name);
+      }
+    }
+    return object.position;
+  }
+
+  Loading& loading_;
+  Experiment& experiment_;
+  std::size_t errors_before_ = loading_.diagnostics.error_count();
+  std::vector<Driver> drivers_;  // one a wire
+  std::map<std::string, std::size_t> drivers_by_input_;
+};
+
+}  // namespace
+
+void load_wires(const language::Object& root, Loading& loading) { Wires(loading).run(root); }
+
+}  // namespace hookpoint::simulation

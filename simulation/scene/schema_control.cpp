@@ -1,0 +1,132 @@
+// The classes of control::Registry as classes of the language: what a component declares of its
+// ports, and the fields of the stub around it.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "control/registry.h"
+#include "simulation/scene/schema.h"
+#include "simulation/scene/schema_fields.h"
+
+namespace hookpoint::simulation {
+namespace {
+
+using control::Attachment;
+using control::PortDescription;
+using control::PortKind;
+
+/// What the stub does to all of its wires. The noise is in the unit of the value carried.
+std::vector<FieldSchema> stub_fields() {
+  return {
+      positive(number_field("rate", "Hz", "",
+                            "updates a second, and samples a second of its wires, held in between; "
+                            "if not given, one each step")),
+      not_negative(
+          number_field("delay", "s", "", "of each of its wires: a sample arrives that much later")),
+      not_negative(number_field("noise", "?", "",
+                                "of those of its wires that carry this unit: standard deviation of "
+                                "zero-mean Gaussian noise, added when sampled")),
+  };
+}
+
+std::vector<FieldSchema> attachment_fields(Attachment attachment) {
+  switch (attachment) {
+    case Attachment::none:
+      return {};
+    case Attachment::joint:
+      return {object_field(
+          "joint", "Link",
+          "the joint, by its link, that it is attached to; needed unless wires take its place")};
+    case Attachment::body:
+      return {object_field("body", "Base.|Link",
+                           "the body that it is attached to; needed unless wires take its place")};
+  }
+  return {};
+}
+
+FieldSchema text_of(const PortDescription& port) {
+  if (!port.choices.empty())
+    return choice_field(port.name, port.choices, port.default_text, port.doc);
+  FieldSchema field = text_field(port.name, port.doc);
+  if (!port.default_text.empty()) field.default_text = fmt::format("\"{}\"", port.default_text);
+  return field;
+}
+
+std::string document(const PortDescription& port) {
+  if (port.world != control::WorldValue::none)
+    return port.doc + "; if not given, that of the World's gravity";
+  if (port.attached.empty()) return port.doc;
+  return fmt::format("{}; {} `{}` of what it is attached to unless wired", port.doc,
+                     port.kind == PortKind::output ? "drives" : "reads", port.attached);
+}
+
+/// A number, or an array that takes one number for all of its elements.
+FieldSchema value_of(const PortDescription& port) {
+  const bool computed = port.kind == PortKind::output || port.kind == PortKind::state;
+  const bool open = computed || port.world != control::WorldValue::none;
+  const std::string value = open ? "" : fmt::format("{}", port.default_value);
+  FieldSchema field =
+      port.count > 1
+          ? list_field(port.name, port.unit, 1, static_cast<int>(port.count), value, document(port))
+          : number_field(port.name, port.unit, value, document(port));
+  field.one_or_all = port.count > 1;
+  field.minimum = port.minimum;
+  field.maximum = port.maximum;
+  if (computed) return port_only(Direction::output, std::move(field));
+  return with_port(Direction::both, std::move(field));
+}
+
+}  // namespace
+
+language::ClassSchema component_schema(const control::ComponentClass& type) {
+  language::ClassSchema schema;
+  schema.name = type.name;
+  schema.doc = type.doc;
+  schema.origin = type.origin;
+  schema.top_level = true;
+  schema.default_input = type.default_input;
+  schema.default_output = type.default_output;
+  const std::unique_ptr<control::Component> component = type.make();
+  for (const PortDescription& port : component->ports()) {
+    schema.fields.push_back(port.kind == PortKind::text ? text_of(port) : value_of(port));
+  }
+  append(schema.fields, attachment_fields(type.attachment));
+  append(schema.fields, stub_fields());
+  return schema;
+}
+
+void add_control_classes(language::Schema& schema) {
+  for (const auto& [name, type] : control::Registry::instance().classes())
+    schema.add(component_schema(type));
+}
+
+std::string component_class_problem(const language::Schema& schema,
+                                    const control::ComponentClass& type) {
+  // A family holds either components or classes of another kind: who may stand where goes by it.
+  const std::string family = type.name.substr(0, type.name.find('.'));
+  for (const auto& [name, other] : schema.classes()) {
+    const bool component = control::Registry::instance().find(name) != nullptr;
+    if (name == type.name) return fmt::format("the language has a class '{}'", name);
+    if (!component && (name == family || name.starts_with(family + ".")))
+      return fmt::format("'{}' of the language is no component, so '{}.' is not free", name,
+                         family);
+  }
+  language::Schema joined = schema;
+  joined.add(component_schema(type));
+  const std::vector<std::string> problems = language::schema_problems(joined);
+  return problems.empty() ? "" : problems.front();
+}
+
+std::vector<std::string> component_families() {
+  std::vector<std::string> families;
+  for (const auto& [name, type] : control::Registry::instance().classes()) {
+    const std::size_t dot = name.find('.');
+    std::string family = dot == std::string::npos ? name : name.substr(0, dot + 1);
+    if (std::ranges::find(families, family) == families.end())
+      families.push_back(std::move(family));
+  }
+  return families;
+}
+
+}  // namespace hookpoint::simulation

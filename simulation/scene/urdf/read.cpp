@@ -1,0 +1,261 @@
+// A URDF file as it stands.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <unordered_map>
+
+#include "language/document.h"
+#include "language/names.h"
+#include "simulation/scene/urdf/urdf.h"
+#include "simulation/scene/urdf/xml.h"
+
+namespace hookpoint::simulation {
+namespace {
+
+using language::Position;
+
+class UrdfReader : private UrdfXml {
+ public:
+  UrdfReader(const language::SourceFile& file, UrdfShapes shapes, language::Report& report)
+      : UrdfXml(file, report), shapes_(shapes) {}
+
+  std::optional<UrdfRobot> run();
+
+ private:
+  void read_link(const pugi::xml_node& node);
+  void read_inertial(const pugi::xml_node& node, UrdfLink& link);
+  void read_shape(const pugi::xml_node& node, UrdfLink& link);
+  std::optional<ShapeGeometry> read_geometry(const pugi::xml_node& node);
+  void read_joint(const pugi::xml_node& node);
+  bool read_type(const pugi::xml_node& node, UrdfJoint& joint);
+  bool read_ends(const pugi::xml_node& node, UrdfJoint& joint);
+  bool read_end(const pugi::xml_node& node, const char* role, std::size_t& link);
+  void read_axis(const pugi::xml_node& node, UrdfJoint& joint);
+  void read_limit(const pugi::xml_node& node, UrdfJoint& joint);
+  void read_dynamics(const pugi::xml_node& node, UrdfJoint& joint);
+
+  Pose read_origin(const pugi::xml_node& parent);
+
+  UrdfShapes shapes_;
+  UrdfRobot robot_;
+  std::unordered_map<std::string, std::size_t> links_, joints_;
+  int hints_ = 0;  ///< given so far
+};
+
+std::optional<UrdfRobot> UrdfReader::run() {
+  const pugi::xml_node root = open("robot");
+  if (!root) return std::nullopt;
+  robot_.name = root.attribute("name").value();
+  robot_.place = place(root);
+  for (const pugi::xml_node& node : root.children()) {
+    if (!std::string_view(node.name()).starts_with("xacro:")) continue;
+    fail(place(node), "macros of xacro are not expanded here: `xacro FILE > robot.urdf` does it");
+    return std::nullopt;
+  }
+  for (const pugi::xml_node& node : root.children("link")) {
+    if (!full()) read_link(node);
+  }
+  if (robot_.links.empty()) fail(robot_.place, "the robot has no <link>");
+  for (const pugi::xml_node& node : root.children("joint")) {
+    if (!full()) read_joint(node);
+  }
+  return good() ? std::optional(std::move(robot_)) : std::nullopt;
+}
+
+void UrdfReader::read_link(const pugi::xml_node& node) {
+  UrdfLink link;
+  link.name = name_of(node);
+  link.place = place(node);
+  const auto [same, is_new] = links_.emplace(link.name, robot_.links.size());
+  if (!is_new) {
+    fail(link.place, fmt::format("a second link `{}`", link.name));
+    return note(robot_.links[same->second].place, "the first is here");
+  }
+  if (const pugi::xml_node inertial = only(node, "inertial")) read_inertial(inertial, link);
+  const char* kind = shapes_ == UrdfShapes::collision ? "collision" : "visual";
+  for (const pugi::xml_node& shape : node.children(kind)) read_shape(shape, link);
+  robot_.links.push_back(std::move(link));
+}
+
+void UrdfReader::read_inertial(const pugi::xml_node& node, UrdfLink& link) {
+  link.has_inertial = true;
+  link.inertial_place = place(node);
+  const Pose X_LC = read_origin(node);
+  const pugi::xml_node mass = only(node, "mass"), inertia = only(node, "inertia");
+  if (!mass || !inertia) {
+    fail(link.inertial_place, fmt::format("<inertial> of `{}` lacks {}", link.name,
+                                          mass ? "<inertia>" : "<mass value=\"...\"/>"));
+    return;
+  }
+  link.mass.mass = number(mass, "value", {});
+  if (link.mass.mass < 0.) fail(place(mass, "value"), "a mass is not negative");
+  const Symmetric3d I_C{number(inertia, "ixx", {}), number(inertia, "iyy", {}),
+                        number(inertia, "izz", {}), number(inertia, "ixy", {}),
+                        number(inertia, "ixz", {}), number(inertia, "iyz", {})};
+  link.mass.center_of_mass = X_LC.position;
+  link.mass.inertia = rotate(rotation_matrix(X_LC.orientation), I_C);
+}
+
+void UrdfReader::read_shape(const pugi::xml_node& node, UrdfLink& link) {
+  const Pose X_LS = read_origin(node);
+  const pugi::xml_node geometry = only(node, "geometry");
+  if (!geometry) {
+    fail(place(node), fmt::format("<{}> lacks <geometry>", node.name()));
+    return;
+  }
+  const std::optional<ShapeGeometry> read = read_geometry(geometry);
+  if (!read) return;
+  link.shapes.push_back({*read, X_LS.position, X_LS.orientation, 0});
+  link.shape_places.push_back(place(geometry.first_child()));
+}
+
+std::optional<ShapeGeometry> UrdfReader::read_geometry(const pugi::xml_node& node) {
+  const pugi::xml_node shape = node.first_child();
+  const std::string_view kind = shape.name();
+  if (kind == "box") {
+    const Vector3d size = vector(shape, "size", {});
+    if (size.x <= 0. || size.y <= 0. || size.z <= 0.)
+      fail(place(shape, "size"), "the edges of a box are greater than 0");
+    return Box{size};
+  }
+  if (kind == "sphere") return Sphere{positive(shape, "radius")};
+  if (kind == "cylinder") return Cylinder{positive(shape, "radius"), positive(shape, "length")};
+  if (kind == "mesh") {
+    const bool collision = shapes_ == UrdfShapes::collision;
+    fail(place(shape),
+         fmt::format(
+             "a mesh cannot touch the ground here: put boxes, cylinders or spheres in its "
+             "place{}",
+             collision ? ", or take those of <visual> with the argument shapes = visual" : ""));
+  } else {
+    fail(shape ? place(shape) : place(node), "<geometry> takes a box, a cylinder or a sphere");
+  }
+  return std::nullopt;
+}
+
+void UrdfReader::read_joint(const pugi::xml_node& node) {
+  UrdfJoint joint;
+  joint.name = name_of(node);
+  joint.place = place(node);
+  const auto [same, is_new] = joints_.emplace(joint.name, robot_.joints.size());
+  if (!is_new) {
+    fail(joint.place, fmt::format("a second joint `{}`", joint.name));
+    return note(robot_.joints[same->second].place, "the first is here");
+  }
+  if (!read_type(node, joint) || !read_ends(node, joint)) return;
+  joint.origin = read_origin(node);
+  if (const pugi::xml_node mimic = only(node, "mimic")) {
+    fail(place(mimic), fmt::format("joint `{}` mimics another: joints that are geared together are "
+                                   "not supported",
+                                   joint.name));
+  }
+  if (joint.type != UrdfJointType::fixed) {
+    read_axis(node, joint);
+    read_limit(node, joint);
+    read_dynamics(node, joint);
+  }
+  robot_.joints.push_back(std::move(joint));
+}
+
+bool UrdfReader::read_type(const pugi::xml_node& node, UrdfJoint& joint) {
+  const std::string_view type = node.attribute("type").value();
+  if (type == "fixed") joint.type = UrdfJointType::fixed;
+  if (type == "revolute") joint.type = UrdfJointType::revolute;
+  if (type == "continuous") joint.type = UrdfJointType::continuous;
+  if (type == "prismatic") joint.type = UrdfJointType::prismatic;
+  if (joint.type != UrdfJointType::fixed || type == "fixed") return true;
+  const Position at = place(node, "type");
+  if (type == "floating" || type == "planar") {
+    return fail(at, fmt::format("a {} joint is not supported: only the base moves freely (argument "
+                                "base = mobile), links turn or slide about one axis",
+                                type));
+  }
+  const std::string known = "revolute, continuous, prismatic or fixed";
+  if (type.empty()) return fail(at, fmt::format("joint `{}` has no type: {}", joint.name, known));
+  return fail(at, fmt::format("`{}` is no type of joint: expected {}", type, known));
+}
+
+bool UrdfReader::read_ends(const pugi::xml_node& node, UrdfJoint& joint) {
+  const bool parent = read_end(node, "parent", joint.parent);
+  return read_end(node, "child", joint.child) && parent;
+}
+
+bool UrdfReader::read_end(const pugi::xml_node& node, const char* role, std::size_t& link) {
+  const pugi::xml_node end = only(node, role);
+  const std::string name = end.attribute("link").value();
+  if (name.empty()) {
+    return fail(end ? place(end) : place(node), fmt::format("joint `{}` lacks <{} link=\"...\"/>",
+                                                            node.attribute("name").value(), role));
+  }
+  const auto found = links_.find(name);
+  if (found != links_.end()) {
+    link = found->second;
+    return true;
+  }
+  constexpr int most_hints = 20;
+  std::vector<std::string> names;
+  if (hints_++ < most_hints) {
+    for (const UrdfLink& known : robot_.links) names.push_back(known.name);
+  }
+  const std::string nearest = language::nearest_name(name, names);
+  return fail(place(end, "link"),
+              fmt::format("there is no link `{}`{}", name,
+                          nearest.empty() ? "" : "; did you mean `" + nearest + "`?"));
+}
+
+void UrdfReader::read_axis(const pugi::xml_node& node, UrdfJoint& joint) {
+  const pugi::xml_node axis = only(node, "axis");
+  if (!axis) return;
+  const Vector3d along = vector(axis, "xyz", joint.axis);
+  const double length = std::hypot(along.x, along.y, along.z);
+  if (!(length > 0.)) {
+    fail(place(axis, "xyz"), "an axis of length 0 has no direction");
+    return;
+  }
+  joint.axis = {along.x / length, along.y / length, along.z / length};
+}
+
+void UrdfReader::read_limit(const pugi::xml_node& node, UrdfJoint& joint) {
+  if (joint.type == UrdfJointType::continuous) return;
+  const pugi::xml_node limit = only(node, "limit");
+  if (!limit) {
+    fail(joint.place,
+         fmt::format("joint `{}` lacks <limit lower=\"...\" upper=\"...\"/>{}", joint.name,
+                     joint.type == UrdfJointType::revolute
+                         ? "; without limits its type is continuous"
+                         : ""));
+    return;
+  }
+  joint.limit_place = place(limit);
+  joint.lower_limit = number(limit, "lower", 0.);
+  joint.upper_limit = number(limit, "upper", 0.);
+  if (*joint.lower_limit < *joint.upper_limit) return;
+  fail(place(limit, "lower"),
+       fmt::format("lower = {:g} is not below upper = {:g} (each is 0 where it is not given)",
+                   *joint.lower_limit, *joint.upper_limit));
+}
+
+void UrdfReader::read_dynamics(const pugi::xml_node& node, UrdfJoint& joint) {
+  const pugi::xml_node dynamics = only(node, "dynamics");
+  if (!dynamics) return;
+  joint.damping_place = place(dynamics, "damping");
+  joint.friction_place = place(dynamics, "friction");
+  joint.damping = number(dynamics, "damping", 0.);
+  joint.friction = number(dynamics, "friction", 0.);
+}
+
+Pose UrdfReader::read_origin(const pugi::xml_node& parent) {
+  const pugi::xml_node origin = only(parent, "origin");
+  if (!origin) return {};
+  const Vector3d angles = vector(origin, "rpy", {});
+  return {vector(origin, "xyz", {}), from_roll_pitch_yaw(angles.x, angles.y, angles.z)};
+}
+
+}  // namespace
+
+std::optional<UrdfRobot> read_urdf(const language::SourceFile& file, UrdfShapes shapes,
+                                   language::Report& report) {
+  return UrdfReader(file, shapes, report).run();
+}
+
+}  // namespace hookpoint::simulation

@@ -1,0 +1,174 @@
+// A URDF's links as the bodies of a base and its chains: what is fixed together is one body.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "dts/mass_properties.h"
+#include "simulation/scene/urdf/urdf.h"
+
+namespace hookpoint::simulation {
+namespace {
+
+/// The least rotation that takes z to the unit vector `axis`: (1 + z.axis, z x axis), normalised.
+Quaterniond from_z_to(const Vector3d& axis) {
+  const double across = axis.x * axis.x + axis.y * axis.y;
+  if (axis.z < 0. && across == 0.) return {0., 1., 0., 0.};
+  const double w = axis.z < 0. ? across / (1. - axis.z) : 1. + axis.z;
+  return normalized(Quaterniond{w, -axis.y, axis.x, 0.});
+}
+
+Pose inverse(const Pose& X) {
+  const Quaterniond back = conjugate(X.orientation);
+  return {-rotate(back, X.position), back};
+}
+
+class UrdfAssembly {
+ public:
+  UrdfAssembly(const UrdfRobot& robot, language::Report& report)
+      : robot_(robot), report_(report), outward_(robot.links.size()), moves_(robot.links.size()) {}
+
+  std::optional<UrdfTree> run() {
+    if (!hang_links()) return std::nullopt;
+    const std::optional<std::size_t> root = find_root();
+    if (!root) return std::nullopt;
+    UrdfTree tree;
+    std::vector<Next> hips;
+    tree.base = body_of(*root, nullptr, {}, hips);
+    for (Next next : hips) {
+      std::vector<UrdfBody>& chain = tree.chains.emplace_back();
+      for (std::vector<Next> outer{next}; !outer.empty();) {
+        next = outer.front();
+        outer.clear();
+        chain.push_back(body_of(next.joint->child, next.joint, next.X_FJ, outer));
+        if (outer.size() > 1) return branches(chain.back(), *outer[1].joint);
+      }
+    }
+    return all_reached() ? std::optional(std::move(tree)) : std::nullopt;
+  }
+
+ private:
+  /// A joint that moves, and where its frame stands in that of the body that carries it.
+  struct Next {
+    const UrdfJoint* joint;
+    Pose X_FJ;
+  };
+
+  /// Which joints each link carries; false when one is carried twice.
+  bool hang_links() {
+    std::vector<const UrdfJoint*> carrier(robot_.links.size(), nullptr);
+    bool good = true;
+    for (const UrdfJoint& joint : robot_.joints) {
+      const UrdfJoint*& first = carrier[joint.child];
+      if (first != nullptr) {
+        report_.error(joint.place, fmt::format("link `{}` is the child of a second joint: links "
+                                               "form a tree",
+                                               robot_.links[joint.child].name));
+        report_.note(first->place, "the first is here");
+        good = false;
+      }
+      first = &joint;
+      outward_[joint.parent].push_back(&joint);
+      moves_[joint.child] = true;
+    }
+    return good;
+  }
+
+  /// The one link that no joint carries.
+  std::optional<std::size_t> find_root() {
+    std::optional<std::size_t> root;
+    for (std::size_t i = 0; i < robot_.links.size(); ++i) {
+      if (moves_[i]) continue;
+      if (root) {
+        report_.error(robot_.links[i].place,
+                      fmt::format("no joint carries link `{}`, and none `{}`: a robot has one root",
+                                  robot_.links[i].name, robot_.links[*root].name));
+        return std::nullopt;
+      }
+      root = i;
+    }
+    if (!root) report_.error(robot_.place, "the joints form a loop: no link is the root");
+    return root;
+  }
+
+  /// Link `first` with all that is fixed to it. `X_PJ`: of its joint in the frame before; `moving`
+  /// gets the joints that it carries, in the file's order.
+  UrdfBody body_of(std::size_t first, const UrdfJoint* joint, const Pose& X_PJ,
+                   std::vector<Next>& moving) {
+    UrdfBody body;
+    body.link = first;
+    body.joint = joint;
+    const Pose turn{{}, joint == nullptr ? Quaterniond{} : from_z_to(joint->axis)};
+    body.joint_pose = X_PJ * turn;
+    std::vector<dts::MassProperties<double>> masses;
+    struct Fixed {
+      std::size_t link;
+      Pose X_FL;
+    };
+    for (std::vector<Fixed> waiting{{first, inverse(turn)}}; !waiting.empty();) {
+      const Fixed fixed = waiting.back();
+      waiting.pop_back();
+      ++reached_;
+      add(robot_.links[fixed.link], fixed.X_FL, body, masses);
+      for (const UrdfJoint* carried : outward_[fixed.link]) {
+        const Pose X_FC = fixed.X_FL * carried->origin;
+        if (carried->type == UrdfJointType::fixed) {
+          waiting.push_back({carried->child, X_FC});
+        } else {
+          moving.push_back({carried, X_FC});
+        }
+      }
+    }
+    std::ranges::sort(moving, {}, &Next::joint);
+    const dts::MassProperties<double> whole = dts::combined(masses);
+    body.mass = {whole.mass, whole.center_of_mass, whole.inertia};
+    return body;
+  }
+
+  void add(const UrdfLink& link, const Pose& X_FL, UrdfBody& body,
+           std::vector<dts::MassProperties<double>>& masses) {
+    if (link.has_inertial) {
+      const MassSpec& mass = link.mass;
+      masses.push_back(dts::placed({mass.mass, mass.center_of_mass, mass.inertia}, X_FL.position,
+                                   X_FL.orientation));
+      if (!body.has_inertial) body.inertial_place = link.inertial_place;
+      body.has_inertial = true;
+    }
+    for (std::size_t i = 0; i < link.shapes.size(); ++i) {
+      ShapeSpec shape = link.shapes[i];
+      const Pose X_FS = X_FL * Pose{shape.location, shape.orientation};
+      shape.location = X_FS.position;
+      shape.orientation = X_FS.orientation;
+      body.shapes.push_back(shape);
+      body.shape_places.push_back(link.shape_places[i]);
+    }
+  }
+
+  std::nullopt_t branches(const UrdfBody& body, const UrdfJoint& second) {
+    report_.error(second.place,
+                  fmt::format("joint `{}` is the second that link `{}` (with what is fixed to it) "
+                              "carries: only the base branches, its chains do not",
+                              second.name, robot_.links[body.link].name));
+    return std::nullopt;
+  }
+
+  /// Links in a loop of their own hang on nothing that the root carries.
+  bool all_reached() {
+    if (reached_ == robot_.links.size()) return true;
+    report_.error(robot_.place, "some joints form a loop that the root does not carry");
+    return false;
+  }
+
+  const UrdfRobot& robot_;
+  language::Report& report_;
+  std::vector<std::vector<const UrdfJoint*>> outward_;  ///< one a link: the joints it carries
+  std::vector<bool> moves_;                             ///< one a link: a joint carries it
+  std::size_t reached_ = 0;
+};
+
+}  // namespace
+
+std::optional<UrdfTree> assemble_urdf(const UrdfRobot& robot, language::Report& report) {
+  return UrdfAssembly(robot, report).run();
+}
+
+}  // namespace hookpoint::simulation

@@ -1,0 +1,224 @@
+// A URDF's robot as objects of the language, with the arguments of its Include.
+#include "simulation/scene/urdf/urdf.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "language/document.h"
+#include "language/names.h"
+
+namespace hookpoint::simulation {
+namespace {
+
+using language::ForeignArguments;
+using language::ForeignField;
+using language::ForeignObject;
+using language::Position;
+using language::Value;
+using language::ValueKind;
+
+/// Arguments that are fields of the base.
+constexpr std::array base_fields{"location", "orientation", "velocity", "angular_velocity",
+                                 "rest_on",  "at",          "yaw"};
+/// Arguments with a meaning of their own.
+constexpr std::array own_arguments{"name", "base", "shapes"};
+
+/// `text` as a name of the language: letters, digits and _, no digit first.
+std::string identifier(std::string text) {
+  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
+  const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  std::ranges::replace_if(
+      text, [&](char c) { return !digit(c) && !letter(c); }, '_');
+  if (text.empty() || digit(text[0])) text.insert(0, "_");
+  return text;
+}
+
+ForeignField numbers(const char* name, const std::vector<double>& of, const Position& place) {
+  ForeignField field{name, {}, place};
+  for (const double x : of) {
+    Value& value = field.values.emplace_back();
+    value.quantity.value = x;
+    value.position = place;
+  }
+  return field;
+}
+
+ForeignField word(const char* name, const char* text, const Position& place) {
+  Value value;
+  value.kind = ValueKind::word;
+  value.text = text;
+  value.position = place;
+  return {name, {value}, place};
+}
+
+/// Position and orientation, unless they are the identity, to the fields of those names.
+void add_pose(const Pose& X, const char* position, const char* orientation, const Position& place,
+              ForeignObject& object) {
+  const auto& [p, q] = X;
+  if (p != Vector3d{}) object.fields.push_back(numbers(position, {p.x, p.y, p.z}, place));
+  if (q != Quaterniond{})
+    object.fields.push_back(numbers(orientation, {q.w, q.x, q.y, q.z}, place));
+}
+
+ForeignObject shape_object(const ShapeSpec& shape, const Position& place) {
+  ForeignObject object{"", "", place, {}, {}};
+  if (const auto* box = std::get_if<Box>(&shape.geometry)) {
+    object.type = "Shape.Box";
+    const Vector3d& size = box->dimensions;
+    object.fields = {numbers("dimensions", {size.x, size.y, size.z}, place)};
+  } else if (const auto* cylinder = std::get_if<Cylinder>(&shape.geometry)) {
+    object.type = "Shape.Cylinder";
+    object.fields = {numbers("radius", {cylinder->radius}, place),
+                     numbers("length", {cylinder->length}, place)};
+  } else {
+    object.type = "Shape.Sphere";
+    object.fields = {numbers("radius", {std::get<Sphere>(shape.geometry).radius}, place)};
+  }
+  add_pose({shape.location, shape.orientation}, "location", "orientation", place, object);
+  return object;
+}
+
+/// What a body weighs and how it looks to the ground.
+void add_body(const UrdfBody& body, ForeignObject& object) {
+  const auto& [mass, c, I] = body.mass;
+  if (body.has_inertial) {
+    const Position& place = body.inertial_place;
+    object.fields.push_back(numbers("mass", {mass}, place));
+    object.fields.push_back(numbers("center_of_mass", {c.x, c.y, c.z}, place));
+    object.fields.push_back(numbers("inertia", {I.xx, I.yy, I.zz, I.xy, I.xz, I.yz}, place));
+  }
+  for (std::size_t i = 0; i < body.shapes.size(); ++i)
+    object.children.push_back(shape_object(body.shapes[i], body.shape_places[i]));
+}
+
+class UrdfInclude {
+ public:
+  UrdfInclude(const ForeignArguments& arguments, language::Report& report)
+      : arguments_(arguments), report_(report) {}
+
+  std::vector<ForeignObject> run(const language::SourceFile& file) {
+    const bool visual = word_argument("shapes", {"collision", "visual"}) == "visual";
+    const auto robot =
+        read_urdf(file, visual ? UrdfShapes::visual : UrdfShapes::collision, report_);
+    if (!robot) return {};
+    const auto tree = assemble_urdf(*robot, report_);
+    if (!tree) return {};
+    check_arguments(*robot);
+    ForeignObject object{"Robot", robot_name(*robot), robot->place, {}, {}};
+    object.children.push_back(base_object(*robot, tree->base));
+    for (const std::vector<UrdfBody>& chain : tree->chains)
+      object.children.push_back(chain_object(*robot, chain));
+    return {std::move(object)};
+  }
+
+ private:
+  ForeignObject base_object(const UrdfRobot& robot, const UrdfBody& body) {
+    const UrdfLink& link = robot.links[body.link];
+    std::string kind = word_argument("base", {"mobile", "fixed"});
+    // A root that is the world itself, as other readers take it.
+    if (kind.empty()) kind = link.name == "world" ? "fixed" : "mobile";
+    ForeignObject object{"Base." + kind, "", link.place, {}, {}};
+    if (kind == "mobile") require_mass(link, body);
+    for (const char* name : base_fields) {
+      const auto given = arguments_.find(name);
+      if (given != arguments_.end() && !given->second.values.empty())
+        object.fields.push_back(given->second);
+    }
+    add_body(body, object);
+    return object;
+  }
+
+  ForeignObject chain_object(const UrdfRobot& robot, const std::vector<UrdfBody>& bodies) {
+    const UrdfJoint& hip = *bodies.front().joint;
+    ForeignObject chain{"Chain", identifier(hip.name), hip.place, {}, {}};
+    add_pose(bodies.front().joint_pose, "hip_distance", "hip_orientation", hip.place, chain);
+    for (const UrdfBody& body : bodies) {
+      const UrdfJoint& joint = *body.joint;
+      const UrdfLink& link = robot.links[body.link];
+      require_mass(link, body);
+      ForeignObject object{"Link", identifier(link.name), joint.place, {}, {}};
+      if (joint.type == UrdfJointType::prismatic)
+        object.fields.push_back(word("joint", "prismatic", joint.place));
+      if (&body != &bodies.front())
+        add_pose(body.joint_pose, "joint_location", "joint_orientation", joint.place, object);
+      add_joint(joint, object);
+      add_body(body, object);
+      chain.children.push_back(std::move(object));
+    }
+    return chain;
+  }
+
+  void add_joint(const UrdfJoint& joint, ForeignObject& object) {
+    const auto add = [&](const char* field, double value, const Position& place) {
+      object.fields.push_back(numbers(field, {value}, place));
+    };
+    if (joint.lower_limit) add("lower_limit", *joint.lower_limit, joint.limit_place);
+    if (joint.upper_limit) add("upper_limit", *joint.upper_limit, joint.limit_place);
+    if (joint.damping != 0.) add("damping", joint.damping, joint.damping_place);
+    if (joint.friction != 0.) add("friction", joint.friction, joint.friction_place);
+    const auto angle = arguments_.find(identifier(joint.name));
+    if (angle != arguments_.end() && !angle->second.values.empty())
+      object.fields.push_back({"angle", angle->second.values, angle->second.position});
+  }
+
+  void require_mass(const UrdfLink& link, const UrdfBody& body) {
+    if (body.has_inertial) return;
+    report_.error(link.place, fmt::format("link `{}` moves but has no <inertial>: give it, or a "
+                                          "link that is fixed to it, a mass and an inertia",
+                                          link.name));
+  }
+
+  std::string robot_name(const UrdfRobot& robot) {
+    const auto given = arguments_.find("name");
+    if (given == arguments_.end() || given->second.values.empty())
+      return robot.name.empty() ? "robot" : identifier(robot.name);
+    const Value& value = given->second.values[0];
+    if (given->second.values.size() == 1 && value.text == identifier(value.text)) return value.text;
+    report_.error(given->second.position, "the argument `name` takes a name");
+    return "robot";
+  }
+
+  /// The word that an argument gives; "" if it is not given or after an error.
+  std::string word_argument(const std::string& name, const std::vector<std::string>& choices) {
+    const auto given = arguments_.find(name);
+    if (given == arguments_.end() || given->second.values.empty()) return "";
+    const Value& value = given->second.values[0];
+    const bool one = given->second.values.size() == 1 && value.kind == ValueKind::word;
+    if (one && std::ranges::count(choices, value.text) > 0) return value.text;
+    report_.error(given->second.position,
+                  fmt::format("the argument `{}` is {} or {}", name, choices[0], choices[1]));
+    return "";
+  }
+
+  void check_arguments(const UrdfRobot& robot) {
+    std::vector<std::string> known(own_arguments.begin(), own_arguments.end());
+    known.insert(known.end(), base_fields.begin(), base_fields.end());
+    for (const UrdfJoint& joint : robot.joints) {
+      if (joint.type != UrdfJointType::fixed) known.push_back(identifier(joint.name));
+    }
+    for (const auto& [name, given] : arguments_) {
+      if (std::ranges::count(known, name) > 0) continue;
+      const std::string nearest = language::nearest_name(name, known);
+      report_.error(given.position,
+                    fmt::format("the robot takes no argument `{}`; {}", name,
+                                nearest.empty() ? "it takes name, base, shapes, fields of its "
+                                                  "base, and the names of its moving joints"
+                                                : "did you mean `" + nearest + "`?"));
+    }
+  }
+
+  const ForeignArguments& arguments_;
+  language::Report& report_;
+};
+
+}  // namespace
+
+std::vector<ForeignObject> include_urdf(const language::SourceFile& file,
+                                        const ForeignArguments& arguments,
+                                        language::Report& report) {
+  return UrdfInclude(arguments, report).run(file);
+}
+
+}  // namespace hookpoint::simulation

@@ -1,0 +1,80 @@
+// Robots written as URDF: the file as it stands (urdf_read.cpp), its tree with what is fixed
+// together made one (urdf_tree.cpp), and the objects of the language that it comes to (urdf.cpp).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "language/tree/foreign.h"
+#include "simulation/experiment.h"
+#include "simulation/kinematics.h"
+
+namespace hookpoint::simulation {
+
+struct UrdfLink {
+  std::string name;
+  language::Position place;
+  bool has_inertial = false;
+  language::Position inertial_place;
+  MassSpec mass;  ///< link's frame
+  std::vector<ShapeSpec> shapes;
+  std::vector<language::Position> shape_places;
+};
+
+enum class UrdfJointType { fixed, revolute, continuous, prismatic };
+
+struct UrdfJoint {
+  std::string name;
+  language::Position place, limit_place, damping_place, friction_place;
+  UrdfJointType type = UrdfJointType::fixed;
+  std::size_t parent = 0, child = 0;  ///< indices of links
+  Pose origin;                        ///< X_PC at angle 0: of the child's frame in its parent's
+  Vector3d axis{1., 0., 0.};          ///< unit vector, child's frame
+  std::optional<double> lower_limit, upper_limit;
+  double damping = 0., friction = 0.;
+};
+
+struct UrdfRobot {
+  std::string name;
+  language::Position place;
+  std::vector<UrdfLink> links;
+  std::vector<UrdfJoint> joints;
+};
+
+enum class UrdfShapes { collision, visual };
+
+/// The file's robot; `shapes` says which geometry counts. Nothing after an error. Cost: linear.
+std::optional<UrdfRobot> read_urdf(const language::SourceFile& file, UrdfShapes shapes,
+                                   language::Report& report);
+
+/// Links that are fixed together, as one body in its own frame.
+struct UrdfBody {
+  std::size_t link = 0;               ///< the one that names it
+  const UrdfJoint* joint = nullptr;   ///< that moves it; none for the base
+  Pose joint_pose;                    ///< of its frame in the preceding body's, at angle 0
+  MassSpec mass;                      ///< body's frame
+  bool has_inertial = false;          ///< some link of it does
+  language::Position inertial_place;  ///< of the first that does
+  std::vector<ShapeSpec> shapes;      ///< body's frame
+  std::vector<language::Position> shape_places;
+};
+
+/// The base, and the chains of bodies that it carries. A body's frame has its origin where URDF has
+/// that of its link; its axes are the link's, turned by the least rotation that takes z to the
+/// joint's axis.
+struct UrdfTree {
+  UrdfBody base;
+  std::vector<std::vector<UrdfBody>> chains;
+};
+
+/// Nothing after an error: a second root, a loop, a chain that branches. Cost: n log n in the
+/// links.
+std::optional<UrdfTree> assemble_urdf(const UrdfRobot& robot, language::Report& report);
+
+/// The reader of an Include: the robot as an object of the language.
+std::vector<language::ForeignObject> include_urdf(const language::SourceFile& file,
+                                                  const language::ForeignArguments& arguments,
+                                                  language::Report& report);
+
+}  // namespace hookpoint::simulation

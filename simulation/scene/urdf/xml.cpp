@@ -1,0 +1,130 @@
+#include "simulation/scene/urdf/xml.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <vector>
+
+namespace hookpoint::simulation {
+namespace {
+
+using language::Position;
+
+/// Only what links and joints need is read; a larger file is no robot's description.
+constexpr std::size_t largest_file = 64UL << 20;
+constexpr std::string_view blanks = " \t\r\n";
+
+}  // namespace
+
+pugi::xml_node UrdfXml::open(const char* name) {
+  const std::string& text = file_.text;
+  const Position start{&file_, 0, 1};
+  if (text.size() > largest_file) {
+    fail(start, fmt::format("the file is larger than {} MB", largest_file >> 20));
+    return {};
+  }
+  const pugi::xml_parse_result parsed =
+      document_.load_buffer(text.data(), text.size(), pugi::parse_default, pugi::encoding_utf8);
+  if (!parsed) {
+    const auto offset = std::min(static_cast<std::size_t>(parsed.offset), text.size());
+    fail({&file_, offset, 1}, fmt::format("this is not XML: {}", parsed.description()));
+    return {};
+  }
+  const pugi::xml_node root = document_.document_element();
+  if (std::string_view(root.name()) == name) return root;
+  fail(root ? place(root) : start, fmt::format("this is no URDF: expected <{}>", name));
+  return {};
+}
+
+pugi::xml_node UrdfXml::only(const pugi::xml_node& parent, const char* name) {
+  const pugi::xml_node found = parent.child(name);
+  if (const pugi::xml_node second = found.next_sibling(name))
+    fail(place(second), fmt::format("a second <{}> in <{}>", name, parent.name()));
+  return found;
+}
+
+std::string UrdfXml::name_of(const pugi::xml_node& node) {
+  std::string name = node.attribute("name").value();
+  if (name.empty()) fail(place(node), fmt::format("this <{}> has no name", node.name()));
+  return name;
+}
+
+double UrdfXml::number(const pugi::xml_node& node, const char* attribute,
+                       std::optional<double> otherwise) {
+  const pugi::xml_attribute found = node.attribute(attribute);
+  if (!found && otherwise) return *otherwise;
+  if (!found) fail(place(node), fmt::format("<{}> lacks {}=\"...\"", node.name(), attribute));
+  return found ? parse(found.value(), place(node, attribute)).value_or(0.) : 0.;
+}
+
+double UrdfXml::positive(const pugi::xml_node& node, const char* attribute) {
+  const bool good_before = good_;
+  const double value = number(node, attribute, {});
+  if (good_before == good_ && value <= 0.)
+    fail(place(node, attribute), fmt::format("{} is greater than 0", attribute));
+  return value;
+}
+
+Vector3d UrdfXml::vector(const pugi::xml_node& node, const char* attribute,
+                         const Vector3d& otherwise) {
+  const pugi::xml_attribute found = node.attribute(attribute);
+  if (!found) return otherwise;
+  constexpr std::string_view blanks = " \t\r\n";
+  std::string_view text = found.value();
+  std::vector<double> numbers;
+  const Position at = place(node, attribute);
+  for (std::size_t start = text.find_first_not_of(blanks); start != std::string_view::npos;
+       start = text.find_first_not_of(blanks)) {
+    text.remove_prefix(start);
+    const std::string_view word = text.substr(0, text.find_first_of(blanks));
+    const std::optional<double> value = parse(word, at);
+    if (!value) return otherwise;
+    if (numbers.size() < 4) numbers.push_back(*value);
+    text.remove_prefix(word.size());
+  }
+  if (numbers.size() != 3) {
+    fail(at, fmt::format("{} takes three numbers: \"x y z\"", attribute));
+    return otherwise;
+  }
+  return {numbers[0], numbers[1], numbers[2]};
+}
+
+std::optional<double> UrdfXml::parse(std::string_view text, const Position& at) {
+  constexpr std::string_view blanks = " \t\r\n";
+  constexpr double largest = 1e12;  // squares and products of such numbers stay finite
+  constexpr std::size_t longest = 40;
+  std::string_view digits = text;
+  digits.remove_prefix(std::min(digits.find_first_not_of(blanks), digits.size()));
+  digits = digits.substr(0, digits.find_last_not_of(blanks) + 1);
+  if (digits.starts_with('+')) digits.remove_prefix(1);
+  double value = 0.;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  const bool whole = error == std::errc() && end == digits.data() + digits.size();
+  if (whole && std::fabs(value) <= largest) return value;
+  fail(at, fmt::format("`{}` is no number{}", text.substr(0, longest),
+                       whole ? fmt::format(" from {:g} to {:g}", -largest, largest) : ""));
+  return std::nullopt;
+}
+
+Position UrdfXml::place(const pugi::xml_node& node) const {
+  return {&file_, static_cast<std::size_t>(std::max<std::ptrdiff_t>(node.offset_debug(), 0)),
+          std::max<std::size_t>(std::string_view(node.name()).size(), 1)};
+}
+
+Position UrdfXml::place(const pugi::xml_node& node, std::string_view attribute) const {
+  const Position element = place(node);
+  const std::string_view text = file_.text;
+  const std::size_t end = std::min(text.find('>', element.offset), text.size());
+  const std::string_view tag = text.substr(element.offset, end - element.offset);
+  for (std::size_t at = tag.find(attribute); at != std::string_view::npos;
+       at = tag.find(attribute, at + 1)) {
+    const std::size_t after = tag.find_first_not_of(" \t\r\n", at + attribute.size());
+    const bool apart = at > 0 && std::string_view(" \t\r\n").find(tag[at - 1]) != std::string::npos;
+    if (apart && after != std::string_view::npos && tag[after] == '=')
+      return {&file_, element.offset + at, attribute.size()};
+  }
+  return element;
+}
+
+}  // namespace hookpoint::simulation

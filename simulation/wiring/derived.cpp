@@ -1,0 +1,83 @@
+#include "simulation/wiring/derived.h"
+
+#include <cmath>
+
+namespace hookpoint::simulation {
+namespace {
+
+bool is_finite(const Vector3d& a) {
+  return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
+}
+
+}  // namespace
+
+Derived::Derived(const Experiment& experiment, Engine& engine)
+    : experiment_(experiment),
+      engine_(engine),
+      robots_(experiment.robots.size()),
+      bodies_(engine.state().bodies.size()),
+      contact_forces_(engine),
+      details_(engine) {}
+
+void Derived::update() {
+  finite_ = true;
+  energies_.update();
+  accelerations_.update();
+  contacts_.update();
+}
+
+void Derived::restart() {
+  before_.clear();
+  update();
+}
+
+// T = (m v_c^2 + w.I w)/2, V = -m g.c of every body that moves.
+void Derived::compute_energies() {
+  auto body = engine_.state().bodies.begin();
+  for (std::size_t i = 0; i < robots_.size(); ++i) {
+    const RobotSpec& robot = experiment_.robots[i];
+    RobotValues sum;
+    double total = 0.;
+    const auto add = [&](const MassSpec& mass, const BodyState& state) {
+      const Vector3d arm = rotate(state.orientation, mass.center_of_mass);
+      const Vector3d center = state.position + arm;
+      const Vector3d velocity = state.velocity + cross(state.angular_velocity, arm);
+      const Vector3d w = rotate(conjugate(state.orientation), state.angular_velocity);
+      sum.kinetic_energy += 0.5 * (mass.mass * dot(velocity, velocity) + dot(w, mass.inertia * w));
+      sum.potential_energy -= mass.mass * dot(experiment_.gravity, center);
+      sum.center_of_mass += mass.mass * center;
+      total += mass.mass;
+    };
+    if (robot.mobile) add(robot.base.mass, *body);
+    ++body;
+    for (const ChainSpec& chain : robot.chains) {
+      for (const LinkSpec& link : chain.links) add(link.body.mass, *body++);
+    }
+    if (total > 0.) sum.center_of_mass = (1. / total) * sum.center_of_mass;
+    finite_ = finite_ && std::isfinite(sum.kinetic_energy) && std::isfinite(sum.potential_energy) &&
+              is_finite(sum.center_of_mass);
+    robots_[i] = sum;
+  }
+}
+
+void Derived::compute_accelerations() {
+  const std::vector<BodyState>& now = engine_.state().bodies;
+  if (before_.empty()) before_ = now;
+  const double per_second = 1. / experiment_.deltat;
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    bodies_[i].acceleration = per_second * (now[i].velocity - before_[i].velocity);
+    bodies_[i].angular_acceleration =
+        per_second * (now[i].angular_velocity - before_[i].angular_velocity);
+    finite_ =
+        finite_ && is_finite(bodies_[i].acceleration) && is_finite(bodies_[i].angular_acceleration);
+    before_[i] = now[i];
+  }
+}
+
+void Derived::compute_contacts() {
+  const std::vector<BodyState>& now = engine_.state().bodies;
+  for (std::size_t i = 0; i < now.size(); ++i)
+    bodies_[i].contacts = static_cast<double>(now[i].contacts);
+}
+
+}  // namespace hookpoint::simulation

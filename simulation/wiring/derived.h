@@ -1,0 +1,93 @@
+// Values that follow from what every engine publishes. Each group is worked out only from the
+// moment on when somebody asks for one of it.
+#pragma once
+
+#include <vector>
+
+#include "simulation/wiring/ports.h"
+
+namespace hookpoint::simulation {
+
+class Derived {
+ public:
+  /// Both outlive it. Throws nothing.
+  Derived(const Experiment& experiment, Engine& engine);
+  Derived(const Derived&) = delete;
+  Derived& operator=(const Derived&) = delete;
+
+  /// The groups that are asked for, at the engine's present state; after every step. Allocates
+  /// nothing.
+  void update();
+
+  /// Whether every number that somebody asked for is finite.
+  bool finite() const { return finite_; }
+  /// The engine's state has become another one: differences begin anew.
+  void restart();
+
+  struct RobotValues {
+    double kinetic_energy = 0.;    ///< of its bodies; a fixed base counts for nothing [J]
+    double potential_energy = 0.;  ///< of gravity, zero at the world's origin [J]
+    Vector3d center_of_mass;       ///< world axes [m]
+  };
+  struct BodyValues {
+    Vector3d acceleration,
+        angular_acceleration;  ///< mean over the last step, world axes; at first 0
+    double contacts = 0.;      ///< boundary points that carried force
+  };
+  const RobotValues& robot(std::size_t i) const { return robots_[i]; }
+  const BodyValues& body(std::size_t i) const { return bodies_[i]; }
+
+  Lazy& energies() { return energies_; }
+  Lazy& accelerations() { return accelerations_; }
+  Lazy& contacts() { return contacts_; }
+  /// The bodies' contact forces (Engine::publish_contact_forces).
+  Lazy& contact_forces() { return contact_forces_; }
+  /// The engine's own details (Engine::publish_details).
+  Lazy& details() { return details_; }
+
+ private:
+  struct Group final : Lazy {
+    Group(Derived& owner, void (Derived::*compute)()) : owner_(owner), compute_(compute) {}
+    void begin() override {
+      if (!wanted) (owner_.*compute_)();
+      wanted = true;
+    }
+    void update() const {
+      if (wanted) (owner_.*compute_)();
+    }
+    bool wanted = false;
+
+   private:
+    Derived& owner_;
+    void (Derived::*compute_)();
+  };
+  struct Details final : Lazy {
+    explicit Details(Engine& asked) : engine(asked) {}
+    void begin() override { engine.publish_details(); }
+    Engine& engine;
+  };
+
+  struct ContactForces final : Lazy {
+    explicit ContactForces(Engine& asked) : engine(asked) {}
+    void begin() override { engine.publish_contact_forces(true); }
+    Engine& engine;
+  };
+
+  void compute_energies();
+  void compute_accelerations();
+  void compute_contacts();
+
+  const Experiment& experiment_;
+  Engine& engine_;
+  std::vector<RobotValues> robots_;
+  std::vector<BodyValues> bodies_;
+  std::vector<BodyState> before_;  // of the step before, while accelerations are wanted
+  bool finite_ = true;
+  Group energies_{*this, &Derived::compute_energies};
+  Group accelerations_{*this, &Derived::compute_accelerations};
+  Group contacts_{*this, &Derived::compute_contacts};
+  ContactForces contact_forces_;
+  Details details_;
+};
+
+}  // namespace hookpoint::simulation

@@ -1,0 +1,185 @@
+#include "simulation/wiring/ports.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "language/document.h"
+#include "language/names.h"
+#include "simulation/wiring/derived.h"
+
+namespace hookpoint::simulation {
+namespace {
+
+Port readable(std::string trail, std::string unit, const double& value) {
+  Port port;
+  port.trail = std::move(trail);
+  port.unit = std::move(unit);
+  port.value = &value;
+  return port;
+}
+
+void add_vector(std::vector<Port>& ports, const std::string& trail, const char* unit,
+                const Vector3d& v) {
+  ports.push_back(readable(trail + ".x", unit, v.x));
+  ports.push_back(readable(trail + ".y", unit, v.y));
+  ports.push_back(readable(trail + ".z", unit, v.z));
+}
+
+/// Marks the ports from `first` on as worked out on demand.
+void on_demand(std::vector<Port>& ports, std::size_t first, Lazy& lazy) {
+  for (; first < ports.size(); ++first) ports[first].lazy = &lazy;
+}
+
+/// A body's motion under `trail`, its position under the name `position_name`.
+void add_body(std::vector<Port>& ports, const std::string& trail, const char* position_name,
+              const BodyState& body, const Derived::BodyValues& values, Derived& derived) {
+  add_vector(ports, trail + "." + position_name, "m", body.position);
+  ports.push_back(readable(trail + ".orientation.w", "", body.orientation.w));
+  ports.push_back(readable(trail + ".orientation.x", "", body.orientation.x));
+  ports.push_back(readable(trail + ".orientation.y", "", body.orientation.y));
+  ports.push_back(readable(trail + ".orientation.z", "", body.orientation.z));
+  add_vector(ports, trail + ".velocity", "m/s", body.velocity);
+  add_vector(ports, trail + ".angular_velocity", "rad/s", body.angular_velocity);
+  std::size_t first = ports.size();
+  add_vector(ports, trail + ".contact.force", "N", body.contact_force);
+  on_demand(ports, first, derived.contact_forces());
+  first = ports.size();
+  add_vector(ports, trail + ".linear_acceleration", "m/s^2", values.acceleration);
+  add_vector(ports, trail + ".angular_acceleration", "rad/s^2", values.angular_acceleration);
+  on_demand(ports, first, derived.accelerations());
+  ports.push_back(readable(trail + ".contact.count", "", values.contacts));
+  ports.back().lazy = &derived.contacts();
+}
+
+void add_robot(std::vector<Port>& ports, const std::string& trail,
+               const Derived::RobotValues& values, Derived& derived) {
+  const std::size_t first = ports.size();
+  ports.push_back(readable(trail + ".kinetic_energy", "J", values.kinetic_energy));
+  ports.push_back(readable(trail + ".potential_energy", "J", values.potential_energy));
+  add_vector(ports, trail + ".center_of_mass", "m", values.center_of_mass);
+  on_demand(ports, first, derived.energies());
+}
+
+void add_joint(std::vector<Port>& ports, const std::string& trail, JointKind kind,
+               const JointState& joint, double& drive) {
+  const bool turns = kind == JointKind::revolute;
+  ports.push_back(readable(trail + ".angle", turns ? "rad" : "m", joint.angle));
+  ports.push_back(readable(trail + ".rate", turns ? "rad/s" : "m/s", joint.rate));
+  ports.push_back(
+      readable(trail + ".acceleration", turns ? "rad/s^2" : "m/s^2", joint.acceleration));
+  ports.push_back(readable(trail + ".total_torque", turns ? "N.m" : "N", joint.torque));
+  ports.push_back(readable(trail + ".torque", turns ? "N.m" : "N", drive));
+  ports.back().writable = &drive;
+}
+
+void add_integrator(std::vector<Port>& ports, const std::string& trail,
+                    const IntegratorState& integrator) {
+  ports.push_back(readable(trail + "steps", "", integrator.steps));
+  ports.push_back(readable(trail + "rejected", "", integrator.rejected));
+  ports.push_back(readable(trail + "evaluations", "", integrator.evaluations));
+  ports.push_back(readable(trail + "jacobians", "", integrator.jacobians));
+  ports.push_back(readable(trail + "events", "", integrator.events));
+}
+
+/// What only some engines have: hips and ContactPoints.
+void add_details(std::vector<Port>& ports, const Experiment& experiment, const WorldState& state,
+                 Derived& derived) {
+  const std::size_t first = ports.size();
+  auto chain_state = state.chains.begin();
+  for (const RobotSpec& robot : experiment.robots) {
+    for (const ChainSpec& chain : robot.chains) {
+      if (chain_state == state.chains.end()) break;
+      const std::string trail = experiment.world + "." + robot.name + "." + chain.name;
+      add_vector(ports, trail + ".hip_force", "N", chain_state->hip_force);
+      add_vector(ports, trail + ".hip_moment", "N.m", chain_state->hip_moment);
+      ++chain_state;
+    }
+  }
+  for (std::size_t i = 0; i < state.points.size(); ++i) {
+    const std::string& trail = experiment.points[i].trail;
+    const PointState& point = state.points[i];
+    add_vector(ports, trail + ".position", "m", point.position);
+    add_vector(ports, trail + ".contact.force", "N", point.force);
+    add_vector(ports, trail + ".contact.hook", "m", point.hook);
+    ports.push_back(readable(trail + ".contact.depth", "m", point.depth));
+    ports.push_back(readable(trail + ".contact.sliding", "", point.sliding));
+  }
+  on_demand(ports, first, derived.details());
+}
+
+/// Elements of short lists have letters: "gains[1]" as "gains.y", any other trail as it is.
+std::string by_letter(std::string_view trail) {
+  for (const auto& [index, letter] :
+       {std::pair{"[0]", ".x"}, std::pair{"[1]", ".y"}, std::pair{"[2]", ".z"}}) {
+    if (trail.ends_with(index)) return std::string(trail.substr(0, trail.size() - 3)) + letter;
+  }
+  return std::string(trail);
+}
+
+}  // namespace
+
+std::vector<Port> list_ports(const Experiment& experiment, Engine& engine, Derived& derived) {
+  const WorldState& state = engine.state();
+  const std::string world = experiment.world + ".";
+  std::vector<Port> ports{readable(world + "time", "s", state.time)};
+  add_integrator(ports, world + "integrator.", state.integrator);
+  std::size_t body = 0, joint = 0, index = 0;
+  const auto add = [&](const std::string& trail, const char* position_name) {
+    add_body(ports, trail, position_name, state.bodies[body], derived.body(body), derived);
+  };
+  for (const RobotSpec& robot : experiment.robots) {
+    const std::string base = robot.base.name.empty() ? "base" : robot.base.name;
+    add(world + robot.name + "." + base, "location");
+    add(world + robot.name, "position");
+    add_robot(ports, world + robot.name, derived.robot(index++), derived);
+    ++body;
+    for (const ChainSpec& chain : robot.chains) {
+      for (const LinkSpec& link : chain.links) {
+        const std::string trail = world + robot.name + "." + chain.name + "." + link.body.name;
+        add_joint(ports, trail, link.joint, state.joints[joint],
+                  engine.inputs().joint_torques[joint]);
+        add(trail, "location");
+        ++body;
+        ++joint;
+      }
+    }
+  }
+  add_details(ports, experiment, state, derived);
+  return ports;
+}
+
+std::optional<Port> look_up_port(const Experiment& experiment, const std::vector<Port>& ports,
+                                 std::string_view trail) {
+  const std::string world = experiment.world + ".";
+  const std::string own = by_letter(trail);
+  for (const std::string& wanted :
+       {std::string(trail), own, world + std::string(trail), world + own}) {
+    for (const Port& port : ports) {
+      if (port.trail != wanted) continue;
+      if (port.lazy != nullptr) port.lazy->begin();
+      return port;
+    }
+  }
+  return std::nullopt;
+}
+
+Port find_port(const Experiment& experiment, const std::vector<Port>& ports,
+               std::string_view trail) {
+  if (auto port = look_up_port(experiment, ports, trail)) return std::move(*port);
+  const std::string world = experiment.world + ".";
+  // Trails are suggested as the user writes them: with or without the world's name.
+  const bool with_world = trail.starts_with(world);
+  std::vector<std::string> trails;
+  for (const Port& port : ports) {
+    const bool inside = port.trail.starts_with(world);
+    trails.push_back(inside && !with_world ? port.trail.substr(world.size()) : port.trail);
+  }
+  const std::string nearest = language::nearest_name(trail, trails);
+  throw ExperimentError(fmt::format("there is no port `{}`{}", trail,
+                                    nearest.empty()
+                                        ? "; `hookpoint ports FILE` lists them"
+                                        : fmt::format("; did you mean `{}`?", nearest)));
+}
+
+}  // namespace hookpoint::simulation

@@ -1,0 +1,87 @@
+// What flows in a run: values from ports along wires, through components, to ports. Built once; a
+// step of it allocates nothing and looks nothing up.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "simulation/resumable.h"
+#include "simulation/wiring/components.h"
+#include "simulation/wiring/derived.h"
+#include "simulation/wiring/ports.h"
+#include "simulation/wiring/timing.h"
+#include "simulation/wiring/wiring_order.h"
+
+namespace hookpoint::simulation {
+
+class Signals {
+ public:
+  /// Resolves every wire of `experiment` to the ports of `engine` and the components, and starts
+  /// the components. Both outlive it. Throws ExperimentError, which a loaded experiment never
+  /// causes.
+  Signals(const Experiment& experiment, Engine& engine);
+
+  /// All values at `step`, called with every step once, in order, from 0 on, when the engine has
+  /// the state of that step: lines deliver, due components update, the engine gets its inputs.
+  /// False where a number that a wire delivers, a component puts out or somebody has asked to be
+  /// worked out is no longer finite.
+  bool update(std::int64_t step);
+  /// The trail of the first port that is not finite, "" if there is none. O(ports), allocates.
+  std::string first_not_finite();
+
+  /// `World.running` and `Simulator.quit` as wires have left them.
+  bool running() const { return held_.running != 0.; }
+  bool quit() const { return held_.quit != 0.; }
+  /// Every port, of the engine too. O(ports), allocates.
+  std::vector<Port> ports();
+
+  /// What evolves beside the engine's own state, in stretches of one owner each.
+  std::vector<StateSection> state_layout() const;
+  std::size_t state_size() const;
+  /// `numbers`: state_size() of them, at the engine's present step. Allocates nothing.
+  void save(std::span<double> numbers) const;
+  /// The engine has its state of that step already.
+  void restore(std::span<const double> numbers);
+
+ private:
+  template <class Self, class Archive>
+  static void exchange(Self& self, Archive& archive);
+  struct Line {
+    const double* from;
+    double* to;
+    bool copies;  ///< nothing happens to a value on its way
+    control::TransmissionLine line;
+  };
+  struct Updates {
+    control::Schedule schedule;
+    std::int64_t count = 0;  ///< updates so far
+    double last = 0.;        ///< time of the last [s]
+  };
+  /// What is neither the engine's nor a component's. Sized once: its addresses last.
+  struct Held {
+    double step = 0., impacts = 0., running = 1., quit = 0.;
+    std::vector<ForceInput> forces;  ///< as written or wired, before their windows
+    std::vector<double> envelopes;   ///< one a force: the part of it that acts
+    std::vector<double> values;      ///< one a ValueSpec
+  };
+
+  void connect(const std::vector<Port>& ports);
+  void update_component(std::size_t index, std::int64_t step, double time);
+  void apply_forces(std::int64_t step);
+  void watch_values();
+  void add_held_ports(std::vector<Port>& ports);
+  void add_component_ports(std::vector<Port>& ports);
+
+  const Experiment& experiment_;
+  Engine& engine_;
+  Derived derived_;
+  Components components_;
+  Held held_;
+  std::vector<Updates> updates_;        // one a component
+  std::vector<Line> lines_;             // one a wire
+  std::vector<std::size_t> delayed_;    // lines whose samples arrive in a later step
+  std::vector<WiringItem> order_;       // the other lines and the components
+  std::vector<const double*> watched_;  // ends of lines, outputs of components
+};
+
+}  // namespace hookpoint::simulation

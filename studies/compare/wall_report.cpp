@@ -1,0 +1,183 @@
+#include "studies/compare/wall_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "output/text/number.h"
+#include "studies/report/report_page.h"
+#include "studies/report/report_tables.h"
+#include "studies/report/terminal_blocks.h"
+
+namespace hookpoint::studies {
+namespace {
+
+bool judged(const WallCell& cell) {
+  return !cell.status.empty() && !cell.status.starts_with("skipped");
+}
+
+std::string error_text(const WallLine& line, double error) {
+  if (line.relative) return output::rounded(100. * error, 2) + " %";
+  return output::rounded(error, 2) + (line.unit.empty() ? "" : " " + line.unit);
+}
+
+/// The closed form's value where all subjects have the same, else nothing.
+std::optional<double> common_expected(const WallLine& line) {
+  std::optional<double> common;
+  for (const WallCell& cell : line.cells) {
+    if (cell.status.empty()) continue;
+    if (common && *common != cell.expected) return std::nullopt;
+    common = cell.expected;
+  }
+  return common;
+}
+
+std::string expected_text(const WallLine& line) {
+  const auto common = common_expected(line);
+  const std::string value = common ? output::rounded(*common, 5) : "by law";
+  return value + (line.unit.empty() ? "" : " " + line.unit);
+}
+
+std::string cell_html(const WallLine& line, const WallCell& cell) {
+  if (cell.status.empty()) return "<td class=\"soft\">·</td>";
+  if (!judged(cell)) return "<td class=\"soft\">" + html(cell.status) + "</td>";
+  if (!cell.measured)
+    return "<td class=\"fails status\"><span class=\"bad\">✗</span> " +
+           html(cell.status == "ok" ? "never reached" : cell.status) + "</td>";
+  const char* mark = cell.ok ? "<span class=\"good\">✓</span> " : "<span class=\"bad\">✗</span> ";
+  const std::string wanted =
+      common_expected(line) ? "" : " of " + output::rounded(cell.expected, 4);
+  return std::string(cell.ok ? "<td>" : "<td class=\"fails\">") + mark +
+         html(output::rounded(*cell.measured, 4)) + html(wanted) + "<small>" +
+         html(error_text(line, *cell.error)) + "</small></td>";
+}
+
+std::string table_head(const WallResult& wall) {
+  std::string head =
+      "<thead><tr><th class=\"text\">truth</th><th class=\"text\">closed form</th><th>allowed</th>";
+  for (const SubjectInfo& subject : wall.subjects) head += "<th>" + html(subject.name) + "</th>";
+  return head + "</tr></thead>\n";
+}
+
+std::string scene_row(const WallResult& wall, std::size_t scene) {
+  const WallScene& shown = wall.scenes[scene];
+  return fmt::format(
+      "<tr id=\"{0}\"><th class=\"text scene\" colspan=\"{1}\">{0}<small>{2} · "
+      "{3}</small></th></tr>\n",
+      html(shown.name), wall.subjects.size() + 3, html(shown.title), html(shown.file));
+}
+
+std::string line_row(const WallLine& line) {
+  std::string row = "<tr><td class=\"text first\">" + html(line.name) + "</td><td class=\"form\">" +
+                    html(expected_text(line)) + "<small>" + html(line.formula);
+  if (!line.source.empty()) row += " · " + html(line.source);
+  row += "</small></td><td>" + html(line.allowed) + "</td>";
+  for (const WallCell& cell : line.cells) row += cell_html(line, cell);
+  return row + "</tr>\n";
+}
+
+std::string wall_table(const WallResult& wall) {
+  std::string table =
+      "<div class=\"scroll tall\"><table class=\"summary\">" + table_head(wall) + "<tbody>\n";
+  for (std::size_t scene = 0; scene < wall.scenes.size(); ++scene) {
+    table += scene_row(wall, scene);
+    for (const WallLine& line : wall.lines) {
+      if (line.scene == scene) table += line_row(line);
+    }
+  }
+  return table + "</tbody></table></div>\n";
+}
+
+std::string verdict(const WallResult& wall) {
+  const int passed = wall.passed(), failed = wall.failed();
+  const std::string counted =
+      fmt::format(" ({} scenes, {} truths)", wall.scenes.size(), wall.lines.size());
+  if (failed == 0)
+    return fmt::format("<p class=\"verdict good\">✓ All {} verdicts hold{}.</p>\n", passed,
+                       counted);
+  return fmt::format("<p class=\"verdict bad\">✗ {} of {} verdicts do not hold{}.</p>\n", failed,
+                     passed + failed, counted);
+}
+
+/// The largest error of a line as a part of what is allowed decides which subject is named.
+const WallCell* worst_cell(const WallLine& line) {
+  const WallCell* worst = nullptr;
+  for (const WallCell& cell : line.cells) {
+    if (!judged(cell)) continue;
+    if (worst == nullptr || (worst->measured && !cell.measured) ||
+        (worst->error && cell.error && *cell.error > *worst->error))
+      worst = &cell;
+  }
+  return worst;
+}
+
+std::string failures(const WallResult& wall, const TableStyle& style) {
+  std::string text;
+  for (const WallLine& line : wall.lines) {
+    for (std::size_t i = 0; i < line.cells.size(); ++i) {
+      const WallCell& cell = line.cells[i];
+      if (!judged(cell) || cell.ok) continue;
+      const std::string found =
+          cell.measured ? fmt::format("{} instead of {} {}", output::rounded(*cell.measured),
+                                      output::rounded(cell.expected), line.unit)
+                        : cell.status;
+      text += toned("  ✗ ", Tone::bad, style.color) +
+              fmt::format("{}.{} under {}: {}\n", wall.scenes[line.scene].name, line.name,
+                          wall.subjects[i].name, found);
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string wall_html(const WallResult& wall, const ReportContext& context) {
+  const std::string title = wall.title.empty() ? wall.name : wall.title;
+  std::string page = page_start(
+      title,
+      "main { max-width: none; } table.summary tbody th.scene { font-weight: 600; padding-top: "
+      ".9rem; } td.form { text-align: left; white-space: normal; max-width: 24rem; }\n");
+  page += "<p class=\"kicker\">Wall · " + html(wall.file) + "</p>\n<h1>" + html(title) + "</h1>\n";
+  if (!wall.question.empty()) page += "<p class=\"question\">" + html(wall.question) + "</p>\n";
+  page += verdict(wall) + "<pre>" + html(context.command) + "</pre>\n";
+  page +=
+      "<p class=\"note soft\">Each cell: what was measured and, small, how far it is from the "
+      "closed form. A dot: the truth says nothing of that law; where a law fails by its own "
+      "equation, its predicted failure is a truth of its own.</p>\n";
+  page += wall_table(wall) + warning_list(wall.warnings) + provenance_table(context.provenance);
+  return page + "</main>\n</body>\n</html>\n";
+}
+
+std::string wall_terminal_table(const WallResult& wall, const TableStyle& style) {
+  ColumnGroup group;
+  group.rows.push_back({{"scene", Tone::plain, false},
+                        {"truth", Tone::plain, false},
+                        {"closed form", Tone::plain, true},
+                        {"allowed", Tone::plain, true},
+                        {"largest error", Tone::plain, true},
+                        {"hold", Tone::plain, true}});
+  std::string last;
+  for (const WallLine& line : wall.lines) {
+    const auto count = std::ranges::count_if(line.cells, judged);
+    const auto good = std::ranges::count_if(
+        line.cells, [](const WallCell& cell) { return judged(cell) && cell.ok; });
+    const WallCell* worst = worst_cell(line);
+    const std::string& scene = wall.scenes[line.scene].name;
+    group.rows.push_back(
+        {{scene == last ? "" : scene, Tone::plain, false},
+         {line.name, Tone::plain, false},
+         {expected_text(line), Tone::plain, true},
+         {line.allowed, Tone::plain, true},
+         {worst != nullptr && worst->error ? error_text(line, *worst->error) : "none", Tone::plain,
+          true},
+         {fmt::format("{} of {}", good, count), good == count ? Tone::good : Tone::bad, true}});
+    last = scene;
+  }
+  group.measure();
+  std::string text = print_groups({&group}, style.color) + "\n" + failures(wall, style);
+  return text + fmt::format("{} of {} verdicts hold: {} truths of {} scenes under {} subjects\n",
+                            wall.passed(), wall.passed() + wall.failed(), wall.lines.size(),
+                            wall.scenes.size(), wall.subjects.size());
+}
+
+}  // namespace hookpoint::studies

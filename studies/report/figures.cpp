@@ -1,0 +1,336 @@
+#include "studies/report/figures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "output/text/number.h"
+#include "studies/report/figure_parts.h"
+#include "studies/summary.h"
+
+namespace hookpoint::studies {
+namespace {
+
+constexpr std::size_t thinned_buckets = 400;
+
+/// A series is a subject, or with `series = <sweep>` a subject at one value of that sweep.
+struct SeriesKey {
+  int subject = 0;
+  int value = 0;
+  auto operator<=>(const SeriesKey&) const = default;
+};
+
+SeriesKey key_of(const StudyResult& study, const PlotSpec& spec, const RunResult& row) {
+  const auto sweep = sweep_index(study, spec.series);
+  if (!sweep) return {row.subject, 0};
+  const auto& values = study.sweeps[*sweep].values;
+  const auto found = std::find_if(values.begin(), values.end(),
+                                  [&](double v) { return same(v, row.parameters[*sweep]); });
+  return {row.subject, static_cast<int>(found - values.begin())};
+}
+
+/// "impulse", or "impulse, 3 mm/s" where a sweep tells curves apart.
+std::string series_label(const StudyResult& study, const PlotSpec& spec, const SeriesKey& key) {
+  const std::string& subject = study.subjects[static_cast<std::size_t>(key.subject)].name;
+  const auto sweep = sweep_index(study, spec.series);
+  if (!sweep) return subject;
+  const SweepColumn& column = study.sweeps[*sweep];
+  std::string value = output::rounded(column.values[static_cast<std::size_t>(key.value)], 6);
+  if (!column.unit.empty()) value += " " + column.unit;
+  return study.subjects.size() > 1 ? subject + ", " + value : value;
+}
+
+/// A subject's own; for one at several values of a sweep its colour, with a marker a value. A
+/// single subject leaves the colours to the values.
+int series_style(const StudyResult& study, const PlotSpec& spec, const SeriesKey& key) {
+  if (!sweep_index(study, spec.series))
+    return subject_styles(study)[static_cast<std::size_t>(key.subject)];
+  if (study.subjects.size() == 1) return key.value;
+  const int color = subject_styles(study)[static_cast<std::size_t>(key.subject)];
+  return color % output::style_colors + output::style_colors * key.value;
+}
+
+/// Least and largest value of each bucket along x, in their order: what a line of this width can
+/// show.
+output::Curve thin(const output::Curve& curve, bool logarithmic) {
+  if (curve.x.size() <= 2 * thinned_buckets) return curve;
+  const auto place = [&](double x) { return logarithmic ? std::log(std::max(x, 1e-300)) : x; };
+  const std::size_t start = logarithmic && curve.x.front() <= 0. ? 1 : 0;
+  const double low = place(curve.x[start]);
+  const double width = (place(curve.x.back()) - low) / static_cast<double>(thinned_buckets);
+  output::Curve thinned;
+  const auto keep = [&](std::size_t i) {
+    thinned.x.push_back(curve.x[i]);
+    thinned.y.push_back(curve.y[i]);
+  };
+  for (std::size_t begin = 0; begin < curve.x.size();) {
+    const double bucket = std::floor((place(curve.x[begin]) - low) / width);
+    std::size_t end = begin, least = begin, largest = begin;
+    for (; end < curve.x.size() && std::floor((place(curve.x[end]) - low) / width) == bucket;
+         ++end) {
+      if (curve.y[end] < curve.y[least]) least = end;
+      if (curve.y[end] > curve.y[largest]) largest = end;
+    }
+    keep(std::min(least, largest));
+    if (least != largest) keep(std::max(least, largest));
+    begin = end;
+  }
+  return thinned;
+}
+
+/// Points of one series while rows are read; by x, the largest magnitude wins.
+struct Gathered {
+  std::map<double, MetricValue> points;
+  std::vector<double> unfinished;
+  const RunResult* curve_of = nullptr;  ///< over time: the row whose curve goes farthest
+  double reach = -1.;
+};
+
+void gather_point(Gathered& series, double x, const RunResult& row, std::size_t metric) {
+  const MetricValue& value = row.metrics[metric];
+  if (!value.measured || !std::isfinite(*value.measured)) {
+    if (outcome_of(row) == RunOutcome::stopped) series.unfinished.push_back(x);
+    return;
+  }
+  const auto [place, fresh] = series.points.try_emplace(x, value);
+  if (!fresh && std::abs(*value.measured) > std::abs(*place->second.measured))
+    place->second = value;
+}
+
+void gather_curve(Gathered& series, const RunResult& row, std::size_t plot) {
+  if (plot >= row.traces.size()) return;
+  double reach = 0.;
+  for (const double value : row.traces[plot].value)
+    if (std::isfinite(value)) reach = std::max(reach, std::abs(value));
+  if (row.traces[plot].time.empty() || reach <= series.reach) return;
+  series.curve_of = &row;
+  series.reach = reach;
+}
+
+/// On a logarithmic axis without the sample at time 0, which is zero by definition.
+output::Curve finite_part(const Trace& trace, bool logarithmic) {
+  output::Curve curve;
+  const bool from_zero = logarithmic && !trace.value.empty() && trace.value.front() == 0.;
+  for (std::size_t i = from_zero ? 1 : 0; i < trace.time.size(); ++i) {
+    if (!std::isfinite(trace.value[i])) continue;
+    curve.x.push_back(trace.time[i]);
+    curve.y.push_back(trace.value[i]);
+  }
+  return curve;
+}
+
+void fill(output::Series& series, const Gathered& gathered, const PlotSpec& spec,
+          std::size_t plot) {
+  series.unfinished = gathered.unfinished;
+  if (gathered.curve_of != nullptr) {
+    const Trace& trace = gathered.curve_of->traces[plot];
+    series.measured = thin(finite_part(trace, spec.log_y), spec.log_x);
+    if (outcome_of(*gathered.curve_of) == RunOutcome::stopped)
+      series.unfinished.push_back(trace.time.back());
+  }
+  for (const auto& [x, value] : gathered.points) {
+    series.measured.x.push_back(x);
+    series.measured.y.push_back(*value.measured);
+    if (!spec.show_predicted || !value.predicted) continue;
+    series.predicted.x.push_back(x);
+    series.predicted.y.push_back(*value.predicted);
+  }
+}
+
+using SeriesTable = std::map<SeriesKey, output::Series>;
+
+/// The curves of the rows that the block lets in; those with nothing to draw are left out.
+SeriesTable series_of(const StudyResult& study, const PlotSpec& spec, std::size_t plot) {
+  const auto x = sweep_index(study, spec.x);
+  const auto y = metric_index(study, spec.y);
+  const auto cost = x ? std::nullopt : metric_index(study, spec.x);
+  std::map<SeriesKey, Gathered> gathered;
+  for (const RunResult& row : study.rows) {
+    if (!selected(study, spec, row)) continue;
+    Gathered& series = gathered[key_of(study, spec, row)];
+    if (spec.x == "time") {
+      gather_curve(series, row, plot);
+    } else if (x && y && *y < row.metrics.size()) {
+      gather_point(series, row.parameters[*x], row, *y);
+    } else if (cost && y && row.metrics[*cost].measured) {
+      gather_point(series, *row.metrics[*cost].measured, row, *y);
+    }
+  }
+  SeriesTable table;
+  for (const auto& [key, points] : gathered) {
+    output::Series series;
+    series.label = series_label(study, spec, key);
+    series.style = series_style(study, spec, key);
+    fill(series, points, spec, plot);
+    if (!series.measured.x.empty() || !series.unfinished.empty()) table.emplace(key, series);
+  }
+  return table;
+}
+
+/// Without series.
+output::Plot axes_of(const StudyResult& study, const PlotSpec& spec) {
+  output::Plot plot;
+  plot.name = spec.name;
+  plot.title = spec.title.empty() ? spoken(spec.y) + " over " + spoken(spec.x) : spec.title;
+  plot.subtitle = fixed_text(study, spec);
+  const auto add_note = [&](const std::string& note) {
+    plot.subtitle += (plot.subtitle.empty() ? "" : "; ") + note;
+  };
+  if (sweep_index(study, spec.series)) add_note("curves by " + spoken(spec.series));
+  if (sweep_index(study, spec.x) && !undecided(study, spec).empty())
+    add_note("largest over " + undecided(study, spec));
+  const auto name_or = [](const std::string& label, const std::string& name) {
+    return label.empty() ? spoken(name) : label;
+  };
+  plot.x = {.label = name_or(spec.x_label, spec.x), .unit = spec.x_unit, .logarithmic = spec.log_x};
+  plot.y = {.label = name_or(spec.y_label, spec.y),
+            .unit = spec.y_unit,
+            .logarithmic = spec.log_y,
+            .floor = spec.floor};
+  return plot;
+}
+
+/// A line as wide as what is drawn; an empty one where the block has no run that it is meant for.
+output::Series reference_line(const StudyResult& study, const PlotSpec& spec,
+                              const ReferenceLine& reference, const output::Plot& plot) {
+  output::Series line{.label = reference.label,
+                      .style = 0,
+                      .measured = {},
+                      .predicted = {},
+                      .unfinished = {},
+                      .reference = true};
+  const bool meant = std::ranges::any_of(study.rows, [&](const RunResult& row) {
+    return selected(study, spec, row) && admits(study, reference.where, row);
+  });
+  std::vector<double> drawn;
+  for (const output::Series& series : plot.series) {
+    drawn.insert(drawn.end(), series.measured.x.begin(), series.measured.x.end());
+    drawn.insert(drawn.end(), series.unfinished.begin(), series.unfinished.end());
+  }
+  if (!meant || drawn.empty()) return line;
+  const auto [least, largest] = std::ranges::minmax(drawn);
+  line.predicted = {{least, largest}, {reference.value, reference.value}};
+  return line;
+}
+
+void add_references(output::Plot& plot, const StudyResult& study, const PlotSpec& spec) {
+  std::vector<output::Series> lines;
+  for (const ReferenceLine& reference : spec.references)
+    lines.push_back(reference_line(study, spec, reference, plot));
+  plot.series.insert(plot.series.end(), lines.begin(), lines.end());
+}
+
+template <class Holds>
+bool any_series(const std::vector<output::Plot>& plots, Holds holds) {
+  return std::ranges::any_of(
+      plots, [&](const output::Plot& plot) { return std::ranges::any_of(plot.series, holds); });
+}
+
+std::string caption_of(const StudyResult& study, const PlotSpec& spec, const output::Plot& axes,
+                       const std::vector<output::Plot>& plots) {
+  std::string caption = axes.title + (axes.subtitle.empty() ? "." : " (" + axes.subtitle + ").");
+  if (any_series(plots, [](const output::Series& series) {
+        return !series.reference && !series.predicted.x.empty();
+      }))
+    caption += " Markers: measured; dashed: closed form.";
+  std::vector<std::string> labels;
+  for (const ReferenceLine& reference : spec.references)
+    if (std::ranges::find(labels, reference.label) == labels.end())
+      labels.push_back(reference.label);
+  for (const std::string& label : labels) caption += " Black, dashed: " + label + ".";
+  if (spec.x == "time" && !undecided(study, spec).empty())
+    caption +=
+        " Of the runs that differ in " + undecided(study, spec) + ", the one that goes farthest.";
+  const bool vanishing = any_series(plots, [&](const output::Series& series) {
+    return std::ranges::any_of(series.measured.y,
+                               [&](double y) { return std::abs(y) <= axes.y.floor; });
+  });
+  if (axes.y.logarithmic && vanishing)
+    caption += " In the grey strip: at most " + output::rounded(axes.y.floor, 2) + " " +
+               axes.y.unit + ", which counts as zero.";
+  if (spec.x == "time" && spec.log_y) caption += " The zero at time 0 is not drawn.";
+  std::string absent;
+  for (const SubjectInfo& subject : study.subjects)
+    if (!subject.available) absent += (absent.empty() ? "" : ", ") + subject.name;
+  if (!absent.empty()) caption += " Not on this machine: " + absent + ".";
+  return caption;
+}
+
+/// A Plot a panel. All have the same series, so that one legend and one scale are for all.
+std::vector<output::Plot> panel_plots(const StudyResult& study, const PlotSpec& spec,
+                                      std::size_t plot) {
+  const std::vector<PanelSpec> panels = panel_specs(study, spec);
+  std::vector<SeriesTable> tables;
+  SeriesTable names;
+  for (const PanelSpec& panel : panels) {
+    tables.push_back(series_of(study, panel.spec, plot));
+    for (const auto& [key, series] : tables.back())
+      names.try_emplace(key, output::Series{series.label, series.style, {}, {}, {}});
+  }
+  std::vector<output::Plot> plots;
+  for (std::size_t i = 0; i < panels.size(); ++i) {
+    output::Plot panel = axes_of(study, spec);
+    panel.title = panels[i].title;
+    tables[i].insert(names.begin(), names.end());
+    for (const auto& [key, series] : tables[i]) panel.series.push_back(series);
+    add_references(panel, study, panels[i].spec);
+    plots.push_back(std::move(panel));
+  }
+  return plots;
+}
+
+std::size_t panels_across(const StudyResult& study, const PlotSpec& spec) {
+  constexpr std::size_t most = 3;  // of one sweep, whose panels may go on in the next row
+  const std::size_t last = drawn_values(study, spec, spec.panels.back()).size();
+  return spec.panels.size() > 1 ? last : std::min(last, most);
+}
+
+}  // namespace
+
+std::vector<int> subject_styles(const StudyResult& study) {
+  std::vector<std::string> families;
+  std::vector<int> members(output::style_colors, 0);
+  std::vector<int> styles;
+  const bool one_law =
+      std::all_of(study.subjects.begin(), study.subjects.end(), [&](const SubjectInfo& subject) {
+        return !subject.law.empty() && subject.law == study.subjects.front().law;
+      });
+  for (const SubjectInfo& subject : study.subjects) {
+    const std::string& family = one_law               ? subject.integrator
+                                : subject.law.empty() ? subject.engine
+                                                      : subject.law;
+    const auto place = std::find(families.begin(), families.end(), family);
+    const auto color = (place - families.begin()) % output::style_colors;
+    if (place == families.end()) families.push_back(family);
+    int& member = members[static_cast<std::size_t>(color)];
+    styles.push_back(static_cast<int>(color) + output::style_colors * member++);
+  }
+  return styles;
+}
+
+Figure make_figure(const StudyResult& study, std::size_t plot) {
+  const PlotSpec& spec = study.plots[plot];
+  if (!spec.color.empty()) return make_map(study, spec);
+  Figure figure;
+  figure.plot = axes_of(study, spec);
+  if (!spec.panels.empty()) {
+    figure.panels = {.name = spec.name,
+                     .title = figure.plot.title,
+                     .subtitle = figure.plot.subtitle,
+                     .across = panels_across(study, spec),
+                     .own_axes = spec.own_axes,
+                     .panels = panel_plots(study, spec, plot)};
+    figure.caption = caption_of(study, spec, figure.plot, figure.panels->panels);
+    return figure;
+  }
+  for (auto& [key, series] : series_of(study, spec, plot))
+    figure.plot.series.push_back(std::move(series));
+  add_references(figure.plot, study, spec);
+  std::erase_if(figure.plot.series,
+                [](const auto& series) { return series.reference && series.predicted.x.empty(); });
+  figure.caption = caption_of(study, spec, figure.plot, {figure.plot});
+  return figure;
+}
+
+}  // namespace hookpoint::studies

@@ -1,0 +1,177 @@
+#include "studies/report/report.h"
+
+#include <algorithm>
+
+#include "output/figures/plot.h"
+#include "output/file.h"
+#include "output/text/number.h"
+#include "studies/report/figures.h"
+#include "studies/report/report_distances.h"
+#include "studies/report/report_page.h"
+#include "studies/report/report_tables.h"
+#include "studies/summary.h"
+
+namespace hookpoint::studies {
+namespace {
+
+std::string paragraph(const std::string& style, const std::string& content) {
+  return "<p class=\"" + style + "\">" + content + "</p>\n";
+}
+
+std::string heading(const std::string& text) { return "<h2>" + text + "</h2>\n"; }
+
+std::string verdict_line(const StudySummary& summary) {
+  const int all = summary.passed + summary.failed;
+  if (all == 0) return paragraph("verdict", "No truth was asked for.");
+  if (summary.failed == 0)
+    return paragraph("verdict good", "✓ All " + std::to_string(all) + " verdicts hold.");
+  return paragraph("verdict bad", "✗ " + std::to_string(summary.failed) + " of " +
+                                      std::to_string(all) +
+                                      " verdicts <a href=\"#truths\">do not hold</a>.");
+}
+
+std::string stopped_line(const SubjectSummary& total) {
+  if (total.stopped == 0) return "";
+  const std::string runs = total.stopped == 1 ? "1 run" : std::to_string(total.stopped) + " runs";
+  return paragraph("verdict bad", "✗ " + runs + " <a href=\"#stopped\">stopped on the way</a>.");
+}
+
+std::string facts_line(const StudySummary& summary) {
+  const SubjectSummary& total = summary.total;
+  std::string text = std::to_string(total.rows()) + " runs of " +
+                     std::to_string(summary.subjects.size()) +
+                     " subjects: " + std::to_string(total.finished) + " finished";
+  if (total.foretold > 0) text += ", " + std::to_string(total.foretold) + " broke off as foretold";
+  if (total.stopped > 0) text += ", " + std::to_string(total.stopped) + " stopped on the way";
+  if (total.skipped > 0) text += ", " + std::to_string(total.skipped) + " skipped";
+  if (total.refused > 0) text += ", " + std::to_string(total.refused) + " refused";
+  return paragraph("facts", text + ".");
+}
+
+std::string varied_line(const StudyResult& study) {
+  std::string text;
+  for (const SweepColumn& sweep : study.sweeps) {
+    text += text.empty() ? "Varied: " : "; ";
+    text += html(spoken(sweep.name)) + " ";
+    for (std::size_t i = 0; i < sweep.values.size(); ++i)
+      text += (i > 0 ? ", " : "") + output::rounded(sweep.values[i], 6);
+    if (!sweep.unit.empty()) text += " " + html(sweep.unit);
+  }
+  return text.empty() ? "" : paragraph("facts", text + ".");
+}
+
+std::string title_of(const StudyResult& study) {
+  return study.title.empty() ? spoken(study.name) : study.title;
+}
+
+std::string opening(const StudyResult& study, const ReportContext& context,
+                    const StudySummary& summary) {
+  std::string text = paragraph("kicker", "Study · " + html(study.file));
+  text += "<h1>" + html(title_of(study)) + "</h1>\n";
+  if (!study.question.empty()) text += paragraph("question", html(study.question));
+  text += verdict_line(summary) + stopped_line(summary.total) + facts_line(summary) +
+          varied_line(study);
+  text += "<pre>" + html(context.command) + "</pre>\n";
+  if (context.files.empty()) return text;
+  std::string links;
+  for (const std::string& file : context.files)
+    links +=
+        (links.empty() ? "" : " · ") + ("<a href=\"" + html(file) + "\">" + html(file) + "</a>");
+  return text + paragraph("facts", links);
+}
+
+std::string figure_list(const std::vector<ReportFigure>& figures) {
+  if (figures.empty()) return "";
+  std::string text = heading("Figures");
+  int number = 0;
+  for (const ReportFigure& figure : figures) {
+    const std::string name = html(figure.name);
+    text += "<figure id=\"figure-" + name + "\">\n";
+    text += figure.svg.empty() ? paragraph("bad", html(figure.message)) : described_svg(figure);
+    text += "<figcaption><b>Figure " + std::to_string(++number) + ".</b> " + html(figure.caption);
+    if (!figure.svg.empty()) text += " <a href=\"" + name + ".svg\">" + name + ".svg</a>,";
+    text += " <a href=\"" + name + ".csv\">" + name + ".csv</a></figcaption>\n</figure>\n";
+  }
+  return text;
+}
+
+std::string regime_heading(const RegimeTable& table) {
+  std::string text = table.heading.empty() ? "Subjects and metrics" : table.heading;
+  const auto at_most = text.find("<=");
+  if (at_most != std::string::npos) text.replace(at_most, 2, "≤");
+  return html(text);
+}
+
+/// What answers the question, the figures, then the other metrics and regimes.
+std::string results(const StudyResult& study, const std::vector<ReportFigure>& figures) {
+  std::string answer, others;
+  for (const RegimeTable& table : regime_tables(study)) {
+    const auto portions = page_portions(study, table);
+    for (std::size_t i = 0; i < portions.size(); ++i) {
+      std::string& text = answer.empty() ? answer : others;
+      if (i < 2) text += heading(regime_heading(table) + (i > 0 ? ": other metrics" : ""));
+      text += summary_table(study, table, portions[i]);
+    }
+  }
+  return answer +
+         paragraph("note soft",
+                   "Worst: the run whose truth fails, else the one farthest from its closed form, "
+                   "which stands beside it; it leads to its row. Small figures: median or range "
+                   "over the sweep. ✓ and ✗ count the runs that a truth judges; the worst may be "
+                   "one that none judges.") +
+         figure_list(figures) + others;
+}
+
+std::string peer_table(const ReportContext& context) {
+  if (context.peers.empty()) return "";
+  std::string text =
+      heading("Settings of the peers") +
+      "<div class=\"scroll\"><table class=\"wide\"><thead><tr>"
+      "<th class=\"text\">engine</th><th class=\"text\">settings</th><th class=\"text\">what</th>"
+      "<th class=\"text\">value</th><th class=\"text\">source</th></tr></thead><tbody>\n";
+  for (const PeerSetting& peer : context.peers) {
+    text += "<tr>";
+    for (const std::string& cell : {peer.engine, peer.settings, peer.name, peer.value, peer.source})
+      text += "<td>" + html(cell) + "</td>";
+    text += "</tr>\n";
+  }
+  return text + "</tbody></table></div>\n";
+}
+
+}  // namespace
+
+std::string described_svg(const ReportFigure& figure) {
+  std::string svg = output::inline_svg(figure.svg, figure.name);
+  const std::string description = " role=\"img\" aria-label=\"" + html(figure.caption) + "\"";
+  return svg.insert(std::min(svg.size(), std::string("<svg").size()), description);
+}
+
+std::string report_html(const StudyResult& study, const ReportContext& context,
+                        const std::vector<ReportFigure>& figures) {
+  const StudySummary summary = summarise(study);
+  std::string page = page_start(title_of(study));
+  page += opening(study, context, summary);
+  page += results(study, figures);
+  page += truths_table(study) + failure_table(study) + stopped_table(study);
+  page += warning_list(study.warnings) + distance_table(study);
+  page += heading("Every run") + runs_table(study);
+  page += peer_table(context) + provenance_table(context.provenance);
+  return page + page_end_with_script();
+}
+
+ReportOutcome write_report(const StudyResult& study, const ReportContext& context,
+                           const std::filesystem::path& folder) {
+  ReportOutcome outcome;
+  for (std::size_t i = 0; i < study.plots.size(); ++i) {
+    const Figure figure = make_figure(study, i);
+    const output::PlotOutcome drawn = figure.map      ? output::draw(*figure.map, folder)
+                                      : figure.panels ? output::draw(*figure.panels, folder)
+                                                      : output::draw(figure.plot, folder);
+    if (!drawn.drawn) outcome.messages.push_back(drawn.message);
+    outcome.figures.push_back({figure.plot.name, figure.caption, drawn.svg, drawn.message});
+  }
+  output::write_file(folder / "report.html", report_html(study, context, outcome.figures));
+  return outcome;
+}
+
+}  // namespace hookpoint::studies

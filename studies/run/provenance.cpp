@@ -1,0 +1,99 @@
+#include "studies/run/provenance.h"
+
+#include <fmt/format.h>
+#include <sys/utsname.h>
+
+#include <array>
+#include <ctime>
+#include <set>
+#include <thread>
+
+#include "output/text/hash.h"
+#include "output/text/json.h"
+
+namespace hookpoint::studies {
+namespace {
+
+std::string utc_now() {
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  std::array<char, 32> text{};
+  std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &utc);
+  return text.data();
+}
+
+}  // namespace
+
+output::Manifest manifest_of(const StudyPlan& plan) { return {plan.hash, {}, {}, {}}; }
+
+Provenance make_provenance(const StudyPlan& plan, const EngineTable& engines) {
+  utsname host{};
+  uname(&host);
+  std::set<std::uint64_t> seeds;
+  for (const RowPlan& row : plan.rows) seeds.insert(row.experiment.seed);
+  Provenance provenance;
+  provenance.study = plan.name;
+  provenance.file = plan.file;
+  provenance.hash = plan.hash;
+  provenance.quick = plan.quick;
+  provenance.hookpoint = HOOKPOINT_VERSION;
+  provenance.program = output::hash_of_program();
+  provenance.compiler = HOOKPOINT_FLAGS;
+  provenance.inputs = plan.inputs;
+  for (const auto& [name, entry] : engines)
+    provenance.engines.emplace_back(name, entry.description);
+  provenance.seeds.assign(seeds.begin(), seeds.end());
+  provenance.host = host.nodename;
+  provenance.system = fmt::format("{} {}", host.sysname, host.release);
+  provenance.machine = host.machine;
+  provenance.cores = std::thread::hardware_concurrency();
+  provenance.date = utc_now();
+  return provenance;
+}
+
+std::string provenance_json(const Provenance& provenance) {
+  output::JsonWriter json;
+  json.begin_object()
+      .member("study", provenance.study)
+      .member("file", provenance.file)
+      .member("hash", provenance.hash)
+      .member("quick", provenance.quick)
+      .member("hookpoint", provenance.hookpoint)
+      .member("program", provenance.program)
+      .member("compiler", provenance.compiler);
+  json.key("engines").begin_object();
+  for (const auto& [name, engine] : provenance.engines) {
+    json.key(name).begin_object().member("found", engine.found);
+    json.member("version", engine.version).member("precision", engine.precision).end_object();
+  }
+  json.end_object().key("inputs").begin_array();
+  for (const output::InputFile& input : provenance.inputs)
+    json.begin_object().member("path", input.path).member("hash", input.hash).end_object();
+  json.end_array().key("seeds").begin_array();
+  for (const std::uint64_t seed : provenance.seeds) json.value(seed);
+  json.end_array().key("host").begin_object();
+  json.member("name", provenance.host).member("system", provenance.system);
+  json.member("machine", provenance.machine).member("cores", provenance.cores);
+  json.end_object().member("date", provenance.date).end_object();
+  return json.text();
+}
+
+std::vector<std::pair<std::string, std::string>> provenance_lines(const Provenance& provenance) {
+  std::vector<std::pair<std::string, std::string>> lines{
+      {"study", provenance.study + " of " + provenance.file + (provenance.quick ? ", quick" : "")},
+      {"hash of the experiment", provenance.hash},
+      {"hookpoint", provenance.hookpoint},
+      {"hash of the program", provenance.program},
+      {"compiler", provenance.compiler}};
+  for (const auto& [name, engine] : provenance.engines)
+    lines.emplace_back(name, engine.found ? engine.version + ", " + engine.precision + " precision"
+                                          : "not on this machine");
+  lines.emplace_back("seeds", fmt::format("{}", fmt::join(provenance.seeds, ", ")));
+  lines.emplace_back("host", fmt::format("{}: {}, {}, {} cores", provenance.host, provenance.system,
+                                         provenance.machine, provenance.cores));
+  lines.emplace_back("date", provenance.date);
+  return lines;
+}
+
+}  // namespace hookpoint::studies

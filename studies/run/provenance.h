@@ -1,0 +1,40 @@
+// All that a reader needs to judge or repeat a run: provenance.json and the report print the same.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "output/result_folder.h"
+#include "studies/engine_table.h"
+#include "studies/plan/plan.h"
+
+namespace hookpoint::studies {
+
+struct Provenance {
+  std::string study, file, hash;
+  bool quick = false;
+  std::string hookpoint, compiler;  ///< versions and flags
+  std::string program;              ///< hash of its own bytes
+  std::vector<output::InputFile> inputs;
+  std::vector<std::pair<std::string, simulation::EngineDescription>> engines;
+  std::vector<std::uint64_t> seeds;
+  std::string host, system, machine;
+  unsigned cores = 0;
+  std::string date;  ///< UTC, ISO 8601
+};
+
+/// What files.json says of the folder of `plan`; its inputs are in provenance.json.
+output::Manifest manifest_of(const StudyPlan& plan);
+
+/// Of a run of `plan` on this machine, now.
+Provenance make_provenance(const StudyPlan& plan, const EngineTable& engines);
+
+/// provenance.json.
+std::string provenance_json(const Provenance& provenance);
+
+/// The same as names and values for people: "ode" -> "0.16.2, double precision".
+std::vector<std::pair<std::string, std::string>> provenance_lines(const Provenance& provenance);
+
+}  // namespace hookpoint::studies

@@ -1,0 +1,132 @@
+#include "studies/run/results_csv.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "output/file.h"
+#include "output/text/number.h"
+
+namespace hookpoint::studies {
+namespace {
+
+std::string field(const std::optional<double>& value) {
+  return value ? output::shortest(*value) : std::string();
+}
+std::string field(const std::optional<bool>& value) {
+  return value ? (*value ? "true" : "false") : std::string();
+}
+
+std::vector<std::string> header(const StudyResult& result, bool timing) {
+  std::vector<std::string> names;
+  for (const SweepColumn& sweep : result.sweeps)
+    names.push_back(output::column_title(sweep.name, sweep.unit));
+  for (const char* name : {"subject", "engine", "law", "integrator", "settings"})
+    names.emplace_back(name);
+  for (const MetricColumn& metric : result.metrics) {
+    if (metric.timing != timing) continue;
+    names.push_back(output::column_title(metric.name, metric.unit));
+    names.push_back(output::column_title(metric.name + "_predicted", metric.unit));
+    names.push_back(metric.name + "_ok");
+  }
+  names.emplace_back("status");
+  return names;
+}
+
+std::vector<std::string> table_row(const StudyResult& result, const RunResult& run, bool timing) {
+  std::vector<std::string> fields;
+  for (const double parameter : run.parameters) fields.push_back(output::shortest(parameter));
+  const SubjectInfo& subject = result.subjects[static_cast<std::size_t>(run.subject)];
+  for (const std::string& word :
+       {subject.name, subject.engine, subject.law, subject.integrator, subject.settings})
+    fields.push_back(word);
+  for (std::size_t i = 0; i < result.metrics.size(); ++i) {
+    if (result.metrics[i].timing != timing) continue;
+    fields.push_back(field(run.metrics[i].measured));
+    fields.push_back(field(run.metrics[i].predicted));
+    fields.push_back(field(run.metrics[i].ok));
+  }
+  fields.push_back(run.status);
+  return fields;
+}
+
+std::string trace_file(const std::string& plot, std::size_t row) {
+  return fmt::format("traces/{}_{:05}.csv", plot, row);
+}
+
+/// traces/<plot>_<row>.csv: a time column and the signal.
+void write_traces(const std::filesystem::path& folder, const StudyResult& result) {
+  for (std::size_t row = 0; row < result.rows.size(); ++row) {
+    for (std::size_t i = 0; i < result.plots.size(); ++i) {
+      const Trace& trace = result.rows[row].traces[i];
+      const PlotSpec& plot = result.plots[i];
+      if (trace.time.empty()) continue;
+      output::CsvTable table;
+      table.header = {output::column_title(plot.x_label.empty() ? "time" : plot.x_label, "s"),
+                      output::column_title(plot.y, plot.y_unit)};
+      for (std::size_t k = 0; k < trace.time.size(); ++k)
+        table.rows.push_back({output::shortest(trace.time[k]), output::shortest(trace.value[k])});
+      output::write_csv(folder / trace_file(plot.name, row), table);
+    }
+  }
+}
+
+/// peer_distance.csv: a row a pair of subjects at equal swept values.
+void write_distances(const std::filesystem::path& folder, const StudyResult& result) {
+  if (result.peer_distances.empty()) return;
+  output::CsvTable table;
+  for (const SweepColumn& sweep : result.sweeps)
+    table.header.push_back(output::column_title(sweep.name, sweep.unit));
+  for (const char* name : {"subject", "other", "peer_distance [m]"})
+    table.header.emplace_back(name);
+  const std::size_t subjects = result.subjects.size();
+  for (const PeerDistances& matrix : result.peer_distances) {
+    std::vector<std::string> swept;
+    for (const double parameter : matrix.parameters) swept.push_back(output::shortest(parameter));
+    for (std::size_t cell = 0; cell < matrix.distances.size(); ++cell) {
+      const std::size_t subject = cell / subjects, other = cell % subjects;
+      if (subject == other || !matrix.distances[cell]) continue;
+      table.rows.push_back(swept);
+      table.rows.back().insert(table.rows.back().end(),
+                               {result.subjects[subject].name, result.subjects[other].name,
+                                output::shortest(*matrix.distances[cell])});
+    }
+  }
+  output::write_csv(folder / "peer_distance.csv", table);
+}
+
+}  // namespace
+
+output::CsvTable results_table(const StudyResult& result, bool timing) {
+  output::CsvTable table;
+  table.header = header(result, timing);
+  for (const RunResult& run : result.rows) table.rows.push_back(table_row(result, run, timing));
+  return table;
+}
+
+std::vector<std::string> study_files(const StudyPlan& plan) {
+  std::vector<std::string> files{"rows/", "experiment.hook", "scene.hook", "provenance.json",
+                                 "report.html"};
+  for (const std::string_view table : table_names) files.push_back(std::string(table) + ".csv");
+  for (const PlotPlan& plot : plan.plots) {
+    for (const char* type : {".svg", ".csv", ".gp"}) files.push_back(plot.spec.name + type);
+    for (std::size_t row = 0; row < plan.rows.size() && plot.signal != nullptr; ++row)
+      files.push_back(trace_file(plot.spec.name, row));
+  }
+  return files;
+}
+
+void write_study_files(const std::filesystem::path& folder, const StudyPlan& plan,
+                       const StudyResult& result, const Provenance& provenance) {
+  output::write_csv(folder / "results.csv", results_table(result, false));
+  if (std::any_of(result.metrics.begin(), result.metrics.end(),
+                  [](const MetricColumn& m) { return m.timing; }))
+    output::write_csv(folder / "timing.csv", results_table(result, true));
+  output::write_file(folder / "experiment.hook", plan.printed);
+  output::write_file(folder / "scene.hook", plan.scene_printed);
+  output::write_file(folder / "provenance.json", provenance_json(provenance));
+  write_traces(folder, result);
+  write_distances(folder, result);
+}
+
+}  // namespace hookpoint::studies

@@ -1,0 +1,28 @@
+// The files of a study's folder: tables, traces, the experiment as printed, and where it all came
+// from.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "output/text/csv.h"
+#include "studies/plan/plan.h"
+#include "studies/result.h"
+#include "studies/run/provenance.h"
+
+namespace hookpoint::studies {
+
+/// The sweep parameters, `subject, engine, law, integrator, settings`, then each metric with its
+/// `_predicted` and `_ok`, then `status`. `timing` chooses the timing metrics (timing.csv) or all
+/// others (results.csv, the same bytes every time).
+output::CsvTable results_table(const StudyResult& result, bool timing);
+
+/// The names of all that a study may leave in its folder, reports and figures too, and rows/.
+std::vector<std::string> study_files(const StudyPlan& plan);
+
+/// Writes all of them into `folder`. Throws output::FileError.
+void write_study_files(const std::filesystem::path& folder, const StudyPlan& plan,
+                       const StudyResult& result, const Provenance& provenance);
+
+}  // namespace hookpoint::studies
