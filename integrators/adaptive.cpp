@@ -4,30 +4,30 @@
 
 namespace hookpoint::integrators {
 
-AdaptiveStepper::AdaptiveStepper(const System& system, long most)
+AdaptiveStepper::AdaptiveStepper(const HybridSystem& system, long most)
     : directions_(system.event_count()),
-      moving_(system.moving_size()),
-      group_(system.group_size()),
+      dofs_(system.dof_count()),
+      block_(system.jacobian_block()),
       most_evaluations_(most),
       origin_(system.position_size()),
       q_(system.position_size()) {
   const std::size_t velocities = system.velocity_size();
   for (std::vector<double>* numbers : {&u_, &v_, &u_rate_, &v_rate_, &other_rate_, &zero_, &first_})
     numbers->resize(velocities);
-  between_.resize(velocities + moving_);
-  unknowns_.reserve(velocities + moving_);
-  unknowns_.resize(2 * moving_);
+  between_.resize(velocities + dofs_);
+  unknowns_.reserve(velocities + dofs_);
+  unknowns_.resize(2 * dofs_);
 }
 
 std::size_t AdaptiveStepper::band() const {
-  return evolving_.empty() ? 2 * group_ - 1 : unknowns_.size();
+  return active_.empty() ? 2 * block_ - 1 : unknowns_.size();
 }
 
 Status AdaptiveStepper::step(System& system, double t, double dt, std::span<double> q,
                              std::span<double> v) {
   const Status status = evaluate(system, Stage::first, t, q, v, first_);
   if (status != Status::ok) return status;
-  system_ = &system;
+  system_ = &dynamic_cast<HybridSystem&>(system);
   start_ = t;
   at_start_ = true;
   lost_ = false;
@@ -54,7 +54,7 @@ bool AdaptiveStepper::integrate_on_the_way(double from, double to) {
 }
 
 Status AdaptiveStepper::integrate(double dt) {
-  double committed = 0., reached = 0.;
+  double reached = 0.;
   if (!begin(0., dt)) return Status::no_step;
   while (true) {
     const Arrival arrival = advance(dt);
@@ -74,8 +74,7 @@ Status AdaptiveStepper::integrate(double dt) {
     // next step begins at its zero, where nothing tells any more which way it went.
     if (event || !over) {
       read(unknowns_.data());
-      system_->commit(start_ + arrival.time, arrival.time - committed, q_, v_);
-      committed = arrival.time;
+      system_->commit(start_ + arrival.time, q_, v_);
     }
     if (event) system_->cross_events(directions_);
     if (over) {
@@ -83,9 +82,9 @@ Status AdaptiveStepper::integrate(double dt) {
       return Status::ok;
     }
     ++statistics_.steps;  // `accept` counts the last
-    if (event || system_->far(u_)) {
+    if (event || system_->chart_exhausted(u_)) {
       count();
-      if (event) system_->begin_anew(v_);
+      if (event) system_->reinitialize(v_);
       start_from(q_, v_);
       if (!begin(arrival.time, dt)) return Status::no_step;
     }
@@ -101,28 +100,28 @@ void AdaptiveStepper::start_from(std::span<const double> q, std::span<const doub
   std::copy(q.begin(), q.end(), origin_.begin());
   std::copy(v.begin(), v.end(), v_.begin());
   std::ranges::fill(u_, 0.);
-  evolving_.clear();
-  for (std::size_t i = moving_; i < v.size(); ++i)
-    if (system_->evolves(i)) evolving_.push_back(i);
-  unknowns_.resize(2 * moving_ + evolving_.size());
+  active_.clear();
+  for (std::size_t i = dofs_; i < v.size(); ++i)
+    if (system_->is_active_state(i)) active_.push_back(i);
+  unknowns_.resize(2 * dofs_ + active_.size());
   write(u_, v_, unknowns_.data());
 }
 
 void AdaptiveStepper::read(const double* y) {
-  for (std::size_t i = 0; i < moving_; ++i) {
+  for (std::size_t i = 0; i < dofs_; ++i) {
     u_[i] = y[2 * i];
     v_[i] = y[2 * i + 1];
   }
-  for (std::size_t i = 0; i < evolving_.size(); ++i) v_[evolving_[i]] = y[2 * moving_ + i];
+  for (std::size_t i = 0; i < active_.size(); ++i) v_[active_[i]] = y[2 * dofs_ + i];
   system_->retract(origin_, u_, q_);
 }
 
 void AdaptiveStepper::write(std::span<const double> u, std::span<const double> v, double* y) const {
-  for (std::size_t i = 0; i < moving_; ++i) {
+  for (std::size_t i = 0; i < dofs_; ++i) {
     y[2 * i] = u[i];
     y[2 * i + 1] = v[i];
   }
-  for (std::size_t i = 0; i < evolving_.size(); ++i) y[2 * moving_ + i] = v[evolving_[i]];
+  for (std::size_t i = 0; i < active_.size(); ++i) y[2 * dofs_ + i] = v[active_[i]];
 }
 
 bool AdaptiveStepper::write_rates(Status status, std::span<const double> u_rate,

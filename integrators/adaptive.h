@@ -2,6 +2,7 @@
 // that end at events. The libraries' side is in cvode.cpp and arkode.cpp.
 #pragma once
 
+#include "integrators/hybrid_system.h"
 #include "integrators/stepper.h"
 
 namespace hookpoint::integrators {
@@ -16,7 +17,8 @@ namespace hookpoint::integrators {
 class AdaptiveStepper : public Stepper {
  public:
   /// `most`: Tolerances::most_evaluations.
-  AdaptiveStepper(const System& system, long most);
+  AdaptiveStepper(const HybridSystem& system, long most);
+  /// `system` is a HybridSystem: std::bad_cast for another.
   Status step(System& system, double t, double dt, std::span<double> q, std::span<double> v) final;
 
   // For the library's callbacks, at `time` since the step's start [s]; y and the results have
@@ -73,14 +75,14 @@ class AdaptiveStepper : public Stepper {
   Status why_failed() const;
   bool integrate_on_the_way(double from, double to);
 
-  std::size_t moving_, group_;         ///< System::moving_size, group_size
-  long most_evaluations_;              ///< of a `step`
-  std::vector<std::size_t> evolving_;  ///< of the states of first order
-  System* system_ = nullptr;           ///< during `step`
-  double start_ = 0.;                  ///< time of the step's start [s]
-  bool at_start_ = false;              ///< the next rates are those that Stage::first gave
-  bool lost_ = false;                  ///< the latest rates are not finite
-  long evaluations_ = 0;               ///< of this `step`
+  std::size_t dofs_, block_;         ///< HybridSystem::dof_count, jacobian_block
+  long most_evaluations_;            ///< of a `step`
+  std::vector<std::size_t> active_;  ///< of the states of first order
+  HybridSystem* system_ = nullptr;   ///< during `step`
+  double start_ = 0.;                ///< time of the step's start [s]
+  bool at_start_ = false;            ///< the next rates are those that Stage::first gave
+  bool lost_ = false;                ///< the latest rates are not finite
+  long evaluations_ = 0;             ///< of this `step`
   std::vector<double> origin_, q_, u_, v_, u_rate_, v_rate_, other_rate_, zero_, first_;
   std::vector<double> between_;  ///< y on the way of an internal step
 };

@@ -13,7 +13,7 @@ using sundials::require;
 
 class Arkode final : public AdaptiveStepper {
  public:
-  Arkode(const System& system, const Tolerances& tolerances, bool imex)
+  Arkode(const HybridSystem& system, const Tolerances& tolerances, bool imex)
       : AdaptiveStepper(system, tolerances.most_evaluations),
         explicit_part_(imex ? sundials::rates<&AdaptiveStepper::explicit_rates>
                             : sundials::rates<&AdaptiveStepper::rates>),
@@ -115,11 +115,11 @@ class Arkode final : public AdaptiveStepper {
 }  // namespace
 
 std::unique_ptr<Stepper> make_arkode(const System& system, const Tolerances& tolerances) {
-  return std::make_unique<Arkode>(system, tolerances, false);
+  return std::make_unique<Arkode>(dynamic_cast<const HybridSystem&>(system), tolerances, false);
 }
 
 std::unique_ptr<Stepper> make_arkode_imex(const System& system, const Tolerances& tolerances) {
-  return std::make_unique<Arkode>(system, tolerances, true);
+  return std::make_unique<Arkode>(dynamic_cast<const HybridSystem&>(system), tolerances, true);
 }
 
 }  // namespace hookpoint::integrators

@@ -12,7 +12,7 @@ using sundials::require;
 
 class Cvode final : public AdaptiveStepper {
  public:
-  Cvode(const System& system, const Tolerances& tolerances, int method)
+  Cvode(const HybridSystem& system, const Tolerances& tolerances, int method)
       : AdaptiveStepper(system, tolerances.most_evaluations),
         tolerances_(tolerances),
         method_(method),
@@ -97,11 +97,11 @@ class Cvode final : public AdaptiveStepper {
 }  // namespace
 
 std::unique_ptr<Stepper> make_cvode_bdf(const System& system, const Tolerances& tolerances) {
-  return std::make_unique<Cvode>(system, tolerances, CV_BDF);
+  return std::make_unique<Cvode>(dynamic_cast<const HybridSystem&>(system), tolerances, CV_BDF);
 }
 
 std::unique_ptr<Stepper> make_cvode_adams(const System& system, const Tolerances& tolerances) {
-  return std::make_unique<Cvode>(system, tolerances, CV_ADAMS);
+  return std::make_unique<Cvode>(dynamic_cast<const HybridSystem&>(system), tolerances, CV_ADAMS);
 }
 
 }  // namespace hookpoint::integrators

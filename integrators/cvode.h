@@ -7,7 +7,7 @@ namespace hookpoint::integrators {
 
 /// Backward differentiation formulas of order 1 to 5, for stiff contact; Newton's method with a
 /// Jacobian by difference quotients, dense, or a band where groups of coordinates are independent
-/// (System::group_size).
+/// (HybridSystem::jacobian_block).
 std::unique_ptr<Stepper> make_cvode_bdf(const System& system, const Tolerances& tolerances);
 
 /// Adams-Moulton formulas of order 1 to 12, corrected by functional iteration: the

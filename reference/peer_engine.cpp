@@ -9,7 +9,7 @@
 
 #include "reference/experiment_checks.h"
 #include "reference/touching_points.h"
-#include "simulation/engine/dts_robot.h"
+#include "simulation/engine/robot_system.h"
 #include "simulation/joint_properties.h"
 #include "simulation/names.h"
 

@@ -15,7 +15,7 @@
 #include "simulation/analysis/stability.h"
 #include "simulation/analysis/standing.h"
 #include "simulation/engine.h"
-#include "simulation/engine/dts_robot.h"
+#include "simulation/engine/robot_system.h"
 #include "simulation/ground.h"
 
 namespace hookpoint::simulation {
@@ -46,19 +46,20 @@ void check_applicable(const Experiment& experiment) {
     throw ExperimentError("the World has no terrain: there is no contact to advise on");
 }
 
-std::vector<const ContactPoint*> carrying_points(const DtsRobot& robot) {
+std::vector<const ContactPoint*> carrying_points(const RobotSystem& robot) {
   double deepest = -HUGE_VAL;
-  for (const ContactPoint& point : robot.contact_points()) deepest = std::max(deepest, point.depth);
+  for (const ContactPoint& point : robot.contacts().points())
+    deepest = std::max(deepest, point.depth);
   const double least = deepest > 0. ? 0. : deepest - standing_reach;
   std::vector<const ContactPoint*> carrying;
-  for (const ContactPoint& point : robot.contact_points()) {
+  for (const ContactPoint& point : robot.contacts().points()) {
     if (point.depth > least) carrying.push_back(&point);
   }
   return carrying;
 }
 
 /// 1/(n . K n), K the collision matrix: what a blow along the normal feels.
-double effective_mass(DtsRobot& robot, const ContactPoint& point) {
+double effective_mass(RobotSystem& robot, const ContactPoint& point) {
   const Matrix3d K =
       dts::collision_matrix(robot.model(), robot.workspace(), {point.body, point.position});
   return 1. / dot(point.normal, K * point.normal);
@@ -150,7 +151,7 @@ void advise_constants(GroundAdvice& ground, const contact::ForceLaw& law,
 std::vector<GroundAdvice> advise_robot(const Experiment& experiment, int index,
                                        const contact::Terrain& terrain, const WorldInputs& inputs,
                                        const AdviceWishes& wishes) {
-  DtsRobot robot(experiment, index, &terrain, inputs);
+  RobotSystem robot(experiment, static_cast<std::size_t>(index), &terrain, inputs);
   dts::articulated_inertias(robot.model(), robot.workspace());
   const std::vector<const ContactPoint*> carrying = carrying_points(robot);
   const contact::ForceLaw law = *contact::find_force_law(experiment.contact);

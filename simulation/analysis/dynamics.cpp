@@ -4,7 +4,7 @@
 
 #include "dts/energy.h"
 #include "simulation/analysis/stability.h"
-#include "simulation/engine/dts_robot.h"
+#include "simulation/engine/robot_system.h"
 #include "simulation/ground.h"
 #include "simulation/names.h"
 
@@ -28,7 +28,7 @@ RobotDynamics robot_dynamics(const Experiment& experiment, int index,
                              const contact::Terrain* ground, const WorldInputs& inputs,
                              const std::vector<std::string>& body_names) {
   const RobotSpec& spec = experiment.robots[index];
-  DtsRobot robot(experiment, index, ground, inputs);
+  RobotSystem robot(experiment, static_cast<std::size_t>(index), ground, inputs);
   const dts::Workspace<double>& workspace = robot.workspace();
 
   RobotDynamics report;
@@ -40,7 +40,7 @@ RobotDynamics robot_dynamics(const Experiment& experiment, int index,
   report.potential_energy = dts::potential_energy(robot.model(), experiment.gravity, workspace);
   report.linear_momentum = dts::linear_momentum(robot.model(), workspace);
   report.angular_momentum = dts::angular_momentum(robot.model(), workspace);
-  for (const ContactPoint& point : robot.contact_points()) {
+  for (const ContactPoint& point : robot.contacts().points()) {
     if (point.depth > 0.)
       report.contacts.push_back(
           {body_names[point.body], point.depth, point.position, point.normal, point.force});

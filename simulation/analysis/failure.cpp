@@ -18,12 +18,12 @@ StepStatus explained(StepStatus status, const Experiment& experiment) {
   }
   status.kind = StepStatus::Kind::step_too_large;
   const std::string controllers = controller_advice(bound);
-  status.advice = fmt::format(
-      "deltat {:.4g} s is above the largest stable step {:.4g} s of {}: {}", experiment.deltat,
-      bound.step, experiment.integrator,
-      controllers.empty() ? "make the step smaller, the ground softer, or choose another "
-                            "integrator"
-                          : controllers);
+  status.advice = fmt::format("deltat {:.4g} s is above the largest stable step {:.4g} s of {}: {}",
+                              experiment.deltat, bound.step, experiment.integrator,
+                              controllers.empty()
+                                  ? "make the step smaller, the ground softer, or choose another "
+                                    "integrator"
+                                  : controllers);
   return status;
 }
 

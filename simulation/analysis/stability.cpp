@@ -11,7 +11,7 @@
 #include "simulation/analysis/loop_stability.h"
 #include "simulation/analysis/standing.h"
 #include "simulation/analysis/vibration.h"
-#include "simulation/engine/dts_robot.h"
+#include "simulation/engine/robot_system.h"
 #include "simulation/ground.h"
 
 namespace hookpoint::simulation {
@@ -113,7 +113,7 @@ void add_single_points(const Experiment& experiment, const contact::ForceLaw& la
 
 /// Of a robot that touches nothing, at its initial posture and at the one in which it hangs still.
 StabilityBound free_bound(const Experiment& experiment, std::size_t index,
-                          const WiredControl& control, DtsRobot& robot) {
+                          const WiredControl& control, RobotSystem& robot) {
   const RobotSpec& spec = experiment.robots[index];
   const auto at_posture = [&] {
     const RobotAtRest rest(robot);
@@ -134,10 +134,10 @@ StabilityBound robot_bound(const Experiment& experiment, std::size_t index,
                            const WorldInputs& inputs) {
   const contact::ForceLaw law = *contact::find_force_law(experiment.contact);
   const RobotSpec& spec = experiment.robots[index];
-  DtsRobot robot(experiment, static_cast<int>(index), ground, inputs);
+  RobotSystem robot(experiment, index, ground, inputs);
   const RobotAtRest rest(robot);
   if (rest.size() == 0 || !rest.is_regular()) return {infinity, 0., 0., spec.name};
-  if (ground == nullptr || robot.contact_points().empty())
+  if (ground == nullptr || robot.contacts().points().empty())
     return free_bound(experiment, index, control, robot);
   Stances stances = find_stances(experiment, index, rest, control);
   if (std::ranges::any_of(driven_of(control, index),

@@ -194,7 +194,7 @@ struct Drives {
 
   /// Of all joints at the robot's posture, at rest, over z.
   VectorXd torques(const RobotAtRest& rest) const {
-    const DtsRobot& at = rest.robot();
+    const RobotSystem& at = rest.robot();
     const MatrixXd levers = rest.joint_levers();
     VectorXd sum = VectorXd::Zero(rest.size());
     Eigen::Index joint = 0;
@@ -202,7 +202,8 @@ struct Drives {
       for (const LinkSpec& link : chain.links) {
         const auto l = static_cast<std::size_t>(joint);
         const double position = at.state().joint_positions[l];
-        double torque = dts::passive_joint_torque(at.joints()[l], position, 0., at.anchors()[l]);
+        double torque = dts::passive_joint_torque(at.robot().joints().properties()[l], position, 0.,
+                                                  at.robot().joints().anchors()[l]);
         const DrivenJoint* drive = find(l);
         if (drive == nullptr) torque += link.torque;
         if (drive != nullptr && drive->goal)
@@ -223,7 +224,7 @@ class StanceFinder {
         drives_{experiment, index, driven_of(control, index)},
         joint_torques_(drives_.torques(rest)),
         weight_(mass_of(experiment.robots[index]) * norm(experiment.gravity)) {
-    for (const ContactPoint& point : rest.robot().contact_points()) {
+    for (const ContactPoint& point : rest.robot().contacts().points()) {
       const dts::BodyPoint<double> place{point.body, point.position};
       supports_.push_back(
           {{place, rest.lever(place), point.normal, point.material, 0.}, point.depth});
@@ -254,16 +255,16 @@ class StanceFinder {
   }
 
   bool has_windows() const {
-    return std::ranges::any_of(rest_.robot().forces(), [&](std::size_t force) {
+    return std::ranges::any_of(rest_.robot().robot().forces(), [&](std::size_t force) {
       return experiment_.forces[force].window.has_value();
     });
   }
 
   /// Weights in that gravity, Forces (those over a window at their height, or not), joints.
   Pushes pushes(const Vector3d& gravity, bool with_windows) const {
-    const DtsRobot& robot = rest_.robot();
+    const RobotSystem& robot = rest_.robot();
     Pushes pushes{rest_.weights(gravity), joint_torques_};
-    for (const std::size_t i : robot.forces()) {
+    for (const std::size_t i : robot.robot().forces()) {
       const ForceSpec& force = experiment_.forces[i];
       if (force.window && !with_windows) continue;
       const dts::BodyMotion<double>& body = robot.workspace().bodies[force.body];
@@ -418,7 +419,7 @@ double mass_of(const RobotSpec& robot) {
 }
 
 bool hang(const Experiment& experiment, std::size_t index, const WiredControl& control,
-          DtsRobot& robot) {
+          RobotSystem& robot) {
   /// Of a try, of any joint [rad, m].
   constexpr double longest_turn = 0.3;
   constexpr int most_tries = 200;
@@ -456,7 +457,7 @@ bool hang(const Experiment& experiment, std::size_t index, const WiredControl& c
         solve_positive(stiffness + shift * MatrixXd::Identity(rest.size(), rest.size()), left);
     if (!turn.allFinite()) return false;
     const double part = std::min(1., longest_turn / std::max(turn.cwiseAbs().maxCoeff(), tiny));
-    robot.write_positions(q);
+    robot.robot().write_positions(q);
     for (std::size_t joint = 0; joint < q.size(); ++joint)
       q[joint] += part * turn[static_cast<Eigen::Index>(joint)];
     robot.settle_at(q, v);

@@ -47,7 +47,7 @@ Stances find_stances(const Experiment& experiment, std::size_t index, const Robo
 /// Turns the joints of a robot with a fixed base to where it hangs still, from where it is
 /// downwards. False where it does already, where a controller holds it, or where it finds no rest.
 bool hang(const Experiment& experiment, std::size_t index, const WiredControl& control,
-          DtsRobot& robot);
+          RobotSystem& robot);
 
 /// Of all that moves of a robot [kg].
 double mass_of(const RobotSpec& robot);

@@ -21,12 +21,12 @@ constexpr double least_eigenvalue = 1e-6;
 
 using Workspace = dts::Workspace<double>;
 
-Eigen::Index velocity_size(const DtsRobot& robot) {
+Eigen::Index velocity_size(const RobotSystem& robot) {
   return static_cast<Eigen::Index>(dts::velocity_count(robot.model()));
 }
 
 /// M^-1 J^T P, the answer to an impulse.
-Eigen::VectorXd to_impulse(const DtsRobot& robot, Workspace& workspace,
+Eigen::VectorXd to_impulse(const RobotSystem& robot, Workspace& workspace,
                            const dts::BodyPoint<double>& point, const Vector3d& impulse_W) {
   Eigen::VectorXd change(velocity_size(robot));
   dts::velocity_change<double>(robot.model(), workspace, point, impulse_W,
@@ -35,14 +35,14 @@ Eigen::VectorXd to_impulse(const DtsRobot& robot, Workspace& workspace,
 }
 
 /// To the moment [N m s] that two opposite impulses at the base make.
-Eigen::VectorXd to_moment_on_base(const DtsRobot& robot, Workspace& workspace, const Vector3d& arm,
-                                  const Vector3d& impulse_W) {
+Eigen::VectorXd to_moment_on_base(const RobotSystem& robot, Workspace& workspace,
+                                  const Vector3d& arm, const Vector3d& impulse_W) {
   const Vector3d origin = workspace.bodies[0].p_WB;
   return to_impulse(robot, workspace, {0, origin + arm}, impulse_W) -
          to_impulse(robot, workspace, {0, origin}, impulse_W);
 }
 
-Eigen::VectorXd to_joint(const DtsRobot& robot, Workspace& workspace, std::size_t joint) {
+Eigen::VectorXd to_joint(const RobotSystem& robot, Workspace& workspace, std::size_t joint) {
   const dts::Model<double>& model = robot.model();
   std::vector<double> torques(model.link_count(), 0.);
   torques[joint] = 1.;
@@ -58,7 +58,7 @@ Eigen::VectorXd to_joint(const DtsRobot& robot, Workspace& workspace, std::size_
   return change;
 }
 
-Eigen::MatrixXd inverse_mass_matrix(const DtsRobot& robot, Workspace& workspace) {
+Eigen::MatrixXd inverse_mass_matrix(const RobotSystem& robot, Workspace& workspace) {
   const Eigen::Index size = velocity_size(robot);
   const auto links = static_cast<Eigen::Index>(robot.model().link_count());
   Eigen::MatrixXd inverse(size, size);
@@ -152,7 +152,7 @@ Eigen::VectorXd solve_positive(const Eigen::MatrixXd& A, const Eigen::VectorXd& 
   return Eigen::LLT<Eigen::MatrixXd>(A).solve(b);
 }
 
-RobotAtRest::RobotAtRest(const DtsRobot& robot) : robot_(&robot), workspace_(robot.workspace()) {
+RobotAtRest::RobotAtRest(const RobotSystem& robot) : robot_(&robot), workspace_(robot.workspace()) {
   dts::State<double> still = robot.state();
   still.base_velocity = still.base_angular_velocity = {};
   for (double& rate : still.joint_rates) rate = 0.;
@@ -201,7 +201,7 @@ Vibration RobotAtRest::joints_alone() const {
   for (Eigen::Index joint = 0; joint < levers.rows(); ++joint) {
     const auto l = static_cast<std::size_t>(joint);
     const JointSpring spring =
-        joint_spring(robot_->joints()[l], robot_->state().joint_positions[l]);
+        joint_spring(robot_->robot().joints().properties()[l], robot_->state().joint_positions[l]);
     if (spring.stiffness == 0. && spring.damping == 0.) continue;
     const Eigen::VectorXd moved = levers.row(joint).transpose();
     vibration.stiffness += spring.stiffness * moved * moved.transpose();

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "dts/impulse_response.h"
-#include "simulation/engine/dts_robot.h"
+#include "simulation/engine/robot_system.h"
 
 namespace hookpoint::simulation {
 
@@ -38,9 +38,9 @@ struct Vibration {
 /// is 1.
 class RobotAtRest {
  public:
-  explicit RobotAtRest(const DtsRobot& robot);
+  explicit RobotAtRest(const RobotSystem& robot);
 
-  const DtsRobot& robot() const { return *robot_; }
+  const RobotSystem& robot() const { return *robot_; }
   Eigen::Index size() const { return root_.rows(); }
   /// False where a body that moves has no mass: there are no such coordinates.
   bool is_regular() const { return regular_; }
@@ -69,7 +69,7 @@ class RobotAtRest {
     return static_cast<Eigen::Index>(robot_->model().link_count());
   }
 
-  const DtsRobot* robot_;
+  const RobotSystem* robot_;
   mutable dts::Workspace<double> workspace_;  ///< articulated inertias, and what a response needs
   Eigen::MatrixXd root_;                      ///< R of M^-1 = R R^T, z = R^-1 q
   bool regular_ = true;

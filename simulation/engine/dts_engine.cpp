@@ -2,18 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-
 #include "contact/force_law.h"
-#include "simulation/engine/dts_robot.h"
-#include "simulation/engine/impulse_engine.h"
+#include "simulation/engine/force_robot.h"
+#include "simulation/engine/impulse_part.h"
 #include "simulation/ground.h"
 
 namespace hookpoint::simulation {
 namespace {
 
-void add(const integrators::Statistics& part, IntegratorState& sum) {
+void add(const IntegratorState& part, IntegratorState& sum) {
   sum.steps += part.steps;
   sum.rejected += part.rejected;
   sum.evaluations += part.evaluations;
@@ -27,38 +24,30 @@ class DtsEngine final : public Engine, public Resumable {
       : experiment_(experiment),
         inputs_(initial_inputs(experiment_)),
         ground_(make_ground(experiment_)) {
-    if (!contact::find_force_law(experiment_.contact))
+    const contact::LawDescription* law = contact::find_law(experiment_.contact);
+    if (law == nullptr)
       throw ExperimentError("there is no contact law `" + experiment_.contact + "`");
     std::size_t bodies = 0, joints = 0, chains = 0;
     for (std::size_t i = 0; i < experiment_.robots.size(); ++i) {
-      auto robot = std::make_unique<DtsRobot>(experiment_, static_cast<int>(i),
-                                              ground_ ? &*ground_ : nullptr, inputs_);
-      auto stepper = integrators::make_stepper(
-          experiment_.integrator, *robot,
-          {experiment_.relative_tolerance, experiment_.absolute_tolerance});
-      if (!stepper)
-        throw ExperimentError("there is no integrator `" + experiment_.integrator + "`");
-      bodies += robot->model().body_count();
-      joints += robot->model().link_count();
-      chains += robot->model().chain_count();
-      parts_.push_back({std::move(robot), std::move(stepper)});
+      parts_.push_back({make_robot(i, law->is_impulse_law), bodies, joints, chains});
+      bodies += parts_.back().robot->body_count();
+      joints += parts_.back().robot->joint_count();
+      chains += experiment_.robots[i].chains.size();
     }
     state_.bodies.resize(bodies);
     state_.joints.resize(joints);
-    state_.points.resize(experiment_.points.size());
-    state_.chains.resize(chains);
+    if (!law->is_impulse_law) {
+      state_.points.resize(experiment_.points.size());
+      state_.chains.resize(chains);
+    }
     publish();
   }
 
   StepStatus step() override {
     for (std::size_t i = 0; i < parts_.size(); ++i) {
-      parts_[i].stepper->save(parts_[i].stepper_before);
-      const StepStatus status =
-          parts_[i].robot->step(*parts_[i].stepper, state_.time, experiment_.deltat);
+      const StepStatus status = parts_[i].robot->step(state_.time);
       if (status.ok()) continue;
       for (std::size_t stepped = 0; stepped < i; ++stepped) parts_[stepped].robot->undo();
-      for (std::size_t begun = 0; begun <= i; ++begun)
-        parts_[begun].stepper->restore(parts_[begun].stepper_before);
       return status;
     }
     ++state_.step;
@@ -74,95 +63,100 @@ class DtsEngine final : public Engine, public Resumable {
     copy_details();
   }
   void publish_contact_forces(bool wanted) override {
-    for (Part& part : parts_) part.robot->publish_contact_forces(wanted);
+    for (Part& part : parts_) {
+      if (ContactDetails* details = part.robot->details()) details->publish_contact_forces(wanted);
+    }
   }
   void publish_ground_forces() override {
-    std::size_t points = 0;
-    for (const Part& part : parts_) points += part.robot->contact_points().size();
-    state_.ground_forces.reserve(points);
+    if (!tells_details()) return;
     state_.ground_force_time = GroundForceTime::now;
+    std::size_t points = 0;
+    for (const RobotSpec& robot : experiment_.robots) points += boundary_points(robot).size();
+    state_.ground_forces.reserve(points);
     copy_ground_forces();
   }
   std::optional<double> ground_energy() const override {
+    if (!tells_details()) return std::nullopt;
     double sum = 0.;
-    for (const Part& part : parts_) sum += part.robot->ground_energy();
+    for (const Part& part : parts_) sum += part.robot->details()->ground_energy();
     return sum;
   }
   Resumable* resumable() override { return this; }
 
   std::size_t state_size() const override {
     std::size_t size = 1;
-    for (const Part& part : parts_)
-      size += 1 + part.robot->state_size() + part.stepper->state_size();
+    for (const Part& part : parts_) size += 1 + part.robot->state_size();
     return size;
   }
 
   std::string state_layout() const override {
     std::string layout = "step";
     for (const Part& part : parts_)
-      layout += fmt::format(" {{noticed {} {}[{}]}}", part.robot->state_layout(),
-                            experiment_.integrator, part.stepper->state_size());
+      layout += fmt::format(" {{noticed {}}}", part.robot->state_layout());
     return layout;
   }
 
   void save(std::span<double> numbers) const override {
     numbers[0] = static_cast<double>(state_.step);
-    std::span<double> left = numbers.subspan(1);
-    std::size_t body = 0;
+    numbers = numbers.subspan(1);
     for (const Part& part : parts_) {
-      const std::size_t bodies = part.robot->model().body_count();
-      left[0] = part.noticed ? 1. : 0.;
-      left = left.subspan(1);
-      part.robot->save(left.first(part.robot->state_size()),
-                       std::span(state_.bodies).subspan(body, bodies));
-      left = left.subspan(part.robot->state_size());
-      part.stepper->save(left.first(part.stepper->state_size()));
-      left = left.subspan(part.stepper->state_size());
-      body += bodies;
+      const std::size_t size = part.robot->state_size();
+      numbers[0] = part.noticed ? 1. : 0.;
+      part.robot->save(numbers.subspan(1, size),
+                       std::span(state_.bodies).subspan(part.first_body, part.robot->body_count()));
+      numbers = numbers.subspan(1 + size);
     }
   }
 
   void restore(std::span<const double> numbers) override {
     state_.step = static_cast<std::int64_t>(numbers[0]);
     state_.time = static_cast<double>(state_.step) * experiment_.deltat;
-    std::span<const double> left = numbers.subspan(1);
-    std::size_t body = 0;
+    numbers = numbers.subspan(1);
     for (Part& part : parts_) {
-      const std::size_t bodies = part.robot->model().body_count();
-      part.noticed = left[0] != 0.;
-      left = left.subspan(1);
-      part.robot->restore(left.first(part.robot->state_size()),
-                          std::span(state_.bodies).subspan(body, bodies));
-      left = left.subspan(part.robot->state_size());
-      part.stepper->restore(left.first(part.stepper->state_size()));
-      left = left.subspan(part.stepper->state_size());
-      body += bodies;
+      const std::size_t size = part.robot->state_size();
+      part.noticed = numbers[0] != 0.;
+      part.robot->restore(numbers.subspan(1, size), bodies_of(part));
+      numbers = numbers.subspan(1 + size);
     }
     publish();
   }
 
  private:
+  /// A robot, where its published values begin, and whether its notice has been told.
   struct Part {
-    std::unique_ptr<DtsRobot> robot;
-    std::unique_ptr<integrators::Stepper> stepper;
-    std::array<double, integrators::Stepper::state_size()> stepper_before{};  ///< the present step
+    std::unique_ptr<RobotPart> robot;
+    std::size_t first_body = 0, first_joint = 0, first_chain = 0;
     bool noticed = false;
   };
 
+  std::unique_ptr<RobotPart> make_robot(std::size_t index, bool under_impulse_law) const {
+    const contact::Terrain* ground = ground_ ? &*ground_ : nullptr;
+    if (under_impulse_law) return make_impulse_part(experiment_, index, ground, inputs_);
+    return std::make_unique<ForceRobot>(experiment_, index, ground, inputs_);
+  }
+
+  /// All robots of a world are under one law.
+  bool tells_details() const {
+    return parts_.empty() || parts_.front().robot->details() != nullptr;
+  }
+
+  std::span<BodyState> bodies_of(const Part& part) {
+    return std::span(state_.bodies).subspan(part.first_body, part.robot->body_count());
+  }
+
   void publish() {
-    std::size_t body = 0, joint = 0;
     state_.integrator = {};
+    state_.impacts = 0;
     for (Part& part : parts_) {
-      add(part.stepper->statistics(), state_.integrator);
+      add(part.robot->statistics(), state_.integrator);
+      state_.impacts += part.robot->impacts();
       if (!part.noticed && !part.robot->notice().empty()) {
         state_.notices.push_back(part.robot->notice());
         part.noticed = true;
       }
-      const std::size_t links = part.robot->model().link_count();
-      part.robot->publish(std::span(state_.bodies).subspan(body, 1 + links),
-                          std::span(state_.joints).subspan(joint, links));
-      body += 1 + links;
-      joint += links;
+      part.robot->publish(
+          bodies_of(part),
+          std::span(state_.joints).subspan(part.first_joint, part.robot->joint_count()));
     }
     if (has_details_) copy_details();
     if (state_.ground_force_time != GroundForceTime::unknown) copy_ground_forces();
@@ -170,24 +164,22 @@ class DtsEngine final : public Engine, public Resumable {
 
   void copy_ground_forces() {
     state_.ground_forces.clear();
-    std::size_t body = 0;
-    for (const Part& part : parts_) {
-      part.robot->add_ground_forces(body, state_.ground_forces);
-      body += part.robot->model().body_count();
-    }
+    for (Part& part : parts_)
+      part.robot->details()->add_ground_forces(part.first_body, state_.ground_forces);
   }
 
   void copy_details() {
+    if (!tells_details()) return;
     for (std::size_t i = 0; i < state_.points.size(); ++i) {
       const PointSpec& point = experiment_.points[i];
-      state_.points[i] =
-          parts_[static_cast<std::size_t>(point.robot)].robot->point_state(point.body, point.point);
+      Part& part = parts_[static_cast<std::size_t>(point.robot)];
+      state_.points[i] = part.robot->details()->point_state(static_cast<std::size_t>(point.body),
+                                                            static_cast<std::size_t>(point.point));
     }
-    std::size_t chain = 0;
-    for (const Part& part : parts_) {
-      const std::size_t count = part.robot->model().chain_count();
-      part.robot->publish_hips(std::span(state_.chains).subspan(chain, count));
-      chain += count;
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      parts_[i].robot->details()->publish_hips(
+          std::span(state_.chains)
+              .subspan(parts_[i].first_chain, experiment_.robots[i].chains.size()));
     }
   }
 
@@ -202,8 +194,6 @@ class DtsEngine final : public Engine, public Resumable {
 }  // namespace
 
 std::unique_ptr<Engine> make_dts(const Experiment& experiment) {
-  const contact::LawDescription* law = contact::find_law(experiment.contact);
-  if (law && law->is_impulse_law) return make_impulse_engine(experiment);
   return std::make_unique<DtsEngine>(experiment);
 }
 

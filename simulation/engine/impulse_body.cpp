@@ -20,11 +20,10 @@ contact::ImpulseState initial_motion(const RobotSpec& robot) {
 }  // namespace
 
 ImpulseBody::ImpulseBody(const Experiment& experiment, std::size_t index, contact::ImpulseLaw law,
-                         bool has_ground, const WorldInputs& inputs)
-    : experiment_(experiment),
-      index_(index),
+                         const contact::Terrain* ground, const WorldInputs& inputs)
+    : ImpulsePart(experiment, index, ground),
       inputs_(inputs),
-      law_(describe(experiment.robots[index].base, has_ground), law),
+      law_(describe(experiment.robots[index].base, ground != nullptr), law),
       motion_(initial_motion(experiment.robots[index])),
       motion_before_(motion_) {}
 
@@ -37,7 +36,7 @@ contact::ImpulseTally ImpulseBody::advance(const contact::GroundQuery& ground) {
   return result;
 }
 
-void ImpulseBody::undo() {
+void ImpulseBody::go_back() {
   motion_ = motion_before_;
   result_ = result_before_;
 }
@@ -65,34 +64,15 @@ contact::ImpulseLoad ImpulseBody::load() const {
   return load;
 }
 
-template <class Self, class Archive>
-void ImpulseBody::exchange(Self& self, Archive& archive) {
-  archive(self.motion_.position);
-  archive(self.motion_.orientation);
-  archive(self.motion_.velocity);
-  archive(self.motion_.angular_velocity);
-  archive(self.result_.impulse);
-  archive(self.result_.contacts);
-}
-
-std::size_t ImpulseBody::state_size() const {
-  StateCount count;
-  exchange(*this, count);
-  return count.count();
-}
-
-std::string ImpulseBody::state_layout() const {
-  return "position[3] orientation[4] velocity[3] angular_velocity[3] impulse[3] contacts";
-}
+std::size_t ImpulseBody::state_size() const { return count_of(*this); }
+std::string ImpulseBody::state_layout() const { return layout_of(*this); }
 
 void ImpulseBody::save(std::span<double> numbers, std::span<const BodyState> /*bodies*/) const {
-  StateSaver saver(numbers);
-  exchange(*this, saver);
+  save_to(numbers, *this);
 }
 
 void ImpulseBody::restore(std::span<const double> numbers, std::span<BodyState> /*bodies*/) {
-  StateRestorer restorer(numbers);
-  exchange(*this, restorer);
+  restore_from(numbers, *this);
 }
 
 }  // namespace hookpoint::simulation

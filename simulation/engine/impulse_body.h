@@ -8,15 +8,13 @@ namespace hookpoint::simulation {
 
 class ImpulseBody final : public ImpulsePart {
  public:
-  /// Robot `index` of the experiment, without chains; all that is referred to outlives the body.
-  /// Without a ground it has no boundary points.
+  /// Robot `index` of the experiment, without chains.
   ImpulseBody(const Experiment& experiment, std::size_t index, contact::ImpulseLaw law,
-              bool has_ground, const WorldInputs& inputs);
+              const contact::Terrain* ground, const WorldInputs& inputs);
 
   std::size_t body_count() const override { return 1; }
   std::size_t joint_count() const override { return 0; }
   contact::ImpulseTally advance(const contact::GroundQuery& ground) override;
-  void undo() override;
   void publish(std::span<BodyState> bodies, std::span<JointState> joints) const override;
 
   std::size_t state_size() const override;
@@ -24,13 +22,21 @@ class ImpulseBody final : public ImpulsePart {
   void save(std::span<double> numbers, std::span<const BodyState> bodies) const override;
   void restore(std::span<const double> numbers, std::span<BodyState> bodies) override;
 
- private:
   template <class Self, class Archive>
-  static void exchange(Self& self, Archive& archive);
+  static void exchange(Self& self, Archive& archive) {
+    archive("position", self.motion_.position);
+    archive("orientation", self.motion_.orientation);
+    archive("velocity", self.motion_.velocity);
+    archive("angular_velocity", self.motion_.angular_velocity);
+    archive("impulse", self.result_.impulse);
+    archive("contacts", self.result_.contacts);
+    archive("impacts", self.impacts_);
+  }
+
+ private:
+  void go_back() override;
   contact::ImpulseLoad load() const;
 
-  const Experiment& experiment_;
-  const std::size_t index_;
   const WorldInputs& inputs_;
   contact::ImpulseAdvance law_;
   contact::ImpulseState motion_, motion_before_;   ///< before: the present step, to undo it

@@ -1,33 +1,48 @@
-// One robot of a world under an impulse law, which owns the advance of its time.
+// A robot under an impulse law: no forces of the ground and no integrator, but flight from impact
+// to impact (docs/contact_impulse.md). What single bodies and robots with chains have in common.
 #pragma once
 
-#include <span>
-#include <string>
+#include <memory>
 
 #include "contact/impulse/impulse_resolution.h"
-#include "simulation/engine.h"
+#include "contact/terrain/terrain.h"
+#include "simulation/engine/robot_part.h"
 
 namespace hookpoint::simulation {
 
-class ImpulsePart {
+class ImpulsePart : public RobotPart {
  public:
-  virtual ~ImpulsePart() = default;
-  virtual std::size_t body_count() const = 0;
-  virtual std::size_t joint_count() const = 0;
-  /// Advances the robot by one step, `experiment.deltat`, under the present inputs. On any status
-  /// but ok the state is that before.
-  virtual contact::ImpulseTally advance(const contact::GroundQuery& ground) = 0;
-  /// Takes the last successful step back.
-  virtual void undo() = 0;
-  /// Writes the published values of this robot's bodies and joints.
-  virtual void publish(std::span<BodyState> bodies, std::span<JointState> joints) const = 0;
+  StepStatus step(double time) final;
+  void undo() final;
+  std::uint64_t impacts() const final { return impacts_; }
+  const std::string& notice() const final { return notice_; }
 
-  /// What evolves (resumable.h). `bodies`: this robot's published values, of whose quaternions the
-  /// signs go on.
-  virtual std::size_t state_size() const = 0;
-  virtual std::string state_layout() const = 0;
-  virtual void save(std::span<double> numbers, std::span<const BodyState> bodies) const = 0;
-  virtual void restore(std::span<const double> numbers, std::span<BodyState> bodies) = 0;
+  /// Advances the robot by one step under the present inputs, above `ground`. On any status but ok
+  /// the state is that before.
+  virtual contact::ImpulseTally advance(const contact::GroundQuery& ground) = 0;
+
+ protected:
+  /// `ground` may be null: no boundary points. All that is referred to outlives the part.
+  ImpulsePart(const Experiment& experiment, std::size_t index, const contact::Terrain* ground)
+      : experiment_(experiment), index_(index), ground_(ground) {}
+
+  /// Takes the motion of the last successful step back.
+  virtual void go_back() = 0;
+
+  const Experiment& experiment_;
+  const std::size_t index_;
+  const contact::Terrain* const ground_;
+  std::uint64_t impacts_ = 0;  ///< archived by the part
+
+ private:
+  std::uint64_t impacts_before_ = 0;  ///< the present step, to undo it
+  std::string notice_;
 };
+
+/// Robot `index` of the experiment under its impulse law: a single body, or a robot with chains.
+/// Throws ExperimentError when there is no such law.
+std::unique_ptr<RobotPart> make_impulse_part(const Experiment& experiment, std::size_t index,
+                                             const contact::Terrain* ground,
+                                             const WorldInputs& inputs);
 
 }  // namespace hookpoint::simulation

@@ -8,20 +8,24 @@
 
 #include "contact/impulse/gap_cubic.h"
 #include "contact/impulse/landing_time.h"
-#include "simulation/kinematics.h"
+#include "dts/impulse_response.h"
+#include "simulation/engine/publish.h"
 
 namespace hookpoint::simulation {
 namespace {
 
 using contact::AdvanceStatus;
 
-constexpr double kDeepestStart = 1e-9;  // what rounding of a pose between steps may cost [m]
+constexpr double deepest_start = 1e-9;  // what rounding of a pose between steps may cost [m]
 // Share of the robot's speeds that is no approach: what rounding leaves of a point that was
 // stopped, or that nothing can move along its normal.
-constexpr double kRounding = 1e-11;
-constexpr int kInterpolations = 6;  // trials by interpolation before halving
-constexpr int kMostTrials = 60;
-constexpr int kMostFlightsPerImpact = 10;
+constexpr double speed_rounding = 1e-11;
+constexpr int interpolations = 6;  // trials by interpolation before halving
+constexpr int most_trials = 60;
+constexpr int most_flights_per_impact = 10;
+// Share of tr K added to K: a point of a robot with a fixed base may have directions in which
+// nothing can move it, and the collision is to find that they play no part.
+constexpr double yielding_share = 1e-13;
 
 // The time in which something that moves at `speed` and gains `acceleration` covers `way`.
 double time_to_cover(double way, double speed, double acceleration) {
@@ -31,40 +35,34 @@ double time_to_cover(double way, double speed, double acceleration) {
 }  // namespace
 
 ImpulseRobot::ImpulseRobot(const Experiment& experiment, std::size_t index, contact::ImpulseLaw law,
-                           bool has_ground, const WorldInputs& inputs,
+                           const contact::Terrain* ground, const WorldInputs& inputs,
                            const contact::ImpulseOptions& options)
-    : experiment_(experiment),
+    : ImpulsePart(experiment, index, ground),
       options_(options),
-      robot_(experiment, static_cast<int>(index), nullptr, inputs),
+      robot_(experiment, index, inputs),
       flight_(robot_),
-      points_(has_ground ? boundary_points(experiment.robots[index]) : std::vector<Point>{}),
+      points_(ground ? points_of(experiment.robots[index]) : std::vector<Point>{}),
       resolution_(points_.size(), law, options),
-      change_(robot_.velocity_size()),
-      q_before_(robot_.position_size()),
-      v_before_(robot_.velocity_size()),
+      change_(robot_.velocity_count()),
+      q_before_(robot_.position_count()),
+      v_before_(robot_.velocity_count()),
       impulses_(robot_.model().body_count()),
       impulses_before_(impulses_),
       contacts_(robot_.model().body_count()),
       contacts_before_(contacts_) {
+  flight_.refresh();
+  robot_.accelerate();  // what is published of the initial state
   if (law != contact::ImpulseLaw::impulse_reversal) return;
-  const std::size_t most = std::min(points_.size(), kMostTogether);
+  const std::size_t most = std::min(points_.size(), most_reversed_together);
   couplings_.resize(most * most);
   velocities_.resize(most);
   work_.resize(most);
 }
 
-std::vector<ImpulseRobot::Point> ImpulseRobot::boundary_points(const RobotSpec& robot) {
+std::vector<ImpulseRobot::Point> ImpulseRobot::points_of(const RobotSpec& robot) {
   std::vector<Point> points;
-  const std::vector<const BodySpec*> bodies = bodies_of(robot);
-  // A fixed base cannot be moved by the ground.
-  for (std::size_t body = robot.mobile ? 0 : 1; body < bodies.size(); ++body) {
-    for (std::size_t i = 0; i < bodies[body]->boundary_points.size(); ++i) {
-      Point& point = points.emplace_back();
-      point.body = body;
-      point.p_BP = bodies[body]->boundary_points[i];
-      point.radius = bodies[body]->boundary_radius(i);
-    }
-  }
+  for (const BoundaryPoint& boundary : boundary_points(robot))
+    static_cast<BoundaryPoint&>(points.emplace_back()) = boundary;
   return points;
 }
 
@@ -148,7 +146,7 @@ AdvanceStatus ImpulseRobot::fly_above(const contact::GroundQuery& ground, double
                                       double* duration) {
   const double floor = std::min(0., lowest_gap()) - options_.tolerance;
   *duration = safe_time(longest);
-  for (int trial = 0; trial < kMostTrials; ++trial) {
+  for (int trial = 0; trial < most_trials; ++trial) {
     if (flight_.fly(*duration) != integrators::Status::ok) return AdvanceStatus::not_finite;
     locate(ground);
     const double first = landing(*duration, floor);
@@ -157,24 +155,24 @@ AdvanceStatus ImpulseRobot::fly_above(const contact::GroundQuery& ground, double
       if (lowest_gap() >= floor) return AdvanceStatus::ok;
       *duration *= 0.5;
     } else {
-      *duration = trial < kInterpolations && first > 0. ? first : 0.5 * *duration;
+      *duration = trial < interpolations && first > 0. ? first : 0.5 * *duration;
     }
   }
   flight_.go_back();
   locate(ground);
   *duration = 0.;
-  return lowest_gap() < -kDeepestStart ? AdvanceStatus::inside_ground : AdvanceStatus::ok;
+  return lowest_gap() < -deepest_start ? AdvanceStatus::inside_ground : AdvanceStatus::ok;
 }
 
 AdvanceStatus ImpulseRobot::run(const contact::GroundQuery& ground, contact::ImpulseTally& tally) {
   locate(ground);
-  if (lowest_gap() < -kDeepestStart) return AdvanceStatus::inside_ground;
+  if (lowest_gap() < -deepest_start) return AdvanceStatus::inside_ground;
   double left = experiment_.deltat;
   const std::int64_t most_flights =
-      kMostFlightsPerImpact * static_cast<std::int64_t>(options_.most_impacts);
+      most_flights_per_impact * static_cast<std::int64_t>(options_.most_impacts);
   for (std::int64_t flights = 0; left > 0.; ++flights) {
     if (flights > most_flights) return AdvanceStatus::too_many_impacts;
-    rounding_ = kRounding * greatest_speed();
+    rounding_ = speed_rounding * greatest_speed();
     const AdvanceStatus collided = resolution_.resolve(*this, tally);
     if (collided != AdvanceStatus::ok) return collided;
     if (flight_.begin() != integrators::Status::ok) return AdvanceStatus::not_finite;
@@ -192,8 +190,8 @@ contact::ImpulseTally ImpulseRobot::advance(const contact::GroundQuery& ground) 
   flight_.read();
   std::copy(flight_.positions().begin(), flight_.positions().end(), q_before_.begin());
   std::copy(flight_.velocities().begin(), flight_.velocities().end(), v_before_.begin());
-  robot_.keep_anchors();
-  robot_.refresh();  // under the present inputs
+  robot_.joints().keep();
+  flight_.refresh();  // under the present inputs
   impulses_before_.swap(impulses_);
   contacts_before_.swap(contacts_);
   std::fill(impulses_.begin(), impulses_.end(), Vector3d{});
@@ -201,7 +199,7 @@ contact::ImpulseTally ImpulseRobot::advance(const contact::GroundQuery& ground) 
   resolution_.begin_step();
   tally.status = run(ground, tally);
   if (tally.status != AdvanceStatus::ok) {
-    undo();
+    go_back();
     return tally;
   }
   tally.contacts = resolution_.contacts();
@@ -209,48 +207,112 @@ contact::ImpulseTally ImpulseRobot::advance(const contact::GroundQuery& ground) 
   return tally;
 }
 
-void ImpulseRobot::undo() {
-  robot_.undo_anchors();
+void ImpulseRobot::go_back() {
+  robot_.joints().undo();
   flight_.go_to(q_before_, v_before_);
   impulses_ = impulses_before_;
   contacts_ = contacts_before_;
 }
 
 void ImpulseRobot::publish(std::span<BodyState> bodies, std::span<JointState> joints) const {
-  robot_.publish(bodies, joints);
+  publish_motion(robot_, bodies);
+  publish_joints(robot_, joints);
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     bodies[i].contact_force = (1. / experiment_.deltat) * impulses_[i];
     bodies[i].contacts = contacts_[i];
   }
 }
 
-template <class Self, class Archive>
-void ImpulseRobot::exchange(Self& self, Archive& archive) {
-  for (auto& impulse : self.impulses_) archive(impulse);
-  for (auto& contacts : self.contacts_) archive(contacts);
-}
+// What evolves: the parts of `exchange`, then the signs of the links' quaternions.
 
-std::size_t ImpulseRobot::state_size() const {
-  StateCount count;
-  exchange(*this, count);
-  return robot_.state_size() + count.count();
-}
+std::size_t ImpulseRobot::state_size() const { return count_of(*this) + joint_count(); }
 
 std::string ImpulseRobot::state_layout() const {
-  return fmt::format("{} impulse[{}][3] contacts[{}]", robot_.state_layout(), body_count(),
-                     body_count());
+  return fmt::format("{} quaternion_sign[{}]", layout_of(*this), joint_count());
 }
 
 void ImpulseRobot::save(std::span<double> numbers, std::span<const BodyState> bodies) const {
-  robot_.save(numbers.first(robot_.state_size()), bodies);
-  StateSaver saver(numbers.subspan(robot_.state_size()));
-  exchange(*this, saver);
+  save_to(numbers, *this);
+  save_signs(robot_, bodies, numbers.last(joint_count()));
 }
 
 void ImpulseRobot::restore(std::span<const double> numbers, std::span<BodyState> bodies) {
-  robot_.restore(numbers.first(robot_.state_size()), bodies);
-  StateRestorer restorer(numbers.subspan(robot_.state_size()));
-  exchange(*this, restorer);
+  restore_from(numbers, *this);
+  flight_.refresh();
+  restore_signs(robot_, numbers.last(joint_count()), bodies);
+}
+
+// What the collisions ask, answered by the recursion of forward dynamics with impulses in place of
+// forces.
+
+// After forward_kinematics of a new configuration the workspace has articulated inertias of an
+// older one.
+void ImpulseRobot::ready_inertias() {
+  if (inertias_ready_) return;
+  dts::articulated_inertias(robot_.model(), robot_.workspace());
+  inertias_ready_ = true;
+}
+
+dts::BodyPoint<double> ImpulseRobot::body_point(std::size_t point) const {
+  const Point& at = points_[point];
+  return {at.body, robot_.workspace().bodies[at.body].p_WB + at.arm};
+}
+
+Vector3d ImpulseRobot::velocity(std::size_t point) const {
+  const dts::BodyMotion<double>& body = robot_.workspace().bodies[points_[point].body];
+  return body.v_WB + cross(body.w_WB, points_[point].arm);
+}
+
+Vector3d ImpulseRobot::flight_acceleration(std::size_t point) const {
+  const Point& at = points_[point];
+  const dts::Motion<double>& a = flight_.body_accelerations()[at.body];
+  const Vector3d& w = robot_.workspace().bodies[at.body].w_WB;
+  // Of a ball's place of contact only the material turns; the place stays under the centre.
+  return a.linear + cross(a.angular, at.arm) + cross(w, cross(w, at.center));
+}
+
+Symmetric3d ImpulseRobot::collision_matrix(std::size_t point) {
+  ready_inertias();
+  Symmetric3d K =
+      symmetric_part(dts::collision_matrix(robot_.model(), robot_.workspace(), body_point(point)));
+  const double yielding = yielding_share * (K.xx + K.yy + K.zz);
+  K.xx += yielding;
+  K.yy += yielding;
+  K.zz += yielding;
+  return K;
+}
+
+void ImpulseRobot::strike(std::size_t point, const Vector3d& impulse) {
+  ready_inertias();
+  dts::velocity_change<double>(robot_.model(), robot_.workspace(), body_point(point), impulse,
+                               change_);
+  flight_.jump(change_);
+  impulses_[points_[point].body] += impulse;
+}
+
+double ImpulseRobot::begin_reversal(std::size_t struck) {
+  flight_.begin();
+  inertias_ready_ = true;
+  return -dot(flight_acceleration(struck), points_[struck].ground.normal);
+}
+
+bool ImpulseRobot::find_reversal(std::span<contact::ReversalPoint> points,
+                                 std::span<const std::size_t> index, double tolerance) {
+  const std::size_t count = points.size();
+  if (count > work_.size()) return false;
+  ready_inertias();
+  for (std::size_t i = 0; i < count; ++i) {
+    velocities_[i] = velocity(index[i]);
+    for (std::size_t j = i; j < count; ++j) {
+      const Matrix3d K = dts::impulse_response(robot_.model(), robot_.workspace(),
+                                               body_point(index[j]), body_point(index[i]));
+      couplings_[i * count + j] = K;
+      couplings_[j * count + i] = transpose(K);
+    }
+  }
+  return contact::reverse_together(points, std::span(couplings_).first(count * count),
+                                   std::span(velocities_).first(count),
+                                   std::span(work_).first(count), tolerance);
 }
 
 }  // namespace hookpoint::simulation

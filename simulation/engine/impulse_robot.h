@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "dts/impulse_response.h"
+#include "simulation/engine/contact_point.h"
 #include "simulation/engine/impulse_part.h"
 #include "simulation/engine/robot_flight.h"
 
@@ -13,23 +14,21 @@ namespace hookpoint::simulation {
 
 /// Tolerance of an articulated robot's impacts [m]: 500 times below the bounce of the default
 /// rebound speed, and within reach of one correction of a flight.
-inline constexpr double kRobotTolerance = 1e-10;
+inline constexpr double robot_tolerance = 1e-10;
 /// Points that a microcollision reverses together at most; more are hit one by one.
-inline constexpr std::size_t kMostTogether = 32;
+inline constexpr std::size_t most_reversed_together = 32;
 
 class ImpulseRobot final : public ImpulsePart, private contact::StruckRobot {
  public:
-  /// Robot `index` of the experiment, with chains and a fixed or mobile base; all that is referred
-  /// to outlives the robot. Without a ground it has no boundary points. Allocates; `advance` does
-  /// not.
+  /// Robot `index` of the experiment, with chains and a fixed or mobile base. Allocates; `advance`
+  /// does not.
   ImpulseRobot(const Experiment& experiment, std::size_t index, contact::ImpulseLaw law,
-               bool has_ground, const WorldInputs& inputs,
-               const contact::ImpulseOptions& options = {.tolerance = kRobotTolerance});
+               const contact::Terrain* ground, const WorldInputs& inputs,
+               const contact::ImpulseOptions& options = {.tolerance = robot_tolerance});
 
   std::size_t body_count() const override { return robot_.model().body_count(); }
   std::size_t joint_count() const override { return robot_.model().link_count(); }
   contact::ImpulseTally advance(const contact::GroundQuery& ground) override;
-  void undo() override;
   void publish(std::span<BodyState> bodies, std::span<JointState> joints) const override;
 
   std::size_t state_size() const override;
@@ -37,13 +36,18 @@ class ImpulseRobot final : public ImpulsePart, private contact::StruckRobot {
   void save(std::span<double> numbers, std::span<const BodyState> bodies) const override;
   void restore(std::span<const double> numbers, std::span<BodyState> bodies) override;
 
-  const DtsRobot& robot() const { return robot_; }
+  const ArticulatedRobot& robot() const { return robot_; }
+
+  template <class Self, class Archive>
+  static void exchange(Self& self, Archive& archive) {
+    ArticulatedRobot::exchange(self.robot_, archive);
+    archive("impulse", self.impulses_);
+    archive("contacts", self.contacts_);
+    archive("impacts", self.impacts_);
+  }
 
  private:
-  struct Point {
-    std::size_t body = 0;
-    Vector3d p_BP;                           ///< body axes [m]
-    double radius = 0.;                      ///< of the ball about it [m]
+  struct Point : BoundaryPoint {
     Vector3d center;                         ///< from the body's origin, world axes [m]
     Vector3d arm;                            ///< of the place that meets the ground, likewise
     contact::GroundPoint ground;             ///< under it
@@ -64,7 +68,8 @@ class ImpulseRobot final : public ImpulsePart, private contact::StruckRobot {
   bool find_reversal(std::span<contact::ReversalPoint> points, std::span<const std::size_t> index,
                      double tolerance) override;
 
-  static std::vector<Point> boundary_points(const RobotSpec& robot);
+  static std::vector<Point> points_of(const RobotSpec& robot);
+  void go_back() override;
   contact::AdvanceStatus run(const contact::GroundQuery& ground, contact::ImpulseTally& tally);
   void locate(const contact::GroundQuery& ground);
   double lowest_gap() const;
@@ -77,12 +82,8 @@ class ImpulseRobot final : public ImpulsePart, private contact::StruckRobot {
   dts::BodyPoint<double> body_point(std::size_t point) const;
   void ready_inertias();
 
-  template <class Self, class Archive>
-  static void exchange(Self& self, Archive& archive);
-
-  const Experiment& experiment_;
   contact::ImpulseOptions options_;
-  DtsRobot robot_;
+  ArticulatedRobot robot_;
   RobotFlight flight_;
   std::vector<Point> points_;
   contact::ImpulseResolution resolution_;

@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "dts/spatial.h"
-#include "simulation/engine/dts_robot.h"
+#include "integrators/stepper.h"
+#include "simulation/engine/articulated_robot.h"
 
 namespace hookpoint::simulation {
 
@@ -15,8 +16,8 @@ namespace hookpoint::simulation {
 /// three evaluations of the dynamics.
 class RobotFlight final : public integrators::System {
  public:
-  /// `robot` has no ground and outlives the flight. Allocates; nothing else does.
-  explicit RobotFlight(DtsRobot& robot);
+  /// `robot` outlives the flight. Allocates; nothing else does.
+  explicit RobotFlight(ArticulatedRobot& robot);
 
   /// Reads the robot's state, after which `positions` and `velocities` are the robot's.
   void read();
@@ -25,11 +26,13 @@ class RobotFlight final : public integrators::System {
   integrators::Status begin();
   /// Puts the robot where it is `duration` [s] after the start.
   integrators::Status fly(double duration);
+  /// The present state anew, under the present inputs.
+  void refresh();
   /// Puts it back at the start.
   void go_back();
   /// Adds `change` to the generalised velocity.
   void jump(std::span<const double> change);
-  /// Puts the robot in any state.
+  /// Puts the robot in any state, with the kinematics and external forces of there.
   void go_to(std::span<const double> q, std::span<const double> v);
 
   std::span<const double> positions() const { return q_; }
@@ -38,18 +41,24 @@ class RobotFlight final : public integrators::System {
   std::span<const dts::Motion<double>> body_accelerations() const { return bodies_; }
 
   // integrators::System
-  std::size_t position_size() const override { return robot_.position_size(); }
-  std::size_t velocity_size() const override { return robot_.velocity_size(); }
+  std::size_t position_size() const override { return robot_.position_count(); }
+  std::size_t velocity_size() const override { return robot_.velocity_count(); }
   integrators::Status accelerations(integrators::Stage stage, double time,
                                     std::span<const double> q, std::span<const double> v,
                                     std::span<double> a) override;
   void retract(std::span<const double> q0, std::span<const double> u,
-               std::span<double> q) const override;
+               std::span<double> q) const override {
+    robot_.retract(q0, u, q);
+  }
   void tangent_rate(std::span<const double> u, std::span<const double> v,
-                    std::span<double> du) const override;
+                    std::span<double> du) const override {
+    robot_.tangent_rate(u, v, du);
+  }
 
  private:
-  DtsRobot& robot_;
+  void settle_at(std::span<const double> q, std::span<const double> v);
+
+  ArticulatedRobot& robot_;
   std::vector<double> q_, v_;  // of the robot now
   std::vector<double> q_start_, v_start_, a_start_;
   std::vector<dts::Motion<double>> bodies_;

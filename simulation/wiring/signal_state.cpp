@@ -23,27 +23,25 @@ std::string layout_of(const control::Component& component) {
 /// from the step.
 template <class Self, class Archive>
 void Signals::exchange(Self& self, Archive& archive) {
-  archive(self.held_.running);
-  archive(self.held_.quit);
-  for (auto& torque : self.engine_.inputs().joint_torques) archive(torque);
-  for (auto& force : self.held_.forces) {
-    archive(force.point);
-    archive(force.force);
-    archive(force.torque);
-  }
+  archive("running", self.held_.running);
+  archive("quit", self.held_.quit);
+  archive("joint_torque", self.engine_.inputs().joint_torques);
+  archive.each("force", self.held_.forces, [](auto& force, auto& part) {
+    part("point", force.point);
+    part("force", force.force);
+    part("torque", force.torque);
+  });
   for (std::size_t i = 0; i < self.held_.values.size(); ++i) {
-    if ((*self.experiment_.values)[i].writable) archive(self.held_.values[i]);
+    if ((*self.experiment_.values)[i].writable) archive("value", self.held_.values[i]);
   }
 }
 
 std::vector<StateSection> Signals::state_layout() const {
   StateCount held;
+  StateLayout layout;
   exchange(*this, held);
-  std::vector<StateSection> sections{
-      {"signals",
-       fmt::format("running quit joint_torque[{}] (point[3] force[3] torque[3])[{}] value[...]",
-                   engine_.inputs().joint_torques.size(), held_.forces.size()),
-       held.count()}};
+  exchange(*this, layout);
+  std::vector<StateSection> sections{{"signals", layout.text(), held.count()}};
   for (std::size_t i = 0; i < components_.size(); ++i) {
     sections.push_back({experiment_.components[i].trail, layout_of(components_[i]),
                         components_[i].values().size() + 2});

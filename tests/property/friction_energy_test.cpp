@@ -63,7 +63,7 @@ class LedPoint final : public test_support::AccompaniedRobot<1> {
       : AccompaniedRobot(experiment), path_(path) {
     q.resize(position_size());
     v.resize(velocity_size());
-    robot_.write_positions(q);
+    robot_.robot().write_positions(q);
     v[3] = path_.x.at(0.);
     v[4] = path_.y.at(0.);
     v[5] = path_.z.at(0.);
@@ -78,18 +78,18 @@ class LedPoint final : public test_support::AccompaniedRobot<1> {
   double stored() const {
     const double k_t = experiment_.materials[0].constants.tangential_stiffness;
     const Vector3d z =
-        has_bristle() ? Vector3d{v[6], v[7], v[8]} : robot_.contact_points()[0].committed.stretch;
+        has_bristle() ? Vector3d{v[6], v[7], v[8]} : robot_.contacts().points()[0].committed.stretch;
     return experiment_.contact == "hunt_crossley" ? 0. : 0.5 * k_t * dot(z, z);
   }
   Vector3d friction() const {
-    const Vector3d& force = robot_.contact_points()[0].force;
+    const Vector3d& force = robot_.contacts().points()[0].force;
     return {force.x, force.y, 0.};
   }
   /// What an accepted state is to the engine: memory is committed, and the bristle let go of what
   /// its load does not hold.
   void accept(double t) {
-    robot_.commit(t, 0., q, own(v));
-    robot_.begin_anew(own(v));
+    robot_.commit(t, q, own(v));
+    robot_.reinitialize(own(v));
   }
 
   Status accelerations(Stage stage, double t, std::span<const double> at, std::span<const double> u,

@@ -5,6 +5,7 @@
 #include "contact/impulse/impulse.h"
 #include "simulation/engine/dts_engine.h"
 #include "simulation/engine/impulse_robot.h"
+#include "simulation/ground.h"
 #include "tests/support/dense_dynamics.h"
 #include "tests/support/impulse_scene.h"
 #include "tests/support/random_robot.h"
@@ -195,7 +196,8 @@ TEST(ImpulseRobotImpact, ThrownRobotsStayOutOfTheGroundAndGetWhatIsReported) {
     for (std::size_t body = 0; body < bodies; ++body)
       testing::points_of(experiment, body) = {random.vector(0.4), random.vector(0.4)};
     const simulation::WorldInputs inputs = simulation::initial_inputs(experiment);
-    simulation::ImpulseRobot thrown(experiment, 0, contact::ImpulseLaw::impulse, true, inputs);
+    const auto level = simulation::make_ground(experiment);
+    simulation::ImpulseRobot thrown(experiment, 0, contact::ImpulseLaw::impulse, &*level, inputs);
     const auto ground = [&](const Vector3d& point) {
       return contact::GroundPoint{point.z, {0., 0., 1.}, &floor};
     };

@@ -7,14 +7,14 @@
 #include <span>
 #include <vector>
 
-#include "simulation/engine/dts_robot.h"
+#include "simulation/engine/robot_system.h"
 #include "simulation/ground.h"
 
 namespace hookpoint::test_support {
 
 /// What it leaves to a test: accelerations, whose last `more` numbers are the rates of its own.
 template <std::size_t more>
-class AccompaniedRobot : public integrators::System {
+class AccompaniedRobot : public integrators::HybridSystem {
  public:
   explicit AccompaniedRobot(const simulation::Experiment& experiment)
       : experiment_(experiment),
@@ -24,9 +24,9 @@ class AccompaniedRobot : public integrators::System {
 
   std::size_t position_size() const final { return robot_.position_size(); }
   std::size_t velocity_size() const final { return robot_.velocity_size() + more; }
-  std::size_t moving_size() const final { return robot_.moving_size(); }
-  bool evolves(std::size_t i) const final {
-    return i >= robot_.velocity_size() || robot_.evolves(i);
+  std::size_t dof_count() const final { return robot_.dof_count(); }
+  bool is_active_state(std::size_t i) const final {
+    return i >= robot_.velocity_size() || robot_.is_active_state(i);
   }
   void retract(std::span<const double> q0, std::span<const double> u,
                std::span<double> q) const final {
@@ -37,12 +37,14 @@ class AccompaniedRobot : public integrators::System {
     robot_.tangent_rate(own(u), own(v), own(du));
     std::ranges::fill(du.last(more), 0.);
   }
-  bool far(std::span<const double> u) const final { return robot_.far(own(u)); }
-  void commit(double t, double dt, std::span<const double> q, std::span<const double> v) override {
-    robot_.commit(t, dt, q, own(v));
+  bool chart_exhausted(std::span<const double> u) const final {
+    return robot_.chart_exhausted(own(u));
+  }
+  void commit(double t, std::span<const double> q, std::span<const double> v) override {
+    robot_.commit(t, q, own(v));
   }
   void cross_events(std::span<const int> directions) final { robot_.cross_events(directions); }
-  void begin_anew(std::span<double> v) override { robot_.begin_anew(own(v)); }
+  void reinitialize(std::span<double> v) override { robot_.reinitialize(own(v)); }
   std::size_t event_count() const final { return robot_.event_count(); }
   void event_values(double t, std::span<const double> q, std::span<const double> v,
                     std::span<double> values) final {
@@ -62,7 +64,7 @@ class AccompaniedRobot : public integrators::System {
   const simulation::Experiment experiment_;
   simulation::WorldInputs inputs_;
   const std::optional<contact::Terrain> ground_;
-  simulation::DtsRobot robot_;
+  simulation::RobotSystem robot_;
 };
 
 }  // namespace hookpoint::test_support

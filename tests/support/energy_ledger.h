@@ -85,7 +85,7 @@ class EnergyLedger final : public AccompaniedRobot<2> {
       const double angle = robot_.state().joint_positions[i] - links_[i].rest_angle;
       energy += 0.5 * links_[i].stiffness * angle * angle;
     }
-    for (std::size_t i = 0; i < robot_.contact_points().size(); ++i) energy += stored(i, v);
+    for (std::size_t i = 0; i < robot_.contacts().points().size(); ++i) energy += stored(i, v);
     return energy + heat(v) + let_go_ - work(v);
   }
   /// Integrated [J]; `let_go` is what was lost at events, of thrown hooks and at lift-off.
@@ -93,7 +93,7 @@ class EnergyLedger final : public AccompaniedRobot<2> {
   double work(std::span<const double> v) const { return v[v.size() - 1]; }
   double let_go() const { return let_go_; }
   void write(std::span<double> q, std::span<double> v) const {
-    robot_.write_positions(q);
+    robot_.robot().write_positions(q);
     std::ranges::fill(v, 0.);
     dts::get_velocity<double>(robot_.model(), robot_.state(), v);
   }
@@ -104,7 +104,7 @@ class EnergyLedger final : public AccompaniedRobot<2> {
     const auto status = robot_.accelerations(stage, time, q, own(v), a.first(a.size() - 2));
     double& heat_rate = a[a.size() - 2] = 0.;
     double& power = a[a.size() - 1] = 0.;
-    for (std::size_t i = 0; i < robot_.contact_points().size(); ++i)
+    for (std::size_t i = 0; i < robot_.contacts().points().size(); ++i)
       heat_rate += contact_heat(i, v);
     for (std::size_t i = 0; i < links_.size(); ++i) {
       const double rate = robot_.state().joint_rates[i];
@@ -113,25 +113,24 @@ class EnergyLedger final : public AccompaniedRobot<2> {
     }
     return status;
   }
-  void commit(double time, double dt, std::span<const double> q,
-              std::span<const double> v) override {
+  void commit(double time, std::span<const double> q, std::span<const double> v) override {
     robot_.settle_at(q, own(v));
-    for (std::size_t i = 0; i < robot_.contact_points().size(); ++i) let_go_ += stored(i, v);
-    robot_.commit(time, dt, q, own(v));
-    for (std::size_t i = 0; i < robot_.contact_points().size(); ++i) let_go_ -= stored(i, v);
+    for (std::size_t i = 0; i < robot_.contacts().points().size(); ++i) let_go_ += stored(i, v);
+    robot_.commit(time, q, own(v));
+    for (std::size_t i = 0; i < robot_.contacts().points().size(); ++i) let_go_ -= stored(i, v);
   }
-  void begin_anew(std::span<double> v) override {
-    for (std::size_t i = 0; i < robot_.contact_points().size(); ++i) let_go_ += stored(i, v);
-    robot_.begin_anew(own(v));
-    for (std::size_t i = 0; i < robot_.contact_points().size(); ++i) let_go_ -= stored(i, v);
+  void reinitialize(std::span<double> v) override {
+    for (std::size_t i = 0; i < robot_.contacts().points().size(); ++i) let_go_ += stored(i, v);
+    robot_.reinitialize(own(v));
+    for (std::size_t i = 0; i < robot_.contacts().points().size(); ++i) let_go_ -= stored(i, v);
   }
 
  private:
   /// A boundary point at the robot's present state, as an adaptive integrator shows it to the law.
   contact::PointKinematics<double> kinematics(std::size_t index, std::span<const double> v) const {
-    const simulation::ContactPoint& point = robot_.contact_points()[index];
+    const simulation::ContactPoint& point = robot_.contacts().points()[index];
     const auto place =
-        simulation::touching_place(point, robot_.workspace().bodies[point.body], *ground_);
+        simulation::contact_kinematics(point, robot_.workspace().bodies[point.body], *ground_);
     contact::Bristle<double> bristle;
     if (const std::size_t states = contact::bristle_states(law_)) {
       const double* z = &v[dts::velocity_count(robot_.model()) + states * index];
@@ -145,7 +144,7 @@ class EnergyLedger final : public AccompaniedRobot<2> {
   Vector3d stretch(std::size_t index, const contact::PointKinematics<double>& point) const {
     if (contact::bristle_states(law_) > 0)
       return tangential(point.bristle.deflection, point.normal);
-    const contact::Memory<double>& memory = robot_.contact_points()[index].committed;
+    const contact::Memory<double>& memory = robot_.contacts().points()[index].committed;
     return memory.attached ? tangential(point.position - memory.hook, point.normal) : Vector3d{};
   }
   double stored(std::size_t index, std::span<const double> v) const {
@@ -158,7 +157,7 @@ class EnergyLedger final : public AccompaniedRobot<2> {
     return std::visit(
         [&]<class Law>(const Law& law) {
           const auto reaction =
-              law.evaluate(point, robot_.contact_points()[index].committed, material(), 0.);
+              law.evaluate(point, robot_.contacts().points()[index].committed, material(), 0.);
           if (!reaction.next.attached) return 0.;
           const double N = dot(reaction.force, point.normal);
           const double depth_rate = -dot(point.velocity, point.normal);

@@ -6,8 +6,8 @@
 #include <numbers>
 #include <vector>
 
+#include "integrators/hybrid_system.h"
 #include "integrators/rotation_rate.h"
-#include "integrators/system.h"
 
 namespace hookpoint::testing {
 
@@ -15,7 +15,7 @@ using integrators::Stage;
 using integrators::Status;
 
 /// A system of one coordinate in a vector space.
-class OneCoordinate : public integrators::System {
+class OneCoordinate : public integrators::HybridSystem {
  public:
   std::size_t position_size() const override { return 1; }
   std::size_t velocity_size() const override { return 1; }
@@ -41,7 +41,7 @@ class Pendulum final : public OneCoordinate {
 
 /// A free body with principal moments (A, A, C) about its own axes; q = orientation w,x,y,z, v =
 /// w_WB.
-class FreeBody : public integrators::System {
+class FreeBody : public integrators::HybridSystem {
  public:
   static constexpr double A = 1., C = 2.2;
   mutable double farthest = 0.;  ///< greatest |u| that was asked for [rad]
@@ -97,7 +97,7 @@ class FreeBody : public integrators::System {
     const Vector3d rate = integrators::rotation_tangent_rate(turned, Vector3d{v[0], v[1], v[2]});
     du[0] = rate.x, du[1] = rate.y, du[2] = rate.z;
   }
-  bool far(std::span<const double> u) const override {
+  bool chart_exhausted(std::span<const double> u) const override {
     return norm(Vector3d{u[0], u[1], u[2]}) > 2.;
   }
 };
@@ -133,7 +133,7 @@ class Ball final : public OneCoordinate {
     a_contact[0] = spring(q[0]);
     return Status::ok;
   }
-  void commit(double t, double, std::span<const double>, std::span<const double>) override {
+  void commit(double t, std::span<const double>, std::span<const double>) override {
     commits_.push_back(t);
   }
   std::size_t event_count() const override { return 1; }

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "simulation/engine/dts_engine.h"
+#include "simulation/ground.h"
 #include "tests/support/impulse_scene.h"
 #include "tests/support/random_robot.h"
 #include "tests/support/scene.h"
@@ -347,7 +348,8 @@ TEST(ImpulseRobot, AFixedArmFallsOnTheGroundAndStaysThere) {
 TEST(ImpulseRobot, TooManyImpactsIsAStatusAndTheStateIsThatBefore) {
   const Experiment experiment = falling_arm("impulse", 1e-4);
   const simulation::WorldInputs inputs = simulation::initial_inputs(experiment);
-  simulation::ImpulseRobot robot(experiment, 0, contact::ImpulseLaw::impulse, true, inputs,
+  const auto level = simulation::make_ground(experiment);
+  simulation::ImpulseRobot robot(experiment, 0, contact::ImpulseLaw::impulse, &*level, inputs,
                                  {.tolerance = 1e-10, .most_impacts = 20});
   const auto ground = [&](const Vector3d& point) {
     return contact::GroundPoint{point.z, {0., 0., 1.}, &experiment.materials[0].constants};

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "simulation/analysis/advice_constants.h"
-#include "simulation/engine/impulse_engine.h"
+#include "simulation/engine/dts_engine.h"
 #include "tests/support/run_text.h"
 
 namespace hookpoint {
@@ -80,7 +80,7 @@ TEST(Names, ThatDoNotExistAreErrors) {
   EXPECT_THROW(simulation::field_named("static_fricton"), std::logic_error);
   Loaded loaded = load_text(scene("contact = impulse;", ""));
   loaded.experiment->contact = "implse";
-  EXPECT_THROW(simulation::make_impulse_engine(*loaded.experiment), simulation::ExperimentError);
+  EXPECT_THROW(simulation::make_dts(*loaded.experiment), simulation::ExperimentError);
 }
 
 }  // namespace

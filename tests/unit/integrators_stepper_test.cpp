@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "integrators/hybrid_system.h"
 #include "integrators/stepper.h"
 #include "tests/support/allocation_counter.h"
 
@@ -16,7 +17,7 @@ struct Call {
 };
 
 /// x'' = -x that writes down how it was asked, and fails at the evaluation `fail_at`.
-class Recorded final : public System {
+class Recorded final : public HybridSystem {
  public:
   std::vector<Call> calls;
   int fail_at = -1;

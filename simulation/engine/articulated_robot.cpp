@@ -1,0 +1,131 @@
+#include "simulation/engine/articulated_robot.h"
+
+#include <algorithm>
+#include <array>
+#include <functional>
+
+#include "dts/configuration.h"
+#include "dts/external_forces.h"
+#include "dts/forward_dynamics.h"
+#include "integrators/rotation_rate.h"
+#include "simulation/engine/robot_description.h"
+
+namespace hookpoint::simulation {
+
+ArticulatedRobot::ArticulatedRobot(const Experiment& experiment, std::size_t index,
+                                   const WorldInputs& inputs)
+    : experiment_(&experiment),
+      index_(index),
+      inputs_(&inputs),
+      first_joint_(inputs.first_joints[index]),
+      forces_(inputs.forces_of[index]),
+      model_(describe_robot(experiment.robots[index])),
+      state_(initial_state(experiment.robots[index])),
+      workspace_(model_),
+      joints_(experiment.robots[index]),
+      joint_torques_(model_.link_count()) {}
+
+std::size_t ArticulatedRobot::position_count() const { return dts::position_count(model_); }
+std::size_t ArticulatedRobot::velocity_count() const { return dts::velocity_count(model_); }
+
+void ArticulatedRobot::write_positions(std::span<double> q) const {
+  if (model_.mobile()) {
+    const Vector3d& p = state_.base_position;
+    const Quaterniond& r = state_.base_orientation;
+    const double base[7] = {p.x, p.y, p.z, r.w, r.x, r.y, r.z};
+    std::copy(std::begin(base), std::end(base), q.begin());
+    q = q.subspan(7);
+  }
+  std::copy(state_.joint_positions.begin(), state_.joint_positions.end(), q.begin());
+}
+
+void ArticulatedRobot::write_velocities(std::span<double> v) const {
+  dts::get_velocity<double>(model_, state_, v);
+}
+
+void ArticulatedRobot::read(std::span<const double> q, std::span<const double> v) {
+  if (model_.mobile()) {
+    state_.base_position = {q[0], q[1], q[2]};
+    state_.base_orientation = {q[3], q[4], q[5], q[6]};
+    q = q.subspan(7);
+  }
+  std::copy(q.begin(), q.end(), state_.joint_positions.begin());
+  dts::set_velocity<double>(model_, v.first(velocity_count()), state_);
+}
+
+bool ArticulatedRobot::is_at(std::span<const double> q, std::span<const double> v) const {
+  const Vector3d& p = state_.base_position;
+  const Quaterniond& r = state_.base_orientation;
+  const std::array base{p.x, p.y, p.z, r.w, r.x, r.y, r.z};
+  const Vector3d &w_base = state_.base_angular_velocity, &v_base = state_.base_velocity;
+  const std::array base_rates{w_base.x, w_base.y, w_base.z, v_base.x, v_base.y, v_base.z};
+  const std::size_t joints = state_.joint_positions.size();
+  const auto at_base = [](const auto& own, std::span<const double> given) {
+    return std::ranges::equal(own, given.first(own.size()));
+  };
+  return std::ranges::equal(state_.joint_positions, q.last(joints)) &&
+         std::ranges::equal(state_.joint_rates, v.subspan(velocity_count() - joints, joints)) &&
+         (!model_.mobile() || (at_base(base, q) && at_base(base_rates, v)));
+}
+
+void ArticulatedRobot::retract(std::span<const double> q0, std::span<const double> u,
+                               std::span<double> q) const {
+  if (model_.mobile()) {
+    const Quaterniond r = integrators::rotation_retract(Quaterniond{q0[3], q0[4], q0[5], q0[6]},
+                                                        Vector3d{u[0], u[1], u[2]});
+    const double base[7] = {q0[0] + u[3], q0[1] + u[4], q0[2] + u[5], r.w, r.x, r.y, r.z};
+    std::copy(std::begin(base), std::end(base), q.begin());
+    q0 = q0.subspan(7);
+    u = u.subspan(6);
+    q = q.subspan(7);
+  }
+  std::transform(q0.begin(), q0.end(), u.begin(), q.begin(), std::plus<>());
+}
+
+void ArticulatedRobot::tangent_rate(std::span<const double> u, std::span<const double> v,
+                                    std::span<double> du) const {
+  std::copy(v.begin(), v.end(), du.begin());
+  if (!model_.mobile()) return;
+  const Vector3d rate =
+      integrators::rotation_tangent_rate(Vector3d{u[0], u[1], u[2]}, Vector3d{v[0], v[1], v[2]});
+  du[0] = rate.x;
+  du[1] = rate.y;
+  du[2] = rate.z;
+}
+
+bool ArticulatedRobot::chart_exhausted(std::span<const double> u) const {
+  return model_.mobile() && norm(Vector3d{u[0], u[1], u[2]}) > 2.;
+}
+
+std::size_t ArticulatedRobot::jacobian_block() const {
+  if (model_.mobile()) return velocity_count();
+  std::size_t longest = 1;
+  for (const ChainSpec& chain : spec().chains) longest = std::max(longest, chain.links.size());
+  return longest;
+}
+
+void ArticulatedRobot::update_kinematics() { dts::forward_kinematics(model_, state_, workspace_); }
+
+void ArticulatedRobot::apply_external_forces() {
+  dts::clear_external_forces(workspace_);
+  for (const std::size_t i : forces_) {
+    const ForceSpec& force = experiment_->forces[i];
+    const ForceInput& input = inputs_->forces[i];
+    const dts::BodyMotion<double>& body = workspace_.bodies[force.body];
+    dts::add_external_force(workspace_, force.body, input.force,
+                            body.p_WB + body.R_WB * input.point);
+    dts::add_external_torque(workspace_, force.body, input.torque);
+  }
+}
+
+void ArticulatedRobot::accelerate() {
+  joints_.torques(std::span(inputs_->joint_torques).subspan(first_joint_, joint_torques_.size()),
+                  state_.joint_positions, state_.joint_rates, joint_torques_);
+  dts::forward_dynamics<double>(model_, experiment_->gravity, joint_torques_, workspace_);
+}
+
+void ArticulatedRobot::write_accelerations(std::span<double> a) const {
+  dts::get_acceleration<double>(model_, workspace_, a);
+}
+
+}  // namespace hookpoint::simulation

@@ -1,0 +1,59 @@
+// What the joints of a robot exert by themselves, and what their dry friction remembers.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "dts/joint_forces.h"
+#include "simulation/experiment.h"
+
+namespace hookpoint::simulation {
+
+/// Joints in the order of the chains. Positions q [rad, m] and rates q' are one a joint.
+class JointSet {
+ public:
+  /// Dry friction begins unstretched, where the joints are at first.
+  explicit JointSet(const RobotSpec& robot);
+
+  /// tau = drive + what each joint exerts by itself (dts/joint_forces.h) [N m, N].
+  void torques(std::span<const double> drive, std::span<const double> positions,
+               std::span<const double> rates, std::span<double> torques) const;
+
+  /// The state is accepted: dry friction is hooked where the joints have dragged it. `keep`
+  /// remembers where it was, `undo` takes it back there.
+  void commit(std::span<const double> positions, std::span<const double> rates);
+  void keep() { anchors_before_ = anchors_; }
+  void undo() { anchors_ = anchors_before_; }
+
+  /// Events of adaptive integrators: each limit that a joint has, then where each joint with dry
+  /// friction begins to slip or, while it slips, reverses.
+  std::size_t event_count() const;
+  void event_values(std::span<const double> positions, std::span<const double> rates,
+                    std::span<double> values) const;
+  /// Whether a commit changes anything.
+  bool remembers() const { return !dry_joints_.empty(); }
+
+  const std::vector<dts::JointProperties<double>>& properties() const { return properties_; }
+  /// Where the dry friction of each joint is hooked.
+  const std::vector<double>& anchors() const { return anchors_; }
+
+  template <class Self, class Archive>
+  static void exchange(Self& self, Archive& archive) {
+    archive.each("friction_anchor", self.dry_joints_,
+                 [&self](auto& dry, auto& each) { each("", self.anchors_[dry.joint]); });
+  }
+
+ private:
+  /// A joint with dry friction, and whether it slipped when its anchor was committed.
+  struct DryJoint {
+    std::size_t joint = 0;
+    bool slips = false;
+  };
+
+  std::vector<dts::JointProperties<double>> properties_;
+  std::vector<DryJoint> dry_joints_;
+  std::vector<double> anchors_, anchors_before_;
+};
+
+}  // namespace hookpoint::simulation

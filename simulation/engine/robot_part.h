@@ -1,0 +1,62 @@
+// A robot of the world as our engine steps it, whatever kind of law it is under.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "simulation/engine.h"
+
+namespace hookpoint::simulation {
+
+/// What a law of forces can tell between steps of a robot's contacts and hips.
+class ContactDetails {
+ public:
+  virtual ~ContactDetails() = default;
+  /// Boundary point `point` of `body`, as the law left it.
+  virtual PointState point_state(std::size_t body, std::size_t point) const = 0;
+  /// Adds the ground's forces at the boundary points; the robot's first body is `first_body`.
+  virtual void add_ground_forces(std::size_t first_body,
+                                 std::vector<GroundForce>& forces) const = 0;
+  /// What the springs of its contacts hold [J].
+  virtual double ground_energy() const = 0;
+  /// Whether the bodies' mean contact forces are worked out where they cost something.
+  virtual void publish_contact_forces(bool wanted) = 0;
+  /// What each chain does to the base.
+  virtual void publish_hips(std::span<ChainState> chains) const = 0;
+};
+
+class RobotPart {
+ public:
+  virtual ~RobotPart() = default;
+  virtual std::size_t body_count() const = 0;
+  virtual std::size_t joint_count() const = 0;
+
+  /// Advances the robot by one step of the experiment from `time` [s] under the present inputs. On
+  /// failure nothing has changed. Allocates nothing.
+  virtual StepStatus step(double time) = 0;
+  /// Takes the last successful step back: another robot's has failed.
+  virtual void undo() = 0;
+
+  /// Writes the published values of this robot's bodies and joints.
+  virtual void publish(std::span<BodyState> bodies, std::span<JointState> joints) const = 0;
+  /// Null under an impulse law, whose contacts do not last.
+  virtual ContactDetails* details() { return nullptr; }
+  /// What the integration has cost so far; zeros where there is no integrator.
+  virtual IntegratorState statistics() const { return {}; }
+  /// Impulses so far.
+  virtual std::uint64_t impacts() const { return 0; }
+  /// That the robot has left the terrain; "" while it has not.
+  virtual const std::string& notice() const = 0;
+
+  /// What evolves (resumable.h). `bodies`: this robot's published values, of whose quaternions the
+  /// signs go on.
+  virtual std::size_t state_size() const = 0;
+  virtual std::string state_layout() const = 0;
+  virtual void save(std::span<double> numbers, std::span<const BodyState> bodies) const = 0;
+  virtual void restore(std::span<const double> numbers, std::span<BodyState> bodies) = 0;
+};
+
+}  // namespace hookpoint::simulation

@@ -1,0 +1,81 @@
+// The step of Reichler & Delcomyn 2000, section 3, for one robot:
+//
+//   M(q) v' + c(q, v) = tau + sum_i J_i(q)^T f_i + (external forces)        equations of motion
+//   q' = v (on the manifold of orientations)
+//   (f_i, h_i+) = law(x_i, x_i', h_i)        the ground at boundary point i, h_i what it remembers
+//
+// The state that a run has accepted at t is (q, v, h) with the kinematics and forces that belong to
+// it. From there a step leads to t + dt. Around it World (run/world.h) lets wires deliver, due
+// controllers update and actuators set tau before, and sensors and records look after it.
+#include "simulation/engine/step.h"
+
+#include <fmt/format.h>
+
+namespace hookpoint::simulation {
+namespace {
+
+StepStatus explain(integrators::Status status, double time, std::string body);
+
+}  // namespace
+
+StepStatus step(RobotSystem& robot, integrators::Stepper& stepper, double time, double dt) {
+  // tau and the external forces: what the wires delivered, held over the step (docs/wires.md).
+  robot.take_inputs();
+
+  // (q, v) at t, which a step that fails goes back to.
+  robot.begin_step();
+
+  // h := h+: hooks, bristles and dry friction as the accepted state has made them. Every force of
+  // the step, at however many trial states, is computed from these (docs/decisions/0001).
+  robot.commit_memory();
+
+  // (q, v) at t + dt from q' = v, v' = M^-1 (...), by the method of integrators/, which asks
+  // RobotSystem::accelerations for v' as often as it wants and refuses what is not finite (3.5).
+  const integrators::Status status =
+      stepper.step(robot, time, dt, robot.positions(), robot.velocities());
+  if (status != integrators::Status::ok) {
+    robot.undo();
+    return explain(status, time, robot.robot().spec().name + ".base");
+  }
+
+  // x_i, x_i', f_i and h_i+ at t + dt: what is published, and what the next step commits.
+  robot.finish_step();
+  return {};
+}
+
+void evaluate_forces(ArticulatedRobot& robot, ContactSet& contacts, Evaluation evaluation) {
+  // X_WB and v_WB of every body, base to tips: first pass of the recursion (3.2, Fig. 3).
+  robot.update_kinematics();
+
+  // Pushes and other forces from outside, at their points.
+  robot.apply_external_forces();
+
+  // f_i = law(x_i, x_i', h_i) at each boundary point (3.3).
+  contacts.apply_forces(robot.workspace(), evaluation);
+
+  // The other passes, v' = M^-1 (...), are ArticulatedRobot::accelerate.
+}
+
+namespace {
+
+StepStatus explain(integrators::Status status, double time, std::string body) {
+  if (status == integrators::Status::too_long) {
+    return {StepStatus::Kind::solver_failed, time, std::move(body),
+            fmt::format("this step has taken {} evaluations and is not over: raise "
+                        "relative_tolerance and absolute_tolerance, bring the constants of ground "
+                        "and joints nearer to each other, make deltat smaller, or choose a "
+                        "fixed-step integrator",
+                        integrators::most_evaluations)};
+  }
+  if (status == integrators::Status::no_step) {
+    return {StepStatus::Kind::solver_failed, time, std::move(body),
+            "the integrator finds no step that meets its tolerances: raise relative_tolerance and "
+            "absolute_tolerance, make the ground softer, or choose a fixed-step integrator"};
+  }
+  return {StepStatus::Kind::not_finite, time, std::move(body),
+          "its accelerations are no longer finite: make the step smaller or the ground softer"};
+}
+
+}  // namespace
+
+}  // namespace hookpoint::simulation
