@@ -80,7 +80,7 @@ class ContactSet {
 
   std::size_t event_count() const { return 2 * points_.size(); }
   void event_values(const dts::Workspace<double>& workspace, std::span<double> values) const;
-  /// `directions` as System::cross_events has them.
+  /// `directions` as HybridSystem::cross_events has them.
   void cross_events(std::span<const int> directions);
 
   // What is published.
