@@ -7,6 +7,7 @@
 #include <random>
 #include <set>
 
+#include "language/schema/describe.h"
 #include "language/tree/field.h"
 #include "simulation/scene/schema.h"
 #include "tests/support/drawn.h"

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "integrators/stepper.h"
 #include "tests/support/accompanied_robot.h"
 #include "tests/support/drawn.h"
 #include "tests/support/load_text.h"
@@ -77,8 +78,8 @@ class LedPoint final : public test_support::AccompaniedRobot<1> {
   /// Of the bristle, or of the stretch that was committed last [J].
   double stored() const {
     const double k_t = experiment_.materials[0].constants.tangential_stiffness;
-    const Vector3d z =
-        has_bristle() ? Vector3d{v[6], v[7], v[8]} : robot_.contacts().points()[0].committed.stretch;
+    const Vector3d z = has_bristle() ? Vector3d{v[6], v[7], v[8]}
+                                     : robot_.contacts().points()[0].committed.stretch;
     return experiment_.contact == "hunt_crossley" ? 0. : 0.5 * k_t * dot(z, z);
   }
   Vector3d friction() const {

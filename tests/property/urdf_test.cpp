@@ -5,7 +5,7 @@
 #include "dts/configuration.h"
 #include "dts/energy.h"
 #include "dts/forward_dynamics.h"
-#include "simulation/engine/robot_system.h"
+#include "simulation/engine/robot_description.h"
 #include "tests/support/command.h"
 #include "tests/support/load_text.h"
 #include "tests/support/urdf_robot.h"
