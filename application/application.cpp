@@ -10,7 +10,7 @@
 #include "output/text/terminal.h"
 #include "reference/creep.h"
 #include "reference/engines.h"
-#include "reference/mujoco/friction.h"
+#include "reference/mujoco/creep.h"
 #include "reference/static_depth.h"
 #include "simulation/engine/dts_engine.h"
 #include "simulation/scene/load.h"

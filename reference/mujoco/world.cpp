@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "reference/experiment_checks.h"
-#include "reference/mujoco/friction.h"
+#include "reference/mujoco/creep.h"
 #include "reference/mujoco/model.h"
 #include "reference/touching_points.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "reference/engines.h"
-#include "reference/mujoco/friction.h"
+#include "reference/mujoco/creep.h"
 #include "tests/support/reference_scenes.h"
 #include "tests/support/run_text.h"
 

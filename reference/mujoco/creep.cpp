@@ -1,4 +1,4 @@
-#include "reference/mujoco/friction.h"
+#include "reference/mujoco/creep.h"
 
 #include <algorithm>
 #include <cmath>
