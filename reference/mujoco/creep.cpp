@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reference/experiment_checks.h"
+#include "reference/mujoco/engine.h"
+#include "reference/mujoco/friction.h"
+#include "reference/mujoco/settings.h"
 #include "reference/resting_body.h"
-#include "reference/settings.h"
+#include "reference/static_depth.h"
 
 namespace hookpoint::reference {
 namespace {
@@ -124,21 +126,38 @@ std::optional<Load> load_at_rest(const simulation::Experiment& experiment) {
   return load;
 }
 
-}  // namespace
-
-std::array<Vector3d, 2> mujoco_tangents(const Vector3d& normal) {
-  const Vector3d axis = std::abs(normal.y) < 0.5 ? Vector3d{0., 1., 0.} : Vector3d{0., 0., 1.};
-  const Vector3d across = axis - dot(axis, normal) * normal;
-  const Vector3d first = (1. / norm(across)) * across;
-  return {first, cross(normal, first)};
+/// Of all that moves or stands in the experiment [kg].
+double mass_of(const simulation::Experiment& experiment) {
+  double mass = 0.;
+  for (const simulation::RobotSpec& robot : experiment.robots) {
+    mass += robot.base.mass.mass;
+    for (const simulation::ChainSpec& chain : robot.chains)
+      for (const simulation::LinkSpec& link : chain.links) mass += link.body.mass.mass;
+  }
+  return mass;
 }
+
+/// Whether MuJoCo keeps to the spring: its rows' softness against the inverse weight of a contact,
+/// which is that of all mass at least.
+bool mujoco_keeps_spring(const simulation::Experiment& experiment) {
+  const auto material = ground_material(experiment);
+  const MujocoSettings settings = mujoco_settings(Settings::matched, experiment.deltat, material);
+  const double softness =
+      1. / (experiment.deltat *
+            (material.normal_damping + experiment.deltat * material.normal_stiffness));
+  const double inverse_weight = 1. / mass_of(experiment);
+  const MujocoRow row = mujoco_row(settings, experiment.deltat, material, inverse_weight);
+  return row.impedance[0] == inverse_weight / (inverse_weight + softness);
+}
+
+}  // namespace
 
 std::optional<simulation::CreepVelocity> mujoco_creep(const simulation::Experiment& experiment) {
   const auto load = load_at_rest(experiment);
   if (!load) return std::nullopt;
   const auto material = ground_material(experiment);
   const MujocoSettings settings =
-      mujoco_settings(settings_of(experiment, "mujoco"), experiment.deltat, material);
+      mujoco_settings(settings_of(experiment, mujoco_peer), experiment.deltat, material);
   if (settings.no_slip_iterations > 0) return std::nullopt;
   const MujocoRow row = mujoco_row(settings, experiment.deltat, material, load->inverse_weight);
   const Reference reference = reference_of(row, experiment.deltat);
@@ -150,6 +169,11 @@ std::optional<simulation::CreepVelocity> mujoco_creep(const simulation::Experime
     depth = found->depth;
   }
   return found->velocity;
+}
+
+std::optional<double> mujoco_softness(const simulation::Experiment& experiment) {
+  if (settings_of(experiment, mujoco_peer) != Settings::matched) return std::nullopt;
+  return mujoco_keeps_spring(experiment) ? matched_softness(experiment) : std::nullopt;
 }
 
 }  // namespace hookpoint::reference

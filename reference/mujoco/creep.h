@@ -1,19 +1,12 @@
-// MuJoCo's friction in closed form: the directions of its contact frames, and how a contact that
-// sticks creeps. Needs no MuJoCo.
+// What of a MuJoCo contact at rest has a closed form: how it creeps, and how deep it stands.
 #pragma once
 
-#include <array>
 #include <optional>
 
 #include "simulation/creep_velocity.h"
 #include "simulation/experiment.h"
 
 namespace hookpoint::reference {
-
-/// The two tangents of a contact with that unit `normal`, along which the pyramid of friction has
-/// its edges: the world's y made orthogonal to the normal (z where the normal leans to y by 30 deg
-/// or more), and normal x that.
-std::array<Vector3d, 2> mujoco_tangents(const Vector3d& normal);
 
 /// Velocity of a single body that sticks to a plane. At rest the rows of a contact say
 /// B v + K d r + R f = 0 with r = 0 in a friction row, so it creeps: an elliptic contact at R
@@ -22,5 +15,9 @@ std::array<Vector3d, 2> mujoco_tangents(const Vector3d& normal);
 /// or lacks a row that another one has (the friction's moment takes load off the uphill contacts).
 /// The impedance d is taken at the mean depth. Nothing with no-slip iterations.
 std::optional<simulation::CreepVelocity> mujoco_creep(const simulation::Experiment& experiment);
+
+/// Depth per newton [m/N]: at `matched` the material's spring, while the impedance is not cut off
+/// (mujoco_row). Nothing otherwise.
+std::optional<double> mujoco_softness(const simulation::Experiment& experiment);
 
 }  // namespace hookpoint::reference

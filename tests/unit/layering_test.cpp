@@ -88,11 +88,11 @@ const std::map<std::string, Rooms> rooms{
       {"report/"},
       {"compare/"}}},
     {"reference",
-     {{"creep", "experiment_checks", "extremes", "ground", "library_abort", "peer_engine",
+     {{"experiment_checks", "extremes", "ground", "library_abort", "peer", "peer_engine",
        "principal_axes", "resting_body", "robot_tree", "settings", "static_depth", "steady_creep",
-       "touching_points", "engines.h"},
+       "touching_points"},
       {"ode/", "bullet/", "mujoco/", "dart/", "simbody/"},
-      {"engines.cpp"}}},
+      {"engines"}}},
 };
 
 std::string included_path(const std::string& line) {
