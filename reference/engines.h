@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "reference/peer.h"
-#include "simulation/scene/schema.h"
+#include "simulation/scene/peer_choices.h"
 
 namespace hookpoint::reference {
 

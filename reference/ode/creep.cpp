@@ -7,15 +7,6 @@
 
 namespace hookpoint::reference {
 
-ConstraintConstants ode_constraint_constants(const simulation::Experiment& experiment,
-                                             Settings settings, OdeSolver solver) {
-  ConstraintConstants constants =
-      ode_settings(settings, solver, experiment.deltat, ground_material(experiment)).constraint;
-  if (experiment.constraint_mixing && settings != Settings::matched)
-    constants.normal_mixing = constants.tangential_mixing = *experiment.constraint_mixing;
-  return constants;
-}
-
 std::optional<simulation::CreepVelocity> ode_creep(const simulation::Experiment& experiment) {
   const auto body = resting_body(experiment);
   if (!body) return std::nullopt;

@@ -3,15 +3,10 @@
 
 #include <optional>
 
-#include "reference/ode/settings.h"
 #include "simulation/creep_velocity.h"
 #include "simulation/experiment.h"
 
 namespace hookpoint::reference {
-
-/// The constants of the rows of `solver`, with the experiment's own mixing where it gives one.
-ConstraintConstants ode_constraint_constants(const simulation::Experiment& experiment,
-                                             Settings settings, OdeSolver solver);
 
 /// dWorldStep's friction rows yield by CFM times their force, and within the surface layer, where
 /// nothing pushes out what the normal rows let in, the body tilts. Nothing where a row is at its

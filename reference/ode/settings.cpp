@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "reference/experiment_checks.h"
+
 namespace hookpoint::reference {
 namespace {
 
@@ -30,6 +32,15 @@ OdeSettings ode_settings(Settings settings, OdeSolver solver, double dt,
   result.soft_normal = result.tangential_slip = true;
   result.restitution = false;
   return result;
+}
+
+ConstraintConstants ode_constraint_constants(const simulation::Experiment& experiment,
+                                             Settings settings, OdeSolver solver) {
+  ConstraintConstants constants =
+      ode_settings(settings, solver, experiment.deltat, ground_material(experiment)).constraint;
+  if (experiment.constraint_mixing && settings != Settings::matched)
+    constants.normal_mixing = constants.tangential_mixing = *experiment.constraint_mixing;
+  return constants;
 }
 
 std::vector<SettingRow> ode_settings_table(OdeSolver solver) {

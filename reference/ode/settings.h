@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "reference/settings.h"
+#include "simulation/experiment.h"
 
 namespace hookpoint::reference {
 
@@ -21,6 +22,10 @@ struct OdeSettings {
 /// `dt` [s] and `material` enter at `matched` only.
 OdeSettings ode_settings(Settings settings, OdeSolver solver, double dt,
                          const contact::MaterialConstants<double>& material);
+
+/// The constants of the rows of `solver`, with the experiment's own mixing where it gives one.
+ConstraintConstants ode_constraint_constants(const simulation::Experiment& experiment,
+                                             Settings settings, OdeSolver solver);
 
 /// Every constant at every setting, as reports print them.
 std::vector<SettingRow> ode_settings_table(OdeSolver solver);

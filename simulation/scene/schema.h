@@ -7,20 +7,9 @@
 
 #include "control/registry.h"
 #include "language/schema/schema.h"
+#include "simulation/scene/peer_choices.h"
 
 namespace hookpoint::simulation {
-
-/// What a World may say of engines beside ours. This folder knows none: who links them says it
-/// (reference/engines.h).
-struct PeerChoices {
-  /// A setting that one of them has alone.
-  struct Setting {
-    std::string name;  ///< as in `settings = noslip`
-    std::string doc;   ///< what it is, for the manual
-  };
-  std::vector<std::string> engines;  ///< as in `engine = ode`, in the order of the manual
-  std::vector<Setting> settings;     ///< beside those that every peer has
-};
 
 /// World, Simulator, Robot and what stands inside them, Controllers; and robots written as URDF.
 void add_experiment_classes(language::Schema& schema, const PeerChoices& peers);
