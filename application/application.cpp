@@ -8,10 +8,7 @@
 #include "control/plugin/plugin.h"
 #include "language/characters.h"
 #include "output/text/terminal.h"
-#include "reference/creep.h"
 #include "reference/engines.h"
-#include "reference/mujoco/friction.h"
-#include "reference/static_depth.h"
 #include "simulation/engine/dts_engine.h"
 #include "simulation/scene/load.h"
 #include "simulation/scene/schema.h"
@@ -39,19 +36,10 @@ std::vector<std::filesystem::path> trusted_folders(const Installation& installat
 
 language::Schema make_schema() {
   language::Schema schema;
-  simulation::add_experiment_classes(schema);
+  simulation::add_experiment_classes(schema, reference::peer_choices());
   view::add_display_classes(schema);
   studies::add_study_classes(schema);
   return schema;
-}
-
-/// ODE's iterative solver and Bullet have no closed form.
-auto creep_of(std::string_view peer) {
-  return peer == "ode"       ? reference::ode_creep
-         : peer == "mujoco"  ? reference::mujoco_creep
-         : peer == "dart"    ? reference::dart_creep
-         : peer == "simbody" ? reference::simbody_creep
-                             : nullptr;
 }
 
 std::vector<std::string> scene_files(const language::Object& root) {
@@ -87,10 +75,9 @@ Application::Application(bool allow_plugins, Told tell)
       search_path_(search_path(find_installation())) {
   add_vocabulary();
   engines_["dts"] = {simulation::describe_dts(), simulation::make_dts, nullptr};
-  for (const reference::Peer& peer : reference::known_peers()) {
-    engines_[std::string(peer.name)] = {peer.describe(), peer.make, creep_of(peer.name),
-                                        reference::static_softness};
-  }
+  for (const reference::Peer& peer : reference::known_peers())
+    engines_[std::string(peer.name)] = {peer.describe(), peer.make, peer.creep,
+                                        peer.static_softness};
 }
 
 void Application::tell(const language::Diagnostics& diagnostics) const {

@@ -23,13 +23,12 @@ std::vector<studies::PeerSetting> peer_settings(const studies::StudyResult& resu
   }
   std::vector<studies::PeerSetting> settings;
   for (const auto& [engine, name] : used) {
-    for (const reference::SettingRow& row : reference::settings_table(engine)) {
-      const std::string& value = name == "matched"                         ? row.matched
-                                 : name == "noslip" && !row.noslip.empty() ? row.noslip
-                                 : name != "default"                       ? row.recommended
-                                                                           : row.default_;
-      settings.push_back({engine, name, row.quantity, value, row.source});
-    }
+    const reference::Peer& peer = reference::peer_named(engine);
+    // One that the peer has not is shown as recommended: its rows were refused.
+    const auto shown =
+        reference::settings_named(name, peer).value_or(reference::Settings::recommended);
+    for (const reference::SettingRow& row : peer.settings_table())
+      settings.push_back({engine, name, row.quantity, row.at(shown), row.source});
   }
   return settings;
 }

@@ -112,7 +112,7 @@ std::vector<FeatureUse> features_used(const simulation::Experiment& experiment) 
   return uses;
 }
 
-std::vector<EngineGap> common_gaps_and(std::initializer_list<OwnGap> own) {
+std::vector<EngineGap> common_gaps_and(std::span<const OwnGap> own) {
   using enum EngineGap::Handling;
   std::vector<EngineGap> gaps = {
       {std::string(feature::law), stated,

@@ -2,7 +2,7 @@
 // and whatever an experiment needs of it is named, with what to change.
 #pragma once
 
-#include <initializer_list>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -54,7 +54,7 @@ inline constexpr OwnGap single_friction_gap{
 
 /// The gaps that every peer has (its own law and integrator, no hips, nothing to resume from), then
 /// those of one engine.
-std::vector<simulation::EngineGap> common_gaps_and(std::initializer_list<OwnGap> own);
+std::vector<simulation::EngineGap> common_gaps_and(std::span<const OwnGap> own);
 
 /// What the user should know of the experiment's run in that engine, one line a gap that it meets
 /// and that is `noticed`. Throws ExperimentError where the gap is `refused`, or where no peer can

@@ -60,8 +60,9 @@ class PeerEngine final : public simulation::Engine {
     take_inputs();
     const std::string trouble = world_->advance(acting_);
     world_->read(next_bodies_, next_joints_);
+    const std::optional<std::size_t> beyond_range = world_->beyond_range();
     for (std::size_t i = 0; i < next_bodies_.size(); ++i)
-      if (!finite(next_bodies_[i]) || !joint_finite(tree_.bodies[i]))
+      if (!finite(next_bodies_[i]) || !joint_finite(tree_.bodies[i]) || beyond_range == i)
         return fail(StepStatus::Kind::not_finite, i,
                     "the state is not finite; look for an extreme force, mass or speed, or reduce "
                     "deltat");
@@ -190,17 +191,23 @@ class PeerEngine final : public simulation::Engine {
 
 }  // namespace
 
-std::unique_ptr<simulation::Engine> make_peer_engine(
-    const simulation::Experiment& experiment, const simulation::EngineDescription& engine,
-    const std::function<std::unique_ptr<PeerWorld>()>& build) {
-  auto notices = check_supported(experiment, engine);
+std::unique_ptr<simulation::Engine> make_peer_engine(const simulation::Experiment& experiment,
+                                                     const Peer& peer) {
+  const std::string engine = "engine " + std::string(peer.name) + ": ";
+  if (!peer.found())
+    throw simulation::ExperimentError(engine + "this build has no " + std::string(peer.library) +
+                                      "; install " + std::string(peer.package) +
+                                      " and build again");
+  auto notices = check_supported(experiment, peer.describe());
+  const Settings settings = settings_of(experiment, peer);
   try {
-    return std::make_unique<PeerEngine>(experiment, build(), std::move(notices));
+    return std::make_unique<PeerEngine>(experiment, peer.make_world(experiment, settings),
+                                        std::move(notices));
   } catch (const simulation::ExperimentError&) {
     throw;
   } catch (const std::exception& error) {
-    throw simulation::ExperimentError("engine " + engine.name +
-                                      ": the library refuses this experiment: " + error.what());
+    throw simulation::ExperimentError(engine +
+                                      "the library refuses this experiment: " + error.what());
   }
 }
 

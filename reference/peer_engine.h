@@ -1,13 +1,13 @@
-// The step of every peer: advance the library's world, read it, refuse what is not finite, publish.
+// One library's world, and the engine around it (make_peer_engine, peer.h), whose step is alike for
+// every peer: advance the world, read it, refuse what is not finite, publish.
 #pragma once
 
-#include <functional>
-#include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "simulation/engine.h"
+#include "reference/peer.h"
 
 namespace hookpoint::reference {
 
@@ -28,6 +28,9 @@ class PeerWorld {
   /// step's start (dts/joint_forces.h), together. Empty on success, else the library's trouble in
   /// a few words.
   virtual std::string advance(const simulation::WorldInputs& inputs) = 0;
+  /// The body whose load or motion is beyond what the library's own checks let pass (extremes.h):
+  /// advance() has then not taken the step, which would have led to a state that is not finite.
+  virtual std::optional<std::size_t> beyond_range() const { return std::nullopt; }
   /// What the user should know of the step just taken, else empty. Said once.
   virtual std::string notice() { return {}; }
   /// Writes the motion and last contact force of every body, and each joint's angle and rate; fixed
@@ -44,14 +47,5 @@ class PeerWorld {
     return simulation::GroundForceTime::last_step;
   }
 };
-
-/// An engine around the world that `build` makes, with the published state of `experiment` at time
-/// 0 and the notices of check_supported() already said. The joints' own torques, accelerations, and
-/// the named ContactPoints are its work, alike for every library. Throws ExperimentError where
-/// `engine` has a gap that the experiment needs, and with the library's own words where that throws
-/// while the world is built.
-std::unique_ptr<simulation::Engine> make_peer_engine(
-    const simulation::Experiment& experiment, const simulation::EngineDescription& engine,
-    const std::function<std::unique_ptr<PeerWorld>()>& build);
 
 }  // namespace hookpoint::reference

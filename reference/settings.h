@@ -1,97 +1,78 @@
-// Every constant of every setting of the peers, in one place: the worlds read it, the tables print
-// it.
+// How a peer is set up, and what a report says of it. The constants themselves are each engine's
+// own (NAME/settings.h).
 #pragma once
 
-#include <array>
 #include <string>
 #include <string_view>
-#include <vector>
 
-#include "reference/engines.h"
-#include "simulation/experiment.h"
+#include "contact/vocabulary.h"
 
 namespace hookpoint::reference {
 
-enum class Settings { default_, recommended, matched, noslip };
-
-/// Names that `settings =` accepts for an engine, in the order of the enumeration: the first three,
-/// and for mujoco `noslip` too.
-std::vector<std::string> settings_names(std::string_view engine);
-/// The setting of `experiment`. Throws ExperimentError that lists the names.
-Settings settings_of(const simulation::Experiment& experiment, std::string_view engine);
-
-enum class OdeSolver { step, quickstep };
-
-struct OdeSettings {
-  ConstraintConstants constraint;
-  bool tangential_slip =
-      false;  ///< the friction rows have their own mixing (dContactSlip1, dContactSlip2)
-  bool soft_normal =
-      false;  ///< the normal row has its own constants (dContactSoftERP, dContactSoftCFM)
-  bool restitution = true;  ///< the material's restitution is passed on (dContactBounce)
-  int iterations = 20;      ///< of dWorldQuickStep
+/// What `settings =` chooses.
+enum class Settings {
+  default_,     ///< the library's first example
+  recommended,  ///< what its maintainers do
+  matched,      ///< nearest to a material's spring and damper
+  own           ///< one more that the engine has beside these (Peer::own_setting)
 };
-/// `dt` [s] and `material` enter at `matched` only.
-OdeSettings ode_settings(Settings settings, OdeSolver solver, double dt,
-                         const contact::MaterialConstants<double>& material);
 
-struct BulletSettings {
-  ConstraintConstants constraint;
-  bool multibodies = false;        ///< every body is a btMultiBody, in the world of those
-  bool contact_stiffness = false;  ///< stiffness and damping set on the bodies, split impulses off
-  bool friction_anchor = false;    ///< friction rows undo the displacement of a sticking contact
-  bool restitution = true;         ///< the material's restitution is passed on
-  int iterations = 10;             ///< of the sequential impulse solver
-  double residual_threshold = 0.;  ///< sum of squared residuals at which it stops early
-  double warmstarting = 0.85;      ///< part of the last step's normal impulses to start from
+/// A setting that one engine has alone.
+struct OwnSetting {
+  std::string_view name;  ///< as in `settings = noslip`; empty: there is none
+  std::string_view doc;   ///< what it is, for the manual
 };
-/// `dt` [s] and `material` enter at `matched` only.
-BulletSettings bullet_settings(Settings settings, double dt,
-                               const contact::MaterialConstants<double>& material);
 
-struct MujocoSettings {
-  bool elliptic = false;           ///< the cone of friction; else a pyramid inside it
-  double friction_impedance = 1.;  ///< R of the normal row over that of a friction row (impratio)
-  double tolerance = 1e-8;         ///< of Newton's iterations
-  int no_slip_iterations = 0;      ///< over the friction rows, after the problem is solved
-  bool spring = false;             ///< rows are the material's springs and dampers (mujoco_row)
-};
-/// `dt` [s] and `material` enter at `matched` only.
-MujocoSettings mujoco_settings(Settings settings, double dt,
-                               const contact::MaterialConstants<double>& material);
+/// One line of the table that a report prints beside a peer's results.
+struct SettingRow {
+  std::string quantity;     ///< name and unit
+  std::string default_;     ///< value at `settings = default`
+  std::string recommended;  ///< value at `settings = recommended`
+  std::string matched;      ///< value at `settings = matched`
+  std::string source;       ///< where the values come from
+  std::string own{};        ///< value at the engine's own setting; empty: as recommended
 
-/// A contact's constants as MuJoCo takes them. Its rows obey a = -B v - K d r - R f, with the
-/// acceleration a, speed v, position r (< 0 inside) and force f along the row, and
-/// R = (1 - d)/d A, where A is the body's inverse weight (MuJoCo's manual, Computation, Constraint
-/// model). Friction rows have no K and R / impratio.
-struct MujocoRow {
-  /// solref: time constant and damping ratio, or, below 0, -K d^2 and -B d.
-  std::array<double, 2> reference{0.02, 1.};
-  /// solimp: the impedance d at depth 0 and from the width on, the width [m], midpoint, power.
-  std::array<double, 5> impedance{0.9, 0.95, 1e-3, 0.5, 2.};
+  const std::string& at(Settings settings) const;
 };
-/// `inverse_weight`: A [1/kg], > 0.
-MujocoRow mujoco_row(const MujocoSettings& settings, double dt,
-                     const contact::MaterialConstants<double>& material, double inverse_weight);
 
-struct DartSettings {
-  ConstraintConstants constraint;
-  double correction_speed = 1e-3;  ///< at most, of what pushes a penetration out [m/s]
-  bool own_mixing = false;   ///< rows have the mixings of `constraint`, beside DART's relative one
-  bool tessellated = false;  ///< spheres and cylinders collide as meshes
-  bool restitution = true;   ///< the material's restitution is passed on
-};
-/// `dt` [s] and `material` enter at `matched` only.
-DartSettings dart_settings(Settings settings, double dt,
-                           const contact::MaterialConstants<double>& material);
+/// A number as these tables have it: up to six digits.
+std::string setting_text(double value);
 
-struct SimbodySettings {
-  double stiffness = 1e7;             ///< plane strain modulus of each of the two surfaces [Pa]
-  double dissipation = 2.;            ///< of Hunt and Crossley, of each surface [s/m]
-  double transition_velocity = 0.01;  ///< where friction is full [m/s]
-  double accuracy = 1e-5;             ///< of the integrator: about the relative error of a step
-  bool penalty = false;  ///< contacts are the material's k, c, c_t and mu, without Hertz
+/// The softness of an engine's contact rows, J v = ERP error / dt - CFM f for a force f. SI.
+struct ConstraintConstants {
+  /// ERP of the normal row: the part of the depth beyond `surface_layer` that is undone in a step.
+  double normal_error_reduction = 0.;
+  /// CFM of the normal row [m/(N s)].
+  double normal_mixing = 0.;
+  /// ERP of the friction rows; 0: they forget displacement.
+  double tangential_error_reduction = 0.;
+  /// CFM of a friction row [m/(N s)]: a sticking contact creeps at this times f_t.
+  double tangential_mixing = 0.;
+  /// Penetration that nothing pushes out [m].
+  double surface_layer = 0.;
+  /// A mixing of impulses that is a part of each row's own diagonal of J M^-1 J^T [1]: a sticking
+  /// contact creeps at this times (J M^-1 J^T)_ii dt f_t.
+  double relative_mixing = 0.;
 };
-SimbodySettings simbody_settings(Settings settings);
+
+/// A spring k and a damper c taken implicitly over a step as a constraint row:
+/// ERP = dt k/(dt k + c), CFM = 1/(dt k + c) (ODE manual, "How to use ERP and CFM"; the same
+/// expressions are in Bullet's contact rows).
+struct ImplicitSpring {
+  double error_reduction;  ///< ERP [1]
+  double mixing;           ///< CFM [m/(N s)]
+};
+/// `k` [N/m], `c` [N s/m], `dt` [s]; dt k + c > 0.
+inline ImplicitSpring implicit_spring(double k, double c, double dt) {
+  return {dt * k / (dt * k + c), 1. / (dt * k + c)};
+}
+/// Of the material along the ground's normal, and along the ground.
+inline ImplicitSpring normal_spring(const contact::MaterialConstants<double>& material, double dt) {
+  return implicit_spring(material.normal_stiffness, material.normal_damping, dt);
+}
+inline ImplicitSpring tangential_spring(const contact::MaterialConstants<double>& material,
+                                        double dt) {
+  return implicit_spring(material.tangential_stiffness, material.tangential_damping, dt);
+}
 
 }  // namespace hookpoint::reference

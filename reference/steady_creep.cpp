@@ -56,4 +56,28 @@ std::optional<SteadyCreep> steady_creep(const RestingBody& body,
   return std::nullopt;
 }
 
+std::optional<std::vector<FrictionDamper>> limits_without_friction(const RestingBody& body,
+                                                                   double friction) {
+  const auto loads = normal_loads(body, 0.);
+  if (!loads) return std::nullopt;
+  std::vector<FrictionDamper> dampers;
+  for (const Vector3d& arm : body.arms)
+    dampers.push_back({0., 0., friction * load_at(body, *loads, arm)});
+  return dampers;
+}
+
+std::optional<SteadyCreep> creep_by_mixing(const RestingBody& body, double friction,
+                                           double mixing) {
+  auto dampers = limits_without_friction(body, friction);
+  if (!dampers) return std::nullopt;
+  for (FrictionDamper& damper : *dampers) damper.along = damper.across = 1. / mixing;
+  return steady_creep(body, *dampers);
+}
+
+std::optional<simulation::CreepVelocity> lasting(const SteadyCreep& creep,
+                                                 const simulation::Experiment& experiment) {
+  if (std::abs(creep.spin) * experiment.duration > 0.2) return std::nullopt;
+  return creep.velocity;
+}
+
 }  // namespace hookpoint::reference

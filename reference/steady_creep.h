@@ -29,4 +29,16 @@ struct SteadyCreep {
 std::optional<SteadyCreep> steady_creep(const RestingBody& body,
                                         const std::vector<FrictionDamper>& dampers);
 
+/// One damper an arm, without damping as yet, each with the limit of a friction row whose load is
+/// that of the body without friction: `friction` [1] times it, as dWorldStep and DART have it.
+/// Nothing where these loads are not known (normal_loads).
+std::optional<std::vector<FrictionDamper>> limits_without_friction(const RestingBody& body,
+                                                                   double friction);
+/// On friction rows that yield by `mixing` [m/(N s)], > 0, times their force, up to such limits.
+std::optional<SteadyCreep> creep_by_mixing(const RestingBody& body, double friction, double mixing);
+
+/// The velocity, unless a turn of more than 0.2 rad within the run makes it another one.
+std::optional<simulation::CreepVelocity> lasting(const SteadyCreep& creep,
+                                                 const simulation::Experiment& experiment);
+
 }  // namespace hookpoint::reference

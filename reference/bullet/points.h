@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "reference/bullet/settings.h"
 #include "reference/bullet/shapes.h"
-#include "reference/settings.h"
 #include "reference/touching_points.h"
 
 namespace hookpoint::reference {

@@ -328,8 +328,9 @@ class BulletWorld final : public PeerWorld {
 }  // namespace
 
 std::unique_ptr<PeerWorld> make_bullet_world(const simulation::Experiment& experiment,
-                                             const BulletSettings& settings) {
-  return std::make_unique<BulletWorld>(experiment, settings);
+                                             Settings settings) {
+  return std::make_unique<BulletWorld>(
+      experiment, bullet_settings(settings, experiment.deltat, ground_material(experiment)));
 }
 
 }  // namespace hookpoint::reference

@@ -4,11 +4,10 @@
 #include <memory>
 
 #include "reference/peer_engine.h"
-#include "reference/settings.h"
 
 namespace hookpoint::reference {
 
 std::unique_ptr<PeerWorld> make_bullet_world(const simulation::Experiment& experiment,
-                                             const BulletSettings& settings);
+                                             Settings settings);
 
 }  // namespace hookpoint::reference

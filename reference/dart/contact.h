@@ -8,8 +8,8 @@
 #include <optional>
 #include <vector>
 
+#include "reference/dart/settings.h"
 #include "reference/dart/shapes.h"
-#include "reference/settings.h"
 #include "reference/touching_points.h"
 
 // Debian's library is built with assertions, and without NDEBUG dart::constraint::BoxedLcpSolver

@@ -1,54 +1,44 @@
-// `engine = dart`, in a build with DART and in one without.
-#include "reference/engines.h"
-#include "reference/experiment_checks.h"
-#include "reference/peer_engine.h"
-#include "reference/settings.h"
+#include "reference/dart/engine.h"
 
-#ifdef HOOKPOINT_DART_VERSION
+#include <array>
+
+#include "reference/dart/creep.h"
+#include "reference/dart/settings.h"
 #include "reference/dart/world.h"
-#endif
+#include "reference/static_depth.h"
 
 namespace hookpoint::reference {
 namespace {
 
-using simulation::EngineGap;
+using enum simulation::EngineGap::Handling;
 
-std::vector<EngineGap> gaps() {
-  using enum EngineGap::Handling;
-  return common_gaps_and(
-      {single_friction_gap,
-       {feature::legcone, refused, "DART has no truncated cone; use Cylinder, Sphere or Box"},
-       {feature::tile_softness, noticed,
-        "at `settings = matched` the constants of the terrain's own material hold on every tile"}});
-}
+/// What DART lacks.
+constexpr auto gaps = std::to_array<OwnGap>({
+    single_friction_gap,
+    {feature::legcone, refused, "DART has no truncated cone; use Cylinder, Sphere or Box"},
+    {feature::tile_softness, noticed,
+     "at `settings = matched` the constants of the terrain's own material hold on every tile"},
+});
 
 }  // namespace
 
-#ifdef HOOKPOINT_DART_VERSION
-
-simulation::EngineDescription describe_dart() {
-  return {"dart", HOOKPOINT_DART_VERSION, "double", true, settings_names("dart"), gaps()};
-}
-
-std::unique_ptr<simulation::Engine> make_dart(const simulation::Experiment& experiment) {
-  return make_peer_engine(experiment, describe_dart(), [&] {
-    return make_dart_world(experiment,
-                           dart_settings(settings_of(experiment, "dart"), experiment.deltat,
-                                         ground_material(experiment)));
-  });
-}
-
-#else
-
-simulation::EngineDescription describe_dart() {
-  return {"dart", "", "double", false, settings_names("dart"), gaps()};
-}
-
-std::unique_ptr<simulation::Engine> make_dart(const simulation::Experiment&) {
-  throw simulation::ExperimentError(
-      "engine dart: this build has no DART; install libdart-dev and build again");
-}
-
-#endif
+constinit const Peer dart_peer{
+    .name = "dart",
+    .library = "DART",
+    .package = "libdart-dev",
+    .version = HOOKPOINT_DART_VERSION,
+    .gaps = gaps,
+    .make = make_engine<dart_peer>,
+    .make_world = HOOKPOINT_DART_WORLD,
+    .settings_table = dart_settings_table,
+    .constraint_constants =
+        [](const simulation::Experiment& experiment) {
+          return dart_settings(settings_of(experiment, dart_peer), experiment.deltat,
+                               ground_material(experiment))
+              .constraint;
+        },
+    .creep = dart_creep,
+    .static_softness = matched_softness,
+};
 
 }  // namespace hookpoint::reference

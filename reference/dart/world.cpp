@@ -70,7 +70,7 @@ class DartWorld final : public PeerWorld {
 
   std::string advance(const simulation::WorldInputs& inputs) override {
     if (near_ground_) keep_below(*near_ground_);
-    if (!apply(inputs)) return "a force, torque or speed is beyond what DART's assertions allow";
+    if (!apply(inputs)) return {};
     const DartConstantsTurn turn(settings_);
     const auto step = [this] {
       world_->step();
@@ -85,6 +85,8 @@ class DartWorld final : public PeerWorld {
     return "an assertion of DART's failed, whose words are on standard error";
   }
 
+  std::optional<std::size_t> beyond_range() const override { return beyond_range_; }
+
   void read(std::span<BodyState> bodies, std::span<JointState> joints) const override {
     if (!world_) return;
     std::ranges::copy(now_, bodies.begin());
@@ -92,8 +94,6 @@ class DartWorld final : public PeerWorld {
       joints[i].angle = joints_now_[i].angle;
       joints[i].rate = joints_now_[i].rate;
     }
-    // Where a step was refused, the state that it would have led to.
-    if (refused_) bodies[*refused_].velocity.x = std::numeric_limits<double>::infinity();
     for (const auto& contact : world_->getLastCollisionResult().getContacts())
       if (const Touch touch = touch_of(contact); touch.use.body >= 0) {
         BodyState& body = bodies[static_cast<std::size_t>(touch.use.body)];
@@ -301,24 +301,24 @@ class DartWorld final : public PeerWorld {
   }
 
   /// False where an assertion of the library would end the process: its equations of motion would
-  /// not be finite. `refused_` then says whose.
+  /// not be finite. `beyond_range_` then says whose.
   bool apply(const simulation::WorldInputs& inputs) {
     for (std::size_t i = 0; i < forced_.size(); ++i) {
       const simulation::ForceInput& force = inputs.forces[i];
-      if (!moderate(force.force) || !moderate(force.torque)) refused_ = forced_[i];
+      if (!moderate(force.force) || !moderate(force.torque)) beyond_range_ = forced_[i];
       BodyNode* node = bodies_[forced_[i]].node;
       node->addExtForce(eigen(force.force), eigen(force.point));
       node->addExtTorque(eigen(force.torque));
     }
     for (const Body& body : bodies_) {
       if (!moderate(now_[body.index].velocity) || !moderate(now_[body.index].angular_velocity))
-        refused_ = body.index;
+        beyond_range_ = body.index;
       if (body.joint < 0) continue;
       const double torque = inputs.joint_torques[static_cast<std::size_t>(body.joint)];
-      if (!moderate({torque, 0., 0.})) refused_ = body.index;
+      if (!moderate({torque, 0., 0.})) beyond_range_ = body.index;
       body.node->getParentJoint()->setForce(0, torque);
     }
-    return !refused_;
+    return !beyond_range_;
   }
 
   Touch touch_of(const dart::collision::Contact& contact) const {
@@ -336,7 +336,7 @@ class DartWorld final : public PeerWorld {
   std::vector<dart::dynamics::SkeletonPtr> skeletons_;
   std::vector<Body> bodies_;
   std::vector<std::size_t> forced_;  ///< the body of each force
-  std::optional<std::size_t> refused_;
+  std::optional<std::size_t> beyond_range_;
   std::optional<NearGround> near_ground_;
   std::vector<BodyState> now_;  ///< after the last step
   std::vector<JointState> joints_now_;
@@ -345,9 +345,12 @@ class DartWorld final : public PeerWorld {
 }  // namespace
 
 std::unique_ptr<PeerWorld> make_dart_world(const simulation::Experiment& experiment,
-                                           const DartSettings& settings) {
+                                           Settings settings) {
   std::unique_ptr<PeerWorld> world;
-  if (!survives_abort([&] { world = std::make_unique<DartWorld>(experiment, settings); }))
+  if (!survives_abort([&] {
+        world = std::make_unique<DartWorld>(
+            experiment, dart_settings(settings, experiment.deltat, ground_material(experiment)));
+      }))
     throw simulation::ExperimentError(
         "engine dart: an assertion of DART's, whose words are on standard error, fails for this "
         "experiment; look for an extreme mass, length, speed or place");

@@ -1,41 +1,43 @@
-// MuJoCo as a peer: what it lacks, and its factory.
-#include "reference/engines.h"
-#include "reference/experiment_checks.h"
+#include "reference/mujoco/engine.h"
+
+#include <array>
+
+#include "reference/mujoco/creep.h"
+#include "reference/mujoco/settings.h"
 #include "reference/mujoco/world.h"
-#include "reference/settings.h"
 
 namespace hookpoint::reference {
 namespace {
 
-using simulation::EngineGap;
+using enum simulation::EngineGap::Handling;
 
-std::vector<EngineGap> gaps() {
-  using enum EngineGap::Handling;
-  return common_gaps_and(
-      {single_friction_gap,
-       {feature::massless, refused,
-        "every body of MuJoCo that moves has a mass; give the link one"},
-       {feature::restitution, noticed,
-        "MuJoCo has no coefficient of restitution: how a body rebounds follows from its contact's "
-        "damping"},
-       {feature::tile_softness, noticed,
-        "the ratio of tangential to normal constants (impratio) is one for a world, the "
-        "ground's"}});
-}
+/// What MuJoCo lacks.
+constexpr auto gaps = std::to_array<OwnGap>({
+    single_friction_gap,
+    {feature::massless, refused, "every body of MuJoCo that moves has a mass; give the link one"},
+    {feature::restitution, noticed,
+     "MuJoCo has no coefficient of restitution: how a body rebounds follows from its contact's "
+     "damping"},
+    {feature::tile_softness, noticed,
+     "the ratio of tangential to normal constants (impratio) is one for a world, the ground's"},
+});
 
 }  // namespace
 
-simulation::EngineDescription describe_mujoco() {
-  const std::string version = mujoco_version();
-  return {"mujoco", version, "double", !version.empty(), settings_names("mujoco"), gaps()};
-}
-
-std::unique_ptr<simulation::Engine> make_mujoco(const simulation::Experiment& experiment) {
-  return make_peer_engine(experiment, describe_mujoco(), [&] {
-    return make_mujoco_world(experiment,
-                             mujoco_settings(settings_of(experiment, "mujoco"), experiment.deltat,
-                                             ground_material(experiment)));
-  });
-}
+constinit const Peer mujoco_peer{
+    .name = "mujoco",
+    .library = "MuJoCo",
+    .package = "libmujoco-dev",
+    .version = HOOKPOINT_MUJOCO_VERSION,
+    .gaps = gaps,
+    .own_setting = {"noslip",
+                    "noslip, of mujoco alone, is recommended with the no-slip iterations of its "
+                    "manual"},
+    .make = make_engine<mujoco_peer>,
+    .make_world = HOOKPOINT_MUJOCO_WORLD,
+    .settings_table = mujoco_settings_table,
+    .creep = mujoco_creep,
+    .static_softness = mujoco_softness,
+};
 
 }  // namespace hookpoint::reference

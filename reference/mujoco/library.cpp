@@ -11,8 +11,8 @@ namespace {
 /// exception would leak: its scratch memory belongs to mjData.
 [[noreturn]] void report(const char* message) { throw MujocoFailure(message); }
 
-/// Warnings are counted in mjData too, and are read from there (mujoco_world.cpp). Left to itself
-/// the library prints them and writes MUJOCO_LOG.TXT into the current folder.
+/// Warnings are counted in mjData too, and are read from there (world.cpp, notice()). Left to
+/// itself the library prints them and writes MUJOCO_LOG.TXT into the current folder.
 void ignore(const char*) {}
 
 void prepare_mujoco() {

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "reference/mujoco/library.h"
+#include "reference/mujoco/settings.h"
 #include "reference/robot_tree.h"
-#include "reference/settings.h"
 
 namespace hookpoint::reference {
 

@@ -275,11 +275,10 @@ class MujocoWorld final : public PeerWorld {
 
 }  // namespace
 
-std::string mujoco_version() { return mj_versionString(); }
-
 std::unique_ptr<PeerWorld> make_mujoco_world(const simulation::Experiment& experiment,
-                                             const MujocoSettings& settings) {
-  return std::make_unique<MujocoWorld>(experiment, settings);
+                                             Settings settings) {
+  return std::make_unique<MujocoWorld>(
+      experiment, mujoco_settings(settings, experiment.deltat, ground_material(experiment)));
 }
 
 }  // namespace hookpoint::reference

@@ -1,15 +1,11 @@
 #include "reference/ode/shapes.h"
 
-#include <string>
-
-#include "simulation/engine.h"
+#include <stdexcept>
 
 namespace hookpoint::reference {
 namespace {
 
 struct Builder {
-  std::string_view engine;
-
   dGeomID operator()(const simulation::Box& box) const {
     return dCreateBox(nullptr, box.dimensions.x, box.dimensions.y, box.dimensions.z);
   }
@@ -20,18 +16,15 @@ struct Builder {
     return dCreateCylinder(nullptr, cylinder.radius, cylinder.length);
   }
   dGeomID operator()(const simulation::Legcone&) const {
-    throw simulation::ExperimentError("engine " + std::string(engine) +
-                                      ": ODE has no cone, so the shape Legcone is not supported; "
-                                      "use Cylinder, Sphere or Box");
+    throw std::logic_error("a Legcone is refused before any shape is made");
   }
 };
 
 }  // namespace
 
 OdePointer<dxGeom> make_ode_geometry(const simulation::ShapeSpec& shape,
-                                     const Vector3d& center_of_mass, dBodyID body,
-                                     std::string_view engine) {
-  OdePointer<dxGeom> geometry(std::visit(Builder{engine}, shape.geometry));
+                                     const Vector3d& center_of_mass, dBodyID body) {
+  OdePointer<dxGeom> geometry(std::visit(Builder{}, shape.geometry));
   dGeomSetBody(geometry.get(), body);
   const Vector3d offset = shape.location - center_of_mass;
   dGeomSetOffsetPosition(geometry.get(), offset.x, offset.y, offset.z);

@@ -1,7 +1,6 @@
 // Shapes and ground as ODE geometries.
 #pragma once
 
-#include <string_view>
 #include <vector>
 
 #include "reference/ground.h"
@@ -10,10 +9,9 @@
 namespace hookpoint::reference {
 
 /// The geometry of `shape` on `body`, whose origin is the centre of mass at `center_of_mass` (body
-/// frame, [m]). Throws ExperimentError for a Legcone.
+/// frame, [m]). A Legcone, which ODE has not, is a gap of its row (engine.cpp).
 OdePointer<dxGeom> make_ode_geometry(const simulation::ShapeSpec& shape,
-                                     const Vector3d& center_of_mass, dBodyID body,
-                                     std::string_view engine);
+                                     const Vector3d& center_of_mass, dBodyID body);
 
 /// The ground's geometry with the arrays that ODE reads in place. Not to be moved after
 /// construction.

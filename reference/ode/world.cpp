@@ -99,8 +99,7 @@ dSurfaceParameters surface_of(const contact::MaterialConstants<double>& material
 
 class OdeWorld final : public PeerWorld {
  public:
-  OdeWorld(const simulation::Experiment& experiment, Settings settings, OdeSolver solver,
-           std::string_view engine)
+  OdeWorld(const simulation::Experiment& experiment, Settings settings, OdeSolver solver)
       : solver_(solver),
         deltat_(experiment.deltat),
         random_(static_cast<unsigned long>(experiment.seed)) {
@@ -114,7 +113,7 @@ class OdeWorld final : public PeerWorld {
     if (surfaces_.empty())
       surfaces_.push_back(surface_of({}, ode_settings(settings, solver, deltat_, {})));
     const RobotTree tree = robot_tree(experiment);
-    add_bodies(experiment, tree, engine);
+    add_bodies(experiment, tree);
     for (const simulation::ForceSpec& force : experiment.forces)
       forced_.push_back(tree.index(force.robot, force.body));
     if (!experiment.terrain) return;
@@ -179,8 +178,7 @@ class OdeWorld final : public PeerWorld {
     dWorldSetContactSurfaceLayer(world_.get(), settings.constraint.surface_layer);
   }
 
-  void add_bodies(const simulation::Experiment& experiment, const RobotTree& tree,
-                  std::string_view engine) {
+  void add_bodies(const simulation::Experiment& experiment, const RobotTree& tree) {
     std::vector<dBodyID> ids;
     for (const TreeBody& spec : tree.bodies) {
       Body& body = bodies_.emplace_back();
@@ -189,8 +187,7 @@ class OdeWorld final : public PeerWorld {
         body.id = make_body(world_.get(), spec.body->mass, spec.initial);
         if (experiment.terrain && !touches_by_points(experiment, spec.robot))
           for (const auto& shape : spec.body->shapes)
-            body.geometries.push_back(
-                make_ode_geometry(shape, body.center_of_mass, body.id, engine));
+            body.geometries.push_back(make_ode_geometry(shape, body.center_of_mass, body.id));
       }
       ids.push_back(body.id);
     }
@@ -295,9 +292,8 @@ class OdeWorld final : public PeerWorld {
 }  // namespace
 
 std::unique_ptr<PeerWorld> make_ode_world(const simulation::Experiment& experiment,
-                                          Settings settings, OdeSolver solver,
-                                          std::string_view engine) {
-  return std::make_unique<OdeWorld>(experiment, settings, solver, engine);
+                                          Settings settings, OdeSolver solver) {
+  return std::make_unique<OdeWorld>(experiment, settings, solver);
 }
 
 }  // namespace hookpoint::reference

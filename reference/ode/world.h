@@ -2,15 +2,16 @@
 #pragma once
 
 #include <memory>
-#include <string_view>
 
+#include "reference/ode/settings.h"
 #include "reference/peer_engine.h"
-#include "reference/settings.h"
 
 namespace hookpoint::reference {
 
+/// Worlds of dWorldStep may step in different threads at once and give the same bytes as one after
+/// the other. Those of dWorldQuickStep take turns: the library draws its row order from one random
+/// stream of the process.
 std::unique_ptr<PeerWorld> make_ode_world(const simulation::Experiment& experiment,
-                                          Settings settings, OdeSolver solver,
-                                          std::string_view engine);
+                                          Settings settings, OdeSolver solver);
 
 }  // namespace hookpoint::reference

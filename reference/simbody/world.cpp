@@ -1,7 +1,6 @@
 #include "reference/simbody/world.h"
 
 #include <algorithm>
-#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -12,6 +11,7 @@
 #include "reference/ground.h"
 #include "reference/robot_tree.h"
 #include "reference/simbody/model.h"
+#include "reference/simbody/settings.h"
 #include "reference/touching_points.h"
 
 namespace hookpoint::reference {
@@ -62,7 +62,7 @@ simbody::Surface describe(const TouchingPoint& point, int index) {
   return surface;
 }
 
-/// A box or a sphere: others are refused before (describe_simbody).
+/// A box or a sphere: others are gaps of the row (engine.cpp).
 simbody::Surface describe(const simulation::ShapeSpec& shape) {
   simbody::Surface surface;
   surface.X_BS = frame(shape.location, shape.orientation);
@@ -112,16 +112,15 @@ class SimbodyWorld final : public PeerWorld {
       const TreeBody& body = tree.bodies[i];
       bodies_.push_back({body.mobile, body.link == nullptr ? -1 : body.joint});
       if (!moderate(body.initial.velocity) || !moderate(body.initial.angular_velocity))
-        refused_ = i;
+        beyond_range_ = i;
     }
     on_bodies_.resize(bodies_.size());
     on_joints_.resize(bodies_.size());
-    if (!refused_) model_.emplace(describe(experiment, tree, settings));
+    if (!beyond_range_) model_.emplace(describe(experiment, tree, settings));
   }
 
   std::string advance(const simulation::WorldInputs& inputs) override {
-    if (!take(inputs))
-      return "a force, torque or speed is beyond what Simbody's integrator ends with";
+    if (!take(inputs)) return {};
     try {
       model_->apply(on_bodies_, on_joints_);
       model_->step_to(static_cast<double>(++steps_) * deltat_);
@@ -132,9 +131,9 @@ class SimbodyWorld final : public PeerWorld {
     }
   }
 
+  std::optional<std::size_t> beyond_range() const override { return beyond_range_; }
+
   void read(std::span<BodyState> bodies, std::span<JointState> joints) const override {
-    // Where a step was refused, the state that it would have led to.
-    if (refused_) bodies[*refused_].velocity.x = std::numeric_limits<double>::infinity();
     if (!model_ || lost_) return;
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       bodies[i].contacts = 0;
@@ -145,7 +144,7 @@ class SimbodyWorld final : public PeerWorld {
       const auto& q = motion.frame.orientation;
       bodies[i].position = vector(motion.frame.position);
       bodies[i].orientation = {q[0], q[1], q[2], q[3]};
-      if (refused_ != i) bodies[i].velocity = vector(motion.velocity);
+      bodies[i].velocity = vector(motion.velocity);
       bodies[i].angular_velocity = vector(motion.angular_velocity);
       if (bodies_[i].joint < 0) continue;
       joints[static_cast<std::size_t>(bodies_[i].joint)].angle = motion.angle;
@@ -181,12 +180,12 @@ class SimbodyWorld final : public PeerWorld {
     int joint;  ///< as published; -1: a base
   };
 
-  /// What acts over the step; false where it is extreme, and `refused_` then says on whom.
+  /// What acts over the step; false where it is extreme, and `beyond_range_` then says on whom.
   bool take(const simulation::WorldInputs& inputs) {
     std::ranges::fill(on_bodies_, simbody::Load{});
-    for (std::size_t i = 0; i < forced_.size() && !refused_; ++i) {
+    for (std::size_t i = 0; i < forced_.size() && !beyond_range_; ++i) {
       const simulation::ForceInput& input = inputs.forces[i];
-      if (!moderate(input.force) || !moderate(input.torque)) refused_ = forced_[i];
+      if (!moderate(input.force) || !moderate(input.torque)) beyond_range_ = forced_[i];
       const auto q = model_->motion(static_cast<int>(forced_[i])).frame.orientation;
       const Vector3d arm = rotate(Quaterniond{q[0], q[1], q[2], q[3]}, input.point);
       simbody::Load& load = on_bodies_[forced_[i]];
@@ -196,9 +195,9 @@ class SimbodyWorld final : public PeerWorld {
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       if (bodies_[i].joint < 0) continue;
       on_joints_[i] = inputs.joint_torques[static_cast<std::size_t>(bodies_[i].joint)];
-      if (!moderate({on_joints_[i], 0., 0.})) refused_ = i;
+      if (!moderate({on_joints_[i], 0., 0.})) beyond_range_ = i;
     }
-    return !refused_;
+    return !beyond_range_;
   }
 
   double deltat_;
@@ -206,7 +205,7 @@ class SimbodyWorld final : public PeerWorld {
   std::vector<std::size_t> forced_;  ///< the body of each force
   std::vector<simbody::Load> on_bodies_;
   std::vector<double> on_joints_;  ///< one a body
-  std::optional<std::size_t> refused_;
+  std::optional<std::size_t> beyond_range_;
   bool lost_ = false;  ///< the integrator gave up, and its state is not to be asked for
   std::optional<simbody::Model> model_;  ///< none where the experiment starts beyond its range
   std::int64_t steps_ = 0;
@@ -215,8 +214,8 @@ class SimbodyWorld final : public PeerWorld {
 }  // namespace
 
 std::unique_ptr<PeerWorld> make_simbody_world(const simulation::Experiment& experiment,
-                                              const SimbodySettings& settings) {
-  return std::make_unique<SimbodyWorld>(experiment, settings);
+                                              Settings settings) {
+  return std::make_unique<SimbodyWorld>(experiment, simbody_settings(settings));
 }
 
 }  // namespace hookpoint::reference

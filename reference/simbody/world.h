@@ -4,11 +4,10 @@
 #include <memory>
 
 #include "reference/peer_engine.h"
-#include "reference/settings.h"
 
 namespace hookpoint::reference {
 
 std::unique_ptr<PeerWorld> make_simbody_world(const simulation::Experiment& experiment,
-                                              const SimbodySettings& settings);
+                                              Settings settings);
 
 }  // namespace hookpoint::reference

@@ -7,14 +7,15 @@
 
 #include "control/registry.h"
 #include "language/schema/schema.h"
+#include "simulation/scene/peer_choices.h"
 
 namespace hookpoint::simulation {
 
 /// World, Simulator, Robot and what stands inside them, Controllers; and robots written as URDF.
-void add_experiment_classes(language::Schema& schema);
+void add_experiment_classes(language::Schema& schema, const PeerChoices& peers);
 
 // The parts of it, one a file.
-void add_world_classes(language::Schema& schema);
+void add_world_classes(language::Schema& schema, const PeerChoices& peers);
 void add_robot_classes(language::Schema& schema);
 void add_shape_classes(language::Schema& schema);
 void add_ground_classes(language::Schema& schema);

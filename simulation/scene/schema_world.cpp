@@ -20,7 +20,27 @@ std::vector<std::string> integrator_names() {
   return names;
 }
 
-language::ClassSchema world_class() {
+/// Ours, then the peers.
+FieldSchema engine_field(const PeerChoices& peers) {
+  std::vector<std::string> names{"dts"};
+  append(names, peers.engines);
+  return choice_field("engine", names, "dts",
+                      "who computes the motion: the decoupled tree-structure engine or a peer");
+}
+
+FieldSchema settings_field(const PeerChoices& peers) {
+  std::vector<std::string> names{"default", "recommended", "matched"};
+  std::string doc =
+      "how a peer is set up: its first example, its maintainers' practice, or nearest to the "
+      "penalty law";
+  for (const PeerChoices::Setting& own : peers.settings) {
+    names.push_back(own.name);
+    doc += "; " + own.doc;
+  }
+  return choice_field("settings", names, "default", doc);
+}
+
+language::ClassSchema world_class(const PeerChoices& peers) {
   language::ClassSchema world;
   world.name = "World";
   world.doc =
@@ -46,12 +66,8 @@ language::ClassSchema world_class() {
                             "local error allowed whatever the size: m, rad, m/s, rad/s")),
       choice_field("contact", law_names(), "hookpoint",
                    "contact law of engine dts; a peer brings its own contact"),
-      choice_field("engine", {"dts", "ode", "ode_quickstep", "bullet", "mujoco", "dart", "simbody"},
-                   "dts", "who computes the motion: the decoupled tree-structure engine or a peer"),
-      choice_field("settings", {"default", "recommended", "matched", "noslip"}, "default",
-                   "how a peer is set up: its first example, its maintainers' practice, or nearest "
-                   "to the penalty law; noslip, of mujoco alone, is recommended with the no-slip "
-                   "iterations of its manual"),
+      engine_field(peers),
+      settings_field(peers),
       not_negative(number_field("constraint_mixing", "m/N/s", "",
                                 "CFM of ODE's world instead of the library's 1e-10: a contact "
                                 "gives way at it times its force; 0 makes four corners singular; "
@@ -145,17 +161,17 @@ void make_readable(language::ClassSchema& schema) {
 
 }  // namespace
 
-void add_world_classes(language::Schema& schema) {
-  schema.add(world_class());
+void add_world_classes(language::Schema& schema, const PeerChoices& peers) {
+  schema.add(world_class(peers));
   schema.add(simulator_class());
   schema.add(force_class());
   schema.add(push_class());
 }
 
-void add_experiment_classes(language::Schema& schema) {
+void add_experiment_classes(language::Schema& schema, const PeerChoices& peers) {
   schema.add_reader(".urdf", include_urdf);
   language::Schema classes;
-  add_world_classes(classes);
+  add_world_classes(classes, peers);
   add_robot_classes(classes);
   add_shape_classes(classes);
   add_ground_classes(classes);

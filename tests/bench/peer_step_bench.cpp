@@ -55,7 +55,7 @@ int main(int argc, char** argv) {
   };
   add("dts", simulation::make_dts);
   for (const auto& peer : reference::peers())
-    if (peer.describe().found) add(std::string(peer.name), peer.make);
+    if (peer.found()) add(std::string(peer.name), peer.make);
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();
 }

@@ -7,6 +7,7 @@
 #include "language/syntax/token.h"
 #include "language/units.h"
 #include "language/values/expression.h"
+#include "reference/engines.h"
 #include "simulation/scene/schema.h"
 #include "studies/schema.h"
 #include "view/schema.h"
@@ -14,7 +15,7 @@
 int main() {
   using namespace hookpoint;
   language::Schema schema;
-  simulation::add_experiment_classes(schema);
+  simulation::add_experiment_classes(schema, reference::peer_choices());
   view::add_display_classes(schema);
   studies::add_study_classes(schema);
 

@@ -12,6 +12,7 @@
 #include <string>
 
 #include "language/document.h"
+#include "reference/engines.h"
 #include "simulation/scene/load.h"
 #include "simulation/scene/schema.h"
 #include "studies/schema.h"
@@ -26,7 +27,7 @@ using language::Diagnostics;
 const language::Schema& whole_schema() {
   static const language::Schema schema = [] {
     language::Schema classes;
-    simulation::add_experiment_classes(classes);
+    simulation::add_experiment_classes(classes, reference::peer_choices());
     view::add_display_classes(classes);
     studies::add_study_classes(classes);
     return classes;

@@ -22,6 +22,7 @@
 #include "cli/commands.h"
 #include "cli/exit_status.h"
 #include "output/file.h"
+#include "reference/engines.h"
 #include "simulation/scene/schema.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/generated_experiment.h"
@@ -136,7 +137,7 @@ int main(int count, char** words) {
   using namespace hookpoint;
   std::uint64_t first = 1, wanted = 100;
   language::Schema schema;
-  simulation::add_experiment_classes(schema);
+  simulation::add_experiment_classes(schema, reference::peer_choices());
   for (int i = 1; i + 1 < count; i += 2) {
     const std::string option = words[i];
     if (option == "--print") {

@@ -27,7 +27,7 @@ void expect_present(const char* name, simulation::EngineFactory make) {
 TEST(EnginePorts, ShowThePresentState) {
   expect_present("dts", simulation::make_dts);
   for (const reference::Peer& peer : reference::peers()) {
-    if (peer.describe().found) expect_present(std::string(peer.name).c_str(), peer.make);
+    if (peer.found()) expect_present(std::string(peer.name).c_str(), peer.make);
   }
 }
 

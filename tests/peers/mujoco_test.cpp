@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "reference/engines.h"
-#include "reference/mujoco/friction.h"
+#include "reference/mujoco/engine.h"
 #include "tests/support/reference_scenes.h"
 #include "tests/support/run_text.h"
 
@@ -18,19 +18,19 @@ using namespace reference_scenes;
 class Mujoco : public testing::Test {
  protected:
   void SetUp() override {
-    if (!reference::describe_mujoco().found) GTEST_SKIP() << "this build has no MuJoCo";
+    if (!reference::mujoco_peer.found()) GTEST_SKIP() << "this build has no MuJoCo";
   }
 };
 
 double creep(const simulation::Experiment& experiment, double angle, double azimuth) {
-  const auto engine = reference::make_mujoco(experiment);
+  const auto engine = reference::mujoco_peer.make(experiment);
   return creep_speed(*engine, slope_axes(angle, azimuth).downhill, experiment.deltat, 1., 2.);
 }
 
 /// The same as a vector, in one run.
 simulation::CreepVelocity creep_velocity(const simulation::Experiment& experiment, double angle,
                                          double azimuth) {
-  const auto engine = reference::make_mujoco(experiment);
+  const auto engine = reference::mujoco_peer.make(experiment);
   const SlopeAxes axes = slope_axes(angle, azimuth);
   run_until(*engine, experiment.deltat, 1.);
   const Vector3d start = engine->state().bodies[0].position;
@@ -56,7 +56,7 @@ TEST_F(Mujoco, CreepsAsItsRegularisationSays) {
       for (const double azimuth : {0., 30., 45., 90.}) {
         const simulation::Experiment experiment =
             block_with_corners(slope * degree, azimuth * degree, 0.8, settings);
-        const auto expected = reference::mujoco_creep(experiment);
+        const auto expected = reference::mujoco_peer.creep(experiment);
         if (!expected) continue;
         ++predicted;
         const auto found = creep_velocity(experiment, slope * degree, azimuth * degree);
@@ -75,7 +75,7 @@ TEST_F(Mujoco, CreepsAsideBetweenTheEdgesOfItsPyramid) {
   for (const double azimuth : {15. * degree, -15. * degree, 75. * degree}) {
     auto experiment = block_with_corners(30. * degree, azimuth, 0.8, "default");
     experiment.robots[0].base.mass.center_of_mass = {0., 0., -0.0499};
-    const auto expected = reference::mujoco_creep(experiment);
+    const auto expected = reference::mujoco_peer.creep(experiment);
     ASSERT_TRUE(expected);
     EXPECT_GT(std::abs(expected->sideways), 0.05 * expected->downhill);
     const auto found = creep_velocity(experiment, 30. * degree, azimuth);
@@ -88,7 +88,7 @@ TEST_F(Mujoco, CreepsAsideBetweenTheEdgesOfItsPyramid) {
 TEST_F(Mujoco, CreepsLessAfterNoSlipIterations) {
   const auto experiment = sloped_block(15. * degree, 0., 0.8, 1e-3, "noslip");
   EXPECT_LT(std::abs(creep(experiment, 15. * degree, 0.)), 1e-6);
-  EXPECT_FALSE(reference::mujoco_creep(experiment));
+  EXPECT_FALSE(reference::mujoco_peer.creep(experiment));
 }
 
 TEST_F(Mujoco, CreepsAtTheMatchedDampersSpeed) {
@@ -125,9 +125,9 @@ TEST_F(Mujoco, SlidesOnFourPointsAsOnABox) {
           block_with_corners(slope * degree, azimuth * degree, 0.2, "default");
       // In the ground by 10 um: on it, rounding would say which corners touch.
       experiment.robots[0].location -= 1e-5 * slope_axes(slope * degree, azimuth * degree).normal;
-      const auto box = reference::make_mujoco(experiment);
+      const auto box = reference::mujoco_peer.make(experiment);
       experiment.robots[0].base.shapes.clear();
-      const auto points = reference::make_mujoco(experiment);
+      const auto points = reference::mujoco_peer.make(experiment);
       // Not for long: what slides hops, and then rounding grows.
       ASSERT_TRUE(run_until(*box, 1e-3, 0.05) && run_until(*points, 1e-3, 0.05));
       EXPECT_NEAR(norm(box->state().bodies[0].position - points->state().bodies[0].position), 0.,
@@ -140,7 +140,8 @@ TEST_F(Mujoco, SlidesOnFourPointsAsOnABox) {
 // leaves the ground and falls back; the impulses still are those of the weight.
 TEST_F(Mujoco, HopsWhileItSlidesAndCarriesItsWeightInTheMean) {
   for (const char* settings : {"default", "recommended", "matched"}) {
-    const auto engine = reference::make_mujoco(sloped_block(15. * degree, 0., 0.2, 1e-3, settings));
+    const auto engine =
+        reference::mujoco_peer.make(sloped_block(15. * degree, 0., 0.2, 1e-3, settings));
     ASSERT_TRUE(run_until(*engine, 1e-3, 1.));
     int airborne = 0;
     double load = 0.;
@@ -165,7 +166,7 @@ TEST_F(Mujoco, SlidesOnEachTileByItsOwnFriction) {
   other.name = "other";
   other.location.y = 2.;
   experiment.robots.push_back(other);
-  const auto engine = reference::make_mujoco(experiment);
+  const auto engine = reference::mujoco_peer.make(experiment);
   ASSERT_TRUE(run_until(*engine, 1e-3, 1.));
   EXPECT_LT(norm(engine->state().bodies[0].velocity), 1e-4);
   // Without friction at all: MuJoCo's least coefficient, 1e-5, would cost 4e-5 of it.
@@ -176,7 +177,7 @@ TEST_F(Mujoco, SlidesOnEachTileByItsOwnFriction) {
 TEST_F(Mujoco, SaysThatItHasNoRestitution) {
   simulation::Experiment experiment = sloped_block(0., 0., 0.5, 1e-3);
   experiment.materials[0].constants.restitution = 0.5;
-  const auto notices = reference::make_mujoco(experiment)->state().notices;
+  const auto notices = reference::mujoco_peer.make(experiment)->state().notices;
   ASSERT_EQ(notices.size(), 1u);
   EXPECT_NE(notices[0].find("restitution"), std::string::npos);
 }
@@ -188,7 +189,7 @@ TEST_F(Mujoco, TurnsAWarningIntoANotice) {
   simulation::BodySpec& base = experiment.robots[0].base;
   base.shapes.clear();
   for (int i = 0; i < 300; ++i) base.boundary_points.push_back({1e-4 * i, 0., -0.0501});
-  const auto engine = reference::make_mujoco(experiment);
+  const auto engine = reference::mujoco_peer.make(experiment);
   std::filesystem::remove("MUJOCO_LOG.TXT");
   testing::internal::CaptureStderr();
   testing::internal::CaptureStdout();
@@ -204,7 +205,7 @@ TEST_F(Mujoco, PassesOnWhatItsCompilerRefuses) {
   // No body has that: I_zz <= I_xx + I_yy.
   experiment.robots[0].base.mass.inertia = {1., 1., 5., 0., 0., 0.};
   try {
-    reference::make_mujoco(experiment);
+    reference::mujoco_peer.make(experiment);
     FAIL() << "an impossible inertia was taken";
   } catch (const simulation::ExperimentError& error) {
     EXPECT_NE(std::string(error.what()).find("engine mujoco: "), std::string::npos);
@@ -221,7 +222,7 @@ Loaded hexapod(const std::string& scene, const std::string& settings) {
 
 TEST_F(Mujoco, CarriesAStandingHexapod) {
   for (const char* settings : {"default", "recommended", "matched"}) {
-    Running run(hexapod("standing_hexapod", settings), reference::make_mujoco);
+    Running run(hexapod("standing_hexapod", settings), reference::mujoco_peer.make);
     run.step(8000);  // 4 s
     double load = 0.;
     for (int i = 0; i < 200; ++i) {
@@ -236,7 +237,7 @@ TEST_F(Mujoco, CarriesAStandingHexapod) {
 
 TEST_F(Mujoco, LetsAHexapodWalk) {
   for (const char* settings : {"default", "recommended", "matched"}) {
-    Running run(hexapod("walking_hexapod", settings), reference::make_mujoco);
+    Running run(hexapod("walking_hexapod", settings), reference::mujoco_peer.make);
     run.step(12000);  // 6 s
     EXPECT_GT(run["hexapod.base.location.z"], 0.08) << settings;
     EXPECT_NEAR(run["hexapod.base.location.x"], 0.09 * 6., 0.1) << settings;

@@ -2,15 +2,15 @@
 // same block.
 #include <gtest/gtest.h>
 
-#include "reference/creep.h"
+#include "reference/bullet/engine.h"
 #include "reference/engines.h"
+#include "reference/ode/engine.h"
 #include "tests/support/reference_scenes.h"
 
 namespace hookpoint {
 namespace {
 
 using namespace reference_scenes;
-using reference::constraint_constants;
 
 constexpr double angle = 15. * degree;
 const double f_t = g * std::sin(angle) / 4.;  // of each of the four corners, 1 kg
@@ -24,24 +24,24 @@ double creep(simulation::EngineFactory make, double azimuth, double mu, double d
 TEST(OdeBlock, CreepsAtMixingTimesTangentialForce) {
   for (const double deltat : {1e-3, 1e-2}) {
     const double expected = 1e-10 * f_t;  // ODE's documented double precision CFM
-    EXPECT_NEAR(creep(reference::make_ode, 0., 0.5, deltat, "default", 1., 3.), expected,
+    EXPECT_NEAR(creep(reference::ode_peer.make, 0., 0.5, deltat, "default", 1., 3.), expected,
                 0.01 * expected);
     const auto experiment = sloped_block(angle, 0., 0.5, deltat);
-    EXPECT_EQ(constraint_constants("ode", experiment).tangential_mixing, 1e-10);
+    EXPECT_EQ(reference::ode_peer.constraint_constants(experiment).tangential_mixing, 1e-10);
   }
 }
 
 TEST(OdeBlock, CreepsAtTheMixingThatTheExperimentAsksFor) {
   auto experiment = sloped_block(angle, 0., 0.5, 1e-3);
   experiment.constraint_mixing = 1e-6;
-  EXPECT_EQ(constraint_constants("ode", experiment).tangential_mixing, 1e-6);
-  const auto engine = reference::make_ode(experiment);
+  EXPECT_EQ(reference::ode_peer.constraint_constants(experiment).tangential_mixing, 1e-6);
+  const auto engine = reference::ode_peer.make(experiment);
   const double speed = creep_speed(*engine, slope_axes(angle, 0.).downhill, 1e-3, 1., 3.);
   EXPECT_NEAR(speed, 1e-6 * f_t, 1e-8 * f_t);
 }
 
 TEST(OdeBlock, CreepsAtTheMatchedDampersSpeed) {
-  for (const auto make : {reference::make_ode, reference::make_ode_quickstep})
+  for (const auto make : {reference::ode_peer.make, reference::ode_quickstep_peer.make})
     for (const double deltat : {1e-4, 1e-3, 1e-2}) {
       const double expected = f_t / (deltat * 1e5 + 300.);  // k_t, c_t of the material
       EXPECT_NEAR(creep(make, 0., 0.5, deltat, "matched", 0.5, 1.), expected, 0.01 * expected);
@@ -52,7 +52,7 @@ TEST(OdeBlock, CreepsAtTheMatchedDampersSpeed) {
 // faster: the contacts creep at CFM f_t and the origin, h/2 above them, at CFM f_t (1 + (h/l)^2).
 TEST(OdeBlock, TiltsIntoTheSurfaceLayerAtTheRecommendedSetting) {
   const double expected = 1e-10 * f_t * (1. + 0.25);
-  EXPECT_NEAR(creep(reference::make_ode, 0., 0.5, 1e-3, "recommended", 1., 3.), expected,
+  EXPECT_NEAR(creep(reference::ode_peer.make, 0., 0.5, 1e-3, "recommended", 1., 3.), expected,
               0.01 * expected);
 }
 
@@ -61,7 +61,8 @@ TEST(OdeBlock, TiltsIntoTheSurfaceLayerAtTheRecommendedSetting) {
 TEST(OdeBlock, IsPredictedFromThePointsThatCarryIt) {
   const double pull = g * std::sin(angle);
   const auto box = sloped_block(angle, 0.3, 0.5, 1e-3);
-  EXPECT_NEAR(reference::ode_creep(box).value().downhill, 1e-10 * pull / 4., 1e-9 * 1e-10 * pull);
+  EXPECT_NEAR(reference::ode_peer.creep(box).value().downhill, 1e-10 * pull / 4.,
+              1e-9 * 1e-10 * pull);
 
   auto six = box;
   six.robots[0].base.shapes.clear();
@@ -69,36 +70,38 @@ TEST(OdeBlock, IsPredictedFromThePointsThatCarryIt) {
     for (const double y : {-0.1, 0.1})
       for (const double z : {-0.05, 0.05}) six.robots[0].base.boundary_points.push_back({x, y, z});
   const double expected = 1e-10 * pull / 6.;
-  EXPECT_NEAR(reference::ode_creep(six).value().downhill, expected, 1e-9 * expected);
-  const auto engine = reference::make_ode(six);
+  EXPECT_NEAR(reference::ode_peer.creep(six).value().downhill, expected, 1e-9 * expected);
+  const auto engine = reference::ode_peer.make(six);
   EXPECT_NEAR(creep_speed(*engine, slope_axes(angle, 0.3).downhill, 1e-3, 1., 2.), expected,
               0.01 * expected);
 
   auto cylinder = box, two = box;
   cylinder.robots[0].base.shapes[0].geometry = simulation::Cylinder{0.1, 0.1};
   two.robots[0].base.shapes.push_back(box.robots[0].base.shapes[0]);
-  for (const auto& shapes : {cylinder, two}) EXPECT_FALSE(reference::ode_creep(shapes));
+  for (const auto& shapes : {cylinder, two}) EXPECT_FALSE(reference::ode_peer.creep(shapes));
 }
 
 // The tilt too: (h/l)^2 = 1/4.
 TEST(OdeBlock, IsPredictedWithItsTiltIntoTheSurfaceLayer) {
   const double expected = 1e-10 * f_t * 1.25;
   EXPECT_NEAR(
-      reference::ode_creep(sloped_block(angle, 0., 0.5, 1e-3, "recommended")).value().downhill,
+      reference::ode_peer.creep(sloped_block(angle, 0., 0.5, 1e-3, "recommended")).value().downhill,
       expected, 1e-6 * expected);
 }
 
 TEST(OdeBlock, SticksAltogetherAcrossItsFrictionBox) {
   // tan 15 deg = 0.268 > mu: a cone slides, a box of half width mu holds up to mu sqrt(2) = 0.283.
-  EXPECT_LT(std::abs(creep(reference::make_ode, 45. * degree, 0.2, 1e-3, "default", 1., 2.)), 1e-9);
-  EXPECT_GT(creep(reference::make_ode, 0., 0.2, 1e-3, "default", 1., 2.), 0.1);
+  EXPECT_LT(std::abs(creep(reference::ode_peer.make, 45. * degree, 0.2, 1e-3, "default", 1., 2.)),
+            1e-9);
+  EXPECT_GT(creep(reference::ode_peer.make, 0., 0.2, 1e-3, "default", 1., 2.), 0.1);
 }
 
 // Four corners are 12 rows for 6 degrees of freedom, and at azimuth 0 they load each other in
 // pairs: Dantzig's method meets a step of length 0 and says so, to the user of the run and not to
 // stderr.
 TEST(OdeBlock, TellsOfTheSolversTroubleOnceAndPrintsNothing) {
-  const auto engine = reference::make_ode(sloped_block(10. * degree, 0., 0.2, 1e-3, "default"));
+  const auto engine =
+      reference::ode_peer.make(sloped_block(10. * degree, 0., 0.2, 1e-3, "default"));
   testing::internal::CaptureStderr();
   for (int step = 0; step < 500; ++step) ASSERT_TRUE(engine->step().ok());
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
@@ -112,7 +115,7 @@ TEST(QuickStepBlock, CreepsAsMeasuredElsewhere) {
   const auto creep_of_seed_0 = [](double deltat) {
     simulation::Experiment experiment = sloped_block(angle, 0., 0.5, deltat);
     experiment.seed = 0;
-    const auto engine = reference::make_ode_quickstep(experiment);
+    const auto engine = reference::ode_quickstep_peer.make(experiment);
     return creep_speed(*engine, slope_axes(angle, 0.).downhill, deltat, 5., 20.);
   };
   EXPECT_NEAR(creep_of_seed_0(1e-3), 3.1e-5, 0.05 * 3.1e-5);
@@ -120,12 +123,12 @@ TEST(QuickStepBlock, CreepsAsMeasuredElsewhere) {
 }
 
 TEST(QuickStepBlock, ConvergesAtOneHundredIterations) {
-  EXPECT_LT(creep(reference::make_ode_quickstep, 0., 0.5, 1e-3, "recommended", 1., 2.), 1e-9);
+  EXPECT_LT(creep(reference::ode_quickstep_peer.make, 0., 0.5, 1e-3, "recommended", 1., 2.), 1e-9);
 }
 
 TEST(BulletBlock, CreepsNoFasterThanMeasuredElsewhere) {
   for (const char* settings : {"default", "matched"})
-    EXPECT_LT(std::abs(creep(reference::make_bullet, 0., 0.5, 1e-3, settings, 5., 10.)), 5e-8)
+    EXPECT_LT(std::abs(creep(reference::bullet_peer.make, 0., 0.5, 1e-3, settings, 5., 10.)), 5e-8)
         << settings;
 }
 
@@ -134,7 +137,8 @@ TEST(BulletBlock, CreepsNoFasterThanMeasuredElsewhere) {
 TEST(BulletBlock, CreepsAsideAsAMultibodyAtTheRecommendedSetting) {
   const auto axes = slope_axes(angle, 0.);
   const auto speed = [&](const Vector3d& direction) {
-    const auto engine = reference::make_bullet(sloped_block(angle, 0., 0.5, 1e-3, "recommended"));
+    const auto engine =
+        reference::bullet_peer.make(sloped_block(angle, 0., 0.5, 1e-3, "recommended"));
     return creep_speed(*engine, direction, 1e-3, 5., 10.);
   };
   EXPECT_NEAR(speed(axes.downhill), -4.8e-6, 0.2e-6);
@@ -144,8 +148,8 @@ TEST(BulletBlock, CreepsAsideAsAMultibodyAtTheRecommendedSetting) {
 TEST(BulletBlock, SlidesWhereAConeSlides) {
   const double a = g * (std::sin(angle) - 0.2 * std::cos(angle));
   for (const char* settings : {"default", "recommended", "matched"})
-    EXPECT_NEAR(creep(reference::make_bullet, 45. * degree, 0.2, 1e-3, settings, 1., 2.), 1.5 * a,
-                0.02 * 1.5 * a)
+    EXPECT_NEAR(creep(reference::bullet_peer.make, 45. * degree, 0.2, 1e-3, settings, 1., 2.),
+                1.5 * a, 0.02 * 1.5 * a)
         << settings;
 }
 

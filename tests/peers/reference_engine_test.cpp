@@ -11,6 +11,7 @@
 
 #include "reference/engines.h"
 #include "reference/experiment_checks.h"
+#include "reference/ode/engine.h"
 #include "tests/support/reference_scenes.h"
 
 namespace hookpoint {
@@ -199,12 +200,12 @@ TEST(PeerEngine, RunsALegconeOrNamesIt) {
 
 // With a mixing of 0 four corners on a plane are a singular system (docs/reference_engines.md).
 TEST(PeerEngine, NeverRunsOdeWithoutMixing) {
-  for (const char* engine : {"ode", "ode_quickstep"})
+  for (const reference::Peer* ode : {&reference::ode_peer, &reference::ode_quickstep_peer})
     for (const char* settings : {"default", "recommended", "matched"}) {
-      const auto constants = reference::constraint_constants(
-          engine, sloped_block(15. * degree, 0., 0.5, 1e-3, settings));
-      EXPECT_GE(constants.normal_mixing, 1e-10) << engine << settings;
-      EXPECT_GE(constants.tangential_mixing, 1e-10) << engine << settings;
+      const auto constants =
+          ode->constraint_constants(sloped_block(15. * degree, 0., 0.5, 1e-3, settings));
+      EXPECT_GE(constants.normal_mixing, 1e-10) << ode->name << settings;
+      EXPECT_GE(constants.tangential_mixing, 1e-10) << ode->name << settings;
     }
 }
 
@@ -217,13 +218,13 @@ TEST(PeerEngine, DescribesItselfAndEverySetting) {
     std::vector<std::string> settings{"default", "recommended", "matched"};
     if (peer.name == "mujoco") settings.emplace_back("noslip");
     EXPECT_EQ(description.settings, settings);
-    for (const auto& row : reference::settings_table(peer.name)) {
+    for (const auto& row : peer.settings_table()) {
       EXPECT_FALSE(row.default_.empty() || row.recommended.empty() || row.matched.empty())
           << row.quantity;
       EXPECT_FALSE(row.source.empty()) << row.quantity;
     }
   }
-  EXPECT_THROW(reference::settings_table("no_engine"), std::invalid_argument);
+  EXPECT_THROW(reference::peer_named("no_engine"), std::invalid_argument);
 }
 
 }  // namespace

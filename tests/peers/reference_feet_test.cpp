@@ -4,7 +4,9 @@
 
 #include <cmath>
 
+#include "reference/bullet/engine.h"
 #include "reference/engines.h"
+#include "reference/ode/engine.h"
 #include "reference/touching_points.h"
 #include "simulation/engine/dts_engine.h"
 #include "tests/support/reference_scenes.h"
@@ -115,9 +117,9 @@ TEST(PeerFeet, SlideAcrossTheAxesWhereFrictionIsACone) {
       const auto engine = make(sledge(angle, 45. * degree, 0.2, rotor));
       return speed_after(*engine, downhill, 1.);
     };
-    EXPECT_NEAR(speed(reference::make_bullet), coulomb, 1e-3 * coulomb) << rotor;
-    EXPECT_NEAR(speed(reference::make_ode), 0., 1e-8) << rotor;
-    EXPECT_NEAR(speed(reference::make_ode_quickstep), 0., 1e-3) << rotor;
+    EXPECT_NEAR(speed(reference::bullet_peer.make), coulomb, 1e-3 * coulomb) << rotor;
+    EXPECT_NEAR(speed(reference::ode_peer.make), 0., 1e-8) << rotor;
+    EXPECT_NEAR(speed(reference::ode_quickstep_peer.make), 0., 1e-3) << rotor;
   }
 }
 
@@ -165,7 +167,7 @@ TEST(GroundForces, CarryABlockAtRestWithoutTurningIt) {
 TEST(OdeFeet, SlideWithTheFrictionOfTheLoadWithoutFriction) {
   simulation::Experiment experiment = sledge(angle, 0., 0.2, false);
   for (int i = 0; i < 4; ++i) experiment.points.push_back({"p", 0, 0, i});
-  const auto engine = reference::make_ode(experiment);
+  const auto engine = reference::ode_peer.make(experiment);
   engine->publish_details();
   ASSERT_TRUE(run_until(*engine, 1e-3, 0.5));
   const SlopeAxes axes = slope_axes(angle, 0.);
@@ -182,21 +184,21 @@ TEST(OdeFeet, SlideWithTheFrictionOfTheLoadWithoutFriction) {
 TEST(OdeFeet, CreepAtMixingTimesTangentialForce) {
   const Vector3d downhill = slope_axes(angle, 0.).downhill;
   const double f_t = g * std::sin(angle) / 4.;
-  const auto expect = [&](simulation::EngineFactory make, const char* name, const char* settings) {
+  const auto expect = [&](const reference::Peer& peer, const char* settings) {
     const auto experiment = sledge(angle, 0., 0.5, true, settings);
-    const auto engine = make(experiment);
-    const double mixing = reference::constraint_constants(name, experiment).tangential_mixing;
+    const auto engine = peer.make(experiment);
+    const double mixing = peer.constraint_constants(experiment).tangential_mixing;
     EXPECT_NEAR(creep_speed(*engine, downhill, 1e-3, 1., 2.), mixing * f_t, 0.01 * mixing * f_t)
-        << name << settings;
+        << peer.name << settings;
   };
-  expect(reference::make_ode, "ode", "default");
-  expect(reference::make_ode, "ode", "matched");
-  expect(reference::make_ode_quickstep, "ode_quickstep", "matched");
+  expect(reference::ode_peer, "default");
+  expect(reference::ode_peer, "matched");
+  expect(reference::ode_quickstep_peer, "matched");
 }
 
 TEST(BulletFeet, StickAtTheMatchedSetting) {
   const Vector3d downhill = slope_axes(angle, 0.).downhill;
-  const auto engine = reference::make_bullet(sledge(angle, 0., 0.5, true, "matched"));
+  const auto engine = reference::bullet_peer.make(sledge(angle, 0., 0.5, true, "matched"));
   EXPECT_NEAR(creep_speed(*engine, downhill, 1e-3, 1., 2.), 0., 1e-9);
 }
 

@@ -24,7 +24,7 @@ TEST(WiredForce, GivesEveryEngineTheSameMomentum) {
   EXPECT_NEAR(momentum(simulation::make_dts), expected, 1e-12);
   int engines = 0;
   for (const reference::Peer& peer : reference::peers()) {
-    if (!peer.describe().found) continue;
+    if (!peer.found()) continue;
     ++engines;
     EXPECT_NEAR(momentum(peer.make), expected, 1e-9) << peer.name;
   }

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "language/document.h"
+#include "reference/engines.h"
 #include "simulation/scene/load.h"
 #include "simulation/scene/schema.h"
 #include "view/schema.h"
@@ -20,7 +21,7 @@ namespace hookpoint {
 inline const language::Schema& experiment_schema() {
   static const language::Schema schema = [] {
     language::Schema classes;
-    simulation::add_experiment_classes(classes);
+    simulation::add_experiment_classes(classes, reference::peer_choices());
     view::add_display_classes(classes);
     return classes;
   }();

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "language/document.h"
+#include "reference/engines.h"
 #include "simulation/scene/load.h"
 #include "simulation/scene/schema.h"
 
@@ -20,7 +21,7 @@ inline simulation::Experiment load_scene(const std::string& file,
                                          const std::vector<language::Override>& overrides = {}) {
   const std::filesystem::path configs = std::filesystem::path(HOOKPOINT_SOURCE_DIR) / "configs";
   language::Schema schema;
-  simulation::add_experiment_classes(schema);
+  simulation::add_experiment_classes(schema, reference::peer_choices());
   language::Library library(schema, {configs});
   language::Diagnostics diagnostics;
   const auto root = library.evaluate(configs / file, {parameters, overrides}, diagnostics);

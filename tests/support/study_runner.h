@@ -12,6 +12,7 @@
 #include <sstream>
 #include <string>
 
+#include "reference/engines.h"
 #include "simulation/scene/schema.h"
 #include "studies/run/run.h"
 #include "studies/schema.h"
@@ -79,7 +80,7 @@ class StudyRunner : public ::testing::Test {
   StudyRunner() {
     std::string pattern = (std::filesystem::temp_directory_path() / "hookpoint-XXXXXX").string();
     folder_ = mkdtemp(pattern.data());
-    simulation::add_experiment_classes(schema_);
+    simulation::add_experiment_classes(schema_, reference::peer_choices());
     add_study_classes(schema_);
     write("scene.hook", slider_scene);
     engines_["dts"] = {{"dts", "test", "double", true, {}, {}}, make, nullptr};

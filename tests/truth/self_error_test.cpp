@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "reference/engines.h"
+#include "reference/ode/engine.h"
 #include "simulation/engine/dts_engine.h"
 #include "simulation/run/world.h"
 #include "studies/metric.h"
@@ -64,11 +65,11 @@ TEST(ReferenceError, IsThatOfAPeerTooWhereNothingTouches) {
   simulation::Experiment experiment = *load_text(falling).experiment;
   // ODE's step is semi-implicit Euler's, too.
   experiment.engine = "ode";
-  EXPECT_NEAR(measure("reference_error", experiment, reference::make_ode, 0.01).value(),
+  EXPECT_NEAR(measure("reference_error", experiment, reference::ode_peer.make, 0.01).value(),
               9.81 * 0.01 / 2., 1e-9);
   experiment = *load_text(over_ground).experiment;
   experiment.engine = "ode";
-  EXPECT_FALSE(measure("reference_error", experiment, reference::make_ode, 0.01));
+  EXPECT_FALSE(measure("reference_error", experiment, reference::ode_peer.make, 0.01));
 }
 
 TEST(IntegratorMetrics, CountWhatFixedStepsCost) {

@@ -12,7 +12,7 @@ namespace {
 
 TEST(DocumentedTables, TheCreepOfEveryPeerIsThatOfItsStudy) {
   for (const auto& peer : reference::known_peers())
-    if (!peer.describe().found) GTEST_SKIP() << "engine " << peer.name << " is not found";
+    if (!peer.found()) GTEST_SKIP() << "engine " << peer.name << " is not found";
   const testing::Workplace work;
   const std::string command = "HOOKPOINT='" HOOKPOINT_BINARY_DIR
                               "/hookpoint' '" HOOKPOINT_SOURCE_DIR

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "language/document.h"
+#include "reference/engines.h"
 #include "simulation/scene/schema.h"
 #include "studies/schema.h"
 #include "view/schema.h"
@@ -12,7 +13,7 @@ namespace {
 
 TEST(JoinedSchema, HasNoProblems) {
   language::Schema schema;
-  simulation::add_experiment_classes(schema);
+  simulation::add_experiment_classes(schema, reference::peer_choices());
   view::add_display_classes(schema);
   studies::add_study_classes(schema);
   EXPECT_EQ(language::schema_problems(schema), std::vector<std::string>{});

@@ -5,7 +5,9 @@
 
 #include <cmath>
 
+#include "reference/bullet/engine.h"
 #include "reference/engines.h"
+#include "reference/ode/engine.h"
 #include "simulation/analysis/convex_hull.h"
 #include "simulation/analysis/stability.h"
 #include "simulation/run/energy_watch.h"
@@ -258,8 +260,8 @@ TEST(EnergyWatch, SaysNothingWhereTheGroundDoesNotTell) {
       "{ material = m; } Robot b { Base.mobile { location = 0, 0, 0.051; velocity = 0, 0, -1; "
       "Shape.Box { dimensions = 0.1, 0.1, 0.1; mass = 1; } } } }";
   EXPECT_EQ(finding(soft, 400), "");
-  EXPECT_EQ(finding(soft, 400, reference::make_ode), "");
-  EXPECT_EQ(finding(soft, 400, reference::make_bullet), "");
+  EXPECT_EQ(finding(soft, 400, reference::ode_peer.make), "");
+  EXPECT_EQ(finding(soft, 400, reference::bullet_peer.make), "");
   EXPECT_EQ(
       finding("World w { contact = impulse; Terrain.Flat f { } Robot b { Base.mobile { "
               "location = 0, 0, 0.3; Shape.Box { dimensions = 0.2, 0.2, 0.1; mass = 1; } } } }",

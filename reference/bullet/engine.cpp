@@ -1,0 +1,39 @@
+#include "reference/bullet/engine.h"
+
+#include <array>
+
+#include "reference/bullet/settings.h"
+#include "reference/bullet/world.h"
+#include "reference/static_depth.h"
+
+namespace hookpoint::reference {
+namespace {
+
+using enum simulation::EngineGap::Handling;
+
+/// What Bullet lacks.
+constexpr auto gaps = std::to_array<OwnGap>({
+    single_friction_gap,
+});
+
+}  // namespace
+
+constinit const Peer bullet_peer{
+    .name = "bullet",
+    .library = "Bullet",
+    .package = "libbullet-dev",
+    .version = HOOKPOINT_BULLET_VERSION,
+    .gaps = gaps,
+    .make = make_engine<bullet_peer>,
+    .make_world = make_bullet_world,
+    .settings_table = bullet_settings_table,
+    .constraint_constants =
+        [](const simulation::Experiment& experiment) {
+          return bullet_settings(settings_of(experiment, bullet_peer), experiment.deltat,
+                                 ground_material(experiment))
+              .constraint;
+        },
+    .static_softness = matched_softness,
+};
+
+}  // namespace hookpoint::reference

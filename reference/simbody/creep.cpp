@@ -1,0 +1,49 @@
+#include "reference/simbody/creep.h"
+
+#include "reference/simbody/engine.h"
+#include "reference/simbody/settings.h"
+#include "reference/steady_creep.h"
+#include "reference/touching_points.h"
+
+namespace hookpoint::reference {
+namespace {
+
+/// x with 10 x^3 - 15 x^4 + 6 x^5 = `share`, which is within 0 and 1.
+double stiction_speed(double share) {
+  double low = 0., high = 1.;
+  for (int i = 0; i < 60; ++i) {
+    const double x = 0.5 * (low + high);
+    (x * x * x * (10. + x * (6. * x - 15.)) < share ? low : high) = x;
+  }
+  return 0.5 * (low + high);
+}
+
+}  // namespace
+
+std::optional<simulation::CreepVelocity> simbody_creep(const simulation::Experiment& experiment) {
+  auto body = resting_body(experiment);
+  if (!body) return std::nullopt;
+  const SimbodySettings settings = simbody_settings(settings_of(experiment, simbody_peer));
+  const auto material = ground_material(experiment);
+  if (!settings.penalty) {
+    // All points at one speed have one coefficient, so that how they share the load is no matter.
+    const double share = body->pull / (material.static_friction * body->press);
+    if (!(share < 1.)) return std::nullopt;
+    return simulation::CreepVelocity{settings.transition_velocity * stiction_speed(share), 0.};
+  }
+  if (touches_by_points(experiment, 0))  // each is a ball, which touches below the point
+    for (Vector3d& arm : body->arms) arm -= point_ball_radius * body->normal;
+  const auto loads = normal_loads(*body, body->pull);
+  if (!loads) return std::nullopt;
+  const double damping = material.tangential_damping;
+  std::vector<FrictionDamper> dampers;
+  for (const Vector3d& arm : body->arms) {
+    const double load = load_at(*body, *loads, arm);
+    if (!(load > 0.)) return std::nullopt;  // the body would tip
+    dampers.push_back({damping, damping, material.kinetic_friction * load});
+  }
+  const auto creep = steady_creep(*body, dampers);
+  return creep ? lasting(*creep, experiment) : std::nullopt;
+}
+
+}  // namespace hookpoint::reference
