@@ -6,7 +6,7 @@
 
 #include "application/installation.h"
 #include "control/plugin/plugin.h"
-#include "language/characters.h"
+#include "unicode/display.h"
 #include "output/text/terminal.h"
 #include "reference/creep.h"
 #include "reference/engines.h"

@@ -6,7 +6,7 @@
 #include "cli/exit_status.h"
 #include "cli/opened_movie.h"
 #include "cli/run_loop.h"
-#include "language/characters.h"
+#include "unicode/display.h"
 #include "output/text/json.h"
 #include "output/text/number.h"
 #include "simulation/wiring/port_search.h"

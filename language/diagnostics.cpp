@@ -5,7 +5,7 @@
 #include <ostream>
 #include <string_view>
 
-#include "language/characters.h"
+#include "unicode/display.h"
 
 namespace hookpoint::language {
 namespace {

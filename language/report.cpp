@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "language/characters.h"
+#include "unicode/display.h"
 
 namespace hookpoint::language {
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <iterator>
 
-#include "language/characters.h"
+#include "unicode/display.h"
 #include "language/syntax/token.h"
 #include "language/units.h"
 

@@ -4,7 +4,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "language/characters.h"
+#include "unicode/display.h"
 #include "language/names.h"
 #include "language/schema/describe.h"
 #include "language/units.h"

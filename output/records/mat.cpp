@@ -10,7 +10,7 @@
 #include "output/records/hdf5_times.h"
 #include "output/records/matlab_names.h"
 #include "output/records/spool.h"
-#include "output/text/unicode.h"
+#include "unicode/utf8.h"
 
 namespace hookpoint::output {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "output/text/unicode.h"
+#include "unicode/utf8.h"
 
 namespace hookpoint::output {
 namespace {

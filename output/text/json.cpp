@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "output/text/number.h"
-#include "output/text/unicode.h"
+#include "unicode/utf8.h"
 
 namespace hookpoint::output {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "language/characters.h"
+#include "unicode/display.h"
 #include "output/text/json.h"
 #include "output/text/number.h"
 #include "studies/compare/comparison.h"

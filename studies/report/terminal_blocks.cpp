@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "language/characters.h"
+#include "unicode/display.h"
 
 namespace hookpoint::studies {
 namespace {

@@ -11,7 +11,7 @@
 #include "output/records/mcap_records.h"
 #include "output/records/spool.h"
 #include "output/records/wolfram_text.h"
-#include "output/text/unicode.h"
+#include "unicode/utf8.h"
 #include "tests/support/command.h"
 #include "tests/support/record_scene.h"
 #include "tests/support/shifted_clock.h"

@@ -1,4 +1,4 @@
-#include "output/text/unicode.h"
+#include "unicode/utf8.h"
 
 #include <utf8proc.h>
 

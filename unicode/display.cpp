@@ -1,5 +1,5 @@
 // The one file of this folder that sees utf8proc.
-#include "language/characters.h"
+#include "unicode/display.h"
 
 #include <utf8proc.h>
 
