@@ -1,35 +1,53 @@
+// The one file that sees utf8proc.
 #include "unicode/utf8.h"
 
 #include <utf8proc.h>
 
 #include <algorithm>
 
-namespace hookpoint::output {
+namespace hookpoint::unicode {
+namespace {
+
+/// Takes the first character off `text`, or the bytes that stand where one should be.
+Character take_character(std::string_view& text) {
+  const Character character = first_character(text);
+  std::size_t length = std::max<std::size_t>(character.length, 1);
+  if (character.length == 0)
+    while (length < text.size() && continues_character(text[length])) ++length;
+  text.remove_prefix(length);
+  return character;
+}
+
+}  // namespace
+
+Character first_character(std::string_view text) {
+  if (text.empty()) return {};
+  const auto lead = static_cast<unsigned char>(text[0]);
+  if (lead < 0x80) return {1, lead, 1, lead < 0x20 || lead == 0x7f};
+  constexpr std::size_t longest_character = 4;
+  utf8proc_int32_t point = 0;
+  const utf8proc_ssize_t length = utf8proc_iterate(
+      reinterpret_cast<const utf8proc_uint8_t*>(text.data()),
+      static_cast<utf8proc_ssize_t>(std::min(text.size(), longest_character)), &point);
+  if (length <= 0) return {};
+  return {static_cast<std::size_t>(length), static_cast<char32_t>(point),
+          static_cast<std::size_t>(utf8proc_charwidth(point)),
+          utf8proc_category(point) == UTF8PROC_CATEGORY_CC};
+}
 
 std::u32string code_points(std::string_view utf8) {
-  constexpr char32_t replacement = 0xfffd;
   std::u32string points;
-  const auto continues = [&](std::size_t i) {
-    return i < utf8.size() && (static_cast<unsigned char>(utf8[i]) & 0xc0U) == 0x80U;
-  };
-  for (std::size_t i = 0; i < utf8.size();) {
-    utf8proc_int32_t point = 0;
-    const auto length = utf8proc_iterate(reinterpret_cast<const utf8proc_uint8_t*>(utf8.data() + i),
-                                         static_cast<utf8proc_ssize_t>(utf8.size() - i), &point);
-    points += length > 0 ? static_cast<char32_t>(point) : replacement;
-    i += static_cast<std::size_t>(std::max<utf8proc_ssize_t>(length, 1));
-    while (length <= 0 && continues(i)) ++i;
-  }
+  while (!utf8.empty()) points += take_character(utf8).point;
   return points;
 }
 
 std::string repaired(std::string_view utf8) {
+  constexpr std::string_view replacement = "\xef\xbf\xbd";
   std::string text;
-  for (const char32_t point : code_points(utf8)) {
-    utf8proc_uint8_t bytes[4];
-    const utf8proc_ssize_t length =
-        utf8proc_encode_char(static_cast<utf8proc_int32_t>(point), bytes);
-    text.append(reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(length));
+  while (!utf8.empty()) {
+    const std::string_view rest = utf8;
+    const Character character = take_character(utf8);
+    text += character.length > 0 ? rest.substr(0, character.length) : replacement;
   }
   return text;
 }
@@ -47,4 +65,4 @@ std::u16string utf16(std::string_view utf8) {
   return units;
 }
 
-}  // namespace hookpoint::output
+}  // namespace hookpoint::unicode

@@ -3,9 +3,10 @@
 #include <array>
 #include <iterator>
 
-#include "unicode/display.h"
 #include "language/syntax/token.h"
 #include "language/units.h"
+#include "unicode/display.h"
+#include "unicode/utf8.h"
 
 namespace hookpoint::language {
 namespace {
@@ -170,8 +171,8 @@ class Lexer {
     while (end < text_.size() && static_cast<unsigned char>(text_[end]) >= 0x80) ++end;
     constexpr std::size_t longest = 24;
     error(at_, end - at_,
-          "unexpected `" + std::string(first_characters(text_.substr(at_, end - at_), longest)) +
-              "`");
+          "unexpected `" +
+              std::string(unicode::first_characters(text_.substr(at_, end - at_), longest)) + "`");
     add(TokenKind::unknown, end - at_);
   }
 
@@ -207,7 +208,7 @@ bool check_text(const SourceFile& file, Report& report) {
   for (std::size_t i = 0; i < text.size();) {
     const auto c = static_cast<unsigned char>(text[i]);
     if (c >= 0x80) {
-      const std::size_t length = first_character(std::string_view(text).substr(i)).length;
+      const std::size_t length = unicode::first_character(std::string_view(text).substr(i)).length;
       if (length == 0) {
         report.error({&file, i, 1}, "the file is not a text file in UTF-8: unexpected byte here");
         return false;

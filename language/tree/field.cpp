@@ -4,10 +4,10 @@
 #include <charconv>
 #include <cmath>
 
-#include "unicode/display.h"
 #include "language/names.h"
 #include "language/schema/describe.h"
 #include "language/units.h"
+#include "unicode/display.h"
 
 namespace hookpoint::language {
 namespace {
@@ -194,7 +194,7 @@ bool FieldMaker::stands_for_number(std::string_view word) {
 /// A text is shown on terminals, in figures and in pages, and names files: none of them may take it
 /// for a command.
 bool FieldMaker::check_text(const Value& value) {
-  if (find_control(value.text) == std::string::npos) return true;
+  if (unicode::find_control(value.text) == std::string::npos) return true;
   return fail(value.position, quoted(schema_.name) +
                                   " takes characters that can be seen, on one line: no line end, "
                                   "tab or other control character");

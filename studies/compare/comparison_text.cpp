@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "unicode/display.h"
 #include "output/text/json.h"
 #include "output/text/number.h"
 #include "studies/compare/comparison.h"
 #include "studies/report/terminal_blocks.h"
+#include "unicode/display.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -32,7 +32,7 @@ std::string listed(const std::string& heading, CellRow titles, const std::vector
                     rows.begin() + static_cast<long>(std::min(rows.size(), most_listed)));
   for (CellRow& row : group.rows) row.front().text.insert(0, "  ");
   group.measure();
-  std::string text = "\n" + language::printable(heading) + "\n" + print_groups({&group}, color);
+  std::string text = "\n" + unicode::printable(heading) + "\n" + print_groups({&group}, color);
   if (rows.size() > most_listed)
     text += fmt::format("  and {} more (--json lists all)\n", rows.size() - most_listed);
   return text;
@@ -200,7 +200,7 @@ void trajectories_json(output::JsonWriter& json,
 std::string comparison_text(const Comparison& comparison, const TableStyle& style) {
   std::string text = "first:  " + comparison.first + "\nsecond: " + comparison.second + "\n";
   for (const std::string& note : comparison.notes)
-    text += "note: " + language::printable(note) + "\n";
+    text += "note: " + unicode::printable(note) + "\n";
   text += settings_part("experiment", comparison.experiment, style.color);
   text += settings_part("provenance", comparison.provenance, style.color);
   if (comparison.experiment.empty() && comparison.provenance.empty())
