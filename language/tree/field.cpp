@@ -1,7 +1,6 @@
 #include "language/tree/field.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "language/names.h"
@@ -120,12 +119,7 @@ std::string FieldMaker::written_unit() const {
       const Instruction& instruction = syntax.code[at];
       if (instruction.operation != Operation::push_number) continue;
       if (syntax.quantities[instruction.operand].dimension != field_.dimension) continue;
-      const std::string_view number = context_.evaluator.text(instruction.span);
-      double value = 0.;
-      const auto [end, error] =
-          std::from_chars(number.data(), number.data() + number.size(), value);
-      const std::string_view rest = number.substr(static_cast<std::size_t>(end - number.data()));
-      return std::string(rest.substr(std::min(rest.find_first_not_of(" \t"), rest.size())));
+      return std::string(context_.evaluator.text(syntax.units[instruction.operand]));
     }
   }
   return "";
