@@ -7,7 +7,7 @@
 #include <random>
 #include <set>
 
-#include "language/tree/field.h"
+#include "language/schema/describe.h"
 #include "simulation/scene/schema.h"
 #include "tests/support/drawn.h"
 

@@ -9,12 +9,12 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <sstream>
 #include <string>
 
 #include "simulation/scene/schema.h"
 #include "studies/run/run.h"
 #include "studies/schema.h"
+#include "tests/support/text.h"
 
 namespace hookpoint::studies {
 
@@ -95,9 +95,7 @@ class StudyRunner : public ::testing::Test {
     std::ofstream(folder_ / name) << text;
   }
   std::string read(const std::filesystem::path& path) const {
-    std::stringstream text;
-    text << std::ifstream(path).rdbuf();
-    return text.str();
+    return hookpoint::testing::read_file(path);
   }
   std::optional<StudyPlan> plan(const std::string& text, const PlanOptions& options = {}) {
     write("study.hook", text);
