@@ -9,6 +9,7 @@
 #include "simulation/identity.h"
 #include "simulation/scene/load.h"
 #include "studies/compare/wall.h"
+#include "studies/plan/plan_parts.h"
 #include "studies/plan/plan_values.h"
 #include "studies/plan/scene_settings.h"
 #include "studies/plan/step_warning.h"
@@ -19,19 +20,6 @@ namespace {
 using language::Diagnostics;
 using language::Object;
 
-SubjectPlan plan_subject(const Object& block) {
-  const auto word = [&](const char* field) {
-    return block.find(field) != nullptr ? block.word(field) : std::string();
-  };
-  SubjectPlan subject;
-  subject.info.name = block.name;
-  subject.engine = word("engine");
-  subject.contact = word("contact");
-  subject.integrator = word("integrator");
-  subject.settings = word("settings");
-  return subject;
-}
-
 class WallPlanner {
  public:
   WallPlanner(WallPlan& plan, language::Library& library, const PlanOptions& options,
@@ -39,7 +27,7 @@ class WallPlanner {
       : plan_(plan), library_(library), options_(options), diagnostics_(diagnostics) {}
 
   void add_subject(const Object& block) {
-    plan_.study.subjects.push_back(plan_subject(block));
+    plan_.study.subjects.push_back(subject_of(block));
     subjects_.push_back(&block);
   }
 

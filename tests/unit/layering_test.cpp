@@ -28,7 +28,7 @@ const std::map<std::string, Names> may_include{
     {"simulation",
      {"math", "unicode", "dts", "contact", "integrators", "language", "control", "output"}},
     {"reference", {"math", "contact", "simulation"}},
-    {"studies", {"math", "unicode", "contact", "integrators", "language", "output", "simulation"}},
+    {"studies", {"math", "unicode", "contact", "language", "output", "simulation"}},
     {"view", {"math", "unicode", "language", "output", "simulation"}},
     {"examples", {"control"}},
     {"application",
