@@ -52,7 +52,8 @@ std::string settings_part(const char* heading, const std::vector<SettingDifferen
                 {left("what"), left("first"), left("second")}, rows, color);
 }
 
-/// The row where the metric differs most, relative to what it is.
+/// The row with the largest relative difference of the metric; a value that only one run has is
+/// larger than any. Null without differences.
 const ValueDifference* worst_of(const MetricComparison& metric) {
   const auto badness = [](const ValueDifference& value) {
     return value.first && value.second ? value.relative : HUGE_VAL;

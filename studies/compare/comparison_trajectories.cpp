@@ -16,7 +16,7 @@ namespace {
 using output::CsvTable;
 using Column = std::vector<double>;
 
-/// Numbers of a column; what is none ("", a word) is not a number.
+/// Numbers of a column, NaN for a cell that is none ("", a word).
 Column column(const CsvTable& table, std::size_t index) {
   Column values;
   for (const auto& row : table.rows) {

@@ -35,7 +35,8 @@ std::string runs_text(const SubjectSummary& counts) {
   return text;
 }
 
-/// Clicked, it leaves in the table of rows those of this study and subject.
+/// The overview's cell of a study and a subject. A click on it filters the table of rows to theirs
+/// (report/page/report.js).
 std::string cell_html(const MatrixStudy& study, const std::string& subject) {
   const MatrixCell cell = matrix_cell(study, subject);
   if (!cell.there) return "<td class=\"soft\">·</td>";
