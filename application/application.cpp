@@ -6,7 +6,6 @@
 
 #include "application/installation.h"
 #include "control/plugin/plugin.h"
-#include "language/characters.h"
 #include "output/text/terminal.h"
 #include "reference/engines.h"
 #include "simulation/engine/dts_engine.h"
@@ -14,6 +13,7 @@
 #include "simulation/scene/schema.h"
 #include "studies/compare/wall.h"
 #include "studies/schema.h"
+#include "unicode/display.h"
 #include "view/schema.h"
 
 namespace hookpoint::application {
@@ -219,7 +219,7 @@ void print_diagnostics(const language::Diagnostics& diagnostics) {
 }
 
 void print_error(const std::string& message) {
-  std::cerr << "hookpoint: error: " << language::printable(message) << '\n';
+  std::cerr << "hookpoint: error: " << unicode::printable(message) << '\n';
 }
 
 }  // namespace hookpoint::application

@@ -6,10 +6,10 @@
 #include "cli/exit_status.h"
 #include "cli/opened_movie.h"
 #include "cli/run_loop.h"
-#include "language/characters.h"
 #include "output/text/json.h"
 #include "output/text/number.h"
 #include "simulation/wiring/port_search.h"
+#include "unicode/display.h"
 
 namespace hookpoint::cli {
 namespace {
@@ -41,12 +41,12 @@ void print_table(const simulation::WorldState& state, const std::vector<Port>& p
 
 void print_movie(const output::MovieReader& movie) {
   const output::MovieHeader& header = movie.header();
-  fmt::print("movie {}, {}\n", language::printable(header.name),
+  fmt::print("movie {}, {}\n", unicode::printable(header.name),
              movie.complete() ? "complete" : "cut off: its last instants may be missing");
   for (const auto& [key, value] : header.annotations)
-    fmt::print("  {:<12} {}\n", language::printable(key), language::printable(value));
+    fmt::print("  {:<12} {}\n", unicode::printable(key), unicode::printable(value));
   for (const output::MovieFile& file : header.files)
-    fmt::print("  {:<12} {} ({} bytes)\n", "file", language::printable(file.name),
+    fmt::print("  {:<12} {} ({} bytes)\n", "file", unicode::printable(file.name),
                file.content.size());
   const std::vector<double>& times = movie.times();
   fmt::print("  {:<12} {}, {} s apart\n", "instants", times.size(),

@@ -5,7 +5,8 @@
 #include <ostream>
 #include <string_view>
 
-#include "language/characters.h"
+#include "unicode/display.h"
+#include "unicode/utf8.h"
 
 namespace hookpoint::language {
 namespace {
@@ -20,16 +21,14 @@ constexpr std::array<Style, 3> styles{
     {{"error", "\033[1;31m"}, {"warning", "\033[1;35m"}, {"note", "\033[1;36m"}}};
 constexpr std::string_view bold = "\033[1m", plain = "\033[0m";
 
-bool continuation(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
-
 /// Blanks as wide as `text`, tabs kept, so that the caret stands below its character.
 std::string blanks(std::string_view text) {
   std::string result;
   for (std::size_t tab = text.find('\t'); tab != std::string_view::npos; tab = text.find('\t')) {
-    result.append(display_width(text.substr(0, tab)), ' ').append(1, '\t');
+    result.append(unicode::display_width(text.substr(0, tab)), ' ').append(1, '\t');
     text.remove_prefix(tab + 1);
   }
-  return result.append(display_width(text), ' ');
+  return result.append(unicode::display_width(text), ' ');
 }
 
 /// A line, or the part of a long one around `at`.
@@ -43,12 +42,12 @@ Excerpt cut_around(std::string_view line, std::size_t at) {
   Excerpt excerpt{line, at};
   if (line.size() > longest_excerpt && at > longest_excerpt / 2) {
     std::size_t cut = at - longest_excerpt / 2;
-    while (cut < at && continuation(line[cut])) ++cut;
+    while (cut < at && unicode::continues_character(line[cut])) ++cut;
     excerpt = {line.substr(cut), at - cut, cut > 0};
   }
   if (excerpt.text.size() > longest_excerpt) {
     std::size_t end = longest_excerpt;
-    while (end > excerpt.at && continuation(excerpt.text[end])) --end;
+    while (end > excerpt.at && unicode::continues_character(excerpt.text[end])) --end;
     excerpt.text = excerpt.text.substr(0, end);
     excerpt.cut_behind = true;
   }
@@ -65,9 +64,11 @@ void print_excerpt(std::ostream& out, const Position& position, std::string_view
   const Excerpt excerpt = cut_around(line, std::min(offset, line.size()));
   const std::string_view before = excerpt.cut_before ? left_out : "";
   const std::string_view behind = excerpt.cut_behind ? left_out : "";
-  const std::size_t width = display_width(excerpt.text.substr(excerpt.at, position.length));
+  const std::size_t width =
+      unicode::display_width(excerpt.text.substr(excerpt.at, position.length));
   const std::string number = std::to_string(place.line);
-  out << ' ' << number << " | " << before << printable(excerpt.text, true) << behind << '\n';
+  out << ' ' << number << " | " << before << unicode::printable(excerpt.text, true) << behind
+      << '\n';
   out << std::string(number.size() + 1, ' ') << " | " << std::string(before.size(), ' ')
       << blanks(excerpt.text.substr(0, excerpt.at)) << colour << '^'
       << std::string(std::max<std::size_t>(width, 1) - 1, '~') << (colour.empty() ? "" : plain)
@@ -111,11 +112,11 @@ void Diagnostics::print(std::ostream& out, bool colours) const {
     const bool placed = diagnostic.position.file != nullptr;
     if (placed) {
       const LineColumn place = line_and_column(diagnostic.position);
-      out << (colours ? bold : "") << printable(diagnostic.position.file->path) << ':' << place.line
-          << ':' << place.column << ": ";
+      out << (colours ? bold : "") << unicode::printable(diagnostic.position.file->path) << ':'
+          << place.line << ':' << place.column << ": ";
     }
-    out << colour << style.name << ": " << (colours ? plain : "") << printable(diagnostic.message)
-        << '\n';
+    out << colour << style.name << ": " << (colours ? plain : "")
+        << unicode::printable(diagnostic.message) << '\n';
     if (placed) print_excerpt(out, diagnostic.position, colour);
   }
   if (errors_ > limit) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "unicode/utf8.h"
+
 namespace hookpoint::language {
 
 void index_lines(SourceFile& file) {
@@ -26,9 +28,7 @@ LineColumn line_and_column(const Position& position) {
   const auto line = static_cast<std::size_t>(after - starts.begin());
   const std::string_view before =
       std::string_view(position.file->text).substr(starts[line - 1], offset - starts[line - 1]);
-  const auto continuation = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; };
-  return {line, before.size() -
-                    static_cast<std::size_t>(std::ranges::count_if(before, continuation)) + 1};
+  return {line, unicode::code_points(before).size() + 1};
 }
 
 }  // namespace hookpoint::language

@@ -13,9 +13,10 @@ using simulation::Pose;
 
 /// Part of the weight [N], or of its moment about 1 m [N m], below which gravity does not load a
 /// joint: rounding.
-constexpr double unloaded = 1e-9;
+constexpr double rounding_load = 1e-9;
 
-/// One rigid body cannot do these, and neither can a robot that is to stand like one.
+/// Whether the scene is one robot on a plane, without forces, that does not turn at the start and
+/// touches the ground with points (not balls) of its base.
 bool alone_on_plane(const RunContext& context) {
   const simulation::Experiment& experiment = *context.experiment;
   return experiment.terrain && experiment.robots.size() == 1 && experiment.forces.empty() &&
@@ -48,7 +49,7 @@ bool unloaded_joints(const simulation::ChainSpec& chain, const Vector3d& g, cons
     }
     const bool turns = link.joint == simulation::JointKind::revolute;
     const Vector3d axis = rotate(first[joint].orientation, Vector3d{0., 0., 1.});
-    if (std::abs(dot(axis, turns ? moment : force)) > unloaded * weight) return false;
+    if (std::abs(dot(axis, turns ? moment : force)) > rounding_load * weight) return false;
   }
   return true;
 }
@@ -71,8 +72,8 @@ bool one_rigid_body(const RunContext& context) {
 bool stands_as_one_body(const RunContext& context) {
   const simulation::Experiment& experiment = *context.experiment;
   const simulation::RobotSpec& robot = context.robot_spec();
-  const bool level =
-      norm(tangential(experiment.gravity, context.normal)) <= unloaded * norm(experiment.gravity);
+  const bool level = norm(tangential(experiment.gravity, context.normal)) <=
+                     rounding_load * norm(experiment.gravity);
   if (!alone_on_plane(context) || robot.chains.empty() || !level || norm(robot.velocity) > 0. ||
       !experiment.components.empty())
     return false;

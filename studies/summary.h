@@ -9,12 +9,13 @@
 
 namespace hookpoint::studies {
 
+/// What became of a run. Foretold: it stopped on the way, as the Truths about it say that it does.
 enum class RunOutcome { finished, foretold, stopped, skipped, refused };
 
-/// "ok" finished; a status that begins with "skipped" (the engine is not on this machine) or
-/// "refused" (a peer cannot run the scene, and says why) never ran; anything else stopped on the
-/// way: as foretold where all Truths about the row hold, which only a metric of runs that break off
-/// can do.
+/// A row of status "ok" finished; one whose status begins with "skipped" (the engine is not on this
+/// machine) or "refused" (a peer cannot run the scene, and says why) never ran; any other stopped
+/// on the way, as foretold where it has Truths and all of them hold. Of a status alone, nothing is
+/// foretold.
 RunOutcome outcome_of(const RunResult& row);
 RunOutcome outcome_of(const std::string& status);
 

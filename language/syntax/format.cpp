@@ -1,7 +1,6 @@
 #include "language/syntax/format.h"
 
 #include <algorithm>
-#include <charconv>
 #include <memory>
 
 #include "language/syntax/syntax.h"
@@ -258,9 +257,7 @@ class Formatter {
     for (const char c : source) {
       if (c != ' ' && c != '\t') text += c;
     }
-    double value = 0.;
-    const auto [unit, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    const auto digits = static_cast<std::size_t>(unit - text.data());
+    const std::size_t digits = digits_length(text);
     if (digits < text.size()) text.insert(digits, " ");
     return text;
   }

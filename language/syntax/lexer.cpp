@@ -3,9 +3,10 @@
 #include <array>
 #include <iterator>
 
-#include "language/characters.h"
 #include "language/syntax/token.h"
 #include "language/units.h"
+#include "unicode/display.h"
+#include "unicode/utf8.h"
 
 namespace hookpoint::language {
 namespace {
@@ -106,25 +107,11 @@ class Lexer {
     }
   }
 
-  /// 12 .5 1e-3, then a unit on the same line. The first dot of `0..5` is not the number's.
+  /// Digits, then a unit on the same line.
   std::size_t number_length() const {
-    std::size_t end = at_;
-    while (end < text_.size() && is_digit(text_[end])) ++end;
-    const bool range = end + 1 < text_.size() && text_[end] == '.' && text_[end + 1] == '.';
-    if (end < text_.size() && text_[end] == '.' && !range) {
-      ++end;
-      while (end < text_.size() && is_digit(text_[end])) ++end;
-    }
-    if (end < text_.size() && (text_[end] == 'e' || text_[end] == 'E')) {
-      std::size_t exponent = end + 1;
-      if (exponent < text_.size() && (text_[exponent] == '+' || text_[exponent] == '-')) ++exponent;
-      if (exponent < text_.size() && is_digit(text_[exponent])) {
-        while (exponent < text_.size() && is_digit(text_[exponent])) ++exponent;
-        end = exponent;
-      }
-    }
-    const std::optional<ScannedUnit> unit = scan_unit(text_.substr(end));
-    return end + (unit ? unit->length : 0) - at_;
+    const std::size_t digits = digits_length(text_.substr(at_));
+    const std::optional<ScannedUnit> unit = scan_unit(text_.substr(at_ + digits));
+    return digits + (unit ? unit->length : 0);
   }
 
   void text() {
@@ -170,8 +157,8 @@ class Lexer {
     while (end < text_.size() && static_cast<unsigned char>(text_[end]) >= 0x80) ++end;
     constexpr std::size_t longest = 24;
     error(at_, end - at_,
-          "unexpected `" + std::string(first_characters(text_.substr(at_, end - at_), longest)) +
-              "`");
+          "unexpected `" +
+              std::string(unicode::first_characters(text_.substr(at_, end - at_), longest)) + "`");
     add(TokenKind::unknown, end - at_);
   }
 
@@ -197,6 +184,25 @@ class Lexer {
 
 }  // namespace
 
+std::size_t digits_length(std::string_view text) {
+  std::size_t end = 0;
+  while (end < text.size() && is_digit(text[end])) ++end;
+  const bool range = end + 1 < text.size() && text[end] == '.' && text[end + 1] == '.';
+  if (end < text.size() && text[end] == '.' && !range) {
+    ++end;
+    while (end < text.size() && is_digit(text[end])) ++end;
+  }
+  if (end < text.size() && (text[end] == 'e' || text[end] == 'E')) {
+    std::size_t exponent = end + 1;
+    if (exponent < text.size() && (text[exponent] == '+' || text[exponent] == '-')) ++exponent;
+    if (exponent < text.size() && is_digit(text[exponent])) {
+      while (exponent < text.size() && is_digit(text[exponent])) ++exponent;
+      end = exponent;
+    }
+  }
+  return end;
+}
+
 bool check_text(const SourceFile& file, Report& report) {
   constexpr std::size_t largest = 256UL << 20;
   const std::string& text = file.text;
@@ -207,7 +213,7 @@ bool check_text(const SourceFile& file, Report& report) {
   for (std::size_t i = 0; i < text.size();) {
     const auto c = static_cast<unsigned char>(text[i]);
     if (c >= 0x80) {
-      const std::size_t length = first_character(std::string_view(text).substr(i)).length;
+      const std::size_t length = unicode::first_character(std::string_view(text).substr(i)).length;
       if (length == 0) {
         report.error({&file, i, 1}, "the file is not a text file in UTF-8: unexpected byte here");
         return false;

@@ -1,4 +1,5 @@
 // Values, expressions and references, as postfix code.
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -180,24 +181,28 @@ bool Parser::parse_call() {
 bool Parser::parse_number() {
   const Token number = token();
   const std::string_view word = text(number);
+  const std::size_t digits = digits_length(word);
   double value = 0.;
-  const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  const std::errc error = std::from_chars(word.data(), word.data() + digits, value).ec;
   if (error == std::errc::result_out_of_range) {
     return fail(number,
                 "the number " + shown(number) + " does not fit a double (about 1e-308 to 1e308)");
   }
-  const std::string_view unit_part = word.substr(static_cast<std::size_t>(stop - word.data()));
-  const Unit unit = unit_part.empty() ? Unit{} : scan_unit(unit_part)->unit;
+  const std::size_t unit_at = std::min(word.find_first_not_of(" \t", digits), word.size());
+  const Span written{number.offset + static_cast<std::uint32_t>(unit_at),
+                     number.length - static_cast<std::uint32_t>(unit_at)};
+  const Unit unit = written.length == 0 ? Unit{} : scan_unit(word.substr(unit_at))->unit;
   Quantity quantity{value * unit.numerator / unit.denominator, unit.dimension};
   if (!std::isfinite(quantity.value))
     return fail(number, "the number " + shown(number) + " does not fit a double in SI units");
   ++at_;
   emit(Operation::push_number, number, static_cast<std::uint32_t>(syntax_.quantities.size()));
   syntax_.quantities.push_back(quantity);
+  syntax_.units.push_back(written);
   const bool word_follows = at(TokenKind::identifier) && !token().begins_line && !at_keyword();
   if (word_follows && !at(TokenKind::assign, 1) && !at(TokenKind::open_brace, 1)) {
     const std::string name(text(token()));
-    if (find_unit(name) != nullptr) return fail_unit(number, !unit_part.empty());
+    if (find_unit(name) != nullptr) return fail_unit(number, written.length > 0);
     const std::string hint = did_you_mean(name, unit_names());
     return fail(token(),
                 "unknown unit `" + name + "`" +

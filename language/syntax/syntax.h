@@ -125,6 +125,7 @@ struct Syntax {
   std::vector<Expression> expressions;
   std::vector<Instruction> code;
   std::vector<Quantity> quantities;
+  std::vector<Span> units;  ///< of each of the quantities as it is written; length 0 without
   std::vector<Trail> trails;
   std::vector<TrailPart> parts;
   std::vector<Argument> arguments;

@@ -1,6 +1,7 @@
 // The words of the language.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 #include <vector>
@@ -63,6 +64,10 @@ inline std::string_view text_of(const SourceFile& file, const Token& token) {
 /// All tokens of a file that `check_text` accepts, the last one `end`. Comments only when asked
 /// for. Cost: linear.
 std::vector<Token> tokenize(const SourceFile& file, bool comments, Report& report);
+
+/// How many bytes the digits take with which `text` begins, without a unit: 12, .5 or 1e-3. The
+/// first dot of `0..5` is not the number's.
+std::size_t digits_length(std::string_view text);
 
 /// False, with an error in `report`, when the file is no text: NUL and control bytes, broken UTF-8,
 /// too large.

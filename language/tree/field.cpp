@@ -1,13 +1,12 @@
 #include "language/tree/field.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
-#include "language/characters.h"
 #include "language/names.h"
 #include "language/schema/describe.h"
 #include "language/units.h"
+#include "unicode/display.h"
 
 namespace hookpoint::language {
 namespace {
@@ -120,12 +119,7 @@ std::string FieldMaker::written_unit() const {
       const Instruction& instruction = syntax.code[at];
       if (instruction.operation != Operation::push_number) continue;
       if (syntax.quantities[instruction.operand].dimension != field_.dimension) continue;
-      const std::string_view number = context_.evaluator.text(instruction.span);
-      double value = 0.;
-      const auto [end, error] =
-          std::from_chars(number.data(), number.data() + number.size(), value);
-      const std::string_view rest = number.substr(static_cast<std::size_t>(end - number.data()));
-      return std::string(rest.substr(std::min(rest.find_first_not_of(" \t"), rest.size())));
+      return std::string(context_.evaluator.text(syntax.units[instruction.operand]));
     }
   }
   return "";
@@ -194,7 +188,7 @@ bool FieldMaker::stands_for_number(std::string_view word) {
 /// A text is shown on terminals, in figures and in pages, and names files: none of them may take it
 /// for a command.
 bool FieldMaker::check_text(const Value& value) {
-  if (find_control(value.text) == std::string::npos) return true;
+  if (unicode::find_control(value.text) == std::string::npos) return true;
   return fail(value.position, quoted(schema_.name) +
                                   " takes characters that can be seen, on one line: no line end, "
                                   "tab or other control character");

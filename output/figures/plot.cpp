@@ -17,11 +17,6 @@ bool names_a_file(const std::string& name) {
   return !name.empty() && name.find_first_of("/<|") == std::string::npos && one_line(name) == name;
 }
 
-void replace_all(std::string& text, const std::string& from, const std::string& to) {
-  for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
-    text.replace(at, from.size(), to);
-}
-
 void add_rows(CsvTable& table, const std::string& series, const char* kind,
               const std::vector<double>& x, const std::vector<double>* y) {
   for (std::size_t i = 0; i < x.size(); ++i)
@@ -96,25 +91,6 @@ PlotOutcome draw_files(const std::string& name, const std::string& data, const s
             .svg = ""};
   }
   return {.drawn = true, .message = "", .svg = read_file(svg).value_or("")};
-}
-
-std::string inline_svg(const std::string& svg, const std::string& prefix) {
-  std::string text = svg.substr(std::min(svg.find("<svg"), svg.size()));
-  const auto background = text.find("<rect x=\"0\" y=\"0\"");
-  if (background != std::string::npos)
-    text.erase(background, text.find("/>", background) + 2 - background);
-  for (const std::string quote : {"'", "\""}) {
-    replace_all(text, " id=" + quote, " id=" + quote + prefix + "-");
-    replace_all(text, "xlink:href=" + quote + "#", "href=" + quote + "#" + prefix + "-");
-    for (const std::string black : {"black", "rgb(  0,   0,   0)"})
-      replace_all(text, "stroke=" + quote + black + quote,
-                  "stroke=" + quote + "currentColor" + quote);
-    replace_all(text, "fill=" + quote + "black" + quote, "fill=" + quote + "currentColor" + quote);
-    replace_all(text, " color=" + quote + "black" + quote, "");
-    replace_all(text, quote + "rgb(221, 221, 221)" + quote,
-                quote + "rgba(128, 128, 128, 0.3)" + quote);
-  }
-  return text;
 }
 
 }  // namespace hookpoint::output

@@ -102,9 +102,4 @@ std::string gnuplot_quoted(std::string_view text);
 std::string gnuplot_escaped(std::string_view text);
 std::string typeset(std::string text);
 
-/// An .svg of `draw` made fit to stand inside an HTML page: no prologue, no background, ids
-/// prefixed by `prefix`, and black turned into the page's own text colour, so that it follows a
-/// dark page.
-std::string inline_svg(const std::string& svg, const std::string& prefix);
-
 }  // namespace hookpoint::output

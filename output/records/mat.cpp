@@ -10,7 +10,7 @@
 #include "output/records/hdf5_times.h"
 #include "output/records/matlab_names.h"
 #include "output/records/spool.h"
-#include "output/text/unicode.h"
+#include "unicode/utf8.h"
 
 namespace hookpoint::output {
 namespace {
@@ -41,7 +41,7 @@ Variable numbers(const char* name, const std::vector<double>& values) {
 }
 
 Variable text(const std::string& utf8) {
-  const std::u16string units = utf16(utf8);
+  const std::u16string units = unicode::utf16(utf8);
   return array(nullptr, MAT_C_CHAR, MAT_T_UTF16, {units.empty() ? 0UL : 1UL, units.size()},
                units.data());
 }

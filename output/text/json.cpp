@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "output/text/number.h"
-#include "output/text/unicode.h"
+#include "unicode/utf8.h"
 
 namespace hookpoint::output {
 namespace {
@@ -18,7 +18,7 @@ std::string json_number(double number) {
 std::string json_string(std::string_view text) {
   constexpr std::string_view hex = "0123456789abcdef";
   std::string quoted = "\"";
-  for (const char c : repaired(text)) {
+  for (const char c : unicode::repaired(text)) {
     const auto code = static_cast<unsigned char>(c);
     if (c == '"' || c == '\\') {
       quoted.append(1, '\\').append(1, c);

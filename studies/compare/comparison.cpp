@@ -13,12 +13,12 @@ namespace {
 
 using output::CsvTable;
 
-/// What of a run changes whenever it is repeated.
+/// Whether a setting is another whenever the same run is repeated.
 bool changes_always(const std::string& trail) {
   return trail == "date" || trail == "file" || trail.starts_with("host.");
 }
 
-/// Both lists by trail, in the first one's order, then what the second has beside it.
+/// Settings whose values differ, in the first list's order, then those that only the second has.
 std::vector<SettingDifference> differences(const SettingList& first, const SettingList& second) {
   const std::map<std::string, std::string> there(second.begin(), second.end());
   std::set<std::string> seen;
@@ -45,7 +45,8 @@ std::optional<double> number(const std::string& text) {
 
 bool is_verdict(const std::string& column) { return column == "ok" || column.ends_with("_ok"); }
 
-/// Words about a row, and closed forms: what is compared is what was measured.
+/// Whether a column holds measurements: neither words about a row, nor closed forms and what
+/// follows from them.
 bool is_metric(const std::string& column) {
   static const std::set<std::string> others{"engine", "law",      "integrator", "settings", "unit",
                                             "status", "expected", "error",      "allowed"};
@@ -75,7 +76,7 @@ void add_value(MetricComparison& metric, const std::string& row, const std::stri
   metric.differences.push_back(std::move(value));
 }
 
-/// Column by column of the first table, those that the second has too.
+/// Compares the columns of the first table that the second has too.
 void compare_tables(const CsvTable& first, const CsvTable& second, bool timing,
                     Comparison& comparison) {
   const RowJoin join = join_rows(first, second);

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "language/characters.h"
 #include "output/text/json.h"
 #include "output/text/number.h"
 #include "studies/compare/comparison.h"
 #include "studies/report/terminal_blocks.h"
+#include "unicode/display.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -32,7 +32,7 @@ std::string listed(const std::string& heading, CellRow titles, const std::vector
                     rows.begin() + static_cast<long>(std::min(rows.size(), most_listed)));
   for (CellRow& row : group.rows) row.front().text.insert(0, "  ");
   group.measure();
-  std::string text = "\n" + language::printable(heading) + "\n" + print_groups({&group}, color);
+  std::string text = "\n" + unicode::printable(heading) + "\n" + print_groups({&group}, color);
   if (rows.size() > most_listed)
     text += fmt::format("  and {} more (--json lists all)\n", rows.size() - most_listed);
   return text;
@@ -52,7 +52,8 @@ std::string settings_part(const char* heading, const std::vector<SettingDifferen
                 {left("what"), left("first"), left("second")}, rows, color);
 }
 
-/// The row where the metric differs most, relative to what it is.
+/// The row with the largest relative difference of the metric; a value that only one run has is
+/// larger than any. Null without differences.
 const ValueDifference* worst_of(const MetricComparison& metric) {
   const auto badness = [](const ValueDifference& value) {
     return value.first && value.second ? value.relative : HUGE_VAL;
@@ -200,7 +201,7 @@ void trajectories_json(output::JsonWriter& json,
 std::string comparison_text(const Comparison& comparison, const TableStyle& style) {
   std::string text = "first:  " + comparison.first + "\nsecond: " + comparison.second + "\n";
   for (const std::string& note : comparison.notes)
-    text += "note: " + language::printable(note) + "\n";
+    text += "note: " + unicode::printable(note) + "\n";
   text += settings_part("experiment", comparison.experiment, style.color);
   text += settings_part("provenance", comparison.provenance, style.color);
   if (comparison.experiment.empty() && comparison.provenance.empty())

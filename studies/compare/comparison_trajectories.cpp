@@ -4,10 +4,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <limits>
 
+#include "output/text/hash.h"
 #include "studies/compare/comparison.h"
 #include "studies/compare/comparison_rows.h"
 
@@ -17,7 +16,7 @@ namespace {
 using output::CsvTable;
 using Column = std::vector<double>;
 
-/// Numbers of a column; what is none ("", a word) is not a number.
+/// Numbers of a column, NaN for a cell that is none ("", a word).
 Column column(const CsvTable& table, std::size_t index) {
   Column values;
   for (const auto& row : table.rows) {
@@ -144,18 +143,13 @@ std::map<std::string, std::string> names_of(const RunFolder& run,
   return run.results ? renamed_by_row(run, labels) : renamed_by_row(run, {});
 }
 
-bool same_bytes(const std::filesystem::path& first, const std::filesystem::path& second) {
-  std::ifstream a(first, std::ios::binary), b(second, std::ios::binary);
-  return std::equal(std::istreambuf_iterator<char>(a), {}, std::istreambuf_iterator<char>(b), {});
-}
-
 /// Records that are no text have the same bytes or not.
 void compare_records(const RunFolder& first, const RunFolder& second, Comparison& comparison) {
   for (const auto& [name, path] : first.records) {
     const auto other = second.records.find(name);
     if (other == second.records.end())
       comparison.only_first.push_back("record " + name);
-    else if (!same_bytes(path, other->second))
+    else if (output::hash_of_file(path) != output::hash_of_file(other->second))
       comparison.words.push_back({name, "bytes", "its own", "others"});
   }
   for (const auto& [name, path] : second.records)

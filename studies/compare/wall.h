@@ -26,7 +26,7 @@ struct WallPlan {
   std::vector<WallScene> scenes;
 };
 
-/// What one subject made of one truth.
+/// The result of one truth under one subject.
 struct WallCell {
   std::optional<double> measured, error;
   double expected = 0.;

@@ -9,6 +9,7 @@
 #include "simulation/identity.h"
 #include "simulation/scene/load.h"
 #include "studies/compare/wall.h"
+#include "studies/plan/plan_parts.h"
 #include "studies/plan/plan_values.h"
 #include "studies/plan/scene_settings.h"
 #include "studies/plan/step_warning.h"
@@ -19,19 +20,6 @@ namespace {
 using language::Diagnostics;
 using language::Object;
 
-SubjectPlan plan_subject(const Object& block) {
-  const auto word = [&](const char* field) {
-    return block.find(field) != nullptr ? block.word(field) : std::string();
-  };
-  SubjectPlan subject;
-  subject.info.name = block.name;
-  subject.engine = word("engine");
-  subject.contact = word("contact");
-  subject.integrator = word("integrator");
-  subject.settings = word("settings");
-  return subject;
-}
-
 class WallPlanner {
  public:
   WallPlanner(WallPlan& plan, language::Library& library, const PlanOptions& options,
@@ -39,7 +27,7 @@ class WallPlanner {
       : plan_(plan), library_(library), options_(options), diagnostics_(diagnostics) {}
 
   void add_subject(const Object& block) {
-    plan_.study.subjects.push_back(plan_subject(block));
+    plan_.study.subjects.push_back(subject_of(block));
     subjects_.push_back(&block);
   }
 
@@ -68,7 +56,7 @@ class WallPlanner {
   std::set<std::string>& inputs() { return inputs_; }
 
  private:
-  /// Of the scene's Params.
+  /// The names of the Params of the scene at `path`.
   std::vector<std::string> names_of(const std::filesystem::path& path) {
     std::vector<std::string> names;
     for (const auto& parameter : library_.parameters(path, diagnostics_))
@@ -76,7 +64,8 @@ class WallPlanner {
     return names;
   }
 
-  /// Fix blocks of the subject count where the scene has such a Param; those of the Scene must.
+  /// Sets the scene's Params by Fix blocks, the Scene's after the Subject's. A Subject's is left
+  /// out where the scene has no such Param; a Scene's is then an error.
   bool set_parameters(const Object& block, const std::filesystem::path& path, std::size_t subject,
                       language::EvaluateOptions& evaluate) {
     const std::vector<std::string> names = names_of(path);
@@ -116,7 +105,7 @@ class WallPlanner {
                       fmt::format("a Fix sets `{}`: it cannot be set as well", setting.trail));
     }
     if (!taken.empty() && !evaluate.parameters.empty()) {
-      Diagnostics untold;  // of a Param that only the Fix gives a value
+      Diagnostics untold;  // a Param that only a Fix gives a value lacks one here
       const auto unfixed = library_.evaluate(path, {}, untold);
       const auto* decided = unfixed ? changed_setting(taken, *unfixed, *plain) : nullptr;
       if (decided != nullptr) return refuse(block, decided_already(*decided));
@@ -142,13 +131,14 @@ class WallPlanner {
     add_row(block, std::move(*experiment), language::print(*tree), index);
   }
 
-  /// What is wrong with a scene under several subjects is told once.
+  /// An error of a scene, told once however many subjects have it.
   void refuse(const Object& block, const std::string& problem) {
     if (refused_.insert(block.name + ": " + problem).second)
       diagnostics_.error(block.position, problem);
   }
 
-  /// Before the scene is loaded under a law that it may not be made for.
+  /// Whether one of the scene's Expects covers the subject. Asked before the scene is loaded under
+  /// the subject's law, for which it may not be made.
   bool covers_some(const Object& scene, const SubjectPlan& subject) const {
     Diagnostics untold;
     const auto experiment = simulation::load_experiment(scene, untold, library_.search_path());
@@ -161,7 +151,8 @@ class WallPlanner {
         [&](const simulation::ExpectationSpec& spec) { return spec.covers(law, integrator); });
   }
 
-  /// Without ground all laws are the same: the first subject of each integrator runs.
+  /// Plans a run. Without ground all contact laws are the same: then only the first subject of each
+  /// integrator has one.
   void add_row(const Object& block, simulation::Experiment experiment, const std::string& printed,
                std::size_t index) {
     if (!experiment.terrain && experiment.engine == "dts" &&

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "output/text/number.h"
+#include "studies/report/page_files.h"
 #include "studies/report/report_page.h"
 #include "studies/report/report_tables.h"
 #include "studies/report/terminal_blocks.h"
@@ -133,10 +134,7 @@ std::string failures(const WallResult& wall, const TableStyle& style) {
 
 std::string wall_html(const WallResult& wall, const ReportContext& context) {
   const std::string title = wall.title.empty() ? wall.name : wall.title;
-  std::string page = page_start(
-      title,
-      "main { max-width: none; } table.summary tbody th.scene { font-weight: 600; padding-top: "
-      ".9rem; } td.form { text-align: left; white-space: normal; max-width: 24rem; }\n");
+  std::string page = page_start(title, page_files::wall_css);
   page += "<p class=\"kicker\">Wall · " + html(wall.file) + "</p>\n<h1>" + html(title) + "</h1>\n";
   if (!wall.question.empty()) page += "<p class=\"question\">" + html(wall.question) + "</p>\n";
   page += verdict(wall) + "<pre>" + html(context.command) + "</pre>\n";

@@ -11,9 +11,9 @@ namespace {
 
 constexpr double fallen_share = 0.5;                   // of the height at the start
 constexpr double fallen_tilt = std::numbers::pi / 3.;  // [rad]
-constexpr double least_walk = 1e-3;                    // [m]: a way per less than this says nothing
+constexpr double least_walk = 1e-3;                    // [m]: a ratio to a shorter way is rounding
 
-/// Watches a robot until it falls: then it no longer walks, and what it does says nothing.
+/// Watches a robot until it falls; what it does afterwards is no walk and is not counted.
 class WalkMetric : public Metric {
  public:
   explicit WalkMetric(const RunContext& context)

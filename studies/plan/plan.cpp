@@ -111,8 +111,7 @@ namespace {
 using language::Diagnostics;
 using language::Object;
 
-/// Evaluates and loads the scene of each row; keeps the library's warnings from being told once a
-/// row.
+/// Evaluates and loads the scene of each row. The same warning in many rows is told once.
 class SceneLoader {
  public:
   SceneLoader(language::Library& library, std::filesystem::path scene, Diagnostics& diagnostics)
@@ -169,7 +168,7 @@ class SceneLoader {
     return true;
   }
 
-  /// Once a subject and step.
+  /// Warns of a step above the stability bound, once for each subject and step.
   void warn_of_step(StudyPlan& plan, const Object& study, const RowPlan& row) {
     const std::string& subject = plan.subjects[static_cast<std::size_t>(row.subject)].info.name;
     const std::pair<std::string, double> run{subject, row.experiment.deltat};
@@ -220,7 +219,8 @@ class SceneLoader {
     return setting_problem(setting, world_, subject);
   }
 
-  /// A field that is set from outside although it hangs on what the study sets; null for none.
+  /// A field that is set from outside although its value in the scene follows from a Param that the
+  /// study sets; null for none.
   const language::Override* decided_by_study(const std::map<std::string, std::string>& values) {
     if (std::ranges::all_of(taken_, [this](const auto& set) { return is_parameter(set); }) ||
         !compared_.insert(values).second)
@@ -236,7 +236,8 @@ class SceneLoader {
     return nullptr;
   }
 
-  /// Without the fields that are set from outside; its Params have their values from there.
+  /// The scene's Params: `values`, then those that are set from outside. Fields that are set from
+  /// outside are left out.
   language::EvaluateOptions with_parameters(
       const std::map<std::string, std::string>& values) const {
     language::EvaluateOptions options{values, {}};

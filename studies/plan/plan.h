@@ -127,7 +127,7 @@ struct StudyPlan {
   std::vector<std::size_t> rows_along(std::size_t row, int sweep) const;
 };
 
-/// Heights that rows of a plan stand on, each kept once.
+/// The heights of the grounds of a plan's rows, equal ones kept once.
 class SharedHeights {
  public:
   /// Moves the heights of the row's ground out of its experiment, to those that equal them.

@@ -138,15 +138,7 @@ std::vector<Condition> PlanBuilder::conditions(const Object& owner) {
 }
 
 void PlanBuilder::add_subject(const Object& block) {
-  SubjectPlan subject;
-  subject.info.name = block.name;
-  const auto word = [&](const char* field) {
-    return block.find(field) == nullptr ? std::string() : block.word(field);
-  };
-  subject.engine = word("engine");
-  subject.contact = word("contact");
-  subject.integrator = word("integrator");
-  subject.settings = word("settings");
+  SubjectPlan subject = subject_of(block);
   if (!subject.engine.empty() && subject.engine != "dts" && !subject.contact.empty())
     diagnostics_.error(
         block.find("contact")->position,
@@ -294,6 +286,19 @@ void PlanBuilder::check_only_option(const Object& study) {
   for (const std::string& only : options_.only)
     if (std::find(names.begin(), names.end(), only) == names.end())
       unknown(study.position, "Subject", only, names);
+}
+
+SubjectPlan subject_of(const Object& block) {
+  const auto word = [&](const char* field) {
+    return block.find(field) == nullptr ? std::string() : block.word(field);
+  };
+  SubjectPlan subject;
+  subject.info.name = block.name;
+  subject.engine = word("engine");
+  subject.contact = word("contact");
+  subject.integrator = word("integrator");
+  subject.settings = word("settings");
+  return subject;
 }
 
 std::vector<Assignment> plan_parts(StudyPlan& plan, const Object& study,

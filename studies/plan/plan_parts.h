@@ -1,4 +1,5 @@
-// The blocks inside a Study, each checked against the others and against the scene's Params.
+// The blocks inside a Study, each checked against the others and against the scene's Params; the
+// Subject of a Wall besides.
 #pragma once
 
 #include <vector>
@@ -6,6 +7,10 @@
 #include "studies/plan/plan.h"
 
 namespace hookpoint::studies {
+
+/// What a Subject block says of engine, law, integrator and settings; its Fix and Only blocks are
+/// left to the caller.
+SubjectPlan subject_of(const language::Object& block);
 
 /// Fills sweeps, subjects, metrics, truths and plots of `plan`; returns the study's own Fix blocks.
 /// Errors go to `diagnostics`.

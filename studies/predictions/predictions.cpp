@@ -30,7 +30,8 @@ std::optional<double> creep_speed(const RunContext& context, const BodyOnPlane& 
   return body.slip_acceleration() * 0.5 * (context.settle + context.duration);
 }
 
-/// Friction that knows no direction points along the fall at every contact, and so does the motion.
+/// Isotropic friction acts along the line of steepest descent at every contact, so nothing moves
+/// the body sideways.
 std::optional<double> creep_sideways(const RunContext& context, const BodyOnPlane& body,
                                      const PeerContact& peer) {
   if (body.peer && body.sticks()) return peer.creep_sideways;
@@ -42,14 +43,15 @@ std::optional<double> slip_acceleration(const BodyOnPlane& body) {
   return body.sticks() ? 0. : body.slip_acceleration();
 }
 
-/// Of `friction`: Coulomb's of the slip, or what the slope asks for of a body that sticks.
+/// Of `friction`, tangential over normal force: mu_k of a body that slides, tan(slope) of one that
+/// sticks.
 std::optional<double> friction(const BodyOnPlane& body) {
   if (body.speed > 0.) return std::nullopt;
   return body.sticks() ? body.tangent() : body.material.kinetic_friction;
 }
 
-/// Shift of a point that carries the tangential `load` [N], where it grows in proportion: a load
-/// let go at once, or a slide that ends, leaves no other closed form.
+/// Shift of a point that carries the tangential `load` [N], where the law's shift is proportional
+/// to its load: only then has a load that is put on at once, or a slide that ends, a closed form.
 std::optional<double> elastic_shift(const BodyOnPlane& body, double load) {
   const auto shift = [&](double f) {
     return contact::stick_displacement(*body.law, f, body.normal_load(), body.material);

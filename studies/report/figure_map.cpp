@@ -11,7 +11,7 @@ namespace {
 
 std::optional<std::size_t> place_of(const std::vector<double>& values, double value) {
   const auto found =
-      std::find_if(values.begin(), values.end(), [&](double v) { return same(v, value); });
+      std::find_if(values.begin(), values.end(), [&](double v) { return same_value(v, value); });
   if (found == values.end()) return {};
   return static_cast<std::size_t>(found - values.begin());
 }
@@ -26,7 +26,7 @@ void fill_cell(output::HeatMapCell& cell, const RunResult& row, std::size_t colo
   if (outline) cell.predicted = row.metrics[*outline].predicted;
 }
 
-/// Below, a logarithmic colour says nothing more.
+/// Where a logarithmic scale of colours begins: what is smaller counts as rounding.
 constexpr double least_drawn = 1e-9;
 
 /// Whether a prefix before the unit scales it: "m/s" and "rad", not "m^2", "1/s" or "kg".
@@ -73,9 +73,10 @@ Figure make_map(const StudyResult& study, const PlotSpec& spec) {
   output::HeatMap& map = figure.map.emplace();
   figure.plot.name = map.name = spec.name;
   map.title = spec.title.empty() ? spoken(spec.color) : spec.title;
-  map.subtitle = fixed_text(study, spec);
-  if (!undecided(study, spec).empty())
-    map.subtitle += (map.subtitle.empty() ? "" : "; ") + ("largest over " + undecided(study, spec));
+  map.subtitle = fixed_values_text(study, spec);
+  if (!undecided_sweeps(study, spec).empty())
+    map.subtitle +=
+        (map.subtitle.empty() ? "" : "; ") + ("largest over " + undecided_sweeps(study, spec));
   map.x = {.label = spoken(spec.x), .unit = spec.x_unit};
   map.y = {.label = spoken(spec.y), .unit = spec.y_unit};
   map.color = {.label = spoken(spec.color),

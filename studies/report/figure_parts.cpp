@@ -20,7 +20,7 @@ std::optional<std::size_t> metric_index(const StudyResult& study, const std::str
   return {};
 }
 
-bool same(double a, double b) {
+bool same_value(double a, double b) {
   return std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b));
 }
 
@@ -35,12 +35,13 @@ bool admits(const StudyResult& study, const SweepValues& where, const RunResult&
   return std::all_of(where.begin(), where.end(), [&](const auto& fixed) {
     const auto sweep = sweep_index(study, fixed.first);
     const auto& values = fixed.second;
-    return !sweep || std::any_of(values.begin(), values.end(),
-                                 [&](double value) { return same(row.parameters[*sweep], value); });
+    return !sweep || std::any_of(values.begin(), values.end(), [&](double value) {
+      return same_value(row.parameters[*sweep], value);
+    });
   });
 }
 
-std::string undecided(const StudyResult& study, const PlotSpec& spec) {
+std::string undecided_sweeps(const StudyResult& study, const PlotSpec& spec) {
   std::string names;
   for (const SweepColumn& sweep : study.sweeps) {
     const bool fixed = std::any_of(spec.where.begin(), spec.where.end(), [&](const auto& pair) {
@@ -54,7 +55,7 @@ std::string undecided(const StudyResult& study, const PlotSpec& spec) {
   return names;
 }
 
-std::string fixed_text(const StudyResult& study, const PlotSpec& spec) {
+std::string fixed_values_text(const StudyResult& study, const PlotSpec& spec) {
   std::string text;
   for (const auto& [name, values] : spec.where) {
     const auto sweep = sweep_index(study, name);
@@ -93,7 +94,7 @@ std::vector<PanelSpec> panel_specs(const StudyResult& study, const PlotSpec& spe
     PanelSpec panel{.spec = spec, .title = ""};
     panel.spec.where = values;
     panel.spec.panels.clear();
-    panel.title = fixed_text(study, panel.spec);
+    panel.title = fixed_values_text(study, panel.spec);
     panel.spec.where.insert(panel.spec.where.end(), spec.where.begin(), spec.where.end());
     panels.push_back(std::move(panel));
   }

@@ -12,29 +12,32 @@ namespace hookpoint::studies {
 std::optional<std::size_t> sweep_index(const StudyResult& study, const std::string& name);
 std::optional<std::size_t> metric_index(const StudyResult& study, const std::string& name);
 
-/// Whether two values of a sweep are one.
-bool same(double a, double b);
-/// Whether the row has one of the values of each sweep.
+/// Whether two values of a sweep are the same but for rounding: 1e-9 of the greater.
+bool same_value(double a, double b);
+/// Whether the row has, of each sweep that `where` names, one of the values given there.
 bool admits(const StudyResult& study, const SweepValues& where, const RunResult& row);
-/// Whether the block's `subjects` and `where` let the row in.
+/// Whether the row's subject is among the block's `subjects` (all of none are given) and its values
+/// among those of `where`.
 bool selected(const StudyResult& study, const PlotSpec& spec, const RunResult& row);
 
-/// "azimuth, dt": sweeps that neither an axis, a series, panels nor `where` decides and that take
-/// several values.
-std::string undecided(const StudyResult& study, const PlotSpec& spec);
-/// "mu = 0.8, dt = 1 ms": what `where` fixes.
-std::string fixed_text(const StudyResult& study, const PlotSpec& spec);
+/// Sweeps of several values of which the block says nothing: they are no axis, no series, no panels
+/// and not fixed by `where`. "azimuth and dt"; "" for none.
+std::string undecided_sweeps(const StudyResult& study, const PlotSpec& spec);
+/// What `where` fixes, for a figure's subtitle: "mu = 0.8, dt = 1 ms". Without the axes and the
+/// panels, which are told elsewhere.
+std::string fixed_values_text(const StudyResult& study, const PlotSpec& spec);
 
-/// The values of a sweep that `where` lets in.
+/// The values of the sweep `name` that are drawn: those in `where`, else all.
 std::vector<double> drawn_values(const StudyResult& study, const PlotSpec& spec,
                                  const std::string& name);
 
-/// A block for each panel: `where` has the panel's values besides, and nothing else is left to say
-/// of them. Row by row from the top.
+/// A panel of the block `spec`: the same block with `panels` empty and, in `where`, the panel's own
+/// values besides.
 struct PanelSpec {
   PlotSpec spec;
   std::string title;  ///< "peak = 0.9, direction = 90 deg"
 };
+/// Row by row from the top.
 std::vector<PanelSpec> panel_specs(const StudyResult& study, const PlotSpec& spec);
 
 /// The figure of a block with a colour: a map over its x and y.

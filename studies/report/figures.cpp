@@ -26,7 +26,7 @@ SeriesKey key_of(const StudyResult& study, const PlotSpec& spec, const RunResult
   if (!sweep) return {row.subject, 0};
   const auto& values = study.sweeps[*sweep].values;
   const auto found = std::find_if(values.begin(), values.end(),
-                                  [&](double v) { return same(v, row.parameters[*sweep]); });
+                                  [&](double v) { return same_value(v, row.parameters[*sweep]); });
   return {row.subject, static_cast<int>(found - values.begin())};
 }
 
@@ -41,8 +41,8 @@ std::string series_label(const StudyResult& study, const PlotSpec& spec, const S
   return study.subjects.size() > 1 ? subject + ", " + value : value;
 }
 
-/// A subject's own; for one at several values of a sweep its colour, with a marker a value. A
-/// single subject leaves the colours to the values.
+/// The subject's style. Where a series is a subject at one value of a sweep: the subject's colour
+/// with a marker for the value or, when there is only one subject, a style for the value.
 int series_style(const StudyResult& study, const PlotSpec& spec, const SeriesKey& key) {
   if (!sweep_index(study, spec.series))
     return subject_styles(study)[static_cast<std::size_t>(key.subject)];
@@ -51,8 +51,8 @@ int series_style(const StudyResult& study, const PlotSpec& spec, const SeriesKey
   return color % output::style_colors + output::style_colors * key.value;
 }
 
-/// Least and largest value of each bucket along x, in their order: what a line of this width can
-/// show.
+/// The curve cut into buckets along x, each with its least and its largest value: more cannot be
+/// seen of a line as wide as a bucket.
 output::Curve thin(const output::Curve& curve, bool logarithmic) {
   if (curve.x.size() <= 2 * thinned_buckets) return curve;
   const auto place = [&](double x) { return logarithmic ? std::log(std::max(x, 1e-300)) : x; };
@@ -79,7 +79,8 @@ output::Curve thin(const output::Curve& curve, bool logarithmic) {
   return thinned;
 }
 
-/// Points of one series while rows are read; by x, the largest magnitude wins.
+/// What the rows read so far give one series. Of several values at one x the one of the largest
+/// magnitude is kept.
 struct Gathered {
   std::map<double, MetricValue> points;
   std::vector<double> unfinished;
@@ -108,7 +109,8 @@ void gather_curve(Gathered& series, const RunResult& row, std::size_t plot) {
   series.reach = reach;
 }
 
-/// On a logarithmic axis without the sample at time 0, which is zero by definition.
+/// The finite samples; on a logarithmic axis without that at time 0, whose displacement is zero by
+/// definition.
 output::Curve finite_part(const Trace& trace, bool logarithmic) {
   output::Curve curve;
   const bool from_zero = logarithmic && !trace.value.empty() && trace.value.front() == 0.;
@@ -140,11 +142,12 @@ void fill(output::Series& series, const Gathered& gathered, const PlotSpec& spec
 
 using SeriesTable = std::map<SeriesKey, output::Series>;
 
-/// The curves of the rows that the block lets in; those with nothing to draw are left out.
+/// The curves of the rows that `spec` selects: over time, over a sweep, or one metric over another
+/// (x). Those with nothing to draw are left out.
 SeriesTable series_of(const StudyResult& study, const PlotSpec& spec, std::size_t plot) {
   const auto x = sweep_index(study, spec.x);
   const auto y = metric_index(study, spec.y);
-  const auto cost = x ? std::nullopt : metric_index(study, spec.x);
+  const auto x_metric = x ? std::nullopt : metric_index(study, spec.x);
   std::map<SeriesKey, Gathered> gathered;
   for (const RunResult& row : study.rows) {
     if (!selected(study, spec, row)) continue;
@@ -153,8 +156,8 @@ SeriesTable series_of(const StudyResult& study, const PlotSpec& spec, std::size_
       gather_curve(series, row, plot);
     } else if (x && y && *y < row.metrics.size()) {
       gather_point(series, row.parameters[*x], row, *y);
-    } else if (cost && y && row.metrics[*cost].measured) {
-      gather_point(series, *row.metrics[*cost].measured, row, *y);
+    } else if (x_metric && y && row.metrics[*x_metric].measured) {
+      gather_point(series, *row.metrics[*x_metric].measured, row, *y);
     }
   }
   SeriesTable table;
@@ -168,18 +171,18 @@ SeriesTable series_of(const StudyResult& study, const PlotSpec& spec, std::size_
   return table;
 }
 
-/// Without series.
+/// The figure of the block without its curves: names, subtitle, axes.
 output::Plot axes_of(const StudyResult& study, const PlotSpec& spec) {
   output::Plot plot;
   plot.name = spec.name;
   plot.title = spec.title.empty() ? spoken(spec.y) + " over " + spoken(spec.x) : spec.title;
-  plot.subtitle = fixed_text(study, spec);
+  plot.subtitle = fixed_values_text(study, spec);
   const auto add_note = [&](const std::string& note) {
     plot.subtitle += (plot.subtitle.empty() ? "" : "; ") + note;
   };
   if (sweep_index(study, spec.series)) add_note("curves by " + spoken(spec.series));
-  if (sweep_index(study, spec.x) && !undecided(study, spec).empty())
-    add_note("largest over " + undecided(study, spec));
+  if (sweep_index(study, spec.x) && !undecided_sweeps(study, spec).empty())
+    add_note("largest over " + undecided_sweeps(study, spec));
   const auto name_or = [](const std::string& label, const std::string& name) {
     return label.empty() ? spoken(name) : label;
   };
@@ -191,7 +194,8 @@ output::Plot axes_of(const StudyResult& study, const PlotSpec& spec) {
   return plot;
 }
 
-/// A line as wide as what is drawn; an empty one where the block has no run that it is meant for.
+/// A horizontal line across the x of all that is drawn; empty where no run of the block has the
+/// reference's values.
 output::Series reference_line(const StudyResult& study, const PlotSpec& spec,
                               const ReferenceLine& reference, const output::Plot& plot) {
   output::Series line{.label = reference.label,
@@ -239,9 +243,9 @@ std::string caption_of(const StudyResult& study, const PlotSpec& spec, const out
     if (std::ranges::find(labels, reference.label) == labels.end())
       labels.push_back(reference.label);
   for (const std::string& label : labels) caption += " Black, dashed: " + label + ".";
-  if (spec.x == "time" && !undecided(study, spec).empty())
-    caption +=
-        " Of the runs that differ in " + undecided(study, spec) + ", the one that goes farthest.";
+  if (spec.x == "time" && !undecided_sweeps(study, spec).empty())
+    caption += " Of the runs that differ in " + undecided_sweeps(study, spec) +
+               ", the one that goes farthest.";
   const bool vanishing = any_series(plots, [&](const output::Series& series) {
     return std::ranges::any_of(series.measured.y,
                                [&](double y) { return std::abs(y) <= axes.y.floor; });
@@ -257,7 +261,8 @@ std::string caption_of(const StudyResult& study, const PlotSpec& spec, const out
   return caption;
 }
 
-/// A Plot a panel. All have the same series, so that one legend and one scale are for all.
+/// One Plot for each panel. Every panel has every series, empty where it has no runs of it, so that
+/// one legend and one scale serve all.
 std::vector<output::Plot> panel_plots(const StudyResult& study, const PlotSpec& spec,
                                       std::size_t plot) {
   const std::vector<PanelSpec> panels = panel_specs(study, spec);
@@ -281,7 +286,8 @@ std::vector<output::Plot> panel_plots(const StudyResult& study, const PlotSpec& 
 }
 
 std::size_t panels_across(const StudyResult& study, const PlotSpec& spec) {
-  constexpr std::size_t most = 3;  // of one sweep, whose panels may go on in the next row
+  // Panels of a single sweep go on in the next row.
+  constexpr std::size_t most = 3;
   const std::size_t last = drawn_values(study, spec, spec.panels.back()).size();
   return spec.panels.size() > 1 ? last : std::min(last, most);
 }

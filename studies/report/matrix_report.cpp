@@ -8,6 +8,7 @@
 #include "output/text/number.h"
 #include "studies/report/figures.h"
 #include "studies/report/matrix_rows.h"
+#include "studies/report/page_files.h"
 #include "studies/report/report_page.h"
 #include "studies/report/report_tables.h"
 #include "studies/report/terminal_blocks.h"
@@ -34,7 +35,8 @@ std::string runs_text(const SubjectSummary& counts) {
   return text;
 }
 
-/// Clicked, it leaves in the table of rows those of this study and subject.
+/// The overview's cell of a study and a subject. A click on it filters the table of rows to theirs
+/// (report/page/report.js).
 std::string cell_html(const MatrixStudy& study, const std::string& subject) {
   const MatrixCell cell = matrix_cell(study, subject);
   if (!cell.there) return "<td class=\"soft\">·</td>";
@@ -246,13 +248,7 @@ std::string verdict(const MatrixResult& matrix) {
 
 std::string matrix_html(const MatrixResult& matrix, const ReportContext& context) {
   const std::string title = matrix.title.empty() ? spoken(matrix.name) : matrix.title;
-  std::string page = page_start(
-      title,
-      "main { max-width: 1400px; } table.overview td { text-align: center; } "
-      "table.overview th { vertical-align: top; } table.overview thead th { text-align: center; "
-      "white-space: normal; vertical-align: bottom; } "
-      "td.links a { text-decoration: underline; margin-right: .3rem; } "
-      "details pre { max-width: none; } summary { cursor: pointer; font-size: .88rem; }\n");
+  std::string page = page_start(title, page_files::matrix_css);
   page += tag("p", "kicker", "Matrix · " + html(matrix.file)) + "\n<h1>" + html(title) + "</h1>\n";
   if (!matrix.question.empty()) page += tag("p", "question", html(matrix.question)) + "\n";
   page += verdict(matrix) + "<pre>" + html(context.command) + "</pre>\n" +

@@ -1,7 +1,6 @@
 #include "studies/report/report.h"
 
-#include <algorithm>
-
+#include "output/figures/inline_svg.h"
 #include "output/figures/plot.h"
 #include "output/file.h"
 #include "output/text/number.h"
@@ -141,9 +140,8 @@ std::string peer_table(const ReportContext& context) {
 }  // namespace
 
 std::string described_svg(const ReportFigure& figure) {
-  std::string svg = output::inline_svg(figure.svg, figure.name);
-  const std::string description = " role=\"img\" aria-label=\"" + html(figure.caption) + "\"";
-  return svg.insert(std::min(svg.size(), std::string("<svg").size()), description);
+  return output::inline_svg(figure.svg, figure.name, figure.caption)
+      .value_or(paragraph("bad", "The drawing is no SVG."));
 }
 
 std::string report_html(const StudyResult& study, const ReportContext& context,

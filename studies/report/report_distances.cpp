@@ -12,12 +12,12 @@
 namespace hookpoint::studies {
 namespace {
 
-/// Below, rounding: the palest colour [m].
+/// Smaller distances are rounding and have the palest colour [m].
 constexpr double least_coloured = 1e-12;
 
 using Matrix = std::vector<std::optional<double>>;
 
-/// The largest over the swept values, subjects x subjects.
+/// Subjects x subjects: of each pair the largest distance over the swept values.
 Matrix largest(const StudyResult& study) {
   Matrix matrix(study.subjects.size() * study.subjects.size());
   for (const PeerDistances& one : study.peer_distances)
@@ -27,11 +27,11 @@ Matrix largest(const StudyResult& study) {
   return matrix;
 }
 
-/// What the whole table is written and coloured by.
+/// The unit of the table's numbers and the range of its colours.
 struct Scale {
   double least, greatest;  ///< distances of the palest and the darkest colour [m]
   std::string unit;
-  double factor;  ///< of a number in `unit`
+  double factor;  ///< from metres to `unit`
 };
 
 Scale scale_of(const Matrix& matrix) {
@@ -45,8 +45,8 @@ Scale scale_of(const Matrix& matrix) {
   return greatest >= 1e-3 ? Scale{least, greatest, "mm", 1e3} : Scale{least, greatest, "um", 1e6};
 }
 
-/// How much of the colour: by decades.
-double heat(double distance, const Scale& scale) {
+/// How far along the range of colours a distance lies, 0 to 1, by its logarithm.
+double color_share(double distance, const Scale& scale) {
   if (!(distance > scale.least)) return 0.;
   return std::log(distance / scale.least) / std::log(scale.greatest / scale.least);
 }
@@ -55,7 +55,7 @@ std::string cell(const std::optional<double>& distance, const Scale& scale,
                  const std::string& pair) {
   if (!distance) return "<td class=\"soft\">–</td>";
   return fmt::format("<td style=\"background:rgba(214,96,30,{:.2f})\" title=\"{}\">{}</td>",
-                     0.05 + 0.7 * heat(*distance, scale), html(pair),
+                     0.05 + 0.7 * color_share(*distance, scale), html(pair),
                      output::rounded(scale.factor * *distance, 2));
 }
 

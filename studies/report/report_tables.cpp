@@ -16,21 +16,22 @@ constexpr std::size_t most_rows = 5000;
 constexpr std::size_t most_listed = 40;
 constexpr std::size_t page_columns = 6;
 
-/// What a metric's columns have to show, over all subjects.
-struct MetricShape {
+/// Which columns a metric needs beside its measurement: those that some row has values for.
+struct NeededColumns {
   bool predicted = false, verdict = false;
 };
 
-std::vector<MetricShape> shapes_of(const StudyResult& study, std::optional<Regime> regime = {}) {
-  std::vector<MetricShape> shapes(study.metrics.size());
+std::vector<NeededColumns> needed_columns(const StudyResult& study,
+                                          std::optional<Regime> regime = {}) {
+  std::vector<NeededColumns> needed(study.metrics.size());
   for (const RunResult& row : study.rows) {
     if (regime && row.regime != *regime) continue;
     for (std::size_t i = 0; i < row.metrics.size(); ++i) {
-      shapes[i].predicted |= row.metrics[i].predicted.has_value();
-      shapes[i].verdict |= row.metrics[i].ok.has_value();
+      needed[i].predicted |= row.metrics[i].predicted.has_value();
+      needed[i].verdict |= row.metrics[i].ok.has_value();
     }
   }
-  return shapes;
+  return needed;
 }
 
 std::string number(const std::optional<double>& value) {
@@ -75,7 +76,7 @@ std::string verdict_text(const MetricSummary& metric) {
 }
 
 std::string metric_cells(const StudyResult& study, const MetricSummary& summary, std::size_t metric,
-                         const MetricShape& shape) {
+                         const NeededColumns& shape) {
   const std::string fails = summary.failed > 0 ? " fails" : "";
   if (!shape.predicted) {
     std::string cell = "<td class=\"first" + fails + "\">";
@@ -108,14 +109,14 @@ std::string finished_cell(const SubjectSummary& subject) {
 }
 
 std::string summary_head(const StudyResult& study, const std::vector<std::size_t>& metrics,
-                         const std::vector<MetricShape>& shapes) {
+                         const std::vector<NeededColumns>& needed) {
   std::string groups = "<tr class=\"groups\"><th></th><th></th>";
   std::string columns = "<tr class=\"units\"><th class=\"text\">subject</th><th>runs</th>";
   for (const std::size_t i : metrics) {
-    const std::string span = shapes[i].predicted ? " colspan=\"2\"" : "";
+    const std::string span = needed[i].predicted ? " colspan=\"2\"" : "";
     groups += "<th class=\"first\"" + span + ">" + html(spoken(study.metrics[i].name)) +
               "<span class=\"soft\">" + unit_of(study.metrics[i].unit) + "</span></th>";
-    columns += shapes[i].predicted ? "<th class=\"first\">worst</th><th>closed form</th>"
+    columns += needed[i].predicted ? "<th class=\"first\">worst</th><th>closed form</th>"
                                    : "<th class=\"first\">median</th>";
   }
   return "<thead>" + groups + "</tr>\n" + columns + "</tr></thead>\n";
@@ -151,7 +152,7 @@ std::string sorted_head(const std::string& style, const std::string& content) {
   return "<th data-sorts=\"\" class=\"" + style + "\">" + content + "</th>";
 }
 
-std::string runs_head(const StudyResult& study, const std::vector<MetricShape>& shapes) {
+std::string runs_head(const StudyResult& study, const std::vector<NeededColumns>& needed) {
   std::string head = "<thead><tr>";
   for (const SweepColumn& sweep : study.sweeps)
     head += sorted_head(
@@ -160,13 +161,13 @@ std::string runs_head(const StudyResult& study, const std::vector<MetricShape>& 
   for (std::size_t i = 0; i < study.metrics.size(); ++i) {
     head += sorted_head("first", html(spoken(study.metrics[i].name)) + "<span class=\"soft\">" +
                                      unit_of(study.metrics[i].unit) + "</span>");
-    if (shapes[i].predicted) head += sorted_head("", "closed form");
-    if (shapes[i].verdict) head += "<th></th>";
+    if (needed[i].predicted) head += sorted_head("", "closed form");
+    if (needed[i].verdict) head += "<th></th>";
   }
   return head + sorted_head("text", "status") + "</tr></thead>\n";
 }
 
-std::string run_row(const StudyResult& study, const std::vector<MetricShape>& shapes,
+std::string run_row(const StudyResult& study, const std::vector<NeededColumns>& needed,
                     std::size_t index) {
   const RunResult& row = study.rows[index];
   std::string text =
@@ -174,11 +175,11 @@ std::string run_row(const StudyResult& study, const std::vector<MetricShape>& sh
   for (const double value : row.parameters) text += "<td>" + output::rounded(value, 6) + "</td>";
   text += "<td class=\"text\">" + html(study.subjects[static_cast<std::size_t>(row.subject)].name) +
           "</td>";
-  for (std::size_t i = 0; i < shapes.size(); ++i) {
+  for (std::size_t i = 0; i < needed.size(); ++i) {
     const MetricValue value = i < row.metrics.size() ? row.metrics[i] : MetricValue{};
     text += "<td class=\"first\">" + number(value.measured) + "</td>";
-    if (shapes[i].predicted) text += "<td>" + number(value.predicted) + "</td>";
-    if (shapes[i].verdict) text += verdict_cell(value);
+    if (needed[i].predicted) text += "<td>" + number(value.predicted) + "</td>";
+    if (needed[i].verdict) text += verdict_cell(value);
   }
   const bool stopped = outcome_of(row) == RunOutcome::stopped;
   return text + "<td class=\"status" + (stopped ? " bad" : " soft") + "\">" + html(row.status) +
@@ -195,11 +196,11 @@ std::string swatch(int subject_style) {
 
 std::vector<std::vector<std::size_t>> page_portions(const StudyResult& study,
                                                     const RegimeTable& table) {
-  const std::vector<MetricShape> shapes = shapes_of(study, table.regime);
+  const std::vector<NeededColumns> needed = needed_columns(study, table.regime);
   std::vector<std::vector<std::size_t>> portions;
   std::size_t used = page_columns;
   for (const std::size_t metric : table.metrics) {
-    const std::size_t columns = shapes[metric].predicted ? 2 : 1;
+    const std::size_t columns = needed[metric].predicted ? 2 : 1;
     if (used + columns > page_columns) {
       portions.emplace_back();
       used = 0;
@@ -212,17 +213,17 @@ std::vector<std::vector<std::size_t>> page_portions(const StudyResult& study,
 
 std::string summary_table(const StudyResult& study, const RegimeTable& table,
                           const std::vector<std::size_t>& metrics) {
-  const std::vector<MetricShape> shapes = shapes_of(study, table.regime);
+  const std::vector<NeededColumns> needed = needed_columns(study, table.regime);
   const std::vector<int> styles = subject_styles(study);
   std::string text = "<div class=\"scroll\" tabindex=\"0\"><table class=\"summary\">\n" +
-                     summary_head(study, metrics, shapes) + "<tbody>\n";
+                     summary_head(study, metrics, needed) + "<tbody>\n";
   for (const std::size_t i : table.subjects) {
     const SubjectInfo& subject = study.subjects[i];
     text += "<tr><th scope=\"row\">" + swatch(styles[i]) + html(subject.name) + "<small>" +
             html(composition(subject)) + "</small></th>" + finished_cell(table.summary.subjects[i]);
     for (const std::size_t metric : metrics)
       text +=
-          metric_cells(study, table.summary.subjects[i].metrics[metric], metric, shapes[metric]);
+          metric_cells(study, table.summary.subjects[i].metrics[metric], metric, needed[metric]);
     text += "</tr>\n";
   }
   return text + "</tbody></table></div>\n";
@@ -300,13 +301,13 @@ std::string warning_list(const std::vector<std::string>& warnings) {
 }
 
 std::string runs_table(const StudyResult& study) {
-  const std::vector<MetricShape> shapes = shapes_of(study);
+  const std::vector<NeededColumns> needed = needed_columns(study);
   const bool all = study.rows.size() <= most_rows;
   std::string rows;
   std::size_t listed = 0;
   for (std::size_t i = 0; i < study.rows.size() && listed < most_rows; ++i) {
     if (!all && !fails_or_stopped(study.rows[i])) continue;
-    rows += run_row(study, shapes, i);
+    rows += run_row(study, needed, i);
     ++listed;
   }
   std::string text;
@@ -324,7 +325,7 @@ std::string runs_table(const StudyResult& study) {
       "<option value=\"finished\">finished</option><option value=\"foretold\">broke off as "
       "foretold</option></select></label><output></output></div>\n";
   return text + "<div class=\"scroll tall\" tabindex=\"0\"><table class=\"runs\">\n" +
-         runs_head(study, shapes) + "<tbody>\n" + rows + "</tbody></table></div>\n";
+         runs_head(study, needed) + "<tbody>\n" + rows + "</tbody></table></div>\n";
 }
 
 std::string provenance_table(const std::vector<std::pair<std::string, std::string>>& lines) {

@@ -6,7 +6,8 @@
 namespace hookpoint::studies {
 namespace {
 
-/// In every row the value of its group; nothing where one of the runs has no part.
+/// Gives every row the spread over the runs of its group (those that differ from it in the swept
+/// value alone); nothing where one of these has no value.
 void measure_over_sweep(const StudyPlan& plan, std::size_t metric, StudyResult& result) {
   std::vector<std::optional<double>> of_groups;
   for (std::size_t row = 0; row < plan.rows.size(); ++row) {

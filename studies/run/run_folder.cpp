@@ -3,8 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <sstream>
-#include <string_view>
+#include <utility>
 
 #include "output/file.h"
 #include "output/text/hash.h"
@@ -89,10 +88,11 @@ std::optional<output::CsvTable> read_table(const RunFolder& run, const fs::path&
 
 void read_experiment(RunFolder& run) {
   for (const char* name : {"experiment.hook", "scene.hook"}) {
-    const auto text = content(run, run.path / name);
+    auto text = content(run, run.path / name);
     if (!text) continue;
-    const SettingList settings = settings_of_text(*text);
-    run.experiment.insert(run.experiment.end(), settings.begin(), settings.end());
+    const auto settings = settings_of_text(std::move(*text));
+    if (!settings) throw RunFolderError((run.path / name).string() + " is no experiment");
+    run.experiment.insert(run.experiment.end(), settings->begin(), settings->end());
   }
 }
 
@@ -151,95 +151,7 @@ void read_trajectories(RunFolder& run) {
   std::ranges::sort(run.notes);
 }
 
-/// Reads printed text line by line, the objects around it on a stack.
-class PrintedText {
- public:
-  SettingList take(const std::string& text) {
-    std::istringstream lines(text);
-    for (std::string line; std::getline(lines, line);) {
-      const auto start = line.find_first_not_of(' ');
-      if (start != std::string::npos) read(line.substr(start));
-    }
-    number_siblings();
-    SettingList settings;
-    for (const Entry& entry : entries_) settings.emplace_back(trail(entry), entry.value);
-    return settings;
-  }
-
- private:
-  struct Part {
-    int parent = -1;
-    std::string type, name, label;
-  };
-  struct Entry {
-    int part = -1;
-    std::string field, value;
-  };
-
-  void read(const std::string& line) {
-    const auto equals = line.find(" = ");
-    if (line == "}") {
-      if (!open_.empty()) open_.pop_back();
-    } else if (line.starts_with("Wire ") || line.starts_with("Plugin ")) {
-      const auto end = line.find_first_of("{;");
-      std::string value = line.substr(end + 1);
-      std::erase_if(value, [](char c) { return c == '}'; });
-      const auto first = value.find_first_not_of(' ');
-      value = first == std::string::npos ? "there" : value.substr(first);
-      entries_.push_back({here(), trimmed(line.substr(0, end)), trimmed(value)});
-    } else if (line.ends_with(" {") || equals == std::string::npos) {
-      add_part(line);
-      if (line.ends_with(" {")) open_.push_back(static_cast<int>(parts_.size()) - 1);
-    } else {
-      entries_.push_back({here(), line.substr(0, equals), trimmed(line.substr(equals + 3))});
-    }
-  }
-
-  void add_part(std::string line) {
-    line = trimmed(line.substr(0, line.find_last_not_of(" {;") + 1));
-    const auto space = line.find(' ');
-    Part part{here(),
-              line.substr(0, space),
-              space == std::string::npos ? "" : line.substr(space + 1),
-              {}};
-    part.label = part.name.empty() ? part.type : part.name;
-    entries_.push_back({static_cast<int>(parts_.size()), {}, part.type});
-    parts_.push_back(std::move(part));
-  }
-
-  /// One of several of the same parent by the same name is told by its type; of these, by a number.
-  void number_siblings() {
-    std::map<std::pair<int, std::string>, std::map<std::string, int>> kinds;
-    for (const Part& part : parts_) ++kinds[{part.parent, part.label}][part.type];
-    std::map<std::pair<int, std::string>, int> seen;
-    for (Part& part : parts_) {
-      const auto& types = kinds[{part.parent, part.label}];
-      const bool repeated = types.at(part.type) > 1;
-      if (types.size() > 1) part.label += " (" + part.type + ")";
-      if (repeated) part.label += fmt::format("[{}]", seen[{part.parent, part.label}]++);
-    }
-  }
-
-  int here() const { return open_.empty() ? -1 : open_.back(); }
-  std::string trail(const Entry& entry) const {
-    std::string text = entry.field;
-    for (int i = entry.part; i >= 0; i = parts_[static_cast<std::size_t>(i)].parent)
-      text = parts_[static_cast<std::size_t>(i)].label + (text.empty() ? "" : "." + text);
-    return text;
-  }
-  static std::string trimmed(std::string text) {
-    text.erase(text.find_last_not_of(" ;") + 1);
-    return text;
-  }
-
-  std::vector<Part> parts_;
-  std::vector<Entry> entries_;
-  std::vector<int> open_;
-};
-
 }  // namespace
-
-SettingList settings_of_text(const std::string& text) { return PrintedText().take(text); }
 
 RunFolder read_run_folder(const fs::path& folder) {
   if (!is_run(folder)) refuse(folder);

@@ -11,6 +11,7 @@
 
 #include "output/result_folder.h"
 #include "output/text/csv.h"
+#include "studies/run/setting_list.h"
 
 namespace hookpoint::studies {
 
@@ -18,9 +19,6 @@ namespace hookpoint::studies {
 struct RunFolderError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
-
-/// Settings in the order of their file: trail and value.
-using SettingList = std::vector<std::pair<std::string, std::string>>;
 
 struct RunFolder {
   std::filesystem::path path;
@@ -36,11 +34,5 @@ struct RunFolder {
 /// Throws RunFolderError: no such folder, not a run's, a file in it that cannot be read or is not
 /// of that run, as its files.json has it.
 RunFolder read_run_folder(const std::filesystem::path& folder);
-
-/// The objects and fields of a text that language::print wrote, by trail: {"world.deltat",
-/// "0.001 s"}. An object without a name goes by its type; one of several siblings by that name is
-/// numbered, `Patch[1]`, or goes by `name (Type)` where their types differ. An object's own entry
-/// is its type; a wire's, under its two ends, what it says of rate, delay and noise.
-SettingList settings_of_text(const std::string& text);
 
 }  // namespace hookpoint::studies

@@ -8,7 +8,6 @@
 #include <set>
 
 #include "language/schema/describe.h"
-#include "language/tree/field.h"
 #include "simulation/scene/schema.h"
 #include "tests/support/drawn.h"
 

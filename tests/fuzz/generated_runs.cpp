@@ -15,7 +15,6 @@
 #include <cstdlib>
 #include <exception>
 #include <fstream>
-#include <iterator>
 #include <map>
 #include <string>
 
@@ -26,17 +25,13 @@
 #include "simulation/scene/schema.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/generated_experiment.h"
+#include "tests/support/text.h"
 
 namespace hookpoint::fuzz {
 namespace {
 
 constexpr rlim_t processor_seconds = 400;  ///< of one experiment, under the sanitizers
 constexpr unsigned wall_seconds = 900;     ///< for one that waits instead of computing
-
-std::string read(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
 
 /// Whether a text has `nan` or `inf` as a word, as printed numbers are.
 bool has_non_finite(std::string text) {
@@ -86,7 +81,7 @@ std::string finding(int status, const std::filesystem::path& folder) {
     const bool late = signal == SIGXCPU || signal == SIGALRM || signal == SIGKILL;
     return late ? "it does not end" : "signal " + std::to_string(signal);
   }
-  const std::string told = read(folder / "stderr");
+  const std::string told = testing::read_file(folder / "stderr");
   for (const char* alien : {"unforeseen:", "bad_alloc", "std::", "basic_string",
                             "vector::", "Sanitizer", "runtime error:"}) {
     if (told.find(alien) != std::string::npos) return std::string("it says ") + alien;
@@ -95,8 +90,8 @@ std::string finding(int status, const std::filesystem::path& folder) {
   if (code > cli::missing) return "status " + std::to_string(code);
   if (code == cli::wrong_input && std::filesystem::exists(folder / "out"))
     return "wrong input, and yet something is written";
-  if (code == cli::fine &&
-      has_non_finite(read(folder / "out" / "trace.csv") + read(folder / "stdout")))
+  if (code == cli::fine && has_non_finite(testing::read_file(folder / "out" / "trace.csv") +
+                                          testing::read_file(folder / "stdout")))
     return "it ends well with a number that is none";
   if (code != cli::fine && told.empty()) return "it fails without a word";
   return "";
@@ -122,7 +117,7 @@ void run_one(const language::Schema& schema, std::uint64_t seed, const Folder& h
   if (!wrong.empty()) {
     ++tally.findings;
     std::printf("seed %llu: %s\n", static_cast<unsigned long long>(seed), wrong.c_str());
-    std::printf("%.1500s\n", read(folder / "stderr").c_str());
+    std::printf("%.1500s\n", testing::read_file(folder / "stderr").c_str());
     std::fflush(stdout);
   }
   std::filesystem::remove_all(folder);

@@ -12,20 +12,20 @@
 #include "control/data/table.h"
 #include "control/plugin/elf_constant.h"
 #include "control/plugin/plugin_abi.h"
-#include "language/characters.h"
 #include "language/units.h"
 #include "output/movies/movie.h"
 #include "output/records/spool.h"
 #include "output/text/csv.h"
 #include "output/text/hash.h"
 #include "output/text/json_reader.h"
-#include "output/text/unicode.h"
 #include "simulation/scene/terrain/ascii_grid.h"
 #include "simulation/scene/terrain/png_grid.h"
 #include "simulation/scene/urdf/urdf.h"
 #include "studies/run/row_store.h"
 #include "studies/run/run_folder.h"
 #include "tests/fuzz/fuzz.h"
+#include "unicode/display.h"
+#include "unicode/utf8.h"
 
 namespace hookpoint {
 namespace {
@@ -173,12 +173,12 @@ void read_folder(const std::string& bytes) {
 
 /// What is shown commands nothing, and a second time is the same.
 void read_text(const std::string& bytes) {
-  const std::string shown = language::printable(bytes);
-  fuzz::require(language::find_control(shown) == std::string::npos, "a command to the terminal");
-  fuzz::require(language::printable(shown) == shown, "a text that changes");
-  fuzz::require(language::display_width(shown) <= 2 * bytes.size(), "a text that is too wide");
-  const std::string repaired = output::repaired(bytes);
-  fuzz::require(output::repaired(repaired) == repaired, "a text that is not repaired");
+  const std::string shown = unicode::printable(bytes);
+  fuzz::require(unicode::find_control(shown) == std::string::npos, "a command to the terminal");
+  fuzz::require(unicode::printable(shown) == shown, "a text that changes");
+  fuzz::require(unicode::display_width(shown) <= 2 * bytes.size(), "a text that is too wide");
+  const std::string repaired = unicode::repaired(bytes);
+  fuzz::require(unicode::repaired(repaired) == repaired, "a text that is not repaired");
 }
 
 void run(char kind, const std::string& bytes) {

@@ -73,7 +73,8 @@ class RecordReaders : public ::testing::TestWithParam<const char*> {
  protected:
   void read(const std::string& file, bool cut_off = false, const std::string& more = "") {
     const testing::Reader reader = testing::reader_of(GetParam(), cut_off);
-    if (!reader.here) GTEST_SKIP() << "reader not here: " << reader.name;
+    ASSERT_EQ(reader.missing, "");
+    if (!reader.out_of_reach.empty()) GTEST_SKIP() << "out of reach: " << reader.out_of_reach;
     const testing::Reading reading = testing::run_reader(reader.command + "'" + file + "'" + more);
     ASSERT_EQ(reading.status, 0)
         << testing::run_reader(reader.command + "'" + file + "'" + more, true).output;

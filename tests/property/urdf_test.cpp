@@ -8,6 +8,7 @@
 #include "simulation/engine/robot_description.h"
 #include "tests/support/command.h"
 #include "tests/support/load_text.h"
+#include "tests/support/text.h"
 #include "tests/support/urdf_robot.h"
 
 namespace hookpoint::tests {
@@ -291,9 +292,7 @@ INSTANTIATE_TEST_SUITE_P(Cases, WrongUrdf, ::testing::ValuesIn(cases),
                          [](const auto& of) { return of.param.name; });
 
 std::string quadruped() {
-  std::ostringstream text;
-  text << std::ifstream(HOOKPOINT_SOURCE_DIR "/configs/robots/quadruped.urdf").rdbuf();
-  return text.str();
+  return testing::read_file(HOOKPOINT_SOURCE_DIR "/configs/robots/quadruped.urdf");
 }
 
 TEST(Urdf, HostileFilesAreRefusedOrRead) {

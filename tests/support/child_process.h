@@ -9,12 +9,12 @@
 
 #include <chrono>
 #include <filesystem>
-#include <fstream>
 #include <functional>
-#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
+
+#include "tests/support/text.h"
 
 namespace hookpoint::testing {
 
@@ -56,8 +56,8 @@ class ChildProcess {
   void signal(int number) const {
     if (process_ > 0) kill(-process_, number);
   }
-  std::string out() const { return read(folder_ / ".out"); }
-  std::string err() const { return read(folder_ / ".err"); }
+  std::string out() const { return read_file(folder_ / ".out"); }
+  std::string err() const { return read_file(folder_ / ".err"); }
   /// Waits for as long as it takes until `reached`; false when the program has ended before.
   bool wait_until(const std::function<bool()>& reached) {
     while (!reached()) {
@@ -79,11 +79,6 @@ class ChildProcess {
   }
   void take(pid_t found) {
     if (found == process_) process_ = 0;
-  }
-  static std::string read(const std::filesystem::path& file) {
-    std::ostringstream text;
-    text << std::ifstream(file, std::ios::binary).rdbuf();
-    return text.str();
   }
 
   std::filesystem::path folder_;

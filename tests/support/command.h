@@ -7,8 +7,9 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 #include <string>
+
+#include "tests/support/text.h"
 
 namespace hookpoint::testing {
 
@@ -37,11 +38,7 @@ class Workplace {
     std::ofstream(folder_ / name, std::ios::binary) << text;
     return (folder_ / name).string();
   }
-  std::string read(const std::filesystem::path& name) const {
-    std::ostringstream text;
-    text << std::ifstream(folder_ / name, std::ios::binary).rdbuf();
-    return text.str();
-  }
+  std::string read(const std::filesystem::path& name) const { return read_file(folder_ / name); }
   /// Everything in the folder but what `file` wrote and the two streams.
   std::size_t entries() const {
     std::size_t count = 0;

@@ -14,15 +14,11 @@
 
 #include "language/document.h"
 #include "tests/support/language_schema.h"
+#include "tests/support/text.h"
 
 namespace hookpoint::language::testing {
 
-inline std::string read_file(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  std::stringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
+using hookpoint::testing::read_file;
 
 /// A temporary folder that ends with the test.
 class Folder {

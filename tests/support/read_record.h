@@ -84,42 +84,76 @@ inline const std::string reader_folder = HOOKPOINT_SOURCE_DIR "/tests/support/re
 
 inline bool runs(const std::string& command) { return run_reader(command).status == 0; }
 
-/// The folder in which @mcap/core is installed, "" when it cannot be.
-inline std::string mcap_reader() {
-  const std::filesystem::path folder = HOOKPOINT_BINARY_DIR "/mcap_reader";
-  std::filesystem::create_directories(folder);
-  for (const char* file : {"package.json", "package-lock.json", "read.mjs"})
-    std::filesystem::copy_file(reader_folder + "mcap/" + file, folder / file,
-                               std::filesystem::copy_options::overwrite_existing);
-  if (!std::filesystem::exists(folder / "node_modules/@mcap/core") &&
-      !runs("cd '" + folder.string() + "' && npm ci --prefer-offline --no-audit --no-fund"))
-    return "";
-  return folder.string();
+/// What is not on this machine, said with what brings it.
+inline std::string missing(const std::string& what) {
+  return what + " is missing: scripts/setup test installs it";
 }
 
-/// The command that reads a file of `format`, to be followed by its path; `cut_off` for a file that
-/// has no end. Nothing when the reader is not on this machine; `reader` is its name.
+/// "" where python3 has h5py.
+inline std::string missing_h5py() {
+  return runs("/usr/bin/python3 -c 'import h5py'") ? "" : missing("python3-h5py");
+}
+
+/// A program that reads a format.
 struct Reader {
-  std::string name;
-  std::string command;
-  bool here = false;
+  std::string command;  ///< to be followed by the file's path
+  std::string missing;  ///< what is not here that scripts/setup installs; "" when all is
+  /// What only a network brings, where there is none; "" when it is here.
+  std::string out_of_reach;
 };
 
+/// npm's code for a registry that is not reached (no network, or a closed proxy), "" for another
+/// failure.
+inline std::string network_problem(const std::string& complaints) {
+  for (const char* code :
+       {"ENOTFOUND", "EAI_AGAIN", "ECONNREFUSED", "ECONNRESET", "ECONNABORTED", "ENETUNREACH",
+        "EHOSTUNREACH", "ETIMEDOUT", "ERR_SOCKET_TIMEOUT", "ENOTCACHED"})
+    if (complaints.find(code) != std::string::npos) return code;
+  return "";
+}
+
+/// node with @mcap/core, which npm fetches once, beside the build. Looked for once a program.
+inline const Reader& mcap_reader() {
+  static const Reader reader = [] {
+    for (const char* program : {"node", "npm"})
+      if (!runs(std::string(program) + " --version")) return Reader{"", missing(program), ""};
+    const std::filesystem::path folder = HOOKPOINT_BINARY_DIR "/mcap_reader";
+    std::filesystem::create_directories(folder);
+    for (const char* file : {"package.json", "package-lock.json", "read.mjs"})
+      std::filesystem::copy_file(reader_folder + "mcap/" + file, folder / file,
+                                 std::filesystem::copy_options::overwrite_existing);
+    Reader found{"node '" + folder.string() + "/read.mjs' ", "", ""};
+    if (std::filesystem::exists(folder / "node_modules/@mcap/core")) return found;
+    const Reading npm = run_reader("cd '" + folder.string() +
+                                       "' && npm ci --prefer-offline --no-audit --no-fund "
+                                       "--fetch-retries=1 --fetch-retry-mintimeout=1000",
+                                   true);
+    if (npm.status == 0) return found;
+    const std::string problem = network_problem(npm.output);
+    if (problem.empty())
+      found.missing = "@mcap/core, which npm did not bring: " + npm.output;
+    else
+      found.out_of_reach = "@mcap/core, for which npm reaches no registry (" + problem + ")";
+    return found;
+  }();
+  return reader;
+}
+
+/// The reader of a format; `cut_off` for a file that has no end.
 inline Reader reader_of(const std::string& format, bool cut_off = false) {
   const std::string python = "/usr/bin/python3 ";
   if (format == "hdf5" || format == "mat73")
-    return {"python3-h5py", python + reader_folder + "read_hdf5.py " + format + " ",
-            runs(python + "-c 'import h5py'")};
+    return {python + reader_folder + "read_hdf5.py " + format + " ", missing_h5py(), ""};
   if (format == "mat5")
-    return {"octave", "octave-cli -qf " + reader_folder + "read_mat5.m ",
-            runs("octave-cli --version")};
+    return {"octave-cli -qf " + reader_folder + "read_mat5.m ",
+            runs("octave-cli --version") ? "" : missing("octave"), ""};
   if (format == "mcap") {
-    const std::string folder = runs("node --version") ? mcap_reader() : "";
-    return {"@mcap/core (node, npm)",
-            "node " + folder + "/read.mjs " + (cut_off ? "stream " : "indexed "), !folder.empty()};
+    Reader reader = mcap_reader();
+    reader.command += cut_off ? "stream " : "indexed ";
+    return reader;
   }
-  return {"python3", python + reader_folder + "read_" + format + ".py ",
-          runs(python + "--version")};
+  return {python + reader_folder + "read_" + format + ".py ",
+          runs(python + "--version") ? "" : missing("python3"), ""};
 }
 
 }  // namespace hookpoint::testing

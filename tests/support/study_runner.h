@@ -9,13 +9,13 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <sstream>
 #include <string>
 
 #include "reference/engines.h"
 #include "simulation/scene/schema.h"
 #include "studies/run/run.h"
 #include "studies/schema.h"
+#include "tests/support/text.h"
 
 namespace hookpoint::studies {
 
@@ -96,9 +96,7 @@ class StudyRunner : public ::testing::Test {
     std::ofstream(folder_ / name) << text;
   }
   std::string read(const std::filesystem::path& path) const {
-    std::stringstream text;
-    text << std::ifstream(path).rdbuf();
-    return text.str();
+    return hookpoint::testing::read_file(path);
   }
   std::optional<StudyPlan> plan(const std::string& text, const PlanOptions& options = {}) {
     write("study.hook", text);

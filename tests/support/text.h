@@ -2,9 +2,17 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <string>
 
+#include "output/file.h"
+
 namespace hookpoint::testing {
+
+/// All of a file; "" where there is none.
+inline std::string read_file(const std::filesystem::path& path) {
+  return output::read_file(path).value_or("");
+}
 
 /// How often `part` stands in `text`.
 inline std::size_t count(const std::string& text, const std::string& part) {

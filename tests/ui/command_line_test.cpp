@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/command.h"
+#include "tests/support/text.h"
 
 namespace hookpoint {
 namespace {
@@ -166,10 +167,8 @@ TEST(CommandLine, HelpAndListsSucceed) {
 // change of the schema.
 TEST(CommandLine, TheManualsReferencePageIsCurrent) {
   const Workplace work;
-  std::ostringstream page;
-  page << std::ifstream(HOOKPOINT_SOURCE_DIR "/docs/reference_language.md", std::ios::binary)
-              .rdbuf();
-  EXPECT_EQ(work.hookpoint("describe --markdown").out, page.str());
+  EXPECT_EQ(work.hookpoint("describe --markdown").out,
+            testing::read_file(HOOKPOINT_SOURCE_DIR "/docs/reference_language.md"));
 }
 
 TEST(CommandLine, FmtIsIdempotent) {

@@ -297,12 +297,6 @@ std::set<std::string> options_in(const std::string& text) {
   return found;
 }
 
-std::string content(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
-
 /// The commands that --help lists.
 std::vector<std::string> commands(const std::string& help) {
   std::vector<std::string> names;
@@ -323,7 +317,7 @@ TEST(Manual, PageCompletionAndDocumentationHaveEveryOptionOfHelp) {
   for (std::size_t at = page.find("\\-"); at != std::string::npos; at = page.find("\\-", at))
     page.erase(at, 1);
   const std::string completion = work.hookpoint("describe --completion bash").out;
-  const std::string manual = content(HOOKPOINT_SOURCE_DIR "/docs/command_line.md");
+  const std::string manual = testing::read_file(HOOKPOINT_SOURCE_DIR "/docs/command_line.md");
   const std::vector<std::string> names = commands(work.hookpoint("--help").out);
   EXPECT_GT(names.size(), 12U);
   for (const std::string& command : names) {
@@ -342,8 +336,9 @@ TEST(Manual, PageCompletionAndDocumentationHaveEveryOptionOfHelp) {
 
 TEST(Manual, FilesOfTheBuildAreThoseThatTheProgramPrints) {
   const Workplace work;
-  EXPECT_EQ(content(HOOKPOINT_BINARY_DIR "/hookpoint.1"), work.hookpoint("describe --man").out);
-  EXPECT_EQ(content(HOOKPOINT_BINARY_DIR "/hookpoint.bash"),
+  EXPECT_EQ(testing::read_file(HOOKPOINT_BINARY_DIR "/hookpoint.1"),
+            work.hookpoint("describe --man").out);
+  EXPECT_EQ(testing::read_file(HOOKPOINT_BINARY_DIR "/hookpoint.bash"),
             work.hookpoint("describe --completion bash").out);
 }
 

@@ -209,7 +209,7 @@ TEST_F(MovieCommand, WrongInputIsSaid) {
 }
 
 TEST_F(MovieCommand, MoviesOfOtherProgramsAreRefused) {
-  if (!testing::runs("/usr/bin/python3 -c 'import h5py'")) GTEST_SKIP() << "python3-h5py";
+  ASSERT_EQ(testing::missing_h5py(), "");
   write();
   fine("run scene.hook --for 0.2 --movie m.h5");
   const auto replacing = [](const std::string& text, const std::string& old,

@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "tests/support/command.h"
+#include "tests/support/text.h"
 
 namespace hookpoint {
 namespace {
@@ -14,12 +15,6 @@ using testing::Workplace;
 namespace fs = std::filesystem;
 
 const fs::path source = HOOKPOINT_SOURCE_DIR;
-
-std::string read(const fs::path& path) {
-  std::ostringstream text;
-  text << std::ifstream(path).rdbuf();
-  return text.str();
-}
 
 /// All ```sh blocks of a page, one after the other.
 std::string commands(const std::string& page) {
@@ -44,7 +39,8 @@ int shell(const Workplace& place, const std::string& script) {
 
 /// The commands of the README with the build that is tested.
 std::string readme() {
-  std::string script = commands(read(source / "examples/controller_plugin/README.md"));
+  std::string script =
+      commands(testing::read_file(source / "examples/controller_plugin/README.md"));
   const std::string build = "build/release";
   const std::size_t at = script.find(build);
   EXPECT_NE(at, std::string::npos);

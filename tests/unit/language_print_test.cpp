@@ -179,8 +179,7 @@ TEST(LanguageFormat, EveryConfigIsLaidOut) {
   for (const auto& entry : std::filesystem::recursive_directory_iterator(configs)) {
     if (entry.path().extension() != ".hook" || entry.path().parent_path().filename() == "paper")
       continue;
-    std::ifstream file(entry.path());
-    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    const std::string text = read_file(entry.path());
     Diagnostics diagnostics;
     EXPECT_TRUE(format(entry.path().string(), text, diagnostics) == text)
         << "hookpoint fmt would change " << entry.path();

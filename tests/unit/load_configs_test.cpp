@@ -2,10 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <fstream>
-#include <sstream>
 
 #include "tests/support/load_text.h"
+#include "tests/support/text.h"
 
 namespace hookpoint {
 namespace {
@@ -31,21 +30,17 @@ bool is_included(const std::filesystem::path& module) {
   }
   const std::string name = module.parent_path().filename() / module.filename();
   return std::ranges::any_of(files, [&](const std::filesystem::path& file) {
-    std::ostringstream text;
-    text << std::ifstream(file).rdbuf();
-    return text.str().find(name) != std::string::npos;
+    return testing::read_file(file).find(name) != std::string::npos;
   });
 }
 
 /// A robot that lies on its scene's ground.
 bool rests_on_its_scene(const std::filesystem::path& module) {
-  std::ostringstream text;
-  text << std::ifstream(module).rdbuf();
   return module.parent_path().filename() == "robots" &&
-         text.str().find("rest_on = ground;") != std::string::npos;
+         testing::read_file(module).find("rest_on = ground;") != std::string::npos;
 }
 
-class EveryConfig : public testing::TestWithParam<std::filesystem::path> {};
+class EveryConfig : public ::testing::TestWithParam<std::filesystem::path> {};
 
 TEST_P(EveryConfig, Loads) {
   const std::string folder = GetParam().parent_path().filename();
@@ -67,7 +62,7 @@ TEST_P(EveryConfig, Loads) {
   }
 }
 
-std::string test_name(const testing::TestParamInfo<std::filesystem::path>& info) {
+std::string test_name(const ::testing::TestParamInfo<std::filesystem::path>& info) {
   std::string name =
       info.param.parent_path().filename().string() + "_" + info.param.stem().string();
   std::ranges::replace_if(
@@ -75,7 +70,7 @@ std::string test_name(const testing::TestParamInfo<std::filesystem::path>& info)
   return name;
 }
 
-INSTANTIATE_TEST_SUITE_P(Configs, EveryConfig, testing::ValuesIn(config_files()), test_name);
+INSTANTIATE_TEST_SUITE_P(Configs, EveryConfig, ::testing::ValuesIn(config_files()), test_name);
 
 }  // namespace
 }  // namespace hookpoint

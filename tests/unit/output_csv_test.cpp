@@ -1,21 +1,14 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <fstream>
-#include <iterator>
-
 #include "output/text/csv.h"
 #include "tests/support/record_scene.h"
+#include "tests/support/text.h"
 
 namespace hookpoint::output {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string content(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 class Csv : public ::testing::Test {
  protected:
@@ -36,7 +29,7 @@ TEST_F(Csv, QuotesOnlyWhatNeedsQuotes) {
 TEST_F(Csv, TableIsHeaderAndRows) {
   const CsvTable table{{"slope [deg]", "status"}, {{"5", "ok"}, {"", "stopped, at 1 s"}}};
   write_csv(folder_ / "deep" / "results.csv", table);
-  EXPECT_EQ(content(folder_ / "deep" / "results.csv"),
+  EXPECT_EQ(testing::read_file(folder_ / "deep" / "results.csv"),
             "slope [deg],status\n5,ok\n,\"stopped, at 1 s\"\n");
 }
 
@@ -47,19 +40,21 @@ TEST_F(Csv, TraceAppearsOnlyWhenClosed) {
   trace.row(1e-3, std::vector{-2e-17, 4.});
   EXPECT_FALSE(fs::exists(path));
   trace.close();
-  EXPECT_EQ(content(path),
+  EXPECT_EQ(testing::read_file(path),
             "time [s],w.block.base.location.x [m],w.block.contacts\n0,0.1,4\n0.001,-2e-17,4\n");
   EXPECT_FALSE(fs::exists(folder_ / "trace.csv.partial"));
 }
 
 /// The table that a killed run would leave.
-CsvTable left_by(const TraceWriter& trace) { return parse_csv(content(trace.partial())).value(); }
+CsvTable left_by(const TraceWriter& trace) {
+  return parse_csv(testing::read_file(trace.partial())).value();
+}
 
 TEST_F(Csv, TraceThatIsCutOffLacksLittle) {
   TraceWriter dense(folder_ / "dense.csv", {{"x", "m"}});
   for (int k = 0; k < 300; ++k) {
     dense.row(k * 1e-3, std::vector{0.1 * k});
-    EXPECT_EQ(content(dense.partial()).back(), '\n');
+    EXPECT_EQ(testing::read_file(dense.partial()).back(), '\n');
     EXPECT_GT(std::stod(left_by(dense).rows.back()[0]), (k - 50.1) * 1e-3);
   }
   TraceWriter wide(folder_ / "wide.csv", std::vector<TraceColumn>(100, {"x", "m"}));
@@ -81,7 +76,7 @@ TEST_F(Csv, AbandonedTraceHasEveryRow) {
     TraceWriter trace(path, {{"x", "m"}});
     for (int k = 0; k < 10; ++k) trace.row(k * 1e-3, std::vector{0.1 * k});
   }
-  EXPECT_EQ(parse_csv(content(partial_name(path)))->rows.size(), 10u);
+  EXPECT_EQ(parse_csv(testing::read_file(partial_name(path)))->rows.size(), 10u);
 }
 
 TEST_F(Csv, FullDiskTakesTheRowsThatFit) {
@@ -92,7 +87,7 @@ TEST_F(Csv, FullDiskTakesTheRowsThatFit) {
     for (int k = 0; k < 1000; ++k) trace.row(k * 1e-4, std::vector{1.});
   };
   EXPECT_THROW(fill(), FileError);
-  const std::string text = content(trace.partial());
+  const std::string text = testing::read_file(trace.partial());
   EXPECT_LE(text.size(), room);
   EXPECT_GT(text.size(), room - std::string("0.0999,1\n").size());
   EXPECT_EQ(text.back(), '\n');
@@ -106,7 +101,7 @@ TEST_F(Csv, AbandonedFileLeavesTheOldOneAlone) {
     PartialFile file(path);
     file.write("half");
   }
-  EXPECT_EQ(content(path), "old\n");
+  EXPECT_EQ(testing::read_file(path), "old\n");
 }
 
 TEST_F(Csv, ATableReadsBackAsItWas) {

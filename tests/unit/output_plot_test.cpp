@@ -6,6 +6,7 @@
 #include <iterator>
 #include <set>
 
+#include "output/figures/inline_svg.h"
 #include "output/figures/plot.h"
 #include "output/figures/plot_legend.h"
 #include "output/figures/plot_scale.h"
@@ -197,7 +198,7 @@ TEST_F(Figures, PanelsAreDrawnWithOneLegend) {
   EXPECT_EQ(count(outcome.svg, "<use xlink:href='#gpPt4' transform"), 3u);
   EXPECT_EQ(count(outcome.svg, ">rigid<"), 1u);
   EXPECT_EQ(count(outcome.svg, "dt = 2 ms"), 1u);
-  EXPECT_EQ(count(inline_svg(outcome.svg, "p"), "rgb(  0,   0,   0)"), 0u);
+  EXPECT_EQ(count(inline_svg(outcome.svg, "p", "").value(), "rgb(  0,   0,   0)"), 0u);
 }
 
 /// Text that would be a command if a line of gnuplot's could end in it, or a shell read it.
@@ -255,11 +256,24 @@ TEST_F(Figures, AMissingGnuplotIsSaidAndLeavesDataAndScript) {
 TEST_F(Figures, InsideAPageKeepTheirIdsApart) {
   const PlotOutcome outcome = draw(sample(), folder_);
   ASSERT_TRUE(outcome.drawn) << outcome.message;
-  const std::string inlined = inline_svg(outcome.svg, "creep");
-  EXPECT_EQ(inlined.rfind("<svg", 0), 0u);
-  EXPECT_EQ(count(inlined, "'#gp"), 0u);
-  EXPECT_EQ(count(inlined, "id='gp"), 0u);
+  const std::string inlined = inline_svg(outcome.svg, "creep", "speed < \"0\" & more").value();
+  EXPECT_EQ(inlined.rfind("<svg role=\"img\" "
+                          "aria-label=\"speed &lt; &quot;0&quot; &amp; more\"",
+                          0),
+            0u)
+      << inlined.substr(0, 100);
+  EXPECT_EQ(count(inlined, "\"#gp"), 0u);
+  EXPECT_EQ(count(inlined, "id=\"gp"), 0u);
+  EXPECT_EQ(count(inlined, "href="), count(inlined, "href=\"#creep-gp"));
+  EXPECT_GT(count(inlined, "href="), 10u);
   EXPECT_EQ(count(inlined, "black"), 0u);
+  EXPECT_EQ(count(inlined, "#ffffff"), 0u);
+  EXPECT_EQ(count(inlined, "<text"), count(outcome.svg, "<text"));
+}
+
+TEST_F(Figures, WhatIsNoDrawingGoesIntoNoPage) {
+  for (const char* text : {"", "creep", "<svg", "<svg><g></svg>", "<html></html>"})
+    EXPECT_FALSE(inline_svg(text, "creep", "")) << text;
 }
 
 }  // namespace

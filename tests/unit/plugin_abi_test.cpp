@@ -5,19 +5,18 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
-#include <fstream>
 #include <regex>
 #include <set>
 #include <sstream>
 #include <string>
 
+#include "tests/support/text.h"
+
 namespace hookpoint::control {
 namespace {
 
 std::string read(const std::string& file) {
-  std::ostringstream text;
-  text << std::ifstream(HOOKPOINT_SOURCE_DIR "/" + file).rdbuf();
-  return text.str();
+  return testing::read_file(HOOKPOINT_SOURCE_DIR "/" + file);
 }
 
 /// The headers that the package installs, as cmake/hookpoint_install.cmake lists them.

@@ -3,21 +3,17 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
-#include <fstream>
 #include <random>
-#include <sstream>
 
 #include "control/plugin/elf_constant.h"
 #include "control/plugin/plugin.h"
+#include "tests/support/text.h"
 
 namespace hookpoint::control {
 namespace {
 
 std::string good_library() {
-  std::ostringstream bytes;
-  bytes << std::ifstream(HOOKPOINT_BINARY_DIR "/tests/plugins/libplugin_good.so", std::ios::binary)
-               .rdbuf();
-  return bytes.str();
+  return testing::read_file(HOOKPOINT_BINARY_DIR "/tests/plugins/libplugin_good.so");
 }
 
 PluginAbi abi_in(const std::string& library) {

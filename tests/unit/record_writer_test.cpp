@@ -11,7 +11,6 @@
 #include "output/records/mcap_records.h"
 #include "output/records/spool.h"
 #include "output/records/wolfram_text.h"
-#include "output/text/unicode.h"
 #include "tests/support/command.h"
 #include "tests/support/record_scene.h"
 #include "tests/support/shifted_clock.h"
@@ -42,17 +41,6 @@ TEST(WolframText, StringsAreAscii) {
   EXPECT_EQ(wolfram_string("a \"b\" \\ c\n"), R"("a \"b\" \\ c\n")");
   EXPECT_EQ(wolfram_string("\xc2\xb5m"), R"("\:00b5m")");
   EXPECT_EQ(wolfram_string("\xf0\x9f\xa6\x97"), R"("\|01f997")");
-}
-
-TEST(Unicode, TakesUtf8Apart) {
-  EXPECT_EQ(code_points("a\xc2\xb5\xe2\x88\x9e\xf0\x9f\xa6\x97"), U"a\u00b5\u221e\U0001f997");
-  EXPECT_EQ(utf16("\xf0\x9f\xa6\x97"), u"\xd83e\xdd97");
-}
-
-TEST(Unicode, BrokenBytesAreReplaced) {
-  EXPECT_EQ(code_points("a\xb5"), U"a\ufffd");
-  EXPECT_EQ(code_points("\xe2\x88"), U"\ufffd");
-  EXPECT_EQ(code_points("\xc2z"), U"\ufffdz");
 }
 
 TEST(MatlabNames, AreValidAndDifferent) {

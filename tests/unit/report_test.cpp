@@ -5,8 +5,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 
 #include "studies/report/figures.h"
@@ -269,8 +267,7 @@ TEST(Report, IsOneSelfContainedFile) {
   const fs::path folder =
       fs::temp_directory_path() / ("hookpoint_report_" + std::to_string(::getpid()));
   const ReportOutcome outcome = write_report(synthetic_study(), {}, folder);
-  std::ifstream file(folder / "report.html", std::ios::binary);
-  const std::string page{std::istreambuf_iterator<char>(file), {}};
+  const std::string page = testing::read_file(folder / "report.html");
   fs::remove_all(folder);
   EXPECT_TRUE(contains(page, "</html>"));
   for (const char* outside : {"src=", "<link", "@import", "url("})

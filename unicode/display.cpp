@@ -1,24 +1,10 @@
-// The one file of this folder that sees utf8proc.
-#include "language/characters.h"
-
-#include <utf8proc.h>
+#include "unicode/display.h"
 
 #include <algorithm>
 
-namespace hookpoint::language {
+#include "unicode/utf8.h"
 
-Character first_character(std::string_view text) {
-  if (text.empty()) return {};
-  const auto lead = static_cast<unsigned char>(text[0]);
-  if (lead < 0x80) return {1, 1, lead < 0x20 || lead == 0x7F};
-  utf8proc_int32_t point = 0;
-  const utf8proc_ssize_t length = utf8proc_iterate(
-      reinterpret_cast<const utf8proc_uint8_t*>(text.data()),
-      static_cast<utf8proc_ssize_t>(std::min<std::size_t>(text.size(), 4)), &point);
-  if (length <= 0) return {};
-  return {static_cast<std::size_t>(length), static_cast<std::size_t>(utf8proc_charwidth(point)),
-          utf8proc_category(point) == UTF8PROC_CATEGORY_CC};
-}
+namespace hookpoint::unicode {
 
 std::size_t find_control(std::string_view text) {
   for (std::size_t at = 0; at < text.size();) {
@@ -50,9 +36,7 @@ std::string_view first_characters(std::string_view text, std::size_t most) {
   if (text.size() <= most) return text;
   constexpr std::size_t longest_character = 4;
   std::size_t end = most;
-  while (end > 0 && most - end < longest_character &&
-         (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U)
-    --end;
+  while (end > 0 && most - end < longest_character && continues_character(text[end])) --end;
   return text.substr(0, end);
 }
 
@@ -67,4 +51,4 @@ std::size_t display_width(std::string_view text) {
   return columns;
 }
 
-}  // namespace hookpoint::language
+}  // namespace hookpoint::unicode

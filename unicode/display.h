@@ -1,20 +1,11 @@
-// Characters of UTF-8 text, as strict as the standard: no overlong forms, no surrogates, nothing
-// above U+10FFFF.
+// UTF-8 as it is shown on a terminal.
 #pragma once
 
 #include <cstddef>
 #include <string>
 #include <string_view>
 
-namespace hookpoint::language {
-
-/// A character at the begin of a text.
-struct Character {
-  std::size_t length = 0;   ///< bytes; 0 if the text does not begin with a character
-  std::size_t columns = 0;  ///< that it takes on a terminal: 0, 1 or 2
-  bool control = false;     ///< it does something instead of being seen: tab, line end, escape
-};
-Character first_character(std::string_view text);
+namespace hookpoint::unicode {
 
 /// Where the first control character of `text` stands, npos without any.
 std::size_t find_control(std::string_view text);
@@ -29,4 +20,4 @@ std::string_view first_characters(std::string_view text, std::size_t most);
 /// The columns that `printable` text takes, a tab as one.
 std::size_t display_width(std::string_view text);
 
-}  // namespace hookpoint::language
+}  // namespace hookpoint::unicode
