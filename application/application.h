@@ -1,5 +1,5 @@
 // What every command starts from: the language's classes, where files are found, and the engines by
-// name. The only place that names every engine.
+// name: ours and the peers' rows (reference/engines.h).
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,5 @@
-// Values that a library's own checks would end the process or loop for ever over.
+// Values so large that a library given them would end the process, by its own checks, or never
+// return.
 #pragma once
 
 #include <algorithm>

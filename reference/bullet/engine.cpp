@@ -25,7 +25,7 @@ constinit const Peer bullet_peer{
     .version = HOOKPOINT_BULLET_VERSION,
     .gaps = gaps,
     .make = make_engine<bullet_peer>,
-    .make_world = make_bullet_world,
+    .make_world = HOOKPOINT_BULLET_WORLD,
     .settings_table = bullet_settings_table,
     .constraint_constants =
         [](const simulation::Experiment& experiment) {

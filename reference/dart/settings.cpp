@@ -16,8 +16,9 @@ DartSettings dart_settings(Settings settings, double dt,
                            const contact::MaterialConstants<double>& material) {
   DartSettings result;
   result.constraint = dart_defaults;
-  // FCLCollisionDetector.hpp on its PrimitiveShape: meshes until FCL has all contacts of
-  // primitives. They are what a detector starts with too, but a ball of 16 sides does not roll.
+  // FCLCollisionDetector.hpp, PrimitiveShape, recommends meshes until FCL finds all contacts of
+  // primitives. A detector starts with them too; at `default` they are off all the same, because a
+  // ball that is a mesh of 16 sides does not roll.
   result.tessellated = settings == Settings::recommended;
   if (settings != Settings::matched) return result;
   const ImplicitSpring normal = normal_spring(material, dt);

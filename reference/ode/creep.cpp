@@ -12,7 +12,7 @@ std::optional<simulation::CreepVelocity> ode_creep(const simulation::Experiment&
   if (!body) return std::nullopt;
   const ConstraintConstants constants = ode_peer.constraint_constants(experiment);
   // A body let go falls g dt^2 in its first step. Where that is most of the surface layer some
-  // contacts end within it and some below it, and which is the solver's secret.
+  // contacts end within it and some below it, and which ones the solver alone knows.
   const double fall = norm(experiment.gravity) * experiment.deltat * experiment.deltat;
   if (constants.surface_layer > 0. && fall > 0.5 * constants.surface_layer) return std::nullopt;
   if (constants.tangential_mixing == 0.) return simulation::CreepVelocity{};

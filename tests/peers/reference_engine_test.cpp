@@ -209,6 +209,20 @@ TEST(PeerEngine, NeverRunsOdeWithoutMixing) {
     }
 }
 
+TEST(PeerEngine, OfALibraryThatTheBuildLacksIsKnownAndRefuses) {
+  reference::Peer absent = reference::ode_peer;
+  absent.version = {};
+  absent.make_world = nullptr;
+  EXPECT_FALSE(absent.describe().found);
+  try {
+    reference::make_peer_engine(sloped_block(15. * degree, 0., 0.5, 1e-3), absent);
+    FAIL() << "an engine without a library";
+  } catch (const simulation::ExperimentError& error) {
+    EXPECT_STREQ(error.what(),
+                 "engine ode: this build has no ODE; install libode-dev and build again");
+  }
+}
+
 TEST(PeerEngine, DescribesItselfAndEverySetting) {
   for (const auto& peer : reference::peers()) {
     const auto description = peer.describe();
