@@ -8,9 +8,9 @@
 #include <span>
 
 #include "integrators/stepper.h"
-#include "simulation/analysis/loop_stability.h"
+#include "simulation/analysis/linear_dynamics.h"
+#include "simulation/analysis/period_map.h"
 #include "simulation/analysis/standing.h"
-#include "simulation/analysis/vibration.h"
 #include "simulation/engine/dts_robot.h"
 #include "simulation/ground.h"
 

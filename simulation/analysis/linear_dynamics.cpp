@@ -1,4 +1,4 @@
-#include "simulation/analysis/vibration.h"
+#include "simulation/analysis/linear_dynamics.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>

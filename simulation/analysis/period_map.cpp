@@ -1,4 +1,4 @@
-#include "simulation/analysis/loop_stability.h"
+#include "simulation/analysis/period_map.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "simulation/analysis/joint_loops.h"
-#include "simulation/analysis/vibration.h"
+#include "simulation/analysis/linear_dynamics.h"
 
 namespace hookpoint::simulation {
 
