@@ -65,6 +65,11 @@ bool is_adaptive(const std::string& integrator) {
   return stepper != nullptr && stepper->adaptive();
 }
 
+bool moves_with_new_velocity(const std::string& integrator) {
+  const integrators::StepperDescription* stepper = integrators::find_stepper(integrator);
+  return stepper != nullptr && stepper->moves_with_new_velocity;
+}
+
 contact::ForceLaw law_of(const Experiment& experiment) {
   const auto law = contact::find_force_law(experiment.contact).value_or(contact::Hookpoint{});
   return is_adaptive(experiment.integrator) ? contact::flow(law) : law;
@@ -107,7 +112,7 @@ DtsRobot::DtsRobot(const Experiment& experiment, int index, const contact::Terra
       adaptive_(is_adaptive(experiment.integrator)),
       law_(law_of(experiment)),
       bristle_states_(contact::bristle_states(law_)),
-      semi_implicit_(experiment.integrator == "semi_implicit_euler"),
+      semi_implicit_(moves_with_new_velocity(experiment.integrator)),
       law_step_(experiment.deltat),
       law_step_before_(experiment.deltat),
       model_(describe_robot(experiment.robots[index])),

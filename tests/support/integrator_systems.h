@@ -4,15 +4,24 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "integrators/rotation_rate.h"
-#include "integrators/system.h"
+#include "integrators/stepper.h"
 
 namespace hookpoint::testing {
 
 using integrators::Stage;
 using integrators::Status;
+
+/// What a suite over integrators calls its cases.
+struct StepperName {
+  template <class Info>
+  std::string operator()(const Info& info) const {
+    return std::string(info.param.name);
+  }
+};
 
 /// A system of one coordinate in a vector space.
 class OneCoordinate : public integrators::System {
