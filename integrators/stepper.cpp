@@ -15,7 +15,8 @@ namespace {
 
 // In the order in which they are listed to the user.
 constexpr std::array steppers{
-    explicit_euler, semi_implicit_euler, rk4, cvode_bdf, cvode_adams, arkode, arkode_imex,
+    explicit_euler, semi_implicit_euler, rk4,                  // fixed steps
+    cvode_bdf,      cvode_adams,         arkode, arkode_imex,  // adaptive
 };
 
 }  // namespace
