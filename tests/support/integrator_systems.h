@@ -4,11 +4,19 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <ostream>
 #include <string>
 #include <vector>
 
 #include "integrators/rotation_rate.h"
 #include "integrators/stepper.h"
+
+namespace hookpoint::integrators {
+
+/// For GoogleTest's messages.
+inline void PrintTo(const StepperDescription& stepper, std::ostream* out) { *out << stepper.name; }
+
+}  // namespace hookpoint::integrators
 
 namespace hookpoint::testing {
 

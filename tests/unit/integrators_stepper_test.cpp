@@ -34,7 +34,7 @@ TEST(Stepper, IsFoundByName) {
     EXPECT_EQ(find_stepper(row.name), &row);
     EXPECT_NE(make_stepper(row.name, system), nullptr);
   }
-  EXPECT_EQ(stepper_table().size(), 7u);
+  EXPECT_GE(stepper_table().size(), 7u);  // none is lost
   EXPECT_EQ(find_stepper("rk5"), nullptr);
   EXPECT_EQ(make_stepper("", system), nullptr);
 }
