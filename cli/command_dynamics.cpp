@@ -6,7 +6,7 @@
 #include "cli/commands.h"
 #include "cli/exit_status.h"
 #include "output/text/json.h"
-#include "simulation/analysis/dynamics.h"
+#include "simulation/analysis/dynamics_report.h"
 
 namespace hookpoint::cli {
 namespace {

@@ -5,7 +5,7 @@ include(hookpoint_add_controller)
 
 # What a controller sees: these headers and what they include. tests/unit/plugin_abi_test.cpp watches them.
 set(HOOKPOINT_CONTROLLER_HEADERS
-  control/component.h control/registry.h control/plugin/plugin_abi.h control/random.h control/first_order.h control/leg_kinematics.h
+  control/component.h control/linear_feedback.h control/registry.h control/plugin/plugin_abi.h control/random.h control/first_order.h control/leg_kinematics.h
   math/scalar.h math/vector3.h)
 
 add_library(hookpoint_controller INTERFACE)

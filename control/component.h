@@ -25,6 +25,8 @@
 #include <utility>
 #include <vector>
 
+#include "control/linear_feedback.h"
+
 namespace hookpoint::control {
 
 /// When an update happens.
@@ -78,6 +80,8 @@ class PortHandle {
  public:
   PortHandle(const PortHandle&) = default;
   PortHandle& operator=(const PortHandle&) = delete;  // would read another port from then on
+  /// Of element `i` among the component's values.
+  std::size_t index(std::size_t i = 0) const { return first_ + i; }
 
  protected:
   PortHandle(Component& owner, PortDescription description);
@@ -172,6 +176,10 @@ class Component {
   virtual void start(double period) { static_cast<void>(period); }
   /// New outputs from the inputs. Allocates nothing.
   virtual void update(const Tick& tick) = 0;
+  /// How outputs follow inputs about a rest, from the parameters and `driven()` as they are, before
+  /// or after `start`; limits that are not reached there do not count. A loop through what is not
+  /// said is left out of the largest stable step, and the user is told so.
+  virtual std::vector<LinearFeedback> linearise() const { return {}; }
 
   const std::vector<PortDescription>& ports() const { return ports_; }
   /// All values in the order of declaration: whoever wires the component reads and writes them by

@@ -13,4 +13,16 @@ std::unique_ptr<Stepper> make_arkode(const System& system, const Tolerances& tol
 /// motion; gravity, gyroscopic terms and joint torques explicit.
 std::unique_ptr<Stepper> make_arkode_imex(const System& system, const Tolerances& tolerances);
 
+inline constexpr StepperDescription arkode{
+    .name = "arkode",
+    .summary = "SUNDIALS ARKODE: adaptive explicit Runge-Kutta of order 5, Dormand-Prince",
+    .make = make_arkode};
+
+inline constexpr StepperDescription arkode_imex{
+    .name = "arkode_imex",
+    .summary =
+        "SUNDIALS ARKODE: additive Runge-Kutta of order 4, contact implicit, the rest "
+        "explicit",
+    .make = make_arkode_imex};
+
 }  // namespace hookpoint::integrators

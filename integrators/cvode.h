@@ -14,4 +14,16 @@ std::unique_ptr<Stepper> make_cvode_bdf(const System& system, const Tolerances& 
 /// predictor-corrector that the paper weighs in 3.5.
 std::unique_ptr<Stepper> make_cvode_adams(const System& system, const Tolerances& tolerances);
 
+inline constexpr StepperDescription cvode_bdf{
+    .name = "cvode_bdf",
+    .summary =
+        "SUNDIALS CVODE: backward differentiation of order 1 to 5, Newton with the dense or "
+        "band Jacobian",
+    .make = make_cvode_bdf};
+
+inline constexpr StepperDescription cvode_adams{
+    .name = "cvode_adams",
+    .summary = "SUNDIALS CVODE: Adams-Moulton predictor-corrector of order 1 to 12",
+    .make = make_cvode_adams};
+
 }  // namespace hookpoint::integrators

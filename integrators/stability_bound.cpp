@@ -1,15 +1,16 @@
 #include "integrators/stability_bound.h"
 
+#include <algorithm>
 #include <cmath>
-#include <complex>
 #include <limits>
+
+#include "integrators/stepper.h"
+#include "integrators/vector_space_system.h"
 
 namespace hookpoint::integrators {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-bool without_forces(const Mode& mode) { return mode.stiffness == 0. && mode.damping == 0.; }
 
 /// The eigenvalue of greatest modulus, of those with non-negative imaginary part [1/s].
 std::complex<double> fastest_eigenvalue(const Mode& mode) {
@@ -19,65 +20,70 @@ std::complex<double> fastest_eigenvalue(const Mode& mode) {
   return (root - mode.damping) / (2. * mode.mass);
 }
 
-double rk4_amplification(std::complex<double> z) {
-  return std::abs(1. + z * (1. + z / 2. * (1. + z / 3. * (1. + z / 4.))));
+/// x'' = -(k x + c x')/m, as an integrator sees a mechanism.
+class OneMode final : public VectorSpaceSystem {
+ public:
+  explicit OneMode(const Mode& mode) : VectorSpaceSystem(1), mode_(mode) {}
+  Status accelerations(Stage, double, std::span<const double> q, std::span<const double> v,
+                       std::span<double> a) override {
+    a[0] = -(mode_.stiffness * q[0] + mode_.damping * v[0]) / mode_.mass;
+    return Status::ok;
+  }
+
+ private:
+  Mode mode_;
+};
+
+/// Whether the matrix of one step of `h` [s], of which a step from (1, 0) and one from (0, 1) are
+/// the columns, has an eigenvalue beyond the unit circle. `rate`: in units of which velocities are
+/// of the size of positions [1/s].
+bool grows_in_a_step(const StepperDescription& method, const Mode& mode, double rate, double h) {
+  constexpr double rounding = 1e-9;
+  OneMode system(mode);
+  const auto stepper = method.make(system, {});
+  double x[] = {1., 0.}, v[] = {0., rate};
+  for (int column = 0; column < 2; ++column) {
+    if (stepper->step(system, 0., h, {&x[column], 1}, {&v[column], 1}) != Status::ok) return true;
+  }
+  const double half_trace = 0.5 * (x[0] + v[1] / rate);
+  const double determinant = (x[0] * v[1] - x[1] * v[0]) / rate;
+  const double discriminant = half_trace * half_trace - determinant;
+  const double radius = discriminant > 0. ? std::abs(half_trace) + std::sqrt(discriminant)
+                                          : std::sqrt(std::max(0., determinant));
+  return radius > 1. + rounding;
 }
 
 }  // namespace
 
-double explicit_euler_bound(std::complex<double> eigenvalue) {
-  // |1 + lambda dt| = 1. Decay below round-off of the modulus is none.
-  constexpr double least_decay = 1e-12;
-  const double modulus = std::abs(eigenvalue);
-  if (modulus == 0.) return infinity;
-  const double decay = -eigenvalue.real() / modulus;
-  return decay > least_decay ? 2. * decay / modulus : 0.;
+double largest_stable_step(const StepperDescription& method, const Mode& mode) {
+  if (method.adaptive() || (mode.stiffness == 0. && mode.damping == 0.)) return infinity;
+  if (const auto* bound = std::get_if<EigenvalueBound>(&method.stability))
+    return bound->largest_step(fastest_eigenvalue(mode));
+  if (const auto* bound = std::get_if<MatrixBound>(&method.stability)) {
+    // h^2 stiffness k + h damping c = m, solved without cancellation, and k may be 0.
+    const double c = bound->damping * mode.damping;
+    const double root = std::sqrt(c * c + 4. * bound->stiffness * mode.stiffness * mode.mass);
+    return 2. * mode.mass / (root + c);
+  }
+  const double rate = std::abs(fastest_eigenvalue(mode));
+  return largest_step_without_growth(
+             [&](double h) { return grows_in_a_step(method, mode, rate, h / rate); }) /
+         rate;
 }
 
-double explicit_euler_bound(const Mode& mode) {
-  return without_forces(mode) ? infinity : explicit_euler_bound(fastest_eigenvalue(mode));
-}
-
-double semi_implicit_euler_bound(const Mode& mode) {
-  if (without_forces(mode)) return infinity;
-  const double root = std::sqrt(mode.damping * mode.damping + 4. * mode.stiffness * mode.mass);
-  // (root - c)/k, multiplied by (root + c)/(root + c): no cancellation, and k may be 0.
-  return 4. * mode.mass / (root + mode.damping);
-}
-
-double rk4_bound(std::complex<double> eigenvalue) {
-  constexpr double least_growth = 1e-12;
-  const double modulus = std::abs(eigenvalue);
-  if (modulus == 0.) return infinity;
-  const std::complex<double> direction = eigenvalue / modulus;
-  // What grows by itself grows with every step that is short enough. Growth below round-off of
-  // the modulus is none.
-  if (direction.real() > least_growth) return 0.;
-  // The region |R| <= 1 ends between 2.6 and 3.4 from the origin in the left half plane; march out,
-  // then bisect. Below 1 an undamped mode's |R| = 1 - O(|z|^6) is too near 1 to be compared.
-  const auto unstable = [&](double r) { return rk4_amplification(r * direction) > 1.; };
-  double low = 1.;
-  double high = low;
-  while (!unstable(high)) {
+double largest_step_without_growth(const std::function<bool(double h)>& grows) {
+  constexpr double least = 1e-4, most = 1e4;
+  if (grows(least)) return 0.;
+  double low = least, high = 2. * least;
+  for (; !grows(high); high *= 2.) {
+    if (high > most) return infinity;
     low = high;
-    high += 0.01;
   }
-  for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (low + high);
-    (unstable(middle) ? high : low) = middle;
+  for (int i = 0; i < 24; ++i) {
+    const double middle = std::sqrt(low * high);
+    (grows(middle) ? high : low) = middle;
   }
-  return low / modulus;
-}
-
-double rk4_bound(const Mode& mode) {
-  return without_forces(mode) ? infinity : rk4_bound(fastest_eigenvalue(mode));
-}
-
-std::optional<double> largest_stable_step(std::string_view integrator, const Mode& mode) {
-  if (integrator == "explicit_euler") return explicit_euler_bound(mode);
-  if (integrator == "semi_implicit_euler") return semi_implicit_euler_bound(mode);
-  if (integrator == "rk4") return rk4_bound(mode);
-  return std::nullopt;
+  return low;
 }
 
 }  // namespace hookpoint::integrators

@@ -1,39 +1,48 @@
-// The largest step with which an integrator keeps the linear vibration m x'' + c x' + k x = 0 from
-// growing. For a robot on its ground the caller reduces the contacts to the stiffest mode
-// (docs/contact.md).
+// What an integrator says of its stability on linear vibrations, and the largest step with which it
+// keeps one from growing. For a robot on its ground see simulation/analysis/stable_step.h and
+// docs/contact.md.
 #pragma once
 
 #include <complex>
-#include <optional>
-#include <string_view>
+#include <functional>
+#include <variant>
 
 namespace hookpoint::integrators {
 
+struct StepperDescription;
+
+/// The vibration m x'' + c x' + k x = 0.
 struct Mode {
   double stiffness = 0.;  ///< k >= 0 [N/m]
   double damping = 0.;    ///< c >= 0 [N s/m]
   double mass = 1.;       ///< effective mass m > 0 [kg]
 };
 
-/// c/k for zeta = c/(2 sqrt(k m)) < 1 (0 without damping: never stable), 4 m/(c + sqrt(c^2 - 4 k
-/// m)) above [s].
-double explicit_euler_bound(const Mode& mode);
+/// Nothing is said: the bound is found from steps that the method takes on the linear system.
+struct BoundFromSteps {};
 
-/// (sqrt(c^2 + 4 k m) - c)/k; 2/w without damping, 2 m/c without stiffness [s].
-double semi_implicit_euler_bound(const Mode& mode);
+/// A method that treats positions and velocities alike, as Runge-Kutta methods do, multiplies the
+/// motion exp(lambda t) of any linear system by R(lambda h) in a step h.
+struct EigenvalueBound {
+  /// h up to which |R(lambda h)| <= 1 for the eigenvalue lambda [1/s]: 0 where it grows from the
+  /// shortest step on, infinity for lambda = 0 [s].
+  double (*largest_step)(std::complex<double> eigenvalue) = nullptr;
+};
 
-/// Where |R(lambda dt)| first exceeds 1 for an eigenvalue lambda of the mode, R(z) = 1 + z + z^2/2
-/// + z^3/6 + z^4/24; 2 sqrt(2)/w without damping, 2.785.../|lambda| for real eigenvalues [s].
-double rk4_bound(const Mode& mode);
+/// A method that treats them unlike: with symmetric K and C no motion of z'' + C z' + K z = 0 grows
+/// as long as h^2 stiffness K + h damping C has no eigenvalue above 1.
+struct MatrixBound {
+  double stiffness = 0., damping = 0.;
+};
 
-/// The same for one eigenvalue of a linear system with many modes [1/s]: explicit Euler's -2 Re/|
-/// |^2, 0 where it does not decay; RK4's, 0 where it grows; infinity for eigenvalue 0. There is
-/// none such of semi-implicit Euler, which treats position and velocity unlike.
-double explicit_euler_bound(std::complex<double> eigenvalue);
-double rk4_bound(std::complex<double> eigenvalue);
+using LinearStability = std::variant<BoundFromSteps, EigenvalueBound, MatrixBound>;
 
-/// The bound of the integrator of that name [s]; infinity for a mode without forces; none for an
-/// unknown name.
-std::optional<double> largest_stable_step(std::string_view integrator, const Mode& mode);
+/// The largest step with which the method does not let the mode grow [s]; infinity for a mode
+/// without forces and for an adaptive method.
+double largest_stable_step(const StepperDescription& method, const Mode& mode);
+
+/// The largest h for which `grows(h)` is false, h in units of the shortest time in which anything
+/// moves: within a relative 4e-8, from 1e-4 (below: 0) to 1e4 (above: infinity). About 40 calls.
+double largest_step_without_growth(const std::function<bool(double h)>& grows);
 
 }  // namespace hookpoint::integrators

@@ -13,34 +13,10 @@
 namespace hookpoint::integrators {
 namespace {
 
-template <class Method>
-std::unique_ptr<Stepper> make(const System& system, const Tolerances& /*tolerances*/) {
-  return std::make_unique<Method>(system);
-}
-
+// In the order in which they are listed to the user.
 constexpr std::array steppers{
-    StepperDescription{"explicit_euler", 1, 1,
-                       "position by the old velocity; unstable on undamped springs",
-                       make<ExplicitEuler>},
-    StepperDescription{"semi_implicit_euler", 1, 1,
-                       "position by the new velocity; keeps vibrations bounded up to dt = 2/w",
-                       make<SemiImplicitEuler>},
-    StepperDescription{"rk4", 4, 4, "classical Runge-Kutta, fourth order on rotations as well",
-                       make<RungeKutta4>},
-    StepperDescription{"cvode_bdf", 0, 0,
-                       "SUNDIALS CVODE: backward differentiation of order 1 to 5, Newton with the "
-                       "dense or band Jacobian",
-                       make_cvode_bdf},
-    StepperDescription{"cvode_adams", 0, 0,
-                       "SUNDIALS CVODE: Adams-Moulton predictor-corrector of order 1 to 12",
-                       make_cvode_adams},
-    StepperDescription{"arkode", 0, 0,
-                       "SUNDIALS ARKODE: adaptive explicit Runge-Kutta of order 5, Dormand-Prince",
-                       make_arkode},
-    StepperDescription{"arkode_imex", 0, 0,
-                       "SUNDIALS ARKODE: additive Runge-Kutta of order 4, contact implicit, the "
-                       "rest explicit",
-                       make_arkode_imex},
+    explicit_euler, semi_implicit_euler, rk4,                  // fixed steps
+    cvode_bdf,      cvode_adams,         arkode, arkode_imex,  // adaptive
 };
 
 }  // namespace

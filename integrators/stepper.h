@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "integrators/stability_bound.h"
 #include "integrators/system.h"
 
 namespace hookpoint::integrators {
@@ -63,7 +64,7 @@ class Stepper {
   double next_step_ = 0.;  ///< [s] what alone the next step may depend on beside (q, v)
 };
 
-/// One row of the table.
+/// What an integrator says of itself, in the file of its method.
 struct StepperDescription {
   std::string_view name;     ///< as in `integrator = rk4`
   int order = 0;             ///< error of a run ~ dt^order on smooth systems; 0: adaptive
@@ -71,8 +72,18 @@ struct StepperDescription {
   std::string_view summary;  ///< one line
   /// With work arrays of the system's size; only adaptive ones read the tolerances.
   std::unique_ptr<Stepper> (*make)(const System& system, const Tolerances& tolerances) = nullptr;
-  bool adaptive() const { return order == 0; }
+  LinearStability stability = {};  ///< of an adaptive one it is not asked
+  /// A step's displacement is dt times the velocities that it ends with. The bristles of contacts
+  /// then move ahead of their forces too (contact::semi_implicit_reaction).
+  bool moves_with_new_velocity = false;
+  constexpr bool adaptive() const { return order == 0; }
 };
+
+/// `make` of a method with fixed steps.
+template <class Method>
+std::unique_ptr<Stepper> make_fixed_step(const System& system, const Tolerances& /*tolerances*/) {
+  return std::make_unique<Method>(system);
+}
 
 /// Every integrator of this folder.
 std::span<const StepperDescription> stepper_table();

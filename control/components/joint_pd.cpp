@@ -40,6 +40,19 @@ class JointPD final : public Component {
       torque.set(joint, std::clamp(wanted, -limit[kind], limit[kind]));
     }
   }
+
+  // Without goals: a gait moves them.
+  std::vector<LinearFeedback> linearise() const override {
+    std::vector<LinearFeedback> all;
+    for (std::size_t joint = 0; joint < joints; ++joint) {
+      const std::size_t kind = joint % leg_joints;
+      all.push_back({.input = angle.index(joint),
+                     .output = torque.index(joint),
+                     .rate = rate_in.index(joint),
+                     .gains = {.proportional = pconstant[kind], .derivative = dconstant[kind]}});
+    }
+    return all;
+  }
 };
 
 HOOKPOINT_REGISTER_COMPONENT(JointPD, "Controller.JointPD",

@@ -20,6 +20,16 @@ class PD final : public Component {
     previous = current;
   }
 
+  std::vector<LinearFeedback> linearise() const override {
+    return {{.input = current.index(),
+             .output = output.index(),
+             .rate = rate_in.index(),
+             .goal = goal.index(),
+             .gains = {.proportional = pconstant,
+                       .derivative = dconstant,
+                       .differenced = !rate_in.driven()}}};
+  }
+
  private:
   /// d(current)/dt; 0 on the first update when it would take two samples.
   double rate(const Tick& tick) const {

@@ -46,6 +46,18 @@ class PID final : public Component {
     previous = current;
   }
 
+  std::vector<LinearFeedback> linearise() const override {
+    return {{.input = current.index(),
+             .output = output.index(),
+             .rate = rate_in.index(),
+             .goal = goal.index(),
+             .gains = {.proportional = pconstant,
+                       .derivative = dconstant,
+                       .integral = iconstant,
+                       .filter_time = filter_time,
+                       .differenced = !rate_in.driven()}}};
+  }
+
  private:
   /// Tf dD/dt = d(current)/dt - D by backward differences; D starts at the first rate known.
   void filter_derivative(const Tick& tick) {

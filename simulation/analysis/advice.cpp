@@ -8,7 +8,6 @@
 
 #include "contact/predictions.h"
 #include "dts/impulse_response.h"
-#include "integrators/stability_bound.h"
 #include "integrators/stepper.h"
 #include "simulation/analysis/advice_changes.h"
 #include "simulation/analysis/advice_constants.h"
@@ -223,7 +222,7 @@ Advice advise(const Experiment& experiment, const AdviceWishes& wishes) {
   }
   const Experiment advised = advised_experiment(experiment, advice.grounds);
   for (const integrators::StepperDescription& stepper : integrators::stepper_table()) {
-    if (!integrators::largest_stable_step(stepper.name, {1., 1., 1.})) continue;
+    if (stepper.adaptive()) continue;
     StabilityBound present = bound_under(experiment, stepper.name);
     advice.steps.push_back(
         {std::string(stepper.name), present.step, bound_under(advised, stepper.name).step});

@@ -45,8 +45,8 @@ class LoopFinder {
   explicit LoopFinder(const Experiment& experiment)
       : experiment_(experiment), components_(experiment), joints_(joint_ports(experiment)) {
     for (const WireSpec& wire : experiment.wires) {
-      into_.emplace(wire.to, &wire);
-      out_of_.emplace(wire.from, &wire);
+      if (const auto to = components_.find(wire.to)) into_.emplace(key(*to), &wire);
+      if (const auto from = components_.find(wire.from)) out_of_.emplace(key(*from), &wire);
     }
     for (const RobotSpec& robot : experiment.robots) robots_.insert(robot.name);
   }
@@ -57,15 +57,15 @@ class LoopFinder {
     double under_way = 0.;
     for (std::size_t i = 0; i < components_.size(); ++i) {
       const ComponentSpec& spec = experiment_.components[i];
-      std::string why = terminals(spec).empty()
-                            ? "a " + spec.type +
-                                  " is not one of the PD and PID controllers whose "
-                                  "feedback is computed"
-                            : std::string("it drives nothing");
+      const std::vector<control::LinearFeedback> ways = components_[i].linearise();
+      std::string why = ways.empty() ? "a " + spec.type +
+                                           " is not one of the PD and PID controllers whose "
+                                           "feedback is computed"
+                                     : std::string("it drives nothing");
       const std::size_t before = control.loops.size();
       bool whole = true;
-      for (const Terminals& ends : terminals(spec))
-        whole = add_loop(i, ends, control, why) && whole;
+      for (const control::LinearFeedback& way : ways)
+        whole = add_loop(i, way, control, why) && whole;
       if (whole && control.loops.size() > before && fits(control.loops, before, why, under_way))
         continue;
       control.loops.resize(before);
@@ -85,41 +85,22 @@ class LoopFinder {
  private:
   std::vector<DrivenJoint> driven_joints(const WiredControl& control) const {
     std::vector<DrivenJoint> driven;
-    for (const auto& [trail, wire] : into_) {
-      const JointPlace* place = joint_at(trail, "torque");
+    for (const WireSpec& wire : experiment_.wires) {
+      const JointPlace* place = joint_at(wire.to, "torque");
       if (!place) continue;
       DrivenJoint& joint = driven.emplace_back(DrivenJoint{place->robot, place->joint, {}, 0.});
       const auto loops = loops_of(control, place->robot);
       const auto loop = std::ranges::find_if(loops, [&](const JointLoop& each) {
-        return each.driven == place->joint && each.sensed == each.driven && each.integral == 0.;
+        return each.driven == place->joint && each.sensed == each.driven &&
+               each.gains.integral == 0.;
       });
-      if (loop == loops.end() || wire_into(loop->controller + ".goal")) continue;
-      const auto component = components_.find(loop->controller + ".output");
-      if (!component) continue;
-      joint.goal = value(component->component, "goal");
-      joint.proportional = loop->proportional;
+      if (loop == loops.end() || !loop->goal) continue;
+      joint.goal = loop->goal;
+      joint.proportional = loop->gains.proportional;
     }
     std::ranges::sort(driven, {},
                       [](const DrivenJoint& joint) { return std::pair(joint.robot, joint.joint); });
     return driven;
-  }
-
-  /// A controller's values that make one loop.
-  struct Terminals {
-    std::string angle, rate, torque, pconstant, dconstant;
-  };
-
-  static std::vector<Terminals> terminals(const ComponentSpec& spec) {
-    if (spec.type == "Controller.PD" || spec.type == "Controller.PID")
-      return {{"current", "rate_in", "output", "pconstant", "dconstant"}};
-    std::vector<Terminals> all;
-    if (spec.type != "Controller.JointPD") return all;
-    constexpr int joints = 18, kinds = 3;
-    for (int i = 0; i < joints; ++i)
-      all.push_back({fmt::format("angle[{}]", i), fmt::format("rate_in[{}]", i),
-                     fmt::format("torque[{}]", i), fmt::format("pconstant[{}]", i % kinds),
-                     fmt::format("dconstant[{}]", i % kinds)});
-    return all;
   }
 
   /// Whether the loops from `first` on go into one map with those before them. `under_way`: the
@@ -144,8 +125,12 @@ class LoopFinder {
     return true;
   }
 
-  const WireSpec* wire_into(const std::string& trail) const {
-    const auto found = into_.find(trail);
+  /// A component and one of its values, by index.
+  using Key = std::pair<std::size_t, std::size_t>;
+  static Key key(const ComponentValue& value) { return {value.component, value.index}; }
+
+  const WireSpec* wire_into(const Key& value) const {
+    const auto found = into_.find(value);
     return found == into_.end() ? nullptr : found->second;
   }
 
@@ -154,18 +139,14 @@ class LoopFinder {
     return found == joints_.end() || found->second.port != port ? nullptr : &found->second;
   }
 
-  double value(std::size_t component, const std::string& name) const {
-    const auto index = control::find_value(components_[component], name);
-    return index ? components_[component].values()[*index] : 0.;
-  }
-
-  /// The loop of those terminals, if they make one; false where they do something else.
-  bool add_loop(std::size_t component, const Terminals& ends, WiredControl& control,
+  /// The loop that the component closes that way, if it closes one; false where it does something
+  /// else.
+  bool add_loop(std::size_t component, const control::LinearFeedback& way, WiredControl& control,
                 std::string& why) const {
     const ComponentSpec& spec = experiment_.components[component];
-    const WireSpec* angle = wire_into(spec.trail + "." + ends.angle);
-    const WireSpec* rate = wire_into(spec.trail + "." + ends.rate);
-    const auto [first, last] = out_of_.equal_range(spec.trail + "." + ends.torque);
+    const WireSpec* angle = wire_into({component, way.input});
+    const WireSpec* rate = way.rate ? wire_into({component, *way.rate}) : nullptr;
+    const auto [first, last] = out_of_.equal_range({component, way.output});
     if (first == last) return true;  // it drives nothing
     const WireSpec* torque = first->second;
     const JointPlace* driven = joint_at(torque->to, "torque");
@@ -185,15 +166,12 @@ class LoopFinder {
     if (sensed->robot != driven->robot || moved->robot != sensed->robot ||
         moved->joint != sensed->joint)
       return not_plain("it reads one joint and another, or drives another robot's");
-    JointLoop loop{spec.trail, driven->robot, sensed->joint, driven->joint};
-    loop.proportional = value(component, ends.pconstant);
-    loop.derivative = value(component, ends.dconstant);
-    loop.integral = value(component, "iconstant");
-    loop.filter_time = value(component, "filter_time");
-    loop.differenced = rate == nullptr && spec.type != "Controller.JointPD";
-    if (rate == nullptr && !loop.differenced) loop.derivative = 0.;
+    JointLoop loop{spec.trail, driven->robot, sensed->joint, driven->joint, way.gains};
+    if (rate == nullptr && !loop.gains.differenced) loop.gains.derivative = 0.;
+    if (way.goal && !wire_into({component, *way.goal}))
+      loop.goal = components_[component].values()[*way.goal];
     loop.delay = angle->delay + torque->delay;
-    const bool reads_rate = rate != nullptr && loop.derivative != 0.;
+    const bool reads_rate = rate != nullptr && loop.gains.derivative != 0.;
     loop.rate_delay = reads_rate ? rate->delay + torque->delay : 0.;
     if (!set_period(loop, spec, {angle, rate ? rate : angle, torque})) {
       why = "its wires are sampled at rates of their own";
@@ -207,7 +185,7 @@ class LoopFinder {
   /// wires does what it would do at their rate.
   static bool set_period(JointLoop& loop, const ComponentSpec& spec,
                          const std::vector<const WireSpec*>& wires) {
-    const bool has_memory = loop.differenced || loop.integral != 0. || loop.filter_time != 0.;
+    const bool has_memory = control::memory_size(loop.gains) > 0;
     std::optional<double> slowest = spec.rate;
     for (const WireSpec* wire : wires) {
       if (!wire->rate || wire->rate == slowest) continue;
@@ -258,8 +236,8 @@ class LoopFinder {
   Components components_;
   std::map<std::string, JointPlace> joints_;
   std::set<std::string> robots_;
-  std::map<std::string, const WireSpec*> into_;
-  std::multimap<std::string, const WireSpec*> out_of_;
+  std::map<Key, const WireSpec*> into_;
+  std::multimap<Key, const WireSpec*> out_of_;
 };
 
 /// Those of a robot, out of a list that is in the order of robots.

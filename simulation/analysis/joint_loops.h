@@ -7,23 +7,22 @@
 #include <string>
 #include <vector>
 
+#include "control/linear_feedback.h"
 #include "simulation/experiment.h"
 
 namespace hookpoint::simulation {
 
-/// torque of joint `driven` = -proportional q - derivative q' - integral of q dt about a rest, with
-/// q the position of joint `sensed`. Joints are numbered along the robot's chains.
+/// The torque of joint `driven` follows the position of joint `sensed` about a rest. Joints are
+/// numbered along the robot's chains; gains in N m/rad or N/m, and s.
 struct JointLoop {
   std::string controller;  ///< its trail
   std::size_t robot = 0, sensed = 0, driven = 0;
-  double proportional = 0.;  ///< [N m/rad or N/m]
-  double derivative = 0.;    ///< [N m s/rad or N s/m]
-  double integral = 0.;      ///< [N m/(rad s) or N/(m s)]
-  bool differenced = false;  ///< q' from successive samples of q, not from the joint's rate
-  double filter_time = 0.;   ///< time constant of the low-pass filter of q' [s]
-  double period = 0.;        ///< from one update to the next [s]; 0: every step
-  double delay = 0.;         ///< of q on its way there and back [s]
-  double rate_delay = 0.;    ///< of q' [s]
+  control::FeedbackGains gains = {};
+  std::optional<double> goal =
+      {};                  ///< that the position is held to, where no wire moves it [rad or m]
+  double period = 0.;      ///< from one update to the next [s]; 0: every step
+  double delay = 0.;       ///< of the position on its way there and of the torque back [s]
+  double rate_delay = 0.;  ///< of the rate, if the controller reads it [s]
 };
 
 /// A joint whose torque is wired.
@@ -47,8 +46,8 @@ struct WiredControl {
 std::span<const JointLoop> loops_of(const WiredControl& control, std::size_t robot);
 std::span<const DrivenJoint> driven_of(const WiredControl& control, std::size_t robot);
 
-/// Of `Controller.PD`, `.PID` and `.JointPD` between the `angle`, `rate` and `torque` of one
-/// robot's joints; limits of torques are not reached about a rest. O(wires log wires).
+/// Of components that linearise themselves (control::Component::linearise) between the `angle`,
+/// `rate` and `torque` of one robot's joints. O(wires log wires).
 WiredControl wired_control(const Experiment& experiment);
 
 }  // namespace hookpoint::simulation

@@ -8,14 +8,16 @@
 #include <span>
 
 #include "integrators/stepper.h"
-#include "simulation/analysis/loop_stability.h"
+#include "simulation/analysis/linear_dynamics.h"
+#include "simulation/analysis/stable_step.h"
 #include "simulation/analysis/standing.h"
-#include "simulation/analysis/vibration.h"
 #include "simulation/engine/robot_system.h"
 #include "simulation/ground.h"
 
 namespace hookpoint::simulation {
 namespace {
+
+using integrators::StepperDescription;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Of the greatest load: a point that carries less only touches.
@@ -39,11 +41,10 @@ ContactSpring make_spring(const Experiment& experiment, const contact::ForceLaw&
 }
 
 /// The least speed up to which the step resolves the bristles of the points that carry [m/s].
-double resolved_speed(const Experiment& experiment, const contact::ForceLaw& law,
-                      const Stance& stance) {
-  const integrators::StepperDescription* stepper = integrators::find_stepper(experiment.integrator);
+double resolved_speed(const Experiment& experiment, const StepperDescription& stepper,
+                      const contact::ForceLaw& law, const Stance& stance) {
   double least = infinity, most = 0.;
-  if (stepper == nullptr || stepper->adaptive()) return least;
+  if (stepper.adaptive()) return least;
   for (const CarryingPoint& point : stance.points) most = std::max(most, point.load);
   for (const CarryingPoint& point : stance.points) {
     if (point.load < least_share * most) continue;
@@ -60,16 +61,15 @@ struct Springs {
   std::vector<SteadyLoad> loads;
 };
 
-StabilityBound bound_of(const Experiment& experiment, const Vibration& vibration,
+StabilityBound bound_of(const StepperDescription& stepper, const LinearDynamics& dynamics,
                         std::span<const JointLoop> loops, const std::string& name,
                         Contacts contacts) {
-  if (!vibration.stiffness.allFinite() || !vibration.damping.allFinite())
+  if (!dynamics.stiffness.allFinite() || !dynamics.damping.allFinite())
     return {infinity, 0., 0., name, contacts};
-  StabilityBound bound{largest_stable_step(experiment.integrator, vibration, loops),
-                       std::max(0., largest_eigenvalue(vibration.stiffness)),
-                       std::max(0., largest_eigenvalue(vibration.damping)), name, contacts};
-  bound.without_controllers =
-      loops.empty() ? bound.step : largest_stable_step(experiment.integrator, vibration);
+  StabilityBound bound{largest_stable_step(stepper, dynamics, loops),
+                       std::max(0., largest_eigenvalue(dynamics.stiffness)),
+                       std::max(0., largest_eigenvalue(dynamics.damping)), name, contacts};
+  bound.without_controllers = loops.empty() ? bound.step : largest_stable_step(stepper, dynamics);
   for (const JointLoop& loop : loops) {
     if (loop.period > 0.) bound.controller_rate = 1. / loop.period;
     if (bound.controllers.empty() || bound.controllers.back() != loop.controller)
@@ -112,16 +112,16 @@ void add_single_points(const Experiment& experiment, const contact::ForceLaw& la
 }
 
 /// Of a robot that touches nothing, at its initial posture and at the one in which it hangs still.
-StabilityBound free_bound(const Experiment& experiment, std::size_t index,
-                          const WiredControl& control, RobotSystem& robot) {
+StabilityBound free_bound(const Experiment& experiment, const StepperDescription& stepper,
+                          std::size_t index, const WiredControl& control, RobotSystem& robot) {
   const RobotSpec& spec = experiment.robots[index];
   const auto at_posture = [&] {
     const RobotAtRest rest(robot);
     // What falls freely feels no weight.
     std::vector<SteadyLoad> loads;
     if (!spec.mobile) loads = rest.weights(experiment.gravity);
-    return bound_of(experiment, linear_vibration(rest, {}, loads), loops_of(control, index),
-                    spec.name, Contacts::none);
+    return bound_of(stepper, linear_dynamics(rest, {}, loads), loops_of(control, index), spec.name,
+                    Contacts::none);
   };
   const StabilityBound initial = at_posture();
   if (!hang(experiment, index, control, robot)) return initial;
@@ -129,16 +129,16 @@ StabilityBound free_bound(const Experiment& experiment, std::size_t index,
   return hanging.step < initial.step ? hanging : initial;
 }
 
-StabilityBound robot_bound(const Experiment& experiment, std::size_t index,
-                           const contact::Terrain* ground, const WiredControl& control,
-                           const WorldInputs& inputs) {
+StabilityBound robot_bound(const Experiment& experiment, const StepperDescription& stepper,
+                           std::size_t index, const contact::Terrain* ground,
+                           const WiredControl& control, const WorldInputs& inputs) {
   const contact::ForceLaw law = *contact::find_force_law(experiment.contact);
   const RobotSpec& spec = experiment.robots[index];
   RobotSystem robot(experiment, index, ground, inputs);
   const RobotAtRest rest(robot);
   if (rest.size() == 0 || !rest.is_regular()) return {infinity, 0., 0., spec.name};
   if (ground == nullptr || robot.contacts().points().empty())
-    return free_bound(experiment, index, control, robot);
+    return free_bound(experiment, stepper, index, control, robot);
   Stances stances = find_stances(experiment, index, rest, control);
   if (std::ranges::any_of(driven_of(control, index),
                           [](const DrivenJoint& joint) { return !joint.goal; }))
@@ -148,12 +148,13 @@ StabilityBound robot_bound(const Experiment& experiment, std::size_t index,
   StabilityBound least{infinity, 0., 0., spec.name, contacts};
   for (const Stance& stance : stances.all) {
     const Springs springs = springs_of(experiment, law, stance);
-    const double resolved = std::min(least.resolved_speed, resolved_speed(experiment, law, stance));
+    const double resolved =
+        std::min(least.resolved_speed, resolved_speed(experiment, stepper, law, stance));
     // The contacts alone decide which stance is worst; the loops then join it.
-    const Vibration vibration = linear_vibration(rest, springs.contacts, springs.loads);
+    const LinearDynamics dynamics = linear_dynamics(rest, springs.contacts, springs.loads);
     if (&stance == &stances.all.front() ||
-        largest_stable_step(experiment.integrator, vibration, least.step) < least.step) {
-      least = bound_of(experiment, vibration, loops_of(control, index), spec.name, contacts);
+        largest_stable_step(stepper, dynamics, {}, least.step) < least.step) {
+      least = bound_of(stepper, dynamics, loops_of(control, index), spec.name, contacts);
     }
     least.resolved_speed = resolved;
   }
@@ -190,13 +191,15 @@ std::string first_of(const std::vector<std::string>& names) {
 StabilityBound stability_bound(const Experiment& experiment) {
   StabilityBound least{infinity};
   if (!contact::find_force_law(experiment.contact) || experiment.engine != "dts") return least;
+  const StepperDescription* stepper = integrators::find_stepper(experiment.integrator);
+  if (stepper == nullptr) return least;
   const auto ground = make_ground(experiment);
   const WiredControl control = wired_control(experiment);
   const WorldInputs inputs = initial_inputs(experiment);
   std::int64_t evaluations = 0;
   for (std::size_t i = 0; i < experiment.robots.size(); ++i) {
     const StabilityBound bound =
-        robot_bound(experiment, i, ground ? &*ground : nullptr, control, inputs);
+        robot_bound(experiment, *stepper, i, ground ? &*ground : nullptr, control, inputs);
     evaluations += bound.evaluations;
     if (bound.step < least.step) least = bound;
   }

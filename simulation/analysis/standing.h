@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "simulation/analysis/joint_loops.h"
-#include "simulation/analysis/vibration.h"
+#include "simulation/analysis/linear_dynamics.h"
 
 namespace hookpoint::simulation {
 

@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "dts/external_forces.h"
-#include "integrators/stepper.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -21,11 +20,6 @@ contact::ForceLaw law_of(const Experiment& experiment, bool has_ground, bool ada
   return adaptive ? contact::flow(*law) : *law;
 }
 
-bool is_adaptive(const std::string& integrator) {
-  const integrators::StepperDescription* stepper = integrators::find_stepper(integrator);
-  return stepper != nullptr && stepper->adaptive();
-}
-
 std::vector<ContactPoint> contact_points(const RobotSpec& robot) {
   std::vector<ContactPoint> points;
   for (const BoundaryPoint& boundary : boundary_points(robot))
@@ -36,12 +30,13 @@ std::vector<ContactPoint> contact_points(const RobotSpec& robot) {
 }  // namespace
 
 ContactSet::ContactSet(const Experiment& experiment, std::size_t index, std::size_t bodies,
-                       const contact::Terrain* ground)
+                       const contact::Terrain* ground,
+                       const integrators::StepperDescription& stepper)
     : experiment_(&experiment),
       index_(index),
       ground_(ground),
-      adaptive_(is_adaptive(experiment.integrator)),
-      semi_implicit_(experiment.integrator == "semi_implicit_euler"),
+      adaptive_(stepper.adaptive()),
+      new_velocity_(stepper.moves_with_new_velocity),
       law_(law_of(experiment, ground != nullptr, adaptive_)),
       bristle_states_(contact::bristle_states(law_)),
       points_(ground ? contact_points(experiment.robots[index]) : std::vector<ContactPoint>{}),
@@ -108,8 +103,8 @@ void ContactSet::apply_force(const Law& law, std::size_t i, dts::Workspace<doubl
   const contact::Memory<double> memory = point.carried(frame);
   if (!trial) kinematics = contact::held_point(law, kinematics, memory, material, dt);
   const contact::Reaction<double> reaction =
-      semi_implicit_ ? contact::semi_implicit_reaction(law, kinematics, memory, material, dt)
-                     : law.evaluate(kinematics, memory, material, dt);
+      new_velocity_ ? contact::semi_implicit_reaction(law, kinematics, memory, material, dt)
+                    : law.evaluate(kinematics, memory, material, dt);
   if (reaction.next.attached) {
     dts::add_external_force(workspace, point.body, reaction.force, position);
     ground_forces_[point.body] += reaction.force;

@@ -12,6 +12,7 @@
 #include "contact/force_law.h"
 #include "contact/terrain/terrain.h"
 #include "dts/workspace.h"
+#include "integrators/stepper.h"
 #include "simulation/engine.h"
 #include "simulation/engine/contact_point.h"
 
@@ -27,7 +28,7 @@ class ContactSet {
   /// Of robot `index`, with `bodies` bodies. `ground` may be null: no points. All that is referred
   /// to outlives the set.
   ContactSet(const Experiment& experiment, std::size_t index, std::size_t bodies,
-             const contact::Terrain* ground);
+             const contact::Terrain* ground, const integrators::StepperDescription& stepper);
 
   // Forces.
 
@@ -141,8 +142,8 @@ class ContactSet {
   const Experiment* experiment_;
   std::size_t index_;  ///< of the robot
   const contact::Terrain* ground_;
-  bool adaptive_ = false;       ///< the integrator chooses its own steps
-  bool semi_implicit_ = false;  ///< its positions move with the new velocities
+  bool adaptive_ = false;      ///< the integrator chooses its own steps
+  bool new_velocity_ = false;  ///< its positions move with the new velocities
   contact::ForceLaw law_;
   std::size_t bristle_states_ = 0;  ///< numbers that the law integrates, of a point
   std::vector<ContactPoint> points_;

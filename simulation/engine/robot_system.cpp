@@ -12,16 +12,26 @@ namespace hookpoint::simulation {
 using integrators::Stage;
 using integrators::Status;
 
+namespace {
+
+const integrators::StepperDescription& stepper_of(const Experiment& experiment) {
+  const auto* stepper = integrators::find_stepper(experiment.integrator);
+  if (stepper == nullptr)
+    throw ExperimentError("there is no integrator `" + experiment.integrator + "`");
+  return *stepper;
+}
+
+}  // namespace
+
 RobotSystem::RobotSystem(const Experiment& experiment, std::size_t index,
                          const contact::Terrain* ground, const WorldInputs& inputs)
     : robot_(experiment, index, inputs),
-      contacts_(experiment, index, robot_.model().body_count(), ground),
+      contacts_(experiment, index, robot_.model().body_count(), ground, stepper_of(experiment)),
+      adaptive_(stepper_of(experiment).adaptive()),
       q_(position_size()),
       v_(velocity_size()),
       q_before_(q_),
       v_before_(v_) {
-  const integrators::StepperDescription* stepper = integrators::find_stepper(experiment.integrator);
-  adaptive_ = stepper != nullptr && stepper->adaptive();
   refresh();
   contacts_.begin_culling();
   accelerate();

@@ -16,7 +16,8 @@ namespace hookpoint::simulation {
 class RobotSystem final : public integrators::HybridSystem {
  public:
   /// Robot `index` of the experiment at its initial state, refreshed and accelerated. `ground` may
-  /// be null: no contact. All that is referred to outlives the robot.
+  /// be null: no contact. All that is referred to outlives the robot. Throws ExperimentError when
+  /// there is no such law or integrator.
   RobotSystem(const Experiment& experiment, std::size_t index, const contact::Terrain* ground,
               const WorldInputs& inputs);
 

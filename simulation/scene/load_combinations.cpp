@@ -2,6 +2,7 @@
 
 #include "contact/force_law.h"
 #include "integrators/stepper.h"
+#include "language/names.h"
 #include "simulation/scene/load_parts.h"
 
 namespace hookpoint::simulation {
@@ -24,6 +25,17 @@ bool set_from_outside(const language::Object& object, std::string_view field) {
   return object.given(field) && object.find(field)->position.file != object.position.file;
 }
 
+/// "cvode_bdf, cvode_adams and arkode": the integrators that choose their own steps.
+std::string adaptive_integrators() {
+  std::vector<std::string> names;
+  for (const integrators::StepperDescription& stepper : integrators::stepper_table()) {
+    if (stepper.adaptive()) names.emplace_back(stepper.name);
+  }
+  const std::string last = names.back();
+  names.pop_back();
+  return language::join(names, ", ") + " and " + last;
+}
+
 /// Only a warning, and none where a scene states tolerances for whichever integrator a study gives
 /// it.
 void check_tolerances(const language::Object& world, Loading& loading) {
@@ -37,9 +49,8 @@ void check_tolerances(const language::Object& world, Loading& loading) {
     if (chosen && !set_from_outside(world, field)) continue;
     loading.diagnostics.warning(
         place_of(world, field),
-        fmt::format("{} says nothing to {}, whose steps are all deltat; only cvode_bdf, "
-                    "cvode_adams, arkode and arkode_imex read it",
-                    field, experiment.integrator));
+        fmt::format("{} says nothing to {}, whose steps are all deltat; only {} read it", field,
+                    experiment.integrator, adaptive_integrators()));
   }
 }
 

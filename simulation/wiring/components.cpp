@@ -69,12 +69,12 @@ Components::Components(const Experiment& experiment) {
     for (const auto& [index, text] : spec.texts) component.texts()[index] = text;
     by_trail_.emplace(spec.trail, by_trail_.size());
   }
-}
-
-std::vector<StartProblem> Components::start(const Experiment& experiment) {
   for (const WireSpec& wire : experiment.wires) {
     if (const auto to = find(wire.to)) components_[to->component]->set_driven(to->index, true);
   }
+}
+
+std::vector<StartProblem> Components::start(const Experiment& experiment) {
   std::vector<StartProblem> problems;
   for (std::size_t i = 0; i < components_.size(); ++i) {
     const ComponentSpec& spec = experiment.components[i];

@@ -28,12 +28,11 @@ struct StartProblem {
 
 class Components {
  public:
-  /// Makes `experiment.components` with the values that their specs give. Throws ExperimentError
-  /// for a class that the registry does not hold.
+  /// Makes `experiment.components` with the values that their specs give, and says which inputs
+  /// wires drive. Throws ExperimentError for a class that the registry does not hold.
   explicit Components(const Experiment& experiment);
 
-  /// Says which inputs are driven, gives each its own random stream, and starts all. Those that
-  /// fail are returned.
+  /// Gives each its own random stream, and starts all. Those that fail are returned.
   std::vector<StartProblem> start(const Experiment& experiment);
 
   std::size_t size() const { return components_.size(); }

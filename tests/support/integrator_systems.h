@@ -4,15 +4,33 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <ostream>
+#include <string>
 #include <vector>
 
 #include "integrators/hybrid_system.h"
 #include "integrators/rotation_rate.h"
+#include "integrators/stepper.h"
+
+namespace hookpoint::integrators {
+
+/// For GoogleTest's messages.
+inline void PrintTo(const StepperDescription& stepper, std::ostream* out) { *out << stepper.name; }
+
+}  // namespace hookpoint::integrators
 
 namespace hookpoint::testing {
 
 using integrators::Stage;
 using integrators::Status;
+
+/// What a suite over integrators calls its cases.
+struct StepperName {
+  template <class Info>
+  std::string operator()(const Info& info) const {
+    return std::string(info.param.name);
+  }
+};
 
 /// A system of one coordinate in a vector space.
 class OneCoordinate : public integrators::HybridSystem {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "control/registry.h"
 #include "simulation/analysis/stability.h"
 #include "tests/support/run_text.h"
 
@@ -11,6 +12,37 @@ namespace hookpoint {
 namespace {
 
 using Values = std::vector<double>;
+
+/// A controller of somebody else's, with names of its own.
+class StateFeedback final : public control::Component {
+ public:
+  control::Parameter stiffness{*this, "stiffness", "?", 0., "force per position"};
+  control::Parameter damping{*this, "damping", "?", 0., "force per speed"};
+  control::Input position{*this, "position", "?", "of the slide"};
+  control::Input speed{*this, "speed", "?", "of the slide"};
+  control::Output force{*this, "force", "?", "on the slide"};
+
+  void update(const control::Tick&) override { force = -stiffness * position - damping * speed; }
+  std::vector<control::LinearFeedback> linearise() const override {
+    return {{.input = position.index(),
+             .output = force.index(),
+             .rate = speed.index(),
+             .gains = {.proportional = stiffness, .derivative = damping}}};
+  }
+};
+
+/// The same, and it says nothing of itself.
+class Unsaid final : public control::Component {
+ public:
+  control::Input position{*this, "position", "?", "of the slide"};
+  control::Output force{*this, "force", "?", "on the slide"};
+  void update(const control::Tick&) override { force = -400. * position; }
+};
+
+HOOKPOINT_REGISTER_COMPONENT(StateFeedback, "Test.StateFeedback", "a test's",
+                             control::Attachment::none, "position", "force")
+HOOKPOINT_REGISTER_COMPONENT(Unsaid, "Test.Unsaid", "a test's", control::Attachment::none,
+                             "position", "force")
 
 /// 1 kg on a slide that starts at 1 m at rest; PD at 100 Hz with `kd` = 0.1 `kp` and the true rate;
 /// everything that it reads comes `samples` samples late. Between samples the force is constant,
@@ -80,6 +112,16 @@ std::string held_slide(const std::string& integrator, double kd, double dt,
       dt, integrator, kd, more);
 }
 
+/// The same mass under a controller that hookpoint does not know.
+std::string slide_held_by_another(const std::string& integrator, double kd, double dt) {
+  return fmt::format(
+      "World w {{ gravity = 0; deltat = {}; integrator = {}; Robot bot {{ Base.fixed {{ }} Chain c "
+      "{{ Link l {{ joint = prismatic; angle = 1; mass = 1; }} }} }} }}\n"
+      "Test.StateFeedback p {{ stiffness = 400; damping = {}; Wire FROM w.bot.c.l.angle TO "
+      "position; Wire FROM w.bot.c.l.rate TO speed; Wire TO w.bot.c.l.torque; }}",
+      dt, integrator, kd);
+}
+
 double bound(const std::string& text) {
   const Loaded loaded = load_text(text);
   EXPECT_TRUE(loaded.experiment) << loaded.diagnostics;
@@ -99,6 +141,29 @@ TEST(WiredPd, TheStepItBearsIsThatOfTheClosedForm) {
     EXPECT_NEAR(bound(held_slide("rk4", kd, 1e-3)) / std::min(2. / kd, kd / 200.), 1., 1e-6);
   }
   EXPECT_EQ(bound(held_slide("explicit_euler", 0., 1e-3)), 0.);
+}
+
+// Any class that says how its output follows its inputs is in the bound, and the run agrees.
+TEST(WiredPd, AControllerThatLinearisesItselfIsBoundAlike) {
+  for (const double kd : {10., 30.}) {
+    const std::pair<const char*, double> steps[] = {
+        {"explicit_euler", kd / 400.},
+        {"semi_implicit_euler", (std::sqrt(kd * kd + 1600.) - kd) / 400.},
+        {"rk4", std::min(2. / kd, kd / 200.)}};
+    for (const auto& [integrator, step] : steps) {
+      EXPECT_NEAR(bound(slide_held_by_another(integrator, kd, 1e-3)) / step, 1., 1e-6);
+      const auto largest = [&](double part) {
+        const double dt = std::round(part * step * 1e9) * 1e-9;
+        const Values x =
+            Running(slide_held_by_another(integrator, kd, dt)).record("bot.c.l.angle", 1000);
+        double most = 0.;
+        for (std::size_t k = 900; k < x.size(); ++k) most = std::max(most, std::fabs(x[k]));
+        return most;
+      };
+      EXPECT_LT(largest(0.99), 0.5) << integrator << " " << kd;
+      EXPECT_GT(largest(1.01), 2.) << integrator << " " << kd;
+    }
+  }
 }
 
 // From the position alone the velocity of a semi-implicit step is known: (x - x_before)/h.
@@ -215,6 +280,11 @@ TEST(WiredPd, WhatTheBoundLeavesOutIsNamed) {
       left_out(held_slide("rk4", 10., 1e-3) + "Gain g { Wire FROM w.bot.c.l.rate TO input; Wire "
                                               "TO p.goal; }"),
       Names{"g: a Gain is not one of the PD and PID controllers whose feedback is computed"});
+  EXPECT_EQ(left_out("World w { gravity = 0; Robot bot { Base.fixed { } Chain c { Link l { joint = "
+                     "prismatic; mass = 1; } } } }\nTest.Unsaid u { Wire FROM w.bot.c.l.angle TO "
+                     "position; Wire TO w.bot.c.l.torque; }"),
+            Names{"u: a Test.Unsaid is not one of the PD and PID controllers whose feedback is "
+                  "computed"});
 }
 
 // At rest the drive bears gravity: kp (goal - angle) = m g l cos(angle) for a bar from the

@@ -1,9 +1,10 @@
-// Controller.PD and Controller.PID against closed forms.
+// Controller.PD and Controller.PID against closed forms, and what controllers say of themselves
+// against what they do.
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "tests/support/component_bench.h"
+#include "tests/support/linear_form.h"
 
 namespace hookpoint {
 namespace {
@@ -121,6 +122,50 @@ TEST(PID, RefusesCrossedLimits) {
   pid["output_min"] = 1.;
   pid["output_max"] = -1.;
   EXPECT_EQ(testing::start_error(pid), "output_min is above output_max");
+}
+
+/// Of a controller that is on the bench with all its gains.
+void expect_linear_form(ComponentBench& bench, double period) {
+  bench.start();
+  EXPECT_LT(testing::linear_form_error(bench, period), 1e-12);
+}
+
+TEST(LinearForm, IsWhatAPdDoes) {
+  for (const bool wired : {true, false}) {
+    ComponentBench pd("Controller.PD", 2e-3);
+    pd["pconstant"] = 60.;
+    pd["dconstant"] = 0.7;
+    if (wired) pd.drive("rate_in", 0.);
+    expect_linear_form(pd, 2e-3);
+  }
+}
+
+TEST(LinearForm, IsWhatAPidDoes) {
+  for (const bool wired : {true, false}) {
+    for (const double filter_time : {0., 5e-3}) {
+      ComponentBench pid("Controller.PID", 2e-3);
+      pid["pconstant"] = 60.;
+      pid["iconstant"] = 900.;
+      pid["dconstant"] = 0.7;
+      pid["filter_time"] = filter_time;
+      if (wired) pid.drive("rate_in", 0.);
+      expect_linear_form(pid, 2e-3);
+    }
+  }
+}
+
+TEST(LinearForm, IsWhatEveryJointOfAJointPdDoes) {
+  ComponentBench pd("Controller.JointPD", 2e-3);
+  for (const int kind : {0, 1, 2}) {
+    pd["pconstant[" + std::to_string(kind) + "]"] = 20. + kind;
+    pd["dconstant[" + std::to_string(kind) + "]"] = 0.2 + 0.1 * kind;
+  }
+  EXPECT_EQ(pd.component().linearise().size(), 18u);
+  expect_linear_form(pd, 2e-3);
+}
+
+TEST(LinearForm, IsNotSaidByWhatSaysNothing) {
+  EXPECT_TRUE(ComponentBench("Gain").component().linearise().empty());
 }
 
 }  // namespace

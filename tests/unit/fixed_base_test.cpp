@@ -7,7 +7,7 @@
 
 #include "contact/force_law.h"
 #include "integrators/stepper.h"
-#include "simulation/analysis/dynamics.h"
+#include "simulation/analysis/dynamics_report.h"
 #include "simulation/analysis/stability.h"
 #include "tests/support/run_text.h"
 

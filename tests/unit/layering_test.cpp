@@ -55,7 +55,7 @@ const std::map<std::string, Rooms> rooms{
       {"impulse/"},
       {"force_law"}}},
     {"control",
-     {{"component", "registry", "random", "first_order", "leg_kinematics"},
+     {{"linear_feedback", "component", "registry", "random", "first_order", "leg_kinematics"},
       {"core/"},
       {"data/"},
       {"components/"},

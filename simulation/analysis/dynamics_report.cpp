@@ -1,4 +1,4 @@
-#include "simulation/analysis/dynamics.h"
+#include "simulation/analysis/dynamics_report.h"
 
 #include <cmath>
 

@@ -1,11 +1,9 @@
-// A robot that stands, as a linear vibration: its mass matrix, the springs and dampers of its
+// A robot about a rest, as linear dynamics: its mass matrix, the springs and dampers of its
 // contacts and joints, and the stiffness that steady loads have by themselves (a pendulum's). What
-// the stability bound of an integrator follows from.
+// the largest stable step of an integrator follows from.
 #pragma once
 
 #include <Eigen/Core>
-#include <limits>
-#include <string_view>
 #include <vector>
 
 #include "dts/impulse_response.h"
@@ -28,7 +26,7 @@ struct SteadyLoad {
 };
 
 /// z'' + C z' + K z = 0 in coordinates z with the mass matrix 1; both symmetric.
-struct Vibration {
+struct LinearDynamics {
   Eigen::MatrixXd stiffness;  ///< K [1/s^2]
   Eigen::MatrixXd damping;    ///< C [1/s]
   Eigen::MatrixXd joints;     ///< a row a joint: its position over z; a torque moves z by the row
@@ -56,7 +54,7 @@ class RobotAtRest {
 
   /// What the joints do by themselves: spring, damper, dry friction that sticks, a stop that is
   /// reached.
-  Vibration joints_alone() const;
+  LinearDynamics joints_alone() const;
   /// -d(J^T f)/dz of loads that stay as they are while their points move: of gravity a pendulum's
   /// m g l. Exact where the loads are in equilibrium with all else.
   Eigen::MatrixXd stiffness_of(const std::vector<SteadyLoad>& loads) const;
@@ -83,15 +81,8 @@ double largest_eigenvalue(const Eigen::MatrixXd& symmetric);
 Eigen::VectorXd solve_positive(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
 
 /// The robot on its contacts `springs` under `loads`. Wired controllers are not in it
-/// (loop_stability.h). O((springs + links) links^2).
-Vibration linear_vibration(const RobotAtRest& rest, const std::vector<ContactSpring>& springs,
-                           const std::vector<SteadyLoad>& loads);
-
-/// The largest step with which the integrator of that name lets no mode of the vibration grow [s];
-/// infinity for a vibration without forces and for an adaptive integrator. Motions that nothing
-/// resists and those that fall over by themselves do not count. Of a bound that is not below
-/// `least` only that is said: it may be any number that is not below.
-double largest_stable_step(std::string_view integrator, const Vibration& vibration,
-                           double least = std::numeric_limits<double>::infinity());
+/// (stable_step.h). O((springs + links) links^2).
+LinearDynamics linear_dynamics(const RobotAtRest& rest, const std::vector<ContactSpring>& springs,
+                               const std::vector<SteadyLoad>& loads);
 
 }  // namespace hookpoint::simulation

@@ -1,23 +1,15 @@
-#include "simulation/analysis/vibration.h"
+#include "simulation/analysis/linear_dynamics.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <cmath>
-#include <complex>
-#include <limits>
 
 #include "dts/configuration.h"
 #include "dts/external_forces.h"
 #include "dts/forward_dynamics.h"
-#include "integrators/stability_bound.h"
 #include "simulation/analysis/eigen_decompositions.h"
 
 namespace hookpoint::simulation {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-/// Of the fastest: below, an eigenvalue is a motion that nothing resists, and round-off.
-constexpr double least_eigenvalue = 1e-6;
 
 using Workspace = dts::Workspace<double>;
 
@@ -92,55 +84,6 @@ JointSpring joint_spring(const dts::JointProperties<double>& joint, double posit
   return spring;
 }
 
-/// Whether h^2 K + 2 h C has all eigenvalues below 4.
-bool bears(const Vibration& vibration, double h) {
-  const Eigen::Index n = vibration.stiffness.rows();
-  const Eigen::LLT<Eigen::MatrixXd> factors(4. * Eigen::MatrixXd::Identity(n, n) -
-                                            h * h * vibration.stiffness -
-                                            2. * h * vibration.damping);
-  return factors.info() == Eigen::Success;
-}
-
-/// The step h at which h^2 K + 2 h C first has the eigenvalue 4: there a mode turns round in every
-/// step. Exact for symmetric K and C (docs/contact.md).
-double semi_implicit_euler_step(const Vibration& vibration, double least) {
-  if (std::isfinite(least) && bears(vibration, least)) return least;
-  const double k = std::max(0., largest_eigenvalue(vibration.stiffness));
-  const double c = std::max(0., largest_eigenvalue(vibration.damping));
-  if (k == 0. && c == 0.) return infinity;
-  double low = integrators::semi_implicit_euler_bound({k, c, 1.});
-  double high = std::min(2. / std::sqrt(k), 2. / c);
-  for (int i = 0; i < 40 && high - low > 1e-12 * high; ++i) {
-    const double h = 0.5 * (low + high);
-    (bears(vibration, h) ? low : high) = h;
-  }
-  return low;
-}
-
-/// Of an eigenvalue in units of the fastest, times its own size: what rounding adds to it, some
-/// sizes of a matrix whose positions and velocities differ by that size.
-constexpr double eigenvalue_rounding = 1e-14;
-
-/// Of z'' + C z' + K z = 0, for all but motions that nothing resists and those that fall over by
-/// themselves, whose eigenvalue is real and above 0 (K of steady loads may have negative ones).
-std::vector<std::complex<double>> eigenvalues(const Vibration& vibration) {
-  const Eigen::Index n = vibration.stiffness.rows();
-  // Rates in units of the fastest, so that positions and velocities are of one size.
-  const double unit = std::max(std::sqrt(vibration.stiffness.norm()), vibration.damping.norm());
-  Eigen::MatrixXd system(2 * n, 2 * n);
-  system << Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd::Identity(n, n),
-      -vibration.stiffness / (unit * unit), -vibration.damping / unit;
-  const Eigen::VectorXcd all = general_eigenvalues(system);
-  std::vector<std::complex<double>> resisted;
-  for (std::complex<double> value : all) {
-    // No growth, but a swing that nothing damps.
-    if (value.real() > 0. && value.real() * std::abs(value) < eigenvalue_rounding) value.real(0.);
-    const bool falls = value.real() > 0. && std::abs(value.imag()) < 1e-6 * value.real();
-    if (std::abs(value) > least_eigenvalue && !falls) resisted.push_back(unit * value);
-  }
-  return resisted;
-}
-
 }  // namespace
 
 double largest_eigenvalue(const Eigen::MatrixXd& symmetric) {
@@ -194,20 +137,20 @@ Vector3d RobotAtRest::base_rotation(const Eigen::VectorXd& z) const {
   return {rotation.x(), rotation.y(), rotation.z()};
 }
 
-Vibration RobotAtRest::joints_alone() const {
+LinearDynamics RobotAtRest::joints_alone() const {
   const Eigen::MatrixXd levers = joint_levers();
-  Vibration vibration{Eigen::MatrixXd::Zero(size(), size()), Eigen::MatrixXd::Zero(size(), size()),
-                      levers};
+  LinearDynamics dynamics{Eigen::MatrixXd::Zero(size(), size()),
+                          Eigen::MatrixXd::Zero(size(), size()), levers};
   for (Eigen::Index joint = 0; joint < levers.rows(); ++joint) {
     const auto l = static_cast<std::size_t>(joint);
     const JointSpring spring =
         joint_spring(robot_->robot().joints().properties()[l], robot_->state().joint_positions[l]);
     if (spring.stiffness == 0. && spring.damping == 0.) continue;
     const Eigen::VectorXd moved = levers.row(joint).transpose();
-    vibration.stiffness += spring.stiffness * moved * moved.transpose();
-    vibration.damping += spring.damping * moved * moved.transpose();
+    dynamics.stiffness += spring.stiffness * moved * moved.transpose();
+    dynamics.damping += spring.damping * moved * moved.transpose();
   }
-  return vibration;
+  return dynamics;
 }
 
 // Where the coordinate i stands before j on the way to the point, turning by i turns all that j
@@ -265,28 +208,15 @@ std::vector<SteadyLoad> RobotAtRest::weights(const Vector3d& gravity) const {
   return loads;
 }
 
-Vibration linear_vibration(const RobotAtRest& rest, const std::vector<ContactSpring>& springs,
-                           const std::vector<SteadyLoad>& loads) {
-  Vibration vibration = rest.joints_alone();
+LinearDynamics linear_dynamics(const RobotAtRest& rest, const std::vector<ContactSpring>& springs,
+                               const std::vector<SteadyLoad>& loads) {
+  LinearDynamics dynamics = rest.joints_alone();
   for (const ContactSpring& spring : springs) {
-    vibration.stiffness += spring.lever * spring.stiffness * spring.lever.transpose();
-    vibration.damping += spring.lever * spring.damping * spring.lever.transpose();
+    dynamics.stiffness += spring.lever * spring.stiffness * spring.lever.transpose();
+    dynamics.damping += spring.lever * spring.damping * spring.lever.transpose();
   }
-  vibration.stiffness += rest.stiffness_of(loads);
-  return vibration;
-}
-
-double largest_stable_step(std::string_view integrator, const Vibration& vibration, double least) {
-  if (vibration.stiffness.isZero(0.) && vibration.damping.isZero(0.)) return infinity;
-  if (!vibration.stiffness.allFinite() || !vibration.damping.allFinite()) return infinity;
-  if (integrator == "semi_implicit_euler") return semi_implicit_euler_step(vibration, least);
-  const bool rk4 = integrator == "rk4";
-  if (!rk4 && integrator != "explicit_euler") return infinity;
-  double bound = infinity;
-  for (const std::complex<double>& eigenvalue : eigenvalues(vibration))
-    bound = std::min(bound, rk4 ? integrators::rk4_bound(eigenvalue)
-                                : integrators::explicit_euler_bound(eigenvalue));
-  return bound;
+  dynamics.stiffness += rest.stiffness_of(loads);
+  return dynamics;
 }
 
 }  // namespace hookpoint::simulation
