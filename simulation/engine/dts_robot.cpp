@@ -7,6 +7,7 @@
 #include <cassert>
 #include <limits>
 
+#include "contact/bristle_step.h"
 #include "dts/configuration.h"
 #include "dts/external_forces.h"
 #include "dts/forward_dynamics.h"
@@ -65,9 +66,9 @@ bool is_adaptive(const std::string& integrator) {
   return stepper != nullptr && stepper->adaptive();
 }
 
-contact::ForceLaw law_of(const Experiment& experiment) {
+contact::AnyForceLaw law_of(const Experiment& experiment) {
   const auto law = contact::find_force_law(experiment.contact).value_or(contact::Hookpoint{});
-  return is_adaptive(experiment.integrator) ? contact::flow(law) : law;
+  return is_adaptive(experiment.integrator) ? contact::rate_form(law) : law;
 }
 
 }  // namespace
@@ -179,7 +180,7 @@ void DtsRobot::apply_contact_forces(bool trial) {
 // but its forces.
 template <class Law>
 void DtsRobot::apply_contact_force(const Law& law, std::size_t i, bool trial) {
-  // An integrator that chooses its steps gets laws that know none (contact::flow).
+  // An integrator that chooses its steps gets laws that know none (contact::rate_form).
   const double dt = adaptive_ ? 0. : law_step_;
   ContactPoint& point = points_[i];
   const dts::BodyMotion<double>& body = workspace_.bodies[point.body];
@@ -209,7 +210,7 @@ void DtsRobot::apply_contact_force(const Law& law, std::size_t i, bool trial) {
   const contact::Memory<double> memory = point.carried(frame);
   if (!trial) kinematics = contact::held_point(law, kinematics, memory, material, dt);
   const contact::Reaction<double> reaction =
-      semi_implicit_ ? contact::semi_implicit_reaction(law, kinematics, memory, material, dt)
+      semi_implicit_ ? contact::reaction_with_moved_bristle(law, kinematics, memory, material, dt)
                      : law.evaluate(kinematics, memory, material, dt);
   if (reaction.next.attached) {
     dts::add_external_force(workspace_, point.body, reaction.force, position);

@@ -209,7 +209,7 @@ class DtsRobot final : public integrators::System {
   std::size_t first_joint_;  ///< where the robot's joints begin in WorldInputs::joint_torques
   std::span<const std::size_t> forces_;  ///< of the experiment's, those that act on this robot
   bool adaptive_ = false;                ///< the integrator chooses its own steps
-  contact::ForceLaw law_;
+  contact::AnyForceLaw law_;
   std::size_t bristle_states_ = 0;  ///< numbers that the law integrates, of a point
   bool semi_implicit_ = false;      ///< its positions move with the new velocities
   /// The step that is taken, what a law gets for one, and the step before it [s].
