@@ -25,7 +25,7 @@ constexpr std::array laws =
 /// Calls `use` with the law of the list that has the name, if there is one.
 template <class List, class Use>
 void with_named(std::string_view name, Use use) {
-  std::apply([&](auto... law) { ((name == law.name && (use(law), true)) || ...); }, List{});
+  std::apply([&](auto... law) { ((name == law.name ? use(law) : void()), ...); }, List{});
 }
 
 /// What `use` says of the impulse law.
