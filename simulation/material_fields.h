@@ -1,6 +1,7 @@
 // The constants of a Material, once: what the schema says of each and where the load step puts it.
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 #include "contact/vocabulary.h"
@@ -60,6 +61,12 @@ inline constexpr std::array<MaterialField, 21> material_fields() {
       {"rebound_speed", "m/s", &Constants::rebound_speed, false,
        "u0, least rebound of a microcollision, what keeps a resting block bouncing (impulse laws)"},
   }};
+}
+
+/// The field of a constant; there is one for each.
+inline MaterialField field_of(double contact::MaterialConstants<double>::*constant) {
+  const auto fields = material_fields();
+  return *std::ranges::find(fields, constant, &MaterialField::member);
 }
 
 }  // namespace hookpoint::simulation

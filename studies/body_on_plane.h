@@ -19,7 +19,7 @@ struct BodyOnPlane {
   bool single_point = false;        ///< the robot has one boundary point: it cannot rock
   double speed = 0.;                ///< initial, in the plane [m/s]
   contact::MaterialConstants<double> material;
-  std::optional<contact::ForceLaw> law;  ///< of engine dts
+  std::optional<contact::AnyForceLaw> law;  ///< of engine dts
   bool peer = false;
 
   double contacts() const { return static_cast<double>(footprint.size()); }

@@ -78,7 +78,7 @@ bool ImpulseResolution::reverse(StruckRobot& robot, std::size_t hit, ImpulseTall
   for (std::size_t i = 0; i < robot.point_count(); ++i) {
     const GroundPoint& ground = robot.ground(i);
     if (ground.gap > reach) continue;
-    if (std::abs(dot(robot.velocity(i), ground.normal)) > kMicrocollision * u0) return false;
+    if (std::abs(dot(robot.velocity(i), ground.normal)) > microcollision_limit * u0) return false;
     near_[count] = {{},
                     ground.normal,
                     ground.material->kinetic_friction,

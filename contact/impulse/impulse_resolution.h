@@ -13,10 +13,6 @@
 
 namespace hookpoint::contact {
 
-/// How collisions are answered: each by itself, or microcollisions of all near points together
-/// (impulse_reversal.h).
-enum class ImpulseLaw { impulse, impulse_reversal };
-
 struct ImpulseOptions {
   double tolerance =
       1e-12;  ///< |gap| at which a point touches [m]; lower reaches rounding, higher hides u0

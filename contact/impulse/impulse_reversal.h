@@ -13,13 +13,35 @@
 
 #include <span>
 
+#include "contact/impulse/impulse.h"
 #include "math/matrix3.h"
 
 namespace hookpoint::contact {
 
+/// What the law `impulse_reversal` says of itself.
+struct ImpulseReversal {
+  static constexpr ImpulseLaw law = ImpulseLaw::impulse_reversal;
+  static constexpr const char* name = "impulse_reversal";
+  static constexpr const char* source = "Mirtich 1996";
+  static constexpr const char* summary =
+      "as impulse, but a rebound inside the cone reverses the whole velocity";
+  static constexpr ConstantList constants = Impulse::constants;
+  static constexpr ConstantList own_constants = Impulse::own_constants;
+
+  /// Every flight undoes the slip of the one before: 0 [m/s].
+  static std::optional<double> creep_speed(double /*tangent_of_slope*/, bool /*single_point*/,
+                                           const Constants& /*material*/) {
+    return 0.;
+  }
+  /// No closed form.
+  static std::optional<double> impact_rate(double /*gravity*/, const Constants& /*material*/) {
+    return std::nullopt;
+  }
+};
+
 /// A collision is a microcollision while every point of its group moves along its normal slower
 /// than this many u0. In a sustained contact |u_n| is u0; higher reverses landings too.
-inline constexpr double kMicrocollision = 4.;
+inline constexpr double microcollision_limit = 4.;
 
 /// A point that takes part. World axes, SI.
 struct ReversalPoint {

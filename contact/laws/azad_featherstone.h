@@ -2,7 +2,7 @@
 // penetration as a sphere's on a plane do, and a tangential bristle that slips at the cone.
 #pragma once
 
-#include "contact/laws/bristle.h"
+#include "contact/laws/clipped_bristle.h"
 #include "contact/laws/impact.h"
 
 namespace hookpoint::contact {
@@ -12,6 +12,13 @@ struct AzadFeatherstone {
   static constexpr const char* source = "Azad & Featherstone 2010";
   static constexpr const char* summary =
       "max(0, k d^1.5 + D d^0.5 d'); a bristle as a continuous state, clipped at the cone";
+  static constexpr ConstantList constants{
+      &Constants::normal_stiffness,   &Constants::normal_damping,  &Constants::tangential_stiffness,
+      &Constants::tangential_damping, &Constants::static_friction, &Constants::kinetic_friction};
+  static constexpr ConstantList own_constants{};
+  static constexpr NormalConstants normal_constants{&Constants::normal_stiffness, "N/m^1.5",
+                                                    &Constants::normal_damping};
+  using RateForm = AzadFeatherstone;
   static constexpr std::size_t bristle_states = 3;
   static double reach(const MaterialConstants<double>& /*material*/) { return 0.; }
 
@@ -74,6 +81,15 @@ struct AzadFeatherstone {
   static double resolved_speed(double /*load*/, double dt,
                                const MaterialConstants<double>& material) {
     return clipped_bristle_resolved(dt, material);
+  }
+  static double switching_value(const PointKinematics<double>& point, const Memory<double>& memory,
+                                const Constants& material) {
+    const double depth_rate = -dot(point.velocity, point.normal);
+    return stick_slip_switching_value(point, memory, material,
+                                      normal_force(point.depth, depth_rate, material));
+  }
+  static bool slides_after(bool falling, const Memory<double>& memory, const Constants& material) {
+    return stick_slip_slides_after(falling, memory, material);
   }
 };
 

@@ -13,6 +13,17 @@ struct Elastoplastic : LugrePredictions {
   static constexpr const char* source = "Dupont et al. 2002";
   static constexpr const char* summary =
       "as lugre, but purely elastic below a break-away deflection: does not drift";
+  static constexpr ConstantList constants{&Constants::normal_stiffness,
+                                          &Constants::normal_damping,
+                                          &Constants::tangential_stiffness,
+                                          &Constants::tangential_damping,
+                                          &Constants::static_friction,
+                                          &Constants::kinetic_friction,
+                                          &Constants::stribeck_speed,
+                                          &Constants::viscous_friction,
+                                          &Constants::breakaway};
+  static constexpr ConstantList own_constants{&Constants::breakaway};
+  using RateForm = Elastoplastic;
 
   /// alpha(z, v), how plastic the motion is: 0 for k_t |z| up to breakaway mu_k N and where the
   /// bristle unbends (z.v <= 0), 1 from g(v) on, half a sine between.

@@ -4,7 +4,7 @@
 // friction goes smoothly from static to kinetic.
 #pragma once
 
-#include "contact/laws/bristle.h"
+#include "contact/laws/clipped_bristle.h"
 
 namespace hookpoint::contact {
 
@@ -14,6 +14,18 @@ struct Exponential {
   static constexpr const char* summary =
       "d1 exp(-d2 (z - d0)) (1 - c z'); anchored spring, friction from static to kinetic by a "
       "sliding state";
+  static constexpr ConstantList constants{
+      &Constants::exponential_force,    &Constants::exponential_rate,
+      &Constants::exponential_height,   &Constants::hysteresis_damping,
+      &Constants::tangential_stiffness, &Constants::tangential_damping,
+      &Constants::static_friction,      &Constants::kinetic_friction,
+      &Constants::stribeck_speed,       &Constants::sliding_time};
+  static constexpr ConstantList own_constants{
+      &Constants::exponential_force, &Constants::exponential_rate, &Constants::hysteresis_damping,
+      &Constants::sliding_time};
+  static constexpr NormalConstants normal_constants{&Constants::exponential_rate, "1/m",
+                                                    &Constants::hysteresis_damping};
+  using RateForm = Exponential;
   static constexpr std::size_t bristle_states = 4;
 
   /// The law is cut off where its spring is a millionth of d1 [m]: d0 + ln(1e6)/d2 above the tile.
@@ -98,6 +110,14 @@ struct Exponential {
   static double resolved_speed(double /*load*/, double dt,
                                const MaterialConstants<double>& material) {
     return clipped_bristle_resolved(dt, material);
+  }
+  static double switching_value(const PointKinematics<double>& point, const Memory<double>& memory,
+                                const Constants& /*material*/) {
+    return slip_reversal(point, memory);
+  }
+  static bool slides_after(bool /*falling*/, const Memory<double>& memory,
+                           const Constants& /*material*/) {
+    return memory.sliding;
   }
 
  private:

@@ -3,11 +3,8 @@
 // static to kinetic. No memory: it must creep.
 #pragma once
 
-#include <optional>
-
-#include "contact/laws/bristle.h"
+#include "contact/law_interface.h"
 #include "contact/laws/stribeck.h"
-#include "contact/predictions.h"
 
 namespace hookpoint::contact {
 
@@ -21,6 +18,16 @@ struct HuntCrossley : WithoutBristle {
   static constexpr const char* source = "Hunt & Crossley 1975";
   static constexpr const char* summary =
       "k d^n (1 + alpha d'); friction a smooth function of velocity, no memory: creeps";
+  static constexpr ConstantList constants{
+      &Constants::normal_stiffness, &Constants::exponent,         &Constants::hysteresis_damping,
+      &Constants::static_friction,  &Constants::kinetic_friction, &Constants::regularisation_speed,
+      &Constants::stribeck_speed};
+  static constexpr ConstantList own_constants{&Constants::exponent, &Constants::hysteresis_damping,
+                                              &Constants::regularisation_speed,
+                                              &Constants::stribeck_speed};
+  static constexpr NormalConstants normal_constants{&Constants::normal_stiffness, "N/m^exponent",
+                                                    &Constants::hysteresis_damping};
+  using RateForm = HuntCrossley;
 
   /// Force on the robot and next memory of one point; the memory only tells that the point is
   /// inside.

@@ -11,6 +11,12 @@ struct Lugre : LugrePredictions {
   static constexpr const char* source = "Canudas de Wit et al. 1995";
   static constexpr const char* summary =
       "linear spring-damper; bristle z' = v - k_t |v| z/g(v) with Stribeck: drifts when shaken";
+  static constexpr ConstantList constants{
+      &Constants::normal_stiffness,   &Constants::normal_damping,  &Constants::tangential_stiffness,
+      &Constants::tangential_damping, &Constants::static_friction, &Constants::kinetic_friction,
+      &Constants::stribeck_speed,     &Constants::viscous_friction};
+  static constexpr ConstantList own_constants{};
+  using RateForm = Lugre;
 
   /// Force on the robot, bristle rate and next memory of one point: N = max(0, k d + c d'),
   ///   z' = v - k_t |v| z/g(v),   f = k_t z + sigma1(v) z' + sigma2 v,   g = mu(v) N

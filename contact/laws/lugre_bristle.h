@@ -2,10 +2,20 @@
 // plastic (alpha), which is what their own files say.
 #pragma once
 
+#include "contact/laws/bristle.h"
 #include "contact/laws/spring_damper.h"
 #include "contact/laws/stribeck.h"
 
 namespace hookpoint::contact {
+
+/// The deflection z bent no farther than `limit` [N] >= 0 can hold: k_t |z| <= limit. What a
+/// falling load no longer holds lets go.
+template <class Real>
+Vector3<Real> held_deflection(const Vector3<Real>& z, const MaterialConstants<Real>& material,
+                              const Real& limit) {
+  const Real force = material.tangential_stiffness * norm(z);
+  return select(force > limit, (limit / positive_or_one(force)) * z, z);
+}
 
 /// A bristle under its load, before the law decides how much of its motion is plastic. World axes.
 template <class Real>
@@ -86,6 +96,7 @@ Reaction<Real> lugre_reaction(const PointKinematics<Real>& point,
 
 /// Predictions that both share; the normal direction is the linear spring-damper's.
 struct LugrePredictions {
+  static constexpr NormalConstants normal_constants = SpringDamperPredictions::normal_constants;
   static constexpr std::size_t bristle_states = 3;
   static double reach(const MaterialConstants<double>& /*material*/) { return 0.; }
   /// N/k [m].
@@ -116,6 +127,14 @@ struct LugrePredictions {
   /// load N [N]: mu_k N/(k_t dt) [m/s].
   static double resolved_speed(double load, double dt, const MaterialConstants<double>& material) {
     return material.kinetic_friction * load / (material.tangential_stiffness * dt);
+  }
+  static double switching_value(const PointKinematics<double>& point, const Memory<double>& memory,
+                                const Constants& /*material*/) {
+    return slip_reversal(point, memory);
+  }
+  static bool slides_after(bool /*falling*/, const Memory<double>& memory,
+                           const Constants& /*material*/) {
+    return memory.sliding;
   }
 };
 

@@ -3,8 +3,8 @@
 // 3.3).
 #pragma once
 
+#include "contact/laws/hookpoint.h"
 #include "contact/laws/impact.h"
-#include "contact/laws/return_map.h"
 
 namespace hookpoint::contact {
 
@@ -13,6 +13,17 @@ struct Nominal : SpringDamperPredictions {
   static constexpr const char* source = "Reichler & Delcomyn 2000, 3.3";
   static constexpr const char* summary =
       "as hookpoint, but soft (k1) up to the nominal depth d0 and stiff (k) beyond it";
+  static constexpr ConstantList constants{
+      &Constants::normal_stiffness,     &Constants::normal_damping,
+      &Constants::tangential_stiffness, &Constants::tangential_damping,
+      &Constants::static_friction,      &Constants::kinetic_friction,
+      &Constants::nominal_stiffness,    &Constants::nominal_penetration,
+      &Constants::blend_width};
+  static constexpr ConstantList own_constants{&Constants::nominal_stiffness,
+                                              &Constants::nominal_penetration};
+  static constexpr NormalConstants normal_constants{&Constants::nominal_stiffness, "N/m",
+                                                    &Constants::normal_damping};
+  using RateForm = ReturnMapRateForm<Nominal>;
 
   /// The spring's force [N] at `depth` d >= 0 [m]:
   ///   k1 d                             d <= d0

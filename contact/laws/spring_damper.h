@@ -4,8 +4,7 @@
 // say.
 #pragma once
 
-#include "contact/laws/bristle.h"
-#include "contact/predictions.h"
+#include "contact/law_interface.h"
 
 namespace hookpoint::contact {
 
@@ -103,6 +102,9 @@ Reaction<Real> hook_reaction(const PointKinematics<Real>& point, const HookTrial
 
 /// What every law with a linear spring-damper and a hook shares.
 struct SpringDamperPredictions : WithoutBristle {
+  static constexpr NormalConstants normal_constants{&Constants::normal_stiffness, "N/m",
+                                                    &Constants::normal_damping};
+
   template <class Real>
   static Real normal_force(const Real& depth, const Real& depth_rate,
                            const MaterialConstants<Real>& material) {

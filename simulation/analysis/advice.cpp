@@ -86,11 +86,10 @@ void advise_constant(GroundAdvice& ground, const contact::MaterialConstants<doub
 
 /// The vertical speed about rest at which a body just leaves what the law reaches, without its
 /// damper: m v^2/2 = W (d + reach) - U(d) [m/s].
-double survival_speed(const contact::ForceLaw& law, const GroundAdvice& ground,
+double survival_speed(const contact::AnyForceLaw& law, const GroundAdvice& ground,
                       const contact::MaterialConstants<double>& material) {
   const double depth = contact::static_depth(law, ground.load, material);
-  const double reach =
-      std::visit([&](const auto& chosen) { return double(chosen.reach(material)); }, law);
+  const double reach = contact::reach(law, material);
   const double energy =
       ground.load * (depth + reach) - contact::stored_energy(law, depth, {}, material);
   return std::sqrt(2. * std::max(0., energy) / ground.mass);
@@ -98,10 +97,10 @@ double survival_speed(const contact::ForceLaw& law, const GroundAdvice& ground,
 
 /// The constant that sets the depth; of a law that acts above the tile the force there too, where
 /// it is more than `surface_share`. False for a law without one.
-bool advise_depth(GroundAdvice& ground, const contact::ForceLaw& law,
+bool advise_depth(GroundAdvice& ground, const contact::AnyForceLaw& law,
                   const contact::MaterialConstants<double>& present) {
   using Constants = contact::MaterialConstants<double>;
-  const auto stiffness = stiffness_field(law, ground.load, present);
+  const auto stiffness = stiffness_field(law);
   if (!stiffness) return false;
   if (stiffness->member == &Constants::nominal_stiffness)
     ground.advised.nominal_penetration = ground.wanted_depth;
@@ -121,11 +120,11 @@ bool advise_depth(GroundAdvice& ground, const contact::ForceLaw& law,
   return true;
 }
 
-void advise_constants(GroundAdvice& ground, const contact::ForceLaw& law,
+void advise_constants(GroundAdvice& ground, const contact::AnyForceLaw& law,
                       const contact::MaterialConstants<double>& present, double speed) {
   ground.advised = present;
   if (!advise_depth(ground, law, present)) return;
-  const auto damping = damping_field(law, ground.mass, speed, present);
+  const auto damping = damping_field(law);
   if (damping) {
     advise_constant(ground, present, Aim::rebound, *damping,
                     damping_for_rebound(law, *damping, ground.mass, speed, ground.wanted_rebound,
@@ -133,11 +132,11 @@ void advise_constants(GroundAdvice& ground, const contact::ForceLaw& law,
                     fmt::format("{:.4g} kg rebound with {:.3g} of the speed", ground.mass,
                                 ground.wanted_rebound));
   }
-  if (reads_tangential_stiffness(law, ground.load, present))
+  if (contact::reads(law, &contact::Constants::tangential_stiffness))
     advise_constant(ground, present, Aim::friction, field_named("tangential_stiffness"),
                     ground.load / ground.wanted_depth,
                     "a hook gives as much along the ground as the point sinks");
-  if (damping && reads_tangential_damping(law, ground.load, present)) {
+  if (damping && contact::reads(law, &contact::Constants::tangential_damping)) {
     const double zeta = contact::kelvin_voigt_damping_ratio(ground.wanted_rebound);
     const double stiffness = ground.load / ground.wanted_depth;
     advise_constant(ground, present, Aim::friction, field_named("tangential_damping"),
@@ -153,7 +152,7 @@ std::vector<GroundAdvice> advise_robot(const Experiment& experiment, int index,
   RobotSystem robot(experiment, static_cast<std::size_t>(index), &terrain, inputs);
   dts::articulated_inertias(robot.model(), robot.workspace());
   const std::vector<const ContactPoint*> carrying = carrying_points(robot);
-  const contact::ForceLaw law = *contact::find_force_law(experiment.contact);
+  const contact::AnyForceLaw law = *contact::find_force_law(experiment.contact);
   const double gravity = norm(experiment.gravity);
   const double mass = mass_of(experiment.robots[index]);
 
@@ -186,7 +185,7 @@ std::vector<GroundAdvice> advise_robot(const Experiment& experiment, int index,
 /// The experiment on the advised ground. Of two robots on one material the stiffer advice counts.
 Experiment advised_experiment(const Experiment& experiment,
                               const std::vector<GroundAdvice>& grounds) {
-  const contact::ForceLaw law = *contact::find_force_law(experiment.contact);
+  const contact::AnyForceLaw law = *contact::find_force_law(experiment.contact);
   const auto stiffness = [&](const GroundAdvice& ground) {
     return contact::linearise(law, ground.load, ground.advised).normal_stiffness;
   };

@@ -42,7 +42,7 @@ std::vector<Culprit> culprits() {
 }
 
 /// Whether the law reads the constant about that load.
-bool reads(const contact::ForceLaw& law, double load, const Constants& material, Member member) {
+bool reads(const contact::AnyForceLaw& law, double load, const Constants& material, Member member) {
   Constants more = material;
   more.*member = 1.001 * material.*member;
   const auto now = contact::linearise(law, load, material);
@@ -63,7 +63,7 @@ struct Place {
 /// weight, or one all of it.
 std::vector<Place> places(const Experiment& experiment, const Advice& advice,
                           const Culprit& culprit) {
-  const contact::ForceLaw law = *contact::find_force_law(experiment.contact);
+  const contact::AnyForceLaw law = *contact::find_force_law(experiment.contact);
   std::vector<Place> places;
   for (std::size_t i = 0; i < experiment.materials.size(); ++i) {
     const MaterialSpec& material = experiment.materials[i];

@@ -3,29 +3,13 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <initializer_list>
 #include <stdexcept>
 
 namespace hookpoint::simulation {
 namespace {
 
-using contact::ForceLaw;
+using contact::AnyForceLaw;
 using Constants = contact::MaterialConstants<double>;
-
-/// The first of `names` whose constant changes `prediction` when it grows by a part in a thousand.
-template <class Prediction>
-std::optional<MaterialField> first_that_matters(std::initializer_list<std::string_view> names,
-                                                const Constants& material,
-                                                const Prediction& prediction) {
-  for (const std::string_view name : names) {
-    const MaterialField field = field_named(name);
-    Constants more = material;
-    const double value = material.*field.member;
-    more.*field.member = value > 0. ? 1.001 * value : 1.;
-    if (prediction(more) != prediction(material)) return field;
-  }
-  return std::nullopt;
-}
 
 /// x in [10^low, 10^high] with f(x) = 0 for an f that falls with x; an end where it has no zero.
 /// The zero is bracketed from below: far beyond it a prediction that is integrated may not be had.
@@ -51,37 +35,17 @@ MaterialField field_named(std::string_view name) {
   throw std::logic_error(fmt::format("a Material has no constant `{}`", name));
 }
 
-std::optional<MaterialField> stiffness_field(const ForceLaw& law, double load,
-                                             const Constants& material) {
-  return first_that_matters(
-      {"nominal_stiffness", "normal_stiffness", "exponential_rate"}, material,
-      [&](const Constants& changed) { return contact::static_depth(law, load, changed); });
+std::optional<MaterialField> stiffness_field(const AnyForceLaw& law) {
+  const contact::Constant stiffness = contact::normal_constants(law).stiffness;
+  return stiffness == nullptr ? std::nullopt : std::optional(field_of(stiffness));
 }
 
-std::optional<MaterialField> damping_field(const ForceLaw& law, double mass, double speed,
-                                           const Constants& material) {
-  return first_that_matters(
-      {"normal_damping", "hysteresis_damping"}, material,
-      [&](const Constants& changed) { return contact::restitution(law, mass, speed, changed); });
+std::optional<MaterialField> damping_field(const AnyForceLaw& law) {
+  const contact::Constant damping = contact::normal_constants(law).damping;
+  return damping == nullptr ? std::nullopt : std::optional(field_of(damping));
 }
 
-bool reads_tangential_stiffness(const ForceLaw& law, double load, const Constants& material) {
-  return first_that_matters({"tangential_stiffness"}, material,
-                            [&](const Constants& changed) {
-                              return contact::linearise(law, load, changed).tangential_stiffness;
-                            })
-      .has_value();
-}
-
-bool reads_tangential_damping(const ForceLaw& law, double load, const Constants& material) {
-  return first_that_matters({"tangential_damping"}, material,
-                            [&](const Constants& changed) {
-                              return contact::linearise(law, load, changed).tangential_damping;
-                            })
-      .has_value();
-}
-
-double stiffness_for_depth(const ForceLaw& law, const MaterialField& field, double load,
+double stiffness_for_depth(const AnyForceLaw& law, const MaterialField& field, double load,
                            double depth, Constants material) {
   return bisect_decades(
       [&](double stiffness) {
@@ -91,7 +55,7 @@ double stiffness_for_depth(const ForceLaw& law, const MaterialField& field, doub
       -6., 18.);
 }
 
-bool carries_above_ground(const ForceLaw& law, double load, double share,
+bool carries_above_ground(const AnyForceLaw& law, double load, double share,
                           const Constants& material) {
   return contact::static_depth(law, share * load, material) < 0.;
 }
@@ -104,7 +68,7 @@ Constants exponential_for_depth(double load, double depth, double share, Constan
   return material;
 }
 
-double damping_for_rebound(const ForceLaw& law, const MaterialField& field, double mass,
+double damping_for_rebound(const AnyForceLaw& law, const MaterialField& field, double mass,
                            double speed, double rebound, Constants material) {
   const auto excess = [&](double damping) {
     material.*field.member = damping;

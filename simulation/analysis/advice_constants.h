@@ -14,27 +14,18 @@ MaterialField field_named(std::string_view name);
 
 /// The constant that the law's depth at rest depends on: of `nominal` the stiffness below the
 /// nominal depth, of `exponential` the rate.
-std::optional<MaterialField> stiffness_field(const contact::ForceLaw& law, double load,
-                                             const contact::MaterialConstants<double>& material);
+std::optional<MaterialField> stiffness_field(const contact::AnyForceLaw& law);
 
 /// The constant that the law's rebound depends on; none for a law that reads no damping.
-std::optional<MaterialField> damping_field(const contact::ForceLaw& law, double mass, double speed,
-                                           const contact::MaterialConstants<double>& material);
-
-/// Whether the law's friction has a spring that `tangential_stiffness` sets, and a damper that
-/// `tangential_damping` sets.
-bool reads_tangential_stiffness(const contact::ForceLaw& law, double load,
-                                const contact::MaterialConstants<double>& material);
-bool reads_tangential_damping(const contact::ForceLaw& law, double load,
-                              const contact::MaterialConstants<double>& material);
+std::optional<MaterialField> damping_field(const contact::AnyForceLaw& law);
 
 /// The value of `field` with which `load` [N] rests `depth` [m] deep.
-double stiffness_for_depth(const contact::ForceLaw& law, const MaterialField& field, double load,
+double stiffness_for_depth(const contact::AnyForceLaw& law, const MaterialField& field, double load,
                            double depth, contact::MaterialConstants<double> material);
 
 /// Whether a point on the tile, not inside the ground, is carried with more than `share` of `load`
 /// [N]: the body then hovers, or nearly so. Only a law that acts above the tile does that.
-bool carries_above_ground(const contact::ForceLaw& law, double load, double share,
+bool carries_above_ground(const contact::AnyForceLaw& law, double load, double share,
                           const contact::MaterialConstants<double>& material);
 
 /// Force and rate of an exponential spring with which `load` [N] rests `depth` [m] deep and the
@@ -44,7 +35,7 @@ contact::MaterialConstants<double> exponential_for_depth(
 
 /// The value of `field` with which `mass` [kg] that hits at `speed` [m/s] rebounds with `rebound`
 /// of it; 0 when it never rebounds as fast.
-double damping_for_rebound(const contact::ForceLaw& law, const MaterialField& field, double mass,
+double damping_for_rebound(const contact::AnyForceLaw& law, const MaterialField& field, double mass,
                            double speed, double rebound,
                            contact::MaterialConstants<double> material);
 

@@ -28,7 +28,7 @@ Eigen::Matrix3d along_and_across(const Eigen::Vector3d& n, double along, double 
   return along * projection + across * (Eigen::Matrix3d::Identity() - projection);
 }
 
-ContactSpring make_spring(const Experiment& experiment, const contact::ForceLaw& law,
+ContactSpring make_spring(const Experiment& experiment, const contact::AnyForceLaw& law,
                           const CarryingPoint& carrying) {
   const auto& material = constants_of(experiment, carrying.material);
   contact::LinearContact linear = contact::linearise(law, carrying.load, material);
@@ -42,7 +42,7 @@ ContactSpring make_spring(const Experiment& experiment, const contact::ForceLaw&
 
 /// The least speed up to which the step resolves the bristles of the points that carry [m/s].
 double resolved_speed(const Experiment& experiment, const StepperDescription& stepper,
-                      const contact::ForceLaw& law, const Stance& stance) {
+                      const contact::AnyForceLaw& law, const Stance& stance) {
   double least = infinity, most = 0.;
   if (stepper.adaptive()) return least;
   for (const CarryingPoint& point : stance.points) most = std::max(most, point.load);
@@ -78,7 +78,7 @@ StabilityBound bound_of(const StepperDescription& stepper, const LinearDynamics&
   return bound;
 }
 
-Springs springs_of(const Experiment& experiment, const contact::ForceLaw& law,
+Springs springs_of(const Experiment& experiment, const contact::AnyForceLaw& law,
                    const Stance& stance) {
   Springs springs{{}, stance.loads};
   for (const CarryingPoint& point : stance.points)
@@ -87,7 +87,7 @@ Springs springs_of(const Experiment& experiment, const contact::ForceLaw& law,
 }
 
 /// Whether the law is stiffer or damps more under a greater load.
-bool depends_on_load(const Experiment& experiment, const contact::ForceLaw& law,
+bool depends_on_load(const Experiment& experiment, const contact::AnyForceLaw& law,
                      const CarryingPoint& point, double load) {
   const auto& material = constants_of(experiment, point.material);
   const contact::LinearContact now = contact::linearise(law, point.load, material);
@@ -97,7 +97,7 @@ bool depends_on_load(const Experiment& experiment, const contact::ForceLaw& law,
 }
 
 /// Where the loads vary, under a law that stiffens with them: each point may carry all alone.
-void add_single_points(const Experiment& experiment, const contact::ForceLaw& law,
+void add_single_points(const Experiment& experiment, const contact::AnyForceLaw& law,
                        std::vector<Stance>& stances) {
   for (std::size_t i = 0, count = stances.size(); i < count; ++i) {
     double total = 0.;
@@ -132,7 +132,7 @@ StabilityBound free_bound(const Experiment& experiment, const StepperDescription
 StabilityBound robot_bound(const Experiment& experiment, const StepperDescription& stepper,
                            std::size_t index, const contact::Terrain* ground,
                            const WiredControl& control, const WorldInputs& inputs) {
-  const contact::ForceLaw law = *contact::find_force_law(experiment.contact);
+  const contact::AnyForceLaw law = *contact::find_force_law(experiment.contact);
   const RobotSpec& spec = experiment.robots[index];
   RobotSystem robot(experiment, index, ground, inputs);
   const RobotAtRest rest(robot);

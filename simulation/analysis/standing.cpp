@@ -169,7 +169,7 @@ class Settling {
     return loads;
   }
 
-  const contact::ForceLaw law_;
+  const contact::AnyForceLaw law_;
   const Experiment& experiment_;
   const RobotAtRest& rest_;
   std::span<const Support> supports_;
@@ -291,7 +291,7 @@ class StanceFinder {
     MatrixXd stiffness = rest_.joints_alone().stiffness;
     if (drives_.driven.empty()) return stiffness;
     constexpr double held = 1e4;
-    const contact::ForceLaw law = *contact::find_force_law(experiment_.contact);
+    const contact::AnyForceLaw law = *contact::find_force_law(experiment_.contact);
     double ground = 0.;
     for (const Support& support : supports) {
       const contact::LinearContact linear =
@@ -340,7 +340,7 @@ class StanceFinder {
 
   /// How deep the whole weight sinks on one point: so far apart, points touch together [m].
   double deepest_sink() const {
-    const contact::ForceLaw law = *contact::find_force_law(experiment_.contact);
+    const contact::AnyForceLaw law = *contact::find_force_law(experiment_.contact);
     double deepest = 0.;
     for (const Support& support : supports_)
       deepest = std::max(

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "contact/bristle_step.h"
 #include "dts/external_forces.h"
 
 namespace hookpoint::simulation {
@@ -13,11 +14,11 @@ constexpr int commits_remembered = 2;  // `committed` and `before`
 
 /// The experiment's law; for an integrator that chooses its own steps as a differential equation.
 /// Without a ground none is asked.
-contact::ForceLaw law_of(const Experiment& experiment, bool has_ground, bool adaptive) {
+contact::AnyForceLaw law_of(const Experiment& experiment, bool has_ground, bool adaptive) {
   if (!has_ground) return {};
   const auto law = contact::find_force_law(experiment.contact);
   if (!law) throw ExperimentError("there is no contact law `" + experiment.contact + "`");
-  return adaptive ? contact::flow(*law) : *law;
+  return adaptive ? contact::rate_form(*law) : *law;
 }
 
 std::vector<ContactPoint> contact_points(const RobotSpec& robot) {
@@ -73,7 +74,7 @@ template <class Law>
 void ContactSet::apply_force(const Law& law, std::size_t i, dts::Workspace<double>& workspace,
                              Evaluation evaluation) {
   const bool trial = evaluation == Evaluation::trial;
-  // An integrator that chooses its steps gets laws that know none (contact::flow).
+  // An integrator that chooses its steps gets laws that know none (contact::rate_form).
   const double dt = adaptive_ ? 0. : experiment_->deltat;
   ContactPoint& point = points_[i];
   const dts::BodyMotion<double>& body = workspace.bodies[point.body];
@@ -103,7 +104,7 @@ void ContactSet::apply_force(const Law& law, std::size_t i, dts::Workspace<doubl
   const contact::Memory<double> memory = point.carried(frame);
   if (!trial) kinematics = contact::held_point(law, kinematics, memory, material, dt);
   const contact::Reaction<double> reaction =
-      new_velocity_ ? contact::semi_implicit_reaction(law, kinematics, memory, material, dt)
+      new_velocity_ ? contact::reaction_with_moved_bristle(law, kinematics, memory, material, dt)
                     : law.evaluate(kinematics, memory, material, dt);
   if (reaction.next.attached) {
     dts::add_external_force(workspace, point.body, reaction.force, position);

@@ -144,7 +144,7 @@ class ContactSet {
   const contact::Terrain* ground_;
   bool adaptive_ = false;      ///< the integrator chooses its own steps
   bool new_velocity_ = false;  ///< its positions move with the new velocities
-  contact::ForceLaw law_;
+  contact::AnyForceLaw law_;
   std::size_t bristle_states_ = 0;  ///< numbers that the law integrates, of a point
   std::vector<ContactPoint> points_;
   std::vector<std::size_t> first_points_;  ///< of each body, into points_; one more at the end

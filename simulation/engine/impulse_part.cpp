@@ -1,5 +1,6 @@
 #include "simulation/engine/impulse_part.h"
 
+#include "contact/force_law.h"
 #include "simulation/engine/impulse_body.h"
 #include "simulation/engine/impulse_robot.h"
 
@@ -7,8 +8,7 @@ namespace hookpoint::simulation {
 namespace {
 
 contact::ImpulseLaw impulse_law(const std::string& name) {
-  if (name == "impulse") return contact::ImpulseLaw::impulse;
-  if (name == "impulse_reversal") return contact::ImpulseLaw::impulse_reversal;
+  if (const auto law = contact::find_impulse_law(name)) return *law;
   throw ExperimentError("there is no impulse law `" + name + "`");
 }
 

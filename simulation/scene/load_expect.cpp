@@ -42,8 +42,8 @@ class ExpectationLoader {
     spec_.formula = written(*object_.find("equals"));
     if (object_.given("source")) spec_.source = object_.word("source");
     check_times();
-    spec_.laws = known_words("laws", law_names());
-    spec_.except_laws = known_words("except_laws", law_names());
+    spec_.laws = known_words("laws", contact::law_names());
+    spec_.except_laws = known_words("except_laws", contact::law_names());
     spec_.integrators = known_words("integrators", integrator_names());
     // Under another law the port may not exist.
     const Experiment& experiment = loading_.experiment;
@@ -60,11 +60,6 @@ class ExpectationLoader {
     check_unit(port->target);
   }
 
-  static std::vector<std::string> law_names() {
-    std::vector<std::string> names;
-    for (const contact::LawDescription& law : contact::law_table()) names.emplace_back(law.name);
-    return names;
-  }
   static std::vector<std::string> integrator_names() {
     std::vector<std::string> names;
     for (const integrators::StepperDescription& stepper : integrators::stepper_table())

@@ -4,42 +4,27 @@
 #include <algorithm>
 #include <set>
 #include <string>
-#include <vector>
 
+#include "contact/force_law.h"
 #include "simulation/material_fields.h"
 #include "simulation/scene/load_parts.h"
 
 namespace hookpoint::simulation {
 namespace {
 
-struct OwnConstants {
-  std::string_view law;
-  std::vector<std::string_view> fields;  ///< that hookpoint does not read
-  std::string_view stiffness_unit;       ///< where it is not that of the others
-};
-
-const std::vector<OwnConstants>& own_constants() {
-  static const std::vector<OwnConstants> table{
-      {"nominal", {"nominal_stiffness", "nominal_penetration"}, ""},
-      {"hunt_crossley",
-       {"exponent", "hysteresis_damping", "regularisation_speed", "stribeck_speed"},
-       "N/m^exponent"},
-      {"elastoplastic", {"breakaway"}, ""},
-      {"exponential",
-       {"exponential_force", "exponential_rate", "hysteresis_damping", "sliding_time"},
-       ""},
-      {"impulse", {"restitution", "rebound_speed"}, ""},
-      {"impulse_reversal", {"restitution", "rebound_speed"}, ""},
-  };
-  return table;
+std::string with_default(const MaterialField& field) {
+  const std::string unit = field.unit;
+  return fmt::format("{} ({:g}{})", field.name, contact::Constants{}.*field.member,
+                     unit.empty() ? "" : " " + unit);
 }
 
-std::string with_default(std::string_view name) {
-  const auto fields = material_fields();
-  const auto field = std::ranges::find(fields, name, &MaterialField::name);
-  const std::string unit = field->unit;
-  return fmt::format("{} ({:g}{})", name, contact::MaterialConstants<double>{}.*field->member,
-                     unit.empty() ? "" : " " + unit);
+/// ", and normal_stiffness in N/m^exponent" where the law reads its stiffness in a unit that the
+/// field does not have.
+std::string stiffness_unit(const contact::NormalConstants& constants) {
+  if (constants.stiffness == nullptr) return "";
+  const MaterialField field = field_of(constants.stiffness);
+  if (constants.stiffness_unit == field.unit) return "";
+  return fmt::format(", and {} in {}", field.name, constants.stiffness_unit);
 }
 
 std::set<int> materials_in_use(const TerrainSpec& terrain) {
@@ -53,18 +38,19 @@ std::set<int> materials_in_use(const TerrainSpec& terrain) {
 void warn_of_unstated_constants(const language::Object& world, Loading& loading) {
   const Experiment& experiment = loading.experiment;
   if (experiment.engine != "dts" || !experiment.terrain) return;
-  const auto own = std::ranges::find(own_constants(), experiment.contact, &OwnConstants::law);
-  if (own == own_constants().end()) return;
+  const contact::LawDescription* law = contact::find_law(experiment.contact);
+  if (law == nullptr || law->own_constants.size() == 0) return;
   std::string constants;
-  for (const std::string_view field : own->fields)
-    constants += (constants.empty() ? "" : ", ") + with_default(field);
+  for (const contact::Constant constant : law->own_constants)
+    constants += (constants.empty() ? "" : ", ") + with_default(field_of(constant));
   const std::set<int> used = materials_in_use(*experiment.terrain);
   for (const auto& used_or_not : loading.materials) {
     if (!used.contains(used_or_not.second)) continue;
     const language::Object* const material = used_or_not.first;
-    const bool states = material != nullptr && std::ranges::any_of(own->fields, [&](auto field) {
-                          return material->given(field);
-                        });
+    const bool states =
+        material != nullptr && std::ranges::any_of(law->own_constants, [&](auto constant) {
+          return material->given(field_of(constant).name);
+        });
     if (states) continue;
     const std::string who =
         material == nullptr ? "the ground has no Material to state" : material->name + " states";
@@ -72,10 +58,7 @@ void warn_of_unstated_constants(const language::Object& world, Loading& loading)
         material == nullptr ? world.position : material->position,
         fmt::format("law {} has constants of its own, and {} none of them: it takes {}{}; state "
                     "those that you mean",
-                    own->law, who, constants,
-                    own->stiffness_unit.empty()
-                        ? ""
-                        : fmt::format(", and normal_stiffness in {}", own->stiffness_unit)));
+                    law->name, who, constants, stiffness_unit(law->along_normal)));
   }
 }
 

@@ -43,7 +43,7 @@ double total_mass(const RobotSpec& robot) {
 /// and a law without penetration, starts touching.
 double resting_depth(const RobotSpec& robot, int count, const contact::TilePoint& tile,
                      const Experiment& experiment) {
-  const std::optional<contact::ForceLaw> law = contact::find_force_law(experiment.contact);
+  const std::optional<contact::AnyForceLaw> law = contact::find_force_law(experiment.contact);
   const double load = -total_mass(robot) * dot(experiment.gravity, tile.normal) / count;
   if (experiment.engine != "dts" || !law || !(load > 0.)) return 0.;
   return contact::static_depth(*law, load, experiment.materials[tile.material].constants);

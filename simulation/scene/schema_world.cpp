@@ -7,12 +7,6 @@
 namespace hookpoint::simulation {
 namespace {
 
-std::vector<std::string> law_names() {
-  std::vector<std::string> names;
-  for (const contact::LawDescription& law : contact::law_table()) names.emplace_back(law.name);
-  return names;
-}
-
 std::vector<std::string> integrator_names() {
   std::vector<std::string> names;
   for (const integrators::StepperDescription& row : integrators::stepper_table())
@@ -64,7 +58,7 @@ language::ClassSchema world_class(const PeerChoices& peers) {
                             "position and velocity")),
       positive(number_field("absolute_tolerance", "", "1e-8",
                             "local error allowed whatever the size: m, rad, m/s, rad/s")),
-      choice_field("contact", law_names(), "hookpoint",
+      choice_field("contact", contact::law_names(), "hookpoint",
                    "contact law of engine dts; a peer brings its own contact"),
       engine_field(peers),
       settings_field(peers),

@@ -123,7 +123,7 @@ std::unique_ptr<Metric> make_reference_error(const RunContext& context) {
   RunContext own = context;
   if (!context.ground) {  // Newton and Euler alone: every engine means the same motion
     nearer.engine = "dts";
-    nearer.contact = "hookpoint";
+    nearer.contact = contact::Hookpoint::name;
     own.make = simulation::make_dts;
   } else if (nearer.engine != "dts" || !contact::find_force_law(nearer.contact)) {
     own.make = nullptr;

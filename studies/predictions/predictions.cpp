@@ -16,10 +16,9 @@ std::optional<double> sticking_creep(const RunContext& context, const BodyOnPlan
                                      const PeerContact& peer) {
   if (body.peer) return peer.creep;
   if (body.law) return contact::creep_speed(*body.law, body.tangent(), body.material);
-  if (context.experiment->contact == "impulse_reversal") return 0.;
-  // Between impacts 2 u0/(g cos) apart friction is absent: mean speed g sin T/2 (docs/contact.md).
-  if (body.single_point) return body.material.rebound_speed * body.tangent();
-  return std::nullopt;
+  const auto impulse_law = contact::find_impulse_law(context.experiment->contact);
+  if (!impulse_law) return std::nullopt;
+  return contact::creep_speed(*impulse_law, body.tangent(), body.single_point, body.material);
 }
 
 std::optional<double> creep_speed(const RunContext& context, const BodyOnPlane& body,
@@ -82,9 +81,9 @@ std::optional<double> stopping_distance(const BodyOnPlane& body) {
 }
 
 std::optional<double> impacts(const RunContext& context, const BodyOnPlane& body) {
-  if (body.peer || body.law || !body.single_point || context.experiment->contact != "impulse")
-    return std::nullopt;
-  return body.gravity * body.cosine / (2. * body.material.rebound_speed);
+  const auto impulse_law = contact::find_impulse_law(context.experiment->contact);
+  if (body.peer || !impulse_law || !body.single_point) return std::nullopt;
+  return contact::impact_rate(*impulse_law, body.gravity * body.cosine, body.material);
 }
 
 }  // namespace

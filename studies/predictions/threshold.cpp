@@ -11,7 +11,7 @@ namespace {
 using Constants = contact::MaterialConstants<double>;
 
 /// Tangent of the steepest slope on which the law creeps no faster than `onset_speed`.
-double steepest_hold(const contact::ForceLaw& law, const Constants& material) {
+double steepest_hold(const contact::AnyForceLaw& law, const Constants& material) {
   const auto fast = [&](double tangent) {
     const std::optional<double> speed = contact::creep_speed(law, tangent, material);
     return !speed || *speed > onset_speed;

@@ -166,7 +166,7 @@ class Crossings : public ::testing::TestWithParam<std::string> {
   /// the one vertical depth that all sides share.
   void check(const Ground& ground, const Terrain& terrain, const Materials& materials,
              const Crossing& crossing, double vertical_depth) {
-    const ForceLaw law = *find_force_law(GetParam());
+    const AnyForceLaw law = *find_force_law(GetParam());
     for (const Crossing::Side& side : crossing.sides) {
       constexpr double step = 1e-12;  // [m]
       PointKinematics<double> point;
@@ -214,7 +214,7 @@ TEST_P(Crossings, JumpByNormalAndStiffnessAlone) {
 }
 
 /// The law's forces along a path over a terrain, with the memory and the bristle that they leave.
-std::vector<Vector3d> forces_along(const ForceLaw& law, const std::vector<Vector3d>& path,
+std::vector<Vector3d> forces_along(const AnyForceLaw& law, const std::vector<Vector3d>& path,
                                    const Terrain& terrain, const Materials& materials, double dt) {
   std::vector<Vector3d> forces;
   Memory<double> memory;
@@ -287,7 +287,7 @@ double largest_difference(const std::vector<Vector3d>& a, const std::vector<Vect
 // crossing their edges, vertices and diagonals by the hundred leaves nothing but rounding.
 TEST_P(Crossings, OfCoplanarTilesLeaveNoTrace) {
   Random random;
-  const ForceLaw law = *find_force_law(GetParam());
+  const AnyForceLaw law = *find_force_law(GetParam());
   const Materials materials(1);
   for (const double reach : {2e-5, 2e-3}) {
     for (int n = 0; n < 10; ++n) {
@@ -306,7 +306,7 @@ TEST_P(Crossings, OfCoplanarTilesLeaveNoTrace) {
 // crosses it. A sticking point dances about a vertex of six tiles.
 TEST_P(Crossings, OfACreaseJumpInProportionToIt) {
   Random random;
-  const ForceLaw law = *find_force_law(GetParam());
+  const AnyForceLaw law = *find_force_law(GetParam());
   Materials materials(1);
   materials[0].static_friction = materials[0].kinetic_friction = 1.5;
   const auto path = walk(plane(), 2e-6, random);
@@ -362,7 +362,7 @@ TEST(MaterialBorder, ChangesTheConstantsAndNothingElse) {
       const TilePoint tile = terrain.query(point.position.x, y, point.position.z);
       ASSERT_EQ(tile.material, side);
       forces[side] =
-          evaluate(ForceLaw{Hookpoint{}}, point, memory, materials[tile.material], 1e-4).force;
+          evaluate(AnyForceLaw{Hookpoint{}}, point, memory, materials[tile.material], 1e-4).force;
       const MaterialConstants<double>& m = materials[side];
       const double N = m.normal_stiffness * point.depth - m.normal_damping * point.velocity.z;
       const Vector3d v{point.velocity.x, point.velocity.y, 0.};

@@ -50,14 +50,14 @@ double bristle_heat(const Vector3d& v, const Vector3d& friction, const Vector3d&
   return m.tangential_damping * dot(z_rate, z_rate) + dot(friction, v - z_rate);
 }
 
-/// The same of any law: regularised friction f.v; of a hook that will be thrown, what its spring
-/// does not take. `stretch` is z or e.
+/// The same of any law: all of the friction's power where nothing stores it; of a hook that will be
+/// thrown, what its spring does not take. `stretch` is z or e.
 template <class Law>
 double tangential_heat(const contact::Reaction<double>& reaction, const Vector3d& v,
                        const Vector3d& stretch, const Vector3d& friction, double N,
                        const MaterialConstants<double>& m) {
-  if (std::is_same_v<Law, contact::HuntCrossley>) return dot(friction, v);
-  if (std::is_same_v<Law, contact::ThrowFlow<contact::HookpointReset>>)
+  if (Law::bristle_states == 0) return dot(friction, v);
+  if (std::is_same_v<Law, contact::HookpointReset::RateForm>)
     return dot(friction, v) -
            m.tangential_stiffness * dot(stretch, reaction.bristle_rate.deflection);
   const Vector3d& rate = reaction.bristle_rate.deflection;
@@ -71,7 +71,7 @@ class EnergyLedger final : public AccompaniedRobot<2> {
  public:
   explicit EnergyLedger(const simulation::Experiment& experiment)
       : AccompaniedRobot(experiment),
-        law_(contact::flow(*contact::find_force_law(experiment_.contact))) {
+        law_(contact::rate_form(*contact::find_force_law(experiment_.contact))) {
     for (const simulation::ChainSpec& chain : experiment_.robots[0].chains)
       for (const simulation::LinkSpec& link : chain.links) links_.push_back(link);
   }
@@ -168,7 +168,7 @@ class EnergyLedger final : public AccompaniedRobot<2> {
         law_);
   }
 
-  contact::ForceLaw law_;
+  contact::AnyForceLaw law_;
   std::vector<simulation::LinkSpec> links_;
   double let_go_ = 0.;
 };

@@ -49,7 +49,7 @@ using Rooms = std::vector<Names>;
 
 const std::map<std::string, Rooms> rooms{
     {"contact",
-     {{"vocabulary", "predictions", "bisect"},
+     {{"vocabulary", "predictions", "bisect", "law_interface", "bristle_step"},
       {"laws/"},
       {"terrain/"},
       {"impulse/"},

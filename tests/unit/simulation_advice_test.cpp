@@ -6,6 +6,7 @@
 #include <cmath>
 #include <regex>
 
+#include "contact/force_law.h"
 #include "contact/predictions.h"
 #include "simulation/analysis/advice.h"
 #include "simulation/analysis/advice_constants.h"
@@ -114,6 +115,43 @@ TEST(Advice, NamesConstantsWithWhichTheStepIsStable) {
     }
     EXPECT_GT(set, 0) << line;
     EXPECT_GT(simulation::stability_bound(experiment).step, experiment.deltat) << line;
+  }
+}
+
+/// The first of the constants that changes `prediction` when it grows by a thousandth; "" if none.
+template <class Prediction>
+std::string first_that_matters(const std::vector<std::string>& names,
+                               const Prediction& prediction) {
+  const contact::Constants material;
+  for (const std::string& name : names) {
+    contact::Constants more = material;
+    more.*simulation::field_named(name).member *= 1.001;
+    if (prediction(more) != prediction(material)) return name;
+  }
+  return "";
+}
+
+// Of several that matter, the one that a law is soft by where a point rests.
+TEST(AdviceConstants, AreThoseThatDepthAndReboundDependOn) {
+  for (const std::string& name : contact::law_names()) {
+    const auto law = contact::find_force_law(name);
+    if (!law) continue;
+    const auto stiffness = simulation::stiffness_field(*law);
+    ASSERT_TRUE(stiffness) << name;
+    EXPECT_EQ(stiffness->name,
+              first_that_matters({"nominal_stiffness", "normal_stiffness", "exponential_rate"},
+                                 [&](const contact::Constants& material) {
+                                   return contact::static_depth(*law, 20., material);
+                                 }))
+        << name;
+    const auto damping = simulation::damping_field(*law);
+    ASSERT_TRUE(damping) << name;
+    EXPECT_EQ(damping->name, first_that_matters({"normal_damping", "hysteresis_damping"},
+                                                [&](const contact::Constants& material) {
+                                                  return contact::restitution(*law, 2., 0.1,
+                                                                              material);
+                                                }))
+        << name;
   }
 }
 
