@@ -1,7 +1,7 @@
 // What a scene says that a run of it must show.
 #include "simulation/run/expectation.h"
 #include "simulation/scene/schema.h"
-#include "simulation/scene/schema_fields.h"
+#include "simulation/scene/fields.h"
 
 namespace hookpoint::simulation {
 namespace {

@@ -1,7 +1,7 @@
 // What a file says of the data that a run leaves.
 #include "output/records/recorder.h"
 #include "simulation/scene/schema.h"
-#include "simulation/scene/schema_fields.h"
+#include "simulation/scene/fields.h"
 
 namespace hookpoint::simulation {
 

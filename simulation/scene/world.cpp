@@ -1,7 +1,7 @@
 #include "contact/force_law.h"
 #include "integrators/stepper.h"
 #include "simulation/scene/schema.h"
-#include "simulation/scene/schema_fields.h"
+#include "simulation/scene/fields.h"
 #include "simulation/scene/urdf/urdf.h"
 
 namespace hookpoint::simulation {

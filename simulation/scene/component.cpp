@@ -7,7 +7,7 @@
 
 #include "control/registry.h"
 #include "simulation/scene/schema.h"
-#include "simulation/scene/schema_fields.h"
+#include "simulation/scene/fields.h"
 
 namespace hookpoint::simulation {
 namespace {

@@ -2,7 +2,7 @@
 
 #include "simulation/material_fields.h"
 #include "simulation/scene/schema.h"
-#include "simulation/scene/schema_fields.h"
+#include "simulation/scene/fields.h"
 
 namespace hookpoint::simulation {
 namespace {

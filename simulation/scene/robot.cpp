@@ -3,7 +3,7 @@
 #include "output/text/number.h"
 #include "simulation/experiment.h"
 #include "simulation/scene/schema.h"
-#include "simulation/scene/schema_fields.h"
+#include "simulation/scene/fields.h"
 
 namespace hookpoint::simulation {
 namespace {
