@@ -1,24 +1,46 @@
+// Material: the constants of contact laws on some tiles of the ground.
 #include <fmt/format.h>
 
-#include "contact/terrain/terrain.h"
 #include "simulation/material_fields.h"
+#include "simulation/scene/fields.h"
 #include "simulation/scene/load_parts.h"
+#include "simulation/scene/schema.h"
 
 namespace hookpoint::simulation {
 namespace {
 
+using Constants = contact::MaterialConstants<double>;
+
+Field<Constants> described(const MaterialField& constant) {
+  Field<Constants> field =
+      number_field(constant.name, constant.unit, constant.member, constant.doc);
+  field = constant.positive ? positive(std::move(field)) : not_negative(std::move(field));
+  const bool friction = std::string_view(constant.name).ends_with("_friction");
+  return at_most(constant.maximum, friction ? without_default(std::move(field)) : std::move(field));
+}
+
+const Fields<Constants>& constants_fields() {
+  static const Fields<Constants> fields = [] {
+    Fields<Constants> described_fields;
+    for (const MaterialField& constant : material_fields())
+      described_fields.push_back(described(constant));
+    return described_fields;
+  }();
+  return fields;
+}
+
 /// Each coefficient of friction stands in for the other when only one is given.
 void load_friction(const language::Object& object, contact::MaterialConstants<double>& constants,
                    Loading& loading) {
-  const bool has_static = object.given("static_friction");
-  const bool has_kinetic = object.given("kinetic_friction");
-  if (has_static) constants.static_friction = object.number("static_friction");
-  if (has_kinetic) constants.kinetic_friction = object.number("kinetic_friction");
+  const bool has_static = object.given(static_friction_field);
+  const bool has_kinetic = object.given(kinetic_friction_field);
+  if (has_static) constants.static_friction = object.number(static_friction_field);
+  if (has_kinetic) constants.kinetic_friction = object.number(kinetic_friction_field);
   if (has_static && !has_kinetic) constants.kinetic_friction = constants.static_friction;
   if (has_kinetic && !has_static) constants.static_friction = constants.kinetic_friction;
   if (constants.kinetic_friction > constants.static_friction) {
     loading.error(
-        place_of(object, "kinetic_friction"),
+        place_of(object, kinetic_friction_field),
         fmt::format(
             "kinetic_friction {:g} is above static_friction {:g}: sliding would hold better than "
             "sticking; lower it or raise static_friction",
@@ -26,60 +48,26 @@ void load_friction(const language::Object& object, contact::MaterialConstants<do
   }
 }
 
-/// The index of the Material that `field` names; the default material, appended when first needed,
-/// if it names none.
-int material_index(const language::Object& object, Loading& loading) {
-  const language::Field* field = object.find("material");
-  const language::Object* material = field == nullptr ? nullptr : field->reference.object;
-  const auto [entry, is_new] = loading.materials.try_emplace(
-      material, static_cast<int>(loading.experiment.materials.size()));
-  if (is_new) loading.experiment.materials.push_back({"default", {}});
-  return entry->second;
-}
-
-PatchSpec load_patch(const language::Object& object, Loading& loading) {
-  const std::vector<double>& from = object.numbers("from");
-  const std::vector<double>& to = object.numbers("to");
-  return {std::min(from[0], to[0]), std::min(from[1], to[1]), std::max(from[0], to[0]),
-          std::max(from[1], to[1]), material_index(object, loading)};
-}
-
 }  // namespace
+
+void add_material_class(language::Schema& schema) {
+  language::ClassSchema material;
+  material.name = "Material";
+  material.doc = "the surface of ground tiles; each contact law reads the constants that it knows";
+  material.naming = language::Naming::required;
+  material.top_level = true;
+  material.fields = schemas(constants_fields());
+  schema.add(std::move(material));
+}
 
 void load_materials(const language::Object& root, Loading& loading) {
   for (const language::Object* object : collect_all(root, "Material")) {
     MaterialSpec material{object->name, {}};
-    for (const MaterialField& field : material_fields()) {
-      if (const language::Field* value = object->find(field.name)) {
-        material.constants.*field.member = value->numbers[0];
-      }
-    }
+    store_fields(*object, constants_fields(), material.constants);
     load_friction(*object, material.constants, loading);
     loading.materials.emplace(object, static_cast<int>(loading.experiment.materials.size()));
     loading.experiment.materials.push_back(std::move(material));
   }
-}
-
-void load_terrain(const language::Object& world, Loading& loading) {
-  const std::vector<const language::Object*> terrains = world.children_of("Terrain.");
-  if (terrains.empty()) return;
-  for (std::size_t i = 1; i < terrains.size(); ++i) {
-    loading.error(terrains[i]->position, "a second Terrain; a World has at most one ground");
-    loading.diagnostics.note(terrains[0]->position, "the first is here");
-  }
-  const language::Object& object = *terrains[0];
-  TerrainSpec terrain;
-  terrain.name = object.name;
-  const std::size_t errors_before = loading.diagnostics.error_count();
-  load_surface(object, terrain, loading);
-  terrain.material = material_index(object, loading);
-  for (const language::Object* patch : object.children_of("Patch")) {
-    terrain.patches.push_back(load_patch(*patch, loading));
-  }
-  const std::string problem = contact::Terrain::problem(terrain);
-  if (loading.diagnostics.error_count() != errors_before) return;
-  if (!problem.empty()) return loading.error(object.position, problem);
-  loading.experiment.terrain = std::move(terrain);
 }
 
 }  // namespace hookpoint::simulation

@@ -1,31 +1,110 @@
-#include <fmt/format.h>
+// Terrain: the ground, of whatever shape; planes (Terrain.Flat, Terrain.Slope). Patch: tiles of
+// another material. Heights that are read or computed are terrain/'s.
+#include "contact/terrain/terrain.h"
 
-#include "simulation/material_fields.h"
-#include "simulation/scene/schema.h"
+#include <algorithm>
+
 #include "simulation/scene/fields.h"
+#include "simulation/scene/load_parts.h"
+#include "simulation/scene/schema.h"
+#include "simulation/scene/terrain/classes.h"
 
 namespace hookpoint::simulation {
 namespace {
 
-language::ClassSchema material_class() {
-  language::ClassSchema material;
-  material.name = "Material";
-  material.doc = "the surface of ground tiles; each contact law reads the constants that it knows";
-  material.naming = language::Naming::required;
-  material.top_level = true;
-  const contact::MaterialConstants<double> defaults;
-  for (const MaterialField& constant : material_fields()) {
-    // Each coefficient of friction stands in for the other when only one is given.
-    const bool friction = std::string(constant.name).ends_with("_friction");
-    FieldSchema field =
-        number_field(constant.name, constant.unit,
-                     friction ? "" : fmt::format("{}", defaults.*constant.member), constant.doc);
-    field = constant.positive ? positive(std::move(field)) : not_negative(std::move(field));
-    if (field.name == "restitution" || field.name == "breakaway") field.maximum = 1.;
-    material.fields.push_back(std::move(field));
-  }
-  return material;
+namespace terrain_field {
+constexpr const char *material = "material", *from = "from", *to = "to";
 }
+
+const Fields<FlatSpec>& flat_fields() {
+  static const Fields<FlatSpec> fields{
+      number_field("height", "m", &FlatSpec::height, "z of the ground"),
+  };
+  return fields;
+}
+
+const Fields<SlopeSpec>& slope_fields() {
+  static const Fields<SlopeSpec> fields{
+      required(not_negative(at_most(
+          1.57, number_field("angle", "rad", &SlopeSpec::angle, "of the fall, below 90 deg")))),
+      number_field("azimuth", "rad", &SlopeSpec::azimuth, "direction of the fall, from +x about z"),
+  };
+  return fields;
+}
+
+const Fields<contact::TerrainDescription>& plane_fields() {
+  using Description = contact::TerrainDescription;
+  static const Fields<Description> fields{
+      positive(number_field("spacing", "m", &Description::spacing, "edge of a cell of two tiles")),
+      not_negative(list_field(
+          size_field, "m", 1, 2, text_of(Description{}.size_x),
+          "extent along x,y (one number: both), centred on the world's origin; 0 is unbounded")),
+  };
+  return fields;
+}
+
+language::ClassSchema plane_class(const char* name, const char* doc, std::vector<FieldSchema> own) {
+  append(own, schemas(plane_fields()));
+  return terrain_class(name, doc, std::move(own));
+}
+
+language::ClassSchema patch_class() {
+  language::ClassSchema patch;
+  patch.name = "Patch";
+  patch.doc =
+      "gives the tiles whose centroid is in a rectangle another material; later patches cover "
+      "earlier ones";
+  patch.fields = {
+      required(list_field(terrain_field::from, "m", 2, 2, "", "one corner, world x,y")),
+      required(list_field(terrain_field::to, "m", 2, 2, "", "the corner opposite, world x,y")),
+      required(object_field(terrain_field::material, "Material", "of the tiles covered")),
+  };
+  return patch;
+}
+
+/// The index of the Material that `field` names; the default material, appended when first needed,
+/// if it names none.
+int material_index(const language::Object& object, Loading& loading) {
+  const language::Field* field = object.find(terrain_field::material);
+  const language::Object* material = field == nullptr ? nullptr : field->reference.object;
+  const auto [entry, is_new] = loading.materials.try_emplace(
+      material, static_cast<int>(loading.experiment.materials.size()));
+  if (is_new) loading.experiment.materials.push_back({"default", {}});
+  return entry->second;
+}
+
+PatchSpec load_patch(const language::Object& object, Loading& loading) {
+  const std::vector<double>& from = object.numbers(terrain_field::from);
+  const std::vector<double>& to = object.numbers(terrain_field::to);
+  return {std::min(from[0], to[0]), std::min(from[1], to[1]), std::max(from[0], to[0]),
+          std::max(from[1], to[1]), material_index(object, loading)};
+}
+
+void load_plane_extent(const language::Object& object, contact::TerrainDescription& terrain) {
+  store_fields(object, plane_fields(), terrain);
+  const std::vector<double>& size = object.numbers(size_field);
+  terrain.size_x = size.front();
+  terrain.size_y = size.back();
+}
+
+void load_surface(const language::Object& object, TerrainSpec& terrain, Loading& loading) {
+  if (object.type == "Terrain.Grid") {
+    terrain.surface = load_grid(object, terrain, loading);
+  } else if (object.type == "Terrain.Rough") {
+    terrain.surface = load_rough(object, terrain, loading);
+  } else if (object.type == "Terrain.Steps") {
+    terrain.surface = load_steps(object, terrain, loading);
+  } else {
+    load_plane_extent(object, terrain);
+    if (object.type == "Terrain.Slope") {
+      terrain.surface = load_fields(object, slope_fields());
+    } else {
+      terrain.surface = load_fields(object, flat_fields());
+    }
+  }
+}
+
+}  // namespace
 
 language::ClassSchema terrain_class(const char* name, const char* doc,
                                     std::vector<FieldSchema> own) {
@@ -37,122 +116,43 @@ language::ClassSchema terrain_class(const char* name, const char* doc,
   terrain.children = {"Patch"};
   terrain.fields = std::move(own);
   terrain.fields.push_back(object_field(
-      "material", "Material",
+      terrain_field::material, "Material",
       "of every tile that no Patch covers; if not given, a material with all defaults"));
   return terrain;
 }
 
-FieldSchema spacing() {
-  return positive(number_field("spacing", "m", "1", "edge of a cell of two tiles"));
-}
-
-FieldSchema extent() {
-  return not_negative(list_field(
-      "size", "m", 1, 2, "0",
-      "extent along x,y (one number: both), centred on the world's origin; 0 is unbounded"));
-}
-
-language::ClassSchema slope_class() {
-  FieldSchema angle =
-      required(not_negative(number_field("angle", "rad", "", "of the fall, below 90 deg")));
-  angle.maximum = 1.57;
-  return terrain_class(
+void add_terrain_classes(language::Schema& schema) {
+  schema.add(plane_class("Terrain.Flat", "level ground", schemas(flat_fields())));
+  schema.add(plane_class(
       "Terrain.Slope",
       "a plane through the world's origin that falls along +x turned by azimuth about z",
-      {angle, number_field("azimuth", "rad", "0", "direction of the fall, from +x about z"),
-       spacing(), extent()});
-}
-
-/// Of a computed ground, which cannot be unbounded.
-FieldSchema grid_extent() {
-  return positive(list_field("size", "m", 1, 2, "10",
-                             "extent along x,y (one number: both), centred on the world's origin "
-                             "and made up to an even number of cells"));
-}
-
-language::ClassSchema grid_class() {
-  return terrain_class(
-      "Terrain.Grid",
-      "heights from a file: an ESRI ASCII grid, a plain matrix whose first line has the least y, "
-      "or a grayscale PNG of 8 or 16 bits whose top has the greatest y",
-      {required(text_field("file",
-                           "looked up beside the .hook file, then along the search path; "
-                           "an image is known by its ending .png")),
-       positive(number_field("spacing", "m", "",
-                             "edge of a cell, that is from pixel to pixel; if not given, the "
-                             "file's cellsize, or 1 m")),
-       list_field("origin", "m", 2, 2, "",
-                  "world x,y of the corner of least x and y; if not given, the file's, or such "
-                  "that the grid is centred"),
-       number_field("height", "m", "0", "added to every height"),
-       number_field("low", "m", "", "of a PNG, and needed there: the height of black"),
-       number_field("high", "m", "", "of a PNG, and needed there: the height of white")});
-}
-
-language::ClassSchema rough_class() {
-  FieldSchema slope = not_negative(
-      number_field("slope", "rad", "0", "of the plane that the heights are over, below 90 deg"));
-  slope.maximum = 1.57;
-  return terrain_class(
-      "Terrain.Rough",
-      "smooth random ground: 64 plane waves of equal amplitude, 1/sqrt(2) to sqrt(2) wavelengths "
-      "long, in all directions",
-      {required(not_negative(number_field("amplitude", "m", "",
-                                          "largest height or depth of a vertex; the mean is 0"))),
-       required(positive(number_field("wavelength", "m", "", "of the middle of the band"))),
-       not_negative(integer_field("seed", "1", "another seed, another ground of the same kind")),
-       not_negative(number_field("flat_radius", "m", "0",
-                                 "up to here from the world's origin the ground is plane, to be "
-                                 "stood on; it is rough from one wavelength further out")),
-       slope, number_field("azimuth", "rad", "0", "direction of the slope's fall, from +x about z"),
-       positive(number_field("spacing", "m", "",
-                             "edge of a cell of two tiles, at most a quarter of the wavelength; if "
-                             "not given, an eighth")),
-       grid_extent()});
-}
-
-language::ClassSchema steps_class() {
-  return terrain_class(
-      "Terrain.Steps",
-      "stairs along +x turned by azimuth about z; a riser is a ramp one cell wide, at the foot of "
-      "its tread",
-      {required(number_field("height", "m", "", "of one step; below 0 they go down")),
-       required(positive(number_field("run", "m", "", "from one riser to the next"))),
-       at_least(1., integer_field("count", "", "of steps; if not given, to the ground's edge")),
-       number_field("from", "m", "0.5",
-                    "of the first riser's foot from the world's origin, along the stairs"),
-       number_field("azimuth", "rad", "0",
-                    "direction of the stairs, from +x about z; risers are exact at quarter turns"),
-       positive(number_field("spacing", "m", "0.02", "edge of a cell of two tiles")),
-       grid_extent()});
-}
-
-language::ClassSchema patch_class() {
-  language::ClassSchema patch;
-  patch.name = "Patch";
-  patch.doc =
-      "gives the tiles whose centroid is in a rectangle another material; later patches cover "
-      "earlier ones";
-  patch.fields = {
-      required(list_field("from", "m", 2, 2, "", "one corner, world x,y")),
-      required(list_field("to", "m", 2, 2, "", "the corner opposite, world x,y")),
-      required(object_field("material", "Material", "of the tiles covered")),
-  };
-  return patch;
-}
-
-}  // namespace
-
-void add_ground_classes(language::Schema& schema) {
-  schema.add(material_class());
-  schema.add(
-      terrain_class("Terrain.Flat", "level ground",
-                    {number_field("height", "m", "0", "z of the ground"), spacing(), extent()}));
-  schema.add(slope_class());
-  schema.add(grid_class());
-  schema.add(rough_class());
-  schema.add(steps_class());
+      schemas(slope_fields())));
+  add_grid_class(schema);
+  add_rough_class(schema);
+  add_steps_class(schema);
   schema.add(patch_class());
+}
+
+void load_terrain(const language::Object& world, Loading& loading) {
+  const std::vector<const language::Object*> terrains = world.children_of("Terrain.");
+  if (terrains.empty()) return;
+  for (std::size_t i = 1; i < terrains.size(); ++i) {
+    loading.error(terrains[i]->position, "a second Terrain; a World has at most one ground");
+    loading.diagnostics.note(terrains[0]->position, "the first is here");
+  }
+  const language::Object& object = *terrains[0];
+  TerrainSpec terrain;
+  terrain.name = object.name;
+  const std::size_t errors_before = loading.diagnostics.error_count();
+  load_surface(object, terrain, loading);
+  terrain.material = material_index(object, loading);
+  for (const language::Object* patch : object.children_of("Patch")) {
+    terrain.patches.push_back(load_patch(*patch, loading));
+  }
+  const std::string problem = contact::Terrain::problem(terrain);
+  if (loading.diagnostics.error_count() != errors_before) return;
+  if (!problem.empty()) return loading.error(object.position, problem);
+  loading.experiment.terrain = std::move(terrain);
 }
 
 }  // namespace hookpoint::simulation
