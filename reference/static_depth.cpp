@@ -2,17 +2,15 @@
 
 #include "reference/experiment_checks.h"
 #include "reference/settings.h"
+#include "simulation/robot_tree.h"
 
 namespace hookpoint::reference {
 namespace {
 
 double mass_of(const simulation::Experiment& experiment) {
   double mass = 0.;
-  for (const simulation::RobotSpec& robot : experiment.robots) {
-    mass += robot.base.mass.mass;
-    for (const simulation::ChainSpec& chain : robot.chains)
-      for (const simulation::LinkSpec& link : chain.links) mass += link.body.mass.mass;
-  }
+  for (const simulation::RobotSpec& robot : experiment.robots)
+    mass += simulation::robot_mass(robot);
   return mass;
 }
 
