@@ -13,6 +13,7 @@
 #include "output/text/number.h"
 #include "simulation/analysis/automatic_step.h"
 #include "simulation/analysis/stability.h"
+#include "simulation/robot_tree.h"
 #include "simulation/run/energy_watch.h"
 
 namespace hookpoint::cli {
@@ -86,17 +87,15 @@ void print_summary(const Experiment& experiment, const WorldState& state) {
         "m/s\n",
         robot.name + ".base", base.position.x, base.position.y, base.position.z, base.velocity.x,
         base.velocity.y, base.velocity.z);
-    for (const simulation::ChainSpec& chain : robot.chains) {
-      for (const simulation::LinkSpec& link : chain.links) {
-        const simulation::JointState& values = state.joints[joint++];
-        const bool turns = link.joint == simulation::JointKind::revolute;
-        fmt::print("  {:<28} {} {:13.6g} {}   rate {:13.6g} {}\n",
-                   robot.name + "." + chain.name + "." + link.body.name,
-                   turns ? "angle   " : "travel  ", values.angle, turns ? "rad" : "m  ",
-                   values.rate, turns ? "rad/s" : "m/s");
-        ++body;
-      }
-    }
+    simulation::for_each_link(robot, [&](const simulation::TreeLink& at) {
+      const simulation::JointState& values = state.joints[joint++];
+      const simulation::JointType& type = simulation::joint_type(at.link.joint);
+      fmt::print("  {:<28} {} {:13.6g} {:<3}   rate {:13.6g} {}\n",
+                 robot.name + "." + at.chain.name + "." + at.link.body.name,
+                 type.turns ? "angle   " : "travel  ", values.angle, type.units.position,
+                 values.rate, type.units.rate);
+      ++body;
+    });
   }
   if (state.impacts > 0) fmt::print("  impacts {}\n", state.impacts);
 }

@@ -74,7 +74,7 @@ struct StepperDescription {
   std::unique_ptr<Stepper> (*make)(const System& system, const Tolerances& tolerances) = nullptr;
   LinearStability stability = {};  ///< of an adaptive one it is not asked
   /// A step's displacement is dt times the velocities that it ends with. The bristles of contacts
-  /// then move ahead of their forces too (contact::semi_implicit_reaction).
+  /// then move ahead of their forces too (contact::reaction_with_moved_bristle).
   bool moves_with_new_velocity = false;
   constexpr bool adaptive() const { return order == 0; }
 };

@@ -42,26 +42,22 @@ RobotTree robot_tree(const simulation::Experiment& experiment) {
                            robot.mobile,
                            {},
                            initial_base(robot)});
-    for (const simulation::ChainSpec& chain : robot.chains) {
-      int parent = base;
-      Pose before{chain.hip_distance, chain.hip_orientation};
-      for (const LinkSpec& link : chain.links) {
-        const auto copy = std::make_shared<LinkSpec>(link);
-        TreeBody body{std::shared_ptr<const simulation::BodySpec>(copy, &copy->body),
-                      copy,
-                      number,
-                      parent,
-                      static_cast<int>(tree.joints++),
-                      true,
-                      before * pose_at_zero(link),
-                      {}};
-        body.initial = link_state(tree.bodies[static_cast<std::size_t>(parent)].initial, body,
-                                  link.angle, link.rate);
-        parent = static_cast<int>(tree.bodies.size());
-        tree.bodies.push_back(body);
-        before = {};
-      }
-    }
+    simulation::for_each_link(robot, [&](const simulation::TreeLink& at) {
+      const auto copy = std::make_shared<LinkSpec>(at.link);
+      const Pose before =
+          at.on_base() ? Pose{at.chain.hip_distance, at.chain.hip_orientation} : Pose{};
+      TreeBody body{std::shared_ptr<const simulation::BodySpec>(copy, &copy->body),
+                    copy,
+                    number,
+                    base + static_cast<int>(at.parent),
+                    static_cast<int>(tree.joints++),
+                    true,
+                    before * pose_at_zero(at.link),
+                    {}};
+      body.initial = link_state(tree.bodies[static_cast<std::size_t>(body.parent)].initial, body,
+                                at.link.angle, at.link.rate);
+      tree.bodies.push_back(body);
+    });
   }
   return tree;
 }

@@ -24,7 +24,7 @@ struct TreeBody {
   simulation::Pose X_PL0;
   simulation::BodyState initial;  ///< at time 0, by the joints' angles and rates
 
-  bool turns() const { return link->joint == simulation::JointKind::revolute; }
+  bool turns() const { return simulation::joint_type(link->joint).turns; }
 };
 
 struct RobotTree {

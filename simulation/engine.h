@@ -116,6 +116,9 @@ struct StepStatus {
   double time = 0.;    ///< [s]
   std::string body;    ///< trail of the body concerned, "block.base"
   std::string advice;  ///< what to change
+  /// Another step might have passed: what the stability of the experiment says is worth telling
+  /// (analysis/failure.h).
+  bool depends_on_step = false;
   bool ok() const { return kind == Kind::ok; }
 };
 

@@ -16,6 +16,7 @@
 #include "contact/vocabulary.h"
 #include "math/rotation.h"
 #include "output/records/recorder.h"
+#include "simulation/joint_type.h"
 
 namespace hookpoint::simulation {
 
@@ -67,23 +68,6 @@ struct BodySpec {
   }
 };
 
-enum class JointKind { revolute, prismatic };
-
-/// Of joints that state none (docs/joints.md): how far and how fast a joint that sticks gives way
-/// [rad, rad/s; m, m/s], and the spring and damper of its stops [N m/rad, N m s/rad; N/m, N s/m].
-constexpr double default_friction_deflection(JointKind joint) {
-  return joint == JointKind::revolute ? 1e-3 : 1e-4;
-}
-constexpr double default_friction_speed(JointKind joint) {
-  return joint == JointKind::revolute ? 0.05 : 0.005;
-}
-constexpr double default_limit_stiffness(JointKind joint) {
-  return joint == JointKind::revolute ? 1000. : 1e5;
-}
-constexpr double default_limit_damping(JointKind joint) {
-  return joint == JointKind::revolute ? 1. : 100.;
-}
-
 /// A link: its own MDH numbers place its frame after the preceding one, Rot_x(alpha) Trans_x(a)
 /// Rot_z(theta) Trans_z(d); the joint turns about (slides along) the link's own z. Any fixed
 /// transform may stand ahead of them.
@@ -92,17 +76,17 @@ struct LinkSpec {
   Vector3d joint_location;        ///< of the fixed transform, preceding link's axes [m]
   Quaterniond joint_orientation;  ///< of the fixed transform
   double a = 0., alpha = 0., d = 0., theta = 0.;
-  JointKind joint = JointKind::revolute;
+  JointKind joint = joint_types[0].kind;
   double angle = 0., rate = 0.,
          torque = 0.;    ///< initial angle, rate and constant torque (SI by joint kind)
   double damping = 0.;   ///< torque = -damping rate
   double friction = 0.;  ///< dry friction torque, opposes the rate
-  double friction_deflection = default_friction_deflection(JointKind::revolute);
-  double friction_speed = default_friction_speed(JointKind::revolute);
+  double friction_deflection = joint_types[0].defaults.friction_deflection;
+  double friction_speed = joint_types[0].defaults.friction_speed;
   double stiffness = 0., rest_angle = 0.;  ///< torque = -stiffness (angle - rest_angle)
   std::optional<double> lower_limit, upper_limit;
-  double limit_stiffness = default_limit_stiffness(JointKind::revolute);
-  double limit_damping = default_limit_damping(JointKind::revolute);
+  double limit_stiffness = joint_types[0].defaults.limit_stiffness;
+  double limit_damping = joint_types[0].defaults.limit_damping;
 };
 
 struct ChainSpec {
@@ -192,7 +176,7 @@ struct WireSpec {
 /// A data file of the run.
 struct RecordSpec {
   std::string name;
-  std::string format;          ///< of output::record_formats
+  std::string format = "csv";  ///< of output::record_formats
   std::string file;            ///< in the run's folder
   std::optional<double> rate;  ///< of its rows [Hz]; none: every step
   std::vector<output::Channel>

@@ -8,7 +8,7 @@ Pose operator*(const Pose& X_AB, const Pose& X_BC) {
 }
 
 Pose joint_pose(const LinkSpec& link) {
-  const bool turns = link.joint == JointKind::revolute;
+  const bool turns = joint_type(link.joint).turns;
   const double theta = link.theta + (turns ? link.angle : 0.);
   const double d = link.d + (turns ? 0. : link.angle);
   const Pose screw_x{{link.a, 0., 0.}, exponential(Vector3d{link.alpha, 0., 0.})};
@@ -18,22 +18,12 @@ Pose joint_pose(const LinkSpec& link) {
 
 std::vector<Pose> body_poses(const RobotSpec& robot) {
   std::vector<Pose> poses{Pose{}};
-  for (const ChainSpec& chain : robot.chains) {
-    Pose X_BL{chain.hip_distance, chain.hip_orientation};
-    for (const LinkSpec& link : chain.links) {
-      X_BL = X_BL * joint_pose(link);
-      poses.push_back(X_BL);
-    }
-  }
+  for_each_link(robot, [&](const TreeLink& at) {
+    const Pose X_BP =
+        at.on_base() ? Pose{at.chain.hip_distance, at.chain.hip_orientation} : poses[at.parent];
+    poses.push_back(X_BP * joint_pose(at.link));
+  });
   return poses;
-}
-
-std::vector<const BodySpec*> bodies_of(const RobotSpec& robot) {
-  std::vector<const BodySpec*> bodies{&robot.base};
-  for (const ChainSpec& chain : robot.chains) {
-    for (const LinkSpec& link : chain.links) bodies.push_back(&link.body);
-  }
-  return bodies;
 }
 
 }  // namespace hookpoint::simulation

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "simulation/experiment.h"
+#include "simulation/robot_tree.h"
 
 namespace hookpoint::simulation {
 
@@ -20,11 +20,7 @@ Pose operator*(const Pose& X_AB, const Pose& X_BC);
 /// Rot_x(alpha) Trans_x(a) Rot_z(theta) Trans_z(d).
 Pose joint_pose(const LinkSpec& link);
 
-/// X_BL of every body in the base's frame: the base itself, then the links chain by chain.
-/// O(bodies).
+/// X_BL of every body in the base's frame, in the order of robot_tree.h. O(bodies).
 std::vector<Pose> body_poses(const RobotSpec& robot);
-
-/// All bodies of a robot in that order.
-std::vector<const BodySpec*> bodies_of(const RobotSpec& robot);
 
 }  // namespace hookpoint::simulation

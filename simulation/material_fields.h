@@ -1,8 +1,10 @@
-// The constants of a Material, once: what the schema says of each and where the load step puts it.
+// The fields of a Material, each a constant of contact laws, once: what the schema says of it and
+// where the load step puts it. A default is the member's own initialiser.
 #pragma once
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include "contact/vocabulary.h"
 
@@ -14,7 +16,12 @@ struct MaterialField {
   double contact::MaterialConstants<double>::*member;
   bool positive;  ///< must be > 0; else >= 0
   const char* doc;
+  double maximum = std::numeric_limits<double>::infinity();
 };
+
+/// Each coefficient of friction stands in for the other when only one is given.
+inline constexpr const char *static_friction_field = "static_friction",
+                            *kinetic_friction_field = "kinetic_friction";
 
 inline constexpr std::array<MaterialField, 21> material_fields() {
   using Constants = contact::MaterialConstants<double>;
@@ -28,9 +35,9 @@ inline constexpr std::array<MaterialField, 21> material_fields() {
        "k_t, between a contact point and its hook; sigma0 of a bristle"},
       {"tangential_damping", "N.s/m", &Constants::tangential_damping, false,
        "c_t, along the tile; sigma1 of a bristle"},
-      {"static_friction", "", &Constants::static_friction, false,
+      {static_friction_field, "", &Constants::static_friction, false,
        "mu_s, holds while |f| <= mu_s N; if not given, kinetic_friction, or 0.8"},
-      {"kinetic_friction", "", &Constants::kinetic_friction, false,
+      {kinetic_friction_field, "", &Constants::kinetic_friction, false,
        "mu_k <= mu_s, while sliding; if not given, static_friction, or 0.8"},
       {"nominal_penetration", "m", &Constants::nominal_penetration, true,
        "d0, the depth wanted under the load"},
@@ -38,7 +45,8 @@ inline constexpr std::array<MaterialField, 21> material_fields() {
        "k1, up to the nominal depth: the load on a point / nominal_penetration"},
       {"blend_width", "m", &Constants::blend_width, false,
        "w, beyond the nominal depth, over which k1 turns smoothly into k; 0: at once"},
-      {"restitution", "", &Constants::restitution, false, "e, 0..1, rebound of the impulse laws"},
+      {"restitution", "", &Constants::restitution, false, "e, 0..1, rebound of the impulse laws",
+       1.},
       {"exponent", "", &Constants::exponent, true, "n of k d^n, hunt_crossley"},
       {"hysteresis_damping", "s/m", &Constants::hysteresis_damping, false,
        "alpha of hunt_crossley, c of exponential"},
@@ -49,7 +57,7 @@ inline constexpr std::array<MaterialField, 21> material_fields() {
       {"viscous_friction", "N.s/m", &Constants::viscous_friction, false,
        "sigma2, of lugre and elastoplastic"},
       {"breakaway", "", &Constants::breakaway, true,
-       "fraction, at most 1, of mu_k N up to which a bristle only bends, elastoplastic"},
+       "fraction, at most 1, of mu_k N up to which a bristle only bends, elastoplastic", 1.},
       {"exponential_force", "N", &Constants::exponential_force, true,
        "d1, the normal force at height d0, exponential"},
       {"exponential_rate", "1/m", &Constants::exponential_rate, true,

@@ -47,7 +47,7 @@ bool unloaded_joints(const simulation::ChainSpec& chain, const Vector3d& g, cons
       force += mass.mass * g;
       moment += cross(center - first[joint].position, mass.mass * g);
     }
-    const bool turns = link.joint == simulation::JointKind::revolute;
+    const bool turns = simulation::joint_type(link.joint).turns;
     const Vector3d axis = rotate(first[joint].orientation, Vector3d{0., 0., 1.});
     if (std::abs(dot(axis, turns ? moment : force)) > rounding_load * weight) return false;
   }

@@ -207,15 +207,12 @@ RunContext make_context(const simulation::Experiment& experiment, double settle,
     context.robot = static_cast<int>(i);
     context.body = body;
     found = robot.mobile;
-    body += body_count(robot);
+    body += simulation::body_count(robot);
   }
   if (!found)
     throw simulation::ExperimentError("a study needs a robot with a mobile base: there is none");
   const simulation::RobotSpec& robot = context.robot_spec();
-  double mass = robot.base.mass.mass;
-  for (const simulation::ChainSpec& chain : robot.chains)
-    for (const simulation::LinkSpec& link : chain.links) mass += link.body.mass.mass;
-  context.weight = mass * norm(experiment.gravity);
+  context.weight = simulation::robot_mass(robot) * norm(experiment.gravity);
   context.start = robot.location;
   context.normal =
       context.ground ? context.ground->query(robot.location).normal : Vector3d{0., 0., 1.};
@@ -225,9 +222,10 @@ RunContext make_context(const simulation::Experiment& experiment, double settle,
 
 Observer::Observer(const RunContext& context, bool with_points) : context_(context) {
   if (!with_points) return;
-  std::size_t count = context.robot_spec().base.boundary_points.size();
-  for (const simulation::ChainSpec& chain : context.robot_spec().chains)
-    for (const simulation::LinkSpec& link : chain.links) count += link.body.boundary_points.size();
+  std::size_t count = 0;
+  simulation::for_each_body(context.robot_spec(), [&](const simulation::BodySpec& body) {
+    count += body.boundary_points.size();
+  });
   points_.reserve(count);
   balls_.reserve(count);
 }

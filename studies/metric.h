@@ -14,6 +14,7 @@
 #include "contact/terrain/terrain.h"
 #include "simulation/engine.h"
 #include "simulation/experiment.h"
+#include "simulation/robot_tree.h"
 #include "studies/regime.h"
 
 namespace hookpoint::studies {
@@ -39,13 +40,6 @@ struct RunContext {
     return experiment->robots[static_cast<std::size_t>(robot)];
   }
 };
-
-/// The base and the links.
-inline std::size_t body_count(const simulation::RobotSpec& robot) {
-  std::size_t count = 1;
-  for (const simulation::ChainSpec& chain : robot.chains) count += chain.links.size();
-  return count;
-}
 
 /// Throws simulation::ExperimentError when no robot can move.
 RunContext make_context(const simulation::Experiment& experiment, double settle, double duration);
@@ -147,9 +141,9 @@ const SignalDefinition* find_signal(std::string_view name);
 template <class Visit>
 void for_each_body(const RunContext& context, const simulation::WorldState& world, Visit visit) {
   std::size_t index = context.body;
-  visit(context.robot_spec().base, world.bodies[index]);
-  for (const simulation::ChainSpec& chain : context.robot_spec().chains)
-    for (const simulation::LinkSpec& link : chain.links) visit(link.body, world.bodies[++index]);
+  simulation::for_each_body(context.robot_spec(), [&](const simulation::BodySpec& body) {
+    visit(body, world.bodies[index++]);
+  });
 }
 
 /// Speed along the ground from which a body counts as slipping, and below which as at rest [m/s].
@@ -164,7 +158,7 @@ inline constexpr double touching_gap = 1e-4;
 template <class Visit>
 void for_each_ground_force(const RunContext& context, const simulation::WorldState& world,
                            Visit visit) {
-  const std::size_t end = context.body + body_count(context.robot_spec());
+  const std::size_t end = context.body + simulation::body_count(context.robot_spec());
   for (const simulation::GroundForce& force : world.ground_forces) {
     if (force.body < context.body || force.body >= end) continue;
     const simulation::BodyState& body = world.bodies[force.body];

@@ -1,6 +1,6 @@
 #include "view/schema.h"
 
-#include "simulation/scene/schema_fields.h"
+#include "simulation/scene/fields.h"
 
 namespace hookpoint::view {
 namespace {

@@ -59,6 +59,9 @@ struct FieldSchema {
   Direction port = Direction::none;
 };
 
+/// The fields of a Wire. A component that speaks of its own wires has fields of the same names.
+inline constexpr const char *wire_rate = "rate", *wire_delay = "delay", *wire_noise = "noise";
+
 enum class Naming { optional, required, forbidden };
 
 struct ClassSchema {

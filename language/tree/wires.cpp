@@ -134,7 +134,7 @@ void Checker::check_agreement(const End& from, const End& to, const Wire& wire) 
 
 void Checker::check_noise(const End& from, const Wire& wire) {
   for (const Field& field : wire.fields) {
-    if (field.schema->name != "noise" || from.target.field->unit == "?" ||
+    if (field.schema->name != wire_noise || from.target.field->unit == "?" ||
         fits(field.dimension, from.dimension))
       continue;
     report_.error(field.position, "`noise` takes the unit of `" + from.target.port + "`, " +

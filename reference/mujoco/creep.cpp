@@ -8,6 +8,7 @@
 #include "reference/mujoco/settings.h"
 #include "reference/resting_body.h"
 #include "reference/static_depth.h"
+#include "simulation/robot_tree.h"
 
 namespace hookpoint::reference {
 namespace {
@@ -126,14 +127,10 @@ std::optional<Load> load_at_rest(const simulation::Experiment& experiment) {
   return load;
 }
 
-/// Of all that moves or stands in the experiment [kg].
 double mass_of(const simulation::Experiment& experiment) {
   double mass = 0.;
-  for (const simulation::RobotSpec& robot : experiment.robots) {
-    mass += robot.base.mass.mass;
-    for (const simulation::ChainSpec& chain : robot.chains)
-      for (const simulation::LinkSpec& link : chain.links) mass += link.body.mass.mass;
-  }
+  for (const simulation::RobotSpec& robot : experiment.robots)
+    mass += simulation::robot_mass(robot);
   return mass;
 }
 

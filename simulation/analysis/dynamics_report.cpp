@@ -7,6 +7,7 @@
 #include "simulation/engine/robot_system.h"
 #include "simulation/ground.h"
 #include "simulation/names.h"
+#include "simulation/robot_tree.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -59,9 +60,8 @@ DynamicsReport evaluate_dynamics(const Experiment& experiment) {
   const WorldInputs inputs = initial_inputs(experiment);
   auto first_body = names.begin();
   for (std::size_t i = 0; i < experiment.robots.size(); ++i) {
-    std::size_t bodies = 1;
-    for (const ChainSpec& chain : experiment.robots[i].chains) bodies += chain.links.size();
-    const auto end = first_body + static_cast<std::ptrdiff_t>(bodies);
+    const auto end =
+        first_body + static_cast<std::ptrdiff_t>(body_count(experiment.robots[i]));
     report.robots.push_back(robot_dynamics(experiment, static_cast<int>(i),
                                            ground ? &*ground : nullptr, inputs, {first_body, end}));
     first_body = end;

@@ -7,6 +7,7 @@
 namespace hookpoint::simulation {
 
 StepStatus explained(StepStatus status, const Experiment& experiment) {
+  if (!status.depends_on_step) return status;
   const StabilityBound bound = stability_bound(experiment);
   if (experiment.deltat <= bound.step) {
     if (bound.left_out.empty() || status.kind != StepStatus::Kind::not_finite) return status;

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "simulation/wiring/components.h"
+#include "simulation/robot_tree.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -22,16 +23,12 @@ std::map<std::string, JointPlace> joint_ports(const Experiment& experiment) {
   std::map<std::string, JointPlace> places;
   for (std::size_t i = 0; i < experiment.robots.size(); ++i) {
     const RobotSpec& robot = experiment.robots[i];
-    std::size_t joint = 0;
-    for (const ChainSpec& chain : robot.chains) {
-      for (const LinkSpec& link : chain.links) {
-        const std::string trail =
-            experiment.world + "." + robot.name + "." + chain.name + "." + link.body.name + ".";
-        for (const char* port : {"angle", "rate", "torque"})
-          places[trail + port] = {i, joint, port};
-        ++joint;
-      }
-    }
+    for_each_link(robot, [&](const TreeLink& at) {
+      const std::string trail = experiment.world + "." + robot.name + "." + at.chain.name + "." +
+                                at.link.body.name + ".";
+      for (const char* port : {"angle", "rate", "torque"})
+        places[trail + port] = {i, at.joint(), port};
+    });
   }
   return places;
 }

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "simulation/analysis/convex_hull.h"
+#include "simulation/robot_tree.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -197,20 +198,18 @@ struct Drives {
     const RobotSystem& at = rest.robot();
     const MatrixXd levers = rest.joint_levers();
     VectorXd sum = VectorXd::Zero(rest.size());
-    Eigen::Index joint = 0;
-    for (const ChainSpec& chain : experiment.robots[robot].chains) {
-      for (const LinkSpec& link : chain.links) {
-        const auto l = static_cast<std::size_t>(joint);
-        const double position = at.state().joint_positions[l];
-        double torque = dts::passive_joint_torque(at.robot().joints().properties()[l], position, 0.,
-                                                  at.robot().joints().anchors()[l]);
-        const DrivenJoint* drive = find(l);
-        if (drive == nullptr) torque += link.torque;
-        if (drive != nullptr && drive->goal)
-          torque += drive->proportional * (*drive->goal - position);
-        sum += torque * levers.row(joint++).transpose();
-      }
-    }
+    const JointSet& joints = at.robot().joints();
+    for_each_link(experiment.robots[robot], [&](const TreeLink& tree) {
+      const std::size_t joint = tree.joint();
+      const double position = at.state().joint_positions[joint];
+      double torque = dts::passive_joint_torque(joints.properties()[joint], position, 0.,
+                                                joints.anchors()[joint]);
+      const DrivenJoint* drive = find(joint);
+      if (drive == nullptr) torque += tree.link.torque;
+      if (drive != nullptr && drive->goal)
+        torque += drive->proportional * (*drive->goal - position);
+      sum += torque * levers.row(static_cast<Eigen::Index>(joint)).transpose();
+    });
     return sum;
   }
 };
@@ -412,9 +411,7 @@ const contact::MaterialConstants<double>& constants_of(const Experiment& experim
 
 double mass_of(const RobotSpec& robot) {
   double mass = robot.mobile ? robot.base.mass.mass : 0.;
-  for (const ChainSpec& chain : robot.chains) {
-    for (const LinkSpec& link : chain.links) mass += link.body.mass.mass;
-  }
+  for_each_link(robot, [&](const TreeLink& at) { mass += at.link.body.mass.mass; });
   return mass;
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "simulation/kinematics.h"
+#include "simulation/robot_tree.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -16,11 +16,13 @@ constexpr double surface = 1e-11;
 
 std::vector<BoundaryPoint> boundary_points(const RobotSpec& robot) {
   std::vector<BoundaryPoint> points;
-  const std::vector<const BodySpec*> bodies = bodies_of(robot);
-  for (std::size_t body = robot.mobile ? 0 : 1; body < bodies.size(); ++body) {
-    for (std::size_t i = 0; i < bodies[body]->boundary_points.size(); ++i)
-      points.push_back({body, bodies[body]->boundary_points[i], bodies[body]->boundary_radius(i)});
-  }
+  std::size_t at = 0;
+  for_each_body(robot, [&](const BodySpec& body) {
+    const std::size_t number = at++;
+    if (number == 0 && !robot.mobile) return;
+    for (std::size_t i = 0; i < body.boundary_points.size(); ++i)
+      points.push_back({number, body.boundary_points[i], body.boundary_radius(i)});
+  });
   return points;
 }
 

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "simulation/joint_properties.h"
+#include "simulation/robot_tree.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -16,13 +17,11 @@ constexpr double beyond = 1e-9;
 }  // namespace
 
 JointSet::JointSet(const RobotSpec& robot) {
-  for (const ChainSpec& chain : robot.chains) {
-    for (const LinkSpec& link : chain.links) {
-      if (link.friction > 0.) dry_joints_.push_back({properties_.size()});
-      properties_.push_back(joint_properties(link));
-      anchors_.push_back(link.angle);
-    }
-  }
+  for_each_link(robot, [&](const TreeLink& at) {
+    if (at.link.friction > 0.) dry_joints_.push_back({at.joint()});
+    properties_.push_back(joint_properties(at.link));
+    anchors_.push_back(at.link.angle);
+  });
   anchors_before_ = anchors_;
 }
 

@@ -1,4 +1,5 @@
 #include "simulation/engine/robot_description.h"
+#include "simulation/robot_tree.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -39,12 +40,10 @@ dts::State<double> initial_state(const RobotSpec& robot) {
     state.base_velocity = robot.velocity;
     state.base_angular_velocity = robot.angular_velocity;
   }
-  for (const ChainSpec& chain : robot.chains) {
-    for (const LinkSpec& link : chain.links) {
-      state.joint_positions.push_back(link.angle);
-      state.joint_rates.push_back(link.rate);
-    }
-  }
+  for_each_link(robot, [&](const TreeLink& at) {
+    state.joint_positions.push_back(at.link.angle);
+    state.joint_rates.push_back(at.link.rate);
+  });
   return state;
 }
 

@@ -70,10 +70,12 @@ StepStatus explain(integrators::Status status, double time, std::string body) {
   if (status == integrators::Status::no_step) {
     return {StepStatus::Kind::solver_failed, time, std::move(body),
             "the integrator finds no step that meets its tolerances: raise relative_tolerance and "
-            "absolute_tolerance, make the ground softer, or choose a fixed-step integrator"};
+            "absolute_tolerance, make the ground softer, or choose a fixed-step integrator",
+            true};
   }
   return {StepStatus::Kind::not_finite, time, std::move(body),
-          "its accelerations are no longer finite: make the step smaller or the ground softer"};
+          "its accelerations are no longer finite: make the step smaller or the ground softer",
+          true};
 }
 
 }  // namespace

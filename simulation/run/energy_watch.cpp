@@ -7,6 +7,7 @@
 
 #include "dts/joint_forces.h"
 #include "simulation/joint_properties.h"
+#include "simulation/robot_tree.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -45,12 +46,11 @@ EnergyWatch::EnergyWatch(const Experiment& experiment, const World& world, std::
   samples_.reserve(static_cast<std::size_t>(steps / stride_ + 2));
   std::size_t bodies = 0;
   for (const RobotSpec& robot : experiment.robots) {
-    first_bodies_.push_back(bodies++);
-    for (const ChainSpec& chain : robot.chains) {
-      bodies += chain.links.size();
-      for (const LinkSpec& link : chain.links)
-        most_in_friction_ += 0.5 * link.friction * link.friction_deflection;
-    }
+    first_bodies_.push_back(bodies);
+    bodies += body_count(robot);
+    for_each_link(robot, [&](const TreeLink& at) {
+      most_in_friction_ += 0.5 * at.link.friction * at.link.friction_deflection;
+    });
   }
 }
 
@@ -69,12 +69,10 @@ void EnergyWatch::sample() {
   for (const RobotSpec& robot : experiment_.robots) {
     if (robot.mobile) add(robot.base.mass, *body);
     ++body;
-    for (const ChainSpec& chain : robot.chains) {
-      for (const LinkSpec& link : chain.links) {
-        add(link.body.mass, *body++);
-        now.energy += spring_energy(joint_properties(link), (joint++)->angle, link.torque);
-      }
-    }
+    for_each_link(robot, [&](const TreeLink& at) {
+      add(at.link.body.mass, *body++);
+      now.energy += spring_energy(joint_properties(at.link), (joint++)->angle, at.link.torque);
+    });
   }
   for (const ForceSpec& force : experiment_.forces) {
     const std::size_t first = first_bodies_[static_cast<std::size_t>(force.robot)];

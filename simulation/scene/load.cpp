@@ -40,35 +40,9 @@ void check_strays(const language::Object& root, Loading& loading) {
   }
 }
 
-Vector3d load_gravity(const language::Object& world, Loading& loading) {
-  const std::vector<double>& gravity = world.numbers("gravity");
-  if (gravity.size() == 1) return {0., 0., -gravity[0]};
-  if (gravity.size() == 3) return {gravity[0], gravity[1], gravity[2]};
-  loading.error(
-      place_of(world, "gravity"),
-      "gravity has two components; give one number g for 0,0,-g, or the three of the vector");
-  return {};
-}
-
 /// `deltat = auto`.
-bool is_automatic(const language::Object& world) { return !world.find("deltat")->words.empty(); }
-
-void load_world(const language::Object& world, Loading& loading) {
-  Experiment& experiment = loading.experiment;
-  experiment.world = world.name;
-  experiment.gravity = load_gravity(world, loading);
-  // An `auto` stands at the step that the caller gives.
-  if (!is_automatic(world)) experiment.deltat = world.number("deltat");
-  experiment.integrator = world.word("integrator");
-  experiment.relative_tolerance = world.number("relative_tolerance");
-  experiment.absolute_tolerance = world.number("absolute_tolerance");
-  experiment.contact = world.word("contact");
-  experiment.engine = world.word("engine");
-  experiment.settings = world.word("settings");
-  if (world.given("constraint_mixing"))
-    experiment.constraint_mixing = world.number("constraint_mixing");
-  experiment.duration = world.number("duration");
-  experiment.seed = static_cast<std::uint64_t>(world.number("seed"));
+bool is_automatic(const language::Object& world) {
+  return !world.find(deltat_field)->words.empty();
 }
 
 void load_signals(const language::Object& root, Loading& loading) {
@@ -93,7 +67,7 @@ std::optional<Experiment> load_with_step(const language::Object& root,
   const language::Object* world = find_world(root, loading);
   check_strays(root, loading);
   if (world == nullptr) return std::nullopt;
-  loading.experiment.deltat = chosen.step;
+  if (is_automatic(*world)) loading.experiment.deltat = chosen.step;
   if (chosen.bound > 0.) loading.experiment.chosen_from = chosen.bound;
   load_world(*world, loading);
   load_materials(root, loading);
@@ -126,7 +100,7 @@ std::optional<Experiment> load_experiment(const language::Object& root,
     // What is wrong otherwise is told below.
     if (experiment) chosen = choose_step(*experiment);
     if (!chosen.problem.empty()) {
-      diagnostics.error(place_of(*worlds[0], "deltat"), "deltat = auto: " + chosen.problem);
+      diagnostics.error(place_of(*worlds[0], deltat_field), "deltat = auto: " + chosen.problem);
       return std::nullopt;
     }
   }
@@ -142,11 +116,11 @@ void write_chosen_step(const Experiment& experiment, language::Object& root) {
         self(self, *child);
         continue;
       }
-      for (language::Field& field : child->fields) {
-        if (field.schema->name != "deltat") continue;
-        field.words.clear();
-        field.numbers = {experiment.deltat};
-        field.dimension = language::Dimension{.time = 1};
+      for (language::Field& given : child->fields) {
+        if (given.schema->name != deltat_field) continue;
+        given.words.clear();
+        given.numbers = {experiment.deltat};
+        given.dimension = language::Dimension{.time = 1};
       }
     }
   };

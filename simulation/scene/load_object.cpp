@@ -51,11 +51,6 @@ Vector3d vector_of(const language::Object& object, std::string_view field) {
   return {numbers[0], numbers[1], numbers[2]};
 }
 
-Quaterniond orientation_of(const language::Object& object, std::string_view field) {
-  const std::vector<double>& numbers = object.numbers(field);
-  return {numbers[0], numbers[1], numbers[2], numbers[3]};
-}
-
 std::filesystem::path find_file(const std::string& name, const language::Position& from,
                                 Loading& loading) {
   const auto given = std::ranges::find(loading.given, name, &FileSpec::name);

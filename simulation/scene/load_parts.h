@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "control/registry.h"
 #include "language/diagnostics.h"
 #include "language/tree/object.h"
 #include "language/tree/references.h"
@@ -38,6 +39,23 @@ struct Loading {
   }
 };
 
+// Fields that more than one file of the load step works on, by the class that declares them.
+
+inline constexpr const char* deltat_field = "deltat";  ///< of a World
+namespace base_field {
+inline constexpr const char *location = "location", *orientation = "orientation",
+                            *velocity = "velocity", *angular_velocity = "angular_velocity",
+                            *rest_on = "rest_on", *at = "at", *yaw = "yaw";
+}
+/// Of a Record and of a Movie.
+namespace run_file_field {
+inline constexpr const char *rate = "rate", *file = "file";
+}
+/// Of a Shape.
+inline constexpr const char* boundary_points_field = "boundary_points";
+/// Of a component: what it is attached to.
+std::string_view attachment_field(control::Attachment attachment);
+
 // Reading objects (load_object.cpp).
 
 /// All objects of `type` (a family when it ends in '.') anywhere below `parent`, in file order.
@@ -49,7 +67,6 @@ std::string name_within(const language::Object& object, const language::Object& 
 /// Where `field` was written, else where the object was.
 const language::Position& place_of(const language::Object& object, std::string_view field);
 Vector3d vector_of(const language::Object& object, std::string_view field);
-Quaterniond orientation_of(const language::Object& object, std::string_view field);
 
 /// `name` beside the file that names it at `from`, then along the search path; empty, after saying
 /// so, if nowhere. The experiment remembers it.
@@ -58,12 +75,12 @@ std::filesystem::path find_file(const std::string& name, const language::Positio
 
 // The parts of a World, each into `loading.experiment`.
 
+/// All that a World says of itself but its step where it is `auto`.
+void load_world(const language::Object& world, Loading& loading);
 void load_materials(const language::Object& root, Loading& loading);
 void load_terrain(const language::Object& world, Loading& loading);
 /// Warns of Materials in use that state none of the constants which the law has for itself.
 void warn_of_unstated_constants(const language::Object& world, Loading& loading);
-/// The shape of a Terrain: its plane, or its heights read from a file or computed.
-void load_surface(const language::Object& object, TerrainSpec& terrain, Loading& loading);
 /// Robots as written; `rest_on` is resolved afterwards.
 void load_robots(const language::Object& world, Loading& loading);
 void load_forces(const language::Object& world, Loading& loading);
@@ -71,6 +88,17 @@ void load_forces(const language::Object& world, Loading& loading);
 /// that moves by itself.
 BodySpec load_body(const language::Object& object, std::string name, bool must_have_inertia,
                    Loading& loading);
+/// A Chain and its links; `next` is the first of them and becomes the first after them.
+ChainSpec load_chain(const language::Object& object, std::string name, BodyIndex& next,
+                     Loading& loading);
+LinkSpec load_link(const language::Object& object, std::string name, Loading& loading);
+ShapeSpec load_shape(const language::Object& object, Loading& loading);
+/// A ContactPoint; a ball of radius 0 is a point.
+struct BallSpec {
+  Vector3d location;   ///< p_BP, body axes [m]
+  double radius = 0.;  ///< [m]
+};
+BallSpec load_contact_point(const language::Object& object);
 /// A shape and the boundary points that it gives its body.
 struct ShapePoints {
   const language::Object* object = nullptr;

@@ -7,6 +7,7 @@
 #include "contact/force_law.h"
 #include "contact/terrain/terrain.h"
 #include "simulation/kinematics.h"
+#include "simulation/robot_tree.h"
 #include "simulation/scene/load_parts.h"
 
 namespace hookpoint::simulation {
@@ -33,18 +34,12 @@ std::vector<RobotPoint> points_in_base(const RobotSpec& robot) {
   return points;
 }
 
-double total_mass(const RobotSpec& robot) {
-  double mass = 0.;
-  for (const BodySpec* body : bodies_of(robot)) mass += body->mass.mass;
-  return mass;
-}
-
 /// Depth at which `count` points bear the robot's weight across the tile: m g cos / n each. A peer,
 /// and a law without penetration, starts touching.
 double resting_depth(const RobotSpec& robot, int count, const contact::TilePoint& tile,
                      const Experiment& experiment) {
   const std::optional<contact::AnyForceLaw> law = contact::find_force_law(experiment.contact);
-  const double load = -total_mass(robot) * dot(experiment.gravity, tile.normal) / count;
+  const double load = -robot_mass(robot) * dot(experiment.gravity, tile.normal) / count;
   if (experiment.engine != "dts" || !law || !(load > 0.)) return 0.;
   return contact::static_depth(*law, load, experiment.materials[tile.material].constants);
 }
@@ -69,7 +64,7 @@ void lay_down(const language::Object& base, const contact::Terrain& ground, Robo
   const std::vector<RobotPoint> points = points_in_base(robot);
   if (points.empty()) {
     return loading.error(
-        place_of(base, "rest_on"),
+        place_of(base, base_field::rest_on),
         fmt::format("`{}` has no boundary points to rest on; give it a shape or a ContactPoint",
                     robot.name));
   }
@@ -79,8 +74,8 @@ void lay_down(const language::Object& base, const contact::Terrain& ground, Robo
   constexpr double coplanar = 1e-9;  // [m]
   const auto count = std::ranges::count_if(
       points, [&](const RobotPoint& point) { return bottom(point) <= lowest + coplanar; });
-  const std::vector<double>& at = base.numbers("at");
-  const contact::TilePose pose = ground.pose_on_tile(at[0], at[1], base.number("yaw"));
+  const std::vector<double>& at = base.numbers(base_field::at);
+  const contact::TilePose pose = ground.pose_on_tile(at[0], at[1], base.number(base_field::yaw));
   const double depth = resting_depth(robot, static_cast<int>(count), pose.tile, loading.experiment);
   // n . (p_WB + lowest n - p_tile) = -depth, with p_WB straight above p_tile.
   robot.location = pose.position;
@@ -99,7 +94,7 @@ void check_inside(const language::Object& base, const contact::Terrain& ground,
     if (point.body == 0 && !robot.mobile) continue;  // a base held in the world touches nothing
     const Vector3d p_WP = robot.location + rotate(robot.orientation, point.p_BP);
     if (!ground.query(p_WP).outside) continue;
-    const char* field = base.given("rest_on") ? "at" : "location";
+    const char* field = base.given(base_field::rest_on) ? base_field::at : base_field::location;
     return loading.error(
         place_of(base, field),
         fmt::format(
@@ -117,7 +112,7 @@ void place_on_terrain(Loading& loading) {
   for (std::size_t i = 0; i < loading.experiment.robots.size(); ++i) {
     RobotSpec& robot = loading.experiment.robots[i];
     const language::Object& base = *loading.bases[i];
-    if (base.given("rest_on")) lay_down(base, ground, robot, loading);
+    if (base.given(base_field::rest_on)) lay_down(base, ground, robot, loading);
     check_inside(base, ground, robot, loading);
   }
 }

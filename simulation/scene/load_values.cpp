@@ -1,8 +1,13 @@
 // Trails of all objects, and the numbers that can be read though nothing computes them.
+#include <fmt/format.h>
+
 #include <set>
 
+#include "contact/force_law.h"
 #include "control/registry.h"
 #include "language/tree/references.h"
+#include "simulation/robot_tree.h"
+#include "simulation/scene/body.h"
 #include "simulation/scene/load_parts.h"
 
 namespace hookpoint::simulation {
@@ -68,19 +73,12 @@ class Values {
     const auto at = loading_.bodies.find(&object);
     if (at == loading_.bodies.end()) return;
     const RobotSpec& robot = loading_.experiment.robots[static_cast<std::size_t>(at->second.robot)];
-    const BodySpec* body = &robot.base;
-    int index = 0;
-    for (const ChainSpec& chain : robot.chains) {
-      for (const LinkSpec& link : chain.links) {
-        if (++index == at->second.body) body = &link.body;
-      }
-    }
-    const MassSpec& mass = body->mass;
-    add_missing(object, "mass", {mass.mass});
-    add_missing(object, "center_of_mass",
+    const MassSpec& mass = bodies_of(robot)[static_cast<std::size_t>(at->second.body)]->mass;
+    add_missing(object, mass_field::mass, {mass.mass});
+    add_missing(object, mass_field::center_of_mass,
                 {mass.center_of_mass.x, mass.center_of_mass.y, mass.center_of_mass.z});
     const Symmetric3d& I = mass.inertia;
-    add_missing(object, "inertia", {I.xx, I.yy, I.zz, I.xy, I.xz, I.yz});
+    add_missing(object, mass_field::inertia, {I.xx, I.yy, I.zz, I.xy, I.xz, I.yz});
   }
 
   void add_missing(const language::Object& object, const char* name,
@@ -111,5 +109,20 @@ class Values {
 }  // namespace
 
 void load_values(const language::Object& root, Loading& loading) { Values(loading).run(root); }
+
+std::string missing_port(const Experiment& experiment, const language::Object& object,
+                         const language::FieldSchema& field) {
+  const bool detail = !field.setting && (object.type == "ContactPoint" || object.type == "Chain");
+  const bool peer = experiment.engine != "dts";
+  // A peer publishes ContactPoints, but no hips.
+  const bool published = peer ? object.type == "ContactPoint"
+                              : contact::find_force_law(experiment.contact).has_value();
+  if (!detail || published) return "";
+  return fmt::format(
+      "{} {} does not publish `{}` of a {}: choose engine dts and a force law, such "
+      "as hookpoint",
+      peer ? "engine" : "contact law", peer ? experiment.engine : experiment.contact, field.name,
+      object.type);
+}
 
 }  // namespace hookpoint::simulation

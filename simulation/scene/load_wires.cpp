@@ -113,9 +113,12 @@ class Wires {
                                        "the first one is here");
     }
     WireSpec spec{from, to, {}, 0., 0.};
-    if (const language::Field* rate = property(driver, "rate")) spec.rate = rate->numbers[0];
-    if (const language::Field* delay = property(driver, "delay")) spec.delay = delay->numbers[0];
-    if (const language::Field* noise = property(driver, "noise")) spec.noise = noise->numbers[0];
+    if (const language::Field* rate = property(driver, language::wire_rate))
+      spec.rate = rate->numbers[0];
+    if (const language::Field* delay = property(driver, language::wire_delay))
+      spec.delay = delay->numbers[0];
+    if (const language::Field* noise = property(driver, language::wire_noise))
+      spec.noise = noise->numbers[0];
     drivers_.push_back(driver);
     experiment_.wires.push_back(std::move(spec));
   }
@@ -130,7 +133,7 @@ class Wires {
     for (const language::Object* stub : {driver.to, driver.from}) {
       if (control::Registry::instance().find(stub->type) == nullptr || !stub->given(name)) continue;
       const language::Field* field = stub->find(name);
-      if (name != "noise" || carries(driver, field->dimension)) return field;
+      if (name != language::wire_noise || carries(driver, field->dimension)) return field;
     }
     return nullptr;
   }
@@ -147,7 +150,7 @@ class Wires {
     const language::Object& object = *loading_.components[index];
     const control::ComponentClass& type = *control::Registry::instance().find(object.type);
     if (type.attachment == Attachment::none) return;
-    const std::string name = type.attachment == Attachment::joint ? "joint" : "body";
+    const std::string_view name = attachment_field(type.attachment);
     const language::Object* target = object.given(name) ? object.object(name) : nullptr;
     std::vector<std::string> missing;
     const auto component = type.make();
@@ -199,8 +202,8 @@ class Wires {
     const std::string other = attached_trail(target, port, i);
     if (field == nullptr)
       field = target.schema->find(port.attached.substr(0, port.attached.rfind('.')));
-    const char* name = object.given("joint") ? "joint" : "body";
-    const language::Position& position = place_of(object, name);
+    const control::ComponentClass& type = *control::Registry::instance().find(object.type);
+    const language::Position& position = place_of(object, attachment_field(type.attachment));
     if (field == nullptr) {
       return loading_.error(position, fmt::format("a {} has no port `{}`, which a {} needs",
                                                   target.type, port.attached, object.type));
@@ -253,7 +256,7 @@ class Wires {
       try {
         update_schedule(experiment_.components[i], experiment_.deltat);
       } catch (const std::exception& error) {
-        return loading_.error(place_of(*loading_.components[i], "rate"), error.what());
+        return loading_.error(place_of(*loading_.components[i], language::wire_rate), error.what());
       }
     }
     Components components(experiment_);

@@ -14,14 +14,20 @@ namespace hookpoint::simulation {
 /// World, Simulator, Robot and what stands inside them, Controllers; and robots written as URDF.
 void add_experiment_classes(language::Schema& schema, const PeerChoices& peers);
 
-// The parts of it, one a file.
+// The parts of it, one a file that loads their objects, too.
 void add_world_classes(language::Schema& schema, const PeerChoices& peers);
+void add_force_classes(language::Schema& schema);
 void add_robot_classes(language::Schema& schema);
+void add_chain_class(language::Schema& schema);
+void add_link_class(language::Schema& schema);
 void add_shape_classes(language::Schema& schema);
-void add_ground_classes(language::Schema& schema);
-void add_control_classes(language::Schema& schema);
-void add_record_classes(language::Schema& schema);
-void add_expectation_classes(language::Schema& schema);
+void add_contact_point_class(language::Schema& schema);
+void add_material_class(language::Schema& schema);
+void add_terrain_classes(language::Schema& schema);
+void add_component_classes(language::Schema& schema);
+void add_record_class(language::Schema& schema);
+void add_movie_class(language::Schema& schema);
+void add_expect_class(language::Schema& schema);
 
 /// A component class as the language sees it: its ports, and the fields of the stub around it.
 language::ClassSchema component_schema(const control::ComponentClass& type);

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "simulation/robot_tree.h"
+
 namespace hookpoint::simulation {
 namespace {
 
@@ -50,9 +52,7 @@ void Derived::compute_energies() {
     };
     if (robot.mobile) add(robot.base.mass, *body);
     ++body;
-    for (const ChainSpec& chain : robot.chains) {
-      for (const LinkSpec& link : chain.links) add(link.body.mass, *body++);
-    }
+    for_each_link(robot, [&](const TreeLink& at) { add(at.link.body.mass, *body++); });
     if (total > 0.) sum.center_of_mass = (1. / total) * sum.center_of_mass;
     finite_ = finite_ && std::isfinite(sum.kinetic_energy) && std::isfinite(sum.potential_energy) &&
               is_finite(sum.center_of_mass);

@@ -1,4 +1,5 @@
 #include "simulation/engine.h"
+#include "simulation/robot_tree.h"
 
 namespace hookpoint::simulation {
 
@@ -6,9 +7,8 @@ WorldInputs initial_inputs(const Experiment& experiment) {
   WorldInputs inputs;
   for (const RobotSpec& robot : experiment.robots) {
     inputs.first_joints.push_back(inputs.joint_torques.size());
-    for (const ChainSpec& chain : robot.chains) {
-      for (const LinkSpec& link : chain.links) inputs.joint_torques.push_back(link.torque);
-    }
+    for_each_link(robot,
+                  [&](const TreeLink& at) { inputs.joint_torques.push_back(at.link.torque); });
   }
   inputs.forces_of.resize(experiment.robots.size());
   for (const ForceSpec& force : experiment.forces) {

@@ -6,6 +6,7 @@
 
 #include "language/document.h"
 #include "language/names.h"
+#include "simulation/robot_tree.h"
 #include "simulation/wiring/derived.h"
 
 namespace hookpoint::simulation {
@@ -61,15 +62,13 @@ void add_robot(std::vector<Port>& ports, const std::string& trail,
   on_demand(ports, first, derived.energies());
 }
 
-void add_joint(std::vector<Port>& ports, const std::string& trail, JointKind kind,
+void add_joint(std::vector<Port>& ports, const std::string& trail, const JointUnits& units,
                const JointState& joint, double& drive) {
-  const bool turns = kind == JointKind::revolute;
-  ports.push_back(readable(trail + ".angle", turns ? "rad" : "m", joint.angle));
-  ports.push_back(readable(trail + ".rate", turns ? "rad/s" : "m/s", joint.rate));
-  ports.push_back(
-      readable(trail + ".acceleration", turns ? "rad/s^2" : "m/s^2", joint.acceleration));
-  ports.push_back(readable(trail + ".total_torque", turns ? "N.m" : "N", joint.torque));
-  ports.push_back(readable(trail + ".torque", turns ? "N.m" : "N", drive));
+  ports.push_back(readable(trail + ".angle", units.position, joint.angle));
+  ports.push_back(readable(trail + ".rate", units.rate, joint.rate));
+  ports.push_back(readable(trail + ".acceleration", units.acceleration, joint.acceleration));
+  ports.push_back(readable(trail + ".total_torque", units.torque, joint.torque));
+  ports.push_back(readable(trail + ".torque", units.torque, drive));
   ports.back().writable = &drive;
 }
 
@@ -134,16 +133,14 @@ std::vector<Port> list_ports(const Experiment& experiment, Engine& engine, Deriv
     add(world + robot.name, "position");
     add_robot(ports, world + robot.name, derived.robot(index++), derived);
     ++body;
-    for (const ChainSpec& chain : robot.chains) {
-      for (const LinkSpec& link : chain.links) {
-        const std::string trail = world + robot.name + "." + chain.name + "." + link.body.name;
-        add_joint(ports, trail, link.joint, state.joints[joint],
-                  engine.inputs().joint_torques[joint]);
-        add(trail, "location");
-        ++body;
-        ++joint;
-      }
-    }
+    for_each_link(robot, [&](const TreeLink& at) {
+      const std::string trail = world + robot.name + "." + at.chain.name + "." + at.link.body.name;
+      add_joint(ports, trail, joint_type(at.link.joint).units, state.joints[joint],
+                engine.inputs().joint_torques[joint]);
+      add(trail, "location");
+      ++body;
+      ++joint;
+    });
   }
   add_details(ports, experiment, state, derived);
   return ports;

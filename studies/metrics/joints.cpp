@@ -14,19 +14,18 @@ using simulation::Pose;
 class JointGap : public Metric {
  public:
   explicit JointGap(const RunContext& context) : context_(context) {
-    for (const simulation::ChainSpec& chain : context.robot_spec().chains)
-      for (const simulation::LinkSpec& link : chain.links) {
-        const bool first = &link == chain.links.data();
-        const Pose X_PH = first ? Pose{chain.hip_distance, chain.hip_orientation} : Pose{};
-        joints_.push_back({X_PH * simulation::joint_pose(link), first,
-                           link.joint == simulation::JointKind::prismatic});
-      }
+    simulation::for_each_link(context.robot_spec(), [&](const simulation::TreeLink& at) {
+      const Pose X_PH =
+          at.on_base() ? Pose{at.chain.hip_distance, at.chain.hip_orientation} : Pose{};
+      joints_.push_back({X_PH * simulation::joint_pose(at.link), at.parent,
+                         !simulation::joint_type(at.link.joint).turns});
+    });
   }
   void observe(const Observation& observation) override {
     if (!settled(context_, observation)) return;
     const simulation::BodyState* bodies = &observation.world.bodies[context_.body];
     for (std::size_t i = 0; i < joints_.size(); ++i) {
-      const simulation::BodyState& parent = bodies[joints_[i].on_base ? 0 : i];
+      const simulation::BodyState& parent = bodies[joints_[i].parent];
       gap_ = std::max(gap_, gap(joints_[i], parent, bodies[i + 1]));
     }
   }
@@ -37,7 +36,8 @@ class JointGap : public Metric {
  private:
   struct Joint {
     Pose X_PL;  ///< at the initial angle; a joint that turns leaves its origin where it is
-    bool on_base = false, slides = false;
+    std::size_t parent = 0;
+    bool slides = false;
   };
   static double gap(const Joint& joint, const simulation::BodyState& parent,
                     const simulation::BodyState& link) {

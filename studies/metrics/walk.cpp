@@ -104,11 +104,9 @@ class WalkingSpeed : public WalkedDistance {
 class FootSlip : public WalkedDistance {
  public:
   explicit FootSlip(const RunContext& context) : WalkedDistance(context) {
-    std::size_t body = context.body;
-    for (const simulation::ChainSpec& chain : context.robot_spec().chains) {
-      body += chain.links.size();
-      if (!chain.links.empty()) feet_.push_back({body, &chain.links.back().body, 0, false, {}, {}});
-    }
+    simulation::for_each_link(context.robot_spec(), [&](const simulation::TreeLink& at) {
+      if (at.is_last()) feet_.push_back({context.body + at.body, &at.link.body, 0, false, {}, {}});
+    });
   }
   std::optional<double> value() const override {
     if (fallen() || feet_.empty() || std::abs(distance()) < least_walk) return std::nullopt;
@@ -167,9 +165,7 @@ class CostOfTransport : public WalkedDistance {
     const auto& robots = context.experiment->robots;
     for (std::size_t i = 0; i <= static_cast<std::size_t>(context.robot); ++i) {
       first_ += angles_.size();
-      std::size_t joints = 0;
-      for (const simulation::ChainSpec& chain : robots[i].chains) joints += chain.links.size();
-      angles_.assign(joints, 0.);
+      angles_.assign(simulation::joint_count(robots[i]), 0.);
     }
   }
   std::optional<double> value() const override {

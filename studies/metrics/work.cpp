@@ -25,7 +25,7 @@ class EnergyResidual : public Metric {
   explicit EnergyResidual(const RunContext& context) : context_(context) {
     const auto& robots = context.experiment->robots;
     for (int i = 0; i < context.robot; ++i)
-      first_joint_ += body_count(robots[static_cast<std::size_t>(i)]) - 1;
+      first_joint_ += simulation::joint_count(robots[static_cast<std::size_t>(i)]);
   }
 
   void observe(const Observation& observation) override {
@@ -97,7 +97,7 @@ class EnergyResidual : public Metric {
   /// A torque is held over the step that led to the state it is published with.
   double work_of_joints(const WorldState& world, double h) const {
     double work = 0.;
-    for (std::size_t i = 0; i + 1 < body_count(context_.robot_spec()); ++i) {
+    for (std::size_t i = 0; i < simulation::joint_count(context_.robot_spec()); ++i) {
       const simulation::JointState& joint = world.joints[first_joint_ + i];
       work += 0.5 * h * joint.torque * (last_.joints[first_joint_ + i].rate + joint.rate);
     }

@@ -26,8 +26,8 @@ double greatest(simulation::Components& components, const std::string& trail,
 
 double least_damping(const simulation::RobotSpec& robot) {
   double damping = std::numeric_limits<double>::infinity();
-  for (const simulation::ChainSpec& chain : robot.chains)
-    for (const simulation::LinkSpec& link : chain.links) damping = std::min(damping, link.damping);
+  simulation::for_each_link(
+      robot, [&](const simulation::TreeLink& at) { damping = std::min(damping, at.link.damping); });
   return damping;
 }
 

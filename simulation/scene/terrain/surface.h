@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 
 #include "simulation/experiment.h"
@@ -48,10 +49,10 @@ GridSpec rough_surface(const RoughGround& rough, const Extent& extent);
 /// Stairs that rise along +x turned by `azimuth` about z. A height field has no vertical face: each
 /// riser is a ramp one cell wide, at the foot of its tread.
 struct StepsGround {
-  double height = 0.;   ///< of one step [m]; below 0 the stairs go down
-  double run = 1.;      ///< from one riser to the next [m]
-  double count = 1.;    ///< of steps; infinite: to the ground's edge
-  double from = 0.;     ///< of the first riser's foot from the world's origin, along the stairs [m]
+  double height = 0.;  ///< of one step [m]; below 0 the stairs go down
+  double run = 1.;     ///< from one riser to the next [m]
+  double count = std::numeric_limits<double>::infinity();  ///< of steps; to the ground's edge
+  double from = 0.5;    ///< of the first riser's foot from the world's origin, along the stairs [m]
   double azimuth = 0.;  ///< [rad]
 };
 

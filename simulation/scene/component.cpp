@@ -1,13 +1,15 @@
-// The classes of control::Registry as classes of the language: what a component declares of its
-// ports, and the fields of the stub around it.
+// Controllers, sensors, actuators and sources: the classes of control::Registry as classes of the
+// language (what a component declares of its ports, and the fields of the stub around it), and
+// their objects as plain values.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <memory>
 
 #include "control/registry.h"
+#include "simulation/scene/fields.h"
+#include "simulation/scene/load_parts.h"
 #include "simulation/scene/schema.h"
-#include "simulation/scene/schema_fields.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -16,18 +18,20 @@ using control::Attachment;
 using control::PortDescription;
 using control::PortKind;
 
-/// What the stub does to all of its wires. The noise is in the unit of the value carried.
-std::vector<FieldSchema> stub_fields() {
-  return {
-      positive(number_field("rate", "Hz", "",
+/// What the stub does to all of its wires, in the fields of a Wire. The noise is in the unit of the
+/// value carried.
+const Fields<ComponentSpec>& stub_fields() {
+  static const Fields<ComponentSpec> fields{
+      positive(number_field(language::wire_rate, "Hz", &ComponentSpec::rate,
                             "updates a second, and samples a second of its wires, held in between; "
                             "if not given, one each step")),
-      not_negative(
-          number_field("delay", "s", "", "of each of its wires: a sample arrives that much later")),
-      not_negative(number_field("noise", "?", "",
+      not_negative(number_field(language::wire_delay, "s", "",
+                                "of each of its wires: a sample arrives that much later")),
+      not_negative(number_field(language::wire_noise, "?", "",
                                 "of those of its wires that carry this unit: standard deviation of "
                                 "zero-mean Gaussian noise, added when sampled")),
   };
+  return fields;
 }
 
 std::vector<FieldSchema> attachment_fields(Attachment attachment) {
@@ -36,10 +40,10 @@ std::vector<FieldSchema> attachment_fields(Attachment attachment) {
       return {};
     case Attachment::joint:
       return {object_field(
-          "joint", "Link",
+          attachment_field(attachment), "Link",
           "the joint, by its link, that it is attached to; needed unless wires take its place")};
     case Attachment::body:
-      return {object_field("body", "Base.|Link",
+      return {object_field(attachment_field(attachment), "Base.|Link",
                            "the body that it is attached to; needed unless wires take its place")};
   }
   return {};
@@ -77,7 +81,52 @@ FieldSchema value_of(const PortDescription& port) {
   return with_port(Direction::both, std::move(field));
 }
 
+void load_text(const language::Object& object, const PortDescription& port, ComponentSpec& spec,
+               Loading& loading) {
+  if (!object.given(port.name)) return;
+  std::string text = object.word(port.name);
+  if (port.path && !text.empty()) {
+    const std::filesystem::path path = find_file(text, place_of(object, port.name), loading);
+    if (path.empty()) return;
+    text = std::filesystem::absolute(path).string();
+  }
+  spec.texts.emplace_back(port.first, std::move(text));
+}
+
+/// One number holds for all elements of an array.
+void load_numbers(const language::Object& object, const PortDescription& port, ComponentSpec& spec,
+                  Loading& loading) {
+  if (!object.given(port.name)) return;
+  const std::vector<double>& numbers = object.numbers(port.name);
+  if (numbers.size() != 1 && numbers.size() != port.count) {
+    return loading.error(place_of(object, port.name),
+                         fmt::format("`{}` takes one number for all or {} numbers, not {}",
+                                     port.name, port.count, numbers.size()));
+  }
+  for (std::size_t i = 0; i < port.count; ++i)
+    spec.values.emplace_back(port.first + i, numbers[numbers.size() == 1 ? 0 : i]);
+}
+
+void load_component(const language::Object& object, const control::ComponentClass& type,
+                    Loading& loading) {
+  ComponentSpec spec = load_fields(object, stub_fields());
+  spec.trail = loading.trails.at(&object);
+  spec.type = type.name;
+  const auto component = type.make();
+  for (const PortDescription& port : component->ports()) {
+    if (port.kind == PortKind::text) load_text(object, port, spec, loading);
+    if (port.kind == PortKind::input || port.kind == PortKind::parameter)
+      load_numbers(object, port, spec, loading);
+  }
+  loading.components.push_back(&object);
+  loading.experiment.components.push_back(std::move(spec));
+}
+
 }  // namespace
+
+std::string_view attachment_field(Attachment attachment) {
+  return attachment == Attachment::joint ? "joint" : "body";
+}
 
 language::ClassSchema component_schema(const control::ComponentClass& type) {
   language::ClassSchema schema;
@@ -92,11 +141,11 @@ language::ClassSchema component_schema(const control::ComponentClass& type) {
     schema.fields.push_back(port.kind == PortKind::text ? text_of(port) : value_of(port));
   }
   append(schema.fields, attachment_fields(type.attachment));
-  append(schema.fields, stub_fields());
+  append(schema.fields, schemas(stub_fields()));
   return schema;
 }
 
-void add_control_classes(language::Schema& schema) {
+void add_component_classes(language::Schema& schema) {
   for (const auto& [name, type] : control::Registry::instance().classes())
     schema.add(component_schema(type));
 }
@@ -127,6 +176,14 @@ std::vector<std::string> component_families() {
       families.push_back(std::move(family));
   }
   return families;
+}
+
+void load_components(const language::Object& parent, Loading& loading) {
+  for (const auto& child : parent.children) {
+    if (const auto* type = control::Registry::instance().find(child->type))
+      load_component(*child, *type, loading);
+    load_components(*child, loading);
+  }
 }
 
 }  // namespace hookpoint::simulation

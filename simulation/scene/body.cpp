@@ -1,7 +1,5 @@
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <tuple>
+// What a base and a link share: shapes, the points that may touch the ground, what is published.
+#include "simulation/scene/body.h"
 
 #include "contact/force_law.h"
 #include "contact/terrain/boundary_points.h"
@@ -10,40 +8,6 @@
 
 namespace hookpoint::simulation {
 namespace {
-
-ShapeGeometry load_geometry(const language::Object& object, Loading& loading) {
-  if (object.type == "Shape.Sphere") return Sphere{object.number("radius")};
-  if (object.type == "Shape.Cylinder")
-    return Cylinder{object.number("radius"), object.number("length")};
-  if (object.type == "Shape.Legcone") {
-    const Legcone cone{object.number("length"), object.number("proximal_radius"),
-                       object.number("distal_radius")};
-    if (cone.proximal_radius == 0. && cone.distal_radius == 0.) {
-      loading.error(object.position,
-                    "both radii of this Shape.Legcone are 0; one of them must be positive");
-    }
-    return cone;
-  }
-  return Box{vector_of(object, "dimensions")};
-}
-
-/// The least density of a round shape that encloses a volume; 0 leaves the choice to the shape.
-int least_density(const ShapeGeometry& geometry) {
-  if (std::holds_alternative<Box>(geometry)) return 1;
-  return std::holds_alternative<Sphere>(geometry) ? 2 : 3;
-}
-
-ShapeSpec load_shape(const language::Object& object, Loading& loading) {
-  ShapeSpec shape{load_geometry(object, loading), vector_of(object, "location"),
-                  orientation_of(object, "orientation"),
-                  static_cast<int>(object.number("boundary_points"))};
-  if (shape.boundary_points != 0 && shape.boundary_points < least_density(shape.geometry)) {
-    loading.error(place_of(object, "boundary_points"),
-                  fmt::format("boundary_points of a {} is 0 (its default) or at least {}",
-                              object.type, least_density(shape.geometry)));
-  }
-  return shape;
-}
 
 std::vector<Vector3d> sample(const Box& box, int density) {
   return contact::box_points(box.dimensions, density);
@@ -77,7 +41,7 @@ bool may_have_points(const language::Object& shape, std::size_t count, Loading& 
   loading.boundary_points += count;
   if (loading.boundary_points <= most) return true;
   if (already) return false;
-  loading.error(place_of(shape, "boundary_points"),
+  loading.error(place_of(shape, boundary_points_field),
                 "with this shape the bodies ask for " +
                     language::too_many(static_cast<double>(loading.boundary_points), most,
                                        "boundary points") +
@@ -100,6 +64,39 @@ void add_shape_points(const language::Object& object, const ShapeSpec& shape, Bo
 
 }  // namespace
 
+std::vector<FieldSchema> contact_ports() {
+  return {
+      port_only(Direction::output,
+                vector_field("contact.force", "N", "",
+                             "impulse of the ground on the body over the last step by the step's "
+                             "length, world axes; at first 0")),
+      port_only(Direction::output,
+                number_field("contact.count", "", "",
+                             "boundary points that carried force in the last step"))};
+}
+
+std::vector<FieldSchema> acceleration_ports(const std::string& body) {
+  return {port_only(Direction::output,
+                    vector_field("linear_acceleration", "m/s^2", "",
+                                 "change of `velocity` of " + body +
+                                     " over the last step by its length, world axes; at first 0")),
+          port_only(Direction::output, vector_field("angular_acceleration", "rad/s^2", "",
+                                                    "the same of `angular_velocity`"))};
+}
+
+std::vector<FieldSchema> motion_ports(const std::string& position, const std::string& body) {
+  return {
+      port_only(Direction::output,
+                vector_field(position, "m", "", "of " + body + " frame's origin, world axes")),
+      port_only(Direction::output,
+                orientation_field("orientation", body + " to world axes, w,x,y,z")),
+      port_only(Direction::output,
+                vector_field("velocity", "m/s", "", "of " + body + " frame's origin, world axes")),
+      port_only(Direction::output,
+                vector_field("angular_velocity", "rad/s", "", "of " + body + ", world axes")),
+  };
+}
+
 BodySpec load_body(const language::Object& object, std::string name, bool must_have_inertia,
                    Loading& loading) {
   BodySpec body;
@@ -111,7 +108,8 @@ BodySpec load_body(const language::Object& object, std::string name, bool must_h
   if (loading.diagnostics.error_count() != errors_before) return body;
   body.mass = load_mass(object, body.shapes, shape_objects, must_have_inertia, loading);
   for (const language::Object* point : object.children_of("ContactPoint")) {
-    add_point(vector_of(*point, "location"), point->number("radius"), body);
+    const BallSpec ball = load_contact_point(*point);
+    add_point(ball.location, ball.radius, body);
   }
   std::vector<ShapePoints> shapes;
   for (std::size_t i = 0; i < body.shapes.size(); ++i) {
@@ -127,33 +125,6 @@ BodySpec load_body(const language::Object& object, std::string name, bool must_h
       contact::find_force_law(experiment.contact))
     warn_of_overlap(shapes, object.trail(), loading);
   return body;
-}
-
-std::string missing_port(const Experiment& experiment, const language::Object& object,
-                         const language::FieldSchema& field) {
-  const bool detail = !field.setting && (object.type == "ContactPoint" || object.type == "Chain");
-  const bool peer = experiment.engine != "dts";
-  // A peer publishes ContactPoints, but no hips.
-  const bool published = peer ? object.type == "ContactPoint"
-                              : contact::find_force_law(experiment.contact).has_value();
-  if (!detail || published) return "";
-  return fmt::format(
-      "{} {} does not publish `{}` of a {}: choose engine dts and a force law, such "
-      "as hookpoint",
-      peer ? "engine" : "contact law", peer ? experiment.engine : experiment.contact, field.name,
-      object.type);
-}
-
-void load_points(Loading& loading) {
-  for (const auto& [object, at] : loading.bodies) {
-    int point = 0;
-    for (const language::Object* child : object->children_of("ContactPoint"))
-      loading.experiment.points.push_back({loading.trails.at(child), at.robot, at.body, point++});
-  }
-  // Not in the order of addresses, which is another in each run.
-  std::ranges::sort(loading.experiment.points, {}, [](const PointSpec& point) {
-    return std::tuple(point.robot, point.body, point.point);
-  });
 }
 
 }  // namespace hookpoint::simulation

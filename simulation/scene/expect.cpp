@@ -1,8 +1,7 @@
-// Expectations: what the scene says that a run of it must show.
+// Expect: what a scene says that a run of it must show.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 #include "contact/force_law.h"
@@ -11,10 +10,43 @@
 #include "language/tree/references.h"
 #include "language/units.h"
 #include "simulation/run/expectation.h"
+#include "simulation/scene/fields.h"
 #include "simulation/scene/load_parts.h"
+#include "simulation/scene/schema.h"
 
 namespace hookpoint::simulation {
 namespace {
+
+namespace expect_field {
+constexpr const char *of = "of", *take = "take", *equals = "equals", *within = "within",
+                     *level = "level", *to = "to", *laws = "laws", *except_laws = "except_laws",
+                     *integrators = "integrators";
+}
+
+const Fields<ExpectationSpec>& expect_fields() {
+  using Spec = ExpectationSpec;
+  static const Fields<Spec> fields{
+      required(words_field(expect_field::of, 1, "the port")),
+      choice_field(expect_field::take, reduction_names(), &Spec::take,
+                   "what becomes of its values: the last, the largest, ..., `slope` by least "
+                   "squares, `time_at` when it first crosses `level`"),
+      required(number_field(expect_field::equals, "?", &Spec::expected,
+                            "the closed form, of the scene's Params")),
+      not_negative(number_field("tolerance", "", &Spec::tolerance,
+                                "allowed difference relative to `equals`")),
+      not_negative(without_default(
+          number_field(expect_field::within, "?", &Spec::within, "allowed absolute difference"))),
+      without_default(number_field(expect_field::level, "?", &Spec::level, "of `time_at`")),
+      not_negative(number_field("from", "s", &Spec::from, "values before do not count")),
+      positive(number_field(expect_field::to, "s", &Spec::to,
+                            "values after do not count; default: the run's end")),
+      words_field(expect_field::laws, 20, "contact laws that it holds for; default: all"),
+      words_field(expect_field::except_laws, 20, "contact laws that it says nothing of"),
+      words_field(expect_field::integrators, 20, "integrators that it holds for; default: all"),
+      text_field("source", &Spec::source, "where the closed form comes from"),
+  };
+  return fields;
+}
 
 /// The text of a field's value as the file writes it, blanks joined.
 std::string written(const language::Field& field) {
@@ -32,19 +64,12 @@ class ExpectationLoader {
 
   void run() {
     spec_.name = object_.name;
-    spec_.take = *find_reduction(object_.word("take"));
-    spec_.from = object_.number("from");
-    if (object_.given("to")) spec_.to = object_.number("to");
-    if (object_.given("level")) spec_.level = object_.number("level");
-    spec_.expected = object_.number("equals");
-    spec_.tolerance = object_.number("tolerance");
-    if (object_.given("within")) spec_.within = object_.number("within");
-    spec_.formula = written(*object_.find("equals"));
-    if (object_.given("source")) spec_.source = object_.word("source");
+    store_fields(object_, expect_fields(), spec_);
+    spec_.formula = written(*object_.find(expect_field::equals));
     check_times();
-    spec_.laws = known_words("laws", contact::law_names());
-    spec_.except_laws = known_words("except_laws", contact::law_names());
-    spec_.integrators = known_words("integrators", integrator_names());
+    spec_.laws = known_words(expect_field::laws, contact::law_names());
+    spec_.except_laws = known_words(expect_field::except_laws, contact::law_names());
+    spec_.integrators = known_words(expect_field::integrators, integrator_names());
     // Under another law the port may not exist.
     const Experiment& experiment = loading_.experiment;
     if (spec_.covers(experiment)) find_number_port();
@@ -53,7 +78,7 @@ class ExpectationLoader {
 
  private:
   void find_number_port() {
-    const language::Field& of = *object_.find("of");
+    const language::Field& of = *object_.find(expect_field::of);
     const auto port = find_number(object_, of.words[0], of.position, names_, loading_);
     if (!port) return;
     spec_.trail = port->trail;
@@ -72,20 +97,19 @@ class ExpectationLoader {
     const language::Field& given = *object_.find(field);
     for (std::size_t i = 0; i < given.words.size(); ++i) {
       if (std::ranges::find(known, given.words[i]) == known.end())
-        loading_.error(
-            given.places[i],
-            fmt::format("there is no `{}` among the {}{}", given.words[i],
-                        field == std::string_view("integrators") ? "integrators" : "laws",
-                        language::did_you_mean(given.words[i], known)));
+        loading_.error(given.places[i],
+                       fmt::format("there is no `{}` among the {}{}", given.words[i],
+                                   field == expect_field::integrators ? "integrators" : "laws",
+                                   language::did_you_mean(given.words[i], known)));
     }
     return given.words;
   }
 
   void check_times() {
     if (spec_.to && *spec_.to <= spec_.from)
-      loading_.error(place_of(object_, "to"), "`to` must be later than `from`");
-    if (spec_.take == Reduction::time_at && !object_.given("level"))
-      loading_.error(place_of(object_, "take"),
+      loading_.error(place_of(object_, expect_field::to), "`to` must be later than `from`");
+    if (spec_.take == Reduction::time_at && !object_.given(expect_field::level))
+      loading_.error(place_of(object_, expect_field::take),
                      "`time_at` needs the `level` whose first crossing is meant");
     if (spec_.tolerance == 0. && spec_.within == 0.)
       loading_.error(object_.position,
@@ -103,7 +127,7 @@ class ExpectationLoader {
     if (spec_.take == Reduction::time_at) wanted = second;
     spec_.unit = unit == "?" && spec_.take != Reduction::time_at ? "" : language::unit_text(wanted);
     if (unit == "?") return;
-    for (const char* field : {"equals", "within"}) {
+    for (const char* field : {expect_field::equals, expect_field::within}) {
       if (!object_.given(field)) continue;
       const language::Field& given = *object_.find(field);
       if (!language::fits(given.dimension, wanted))
@@ -120,6 +144,18 @@ class ExpectationLoader {
 };
 
 }  // namespace
+
+void add_expect_class(language::Schema& schema) {
+  language::ClassSchema expect;
+  expect.name = "Expect";
+  expect.doc =
+      "a truth of the scene: what a port must come to, by a closed form; `run` prints it beside "
+      "what came out, a Wall shows it for every law";
+  expect.top_level = true;
+  expect.naming = language::Naming::required;
+  expect.fields = schemas(expect_fields());
+  schema.add(std::move(expect));
+}
 
 void load_expectations(const language::Object& root, Loading& loading) {
   language::Names names;

@@ -1,19 +1,45 @@
-// Records: their trails resolved to ports, with what the classes say about them.
+// Record: a data file of the run. Its trails are resolved to ports, with what the classes say about
+// them.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <exception>
 
 #include "control/core/transmission_line.h"
 #include "language/tree/references.h"
 #include "output/records/files.h"
+#include "output/records/recorder.h"
+#include "simulation/scene/fields.h"
 #include "simulation/scene/load_parts.h"
+#include "simulation/scene/schema.h"
 
 namespace hookpoint::simulation {
 namespace {
 
-using language::FieldSchema;
-using language::FieldType;
+namespace record_field {
+constexpr const char* trails = "trails";
+}
+
+std::vector<std::string> format_names() {
+  std::vector<std::string> names;
+  for (const output::RecordFormat& format : output::record_formats())
+    names.emplace_back(format.name);
+  return names;
+}
+
+const Fields<RecordSpec>& record_fields() {
+  static const Fields<RecordSpec> fields{
+      required(words_field(record_field::trails, 100'000,
+                           "ports to record, a channel each; a vector is a channel a component")),
+      choice_field("format", format_names(), &RecordSpec::format,
+                   "of the file; docs/data.md tells how to read each"),
+      positive(number_field(run_file_field::rate, "Hz", &RecordSpec::rate,
+                            "rows a second; if not given, one each step")),
+      text_field(
+          run_file_field::file, &RecordSpec::file,
+          "name in the run's folder; if not given, the record's with the format's extension"),
+  };
+  return fields;
+}
 
 bool is_number(const FieldSchema& field) {
   return field.type != FieldType::text && field.type != FieldType::choice &&
@@ -34,16 +60,18 @@ int components_of(const FieldSchema& field) {
 class RecordLoader {
  public:
   RecordLoader(const language::Object& object, language::Names& names, Loading& loading)
-      : object_(object), names_(names), loading_(loading), trails_(*object.find("trails")) {
+      : object_(object),
+        names_(names),
+        loading_(loading),
+        trails_(*object.find(record_field::trails)) {
+    store_fields(object, record_fields(), spec_);
     spec_.name = object.name;
   }
 
   void run() {
-    spec_.format = object_.word("format");
     const output::RecordFormat* format = output::find_record_format(spec_.format);
-    spec_.file = object_.given("file") ? object_.word("file")
-                                       : fmt::format("{}.{}", spec_.name, format->extension);
-    if (object_.given("rate")) spec_.rate = object_.number("rate");
+    if (!object_.given(run_file_field::file))
+      spec_.file = fmt::format("{}.{}", spec_.name, format->extension);
     check_rate();
     check_file();
     for (std::size_t i = 0; i < trails_.words.size(); ++i) add(trails_.words[i], trails_.places[i]);
@@ -53,10 +81,10 @@ class RecordLoader {
  private:
   void check_rate() const {
     if (!spec_.rate) return;
-    complain("rate", rate_problem(*spec_.rate, loading_.experiment.deltat));
+    complain(run_file_field::rate, rate_problem(*spec_.rate, loading_.experiment.deltat));
   }
   void check_file() const {
-    complain("file",
+    complain(run_file_field::file,
              file_problem(output::record_files(spec_.format, spec_.file), loading_.experiment));
   }
   void complain(const char* field, std::string problem) const {
@@ -92,6 +120,18 @@ class RecordLoader {
 };
 
 }  // namespace
+
+void add_record_class(language::Schema& schema) {
+  language::ClassSchema record;
+  record.name = "Record";
+  record.doc =
+      "a data file of the run: a row of chosen ports at time 0 and at every step or sampling "
+      "instant";
+  record.top_level = true;
+  record.naming = language::Naming::required;
+  record.fields = schemas(record_fields());
+  schema.add(std::move(record));
+}
 
 std::optional<NumberPort> find_number(const language::Object& from, const std::string& trail,
                                       const language::Position& place, language::Names& names,

@@ -1,9 +1,11 @@
+// The mass properties of a body: given, or those of its shapes.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "dts/mass_properties.h"
+#include "simulation/scene/body.h"
 #include "simulation/scene/load_parts.h"
 
 namespace hookpoint::simulation {
@@ -37,21 +39,21 @@ std::vector<double> share_mass(const language::Object& object, const std::vector
   std::vector<double> masses(shapes.size(), 0.), volumes(shapes.size(), 0.);
   double own = 0., shared_volume = 0.;
   for (std::size_t i = 0; i < shapes.size(); ++i) {
-    if (shape_objects[i]->given("mass")) {
-      own += masses[i] = shape_objects[i]->number("mass");
+    if (shape_objects[i]->given(mass_field::mass)) {
+      own += masses[i] = shape_objects[i]->number(mass_field::mass);
     } else {
       volumes[i] =
           std::visit([](const auto& geometry) { return volume(geometry); }, shapes[i].geometry);
       shared_volume += volumes[i];
     }
   }
-  if (!object.given("mass")) return masses;
-  const double mass = object.number("mass");
+  if (!object.given(mass_field::mass)) return masses;
+  const double mass = object.number(mass_field::mass);
   const double left = mass - own;
   const double rounding = 1e-12 * std::max(mass, own);
   if (left < -rounding || (left > rounding && shared_volume == 0. && !shapes.empty())) {
     loading.error(
-        place_of(object, "mass"),
+        place_of(object, mass_field::mass),
         fmt::format(
             "mass is {:g} kg but the shapes' own masses add up to {:g} kg; leave one of them out",
             mass, own));
@@ -98,14 +100,14 @@ void check_inertia(const language::Object& object, const MassSpec& mass, bool mu
                    Loading& loading) {
   const Symmetric3d& inertia = mass.inertia;
   const double trace = inertia.xx + inertia.yy + inertia.zz;
-  const language::Position& place = place_of(object, "inertia");
-  if (object.given("inertia") && !positive_semidefinite(inertia, std::abs(trace))) {
+  const language::Position& place = place_of(object, mass_field::inertia);
+  if (object.given(mass_field::inertia) && !positive_semidefinite(inertia, std::abs(trace))) {
     return loading.error(
         place,
         "inertia has a negative principal moment; the order is Ixx,Iyy,Izz,Ixy,Ixz,Iyz about the "
         "centre of mass");
   }
-  if (object.given("inertia") && !triangle_inequality(inertia)) {
+  if (object.given(mass_field::inertia) && !triangle_inequality(inertia)) {
     return loading.error(place,
                          "inertia breaks the triangle inequality: no principal moment may exceed "
                          "the sum of the other "
@@ -120,10 +122,24 @@ void check_inertia(const language::Object& object, const MassSpec& mass, bool mu
 
 /// Whether the object gives mass properties that nothing says a mass for.
 bool lacks_mass(const language::Object& object, double mass) {
-  return !(mass > 0.) && (object.given("inertia") || object.given("center_of_mass"));
+  return !(mass > 0.) &&
+         (object.given(mass_field::inertia) || object.given(mass_field::center_of_mass));
 }
 
 }  // namespace
+
+std::vector<FieldSchema> mass_fields(const std::string& axes) {
+  return {
+      not_negative(
+          number_field(mass_field::mass, "kg", "",
+                       "of the body; shared over shapes without a mass of their own, by volume")),
+      vector_field(mass_field::center_of_mass, "m", "",
+                   axes + " axes; if not given, that of the shapes, or the origin"),
+      list_field(mass_field::inertia, "kg.m^2", 6, 6, "",
+                 "matrix elements Ixx,Iyy,Izz,Ixy,Ixz,Iyz about the centre of mass, " + axes +
+                     " axes; if not given, that of the shapes"),
+  };
+}
 
 MassSpec load_mass(const language::Object& object, const std::vector<ShapeSpec>& shapes,
                    const ShapeObjects& shape_objects, bool must_have_inertia, Loading& loading) {
@@ -136,14 +152,15 @@ MassSpec load_mass(const language::Object& object, const std::vector<ShapeSpec>&
   }
   const dts::MassProperties<double> whole = dts::combined(parts);
   MassSpec mass{whole.mass, whole.center_of_mass, whole.inertia};
-  if (object.given("mass")) mass.mass = object.number("mass");
-  if (object.given("center_of_mass")) mass.center_of_mass = vector_of(object, "center_of_mass");
-  if (object.given("inertia")) {
-    const std::vector<double>& i = object.numbers("inertia");
+  if (object.given(mass_field::mass)) mass.mass = object.number(mass_field::mass);
+  if (object.given(mass_field::center_of_mass))
+    mass.center_of_mass = vector_of(object, mass_field::center_of_mass);
+  if (object.given(mass_field::inertia)) {
+    const std::vector<double>& i = object.numbers(mass_field::inertia);
     mass.inertia = {i[0], i[1], i[2], i[3], i[4], i[5]};
   }
   if ((must_have_inertia && !(mass.mass > 0.)) || lacks_mass(object, mass.mass)) {
-    loading.error(place_of(object, "mass"),
+    loading.error(place_of(object, mass_field::mass),
                   must_have_inertia
                       ? "a free body needs a mass above 0; give `mass`, here or in its shapes"
                       : "inertia and center_of_mass mean nothing without a mass; give `mass`");

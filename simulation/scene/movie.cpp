@@ -1,4 +1,4 @@
-// Files that a run leaves: where they go and how often. Movies.
+// Movie: a log of the run's whole state. What all files that a run leaves have: a place and a rate.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,22 +9,34 @@
 #include "output/records/files.h"
 #include "output/result_folder.h"
 #include "simulation/run/run_files.h"
+#include "simulation/scene/fields.h"
 #include "simulation/scene/load_parts.h"
+#include "simulation/scene/schema.h"
 
 namespace hookpoint::simulation {
 namespace {
 
+const Fields<MovieSpec>& movie_fields() {
+  static const Fields<MovieSpec> fields{
+      positive(number_field(run_file_field::rate, "Hz", &MovieSpec::rate,
+                            "instants a second; if not given, one each step. What lies between "
+                            "two is computed again, exactly")),
+      text_field(run_file_field::file, &MovieSpec::file,
+                 "name in the run's folder; if not given, the movie's with .h5"),
+  };
+  return fields;
+}
+
 void load_movie(const language::Object& object, Loading& loading) {
-  MovieSpec spec;
+  MovieSpec spec = load_fields(object, movie_fields());
   spec.name = object.name;
-  spec.file = object.given("file") ? object.word("file") : object.name + ".h5";
-  if (object.given("rate")) {
-    spec.rate = object.number("rate");
+  if (!object.given(run_file_field::file)) spec.file = object.name + ".h5";
+  if (spec.rate) {
     if (std::string problem = rate_problem(*spec.rate, loading.experiment.deltat); !problem.empty())
-      loading.error(place_of(object, "rate"), std::move(problem));
+      loading.error(place_of(object, run_file_field::rate), std::move(problem));
   }
   if (std::string problem = file_problem({spec.file}, loading.experiment); !problem.empty())
-    loading.error(place_of(object, "file"), std::move(problem));
+    loading.error(place_of(object, run_file_field::file), std::move(problem));
   loading.experiment.movies.push_back(std::move(spec));
 }
 
@@ -37,6 +49,17 @@ std::set<std::string> all_stages(const std::vector<std::string>& files) {
 }
 
 }  // namespace
+
+void add_movie_class(language::Schema& schema) {
+  language::ClassSchema movie;
+  movie.name = "Movie";
+  movie.doc =
+      "a log of the run's whole state, from which any moment of it is seen again and a run goes on";
+  movie.top_level = true;
+  movie.naming = language::Naming::required;
+  movie.fields = schemas(movie_fields());
+  schema.add(std::move(movie));
+}
 
 std::string rate_problem(double rate, double deltat) {
   try {

@@ -1,0 +1,52 @@
+// The bodies and joints of a robot in the order in which they are published: the base, then the
+// links chain by chain. Joint l carries body l + 1.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "simulation/experiment.h"
+
+namespace hookpoint::simulation {
+
+/// A link, the joint that carries it, and where they stand in the robot.
+struct TreeLink {
+  const ChainSpec& chain;
+  const LinkSpec& link;
+  std::size_t body;    ///< of the robot's bodies; 0 is the base
+  std::size_t parent;  ///< the body that carries it: the base, or the preceding link
+
+  std::size_t joint() const { return body - 1; }
+  bool on_base() const { return parent == 0; }
+  bool is_last() const { return &link == &chain.links.back(); }  ///< of its chain
+};
+
+/// Calls `visit(TreeLink)` for every link. Allocates nothing.
+template <class Visit>
+void for_each_link(const RobotSpec& robot, Visit&& visit) {
+  std::size_t body = 0;
+  for (const ChainSpec& chain : robot.chains) {
+    std::size_t parent = 0;
+    for (const LinkSpec& link : chain.links) {
+      ++body;
+      visit(TreeLink{chain, link, body, parent});
+      parent = body;
+    }
+  }
+}
+
+/// Calls `visit(BodySpec)` for the base and every link. Allocates nothing.
+template <class Visit>
+void for_each_body(const RobotSpec& robot, Visit&& visit) {
+  visit(robot.base);
+  for_each_link(robot, [&](const TreeLink& at) { visit(at.link.body); });
+}
+
+std::size_t joint_count(const RobotSpec& robot);
+/// The base and the links.
+std::size_t body_count(const RobotSpec& robot);
+std::vector<const BodySpec*> bodies_of(const RobotSpec& robot);
+/// Of the base and all links [kg].
+double robot_mass(const RobotSpec& robot);
+
+}  // namespace hookpoint::simulation

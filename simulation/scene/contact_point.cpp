@@ -1,0 +1,70 @@
+// ContactPoint: a point of a body, or a ball about it, that may touch the ground.
+#include <algorithm>
+#include <tuple>
+
+#include "simulation/scene/fields.h"
+#include "simulation/scene/load_parts.h"
+#include "simulation/scene/schema.h"
+
+namespace hookpoint::simulation {
+namespace {
+
+const Fields<BallSpec>& ball_fields() {
+  static const Fields<BallSpec> fields{
+      vector_field("location", "m", &BallSpec::location, "in the body's frame"),
+      not_negative(number_field("radius", "m", &BallSpec::radius,
+                                "of a ball about `location`, which rolls on the ground")),
+  };
+  return fields;
+}
+
+}  // namespace
+
+void add_contact_point_class(language::Schema& schema) {
+  language::ClassSchema point;
+  point.name = "ContactPoint";
+  point.doc =
+      "a point of its own that may touch the ground; a body with ContactPoints and no shapes "
+      "touches there only";
+  const auto computed = [](FieldSchema field) {
+    return port_only(Direction::output, std::move(field));
+  };
+  const std::string where = "; engine dts with a force law only";
+  point.fields = schemas(ball_fields());
+  append(
+      point.fields,
+      {
+          computed(vector_field(
+              "position", "m", "",
+              "where it is, world axes; of a ball, where it meets the ground" + where)),
+          computed(vector_field("contact.force", "N", "",
+                                "of the ground on the robot at this point, world axes" + where)),
+          computed(number_field("contact.depth", "m", "",
+                                "how deep it is in the ground, below 0 outside" + where)),
+          computed(boolean_field("contact.sliding", "", "whether it slips on the ground" + where)),
+          computed(
+              vector_field("contact.hook", "m", "",
+                           "its anchor on the ground, world axes; the point itself while it is "
+                           "free" +
+                               where)),
+      });
+  schema.add(std::move(point));
+}
+
+BallSpec load_contact_point(const language::Object& object) {
+  return load_fields(object, ball_fields());
+}
+
+void load_points(Loading& loading) {
+  for (const auto& [object, at] : loading.bodies) {
+    int point = 0;
+    for (const language::Object* child : object->children_of("ContactPoint"))
+      loading.experiment.points.push_back({loading.trails.at(child), at.robot, at.body, point++});
+  }
+  // Not in the order of addresses, which is another in each run.
+  std::ranges::sort(loading.experiment.points, {}, [](const PointSpec& point) {
+    return std::tuple(point.robot, point.body, point.point);
+  });
+}
+
+}  // namespace hookpoint::simulation

@@ -1,0 +1,177 @@
+// Link: a body of a chain and the joint that carries it.
+#include <fmt/format.h>
+
+#include "output/text/number.h"
+#include "simulation/scene/body.h"
+#include "simulation/scene/load_parts.h"
+#include "simulation/scene/schema.h"
+
+namespace hookpoint::simulation {
+namespace {
+
+namespace link_field {
+constexpr const char *joint = "joint", *angle = "angle", *lower_limit = "lower_limit";
+}
+
+/// Where the link's frame is in the preceding one at joint angle 0.
+const Fields<LinkSpec>& frame_fields() {
+  static const Fields<LinkSpec> fields{
+      vector_field("joint_location", "m", &LinkSpec::joint_location,
+                   "of a fixed transform ahead of the dh numbers, preceding link's axes"),
+      orientation_field("joint_orientation", &LinkSpec::joint_orientation,
+                        "of that transform, to the preceding link's axes: quaternion w,x,y,z, or "
+                        "roll,pitch,yaw angles"),
+      number_field("dhlength", "m", &LinkSpec::a, "a: along the preceding frame's x"),
+      number_field("dhtwist", "rad", &LinkSpec::alpha, "alpha: about the preceding frame's x"),
+      number_field("dhoffset", "m", &LinkSpec::d, "d: along the link's own z"),
+      number_field("dhangle", "rad", &LinkSpec::theta,
+                   "theta: about the link's own z, at joint angle 0"),
+  };
+  return fields;
+}
+
+std::vector<std::string> joint_names() {
+  std::vector<std::string> names;
+  for (const JointType& type : joint_types) names.emplace_back(type.name);
+  return names;
+}
+
+/// In the unit that the joint's type gives the quantity.
+template <class Described>
+Described by_joint(const char* JointUnits::*quantity, Described field) {
+  field.unit = joint_types[0].units.*quantity;
+  for (const JointType& type : joint_types) {
+    if (type.units.*quantity == field.unit) continue;
+    field = or_unit(type.units.*quantity, link_field::joint, type.name, std::move(field));
+  }
+  return field;
+}
+Field<LinkSpec> joint_field(std::string_view name, const char* JointUnits::*quantity,
+                            auto LinkSpec::*member, std::string doc) {
+  return by_joint(quantity, number_field(name, "", member, std::move(doc)));
+}
+FieldSchema joint_port(std::string_view name, const char* JointUnits::*quantity, std::string doc) {
+  return port_only(Direction::output,
+                   by_joint(quantity, number_field(name, "", "", std::move(doc))));
+}
+
+/// A constant of joints of which each type has its own default: what it means, then "; if not
+/// given, 1000 N.m/rad (prismatic: 100000 N/m)".
+Field<LinkSpec> constant_field(std::string_view name, const char* JointUnits::*quantity,
+                               double LinkSpec::*member, double JointDefaults::*usual,
+                               std::string doc) {
+  const auto text = [&](const JointType& type) {
+    return fmt::format("{} {}", output::rounded(type.defaults.*usual), type.units.*quantity);
+  };
+  doc += "; if not given, " + text(joint_types[0]);
+  for (const JointType& type : joint_types) {
+    if (text(type) != text(joint_types[0])) doc += fmt::format(" ({}: {})", type.name, text(type));
+  }
+  return without_default(joint_field(name, quantity, member, std::move(doc)));
+}
+
+const Fields<LinkSpec>& joint_fields() {
+  using Units = JointUnits;
+  using Usual = JointDefaults;
+  static const Fields<LinkSpec> fields{
+      choice_field(link_field::joint, joint_names(), &LinkSpec::joint,
+                   "turns about, or slides along, the link's own z"),
+      with_port(Direction::output,
+                joint_field(link_field::angle, &Units::position, &LinkSpec::angle,
+                            "joint variable, added to dhangle (prismatic: to dhoffset)")),
+      with_port(Direction::output,
+                joint_field("rate", &Units::rate, &LinkSpec::rate, "d(angle)/dt")),
+      with_port(Direction::both, joint_field("torque", &Units::torque, &LinkSpec::torque,
+                                             "of the joint's drive: constant unless wired")),
+      joint_port("acceleration", &Units::acceleration, "d(rate)/dt, of the step just taken"),
+      joint_port("total_torque", &Units::torque,
+                 "of the drive, spring, damping, friction and stops together, in the "
+                 "step just taken"),
+      joint_field(link_field::lower_limit, &Units::position, &LinkSpec::lower_limit,
+                  "least angle; none if not given"),
+      joint_field("upper_limit", &Units::position, &LinkSpec::upper_limit,
+                  "greatest angle; none if not given"),
+      positive(constant_field("limit_stiffness", &Units::stiffness, &LinkSpec::limit_stiffness,
+                              &Usual::limit_stiffness, "spring of the stop beyond a limit")),
+      not_negative(constant_field("limit_damping", &Units::damping, &LinkSpec::limit_damping,
+                                  &Usual::limit_damping, "damper of the stop")),
+      not_negative(
+          joint_field("damping", &Units::damping, &LinkSpec::damping, "torque = -damping rate")),
+      not_negative(joint_field("friction", &Units::torque, &LinkSpec::friction,
+                               "dry friction: a joint that carries less than this sticks; one that "
+                               "slips is braked by it")),
+      positive(
+          constant_field("friction_deflection", &Units::position, &LinkSpec::friction_deflection,
+                         &Usual::friction_deflection,
+                         "so far a joint that sticks gives way, as a spring, before it slips")),
+      positive(constant_field("friction_speed", &Units::rate, &LinkSpec::friction_speed,
+                              &Usual::friction_speed,
+                              "rate at which a joint that sticks is damped by its whole friction")),
+      not_negative(joint_field("stiffness", &Units::stiffness, &LinkSpec::stiffness,
+                               "joint spring: torque = -stiffness (angle - rest_angle)")),
+      joint_field("rest_angle", &Units::position, &LinkSpec::rest_angle,
+                  "angle at which the joint spring is slack"),
+  };
+  return fields;
+}
+
+/// The joint of `object`'s type with the constants that such a joint has which states none.
+LinkSpec usual_joint(const language::Object& object) {
+  LinkSpec link;
+  take(*object.find(link_field::joint), link.joint);
+  const JointDefaults& usual = joint_type(link.joint).defaults;
+  link.friction_deflection = usual.friction_deflection;
+  link.friction_speed = usual.friction_speed;
+  link.limit_stiffness = usual.limit_stiffness;
+  link.limit_damping = usual.limit_damping;
+  return link;
+}
+
+void check_limits(const language::Object& object, const LinkSpec& link, Loading& loading) {
+  if (link.lower_limit && link.upper_limit && *link.lower_limit >= *link.upper_limit) {
+    return loading.error(place_of(object, link_field::lower_limit),
+                         "lower_limit is not below upper_limit; exchange them");
+  }
+  const bool below = link.lower_limit && link.angle < *link.lower_limit;
+  const bool above = link.upper_limit && link.angle > *link.upper_limit;
+  if (below || above) {
+    loading.error(
+        place_of(object, link_field::angle),
+        fmt::format("the joint starts at angle {:g}, {} of {:g}; start it within its limits",
+                    link.angle, below ? "below its lower_limit" : "above its upper_limit",
+                    below ? *link.lower_limit : *link.upper_limit));
+  }
+}
+
+}  // namespace
+
+void add_link_class(language::Schema& schema) {
+  language::ClassSchema link;
+  link.name = "Link";
+  link.doc =
+      "a segment and the joint that carries it, in modified Denavit-Hartenberg form: "
+      "Rot_x(dhtwist) Trans_x(dhlength) Rot_z(dhangle) Trans_z(dhoffset) from the preceding frame, "
+      "ahead of which may stand any fixed transform";
+  link.naming = language::Naming::required;
+  link.top_level = true;
+  link.children = {"Shape.", "ContactPoint"};
+  append(link.children, component_families());
+  link.fields = schemas(frame_fields());
+  append(link.fields, mass_fields("link"));
+  append(link.fields, schemas(joint_fields()));
+  append(link.fields, motion_ports("location", "the link's"));
+  append(link.fields, acceleration_ports("the link's origin"));
+  append(link.fields, contact_ports());
+  schema.add(std::move(link));
+}
+
+LinkSpec load_link(const language::Object& object, std::string name, Loading& loading) {
+  LinkSpec link = usual_joint(object);
+  link.body = load_body(object, std::move(name), false, loading);
+  store_fields(object, frame_fields(), link);
+  store_fields(object, joint_fields(), link);
+  check_limits(object, link, loading);
+  return link;
+}
+
+}  // namespace hookpoint::simulation

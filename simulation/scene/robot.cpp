@@ -1,0 +1,150 @@
+// Robot: a base and its chains. Base: the body that carries them.
+#include <fmt/format.h>
+
+#include "simulation/scene/body.h"
+#include "simulation/scene/load_parts.h"
+#include "simulation/scene/schema.h"
+
+namespace hookpoint::simulation {
+namespace {
+
+/// A base's motion: the initial one when assigned, the present one when read.
+const Fields<RobotSpec>& motion_fields() {
+  static const Fields<RobotSpec> fields{
+      with_port(Direction::output, vector_field(base_field::location, "m", &RobotSpec::location,
+                                                "of the base frame's origin, world axes")),
+      with_port(
+          Direction::output,
+          orientation_field(base_field::orientation, &RobotSpec::orientation,
+                            "base to world axes: quaternion w,x,y,z, or roll,pitch,yaw angles")),
+      with_port(Direction::output, vector_field(base_field::velocity, "m/s", &RobotSpec::velocity,
+                                                "of the base frame's origin, world axes")),
+      with_port(Direction::output, vector_field(base_field::angular_velocity, "rad/s",
+                                                &RobotSpec::angular_velocity, "world axes")),
+  };
+  return fields;
+}
+
+language::ClassSchema robot_class() {
+  language::ClassSchema robot;
+  robot.name = "Robot";
+  robot.doc = "a base that carries any number of chains of links";
+  robot.naming = language::Naming::required;
+  robot.top_level = true;
+  robot.children = {"Base.", "Chain"};
+  append(robot.children, component_families());
+  robot.fields = motion_ports("position", "the base's");
+  append(robot.fields, acceleration_ports("the base's origin"));
+  append(robot.fields, contact_ports());
+  append(robot.fields,
+         {port_only(Direction::output,
+                    number_field("kinetic_energy", "J", "", "of all its bodies that move")),
+          port_only(Direction::output,
+                    number_field("potential_energy", "J", "",
+                                 "of the same in gravity, zero at the world's origin")),
+          port_only(Direction::output,
+                    vector_field("center_of_mass", "m", "", "of the same, world axes"))});
+  return robot;
+}
+
+language::ClassSchema base_class(bool mobile) {
+  language::ClassSchema base;
+  base.name = mobile ? "Base.mobile" : "Base.fixed";
+  base.doc = mobile ? "a robot's body, free to move"
+                    : "a robot's body, held in the world; its mass plays no part";
+  base.default_name = "base";
+  base.children = {"Shape.", "ContactPoint"};
+  base.fields = schemas(motion_fields());
+  if (mobile) {
+    append(
+        base.fields,
+        {object_field(base_field::rest_on, "Terrain.",
+                      "start at rest on this ground instead of at location and orientation: z "
+                      "along the tile's normal, "
+                      "lowest boundary points at the contact law's static penetration (touching, "
+                      "for a peer)"),
+         list_field(base_field::at, "m", 2, 2, "0,0",
+                    "with rest_on: world x,y of the base frame's origin"),
+         number_field(base_field::yaw, "rad", "0",
+                      "with rest_on: turn about the ground's normal")});
+  }
+  append(base.fields, mass_fields("base"));
+  append(base.fields, acceleration_ports("the base's origin"));
+  append(base.fields, contact_ports());
+  return base;
+}
+
+bool is_zero(const Vector3d& a) { return a == Vector3d{}; }
+
+void load_base(const language::Object& object, RobotSpec& robot, Loading& loading) {
+  robot.mobile = object.type == "Base.mobile";
+  robot.base = load_body(object, object.name, robot.mobile, loading);
+  store_fields(object, motion_fields(), robot);
+  if (!robot.mobile) {
+    for (const char* field : {base_field::velocity, base_field::angular_velocity}) {
+      if (is_zero(vector_of(object, field))) continue;
+      loading.error(place_of(object, field),
+                    "a Base.fixed does not move; make it a Base.mobile or leave this out");
+    }
+    return;
+  }
+  const bool rests = object.given(base_field::rest_on);
+  for (const char* field : {base_field::location, base_field::orientation}) {
+    if (!rests || !object.given(field)) continue;
+    loading.error(place_of(object, field),
+                  fmt::format("rest_on already places the base; leave out {} or rest_on (`at` and "
+                              "`yaw` go with rest_on)",
+                              field));
+  }
+  for (const char* field : {base_field::at, base_field::yaw}) {
+    if (rests || !object.given(field)) continue;
+    loading.error(
+        place_of(object, field),
+        fmt::format("{} goes with rest_on; add `rest_on = TERRAIN` or use location and orientation",
+                    field));
+  }
+}
+
+/// The one base, or null after saying why there is none.
+const language::Object* find_base(const language::Object& robot, Loading& loading) {
+  const std::vector<const language::Object*> bases = robot.children_of("Base.");
+  if (bases.empty()) {
+    loading.error(
+        robot.position,
+        fmt::format("robot `{}` has no base; give it a Base.fixed or a Base.mobile", robot.name));
+    return nullptr;
+  }
+  for (std::size_t i = 1; i < bases.size(); ++i) {
+    loading.error(bases[i]->position, "a second base; a robot has exactly one");
+    loading.diagnostics.note(bases[0]->position, "the first is here");
+  }
+  return bases[0];
+}
+
+}  // namespace
+
+void add_robot_classes(language::Schema& schema) {
+  schema.add(robot_class());
+  schema.add(base_class(false));
+  schema.add(base_class(true));
+}
+
+void load_robots(const language::Object& world, Loading& loading) {
+  for (const language::Object* object : world.children_of("Robot")) {
+    RobotSpec robot;
+    robot.name = name_within(*object, world);
+    const language::Object* base = find_base(*object, loading);
+    if (base == nullptr) continue;
+    BodyIndex next{static_cast<int>(loading.experiment.robots.size()), 0};
+    load_base(*base, robot, loading);
+    loading.bodies.emplace(base, next);
+    ++next.body;
+    for (const language::Object* chain : object->children_of("Chain")) {
+      robot.chains.push_back(load_chain(*chain, name_within(*chain, *object), next, loading));
+    }
+    loading.bases.push_back(base);
+    loading.experiment.robots.push_back(std::move(robot));
+  }
+}
+
+}  // namespace hookpoint::simulation
