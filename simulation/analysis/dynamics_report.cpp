@@ -60,8 +60,7 @@ DynamicsReport evaluate_dynamics(const Experiment& experiment) {
   const WorldInputs inputs = initial_inputs(experiment);
   auto first_body = names.begin();
   for (std::size_t i = 0; i < experiment.robots.size(); ++i) {
-    const auto end =
-        first_body + static_cast<std::ptrdiff_t>(body_count(experiment.robots[i]));
+    const auto end = first_body + static_cast<std::ptrdiff_t>(body_count(experiment.robots[i]));
     report.robots.push_back(robot_dynamics(experiment, static_cast<int>(i),
                                            ground ? &*ground : nullptr, inputs, {first_body, end}));
     first_body = end;

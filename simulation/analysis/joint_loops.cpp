@@ -7,8 +7,8 @@
 #include <optional>
 #include <set>
 
-#include "simulation/wiring/components.h"
 #include "simulation/robot_tree.h"
+#include "simulation/wiring/components.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -24,8 +24,8 @@ std::map<std::string, JointPlace> joint_ports(const Experiment& experiment) {
   for (std::size_t i = 0; i < experiment.robots.size(); ++i) {
     const RobotSpec& robot = experiment.robots[i];
     for_each_link(robot, [&](const TreeLink& at) {
-      const std::string trail = experiment.world + "." + robot.name + "." + at.chain.name + "." +
-                                at.link.body.name + ".";
+      const std::string trail =
+          experiment.world + "." + robot.name + "." + at.chain.name + "." + at.link.body.name + ".";
       for (const char* port : {"angle", "rate", "torque"})
         places[trail + port] = {i, at.joint(), port};
     });

@@ -1,4 +1,5 @@
 #include "simulation/engine/robot_description.h"
+
 #include "simulation/robot_tree.h"
 
 namespace hookpoint::simulation {
