@@ -7,42 +7,21 @@
 #include <vector>
 
 #include "tests/support/command.h"
+#include "tests/support/page_blocks.h"
 
 namespace hookpoint {
 namespace {
 
+using testing::blocks_of;
 using testing::Workplace;
 namespace fs = std::filesystem;
 
 const fs::path source = HOOKPOINT_SOURCE_DIR;
 
-/// A fenced block: "```hook leg.hook" has the language `hook` and the name `leg.hook`.
-struct Block {
-  std::string language, name, text;
-};
-
-std::vector<Block> blocks_of(const std::string& page) {
-  std::vector<Block> blocks;
-  std::istringstream lines(page);
-  bool inside = false;
-  for (std::string line; std::getline(lines, line);) {
-    if (line.starts_with("```")) {
-      inside = !inside;
-      if (!inside) continue;
-      std::istringstream words(line.substr(3));
-      Block& block = blocks.emplace_back();
-      words >> block.language >> block.name;
-    } else if (inside) {
-      blocks.back().text += line + "\n";
-    }
-  }
-  return blocks;
-}
-
 /// The page as one script for a shell: a named block is a file of the folder reached by then.
-std::string script_of(const std::vector<Block>& blocks) {
+std::string script_of(const std::vector<testing::PageBlock>& blocks) {
   std::string script = "set -euxo pipefail\nunset HOOKPOINT_TRUSTED_PLUGINS\n";
-  for (const Block& block : blocks) {
+  for (const testing::PageBlock& block : blocks) {
     script += block.language == "sh"
                   ? block.text
                   : "cat >'" + block.name + "' <<'END OF BLOCK'\n" + block.text + "END OF BLOCK\n";
@@ -68,8 +47,9 @@ class Tutorial : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     place_ = new Workplace;
-    const std::vector<Block> blocks = blocks_of(place_->read(source / "docs/tutorial.md"));
-    for (const Block& block : blocks)
+    const std::vector<testing::PageBlock> blocks =
+        blocks_of(place_->read(source / "docs/tutorial.md"));
+    for (const testing::PageBlock& block : blocks)
       EXPECT_TRUE(block.language == "sh" || !block.name.empty()) << block.text;
     place_->file("script", script_of(blocks));
     const std::string folder = place_->folder().string();
