@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "language/names.h"
 #include "tests/support/language_files.h"
 
 namespace hookpoint::language::testing {
