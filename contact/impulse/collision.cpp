@@ -8,16 +8,16 @@
 namespace hookpoint::contact {
 namespace {
 
-constexpr double kTolerance = 1e-8;    // local error of u_t, relative to the collision's speeds
-constexpr double kStandstill = 1e-12;  // share of the collision's speeds that is no motion
-constexpr double kConstant =
+constexpr double slip_tolerance = 1e-8;  // local error of u_t, relative to the collision's speeds
+constexpr double standstill = 1e-12;     // share of the collision's speeds that is no motion
+constexpr double constant_direction =
     1e-14;  // turn rate over K below which a direction is constant to rounding
-constexpr double kStraight =
+constexpr double straight_slip =
     1e-9;  // share of the speeds that a path may still turn aside to count as straight
-constexpr double kJammed =
+constexpr double jammed =
     1e-6;  // share of knn below which a stuck point cannot be moved along the normal
-constexpr int kMostSteps = 100000;
-constexpr double kEndless = std::numeric_limits<double>::infinity();
+constexpr int most_steps = 100000;
+constexpr double endless = std::numeric_limits<double>::infinity();
 
 enum class Phase { compression, restitution, separation, done };
 
@@ -52,9 +52,9 @@ class Path {
 
   /// Runs to the end of restitution; false if it does not come.
   bool run() {
-    for (int step = 0; step < kMostSteps && phase_ != Phase::done; ++step) {
+    for (int step = 0; step < most_steps && phase_ != Phase::done; ++step) {
       if (mu_ <= 0.) {
-        straight(0., 0., 0., axes_.knn, kEndless);
+        straight(0., 0., 0., axes_.knn, endless);
       } else if (at_.s <= 0.) {
         leave_standstill();
       } else {
@@ -97,9 +97,9 @@ class Path {
       // W + v p + g p^2/2 = goal, in the form without cancellation.
       const double work = goal_ - at_.W;
       const double root = v * v + 2. * g * work;
-      return root >= 0. ? 2. * work / (v + std::sqrt(root)) : kEndless;
+      return root >= 0. ? 2. * work / (v + std::sqrt(root)) : endless;
     }
-    return g > 0. ? -remaining(at_) / g : kEndless;
+    return g > 0. ? -remaining(at_) / g : endless;
   }
 
   // The closed form: friction (f1, f2) per p_n is constant, |u_t| changes at the rate `speed` and
@@ -109,7 +109,7 @@ class Path {
       const double end = std::max(0., distance_to_end(g));
       const double v = normal_velocity(axes_, un_, at_);
       // u_n may fall again while restitution is under way: the point is then back in compression.
-      const double turning = phase_ != Phase::compression && g < 0. ? -v / g : kEndless;
+      const double turning = phase_ != Phase::compression && g < 0. ? -v / g : endless;
       const double p = std::min({end, limit, std::max(0., turning)});
       if (!std::isfinite(p)) {
         stalled_ = true;
@@ -136,28 +136,28 @@ class Path {
   // alone: p stays in the cone, and no more energy comes back than e^2 of the compression.
   void leave_standstill() {
     const StoppedFriction friction = stopped_friction(axes_, mu_);
-    if (phase_ != Phase::compression && friction.normal <= kJammed * axes_.knn) {
-      straight(0., 0., 0., axes_.knn, kEndless);
+    if (phase_ != Phase::compression && friction.normal <= jammed * axes_.knn) {
+      straight(0., 0., 0., axes_.knn, endless);
     } else {
-      straight(friction.f1, friction.f2, 0., friction.normal, kEndless);
+      straight(friction.f1, friction.f2, 0., friction.normal, endless);
     }
   }
 
   void slide() {
     const SlidingRates rates = sliding_rates(axes_, mu_, at_.c, at_.d);
-    const bool still = at_.s <= kStandstill * speed_;
+    const bool still = at_.s <= standstill * speed_;
     if (still && rates.speed >= 0.) {
       at_.s = 0.;
       return;
     }
     const double turn_size = std::abs(rates.turn);
     const bool settled = rates.speed < 0. && rates.turn_gradient < 0. &&
-                         at_.s * turn_size <= kStraight * speed_ * largest_k_;
-    if (!still && !settled && turn_size > kConstant * largest_k_) {
+                         at_.s * turn_size <= straight_slip * speed_ * largest_k_;
+    if (!still && !settled && turn_size > constant_direction * largest_k_) {
       turn();
       return;
     }
-    const double stop = rates.speed < 0. ? at_.s / -rates.speed : kEndless;
+    const double stop = rates.speed < 0. ? at_.s / -rates.speed : endless;
     straight(-mu_ * at_.c, -mu_ * at_.d, rates.speed, rates.normal, stop);
     if (phase_ != Phase::done) at_.s = 0.;
   }
@@ -169,7 +169,7 @@ class Path {
   void turn() {
     double error = 0.;
     CollisionPoint to = sliding_step(axes_, mu_, un_, at_, dtau_, &error);
-    const double allowed = kTolerance * std::max(speed_, at_.s);
+    const double allowed = slip_tolerance * std::max(speed_, at_.s);
     const double growth =
         std::min(4., std::max(0.2, 0.9 * std::pow(allowed / (error + 1e-300), 0.2)));
     if (!(error <= allowed)) {

@@ -63,12 +63,12 @@ StoppedFriction stopped_friction(const CollisionAxes& axes, double mu) {
 
 namespace {
 
-constexpr std::size_t kComponents = 7;
-constexpr std::size_t kStages = 7;
-using Components = std::array<double, kComponents>;  // of a CollisionPoint, in its order
+constexpr std::size_t component_count = 7;
+constexpr std::size_t stage_count = 7;
+using Components = std::array<double, component_count>;  // of a CollisionPoint, in its order
 // Derivatives component by component, stages inside: sums over the stages then need no gather
 // (twice as fast with GCC 12).
-using Slopes = std::array<std::array<double, kStages>, kComponents>;
+using Slopes = std::array<std::array<double, stage_count>, component_count>;
 
 void derivative(const CollisionAxes& axes, double mu, double un, const Components& at,
                 std::size_t stage, Slopes& slope) {
@@ -85,15 +85,15 @@ void derivative(const CollisionAxes& axes, double mu, double un, const Component
 }
 
 // Dormand & Prince 1980, RK5(4)7M: stage coefficients, and fifth- minus fourth-order weights.
-constexpr double kStage[kStages - 1][kStages - 1] = {
+constexpr double stage_weights[stage_count - 1][stage_count - 1] = {
     {1. / 5.},
     {3. / 40., 9. / 40.},
     {44. / 45., -56. / 15., 32. / 9.},
     {19372. / 6561., -25360. / 2187., 64448. / 6561., -212. / 729.},
     {9017. / 3168., -355. / 33., 46732. / 5247., 49. / 176., -5103. / 18656.},
     {35. / 384., 0., 500. / 1113., 125. / 192., -2187. / 6784., 11. / 84.}};
-constexpr double kError[kStages] = {71. / 57600.,      0.,         -71. / 16695., 71. / 1920.,
-                                    -17253. / 339200., 22. / 525., -1. / 40.};
+constexpr double error_weights[stage_count] = {
+    71. / 57600., 0., -71. / 16695., 71. / 1920., -17253. / 339200., 22. / 525., -1. / 40.};
 
 }  // namespace
 
@@ -103,17 +103,17 @@ CollisionPoint sliding_step(const CollisionAxes& axes, double mu, double un,
   Slopes slope;
   derivative(axes, mu, un, start, 0, slope);
   Components to{};
-  for (std::size_t stage = 0; stage + 1 < kStages; ++stage) {
-    for (std::size_t i = 0; i < kComponents; ++i) {
+  for (std::size_t stage = 0; stage + 1 < stage_count; ++stage) {
+    for (std::size_t i = 0; i < component_count; ++i) {
       double rise = 0.;
-      for (std::size_t j = 0; j <= stage; ++j) rise += kStage[stage][j] * slope[i][j];
+      for (std::size_t j = 0; j <= stage; ++j) rise += stage_weights[stage][j] * slope[i][j];
       to[i] = start[i] + dtau * rise;
     }
     derivative(axes, mu, un, to, stage + 1, slope);
   }
   std::array<double, 3> local{};
   for (std::size_t i = 0; i < local.size(); ++i) {
-    for (std::size_t j = 0; j < kStages; ++j) local[i] += dtau * kError[j] * slope[i][j];
+    for (std::size_t j = 0; j < stage_count; ++j) local[i] += dtau * error_weights[j] * slope[i][j];
   }
   // An error of the direction matters by what slides along it, so it may grow as the point comes to
   // rest.

@@ -9,9 +9,9 @@
 namespace hookpoint::contact {
 namespace {
 
-constexpr double kDeepestStart = 1e-9;  // what rounding of a pose between steps may cost [m]
-constexpr int kMostHalvings = 60;
-constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double deepest_start = 1e-9;  // what rounding of a pose between steps may cost [m]
+constexpr int most_halvings = 60;
+constexpr double never = std::numeric_limits<double>::infinity();
 
 bool finite(const Vector3d& a) { return std::isfinite(a.x + a.y + a.z); }
 bool finite(const FlightState& s) {
@@ -60,7 +60,7 @@ void ImpulseAdvance::locate(const FlightState& flight, const GroundQuery& ground
 }
 
 double ImpulseAdvance::lowest_gap() const {
-  double lowest = kNever;
+  double lowest = never;
   for (const Touch& point : points_) lowest = std::min(lowest, point.ground.gap);
   return lowest;
 }
@@ -108,7 +108,7 @@ FlightState ImpulseAdvance::fly_above(const FlightState& flight, const FlightLoa
   *duration = safe_time(flight, load, longest);
   // A point that came over another tile may be inside that one: fly only part of the way, and be
   // awaited there.
-  for (int halving = 0; halving < kMostHalvings; ++halving) {
+  for (int halving = 0; halving < most_halvings; ++halving) {
     const FlightState next = fly(inertia_, flight, load, *duration);
     locate(next, ground);
     if (lowest_gap() >= floor) return next;
@@ -195,7 +195,7 @@ AdvanceResult ImpulseAdvance::advance(ImpulseState& state, double dt, const Impu
   }
   resolution_.begin_step();
   locate(flight, ground);
-  if (lowest_gap() < -kDeepestStart) return failed(AdvanceStatus::inside_ground);
+  if (lowest_gap() < -deepest_start) return failed(AdvanceStatus::inside_ground);
 
   double left = dt;
   const std::int64_t most_flights = 10 * static_cast<std::int64_t>(options_.most_impacts);
@@ -211,7 +211,7 @@ AdvanceResult ImpulseAdvance::advance(ImpulseState& state, double dt, const Impu
     double duration = 0.;
     flight = fly_above(flight, flight_load, ground, longest, &duration);
     if (!finite(flight)) return failed(AdvanceStatus::not_finite);
-    if (duration <= 0. && lowest_gap() < -kDeepestStart)
+    if (duration <= 0. && lowest_gap() < -deepest_start)
       return failed(AdvanceStatus::inside_ground);
     left -= duration;
   }

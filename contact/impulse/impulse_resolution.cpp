@@ -6,9 +6,9 @@
 namespace hookpoint::contact {
 namespace {
 
-constexpr double kReach =
+constexpr double reversal_reach =
     4.;  // heights of a microflight, u0^2/(2 g_n), within which points are reversed together
-constexpr double kReversed = 1e-6;  // of u0: the velocity that a reversal may miss
+constexpr double reversal_tolerance = 1e-6;  // of u0: the velocity that a reversal may miss
 
 }  // namespace
 
@@ -73,7 +73,7 @@ bool ImpulseResolution::reverse(StruckRobot& robot, std::size_t hit, ImpulseTall
   if (!(u0 > 0.)) return false;
   const double fall = robot.begin_reversal(hit);
   if (!(fall > 0.)) return false;
-  const double reach = kReach * u0 * u0 / (2. * fall);
+  const double reach = reversal_reach * u0 * u0 / (2. * fall);
   std::size_t count = 0;
   for (std::size_t i = 0; i < robot.point_count(); ++i) {
     const GroundPoint& ground = robot.ground(i);
@@ -88,7 +88,7 @@ bool ImpulseResolution::reverse(StruckRobot& robot, std::size_t hit, ImpulseTall
     near_index_[count++] = i;
   }
   const std::span<ReversalPoint> group(near_.data(), count);
-  if (!robot.find_reversal(group, std::span(near_index_).first(count), kReversed * u0))
+  if (!robot.find_reversal(group, std::span(near_index_).first(count), reversal_tolerance * u0))
     return false;
   for (std::size_t k = 0; k < count; ++k) {
     if (dot(group[k].impulse, group[k].normal) > 0.)

@@ -6,8 +6,8 @@
 namespace hookpoint::contact {
 namespace {
 
-constexpr int kMostSweeps = 400;
-constexpr int kPatience = 8;  // sweeps in which the missing velocity has to fall by a tenth
+constexpr int most_sweeps = 400;
+constexpr int patience = 8;  // sweeps in which the missing velocity has to fall by a tenth
 
 // The points' velocities while impulses are tried: those of a rigid body follow from its twist.
 class RigidTrial {
@@ -91,14 +91,14 @@ bool reverse_share(std::span<ReversalPoint> points, double tolerance, double sha
   trial.restart();
   for (ReversalPoint& point : points) point.impulse = {};
   double before = std::numeric_limits<double>::infinity();
-  for (int number = 1; number <= kMostSweeps; ++number) {
+  for (int number = 1; number <= most_sweeps; ++number) {
     sweep(points, share, trial);
     double worst = 0.;
     for (std::size_t k = 0; k < points.size(); ++k) {
       worst = std::max(worst, norm(target_of(points[k], share) - trial.velocity(k)));
     }
     if (worst <= tolerance) return true;
-    if (number % kPatience == 0) {
+    if (number % patience == 0) {
       if (worst > 0.9 * before) return false;
       before = worst;
     }

@@ -7,7 +7,7 @@
 #include "language/document.h"
 #include "language/names.h"
 #include "simulation/robot_tree.h"
-#include "simulation/wiring/derived.h"
+#include "simulation/wiring/derived_ports.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -34,7 +34,8 @@ void on_demand(std::vector<Port>& ports, std::size_t first, Lazy& lazy) {
 
 /// A body's motion under `trail`, its position under the name `position_name`.
 void add_body(std::vector<Port>& ports, const std::string& trail, const char* position_name,
-              const BodyState& body, const Derived::BodyValues& values, Derived& derived) {
+              const BodyState& body, const DerivedPorts::BodyValues& values,
+              DerivedPorts& derived) {
   add_vector(ports, trail + "." + position_name, "m", body.position);
   ports.push_back(readable(trail + ".orientation.w", "", body.orientation.w));
   ports.push_back(readable(trail + ".orientation.x", "", body.orientation.x));
@@ -54,7 +55,7 @@ void add_body(std::vector<Port>& ports, const std::string& trail, const char* po
 }
 
 void add_robot(std::vector<Port>& ports, const std::string& trail,
-               const Derived::RobotValues& values, Derived& derived) {
+               const DerivedPorts::RobotValues& values, DerivedPorts& derived) {
   const std::size_t first = ports.size();
   ports.push_back(readable(trail + ".kinetic_energy", "J", values.kinetic_energy));
   ports.push_back(readable(trail + ".potential_energy", "J", values.potential_energy));
@@ -83,7 +84,7 @@ void add_integrator(std::vector<Port>& ports, const std::string& trail,
 
 /// What only some engines have: hips and ContactPoints.
 void add_details(std::vector<Port>& ports, const Experiment& experiment, const WorldState& state,
-                 Derived& derived) {
+                 DerivedPorts& derived) {
   const std::size_t first = ports.size();
   auto chain_state = state.chains.begin();
   for (const RobotSpec& robot : experiment.robots) {
@@ -118,7 +119,7 @@ std::string by_letter(std::string_view trail) {
 
 }  // namespace
 
-std::vector<Port> list_ports(const Experiment& experiment, Engine& engine, Derived& derived) {
+std::vector<Port> list_ports(const Experiment& experiment, Engine& engine, DerivedPorts& derived) {
   const WorldState& state = engine.state();
   const std::string world = experiment.world + ".";
   std::vector<Port> ports{readable(world + "time", "s", state.time)};

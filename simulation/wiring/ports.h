@@ -31,11 +31,11 @@ struct Port {
   double maximum = std::numeric_limits<double>::infinity();
 };
 
-class Derived;
+class DerivedPorts;
 
 /// What the engine publishes and what follows from it, and its joints' drives: robots in file
 /// order. A robot's own `position`, `velocity`, ... are its base's.
-std::vector<Port> list_ports(const Experiment& experiment, Engine& engine, Derived& derived);
+std::vector<Port> list_ports(const Experiment& experiment, Engine& engine, DerivedPorts& derived);
 
 /// The port named by `trail`, as below; nothing when there is none.
 std::optional<Port> look_up_port(const Experiment& experiment, const std::vector<Port>& ports,

@@ -7,7 +7,7 @@
 
 #include "simulation/resumable.h"
 #include "simulation/wiring/components.h"
-#include "simulation/wiring/derived.h"
+#include "simulation/wiring/derived_ports.h"
 #include "simulation/wiring/ports.h"
 #include "simulation/wiring/timing.h"
 #include "simulation/wiring/wiring_order.h"
@@ -58,7 +58,7 @@ class Signals {
     double last = 0.;        ///< time of the last [s]
   };
   /// What is neither the engine's nor a component's. Sized once: its addresses last.
-  struct Held {
+  struct HeldPorts {
     double step = 0., impacts = 0., running = 1., quit = 0.;
     std::vector<ForceInput> forces;  ///< as written or wired, before their windows
     std::vector<double> envelopes;   ///< one a force: the part of it that acts
@@ -74,9 +74,9 @@ class Signals {
 
   const Experiment& experiment_;
   Engine& engine_;
-  Derived derived_;
+  DerivedPorts derived_;
   Components components_;
-  Held held_;
+  HeldPorts held_;
   std::vector<Updates> updates_;        // one a component
   std::vector<Line> lines_;             // one a wire
   std::vector<std::size_t> delayed_;    // lines whose samples arrive in a later step

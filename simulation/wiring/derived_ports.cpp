@@ -1,4 +1,4 @@
-#include "simulation/wiring/derived.h"
+#include "simulation/wiring/derived_ports.h"
 
 #include <cmath>
 
@@ -13,7 +13,7 @@ bool is_finite(const Vector3d& a) {
 
 }  // namespace
 
-Derived::Derived(const Experiment& experiment, Engine& engine)
+DerivedPorts::DerivedPorts(const Experiment& experiment, Engine& engine)
     : experiment_(experiment),
       engine_(engine),
       robots_(experiment.robots.size()),
@@ -21,20 +21,20 @@ Derived::Derived(const Experiment& experiment, Engine& engine)
       contact_forces_(engine),
       details_(engine) {}
 
-void Derived::update() {
+void DerivedPorts::update() {
   finite_ = true;
   energies_.update();
   accelerations_.update();
   contacts_.update();
 }
 
-void Derived::restart() {
+void DerivedPorts::restart() {
   before_.clear();
   update();
 }
 
 // T = (m v_c^2 + w.I w)/2, V = -m g.c of every body that moves.
-void Derived::compute_energies() {
+void DerivedPorts::compute_energies() {
   auto body = engine_.state().bodies.begin();
   for (std::size_t i = 0; i < robots_.size(); ++i) {
     const RobotSpec& robot = experiment_.robots[i];
@@ -60,7 +60,7 @@ void Derived::compute_energies() {
   }
 }
 
-void Derived::compute_accelerations() {
+void DerivedPorts::compute_accelerations() {
   const std::vector<BodyState>& now = engine_.state().bodies;
   if (before_.empty()) before_ = now;
   const double per_second = 1. / experiment_.deltat;
@@ -74,7 +74,7 @@ void Derived::compute_accelerations() {
   }
 }
 
-void Derived::compute_contacts() {
+void DerivedPorts::compute_contacts() {
   const std::vector<BodyState>& now = engine_.state().bodies;
   for (std::size_t i = 0; i < now.size(); ++i)
     bodies_[i].contacts = static_cast<double>(now[i].contacts);

@@ -8,12 +8,12 @@
 
 namespace hookpoint::simulation {
 
-class Derived {
+class DerivedPorts {
  public:
   /// Both outlive it. Throws nothing.
-  Derived(const Experiment& experiment, Engine& engine);
-  Derived(const Derived&) = delete;
-  Derived& operator=(const Derived&) = delete;
+  DerivedPorts(const Experiment& experiment, Engine& engine);
+  DerivedPorts(const DerivedPorts&) = delete;
+  DerivedPorts& operator=(const DerivedPorts&) = delete;
 
   /// The groups that are asked for, at the engine's present state; after every step. Allocates
   /// nothing.
@@ -47,7 +47,8 @@ class Derived {
 
  private:
   struct Group final : Lazy {
-    Group(Derived& owner, void (Derived::*compute)()) : owner_(owner), compute_(compute) {}
+    Group(DerivedPorts& owner, void (DerivedPorts::*compute)())
+        : owner_(owner), compute_(compute) {}
     void begin() override {
       if (!wanted) (owner_.*compute_)();
       wanted = true;
@@ -58,8 +59,8 @@ class Derived {
     bool wanted = false;
 
    private:
-    Derived& owner_;
-    void (Derived::*compute_)();
+    DerivedPorts& owner_;
+    void (DerivedPorts::*compute_)();
   };
   struct Details final : Lazy {
     explicit Details(Engine& asked) : engine(asked) {}
@@ -83,9 +84,9 @@ class Derived {
   std::vector<BodyValues> bodies_;
   std::vector<BodyState> before_;  // of the step before, while accelerations are wanted
   bool finite_ = true;
-  Group energies_{*this, &Derived::compute_energies};
-  Group accelerations_{*this, &Derived::compute_accelerations};
-  Group contacts_{*this, &Derived::compute_contacts};
+  Group energies_{*this, &DerivedPorts::compute_energies};
+  Group accelerations_{*this, &DerivedPorts::compute_accelerations};
+  Group contacts_{*this, &DerivedPorts::compute_contacts};
   ContactForces contact_forces_;
   Details details_;
 };
