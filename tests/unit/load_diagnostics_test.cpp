@@ -42,17 +42,17 @@ std::string diagnostics_of(const std::string& file) {
   return said;
 }
 
-class WrongExperimentFile : public testing::TestWithParam<std::string> {};
+class WrongExperimentFile : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(WrongExperimentFile, GivesTheExpectedText) {
   const std::string said = diagnostics_of(GetParam() + ".hook");
   const std::filesystem::path expected = folder() / (GetParam() + ".expected");
   if (std::getenv("HOOKPOINT_WRITE_EXPECTED") != nullptr) std::ofstream(expected) << said;
   EXPECT_NE(said, "");
-  EXPECT_EQ(said, language::testing::read_file(expected));
+  EXPECT_EQ(said, testing::read_file(expected));
 }
 
-INSTANTIATE_TEST_SUITE_P(All, WrongExperimentFile, testing::ValuesIn(wrong_files()),
+INSTANTIATE_TEST_SUITE_P(All, WrongExperimentFile, ::testing::ValuesIn(wrong_files()),
                          [](const auto& test) { return test.param; });
 
 TEST(WrongExperimentFiles, AreEnough) { EXPECT_GE(wrong_files().size(), 70U); }
