@@ -93,7 +93,7 @@ void BulletRobot::set_initial_state() {
 }
 
 /// Without a surface in no group: the broad phase pairs them with nothing, neither the ground nor
-/// each other. They are there for the contacts that bullet_points.h adds.
+/// each other. They are there for the contacts that points.h adds.
 void BulletRobot::add_colliders(btMultiBodyDynamicsWorld& world) {
   world.addMultiBody(multibody_.get());
   for (std::size_t i = 0; i < bodies_.size(); ++i) {

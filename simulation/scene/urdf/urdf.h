@@ -1,5 +1,5 @@
-// Robots written as URDF: the file as it stands (urdf_read.cpp), its tree with what is fixed
-// together made one (urdf_tree.cpp), and the objects of the language that it comes to (urdf.cpp).
+// Robots written as URDF: the file as it stands (read.cpp), its tree with what is fixed
+// together made one (tree.cpp), and the objects of the language that it comes to (urdf.cpp).
 #pragma once
 
 #include <optional>
