@@ -1,5 +1,5 @@
-// What every command starts from: the language's classes, where files are found, and the engines by
-// name: ours and the peers' rows (reference/engines.h).
+// What every command and the Python module start from: the language's classes, where files are
+// found, and the engines by name: ours and the peers' rows (reference/engines.h).
 #pragma once
 
 #include <filesystem>

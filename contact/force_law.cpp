@@ -31,7 +31,10 @@ void with_named(std::string_view name, Use use) {
 /// What `use` says of the impulse law.
 template <class Use>
 auto of_impulse_law(ImpulseLaw which, Use use) {
-  return which == ImpulseReversal::law ? use(ImpulseReversal{}) : use(Impulse{});
+  decltype(use(Impulse{})) said{};
+  std::apply([&](auto... law) { ((law.law == which ? void(said = use(law)) : void()), ...); },
+             ImpulseLaws{});
+  return said;
 }
 
 }  // namespace

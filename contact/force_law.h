@@ -61,7 +61,7 @@ struct LawDescription {
   ConstantList constants;        ///< those of a Material that it reads
   ConstantList own_constants;    ///< those without which a Material was not written for it
   NormalConstants along_normal;  ///< of a force law
-  bool is_impulse_law = false;   ///< event-driven: cannot be paired with RK4 or CVODE
+  bool is_impulse_law = false;   ///< event-driven: cannot be paired with an integrator
 };
 
 /// Every law, force laws first.

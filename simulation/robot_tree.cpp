@@ -22,4 +22,10 @@ double robot_mass(const RobotSpec& robot) {
   return mass;
 }
 
+double moving_mass(const RobotSpec& robot) {
+  double mass = robot.mobile ? robot.base.mass.mass : 0.;
+  for_each_link(robot, [&](const TreeLink& at) { mass += at.link.body.mass.mass; });
+  return mass;
+}
+
 }  // namespace hookpoint::simulation

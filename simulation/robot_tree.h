@@ -46,7 +46,8 @@ std::size_t joint_count(const RobotSpec& robot);
 /// The base and the links.
 std::size_t body_count(const RobotSpec& robot);
 std::vector<const BodySpec*> bodies_of(const RobotSpec& robot);
-/// Of the base and all links [kg].
+/// Of the base and all links [kg]; `moving_mass` without a base that is fixed.
 double robot_mass(const RobotSpec& robot);
+double moving_mass(const RobotSpec& robot);
 
 }  // namespace hookpoint::simulation

@@ -16,6 +16,7 @@
 #include "simulation/engine.h"
 #include "simulation/engine/robot_system.h"
 #include "simulation/ground.h"
+#include "simulation/robot_tree.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -154,7 +155,7 @@ std::vector<GroundAdvice> advise_robot(const Experiment& experiment, int index,
   const std::vector<const ContactPoint*> carrying = carrying_points(robot);
   const contact::AnyForceLaw law = *contact::find_force_law(experiment.contact);
   const double gravity = norm(experiment.gravity);
-  const double mass = mass_of(experiment.robots[index]);
+  const double mass = moving_mass(experiment.robots[index]);
 
   std::map<int, GroundAdvice> by_material;
   for (const ContactPoint* point : carrying) {

@@ -6,7 +6,7 @@
 
 namespace hookpoint::simulation {
 
-StepStatus explained(StepStatus status, const Experiment& experiment) {
+StepStatus with_advice(StepStatus status, const Experiment& experiment) {
   if (!status.depends_on_step) return status;
   const StabilityBound bound = stability_bound(experiment);
   if (experiment.deltat <= bound.step) {

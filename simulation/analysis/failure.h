@@ -8,6 +8,6 @@ namespace hookpoint::simulation {
 /// `status`, with better advice where it depends on the step: a failure above the largest stable
 /// step is the step's or its controllers', one below it may be of feedback that the bound leaves
 /// out. Costs a stability_bound.
-StepStatus explained(StepStatus status, const Experiment& experiment);
+StepStatus with_advice(StepStatus status, const Experiment& experiment);
 
 }  // namespace hookpoint::simulation

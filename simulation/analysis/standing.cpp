@@ -222,7 +222,7 @@ class StanceFinder {
         rest_(rest),
         drives_{experiment, index, driven_of(control, index)},
         joint_torques_(drives_.torques(rest)),
-        weight_(mass_of(experiment.robots[index]) * norm(experiment.gravity)) {
+        weight_(moving_mass(experiment.robots[index]) * norm(experiment.gravity)) {
     for (const ContactPoint& point : rest.robot().contacts().points()) {
       const dts::BodyPoint<double> place{point.body, point.position};
       supports_.push_back(
@@ -407,12 +407,6 @@ class StanceFinder {
 
 const contact::MaterialConstants<double>& constants_of(const Experiment& experiment, int material) {
   return experiment.materials[static_cast<std::size_t>(material)].constants;
-}
-
-double mass_of(const RobotSpec& robot) {
-  double mass = robot.mobile ? robot.base.mass.mass : 0.;
-  for_each_link(robot, [&](const TreeLink& at) { mass += at.link.body.mass.mass; });
-  return mass;
 }
 
 bool hang(const Experiment& experiment, std::size_t index, const WiredControl& control,

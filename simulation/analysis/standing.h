@@ -49,9 +49,6 @@ Stances find_stances(const Experiment& experiment, std::size_t index, const Robo
 bool hang(const Experiment& experiment, std::size_t index, const WiredControl& control,
           RobotSystem& robot);
 
-/// Of all that moves of a robot [kg].
-double mass_of(const RobotSpec& robot);
-
 /// What the law reads of the experiment's material of that number.
 const contact::MaterialConstants<double>& constants_of(const Experiment& experiment, int material);
 

@@ -87,6 +87,8 @@ class ContactSet {
   // What is published.
 
   bool empty() const { return points_.empty(); }
+  /// Whether the integrator chooses its own steps.
+  bool adaptive() const { return adaptive_; }
   const std::vector<ContactPoint>& points() const { return points_; }
   /// Mean force over the last step and number of carrying points of each body. `step` [s].
   void publish(double step, std::span<BodyState> bodies) const;
@@ -99,6 +101,7 @@ class ContactSet {
   double stored_energy() const;
   /// That a boundary point has left the terrain, whose edge tile then goes on; else "".
   const std::string& notice() const { return notice_; }
+  void forget_notice() { notice_.clear(); }
 
   /// `before` undoes a step that is not yet over; `pending` and what is published follow from
   /// `committed`.

@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <memory>
+#include <optional>
+#include <vector>
+
 #include "contact/force_law.h"
 #include "simulation/engine/force_robot.h"
 #include "simulation/engine/impulse_part.h"
@@ -27,16 +31,17 @@ class DtsEngine final : public Engine, public Resumable {
     const contact::LawDescription* law = contact::find_law(experiment_.contact);
     if (law == nullptr)
       throw ExperimentError("there is no contact law `" + experiment_.contact + "`");
+    under_impulse_law_ = law->is_impulse_law;
     std::size_t bodies = 0, joints = 0, chains = 0;
     for (std::size_t i = 0; i < experiment_.robots.size(); ++i) {
-      parts_.push_back({make_robot(i, law->is_impulse_law), bodies, joints, chains});
+      parts_.push_back({make_robot(i), bodies, joints, chains});
       bodies += parts_.back().robot->body_count();
       joints += parts_.back().robot->joint_count();
       chains += experiment_.robots[i].chains.size();
     }
     state_.bodies.resize(bodies);
     state_.joints.resize(joints);
-    if (!law->is_impulse_law) {
+    if (!under_impulse_law_) {
       state_.points.resize(experiment_.points.size());
       state_.chains.resize(chains);
     }
@@ -64,11 +69,11 @@ class DtsEngine final : public Engine, public Resumable {
   }
   void publish_contact_forces(bool wanted) override {
     for (Part& part : parts_) {
-      if (ContactDetails* details = part.robot->details()) details->publish_contact_forces(wanted);
+      if (ForceDetails* details = part.robot->details()) details->publish_contact_forces(wanted);
     }
   }
   void publish_ground_forces() override {
-    if (!tells_details()) return;
+    if (under_impulse_law_) return;
     state_.ground_force_time = GroundForceTime::now;
     std::size_t points = 0;
     for (const RobotSpec& robot : experiment_.robots) points += boundary_points(robot).size();
@@ -76,7 +81,7 @@ class DtsEngine final : public Engine, public Resumable {
     copy_ground_forces();
   }
   std::optional<double> ground_energy() const override {
-    if (!tells_details()) return std::nullopt;
+    if (under_impulse_law_) return std::nullopt;
     double sum = 0.;
     for (const Part& part : parts_) sum += part.robot->details()->ground_energy();
     return sum;
@@ -116,6 +121,7 @@ class DtsEngine final : public Engine, public Resumable {
       const std::size_t size = part.robot->state_size();
       part.noticed = numbers[0] != 0.;
       part.robot->restore(numbers.subspan(1, size), bodies_of(part));
+      if (!part.noticed) part.robot->forget_notice();
       numbers = numbers.subspan(1 + size);
     }
     publish();
@@ -129,15 +135,10 @@ class DtsEngine final : public Engine, public Resumable {
     bool noticed = false;
   };
 
-  std::unique_ptr<RobotPart> make_robot(std::size_t index, bool under_impulse_law) const {
+  std::unique_ptr<RobotPart> make_robot(std::size_t index) const {
     const contact::Terrain* ground = ground_ ? &*ground_ : nullptr;
-    if (under_impulse_law) return make_impulse_part(experiment_, index, ground, inputs_);
+    if (under_impulse_law_) return make_impulse_part(experiment_, index, ground, inputs_);
     return std::make_unique<ForceRobot>(experiment_, index, ground, inputs_);
-  }
-
-  /// All robots of a world are under one law.
-  bool tells_details() const {
-    return parts_.empty() || parts_.front().robot->details() != nullptr;
   }
 
   std::span<BodyState> bodies_of(const Part& part) {
@@ -169,7 +170,7 @@ class DtsEngine final : public Engine, public Resumable {
   }
 
   void copy_details() {
-    if (!tells_details()) return;
+    if (under_impulse_law_) return;
     for (std::size_t i = 0; i < state_.points.size(); ++i) {
       const PointSpec& point = experiment_.points[i];
       Part& part = parts_[static_cast<std::size_t>(point.robot)];
@@ -188,6 +189,7 @@ class DtsEngine final : public Engine, public Resumable {
   const std::optional<contact::Terrain> ground_;
   std::vector<Part> parts_;
   WorldState state_;
+  bool under_impulse_law_ = false;
   bool has_details_ = false;
 };
 

@@ -17,7 +17,7 @@ ForceRobot::ForceRobot(const Experiment& experiment, std::size_t index,
 
 StepStatus ForceRobot::step(double time) {
   stepper_->save(stepper_before_);
-  const StepStatus status = simulation::step(system_, *stepper_, time, experiment_.deltat);
+  const StepStatus status = simulation::step(system_, *stepper_, time);
   if (!status.ok()) stepper_->restore(stepper_before_);
   return status;
 }

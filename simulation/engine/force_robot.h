@@ -10,7 +10,7 @@
 
 namespace hookpoint::simulation {
 
-class ForceRobot final : public RobotPart, private ContactDetails {
+class ForceRobot final : public RobotPart, private ForceDetails {
  public:
   /// Robot `index` of the experiment. `ground` may be null: no contact. All that is referred to
   /// outlives the robot. Throws ExperimentError when there is no such law or integrator.
@@ -22,9 +22,10 @@ class ForceRobot final : public RobotPart, private ContactDetails {
   StepStatus step(double time) override;
   void undo() override;
   void publish(std::span<BodyState> bodies, std::span<JointState> joints) const override;
-  ContactDetails* details() override { return this; }
+  ForceDetails* details() override { return this; }
   IntegratorState statistics() const override;
   const std::string& notice() const override { return system_.contacts().notice(); }
+  void forget_notice() override { system_.contacts().forget_notice(); }
 
   std::size_t state_size() const override;
   std::string state_layout() const override;

@@ -29,6 +29,7 @@ StepStatus ImpulsePart::step(double time) {
     return {lost ? StepStatus::Kind::not_finite : StepStatus::Kind::solver_failed, time,
             experiment_.robots[index_].name + ".base", contact::advice(tally.status)};
   }
+  noticed_before_ = !notice_.empty();
   if (!left.empty()) notice_ = left;
   impacts_before_ = impacts_;
   impacts_ += static_cast<std::uint64_t>(tally.impacts);
@@ -37,6 +38,7 @@ StepStatus ImpulsePart::step(double time) {
 
 void ImpulsePart::undo() {
   impacts_ = impacts_before_;
+  if (!noticed_before_) notice_.clear();
   go_back();
 }
 

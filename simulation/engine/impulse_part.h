@@ -16,6 +16,7 @@ class ImpulsePart : public RobotPart {
   void undo() final;
   std::uint64_t impacts() const final { return impacts_; }
   const std::string& notice() const final { return notice_; }
+  void forget_notice() final { notice_.clear(); }
 
   /// Advances the robot by one step under the present inputs, above `ground`. On any status but ok
   /// the state is that before.
@@ -36,6 +37,7 @@ class ImpulsePart : public RobotPart {
 
  private:
   std::uint64_t impacts_before_ = 0;  ///< the present step, to undo it
+  bool noticed_before_ = false;       ///< likewise
   std::string notice_;
 };
 

@@ -1,8 +1,10 @@
 #include "simulation/engine/robot_flight.h"
 
 #include <algorithm>
+#include <functional>
 
 #include "dts/body_accelerations.h"
+#include "integrators/rk4.h"
 
 namespace hookpoint::simulation {
 
@@ -16,7 +18,7 @@ RobotFlight::RobotFlight(ArticulatedRobot& robot)
       v_start_(v_),
       a_start_(v_),
       bodies_(robot.model().body_count()),
-      stepper_(integrators::make_stepper("rk4", *this)) {
+      stepper_(integrators::rk4.make(*this, {})) {
   read();
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,10 +10,11 @@
 
 namespace hookpoint::simulation {
 
-/// What a law of forces can tell between steps of a robot's contacts and hips.
-class ContactDetails {
+/// What a robot under a force law can tell between steps: its contacts, and its hips, whose forces
+/// an impulse law does not work out.
+class ForceDetails {
  public:
-  virtual ~ContactDetails() = default;
+  virtual ~ForceDetails() = default;
   /// Boundary point `point` of `body`, as the law left it.
   virtual PointState point_state(std::size_t body, std::size_t point) const = 0;
   /// Adds the ground's forces at the boundary points; the robot's first body is `first_body`.
@@ -43,13 +43,15 @@ class RobotPart {
   /// Writes the published values of this robot's bodies and joints.
   virtual void publish(std::span<BodyState> bodies, std::span<JointState> joints) const = 0;
   /// Null under an impulse law, whose contacts do not last.
-  virtual ContactDetails* details() { return nullptr; }
+  virtual ForceDetails* details() { return nullptr; }
   /// What the integration has cost so far; zeros where there is no integrator.
   virtual IntegratorState statistics() const { return {}; }
   /// Impulses so far.
   virtual std::uint64_t impacts() const { return 0; }
   /// That the robot has left the terrain; "" while it has not.
   virtual const std::string& notice() const = 0;
+  /// The run goes on from an instant at which it had not.
+  virtual void forget_notice() = 0;
 
   /// What evolves (resumable.h). `bodies`: this robot's published values, of whose quaternions the
   /// signs go on.

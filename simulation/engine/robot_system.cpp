@@ -5,7 +5,6 @@
 
 #include "dts/external_forces.h"
 #include "integrators/stepper.h"
-#include "simulation/engine/step.h"
 
 namespace hookpoint::simulation {
 
@@ -27,7 +26,6 @@ RobotSystem::RobotSystem(const Experiment& experiment, std::size_t index,
                          const contact::Terrain* ground, const WorldInputs& inputs)
     : robot_(experiment, index, inputs),
       contacts_(experiment, index, robot_.model().body_count(), ground, stepper_of(experiment)),
-      adaptive_(stepper_of(experiment).adaptive()),
       q_(position_size()),
       v_(velocity_size()),
       q_before_(q_),
@@ -63,7 +61,18 @@ void RobotSystem::undo() {
   settle_at(q_before_, v_before_);
 }
 
-void RobotSystem::refresh() { evaluate_forces(robot_, contacts_, Evaluation::accepted); }
+void RobotSystem::refresh() { evaluate_forces(Evaluation::accepted); }
+
+void RobotSystem::evaluate_forces(Evaluation evaluation) {
+  // X_WB and v_WB of every body, base to tips: first pass of the recursion (3.2, Fig. 3).
+  robot_.update_kinematics();
+
+  // Pushes and other forces from outside, at their points.
+  robot_.apply_external_forces();
+
+  // f_i = law(x_i, x_i', h_i) at each boundary point (3.3).
+  contacts_.apply_forces(workspace(), evaluation);
+}
 
 void RobotSystem::settle_at(std::span<const double> q, std::span<const double> v) {
   read(q, v);
@@ -97,7 +106,7 @@ Status RobotSystem::accelerations(Stage stage, double /*time*/, std::span<const 
                                   std::span<const double> v, std::span<double> a) {
   if (stage == Stage::trial) {
     read(q, v);
-    evaluate_forces(robot_, contacts_, Evaluation::trial);
+    evaluate_forces(Evaluation::trial);
   } else {
     assert(robot_.is_at(q, v));  // refreshed when the state was accepted
   }
@@ -113,7 +122,7 @@ void RobotSystem::tangent_rate(std::span<const double> u, std::span<const double
 }
 
 void RobotSystem::weigh(double weight) {
-  if (contacts_.empty() || adaptive_) return;
+  if (contacts_.empty() || contacts_.adaptive()) return;
   contacts_.add_impulses(weight);
 }
 

@@ -16,8 +16,8 @@ namespace hookpoint::simulation {
 class RobotSystem final : public integrators::HybridSystem {
  public:
   /// Robot `index` of the experiment at its initial state, refreshed and accelerated. `ground` may
-  /// be null: no contact. All that is referred to outlives the robot. Throws ExperimentError when
-  /// there is no such law or integrator.
+  /// be null: no contact, and the law is not asked. All that is referred to outlives the robot.
+  /// Throws ExperimentError when there is no such integrator or, above a ground, law.
   RobotSystem(const Experiment& experiment, std::size_t index, const contact::Terrain* ground,
               const WorldInputs& inputs);
 
@@ -43,7 +43,7 @@ class RobotSystem final : public integrators::HybridSystem {
   void refresh();
   /// Goes to a state and refreshes it.
   void settle_at(std::span<const double> q, std::span<const double> v);
-  /// v' at the refreshed state, left in `workspace()`.
+  /// v' from M v' + c = tau + J^T f at the refreshed state, left in `workspace()`.
   void accelerate() { robot_.accelerate(); }
   /// Whether the ground's impulses are worked out where they cost something: with an integrator
   /// that chooses its own steps.
@@ -102,13 +102,15 @@ class RobotSystem final : public integrators::HybridSystem {
   std::size_t jacobian_block() const override { return robot_.jacobian_block(); }
 
  private:
+  /// Kinematics of every body at the present state and all forces on it, in the workspace. O(links
+  /// + points).
+  void evaluate_forces(Evaluation evaluation);
   void read(std::span<const double> q, std::span<const double> v);
   void write_velocities(std::span<const double> bristles, std::span<double> v) const;
   void write_accelerations(std::span<double> a) const;
 
   ArticulatedRobot robot_;
   ContactSet contacts_;
-  bool adaptive_ = false;  ///< the integrator chooses its own steps
   bool has_means_ = true;
   std::vector<double> q_, v_, q_before_, v_before_;
 };

@@ -18,7 +18,9 @@ StepStatus explain(integrators::Status status, double time, std::string body);
 
 }  // namespace
 
-StepStatus step(RobotSystem& robot, integrators::Stepper& stepper, double time, double dt) {
+StepStatus step(RobotSystem& robot, integrators::Stepper& stepper, double time) {
+  const double dt = robot.robot().experiment().deltat;
+
   // tau and the external forces: what the wires delivered, held over the step (docs/wires.md).
   robot.take_inputs();
 
@@ -30,7 +32,9 @@ StepStatus step(RobotSystem& robot, integrators::Stepper& stepper, double time, 
   robot.commit_memory();
 
   // (q, v) at t + dt from q' = v, v' = M^-1 (...), by the method of integrators/, which asks
-  // RobotSystem::accelerations for v' as often as it wants and refuses what is not finite (3.5).
+  // RobotSystem::accelerations for v' as often as it wants and refuses what is not finite (3.5):
+  //   X_WB, v_WB of every body, base to tips; external forces; f_i at each boundary point
+  //   (RobotSystem::evaluate_forces), then tau and the other passes of the recursion (Fig. 3).
   const integrators::Status status =
       stepper.step(robot, time, dt, robot.positions(), robot.velocities());
   if (status != integrators::Status::ok) {
@@ -41,19 +45,6 @@ StepStatus step(RobotSystem& robot, integrators::Stepper& stepper, double time, 
   // x_i, x_i', f_i and h_i+ at t + dt: what is published, and what the next step commits.
   robot.finish_step();
   return {};
-}
-
-void evaluate_forces(ArticulatedRobot& robot, ContactSet& contacts, Evaluation evaluation) {
-  // X_WB and v_WB of every body, base to tips: first pass of the recursion (3.2, Fig. 3).
-  robot.update_kinematics();
-
-  // Pushes and other forces from outside, at their points.
-  robot.apply_external_forces();
-
-  // f_i = law(x_i, x_i', h_i) at each boundary point (3.3).
-  contacts.apply_forces(robot.workspace(), evaluation);
-
-  // The other passes, v' = M^-1 (...), are ArticulatedRobot::accelerate.
 }
 
 namespace {
@@ -70,8 +61,7 @@ StepStatus explain(integrators::Status status, double time, std::string body) {
   if (status == integrators::Status::no_step) {
     return {StepStatus::Kind::solver_failed, time, std::move(body),
             "the integrator finds no step that meets its tolerances: raise relative_tolerance and "
-            "absolute_tolerance, make the ground softer, or choose a fixed-step integrator",
-            true};
+            "absolute_tolerance, make the ground softer, or choose a fixed-step integrator"};
   }
   return {StepStatus::Kind::not_finite, time, std::move(body),
           "its accelerations are no longer finite: make the step smaller or the ground softer",

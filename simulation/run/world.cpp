@@ -28,7 +28,7 @@ StepStatus World::step() {
   if (!start_.ok()) return start_;
   if (!signals_.running()) return {};
   const StepStatus status = engine_->step();
-  return status.ok() ? update_signals() : explained(status, experiment_);
+  return status.ok() ? update_signals() : with_advice(status, experiment_);
 }
 
 StepStatus World::update_signals() {
