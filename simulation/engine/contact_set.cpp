@@ -44,6 +44,8 @@ ContactSet::ContactSet(const Experiment& experiment, std::size_t index, std::siz
       ground_forces_(bodies),
       ground_impulses_(bodies),
       culled_(bodies) {
+  for (std::size_t i = 0; i < points_.size(); ++i)
+    if (points_[i].radius > 0.) balls_.push_back(i);
   for (std::size_t body = 0; body <= bodies; ++body) {
     const auto first = std::ranges::lower_bound(points_, body, {}, &ContactPoint::body);
     first_points_.push_back(static_cast<std::size_t>(first - points_.begin()));

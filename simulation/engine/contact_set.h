@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <ranges>
 #include <span>
 #include <string>
 #include <vector>
@@ -113,10 +112,9 @@ class ContactSet {
       part("attached", point.committed.attached);
       part("sliding", point.committed.sliding);
     });
-    auto balls = self.points_ | std::views::filter([](const auto& p) { return p.radius > 0.; });
-    archive.each("ball", balls, [](auto& point, auto& part) {
-      part("orientation", point.committed_frame.orientation);
-      part("normal", point.committed_frame.normal);
+    archive.each("ball", self.balls_, [&self](const auto& ball, auto& part) {
+      part("orientation", self.points_[ball].committed_frame.orientation);
+      part("normal", self.points_[ball].committed_frame.normal);
     });
     archive("bristle", self.bristles_);
   }
@@ -150,6 +148,7 @@ class ContactSet {
   contact::AnyForceLaw law_;
   std::size_t bristle_states_ = 0;  ///< numbers that the law integrates, of a point
   std::vector<ContactPoint> points_;
+  std::vector<std::size_t> balls_;         ///< those with a radius
   std::vector<std::size_t> first_points_;  ///< of each body, into points_; one more at the end
   std::vector<double> bristles_, next_bristles_, bristle_rates_;
   /// Of each body: the ground's force at the state evaluated last [N], and its impulse over the
