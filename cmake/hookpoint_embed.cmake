@@ -37,9 +37,14 @@ function(hookpoint_embed target name)
     string(MAKE_C_IDENTIFIER ${constant} constant)
     string(APPEND constants "extern const std::string_view ${constant};  ///< ${file}\n")
     set(source ${folder}/${name}_${constant}.cpp)
+    set(embed ${CMAKE_COMMAND} -D FILE=${CMAKE_CURRENT_SOURCE_DIR}/${file} -D NAME=${name} -D CONSTANT=${constant} -D SOURCE=${source}
+      -P ${CMAKE_CURRENT_FUNCTION_LIST_FILE})
+    # Once now, for who reads the sources without a build (scripts/tidy).
+    if(NOT EXISTS ${source})
+      execute_process(COMMAND ${embed} COMMAND_ERROR_IS_FATAL ANY)
+    endif()
     add_custom_command(OUTPUT ${source}
-      COMMAND ${CMAKE_COMMAND} -D FILE=${CMAKE_CURRENT_SOURCE_DIR}/${file} -D NAME=${name} -D CONSTANT=${constant} -D SOURCE=${source}
-        -P ${CMAKE_CURRENT_FUNCTION_LIST_FILE}
+      COMMAND ${embed}
       DEPENDS ${file} ${CMAKE_CURRENT_FUNCTION_LIST_FILE}
       COMMENT "Embedding ${file}" VERBATIM)
     target_sources(${target} PRIVATE ${source})

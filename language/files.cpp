@@ -8,7 +8,7 @@
 namespace hookpoint::language {
 namespace {
 
-constexpr std::size_t largest = (256UL << 20) + 1;
+constexpr std::size_t most_bytes = (256UL << 20) + 1;
 
 /// Reads no more than the parser would take.
 void read(const std::filesystem::path& path, ParsedFile& file) {
@@ -24,11 +24,11 @@ void read(const std::filesystem::path& path, ParsedFile& file) {
   std::ifstream stream(path, std::ios::binary);
   std::string& text = file.source.text;
   std::vector<char> block(1 << 16);
-  while (stream && text.size() < largest) {
+  while (stream && text.size() < most_bytes) {
     stream.read(block.data(), static_cast<std::streamsize>(block.size()));
     text.append(block.data(), static_cast<std::size_t>(stream.gcount()));
   }
-  if (!stream.eof() && text.size() < largest) file.report.error(start, "the file cannot be read");
+  if (!stream.eof() && text.size() < most_bytes) file.report.error(start, "the file cannot be read");
 }
 
 }  // namespace
