@@ -57,17 +57,6 @@ std::optional<bool> judge(const StudyPlan& plan, const StudyResult& result, std:
   return ok;
 }
 
-PeerContact peer_contact(const EngineEntry& engine, const simulation::Experiment& experiment) {
-  PeerContact contact;
-  if (engine.creep != nullptr)
-    if (const auto creep = engine.creep(experiment)) {
-      contact.creep = creep->downhill;
-      contact.creep_sideways = creep->sideways;
-    }
-  if (engine.softness != nullptr) contact.softness = engine.softness(experiment);
-  return contact;
-}
-
 RunResult run_result(const StudyPlan& plan, const EngineTable& engines, const RowPlan& row,
                      const RowOutcome& outcome) {
   RunResult run;
