@@ -69,8 +69,6 @@ class Application {
 
   /// From now on `text` is the file `path`, which need not exist.
   void give(const std::filesystem::path& path, const std::string& text);
-  /// Files are read again when they are next evaluated. Trees keep what they were made from.
-  void read_anew() { add_vocabulary(); }
   /// Evaluates `file` and tells its diagnostics; null when it has errors.
   std::unique_ptr<language::Object> evaluate(const std::filesystem::path& file,
                                              const std::vector<std::string>& settings);

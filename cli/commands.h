@@ -2,6 +2,7 @@
 // from the command line.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -11,6 +12,14 @@
 #include "application/study_arguments.h"
 
 namespace hookpoint::cli {
+
+/// How a window is served (docs/view.md).
+struct ViewArguments {
+  std::string bind = "127.0.0.1";  ///< address
+  std::uint16_t port = 0;          ///< 0: a free one
+  bool open = true;                ///< in the desktop's browser, where there is one
+  std::vector<std::string> with;   ///< subjects beside the run (application/subject_words.h)
+};
 
 struct RunArguments {
   std::filesystem::path file;
@@ -22,8 +31,12 @@ struct RunArguments {
   std::optional<std::filesystem::path> resume;  ///< a movie to go on from, instead of `file`
   std::optional<std::string> at;                ///< moment of it; none: its last
   bool allow_plugins = false;                   ///< of any folder; here and below: see Application
+  bool viewed = false;                          ///< --view
+  ViewArguments view;
 };
 int run(const RunArguments& arguments);
+/// view, and run --view: the windows that the file describes, in a browser.
+int view(const RunArguments& arguments);
 /// run --resume: goes on from a moment of a movie.
 int resume(const RunArguments& arguments);
 
