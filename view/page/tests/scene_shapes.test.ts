@@ -6,6 +6,7 @@ import type { Shape } from "../protocol.ts";
 import { roundScale } from "../scene/contacts.ts";
 import { inertiaBox, principalAxes } from "../scene/inertia.ts";
 import { grouped, lengthText } from "../scene/overlay.ts";
+import { Light } from "../scene/matte.ts";
 import { onPlane } from "../scene/pull.ts";
 import { type Triangles, trianglesOf } from "../scene/shapes.ts";
 import { Ground } from "../scene/terrain.ts";
@@ -66,6 +67,10 @@ test("a legcone is a truncated cone along +x from its origin", () => {
     const at = corner(mesh, k);
     const radius = Math.hypot(at.y, at.z);
     assert.ok(radius < 1e-12 || Math.abs(radius - (0.15 - 0.05 * at.x)) < 1e-12);
+    const normal = new Vector3().fromArray(mesh.normals, 3 * k);
+    // On an end, or across the line from rim to rim.
+    const line = new Vector3(1, (-0.05 * at.y) / radius, (-0.05 * at.z) / radius);
+    assert.ok(Math.abs(normal.x) === 1 || Math.abs(normal.dot(line)) < 1e-12);
   }
   near(volume(trianglesOf([{ ...cone, ...placed }])), volume(mesh));
 });
@@ -129,7 +134,7 @@ test("a pull stays in the plane through its point", () => {
 });
 
 test("the ground's normal under a point", () => {
-  const ground = new Ground({ vertices: [0, 0, 0, 1, 0, -1, 1, 1, -1, 0, 1, 0], tiles: [[0, 0, 1, 2, 3]] });
+  const ground = new Ground({ vertices: [0, 0, 0, 1, 0, -1, 1, 1, -1, 0, 1, 0], tiles: [[0, 0, 1, 2, 3]] }, new Light());
   const normal = ground.normalAt(0.5, 0.2);
   near(normal.x, Math.SQRT1_2);
   near(normal.z, Math.SQRT1_2);
