@@ -109,7 +109,7 @@ export class CameraView {
     if (getComputedStyle(host).position === "static") host.style.position = "relative";
     this.notice = document.createElement("p");
     this.notice.setAttribute("role", "status");
-    this.notice.style.cssText = "position:absolute;inset:auto 0;margin:0;padding:1em;background:var(--page, Canvas)";
+    this.notice.style.cssText = "position:absolute;inset:auto 0;margin:0;padding:1em;background:var(--panel, Canvas)";
     this.probe = document.createElement("span");
     this.probe.hidden = true;
     host.append(this.canvas, this.notice, this.probe);
