@@ -54,6 +54,17 @@ struct GroundForce {
   Vector3d force;        ///< on the body, world axes [N]
 };
 
+/// A boundary point, or a place of a shape, that touches the ground, world axes: for people who
+/// look on.
+struct ContactView {
+  std::size_t body = 0;  ///< index in WorldState::bodies
+  Vector3d point;        ///< [m]
+  Vector3d force;        ///< on the robot [N]
+  Vector3d hook;         ///< anchor on the ground; the point itself where there is none [m]
+  double depth = 0.;     ///< along the ground's normal, > 0 inside [m]
+  double sliding = -1.;  ///< 1 while it slips, else 0; -1 where the engine does not say
+};
+
 /// Of when an engine tells its ground forces.
 enum class GroundForceTime {
   unknown,   ///< it does not tell them one by one
@@ -140,6 +151,12 @@ class Engine {
   /// From now on, after each step, `state().ground_forces` is kept up to date. An engine that does
   /// not know them leaves `ground_force_time` unknown.
   virtual void publish_ground_forces() {}
+  /// Puts what touches the ground at the published state in the place of `contacts`: boundary
+  /// points with a name or without. Changes nothing of the run and costs nothing but when it is
+  /// asked, O(boundary points); nobody needs to have asked for details. Under an impulse law a
+  /// body's mean force over the last step is shown in equal parts at the points that touch, for
+  /// single impulses are over; a peer's forces are those of the step that led there.
+  virtual void tell_contacts(std::vector<ContactView>& contacts) const { contacts.clear(); }
   /// What the ground's springs hold at the published state [J]; none where the engine does not
   /// tell, or where the ground gives energy by its law: impulses hold a body still by throwing it
   /// up.

@@ -25,6 +25,8 @@ class World {
   const WorldState& state() const { return engine_->state(); }
   /// What the ground's springs hold, where the engine tells [J].
   std::optional<double> ground_energy() const { return engine_->ground_energy(); }
+  /// What touches the ground (Engine::tell_contacts).
+  void tell_contacts(std::vector<ContactView>& contacts) const { engine_->tell_contacts(contacts); }
   /// What the next step is taken under.
   const WorldInputs& inputs() const { return engine_->inputs(); }
   /// From the next step on the bodies' `contact_force` in `state()` is right, as it is anyway once
