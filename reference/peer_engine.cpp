@@ -90,6 +90,7 @@ class PeerEngine final : public simulation::Engine {
   /// from the state at the step's start.
   void take_inputs() {
     acting_.forces = inputs_.forces;
+    acting_.pull = inputs_.pull;
     for (const TreeBody& body : tree_.bodies) {
       if (body.link == nullptr) continue;
       const auto joint = static_cast<std::size_t>(body.joint);

@@ -93,6 +93,14 @@ struct ForceInput {
   Vector3d torque;  ///< world axes [N m]
 };
 
+/// A force on any body, which a person exerts (wiring/pull.h).
+struct PullInput {
+  int robot = -1;         ///< -1: nobody pulls
+  int body = 0;           ///< of it: 0 is the base, then the links, chain by chain
+  std::size_t index = 0;  ///< of that body in WorldState::bodies
+  ForceInput force;
+};
+
 /// What acts on a world from outside, held over the next step.
 struct WorldInputs {
   /// One a joint, robots and chains in order: the drive's force beside what the joint does by
@@ -101,6 +109,7 @@ struct WorldInputs {
   std::vector<double> joint_torques;
   /// One a ForceSpec, in order. At first as written; a force over a window starts at zero.
   std::vector<ForceInput> forces;
+  PullInput pull;  ///< beside them
   // Of each robot, where its own are among them:
   std::vector<std::size_t> first_joints;
   std::vector<std::vector<std::size_t>> forces_of;

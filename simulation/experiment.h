@@ -153,6 +153,7 @@ struct ValueSpec {
   std::string unit;
   std::optional<double> value;  ///< none: that of the input which it is wired to, else 0
   bool writable = false;
+  bool momentary = false;  ///< it is false again by itself: a push button's
 };
 
 /// A component and the values that the file gives it.

@@ -63,7 +63,8 @@ class Values {
             writable);
       } else if (writable && field.type != FieldType::numbers) {
         values_.push_back(
-            {loading_.trails[&object] + "." + field.name, unit_of(object, field), {}, true});
+            {loading_.trails[&object] + "." + field.name, unit_of(object, field), {}, true,
+             object.type == "Button"});
       }
     }
   }
