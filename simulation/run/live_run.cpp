@@ -196,7 +196,7 @@ std::unique_ptr<RunFiles> LiveRun::open_files(Track& track) const {
   return std::make_unique<RunFiles>(
       from.experiment, track.world, track.world.ports(),
       RunRequest{request_.folder, request_.trails, from.text, request_.leaves_files, from.engine,
-                 true, from.sources});
+                 from.sources, true});
 }
 
 void LiveRun::begin_take() {

@@ -32,6 +32,7 @@ struct RunRequest {
   EngineDescription engine;          ///< that runs it
   bool changes = false;              ///< people may change it: changes.csv is among its files
   std::vector<std::string> sources;  ///< files that `text` was made from, absolute
+  bool changes = false;              ///< people may change it: changes.csv is among its files
 };
 
 /// The Records and Movies of the file, and the rows of trace.csv: the row at the first step, then
