@@ -65,44 +65,6 @@ int repeat(const RunArguments& arguments) {
   }
 }
 
-/// A run again in which people changed something.
-int repeat(const RunArguments& arguments) {
-  const std::string file = arguments.changes->string();
-  std::vector<simulation::Change> changes = simulation::read_changes(*arguments.changes);
-  application::LiveLoader loader(arguments.file, settings_with_duration(arguments),
-                                 arguments.allow_plugins, arguments.movie);
-  std::string problem;
-  std::optional<simulation::LoadedExperiment> first = loader.load({}, problem);
-  if (!first) {
-    std::cerr << problem << '\n';
-    return wrong_input;
-  }
-  tell_windows(loader.root());
-  tell_stability(first->experiment);
-  const std::filesystem::path folder =
-      arguments.out.value_or(std::filesystem::path("runs") / first->experiment.world);
-  const auto load = [&](const std::vector<std::string>& overrides, std::string& why) {
-    return overrides.empty() && first ? std::exchange(first, std::nullopt)
-                                      : loader.load(overrides, why);
-  };
-  try {
-    simulation::LiveRun run(load, {folder, arguments.record, arguments.out.has_value()},
-                            std::move(changes));
-    const int status = step_through(run);
-    run.close();
-    tell_files(run.folder(), run.names());
-    print_summary(run.experiment(), run.world().state());
-    if (const std::size_t left = run.left_of_script(); left > 0)
-      std::cerr << fmt::format(
-          "hookpoint: note: the last {} of the changes in {} were not made: the run ended before "
-          "their step\n",
-          left, file);
-    return status;
-  } catch (const simulation::ChangesError& error) {
-    throw simulation::ChangesError(fmt::format("{}, {}", file, error.what()));
-  }
-}
-
 }  // namespace
 
 int run(const RunArguments& arguments) {
@@ -113,6 +75,7 @@ int run(const RunArguments& arguments) {
                                  : "--at is a moment of a movie: it goes with --resume");
     return wrong_input;
   }
+  if (arguments.viewed) return view(arguments);
   if (arguments.changes) {
     try {
       return repeat(arguments);

@@ -32,6 +32,8 @@ struct RunArguments {
   std::optional<std::string> at;                 ///< moment of it; none: its last
   std::optional<std::filesystem::path> changes;  ///< changes.csv of a run that is repeated
   bool allow_plugins = false;                    ///< of any folder; here and below: see Application
+  bool viewed = false;                           ///< --view
+  ViewArguments view;
 };
 int run(const RunArguments& arguments);
 /// view, and run --view: the windows that the file describes, in a browser.

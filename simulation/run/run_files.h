@@ -30,7 +30,6 @@ struct RunRequest {
   std::string text;                  ///< the experiment's
   bool leaves_files = false;         ///< experiment.hook is written even beside nothing else
   EngineDescription engine;          ///< that runs it
-  bool changes = false;              ///< people may change it: changes.csv is among its files
   std::vector<std::string> sources;  ///< files that `text` was made from, absolute
   bool changes = false;              ///< people may change it: changes.csv is among its files
 };

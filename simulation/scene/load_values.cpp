@@ -42,10 +42,8 @@ class Values {
         const bool chosen = value->numbers.empty();  // a word stands for it: deltat = auto
         add(object, field, chosen ? std::vector{loading_.experiment.deltat} : value->numbers,
             writable);
-      } else if (writable && field.type != FieldType::numbers) {
-        values_.push_back(
-            {loading_.trails[&object] + "." + field.name, unit_of(object, field), {}, true,
-             object.type == "Button"});
+      } else if (writable) {
+        add_open(object, field);
       }
     }
   }
