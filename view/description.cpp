@@ -1,5 +1,7 @@
 #include "view/description.h"
 
+#include <algorithm>
+
 #include "view/scene.h"
 
 namespace hookpoint::view {
@@ -17,10 +19,14 @@ const char* name_of(Kind kind) {
   return "";
 }
 
+double value_of(const std::vector<simulation::Port>& ports, const std::string& trail) {
+  return *std::ranges::find(ports, trail, &simulation::Port::trail)->value;
+}
+
 }  // namespace
 
 std::string describe(Kind kind, const std::string& title, const Panel& panel,
-                     const Subjects& subjects) {
+                     const Subjects& subjects, const std::vector<simulation::Port>& ports) {
   const simulation::LiveRun& run = subjects.run();
   const simulation::Experiment& experiment = run.experiment();
   const std::string no_history = run.no_history();
@@ -35,14 +41,18 @@ std::string describe(Kind kind, const std::string& title, const Panel& panel,
   json.key("windows");
   write_panel(panel, json);
   json.key("scene");
-  write_scene(experiment, json);
+  write_scene(make_scene(experiment), json);
   json.key("subjects").begin_array();
   for (const Subject& subject : subjects.all())
     json.begin_object()
         .member("name", subject.name)
         .member("colour", subject.colour)
         .end_object();
-  return json.end_array().end_object().text();
+  json.end_array();
+  json.key("pull").begin_object();
+  for (const char* constant : {"stiffness", "damping"})
+    json.member(constant, value_of(ports, std::string("Simulator.pull.") + constant));
+  return json.end_object().end_object().text();
 }
 
 }  // namespace hookpoint::view

@@ -10,8 +10,8 @@ namespace hookpoint::view {
 
 enum class Kind { run, movie, film };
 
-/// The "description" of docs/view_protocol.md. `title`: of the window.
+/// The "description" of docs/view_protocol.md. `title`: of the window; `ports`: of the run.
 std::string describe(Kind kind, const std::string& title, const Panel& panel,
-                     const Subjects& subjects);
+                     const Subjects& subjects, const std::vector<simulation::Port>& ports);
 
 }  // namespace hookpoint::view

@@ -51,6 +51,7 @@ export interface Body {
   joint: "revolute" | "prismatic" | null; // about, or along, the body's own z through its origin
   shapes: Shape[];
   points: Vector3[];
+  start?: number[]; // pose at time 0: x y z, qw qx qy qz
 }
 
 interface PlacedShape {
