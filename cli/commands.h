@@ -2,6 +2,7 @@
 // from the command line.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -11,6 +12,14 @@
 #include "application/study_arguments.h"
 
 namespace hookpoint::cli {
+
+/// How a window is served (docs/view.md).
+struct ViewArguments {
+  std::string bind = "127.0.0.1";  ///< address
+  std::uint16_t port = 0;          ///< 0: a free one
+  bool open = true;                ///< in the desktop's browser, where there is one
+  std::vector<std::string> with;   ///< subjects beside the run (application/subject_words.h)
+};
 
 struct RunArguments {
   std::filesystem::path file;
@@ -40,7 +49,8 @@ int replay(const ReplayArguments& arguments);
 /// recover: the record that a killed run left as a spool.
 int recover(const std::filesystem::path& spool);
 
-int study(const application::StudyArguments& arguments);
+/// study; with `view` its table fills in a browser meanwhile (cli/study_view.h).
+int study(const application::StudyArguments& arguments, const std::optional<ViewArguments>& view);
 
 /// check: every file's diagnostics.
 int check(const std::vector<std::filesystem::path>& files, bool allow_plugins);

@@ -37,6 +37,8 @@ std::string about() {
 struct Request {
   RunArguments run;
   application::StudyArguments study;
+  ViewArguments view;
+  bool study_viewed = false;
   ReplayArguments replay;
   AdviseArguments advise;
   CompareArguments compare;
@@ -129,6 +131,25 @@ void add_movie_tools(CLI::App& app, Request& request) {
       ->required();
 }
 
+void add_serving(CLI::App* command, ViewArguments& arguments) {
+  command->add_option("--port", arguments.port, "of the window's address (default: a free one)")
+      ->type_name("N")
+      ->check([](const std::string& text) {
+        int value = -1;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        const bool number = error == std::errc{} && end == text.data() + text.size();
+        return number && value >= 0 && value <= 65535
+                   ? std::string()
+                   : "--port takes a whole number from 0 to 65535, not `" + text + "`";
+      });
+  command
+      ->add_option("--bind", arguments.bind,
+                   "the address to listen at; 0.0.0.0: whoever has the token may look on from "
+                   "anywhere (default: 127.0.0.1)")
+      ->type_name("ADDRESS");
+  command->add_flag("!--no-open", arguments.open, "only print the address; open no browser");
+}
+
 void add_run_and_study(CLI::App& app, Request& request) {
   CLI::App* run_app =
       add_command(app, request, "run", "run a world", [&] { return run(request.run); });
@@ -152,7 +173,11 @@ void add_run_and_study(CLI::App& app, Request& request) {
   add_movies(run_app, request.run);
 
   CLI::App* study_app = add_command(app, request, "study", "run the studies of a file",
-                                    [&] { return study(request.study); });
+                                    [&] {
+                                      return study(request.study, request.study_viewed
+                                                                      ? std::optional(request.view)
+                                                                      : std::nullopt);
+                                    });
   study_app->add_option("FILE", request.study.file, "a .hook file with a Study")->required();
   add_trails(study_app, request.study.settings);
   for (const application::ShortForm& form : application::short_forms)
@@ -178,6 +203,9 @@ void add_run_and_study(CLI::App& app, Request& request) {
       ->type_name("SUBJECT")
       ->expected(1)
       ->take_all();
+  study_app->add_flag("--view", request.study_viewed,
+                      "in a browser, where table and figures fill meanwhile");
+  add_serving(study_app, request.view);
 }
 
 /// What the short forms take, as the language has it.

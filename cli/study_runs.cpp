@@ -39,7 +39,9 @@ std::string how_to_go_on(const StudyCommand& command, const std::filesystem::pat
          " --resume` goes on from there";
 }
 
-int interrupted(const StudyCommand& command, const std::filesystem::path& folder) {
+int interrupted(const StudyCommand& command, const studies::StudyPlan& plan,
+                const std::filesystem::path& folder) {
+  if (command.view != nullptr) command.view->interrupt(plan);
   application::print_error("interrupted" + how_to_go_on(command, folder));
   return command.guard.status();
 }
@@ -58,6 +60,22 @@ auto writing_into(const StudyCommand& command, const std::filesystem::path& fold
   }
 }
 
+/// With the bar, and the page where there is one.
+studies::RunOptions watched(const StudyCommand& command, const studies::StudyPlan& plan,
+                            RunBar& bar, const std::filesystem::path& folder) {
+  studies::RunOptions options = bar.watch(application::run_options(command.arguments, folder));
+  return command.view == nullptr ? options : command.view->watch(plan, std::move(options));
+}
+
+/// The table on stdout, unless a page shows it, and where the report is.
+void print_result(const StudyCommand& command, const std::string& table, const char* what,
+                  const std::filesystem::path& report) {
+  if (command.view == nullptr)
+    std::cout << table << '\n' << what << ": " << report.string() << '\n';
+  else
+    std::cerr << what << ": " << report.string() << '\n';
+}
+
 void tell(const std::string& notice) { std::cerr << "hookpoint: note: " << notice << '\n'; }
 
 /// A study that ran.
@@ -70,14 +88,15 @@ struct StudyOutcome {
 StudyOutcome run_into(const StudyCommand& command, const studies::StudyPlan& plan,
                       const std::filesystem::path& folder) {
   RunBar bar(plan.name);
-  studies::RunOptions options = bar.watch(application::run_options(command.arguments, folder));
+  studies::RunOptions options = watched(command, plan, bar, folder);
   options.tell = tell;
   studies::StudyRun run = studies::run_study(plan, command.engines, options, command.guard.stop());
   bar.end();
   for (const std::string& notice : run.notices) tell(notice);
-  if (run.interrupted) return {interrupted(command, run.folder), std::nullopt, {}};
+  if (run.interrupted) return {interrupted(command, plan, run.folder), std::nullopt, {}};
   studies::ReportOutcome report = application::write_study_report(run, command.command);
   for (const std::string& message : report.messages) application::print_error(message);
+  if (command.view != nullptr) command.view->finish(plan, run.result, run.folder / "report.html");
   const int status = !studies::all_truths_hold(run.result) ? truth_failed
                      : report.messages.empty()             ? fine
                                                            : missing;
@@ -96,8 +115,8 @@ int run_matrix_into(const StudyCommand& command, const application::MatrixPlan& 
         {std::move(outcome.run->result), part.text, std::move(outcome.figures)});
   }
   application::write_matrix(run, plan, command.file.text, command.engines, command.command);
-  std::cout << studies::matrix_terminal_table(run.result, coloured());
-  std::cout << "\nmatrix: " << (folder / "matrix.html").string() << '\n';
+  print_result(command, studies::matrix_terminal_table(run.result, coloured()), "matrix",
+               folder / "matrix.html");
   return status;
 }
 
@@ -109,15 +128,15 @@ int run_one_study(const StudyCommand& command, const studies::StudyPlan& plan) {
   const StudyOutcome outcome =
       writing_into(command, folder, [&] { return run_into(command, plan, folder); });
   if (!outcome.run) return outcome.status;
-  std::cout << studies::terminal_table(outcome.run->result, {coloured(), terminal_width()});
-  std::cout << "\nreport: " << (outcome.run->folder / "report.html").string() << '\n';
+  print_result(command,
+               studies::terminal_table(outcome.run->result, {coloured(), terminal_width()}),
+               "report", outcome.run->folder / "report.html");
   return outcome.status;
 }
 
 int run_one_wall(const StudyCommand& command, const studies::WallPlan& plan) {
   RunBar bar(plan.study.name);
-  studies::RunOptions options =
-      bar.watch(application::run_options(command.arguments, command.folder(plan.study.name)));
+  studies::RunOptions options = watched(command, plan.study, bar, command.folder(plan.study.name));
   options.tell = tell;
   const std::filesystem::path folder = studies::wall_folder(plan, options);
   const auto run = writing_into(command, folder, [&] {
@@ -126,10 +145,11 @@ int run_one_wall(const StudyCommand& command, const studies::WallPlan& plan) {
     if (ran) application::write_wall(*ran, plan, command.engines, command.command);
     return ran;
   });
-  if (!run) return interrupted(command, folder);
+  if (!run) return interrupted(command, plan.study, folder);
   for (const std::string& notice : run->notices) tell(notice);
-  std::cout << studies::wall_terminal_table(run->result, {coloured(), wall_table_width});
-  std::cout << "\nreport: " << (folder / "report.html").string() << '\n';
+  if (command.view != nullptr) command.view->finish(plan.study, folder / "report.html");
+  print_result(command, studies::wall_terminal_table(run->result, {coloured(), wall_table_width}),
+               "report", folder / "report.html");
   return run->result.failed() == 0 ? fine : truth_failed;
 }
 
