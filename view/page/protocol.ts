@@ -1,6 +1,8 @@
 // The protocol of the window, version 1, as docs/view_protocol.md has it: what the program tells,
 // what the page asks. Everything is SI, world axes, z up, unless a unit is given.
 
+import type { OpenRequest } from "./study/protocol.ts";
+
 export const protocolVersion = 1;
 
 export type Vector3 = [number, number, number];
@@ -250,6 +252,7 @@ export interface Requests {
   changes: { with: object; answer: { changes: Change[] } };
   patch: { with: object; answer: { name: string; text: string } };
   picture: { with: { name: string; png: string }; answer: { path: string } };
+  open: OpenRequest;
   quit: { with: object; answer: object };
 }
 export type RequestName = keyof Requests;

@@ -6,12 +6,6 @@ import { MapView } from "./study/map.ts";
 import type { Figure, OpenRequest, State, StudiesDescription, Study, StudyTold } from "./study/protocol.ts";
 import { RunTable, showProgress } from "./study/table.ts";
 
-declare module "./protocol.ts" {
-  interface Requests {
-    open: OpenRequest;
-  }
-}
-
 /// What of the line to the program is used.
 export interface StudyLine {
   request(name: "open", fields: OpenRequest["with"]): Promise<OpenRequest["answer"]>;
@@ -122,6 +116,7 @@ class StudyView {
       element("header", {}, element("h1", {}, study.title), element("p", { class: "study-question" }, study.question),
         element("div", { class: "study-progress" }, this.bar, this.words), this.verdict),
       element("div", { class: "study-figures" }, ...this.figures.map((view) => view.element)),
+      element("p", { class: "study-note" }, "In small figures: the closed form. A run's number opens it in a window."),
       this.table.element);
     this.showProgress();
   }

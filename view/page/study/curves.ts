@@ -99,6 +99,7 @@ class PanelView {
       grid: { stroke: () => ruleOf(this.element), width: 1 },
       ticks: { size: 4, stroke: () => ruleOf(this.element), width: 1 },
       values: (_, ticks) => ticks.map((tick) => this.tickText(of, scale, tick)),
+      ...(of.logarithmic ? { splits: (chart) => this.decades(chart, scale), filter: (_, ticks) => ticks } : {}),
     });
     const distribution = (of: Axis) => ({ distr: (of.logarithmic ? 3 : 1) as uPlot.Scale.Distr, log: 10 as const });
     this.chart = new uPlot({
@@ -155,9 +156,20 @@ class PanelView {
 
   private tickText(axis: Axis, scale: "x" | "y", tick: number | null): string {
     if (tick === null) return "";
-    if (scale === "y" && this.scale.zero !== null && tick <= this.scale.zero * 1.01) return `\u2264 ${formatShort(axis.floor)}`;
-    if (axis.logarithmic && Math.abs(Math.log10(tick) - Math.round(Math.log10(tick))) > 1e-9) return "";
-    return formatShort(tick);
+    return scale === "y" && tick === this.scale.zero ? `\u2264 ${formatShort(axis.floor)}` : formatShort(tick);
+  }
+
+  /// The ticks of a logarithmic axis: powers of ten, as many as there is room for, and the lane of zero.
+  private decades(chart: uPlot, scale: "x" | "y"): number[] {
+    const { min = 1e-3, max = 1 } = chart.scales[scale];
+    const first = Math.ceil(Math.log10(min!) - 1e-9), last = Math.floor(Math.log10(max!) + 1e-9);
+    const room = (scale === "x" ? chart.width / 60 : chart.height / 28) || 1;
+    const step = Math.max(1, Math.ceil((last - first + 1) / room));
+    // Within a decade its round values are all there is.
+    const ticks = last > first ? [] : [1, 2, 5, 10, 20, 50].map((part) => part * 10 ** (first - 1)).filter((tick) => tick >= min! && tick <= max!);
+    for (let power = first; power <= last && last > first; power += step) ticks.push(Number(`1e${power}`));
+    const zero = scale === "y" ? this.scale.zero : null;
+    return zero === null || zero < min! ? ticks : [zero, ...ticks.filter((tick) => tick > 9 * zero)];
   }
 
   /// Where a value stands, and whether it stands for itself.

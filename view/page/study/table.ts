@@ -116,8 +116,8 @@ function makeCell([measured, predicted, ok]: Cell, ran: boolean): HTMLTableCellE
   const cell = element("td", { class: ok === false ? "fails" : null });
   if (!ran) return cell;
   if (ok !== null) cell.append(element("span", { class: ok ? "good" : "bad" }, ok ? "\u2713 holds " : "\u2717 fails "));
-  cell.append(measured === null ? unknown : formatNumber(measured, digits));
-  if (predicted !== null) cell.append(element("small", {}, element("span", { class: "unseen" }, "predicted "), formatNumber(predicted, digits)));
+  cell.append(measured === null ? unknown : measured === 0 ? "0" : formatNumber(measured, digits));
+  if (predicted !== null) cell.append(element("small", {}, element("span", { class: "unseen" }, "predicted "), predicted === 0 ? "0" : formatNumber(predicted, digits)));
   return cell;
 }
 
