@@ -19,12 +19,10 @@ application::Settings settings_with_duration(const RunArguments& arguments) {
   return settings;
 }
 
-/// A file's windows are laid out and checked, and not shown yet.
-void tell_windows(const language::Object& root) {
+void tell_windows(const language::Object& root, const std::filesystem::path& file) {
   if (root.children_of("Window").empty()) return;
-  std::cerr
-      << "hookpoint: note: the file's windows are not shown: this version has no viewer; what "
-         "sliders and buttons would set keeps its value\n";
+  std::cerr << "hookpoint: note: the file's windows are not shown: `hookpoint view "
+            << application::shell_word(file.string()) << "` does\n";
 }
 
 }  // namespace
@@ -37,6 +35,7 @@ int run(const RunArguments& arguments) {
                                  : "--at is a moment of a movie: it goes with --resume");
     return wrong_input;
   }
+  if (arguments.viewed) return view(arguments);
   application::Application application(arguments.allow_plugins);
   const std::filesystem::path file = application.locate(arguments.file);
   const auto root = application.evaluate_set(file, settings_with_duration(arguments));
@@ -54,7 +53,7 @@ int run(const RunArguments& arguments) {
         *experiment, world, world.ports(),
         {folder, arguments.record, language::print(*root), arguments.out.has_value(),
          application.describe_engine(*experiment), language::sources_of(*root)});
-    tell_windows(*root);
+    tell_windows(*root, arguments.file);
     tell_stability(*experiment);
     const auto steps =
         static_cast<std::int64_t>(std::llround(experiment->duration / experiment->deltat));

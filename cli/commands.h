@@ -31,8 +31,12 @@ struct RunArguments {
   std::optional<std::filesystem::path> resume;  ///< a movie to go on from, instead of `file`
   std::optional<std::string> at;                ///< moment of it; none: its last
   bool allow_plugins = false;                   ///< of any folder; here and below: see Application
+  bool viewed = false;                          ///< --view
+  ViewArguments view;
 };
 int run(const RunArguments& arguments);
+/// view, and run --view: the windows that the file describes, in a browser.
+int view(const RunArguments& arguments);
 /// run --resume: goes on from a moment of a movie.
 int resume(const RunArguments& arguments);
 

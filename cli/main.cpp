@@ -37,8 +37,6 @@ std::string about() {
 struct Request {
   RunArguments run;
   application::StudyArguments study;
-  ViewArguments view;
-  bool study_viewed = false;
   ReplayArguments replay;
   AdviseArguments advise;
   CompareArguments compare;
@@ -96,12 +94,16 @@ void add_plugins(CLI::App* command, bool& allowed) {
                     "HOOKPOINT_TRUSTED_PLUGINS");
 }
 
-void add_movies(CLI::App* run_app, RunArguments& arguments) {
-  run_app
+void add_movie_option(CLI::App* command, RunArguments& arguments) {
+  command
       ->add_option("--movie", arguments.movie,
                    "log the whole state of each step (default: DIR/movie.h5)")
       ->type_name("[FILE.h5]")
       ->expected(0, 1);
+}
+
+void add_movies(CLI::App* run_app, RunArguments& arguments) {
+  add_movie_option(run_app, arguments);
   run_app
       ->add_option("--resume", arguments.resume,
                    "go on from a moment of this movie, for as long as --for says")
@@ -150,32 +152,61 @@ void add_serving(CLI::App* command, ViewArguments& arguments) {
   command->add_flag("!--no-open", arguments.open, "only print the address; open no browser");
 }
 
-void add_run_and_study(CLI::App& app, Request& request) {
-  CLI::App* run_app =
-      add_command(app, request, "run", "run a world", [&] { return run(request.run); });
-  run_app->add_option("FILE", request.run.file, "a .hook file with a World, unless --resume");
-  add_settings(run_app, request.run.settings);
-  add_plugins(run_app, request.run.allow_plugins);
+void add_subjects(CLI::App* command, ViewArguments& arguments) {
+  command
+      ->add_option("--with", arguments.with,
+                   "beside it the same experiment under another engine, law or integrator, e.g. "
+                   "mujoco:recommended (may be repeated)")
+      ->type_name("SUBJECT")
+      ->expected(1)
+      ->take_all();
+}
+
+/// What `run` and `view` have in common.
+void add_run_options(CLI::App* run_app, RunArguments& arguments) {
+  add_settings(run_app, arguments.settings);
+  add_plugins(run_app, arguments.allow_plugins);
   run_app
-      ->add_option("--for", request.run.duration,
+      ->add_option("--for", arguments.duration,
                    "how long: \"10 s\" (default: the World's duration)")
       ->type_name("TIME");
   run_app
-      ->add_option("--out", request.run.out,
+      ->add_option("--out", arguments.out,
                    "folder of what the run leaves (default with --record: runs/WORLD)")
       ->type_name("DIR");
   run_app
-      ->add_option("--record", request.run.record,
+      ->add_option("--record", arguments.record,
                    "ports to write to DIR/trace.csv, joined by commas: trails, vectors, globs (* "
                    "within a name, ** across)")
       ->type_name("TRAIL,...")
       ->delimiter(',');
+}
+
+void add_view(CLI::App& app, Request& request) {
+  CLI::App* view_app =
+      add_command(app, request, "view", "run a world in the windows that its file describes",
+                  [&] { return view(request.run); });
+  view_app->add_option("FILE", request.run.file, "a .hook file with a World")->required();
+  add_run_options(view_app, request.run);
+  add_movie_option(view_app, request.run);
+  add_serving(view_app, request.run.view);
+  add_subjects(view_app, request.run.view);
+}
+
+void add_run_and_study(CLI::App& app, Request& request) {
+  CLI::App* run_app =
+      add_command(app, request, "run", "run a world", [&] { return run(request.run); });
+  run_app->add_option("FILE", request.run.file, "a .hook file with a World, unless --resume");
+  add_run_options(run_app, request.run);
+  run_app->add_flag("--view", request.run.viewed, "in the windows that the file describes");
+  add_serving(run_app, request.run.view);
+  add_subjects(run_app, request.run.view);
   add_movies(run_app, request.run);
 
   CLI::App* study_app = add_command(app, request, "study", "run the studies of a file",
                                     [&] {
-                                      return study(request.study, request.study_viewed
-                                                                      ? std::optional(request.view)
+                                      return study(request.study, request.run.viewed
+                                                                      ? std::optional(request.run.view)
                                                                       : std::nullopt);
                                     });
   study_app->add_option("FILE", request.study.file, "a .hook file with a Study")->required();
@@ -203,9 +234,9 @@ void add_run_and_study(CLI::App& app, Request& request) {
       ->type_name("SUBJECT")
       ->expected(1)
       ->take_all();
-  study_app->add_flag("--view", request.study_viewed,
+  study_app->add_flag("--view", request.run.viewed,
                       "in a browser, where table and figures fill meanwhile");
-  add_serving(study_app, request.view);
+  add_serving(study_app, request.run.view);
 }
 
 /// What the short forms take, as the language has it.
@@ -393,6 +424,7 @@ int main_with(int count, char** words) {
                        "the version of the program and of the engines found");
   Request request;
   add_run_and_study(app, request);
+  add_view(app, request);
   add_movie_tools(app, request);
   add_language_tools(app, request);
   add_ports(app, request);

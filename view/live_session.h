@@ -33,7 +33,7 @@ struct FileField {
 };
 
 struct LiveSessionRequest {
-  std::function<Shown(const Subjects&)> describe;
+  std::function<Shown(Subjects&)> describe;
   std::function<std::vector<FileField>()> fields;
   /// The text and the name of a file that holds what was changed.
   std::function<std::pair<std::string, std::string>(const simulation::LiveRun&)> patch;

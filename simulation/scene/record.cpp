@@ -41,20 +41,9 @@ const Fields<RecordSpec>& record_fields() {
   return fields;
 }
 
-bool is_number(const FieldSchema& field) {
-  return field.type != FieldType::text && field.type != FieldType::choice &&
-         field.type != FieldType::object && field.type != FieldType::port &&
-         field.type != FieldType::words;
-}
-
 std::string type_of(const FieldSchema& field) {
   if (field.type == FieldType::boolean) return "bool";
   return field.type == FieldType::integer ? "int" : "double";
-}
-
-int components_of(const FieldSchema& field) {
-  if (field.type == FieldType::orientation) return 4;
-  return field.type == FieldType::numbers ? field.max_count : 1;
 }
 
 class RecordLoader {
@@ -136,20 +125,8 @@ void add_record_class(language::Schema& schema) {
 std::optional<NumberPort> find_number(const language::Object& from, const std::string& trail,
                                       const language::Position& place, language::Names& names,
                                       Loading& loading) {
-  const auto fail = [&](const std::string& message) {
-    loading.error(place, message);
-    return std::nullopt;
-  };
-  language::Unresolved why;
-  const auto target = names.resolve(from, trail, true, why);
-  if (!target) return fail(fmt::format("`{}`: {}", trail, why.message));
-  if (target->field == nullptr || !is_number(*target->field))
-    return fail(fmt::format("`{}` is no number that could be recorded", trail));
-  const auto object = loading.trails.find(target->object);
-  if (object == loading.trails.end()) return fail(fmt::format("`{}` has no value in a run", trail));
-  const std::string lacking = missing_port(loading.experiment, *target->object, *target->field);
-  if (!lacking.empty()) return fail(lacking);
-  return NumberPort{*target, object->second + "." + target->port};
+  return find_number(from, trail, place, names, loading.trails, loading.experiment,
+                     loading.diagnostics);
 }
 
 void load_records(const language::Object& root, Loading& loading) {

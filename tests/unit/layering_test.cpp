@@ -98,6 +98,7 @@ const std::map<std::string, Rooms> rooms{
        "touching_points"},
       peers,
       {"engines"}}},
+    {"view", {{"widget_fields", "schema"}, {"panel", "scene", "ghosts"}}},
 };
 
 std::string included_path(const std::string& line) {

@@ -1,0 +1,48 @@
+#include "view/description.h"
+
+#include "view/scene.h"
+
+namespace hookpoint::view {
+namespace {
+
+const char* name_of(Kind kind) {
+  switch (kind) {
+    case Kind::run:
+      return "run";
+    case Kind::movie:
+      return "movie";
+    case Kind::film:
+      return "film";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string describe(Kind kind, const std::string& title, const Panel& panel,
+                     const Subjects& subjects) {
+  const simulation::LiveRun& run = subjects.run();
+  const simulation::Experiment& experiment = run.experiment();
+  const std::string no_history = run.no_history();
+  output::JsonWriter json;
+  json.begin_object().member("tell", "description").member("protocol", 1);
+  json.member("version", HOOKPOINT_VERSION).member("title", title).member("kind", name_of(kind));
+  json.member("world", experiment.world).member("deltat", experiment.deltat);
+  json.member("duration", experiment.duration).member("engine", experiment.engine);
+  json.member("law", experiment.contact).member("integrator", experiment.integrator);
+  json.key("history").begin_object();
+  json.member("possible", no_history.empty()).member("why", no_history).end_object();
+  json.key("windows");
+  write_panel(panel, json);
+  json.key("scene");
+  write_scene(experiment, json);
+  json.key("subjects").begin_array();
+  for (const Subject& subject : subjects.all())
+    json.begin_object()
+        .member("name", subject.name)
+        .member("colour", subject.colour)
+        .end_object();
+  return json.end_array().end_object().text();
+}
+
+}  // namespace hookpoint::view
