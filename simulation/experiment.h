@@ -180,7 +180,8 @@ struct RecordSpec {
   std::string file;            ///< in the run's folder
   std::optional<double> rate;  ///< of its rows [Hz]; none: every step
   std::vector<output::Channel>
-      channels;  ///< `path`: the port's trail from the top; an open `unit` is the port's
+      channels;       ///< `path`: the port's trail from the top; an open `unit` is the port's
+  bool scene = true;  ///< with poses and shapes, where the format takes them
 };
 
 /// A log of the run's whole state, from which it can be resumed.
