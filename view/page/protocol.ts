@@ -1,7 +1,7 @@
 // The protocol of the window, version 1, as docs/view_protocol.md has it: what the program tells,
 // what the page asks. Everything is SI, world axes, z up, unless a unit is given.
 
-import type { OpenRequest } from "./study/protocol.ts";
+import type { OpenRequest, StudiesDescription, StudyTold } from "./study/protocol.ts";
 
 export const protocolVersion = 1;
 
@@ -16,7 +16,7 @@ export interface Description {
   protocol: number;
   version: string;
   title: string;
-  kind: "run" | "movie" | "film" | "study";
+  kind: "run" | "movie" | "film";
   world: string;
   deltat: number;
   duration: number | null;
@@ -168,7 +168,7 @@ export interface Ended {
   tell: "ended";
   reason: string;
 }
-export type Told = Description | Layout | Notice | Changed | Ended;
+export type Told = Description | StudiesDescription | StudyTold | Layout | Notice | Changed | Ended;
 
 // ---- binary messages ----
 

@@ -1,5 +1,6 @@
 // The page of studies: each one's progress, its figures and the table of its runs, which fill while
 // it runs. A run is opened in a window of its own.
+import type { Part } from "./context.ts";
 import { element, setText } from "./dom.ts";
 import { CurvesView } from "./study/curves.ts";
 import { MapView } from "./study/map.ts";
@@ -11,15 +12,14 @@ export interface StudyLine {
   request(name: "open", fields: OpenRequest["with"]): Promise<OpenRequest["answer"]>;
 }
 
-export interface StudyPage {
+export interface StudyPage extends Part {
   hear(message: StudyTold): void;
-  /// After a change of light and dark.
-  redraw(): void;
-  dispose(): void;
 }
 
-/// Shows the studies in `root`. `problem`: tells the user what went wrong.
-export function mountStudy(root: HTMLElement, line: StudyLine, description: StudiesDescription, problem: (text: string) => void): StudyPage {
+/// `onTheme`: has a listener called after a change of light and dark. `problem`: tells the user what went wrong.
+export function makeStudyPage(
+  line: StudyLine, description: StudiesDescription, onTheme: (listener: () => void) => () => void, problem: (text: string) => void,
+): StudyPage {
   const open = (study: number, row: number) => openRun(line, study, row, problem);
   const views = description.studies.map((study, index) => new StudyView(study, (row) => open(index, row)));
   const tabs = views.map((view, index) => {
@@ -57,8 +57,9 @@ export function mountStudy(root: HTMLElement, line: StudyLine, description: Stud
   views.forEach((_, index) => mark(index));
   show(Math.max(0, views.findIndex((view) => view.study.state === "running")));
   const page = element("main", { class: "study", "data-trail": "study" }, bar, ...views.map((view) => view.element));
-  root.replaceChildren(page);
+  const forget = onTheme(() => views.forEach((view) => view.redraw()));
   return {
+    element: page,
     hear(message) {
       const view = views[message.study];
       switch (message.tell) {
@@ -73,10 +74,9 @@ export function mountStudy(root: HTMLElement, line: StudyLine, description: Stud
           if (!chosen && message.state === "running") show(message.study);
       }
     },
-    redraw: () => views.forEach((view) => view.redraw()),
     dispose: () => {
+      forget();
       views.forEach((view) => view.dispose());
-      page.remove();
     },
   };
 }

@@ -3,7 +3,7 @@
 // runs that did not finish are crosses at the top. It zooms by dragging and tells the value under
 // the cursor.
 import uPlot from "uplot";
-import { element, setText } from "../dom.ts";
+import { element, setText, styleValue } from "../dom.ts";
 import { formatNumber, formatUnit } from "../numbers.ts";
 import type { Axis, CurvesFigure, FigureSeries } from "./protocol.ts";
 
@@ -56,7 +56,7 @@ export class CurvesView {
       const sample = element("canvas", { class: "study-sample", width: 36, height: 20, "aria-hidden": "true" });
       const ink = sample.getContext("2d")!;
       ink.scale(2, 2);
-      ink.strokeStyle = ink.fillStyle = each.reference ? inkOf(this.element) : each.colour;
+      ink.strokeStyle = ink.fillStyle = each.reference ? styleValue("--ink") : each.colour;
       ink.lineWidth = 1.25;
       if (each.reference) ink.setLineDash([3, 2]);
       ink.beginPath();
@@ -95,9 +95,9 @@ class PanelView {
       label: of.unit === "" ? of.label : `${of.label} [${formatUnit(of.unit)}]`,
       labelSize: 18, labelGap: 0, labelFont: "11px system-ui, sans-serif", font: "11px system-ui, sans-serif",
       size: scale === "x" ? 28 : 58, gap: 3,
-      stroke: () => quietOf(this.element),
-      grid: { stroke: () => ruleOf(this.element), width: 1 },
-      ticks: { size: 4, stroke: () => ruleOf(this.element), width: 1 },
+      stroke: () => styleValue("--quiet"),
+      grid: { stroke: () => styleValue("--rule"), width: 1 },
+      ticks: { size: 4, stroke: () => styleValue("--rule"), width: 1 },
       values: (_, ticks) => ticks.map((tick) => this.tickText(of, scale, tick)),
       ...(of.logarithmic ? { splits: (chart) => this.decades(chart, scale), filter: (_, ticks) => ticks } : {}),
     });
@@ -187,7 +187,7 @@ class PanelView {
     ink.rect(left, top, width, tall);
     ink.clip();
     for (const series of this.series) {
-      const colour = series.reference ? inkOf(this.element) : series.colour;
+      const colour = series.reference ? styleValue("--ink") : series.colour;
       ink.strokeStyle = ink.fillStyle = colour;
       ink.lineWidth = 1.25 * pixels;
       ink.setLineDash([5 * pixels, 3 * pixels]);
@@ -197,7 +197,7 @@ class PanelView {
       if (series.measured.x.length <= mostMarks)
         series.measured.x.forEach((x, i) => {
           const { at, hollow } = this.place(series.measured.y[i]);
-          drawMark(ink, series.marker, chart.valToPos(x, "x", true), chart.valToPos(at, "y", true), markSize * pixels, hollow, paperOf(this.element));
+          drawMark(ink, series.marker, chart.valToPos(x, "x", true), chart.valToPos(at, "y", true), markSize * pixels, hollow);
         });
       for (const x of series.unfinished) drawCross(ink, chart.valToPos(x, "x", true), top + 7 * pixels, 3.5 * pixels);
     }
@@ -279,15 +279,8 @@ function aired(axis: Axis, values: number[]): Range {
   return [low - 0.06 * span, high + 0.06 * span];
 }
 
-// Colours that follow the theme are resolved by the element's own style, which knows which it is.
-const resolved = (property: "color" | "borderTopColor" | "backgroundColor" | "outlineColor") => (of: Element) => getComputedStyle(of.closest(".study") ?? of)[property];
-const inkOf = resolved("color");
-const ruleOf = resolved("borderTopColor");
-const paperOf = resolved("backgroundColor");
-const quietOf = resolved("outlineColor");
-
 /// Filled or hollow; the five shapes of the figures.
-function drawMark(ink: CanvasRenderingContext2D, marker: number, x: number, y: number, size: number, hollow: boolean, paper = "#ffffff"): void {
+function drawMark(ink: CanvasRenderingContext2D, marker: number, x: number, y: number, size: number, hollow: boolean): void {
   const corners = [0, 4, 3, 4, 3][marker % 5];
   const turn = [0, Math.PI / 4, -Math.PI / 2, 0, Math.PI / 2][marker % 5];
   ink.beginPath();
@@ -296,7 +289,7 @@ function drawMark(ink: CanvasRenderingContext2D, marker: number, x: number, y: n
   ink.closePath();
   if (hollow) {
     const colour = ink.fillStyle;
-    ink.fillStyle = paper;
+    ink.fillStyle = styleValue("--panel");
     ink.fill();
     ink.fillStyle = colour;
     ink.stroke();
