@@ -39,6 +39,8 @@ std::vector<std::string> result_files(const studies::StudyRun& run) {
   if (std::filesystem::exists(run.folder / "timing.csv")) files.emplace_back("timing.csv");
   if (!run.result.peer_distances.empty()) files.emplace_back("peer_distance.csv");
   files.insert(files.end(), {"experiment.hook", "scene.hook", "provenance.json"});
+  if (std::filesystem::exists(run.folder / scene_picture_file))
+    files.emplace_back(scene_picture_file);
   return files;
 }
 

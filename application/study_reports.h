@@ -15,6 +15,10 @@
 
 namespace hookpoint::application {
 
+/// Of a study's folder: the picture of its scene that the report links to, where it lies there. Not
+/// among its hashed files: another version of a browser draws other pixels.
+inline constexpr const char* scene_picture_file = "pictures/scene.png";
+
 /// Figures and report.html of a study that ran to its end. `command` runs it again. Throws
 /// output::FileError, as do all here.
 studies::ReportOutcome write_study_report(const studies::StudyRun& run, const std::string& command);

@@ -1,41 +1,43 @@
-// A browser without a display, which draws the pages of this program: pictures and films.
+// A Chromium without a display, which draws a page of the program's own server: films, pictures.
 #pragma once
 
+#include <sys/types.h>
+
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
 
-#include "cli/child_program.h"
-
 namespace hookpoint::cli {
 
-/// No browser is there, or it cannot be started; says what to install.
-struct BrowserError : std::runtime_error {
+/// No browser is installed, or it cannot be started; what to do is in the message.
+struct BrowserMissing : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The Chromium of this machine: $HOOKPOINT_BROWSER, or the first of its names that PATH has.
-std::optional<std::filesystem::path> find_browser();
+/// HOOKPOINT_BROWSER if that is set, else the first Chromium of PATH. Throws BrowserMissing.
+std::filesystem::path find_headless_browser();
 
+/// It shows one page while it lives. What it writes of its own is gone with it; should this program
+/// be killed, it ends too.
 class HeadlessBrowser {
  public:
-  /// Opens `url` in a window of so many pixels. It knows nothing of its user, and leaves nothing
-  /// behind. It ends with the calling thread. Throws BrowserError.
+  /// A window of `width` x `height` pixels, one to each pixel of CSS. `url` holds the server's
+  /// token, so it is never in what others can see of the command: the page that leads to it is a
+  /// file that only its owner may read. Throws BrowserMissing.
   HeadlessBrowser(const std::string& url, int width, int height);
   ~HeadlessBrowser();
   HeadlessBrowser(const HeadlessBrowser&) = delete;
   HeadlessBrowser& operator=(const HeadlessBrowser&) = delete;
 
-  /// Whether it is still at work: one that has crashed is not.
-  bool running() { return program_->running(); }
-  /// What it has to say.
-  const std::string& errors() { return program_->errors(); }
+  /// Once it has ended by itself, which it should not: the last lines that it wrote.
+  std::optional<std::string> ended();
 
  private:
-  std::filesystem::path profile_;  ///< a folder of its own
-  std::unique_ptr<ChildProgram> program_;
+  void wait_for_end();
+
+  std::filesystem::path folder_;  ///< its profile, and what it writes
+  pid_t process_ = 0;             ///< and its group; 0: has ended
 };
 
 }  // namespace hookpoint::cli

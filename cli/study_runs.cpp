@@ -9,6 +9,7 @@
 #include "application/study_reports.h"
 #include "cli/exit_status.h"
 #include "cli/run_bar.h"
+#include "cli/scene_picture.h"
 #include "output/file.h"
 #include "output/result_folder.h"
 #include "output/text/terminal.h"
@@ -78,6 +79,17 @@ void print_result(const StudyCommand& command, const std::string& table, const c
 
 void tell(const std::string& notice) { std::cerr << "hookpoint: note: " << notice << '\n'; }
 
+/// The scene of the first row, beside the report, which then links to it.
+void draw_scene(const StudyCommand& command, const studies::StudyPlan& plan,
+                const std::filesystem::path& folder) {
+  const studies::RowPlan& row = plan.rows.front();
+  const std::string problem =
+      draw_scene_picture({row.scene, row.settings, command.arguments.allow_plugins,
+                          folder / application::scene_picture_file},
+                         command.guard.stop());
+  if (!problem.empty()) tell("the report has no picture of the scene: " + problem);
+}
+
 /// A study that ran.
 struct StudyOutcome {
   int status = fine;
@@ -94,6 +106,7 @@ StudyOutcome run_into(const StudyCommand& command, const studies::StudyPlan& pla
   bar.end();
   for (const std::string& notice : run.notices) tell(notice);
   if (run.interrupted) return {interrupted(command, plan, run.folder), std::nullopt, {}};
+  if (command.view != nullptr) draw_scene(command, plan, run.folder);
   studies::ReportOutcome report = application::write_study_report(run, command.command);
   for (const std::string& message : report.messages) application::print_error(message);
   if (command.view != nullptr) command.view->finish(plan, run.result, run.folder / "report.html");

@@ -19,6 +19,21 @@ extern char** environ;
 namespace hookpoint::output {
 namespace {
 
+/// Relative folders of PATH are left out: the child runs in a folder of results, where anybody may
+/// have put a program.
+std::filesystem::path find_program(const std::string& name) {
+  const char* path = std::getenv("PATH");
+  std::istringstream folders(path == nullptr ? "/usr/local/bin:/usr/bin:/bin" : path);
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    const std::filesystem::path candidate = std::filesystem::path(folder) / name;
+    std::error_code ignored;
+    if (candidate.is_absolute() && std::filesystem::is_regular_file(candidate, ignored) &&
+        ::access(candidate.c_str(), X_OK) == 0)
+      return candidate;
+  }
+  return {};
+}
+
 /// The environment with C's locale in it.
 std::vector<std::string> child_environment() {
   std::vector<std::string> variables{"LC_ALL=C"};
@@ -86,33 +101,18 @@ int exit_status_of(pid_t child) {
 
 }  // namespace
 
-/// Relative folders of PATH are left out: the child runs in a folder of results, where anybody may
-/// have put a program.
-std::optional<std::filesystem::path> find_program(const std::string& name) {
-  const char* path = std::getenv("PATH");
-  std::istringstream folders(path == nullptr ? "/usr/local/bin:/usr/bin:/bin" : path);
-  for (std::string folder; std::getline(folders, folder, ':');) {
-    const std::filesystem::path candidate = std::filesystem::path(folder) / name;
-    std::error_code ignored;
-    if (candidate.is_absolute() && std::filesystem::is_regular_file(candidate, ignored) &&
-        ::access(candidate.c_str(), X_OK) == 0)
-      return candidate;
-  }
-  return std::nullopt;
-}
-
 std::optional<ChildResult> run_program(const std::string& name,
                                        const std::vector<std::string>& arguments,
                                        const std::filesystem::path& folder) {
-  const auto program = find_program(name);
-  if (!program) return std::nullopt;
+  const std::filesystem::path program = find_program(name);
+  if (program.empty()) return std::nullopt;
   std::vector<std::string> words{name}, variables = child_environment();
   words.insert(words.end(), arguments.begin(), arguments.end());
   int ends[2];
-  if (::pipe2(ends, O_CLOEXEC) != 0) fail_file("start", *program);
+  if (::pipe2(ends, O_CLOEXEC) != 0) fail_file("start", program);
   pid_t child = 0;
   const SpawnPlan plan(folder, ends[1]);
-  const int refused = ::posix_spawn(&child, program->c_str(), plan.actions(), plan.attributes(),
+  const int refused = ::posix_spawn(&child, program.c_str(), plan.actions(), plan.attributes(),
                                     pointers_to(words).data(), pointers_to(variables).data());
   ::close(ends[1]);
   ChildResult result;
@@ -122,7 +122,7 @@ std::optional<ChildResult> run_program(const std::string& name,
   }
   ::close(ends[0]);
   errno = refused;
-  if (refused != 0) fail_file("start", *program);
+  if (refused != 0) fail_file("start", program);
   return result;
 }
 

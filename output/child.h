@@ -13,9 +13,6 @@ struct ChildResult {
   std::string output;  ///< what it wrote to standard output and standard error
 };
 
-/// The program that PATH's absolute folders hold under `name`.
-std::optional<std::filesystem::path> find_program(const std::string& name);
-
 /// Runs the program that PATH's absolute folders hold under `name`, in `folder`, with C's locale
 /// and nothing to read, and waits for its end. Nothing when there is no such program.
 std::optional<ChildResult> run_program(const std::string& name,

@@ -5,6 +5,7 @@ import { Listeners, type Context, type Part, type Quality } from "./context.ts";
 import { element } from "./dom.ts";
 import { offerApi } from "./hookpoint_api.ts";
 import { Notices } from "./notices.ts";
+import { answerPictureRequest } from "./picture_request.ts";
 import { protocolVersion, type Description, type PlotTrace, type Snapshot, type Told } from "./protocol.ts";
 import { makeFilmPage, makeRunPage } from "./run_page.ts";
 import { Branches } from "./series.ts";
@@ -100,6 +101,7 @@ function describe(description: Description): void {
   host.replaceChildren(page.element);
   document.scrollingElement?.scrollTo(0, scrolled);
   values.askAnew();
+  answerPictureRequest(context).catch((problem: Error) => notices.add("error", problem.message));
 }
 
 function draw(): void {
