@@ -5,9 +5,11 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace hookpoint::simulation {
@@ -25,15 +27,13 @@ struct ChangesError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The changes of a file, steps in order. `deltat` [s]: of the run; times that are not those of
-/// its steps are of another run. Throws ChangesError.
-std::vector<Change> read_changes(const std::filesystem::path& path, double deltat);
+/// The changes of a file, steps in order. Throws ChangesError.
+std::vector<Change> read_changes(const std::filesystem::path& path);
+/// The line of such a file on which its change `index` stands, from 1 on.
+std::size_t line_of_change(std::size_t index);
 
-/// A port and the number that it gets, in the port's unit.
-struct PortValue {
-  std::string trail;
-  double value = 0.;
-};
+/// The number that is all of `text`: what sets a port. Nothing of an expression, a unit, a word.
+std::optional<double> plain_number(const std::string& text);
 
 /// changes.csv in a run's folder, written at each change: whatever becomes of the program, the run
 /// can be repeated up to there.
@@ -48,11 +48,14 @@ class ChangeLog {
   void add(std::span<const Change> changes);
   /// Forgets all but the first `count`, in the file too. Throws output::FileError.
   void truncate(std::size_t count);
+  /// The file anew as it is to be, after somebody else cleared its folder.
+  void rewrite();
   const std::vector<Change>& changes() const { return changes_; }
 
  private:
   std::filesystem::path file_;
   std::vector<Change> changes_;
+  bool written_ = false;  ///< the file is there
 };
 
 }  // namespace hookpoint::simulation

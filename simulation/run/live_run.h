@@ -83,7 +83,7 @@ class LiveRun {
   const std::vector<std::string>& overrides() const;
 
   /// Why the run cannot go back and cannot be edited: its engine cannot be saved. "" if it can.
-  std::string no_history() const;
+  const std::string& no_history() const;
   /// The present moment. Throws ExperimentError where there is no history.
   void save(Moment& moment) const;
   /// Shows the moment of `step`: goes to `from`, a moment of this take at or before it, and repeats
@@ -96,27 +96,61 @@ class LiveRun {
   /// one are then no longer of this run.
   std::uint64_t take() const { return take_; }
 
-  /// A port that is to be written and is not finite, "" if there is none.
-  const std::string& first_not_finite() const;
+  /// A port that is to be written and is not finite, "" if there is none; a step says so too.
+  const std::string& first_not_finite() const { return files_->first_not_finite(); }
+  /// The last step by the experiment's duration.
+  std::int64_t last_step() const;
+  /// Changes of the script whose step has not come.
+  std::size_t left_of_script() const { return script_.size() - scripted_; }
   /// Completes the files. Where a future was given up they are written anew first, by repeating the
   /// take from time 0. Throws output::FileError.
   void close();
   /// The same while the world is within a step that does not end; nothing is repeated.
   void close_within_step();
   const std::filesystem::path& folder() const { return request_.folder; }
-  /// The files in it.
+  /// What it leaves, and where.
+  const RunFiles& files() const { return *files_; }
+  /// The same with changes.csv, where there is one.
   std::vector<std::string> names() const;
 
  private:
-  struct Stage;  ///< an experiment, its world and what is known of its ports
+  struct Track;  ///< a world and what was changed in it
+  using Loaded = std::shared_ptr<const LoadedExperiment>;
+
+  Loaded loaded(const std::vector<std::string>& overrides, std::string& problem);
+  std::vector<std::string> overrides_at(std::size_t changes) const;
+  std::unique_ptr<Track> make_track(const std::vector<std::string>& overrides);
+  std::unique_ptr<Track> edited(Track& track, const std::string& trail, const std::string& value,
+                                std::string& problem);
+  void use(std::unique_ptr<Track> track);
+  std::unique_ptr<RunFiles> open_files(Track& track) const;
+  void begin_take();
+  bool writes() const { return files_ != nullptr && rewriting_ == nullptr; }
+  std::int64_t present() const { return world().state().step; }
+  void prepare_change();
+  void give_up_future();
+  void log(std::span<const Change> changes);
+  void make_scripted_changes();
+  void release_buttons();
+  void repeat_change(std::unique_ptr<Track>& track, RunFiles* files);
+  void repeat(std::unique_ptr<Track>& track, std::int64_t step, std::size_t changes,
+              RunFiles* files);
+  void restore(const Moment& moment);
 
   Load load_;
   LiveRunRequest request_;
   std::vector<Change> script_;
+  std::size_t scripted_ = 0;  ///< changes of the script that were made
+  std::vector<std::pair<std::vector<std::string>, Loaded>> loaded_;  ///< by their overrides
   ChangeLog log_;
-  std::unique_ptr<Stage> stage_;
+  std::vector<std::size_t> edits_;  ///< those of the changes that are of a field, in order
+  std::unique_ptr<Track> track_;    ///< what is shown and stepped
+  std::unique_ptr<Track>
+      rewriting_;  ///< that the files follow, at time 0, once they are out of date
   std::unique_ptr<RunFiles> files_;
-  std::int64_t newest_ = 0;
+  StepStatus start_;         ///< of what is to be written at time 0
+  std::int64_t newest_ = 0;  ///< step of the take
+  Moment last_;              ///< the newest moment, while a past one is shown
   std::uint64_t generation_ = 0, take_ = 0;
 };
 

@@ -74,6 +74,16 @@ Records::Records(const Experiment& experiment, const std::vector<Port>& ports,
   }
 }
 
+void Records::rebind(const Experiment& experiment, const std::vector<Port>& ports) {
+  std::vector<std::vector<const double*>> sources;
+  for (const Record& record : records_) {
+    sources.emplace_back();
+    for (const std::string& trail : record.trails)
+      sources.back().push_back(find_port(experiment, ports, trail).value);
+  }
+  for (std::size_t i = 0; i < records_.size(); ++i) records_[i].sources = std::move(sources[i]);
+}
+
 void Records::row(std::int64_t step, double time) {
   std::optional<output::FileError> refused;
   for (Record& record : records_) {
