@@ -39,8 +39,6 @@ std::vector<std::string> result_files(const studies::StudyRun& run) {
   if (std::filesystem::exists(run.folder / "timing.csv")) files.emplace_back("timing.csv");
   if (!run.result.peer_distances.empty()) files.emplace_back("peer_distance.csv");
   files.insert(files.end(), {"experiment.hook", "scene.hook", "provenance.json"});
-  if (std::filesystem::exists(run.folder / scene_picture_file))
-    files.emplace_back(scene_picture_file);
   return files;
 }
 
@@ -56,11 +54,12 @@ std::vector<output::InputFile> inputs_of(const MatrixPlan& plan) {
 
 }  // namespace
 
-studies::ReportOutcome write_study_report(const studies::StudyRun& run,
-                                          const std::string& command) {
+studies::ReportOutcome write_study_report(const studies::StudyRun& run, const std::string& command,
+                                          const std::vector<std::string>& pictures) {
+  std::vector<std::string> files = result_files(run);
+  files.insert(files.end(), pictures.begin(), pictures.end());
   const studies::ReportContext context{command, peer_settings(run.result),
-                                       studies::provenance_lines(run.provenance),
-                                       result_files(run)};
+                                       studies::provenance_lines(run.provenance), files};
   studies::ReportOutcome outcome = studies::write_report(run.result, context, run.folder);
   run.files->finish();
   return outcome;

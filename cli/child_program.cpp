@@ -62,7 +62,8 @@ ChildProgram::ChildProgram(const std::filesystem::path& program,
   const pid_t parent = getpid();
   process_ = fork();
   if (process_ < 0)
-    throw std::system_error(errno, std::generic_category(), program.string() + " cannot be started");
+    throw std::system_error(errno, std::generic_category(),
+                            program.string() + " cannot be started");
   if (process_ == 0) {
     // Other threads are not here: nothing that takes a lock or allocates.
     setpgid(0, 0);

@@ -88,8 +88,6 @@ std::string draw_into(const fs::path& folder, const PictureRequest& request,
 }  // namespace
 
 std::string draw_scene_picture(const PictureRequest& request, const std::atomic<bool>& stop) {
-  std::error_code ignored;
-  fs::remove(request.file, ignored);
   const PassingFolder folder;
   try {
     return folder.path().empty() ? "there is no room for what passes"

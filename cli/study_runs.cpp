@@ -79,15 +79,21 @@ void print_result(const StudyCommand& command, const std::string& table, const c
 
 void tell(const std::string& notice) { std::cerr << "hookpoint: note: " << notice << '\n'; }
 
-/// The scene of the first row, beside the report, which then links to it.
-void draw_scene(const StudyCommand& command, const studies::StudyPlan& plan,
-                const std::filesystem::path& folder) {
+/// Pictures for the report of a study that is watched: of the scene, as the first row has it. Not
+/// among the folder's hashed files, since another version of a browser draws other pixels.
+std::vector<std::string> draw_pictures(const StudyCommand& command, const studies::StudyPlan& plan,
+                                       const std::filesystem::path& folder) {
+  const std::string file = "pictures/scene.png";
+  std::error_code ignored;
+  std::filesystem::remove(folder / file, ignored);  // an earlier study's
+  if (command.view == nullptr) return {};
   const studies::RowPlan& row = plan.rows.front();
   const std::string problem =
-      draw_scene_picture({row.scene, row.settings, command.arguments.allow_plugins,
-                          folder / application::scene_picture_file},
+      draw_scene_picture({row.scene, row.settings, command.arguments.allow_plugins, folder / file},
                          command.guard.stop());
-  if (!problem.empty()) tell("the report has no picture of the scene: " + problem);
+  if (problem.empty()) return {file};
+  tell("the report has no picture of the scene: " + problem);
+  return {};
 }
 
 /// A study that ran.
@@ -106,8 +112,8 @@ StudyOutcome run_into(const StudyCommand& command, const studies::StudyPlan& pla
   bar.end();
   for (const std::string& notice : run.notices) tell(notice);
   if (run.interrupted) return {interrupted(command, plan, run.folder), std::nullopt, {}};
-  if (command.view != nullptr) draw_scene(command, plan, run.folder);
-  studies::ReportOutcome report = application::write_study_report(run, command.command);
+  studies::ReportOutcome report = application::write_study_report(
+      run, command.command, draw_pictures(command, plan, run.folder));
   for (const std::string& message : report.messages) application::print_error(message);
   if (command.view != nullptr) command.view->finish(plan, run.result, run.folder / "report.html");
   const int status = !studies::all_truths_hold(run.result) ? truth_failed

@@ -65,8 +65,8 @@ studies::RunOptions StudyView::watch(const studies::StudyPlan& plan, studies::Ru
   options.row_done = [this, study](std::size_t row, const studies::RunResult& result) {
     show_row(study, row, result);
   };
-  options.progress = [this, study, told = std::move(options.progress)](
-                         const studies::Progress& progress) {
+  options.progress = [this, study,
+                      told = std::move(options.progress)](const studies::Progress& progress) {
     if (told) told(progress);
     show_progress(study, progress);
   };
@@ -142,8 +142,8 @@ void StudyView::tell_changes() {
   if (now < next_figures_ || server_.clients() == 0) return;
   for (std::size_t study = 0; study < shown_.size(); ++study)
     if (shown_[study].figures_are_old) show_figures(study);
-  next_figures_ = Clock::now() + std::max<Clock::duration>(between_figures,
-                                                           figures_pause * (Clock::now() - now));
+  next_figures_ = Clock::now() +
+                  std::max<Clock::duration>(between_figures, figures_pause * (Clock::now() - now));
 }
 
 void StudyView::answer(const view::Server::Event& event, const InterruptGuard& guard) {
@@ -195,9 +195,9 @@ void StudyView::tell_windows() {
     const bool over = window.url.empty() && !window.program->running();
     if (window.url.empty() && !over) continue;
     for (const auto& [client, id] : std::exchange(window.asked, {}))
-      server_.send(client, over ? view::refused_answer(
-                                      id, without_line_ends(window.program->errors()))
-                                : view::opened_answer(id, window.url));
+      server_.send(client,
+                   over ? view::refused_answer(id, without_line_ends(window.program->errors()))
+                        : view::opened_answer(id, window.url));
   }
 }
 

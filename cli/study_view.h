@@ -57,7 +57,7 @@ class StudyView {
   struct Window {
     view::OpenRow of;
     std::unique_ptr<ChildProgram> program;
-    std::string url;  ///< "" until it is ready
+    std::string url;                                                     ///< "" until it is ready
     std::vector<std::pair<view::Server::ClientId, std::int64_t>> asked;  ///< who waits for it
   };
 

@@ -96,9 +96,8 @@ void write_drawing(JsonWriter& json, const output::PanelPlot& plot) {
   const output::Plot axes = plot.panels.empty() ? output::Plot{} : plot.panels.front();
   write_axis(json, "x", axes.x);
   write_axis(json, "y", axes.y);
-  write_list(json, "panels", plot.panels, [&](const output::Plot& panel) {
-    write_panel(json, panel, plot.panels.size() > 1);
-  });
+  write_list(json, "panels", plot.panels,
+             [&](const output::Plot& panel) { write_panel(json, panel, plot.panels.size() > 1); });
 }
 
 void write_panel(JsonWriter& json, const output::HeatMapPanel& panel) {
@@ -280,7 +279,12 @@ BoardRequest parse_board_request(std::string_view text, const StudyBoard& board)
 
 std::string opened_answer(std::int64_t id, const std::string& url) {
   JsonWriter json;
-  return json.begin_object().member("id", id).member("ok", true).member("url", url).end_object().text();
+  return json.begin_object()
+      .member("id", id)
+      .member("ok", true)
+      .member("url", url)
+      .end_object()
+      .text();
 }
 
 std::string done_answer(std::int64_t id) {

@@ -20,8 +20,8 @@ class JsonWriter;
 namespace hookpoint::view {
 
 struct BoardColumn {
-  std::string name;  ///< "creep_speed"
-  std::string unit;  ///< "m/s"; "" for none
+  std::string name;                  ///< "creep_speed"
+  std::string unit;                  ///< "m/s"; "" for none
   bool varied = false;               ///< by the study; else measured
   std::vector<std::string> names{};  ///< of the values 0, 1, ..., where these stand for something
 };
@@ -40,9 +40,9 @@ struct BoardCell {
 
 struct BoardRow {
   std::size_t subject = 0;
-  std::vector<double> varied;  ///< one a column that is varied, in its unit
-  std::string outcome;         ///< "finished", "stopped", "skipped"...; "" while it is to come
-  std::string status;          ///< "ok", or what stopped the run
+  std::vector<double> varied;    ///< one a column that is varied, in its unit
+  std::string outcome;           ///< "finished", "stopped", "skipped"...; "" while it is to come
+  std::string status;            ///< "ok", or what stopped the run
   std::vector<BoardCell> cells;  ///< one a column that is measured
   bool operator==(const BoardRow&) const = default;
 };

@@ -27,7 +27,8 @@ std::vector<language::Override> settings_of_scene(const SceneSettings& settings,
 
 std::vector<std::string> setting_words(const language::EvaluateOptions& options) {
   std::vector<std::string> words;
-  for (const auto& [parameter, value] : options.parameters) words.push_back(parameter + "=" + value);
+  for (const auto& [parameter, value] : options.parameters)
+    words.push_back(parameter + "=" + value);
   for (const language::Override& setting : options.overrides)
     words.push_back(setting.trail + "=" + setting.value);
   return words;

@@ -62,7 +62,9 @@ std::optional<bool> judge(const StudyPlan& plan, const StudyResult& result, std:
   return *alone && reference && near(*measured, *reference, truth);
 }
 
-void add_verdict(MetricValue& value, bool verdict) { value.ok = value.ok.value_or(true) && verdict; }
+void add_verdict(MetricValue& value, bool verdict) {
+  value.ok = value.ok.value_or(true) && verdict;
+}
 
 /// A row that has not run.
 RunResult empty_row(const StudyPlan& plan, const RowPlan& row) {
@@ -125,8 +127,7 @@ RunResult assemble_row(const StudyPlan& plan, const EngineTable& engines, std::s
   RunResult run = run_result(plan, engines, plan.rows[row], outcome);
   for (const TruthPlan& truth : plan.truths) {
     MetricValue& value = run.metrics[truth.metric];
-    const bool alone =
-        truth.same_over < 0 && plan.metrics[truth.metric]->scope == MetricScope::run;
+    const bool alone = truth.same_over < 0 && plan.metrics[truth.metric]->scope == MetricScope::run;
     if (!alone) continue;
     if (const auto verdict = judge(plan, run, row, truth)) add_verdict(value, *verdict);
   }

@@ -1,5 +1,5 @@
-// A browser's end of the window's line (docs/view_protocol.md), by a plain socket: RFC 6455 as far as
-// a client of text messages needs it.
+// A browser's end of the window's line (docs/view_protocol.md), by a plain socket: RFC 6455 as far
+// as a client of text messages needs it.
 #pragma once
 
 #include <arpa/inet.h>

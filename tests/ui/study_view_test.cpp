@@ -1,5 +1,5 @@
-// study --view: the page is told every row as it finishes, the results are the same bytes as without,
-// and the program stays until it is told to go.
+// study --view: the page is told every row as it finishes, the results are the same bytes as
+// without, and the program stays until it is told to go.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -146,11 +146,10 @@ TEST_F(StudyView, WhatIsNoRequestIsAnsweredByItsReason) {
   WindowClient client(wait_for_url(process));
   ASSERT_TRUE(client.connected()) << process.err();
   listen(client);
-  for (const auto& [request, reason] :
-       std::map<std::string, std::string>{{"{", "not JSON"},
-                                          {R"({"id": 1, "do": "pause"})", "`open`"},
-                                          {R"({"id": 2, "do": "open", "study": 0, "row": 8})",
-                                           "`row`"}}) {
+  for (const auto& [request, reason] : std::map<std::string, std::string>{
+           {"{", "not JSON"},
+           {R"({"id": 1, "do": "pause"})", "`open`"},
+           {R"({"id": 2, "do": "open", "study": 0, "row": 8})", "`row`"}}) {
     client.say(request);
     const auto answer = client.hear();
     ASSERT_TRUE(answer) << request;

@@ -164,8 +164,8 @@ TEST_F(StudyRunner, EachRowIsToldAsItFinishesAndIsThenInTheTable) {
 }
 
 TEST_F(StudyRunner, AVerdictThatComparesRowsIsNotToldOfOneAlone) {
-  const auto plan = this->plan(replaced(study, "above = 2 mm/s; below = 2.4 mm/s;",
-                                        "same_over = slope; tolerance = 0.01;"));
+  const auto plan = this->plan(
+      replaced(study, "above = 2 mm/s; below = 2.4 mm/s;", "same_over = slope; tolerance = 0.01;"));
   ASSERT_TRUE(plan) << first_error();
   RunOptions options{1, false, folder_ / "out", {}, {}};
   options.row_done = [](std::size_t, const RunResult& result) {

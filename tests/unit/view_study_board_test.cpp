@@ -1,5 +1,5 @@
-// What a page of studies is told and may ask: the messages of docs/view_protocol.md, read back leaf by
-// leaf.
+// What a page of studies is told and may ask: the messages of docs/view_protocol.md, read back leaf
+// by leaf.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -26,7 +26,8 @@ output::PanelPlot two_points() {
                     {.label = "slope", .unit = "deg"},
                     {.label = "creep", .unit = "m/s", .logarithmic = true, .floor = 1e-9},
                     {series}};
-  return {.name = "by_slope", .title = "Creep", .subtitle = "mu = 0.8", .across = 1, .panels = {plot}};
+  return {
+      .name = "by_slope", .title = "Creep", .subtitle = "mu = 0.8", .across = 1, .panels = {plot}};
 }
 
 BoardStudy small_study() {
@@ -99,9 +100,9 @@ TEST(StudyBoard, AFigureIsToldWhereItIsAnother) {
   const Leaves told = leaves_of(filled.set_figure(0, 0, {"What is drawn.", plot}));
   EXPECT_EQ(told.at("tell"), "figure");
   EXPECT_EQ(told.at("panels[0].series[0].measured.y[2]"), "7");
-  EXPECT_EQ(leaves_of(filled.description())
-                .at("studies[0].figures[0].panels[0].series[0].measured.y[2]"),
-            "7");
+  EXPECT_EQ(
+      leaves_of(filled.description()).at("studies[0].figures[0].panels[0].series[0].measured.y[2]"),
+      "7");
 }
 
 TEST(StudyBoard, AMapHasItsCellsRowAfterRow) {
