@@ -3,8 +3,8 @@
 #include <stdlib.h>
 
 #include <chrono>
+#include <exception>
 #include <optional>
-#include <system_error>
 #include <thread>
 
 #include "cli/child_program.h"
@@ -92,9 +92,7 @@ std::string draw_scene_picture(const PictureRequest& request, const std::atomic<
   try {
     return folder.path().empty() ? "there is no room for what passes"
                                  : draw_into(folder.path(), request, stop);
-  } catch (const BrowserMissing& error) {
-    return error.what();
-  } catch (const std::system_error& error) {
+  } catch (const std::exception& error) {
     return error.what();
   }
 }

@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
-#include <iostream>
 #include <thread>
 
-#include "cli/open_browser.h"
 #include "cli/study_boards.h"
 #include "studies/run/verdict.h"
 #include "view/page_bundle.h"
