@@ -1,6 +1,8 @@
 // The protocol of the window, version 1, as docs/view_protocol.md has it: what the program tells,
 // what the page asks. Everything is SI, world axes, z up, unless a unit is given.
 
+import type { OpenRequest, StudiesDescription, StudyTold } from "./study/protocol.ts";
+
 export const protocolVersion = 1;
 
 export type Vector3 = [number, number, number];
@@ -14,7 +16,7 @@ export interface Description {
   protocol: number;
   version: string;
   title: string;
-  kind: "run" | "movie" | "film" | "study";
+  kind: "run" | "movie" | "film";
   world: string;
   deltat: number;
   duration: number | null;
@@ -167,7 +169,7 @@ export interface Ended {
   tell: "ended";
   reason: string;
 }
-export type Told = Description | Layout | Notice | Changed | Ended;
+export type Told = Description | StudiesDescription | StudyTold | Layout | Notice | Changed | Ended;
 
 // ---- binary messages ----
 
@@ -251,6 +253,7 @@ export interface Requests {
   changes: { with: object; answer: { changes: Change[] } };
   patch: { with: object; answer: { name: string; text: string } };
   picture: { with: { name: string; png: string }; answer: { path: string } };
+  open: OpenRequest;
   quit: { with: object; answer: object };
 }
 export type RequestName = keyof Requests;
