@@ -1,0 +1,104 @@
+// Marks of a given size in pixels, in one draw call, filled anew for every frame.
+import { BufferAttribute, BufferGeometry, DynamicDrawUsage, Points, ShaderMaterial, type Color } from "three";
+
+export type Mark = "disc" | "quartered" | "diamond" | "ring";
+const marks: Mark[] = ["disc", "quartered", "diamond", "ring"];
+
+const vertexShader = /* glsl */ `
+attribute vec3 colour;
+attribute float size;
+uniform float scale;
+varying vec3 shade;
+varying float pixels;
+void main() {
+  vec4 clip = projectionMatrix * modelViewMatrix * vec4(position, 1.);
+  clip.z -= 4e-4 * clip.w;
+  gl_Position = clip;
+  gl_PointSize = size * scale;
+  pixels = size * scale;
+  shade = colour;
+}`;
+const fragmentShader = /* glsl */ `
+uniform int mark;
+uniform vec3 rim;
+varying vec3 shade;
+varying float pixels;
+void main() {
+  vec2 at = (gl_PointCoord - .5) * 2.;
+  float reach = mark == 2 ? abs(at.x) + abs(at.y) : length(at);
+  if (reach > 1.) discard;
+  bool border = pixels > 5. && reach > 1. - 2.6 / pixels;
+  vec3 colour = border ? rim : shade;
+  if (mark == 1 && !border) colour = at.x * at.y > 0. ? rim : shade;
+  if (mark == 3) {
+    if (reach < 1. - 3.2 / pixels) discard;
+    colour = shade;
+  }
+  gl_FragColor = vec4(colour, 1.);
+  #include <colorspace_fragment>
+}`;
+
+export class Dots {
+  readonly points: Points<BufferGeometry, ShaderMaterial>;
+  private count = 0;
+  private capacity = 0;
+  private attributes: BufferAttribute[] = [];
+
+  constructor(mark: Mark, rim: Color, options: { onTop?: boolean; order?: number } = {}) {
+    const material = new ShaderMaterial({
+      vertexShader,
+      fragmentShader,
+      uniforms: { mark: { value: marks.indexOf(mark) }, rim: { value: rim }, scale: { value: 1 } },
+      transparent: options.onTop === true,
+      depthTest: options.onTop !== true,
+      depthWrite: false,
+    });
+    this.points = new Points(new BufferGeometry(), material);
+    this.points.frustumCulled = false;
+    this.points.matrixAutoUpdate = false;
+    this.points.renderOrder = options.order ?? 2;
+    this.grow(64);
+  }
+  private grow(capacity: number): void {
+    const sizes: [string, number][] = [["position", 3], ["colour", 3], ["size", 1]];
+    const geometry = new BufferGeometry();
+    const earlier = this.attributes;
+    this.attributes = sizes.map(([name, size], k) => {
+      const attribute = new BufferAttribute(new Float32Array(capacity * size), size);
+      attribute.setUsage(DynamicDrawUsage);
+      if (earlier[k]) attribute.array.set(earlier[k].array);
+      geometry.setAttribute(name, attribute);
+      return attribute;
+    });
+    this.points.geometry.dispose();
+    this.points.geometry = geometry;
+    this.capacity = capacity;
+  }
+  begin(): void {
+    this.count = 0;
+  }
+  add(x: number, y: number, z: number, colour: Color, size: number): void {
+    if (this.count === this.capacity) this.grow(2 * this.capacity);
+    const at = this.count++;
+    const [positions, colours, sizes] = this.attributes;
+    positions.setXYZ(at, x, y, z);
+    colours.setXYZ(at, colour.r, colour.g, colour.b);
+    sizes.setX(at, size);
+  }
+  end(): void {
+    this.points.geometry.setDrawRange(0, this.count);
+    this.points.visible = this.count > 0;
+    for (const attribute of this.attributes) {
+      attribute.clearUpdateRanges();
+      attribute.addUpdateRange(0, this.count * attribute.itemSize);
+      attribute.needsUpdate = this.count > 0;
+    }
+  }
+  scale(scale: number): void {
+    this.points.material.uniforms.scale.value = scale;
+  }
+  dispose(): void {
+    this.points.geometry.dispose();
+    this.points.material.dispose();
+  }
+}
