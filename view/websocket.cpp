@@ -68,6 +68,16 @@ std::size_t header_size(unsigned char second) {
   return 2U + (length == 126 ? 2U : length == 127 ? 8U : 0U) + 4U;
 }
 
+bool is_utf8(std::string_view text) {
+  while (!text.empty()) {
+    const bool ascii = static_cast<unsigned char>(text[0]) < 0x80;
+    const std::size_t length = ascii ? 1 : unicode::first_character(text).length;
+    if (length == 0) return false;
+    text.remove_prefix(length);
+  }
+  return true;
+}
+
 /// Section 7.4: what may stand in a close frame.
 bool is_close_payload(std::string_view payload) {
   if (payload.empty()) return true;
@@ -76,8 +86,7 @@ bool is_close_payload(std::string_view payload) {
       static_cast<unsigned char>(payload[0]) << 8U | static_cast<unsigned char>(payload[1]);
   const bool known = (code >= 1000 && code <= 1003) || (code >= 1007 && code <= 1014) ||
                      (code >= 3000 && code <= 4999);
-  const std::string reason(payload.substr(2));
-  return known && unicode::repaired(reason) == reason;
+  return known && is_utf8(payload.substr(2));
 }
 
 }  // namespace
@@ -131,8 +140,11 @@ std::optional<MessageReader::Message> MessageReader::next(std::string_view& byte
     const bool control = opcode_ >= Opcode::close;
     if (control || !skipping_) {
       std::string& payload = control ? control_ : payload_;
+      const std::size_t begin = payload.size();
+      const char* mask = header_.data() + header_.size() - 4;
+      payload += bytes.substr(0, taken);
       for (std::size_t i = 0; i < taken; ++i)
-        payload += static_cast<char>(bytes[i] ^ header_[header_.size() - 4 + (masked_ + i) % 4]);
+        payload[begin + i] = static_cast<char>(payload[begin + i] ^ mask[(masked_ + i) % 4]);
     }
     bytes.remove_prefix(taken);
     masked_ += taken;
@@ -210,8 +222,7 @@ std::optional<MessageReader::Message> MessageReader::end_frame() {
   message_.reset();
   if (skipping_) return std::nullopt;
   if (kind == Opcode::binary) return Message{Kind::binary, std::move(payload_)};
-  const bool good = unicode::repaired(payload_) == payload_;
-  return Message{good ? Kind::text : Kind::not_utf8, std::move(payload_)};
+  return Message{is_utf8(payload_) ? Kind::text : Kind::not_utf8, std::move(payload_)};
 }
 
 std::optional<MessageReader::Message> MessageReader::violation() {

@@ -74,7 +74,7 @@ export function bodyColour(subject: string, body: number, palette: Palette): Col
 
 const tileColours = {
   light: ["#e6e3dc", "#d3dccb", "#ccd8e2", "#e3d0c4", "#d9d0e0", "#e6ddb8", "#c9dbd9", "#d6d6d6"],
-  dark: ["#35342f", "#30392d", "#2b353e", "#40332c", "#38323f", "#3f3a26", "#293a39", "#36383b"],
+  dark: ["#3a3933", "#34462f", "#2b3d50", "#54382a", "#433753", "#524a22", "#24494a", "#3d4045"],
 };
 export function tileColour(material: number, palette: Palette): Color {
   const colours = palette.dark ? tileColours.dark : tileColours.light;

@@ -1,7 +1,8 @@
 // What happens at the contacts: forces as arrows, hooks and their stretch, depths as colours.
-import { CylinderGeometry, DynamicDrawUsage, Group, InstancedMesh, type Color, Matrix4, MeshLambertMaterial, Quaternion, Vector3 } from "three";
+import { CylinderGeometry, DynamicDrawUsage, Group, InstancedMesh, type Color, Matrix4, Quaternion, type ShaderMaterial, Vector3 } from "three";
 import { depthColour, mix, type Palette } from "./colours.ts";
 import { Dots } from "./dots.ts";
+import { type Light, matteMaterial } from "./matte.ts";
 import { numbersOfContact, type Stage } from "./stage.ts";
 import { Strokes } from "./strokes.ts";
 
@@ -15,11 +16,13 @@ export class ForceArrows {
   readonly group = new Group();
   private shafts: InstancedMesh;
   private heads: InstancedMesh;
-  private readonly material = new MeshLambertMaterial({ transparent: true }); // after the ghosts
+  private readonly material: ShaderMaterial;
   private capacity = 64;
   private colours: Color[] = [];
 
-  constructor() {
+  constructor(light: Light) {
+    this.material = matteMaterial(light, false);
+    this.material.transparent = true; // after the ghosts
     [this.shafts, this.heads] = this.make();
   }
   private make(): [InstancedMesh, InstancedMesh] {

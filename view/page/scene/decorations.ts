@@ -9,7 +9,8 @@ import { Strokes } from "./strokes.ts";
 import type { Switch } from "./switches.ts";
 
 const [a, b, c] = [new Vector3(), new Vector3(), new Vector3()];
-const corners = [-0.5, 0.5];
+const corners = [-0.5, 0.5]; // of a box with edges 1
+const bars = [-0.75, 0.75]; // of a prismatic joint's axis, in its length
 
 export class Decorations {
   readonly group = new Group();
@@ -21,7 +22,8 @@ export class Decorations {
   private readonly axes = axisColours.map((each) => new Colour(each));
   private readonly joint = new Colour();
   private readonly inertia = new Colour();
-  private readonly bright = new Colour();
+  private readonly dark = new Colour("#111111"); // the mark of a centre of mass is black and white on every page
+  private readonly bright = new Colour("#ffffff");
   private readonly point = new Colour();
   private readonly sensor = new Colour("#b07d00");
 
@@ -30,7 +32,7 @@ export class Decorations {
     rim: Color,
   ) {
     this.boxes = stage.description.scene.bodies.map((body) => inertiaBox(body.mass, body.inertia));
-    this.quartered = new Dots("quartered", rim, { onTop: true, order: 35 });
+    this.quartered = new Dots("quartered", this.dark, { onTop: true, order: 35 });
     this.diamonds = new Dots("diamond", rim, { onTop: true, order: 35 });
     this.discs = new Dots("disc", rim, { onTop: true, order: 34 });
     this.group.add(this.strokes.mesh, this.quartered.points, this.diamonds.points, this.discs.points);
@@ -44,7 +46,6 @@ export class Decorations {
   paint(palette: Palette): void {
     this.joint.copy(mix(palette.ink, "#d55e00", 0.8));
     this.inertia.copy(mix(palette.ink, "#8a3ffc", 0.6));
-    this.bright.copy(mix(palette.page, palette.ink, palette.dark ? 0.95 : 0.02));
     this.point.copy(mix(palette.ink, palette.page, 0.25));
   }
 
@@ -93,15 +94,16 @@ export class Decorations {
     const radius = 0.22 * length;
     if (joint === "revolute") {
       const steps = 16;
-      for (let step = 0; step < steps; ++step) {
-        const [from, to] = [step, step + 1].map((each) => (2 * Math.PI * each) / steps);
-        this.world(body, a.set(radius * Math.cos(from), radius * Math.sin(from), 0));
-        this.world(body, b.set(radius * Math.cos(to), radius * Math.sin(to), 0));
+      this.world(body, a.set(radius, 0, 0));
+      for (let step = 1; step <= steps; ++step) {
+        const angle = (2 * Math.PI * step) / steps;
+        this.world(body, b.set(radius * Math.cos(angle), radius * Math.sin(angle), 0));
         this.strokes.add(a, b, this.joint, 2);
+        a.copy(b);
       }
       return;
     }
-    for (const side of [-0.75, 0.75])
+    for (const side of bars)
       this.strokes.add(
         this.world(body, a.set(-radius, 0, side * length)), this.world(body, b.set(radius, 0, side * length)), this.joint, 2);
   }

@@ -151,13 +151,4 @@ export class Overlay {
       to.textAlign = "left";
     }
   }
-  message(to: CanvasRenderingContext2D, width: number, height: number, scale: number, text: string): void {
-    to.save();
-    to.scale(scale, scale);
-    to.font = `13px ${this.palette.typeFace}`;
-    to.textAlign = "center";
-    to.textBaseline = "middle";
-    this.text(to, text, width / 2, height / 2, css(this.palette.ink));
-    to.restore();
-  }
 }

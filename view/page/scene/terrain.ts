@@ -1,9 +1,10 @@
 // The ground: its tiles coloured by material, and their edges; which tile is under a point.
 import {
-  BufferAttribute, BufferGeometry, FrontSide, Group, LineBasicMaterial, LineSegments, Mesh, MeshLambertMaterial, Vector3,
+  BufferAttribute, BufferGeometry, Group, LineBasicMaterial, LineSegments, Mesh, type ShaderMaterial, ShadowMaterial, Vector3,
 } from "three";
 import type { Terrain } from "../protocol.ts";
 import { mix, type Palette, tileColour } from "./colours.ts";
+import { type Light, matteMaterial } from "./matte.ts";
 
 /// Above this the edges of tiles would be a grey veil.
 const mostEdges = 40_000;
@@ -12,11 +13,15 @@ export class Ground {
   readonly group = new Group();
   readonly materials: number[]; // that tiles have, ascending
   readonly reach: number; // of the farthest vertex from the world's origin [m]
-  private readonly tiles: Mesh<BufferGeometry, MeshLambertMaterial>;
+  private readonly tiles: Mesh<BufferGeometry, ShaderMaterial>;
+  private readonly shadows: Mesh<BufferGeometry, ShadowMaterial>;
   private readonly edges: LineSegments<BufferGeometry, LineBasicMaterial>;
   private readonly materialOfVertex: number[] = [];
 
-  constructor(private readonly terrain: Terrain) {
+  constructor(
+    private readonly terrain: Terrain,
+    light: Light,
+  ) {
     const positions: number[] = [];
     const normals: number[] = [];
     const lines = new Map<string, [number, number]>();
@@ -46,11 +51,9 @@ export class Ground {
     geometry.setAttribute("position", new BufferAttribute(new Float32Array(positions), 3));
     geometry.setAttribute("normal", new BufferAttribute(new Float32Array(normals), 3));
     geometry.setAttribute("color", new BufferAttribute(new Float32Array(positions.length), 3));
-    const surface = new MeshLambertMaterial({
-      vertexColors: true, side: FrontSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1,
-    });
-    this.tiles = new Mesh(geometry, surface);
-    this.tiles.receiveShadow = true;
+    this.tiles = new Mesh(geometry, matteMaterial(light, true));
+    this.shadows = new Mesh(geometry, new ShadowMaterial({ opacity: 0.22, polygonOffset: true, polygonOffsetFactor: 0.5 }));
+    this.shadows.receiveShadow = true;
 
     const ends: number[] = [];
     if (lines.size <= mostEdges)
@@ -59,7 +62,7 @@ export class Ground {
       new BufferGeometry().setAttribute("position", new BufferAttribute(new Float32Array(ends), 3)),
       new LineBasicMaterial(),
     );
-    this.group.add(this.tiles, this.edges);
+    this.group.add(this.tiles, this.shadows, this.edges);
   }
   private vertex(index: number, out: Vector3): Vector3 {
     return out.fromArray(this.terrain.vertices, 3 * index);
@@ -75,8 +78,9 @@ export class Ground {
     colours.needsUpdate = true;
     this.edges.material.color.copy(mix(palette.tileEdge, palette.page, 0.35));
   }
-  show(terrain: boolean, edges: boolean): void {
+  show(terrain: boolean, edges: boolean, shadows: boolean): void {
     this.tiles.visible = terrain;
+    this.shadows.visible = terrain && shadows;
     this.edges.visible = terrain && edges;
   }
 
@@ -95,7 +99,7 @@ export class Ground {
     return new Vector3(0, 0, 1);
   }
   dispose(): void {
-    for (const each of [this.tiles, this.edges]) {
+    for (const each of [this.tiles, this.shadows, this.edges]) {
       each.geometry.dispose();
       each.material.dispose();
     }

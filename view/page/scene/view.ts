@@ -1,11 +1,12 @@
 // One camera's picture of the world: a canvas in the page, the scene behind it, and what mouse and keys do to both.
-import { Color, DirectionalLight, HemisphereLight, PerspectiveCamera, Raycaster, Scene, Vector2, Vector3 } from "three";
+import { Color, DirectionalLight, PerspectiveCamera, Raycaster, Scene, Vector2, Vector3 } from "three";
 import type { Description, Snapshot } from "../protocol.ts";
 import { type CameraValues, cameraAxes, defaultCamera, fittingDistance, halfHeight, pixelsPerMetre, placeCamera } from "./camera.ts";
-import { css, type Palette, readPalette } from "./colours.ts";
+import { type Palette, readPalette } from "./colours.ts";
 import { ForceArrows, Hooks, Penetration } from "./contacts.ts";
 import { Decorations } from "./decorations.ts";
 import { type Label, type Legends, Overlay, shortNumber } from "./overlay.ts";
+import { Light, sunward } from "./matte.ts";
 import { Painter, type Quality } from "./painter.ts";
 import { keysHelp, Pointer } from "./pointer.ts";
 import { onPlane } from "./pull.ts";
@@ -31,7 +32,7 @@ export interface CameraOptions {
   quality?: Quality;
 }
 
-/// A camera that the user just moved is not moved back by an older value of its ports.
+/// A camera that the user just moved is not moved back by an older value of its ports; the newest is taken after this.
 const settlingTime = 400; // [ms]
 
 export class CameraView {
@@ -51,13 +52,12 @@ export class CameraView {
   private palette: Palette;
   private readonly scene = new Scene();
   private readonly camera = new PerspectiveCamera();
-  private readonly head = new DirectionalLight(0xffffff, 0.3 * Math.PI);
-  private readonly sun = new DirectionalLight(0xffffff, 0.32 * Math.PI);
-  private readonly sky = new HemisphereLight(0xffffff, 0x8f8f8f, 0.52 * Math.PI);
+  private readonly light = new Light();
+  private readonly sun = new DirectionalLight(); // casts the shadows
   private readonly ground: Ground | null;
   private readonly stage: Stage;
   private readonly robots: Robots[];
-  private readonly forces = new ForceArrows();
+  private readonly forces = new ForceArrows(this.light);
   private readonly rim = new Color(); // of marks
   private readonly hooks = new Hooks(this.rim);
   private readonly penetration = new Penetration(this.rim);
@@ -71,6 +71,8 @@ export class CameraView {
   private readonly shown = defaultSwitches();
   private values: CameraValues = { ...defaultCamera };
   private changedAt = -Infinity;
+  private awaited: Partial<CameraValues> = {}; // of the ports, until the user's own movement has settled
+  private settling = 0;
   private follow: number | null;
   private readonly offset = new Vector3(); // of the point looked at, by panning
   private readonly target = new Vector3();
@@ -86,7 +88,10 @@ export class CameraView {
   private readonly observer: ResizeObserver;
   private readonly scheme = matchMedia("(prefers-color-scheme: dark)");
   private readonly onScheme = (): void => this.repaint();
-  private readonly onPainter = (): void => this.changed();
+  private readonly onPainter = (): void => {
+    this.tell(this.painter?.lost ? "The browser has lost its graphics context. The picture stands still until it is back; everything else goes on." : "");
+    this.changed();
+  };
 
   constructor(
     private readonly host: HTMLElement,
@@ -104,7 +109,7 @@ export class CameraView {
     if (getComputedStyle(host).position === "static") host.style.position = "relative";
     this.notice = document.createElement("p");
     this.notice.setAttribute("role", "status");
-    this.notice.hidden = true;
+    this.notice.style.cssText = "position:absolute;inset:auto 0;margin:0;padding:1em;background:var(--page, Canvas)";
     this.probe = document.createElement("span");
     this.probe.hidden = true;
     host.append(this.canvas, this.notice, this.probe);
@@ -119,9 +124,9 @@ export class CameraView {
     this.palette = readPalette(this.probe);
     this.overlay = new Overlay(this.palette);
     const { terrain, bodies } = description.scene;
-    this.ground = terrain ? new Ground(terrain) : null;
+    this.ground = terrain ? new Ground(terrain, this.light) : null;
     this.stage = new Stage(description, this.ground);
-    this.robots = description.subjects.map((subject, k) => new Robots(bodies, subject, k));
+    this.robots = description.subjects.map((subject, k) => new Robots(bodies, subject, k, this.light));
     this.decorations = new Decorations(this.stage, this.rim);
     this.build();
     this.repaint();
@@ -134,10 +139,9 @@ export class CameraView {
   }
 
   private build(): void {
-    this.sky.position.set(0, 0, 1);
     this.sun.shadow.mapSize.set(2048, 2048);
     this.sun.shadow.bias = -5e-4;
-    this.scene.add(this.sky, this.head, this.head.target, this.sun, this.sun.target);
+    this.scene.add(this.sun, this.sun.target);
     if (this.ground) this.scene.add(this.ground.group);
     for (const robot of this.robots) this.scene.add(robot.group);
     this.scene.add(
@@ -150,19 +154,35 @@ export class CameraView {
   private takePainter(): void {
     try {
       this.painter = Painter.take(this.wantedQuality, this.onPainter);
+      this.tell("");
     } catch {
       this.canvas.hidden = true;
-      this.notice.hidden = false;
-      this.notice.textContent =
+      this.tell(
         "This browser gives no WebGL, so there is no picture of the scene here; everything else on this page works. " +
-        "WebGL may be switched off in the browser's settings, or the graphics driver may be on the browser's block list.";
+          "WebGL may be switched off in the browser's settings, or the graphics driver may be on the browser's block list.",
+      );
     }
+  }
+  private tell(text: string): void {
+    this.notice.hidden = text === "";
+    this.notice.textContent = text;
   }
 
   // ---- what the page sets ----
 
   setCamera(values: Partial<CameraValues>): void {
-    if (this.pointer.busy || performance.now() - this.changedAt < settlingTime) return;
+    Object.assign(this.awaited, values);
+    if (this.settling === 0) this.settle();
+  }
+  private settle(): void {
+    this.settling = 0;
+    const left = this.pointer.busy ? settlingTime : this.changedAt + settlingTime - performance.now();
+    if (left > 0) {
+      this.settling = window.setTimeout(() => this.settle(), left);
+      return;
+    }
+    const values = this.awaited;
+    this.awaited = {};
     let different = false;
     for (const name of ["zoom", "distance", "euler1", "euler2"] as const) {
       const value = values[name];
@@ -242,7 +262,6 @@ export class CameraView {
   select(body: number | null): void {
     this.selected = body ?? -1;
     this.robots[0]?.select(this.selected);
-    this.robots[0]?.paint(this.palette, this.palette.warning);
     this.changed();
   }
   draw(snapshot: Snapshot): void {
@@ -295,23 +314,17 @@ export class CameraView {
   private frame(): void {
     if (this.asked !== 0) cancelAnimationFrame(this.asked);
     this.asked = 0;
-    if (!this.painter || this.width === 0 || this.height === 0) return;
-    this.paintTo(this.context, this.width, this.height, this.ratio());
-    if (!this.painter.lost) this.canvas.dataset.frames = String(++this.frames);
+    if (!this.painter || this.painter.lost || this.width === 0 || this.height === 0) return;
+    this.paintTo(this.painter, this.context, this.width, this.height, this.ratio());
+    this.canvas.dataset.frames = String(++this.frames);
   }
   /// Paints a picture of width x height CSS pixels into a canvas that has `scale` pixels to each.
-  private paintTo(context: CanvasRenderingContext2D, width: number, height: number, scale: number): void {
+  private paintTo(painter: Painter, context: CanvasRenderingContext2D, width: number, height: number, scale: number): void {
     const [across, down] = [context.canvas.width, context.canvas.height];
-    if (!this.painter || this.painter.lost) {
-      context.fillStyle = css(this.palette.page);
-      context.fillRect(0, 0, across, down);
-      this.overlay.message(context, width, height, scale, "The graphics card was lost; the picture comes back with it.");
-      return;
-    }
     this.look(across / down);
     this.fill();
     this.sizeLayers(across, down, scale);
-    this.painter.paint(this.scene, this.camera, context, across, down);
+    painter.paint(this.scene, this.camera, context, across, down);
     this.writeLabels(width, height);
     this.overlay.draw(context, width, height, scale, this.values, this.legends(width, height), this.labels);
   }
@@ -324,12 +337,11 @@ export class CameraView {
     const reach = Math.max(this.ground?.reach ?? 0, stage.radius) + this.target.length();
     placeCamera(this.camera, this.values, this.target, aspect, reach);
     // From the viewer, a little from above left, as on a drawing.
-    this.head.position.set(-0.4, 0.6, 1).applyQuaternion(this.camera.quaternion).add(this.target);
-    this.head.target.position.copy(this.target);
+    this.light.head.set(-0.4, 0.6, 1).normalize().applyQuaternion(this.camera.quaternion);
     const shadow = this.sun.shadow.camera;
     const size = 2.5 * stage.radius;
-    this.sun.castShadow = this.wantedQuality === "high";
-    this.sun.position.copy(this.target).add(sunward.set(-0.15, -0.1, 1).multiplyScalar(4 * size));
+    this.sun.castShadow = this.shadows;
+    this.sun.position.copy(this.target).addScaledVector(sunward, 4 * size);
     this.sun.target.position.copy(this.target);
     if (shadow.right !== size) {
       shadow.left = shadow.bottom = -size;
@@ -339,16 +351,22 @@ export class CameraView {
       shadow.updateProjectionMatrix();
     }
   }
+  private get shadows(): boolean {
+    return this.wantedQuality === "high";
+  }
   private get forceLength(): number {
     return 0.8 * this.stage.radius;
   }
   private fill(): void {
     const { stage, shown } = this;
-    this.ground?.show(shown.terrain, shown.edges);
+    this.ground?.show(shown.terrain, shown.edges, this.shadows);
     this.robots.forEach((robot, k) => {
-      robot.group.visible = stage.snapshot !== null && stage.visible[k];
-      robot.show(shown.shapes);
-      if (robot.group.visible) robot.pose(stage.drawn[k]);
+      // A subject that failed may have no place any more.
+      robot.group.visible = stage.snapshot !== null && stage.visible[k] && Number.isFinite(stage.drawn[k][0]);
+      robot.show(shown.shapes, this.shadows);
+      if (!robot.group.visible) return;
+      robot.pose(stage.drawn[k]);
+      if (this.shadows) robot.placeSolids(stage.drawn[k]);
     });
     this.forces.group.visible = shown.contact_forces;
     if (shown.contact_forces) this.forces.fill(stage, this.forceLength);
@@ -414,8 +432,9 @@ export class CameraView {
     const robot = this.robots[0];
     if (!robot || !this.stage.snapshot || !this.stage.visible[0]) return null;
     this.aim(x, y);
+    robot.placeSolids(this.stage.drawn[0]);
     robot.group.updateMatrixWorld();
-    const hit = this.caster.intersectObjects(robot.surfaces, false)[0];
+    const hit = this.caster.intersectObjects(robot.solids, false)[0];
     if (!hit) return null;
     const body = hit.object.userData.body as number;
     const world = hit.point.toArray() as Numbers3;
@@ -433,6 +452,7 @@ export class CameraView {
       values: () => this.values,
       change: (values: CameraValues) => {
         this.values = values;
+        this.awaited = {};
         this.changedAt = performance.now();
         this.changed();
         this.onCameraChange({ ...values });
@@ -482,13 +502,14 @@ export class CameraView {
 
   /// The picture as it stands, or of another size, as PNG.
   picture(width = this.canvas.width, height = this.canvas.height): Promise<Blob> {
+    if (!this.painter || this.painter.lost) return Promise.reject(new Error("this browser gives no WebGL to make a picture with"));
     const canvas = document.createElement("canvas");
     canvas.width = width;
     canvas.height = height;
     const context = canvas.getContext("2d", { alpha: false });
     if (!context) return Promise.reject(new Error("this browser draws no canvas"));
     const scale = Math.max(1, Math.min(width / Math.max(this.width, 1), height / Math.max(this.height, 1)));
-    this.paintTo(context, width / scale, height / scale, scale);
+    this.paintTo(this.painter, context, width / scale, height / scale, scale);
     return new Promise((resolve, reject) =>
       canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error("the browser made no PNG of the picture"))), "image/png"),
     );
@@ -496,6 +517,7 @@ export class CameraView {
 
   dispose(): void {
     if (this.asked !== 0) cancelAnimationFrame(this.asked);
+    if (this.settling !== 0) window.clearTimeout(this.settling);
     this.observer.disconnect();
     this.scheme.removeEventListener("change", this.onScheme);
     this.pointer.dispose();
@@ -512,5 +534,5 @@ export class CameraView {
   }
 }
 
-const [sunward, place, axisRight, axisUp, axisBack] = [new Vector3(), new Vector3(), new Vector3(), new Vector3(), new Vector3()];
+const [place, axisRight, axisUp, axisBack] = [new Vector3(), new Vector3(), new Vector3(), new Vector3()];
 const pixel = new Vector2();
