@@ -21,9 +21,16 @@ const char* name_of(Kind kind) {
 
 std::string describe(Kind kind, const std::string& title, const Panel& panel,
                      const Subjects& subjects) {
-  const simulation::LiveRun& run = subjects.run();
-  const simulation::Experiment& experiment = run.experiment();
-  const std::string no_history = run.no_history();
+  Described described{subjects.run().experiment(), subjects.run().no_history(), {}};
+  for (const Subject& subject : subjects.all())
+    described.subjects.emplace_back(subject.name, subject.colour);
+  return describe(kind, title, panel, described);
+}
+
+std::string describe(Kind kind, const std::string& title, const Panel& panel,
+                     const Described& described) {
+  const simulation::Experiment& experiment = described.experiment;
+  const std::string& no_history = described.no_history;
   output::JsonWriter json;
   json.begin_object().member("tell", "description").member("protocol", 1);
   json.member("version", HOOKPOINT_VERSION).member("title", title).member("kind", name_of(kind));
@@ -37,12 +44,14 @@ std::string describe(Kind kind, const std::string& title, const Panel& panel,
   json.key("scene");
   write_scene(experiment, json);
   json.key("subjects").begin_array();
-  for (const Subject& subject : subjects.all())
-    json.begin_object()
-        .member("name", subject.name)
-        .member("colour", subject.colour)
-        .end_object();
-  return json.end_array().end_object().text();
+  for (const auto& [name, colour] : described.subjects)
+    json.begin_object().member("name", name).member("colour", colour).end_object();
+  json.end_array();
+  if (described.film != nullptr) {
+    json.key("film");
+    write_film(*described.film, json);
+  }
+  return json.end_object().text();
 }
 
 }  // namespace hookpoint::view

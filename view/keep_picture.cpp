@@ -13,8 +13,7 @@ void keep_picture(const Asked& asked, const KeepPicture& picture,
   } catch (const std::exception& error) {
     return audience.refuse(asked, error.what());
   }
-  audience.answer(asked,
-                  [&](output::JsonWriter& json) { json.member("path", path.string()); });
+  audience.answer(asked, [&](output::JsonWriter& json) { json.member("path", path.string()); });
 }
 
 }  // namespace hookpoint::view

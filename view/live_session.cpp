@@ -174,6 +174,8 @@ void LiveSession::carry_out(const Asked& asked) {
           problem.empty() ? audience_.answer(asked) : audience_.refuse(asked, problem);
         } else if constexpr (requires { reply(asked, command); }) {
           reply(asked, command);
+        } else {
+          audience_.refuse(asked, "only a page that makes a film asks for that");
         }
       },
       asked.command);

@@ -24,8 +24,7 @@ constexpr const char* unchangeable =
 
 }  // namespace
 
-MovieSession::MovieSession(const ShownMovie& movie, Audience& audience,
-                           MovieSessionRequest request)
+MovieSession::MovieSession(const ShownMovie& movie, Audience& audience, MovieSessionRequest request)
     : movie_(movie),
       audience_(audience),
       request_(std::move(request)),
@@ -54,7 +53,8 @@ void MovieSession::run(const std::atomic<bool>& stop) {
     const auto until = std::min(next_snapshot_, Clock::now() + slice);
     advance(until);
     answer_arrived();
-    if (traces_.busy() && !audience_.empty()) traces_.work(std::max(until, Clock::now() + slice / 5));
+    if (traces_.busy() && !audience_.empty())
+      traces_.work(std::max(until, Clock::now() + slice / 5));
     answer_traces();
     if (Clock::now() >= next_snapshot_) publish();
     if (!quit_) audience_.wait(next_wake());
@@ -154,8 +154,10 @@ void MovieSession::carry_out(const Asked& asked) {
 }
 
 void MovieSession::carry_out(const Asked& asked, const Pause& /*command*/) {
-  if (!paused_) go_to(asked, reel_.step());
-  else audience_.answer(asked);
+  if (!paused_)
+    go_to(asked, reel_.step());
+  else
+    audience_.answer(asked);
 }
 
 /// At its end a movie begins again.

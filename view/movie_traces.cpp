@@ -74,13 +74,12 @@ bool MovieTraces::known(const std::vector<std::string>& trails, double time) con
   for (const std::string& trail : trails) needed.insert(pass_of(trail));
   return std::ranges::all_of(needed, [&](const Pass* pass) {
     // Several passes have the same row of instants once they are complete.
-    return pass != nullptr &&
-           (pass->reel == nullptr || (needed.size() == 1 && pass->read >= time));
+    return pass != nullptr && (pass->reel == nullptr || (needed.size() == 1 && pass->read >= time));
   });
 }
 
-Traces::Extract MovieTraces::extract(const std::vector<std::string>& trails, double from,
-                                     double to, std::size_t points) const {
+Traces::Extract MovieTraces::extract(const std::vector<std::string>& trails, double from, double to,
+                                     std::size_t points) const {
   std::set<const Pass*> needed;
   for (const std::string& trail : trails) needed.insert(pass_of(trail));
   const bool comparable = needed.size() == 1 || known(trails, to);

@@ -1,5 +1,5 @@
-// A movie's moments, one at a time: a world that is brought to a step piece by piece, exactly as the
-// run had it.
+// A movie's moments, one at a time: a world that is brought to a step piece by piece, exactly as
+// the run had it.
 #pragma once
 
 #include <chrono>

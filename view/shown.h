@@ -8,9 +8,9 @@
 namespace hookpoint::view {
 
 struct Shown {
-  std::string description;          ///< JSON (docs/view_protocol.md)
-  std::vector<std::string> trails;  ///< that its widgets read
-  std::vector<std::string> plotted; ///< of these, those that are plotted from the beginning on
+  std::string description;           ///< JSON (docs/view_protocol.md)
+  std::vector<std::string> trails;   ///< that its widgets read
+  std::vector<std::string> plotted;  ///< of these, those that are plotted from the beginning on
   std::vector<std::filesystem::path> sources;  ///< the run begins anew when one of them is saved
 };
 

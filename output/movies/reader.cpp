@@ -88,8 +88,8 @@ MovieFile read_file(hid_t group, const char* name) {
   return file;
 }
 
-/// Who goes through a movie reads the chunks of a block again and again: those of two blocks stay in
-/// memory, one for what is shown and one for what is plotted.
+/// Who goes through a movie reads the chunks of a block again and again: those of two blocks stay
+/// in memory, one for what is shown and one for what is plotted.
 Hdf5Handle open_state(hid_t file) {
   constexpr double most_bytes = 128e6, most_slots = 1e6, first_read_first_dropped = 1.;
   Hdf5Handle state(H5Dopen2(file, "state", H5P_DEFAULT), H5Dclose);
