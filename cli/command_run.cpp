@@ -2,8 +2,10 @@
 
 #include <cmath>
 #include <iostream>
+#include <utility>
 
 #include "application/application.h"
+#include "application/live_loader.h"
 #include "cli/commands.h"
 #include "cli/exit_status.h"
 #include "cli/run_loop.h"
@@ -25,6 +27,44 @@ void tell_windows(const language::Object& root, const std::filesystem::path& fil
             << application::shell_word(file.string()) << "` does\n";
 }
 
+/// A run again in which people changed something.
+int repeat(const RunArguments& arguments) {
+  const std::string file = arguments.changes->string();
+  std::vector<simulation::Change> changes = simulation::read_changes(*arguments.changes);
+  application::LiveLoader loader(arguments.file, settings_with_duration(arguments),
+                                 arguments.allow_plugins, arguments.movie);
+  std::string problem;
+  std::optional<simulation::LoadedExperiment> first = loader.load({}, problem);
+  if (!first) {
+    std::cerr << problem << '\n';
+    return wrong_input;
+  }
+  tell_windows(loader.root());
+  tell_stability(first->experiment);
+  const std::filesystem::path folder =
+      arguments.out.value_or(std::filesystem::path("runs") / first->experiment.world);
+  const auto load = [&](const std::vector<std::string>& overrides, std::string& why) {
+    return overrides.empty() && first ? std::exchange(first, std::nullopt)
+                                      : loader.load(overrides, why);
+  };
+  try {
+    simulation::LiveRun run(load, {folder, arguments.record, arguments.out.has_value()},
+                            std::move(changes));
+    const int status = step_through(run);
+    run.close();
+    tell_files(run.folder(), run.names());
+    print_summary(run.experiment(), run.world().state());
+    if (const std::size_t left = run.left_of_script(); left > 0)
+      std::cerr << fmt::format(
+          "hookpoint: note: the last {} of the changes in {} were not made: the run ended before "
+          "their step\n",
+          left, file);
+    return status;
+  } catch (const simulation::ChangesError& error) {
+    throw simulation::ChangesError(fmt::format("{}, {}", file, error.what()));
+  }
+}
+
 }  // namespace
 
 int run(const RunArguments& arguments) {
@@ -36,6 +76,16 @@ int run(const RunArguments& arguments) {
     return wrong_input;
   }
   if (arguments.viewed) return view(arguments);
+  if (arguments.changes) {
+    try {
+      return repeat(arguments);
+    } catch (const simulation::ChangesError& error) {
+      application::print_error(error.what());
+    } catch (const simulation::ExperimentError& error) {
+      application::print_error(error.what());
+    }
+    return wrong_input;
+  }
   application::Application application(arguments.allow_plugins);
   const std::filesystem::path file = application.locate(arguments.file);
   const auto root = application.evaluate_set(file, settings_with_duration(arguments));
@@ -63,7 +113,7 @@ int run(const RunArguments& arguments) {
     const int status =
         step_through(*experiment, world, files, steps, expectations ? &*expectations : nullptr);
     files.close();
-    tell_files(files);
+    tell_files(files.folder(), files.names());
     print_summary(*experiment, world.state());
     if (status != fine || !expectations) return status;
     return print_expectations(*expectations);

@@ -26,12 +26,13 @@ struct RunArguments {
   application::Settings settings;
   std::optional<std::string> duration;  ///< "10 s"
   std::optional<std::filesystem::path> out;
-  std::vector<std::string> record;              ///< trails, vectors, globs
-  std::optional<std::filesystem::path> movie;   ///< --movie; empty: movie.h5 in the run's folder
-  std::optional<std::filesystem::path> resume;  ///< a movie to go on from, instead of `file`
-  std::optional<std::string> at;                ///< moment of it; none: its last
-  bool allow_plugins = false;                   ///< of any folder; here and below: see Application
-  bool viewed = false;                          ///< --view
+  std::vector<std::string> record;               ///< trails, vectors, globs
+  std::optional<std::filesystem::path> movie;    ///< --movie; empty: movie.h5 in the run's folder
+  std::optional<std::filesystem::path> resume;   ///< a movie to go on from, instead of `file`
+  std::optional<std::string> at;                 ///< moment of it; none: its last
+  std::optional<std::filesystem::path> changes;  ///< changes.csv of a run that is repeated
+  bool allow_plugins = false;                    ///< of any folder; here and below: see Application
+  bool viewed = false;                           ///< --view
   ViewArguments view;
 };
 int run(const RunArguments& arguments);

@@ -228,6 +228,10 @@ void add_run_and_study(CLI::App& app, Request& request) {
   add_serving(run_app, request.run.view);
   add_subjects(run_app, request.run.view);
   add_movies(run_app, request.run);
+  run_app
+      ->add_option("--changes", request.run.changes,
+                   "repeat what people changed while the run went on: the changes.csv that it left")
+      ->type_name("FILE.csv");
 
   CLI::App* study_app = add_command(app, request, "study", "run the studies of a file",
                                     [&] { return study(request.study); });

@@ -31,10 +31,10 @@ struct End {
   std::string trail;
 };
 
-class Builder {
+class PanelBuilder {
  public:
-  Builder(const Object& root, const simulation::Experiment& experiment,
-          const std::vector<Port>& ports, language::Diagnostics& diagnostics)
+  PanelBuilder(const Object& root, const simulation::Experiment& experiment,
+               const std::vector<Port>& ports, language::Diagnostics& diagnostics)
       : root_(root),
         experiment_(experiment),
         ports_(ports),
@@ -389,9 +389,9 @@ class Builder {
 
 // JSON.
 
-class Writer {
+class PanelWriter {
  public:
-  explicit Writer(output::JsonWriter& json) : json_(json) {}
+  explicit PanelWriter(output::JsonWriter& json) : json_(json) {}
 
   void operator()(const Widget& widget) {
     json_.begin_object();
@@ -558,7 +558,7 @@ struct Watched {
 
 Panel make_panel(const language::Object& root, const simulation::Experiment& experiment,
                  const std::vector<simulation::Port>& ports, language::Diagnostics& diagnostics) {
-  return Builder(root, experiment, ports, diagnostics).run();
+  return PanelBuilder(root, experiment, ports, diagnostics).run();
 }
 
 std::vector<std::string> ports_of(const Panel& panel) {
@@ -568,7 +568,7 @@ std::vector<std::string> ports_of(const Panel& panel) {
 }
 
 void write_panel(const Panel& panel, output::JsonWriter& json) {
-  Writer write(json);
+  PanelWriter write(json);
   json.begin_array();
   for (const Widget& widget : panel.windows) write(widget);
   json.end_array();

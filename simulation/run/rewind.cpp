@@ -152,7 +152,9 @@ std::string Rewind::difference(std::size_t instant) {
   return fmt::format(
       "the run does not repeat: at {} s number {} of `{}` is {} in the movie and {} here. The "
       "movie is of hookpoint {}, this is {}; another build, another machine or a changed plugin "
-      "computes other last digits",
+      "computes other last digits, and a field that was edited while it ran (changes.csv) is not "
+      "in "
+      "the movie: --changes repeats such a run",
       time_text(steps_[instant]), index, section->name, output::seventeen_digits(*differs),
       output::seventeen_digits(computed_[static_cast<std::size_t>(differs - recorded_.begin())]),
       version_of(movie_.header()), HOOKPOINT_VERSION);

@@ -55,7 +55,8 @@ class Values {
     for (int i = 0; i < components_of(field); ++i) {
       const std::string part = components_of(field) > 1 ? language::part_name(field, i) : "";
       values_.push_back(
-          {loading_.trails[&object] + "." + field.name + part, unit_of(object, field), {}, true});
+          {loading_.trails[&object] + "." + field.name + part, unit_of(object, field), {}, true,
+           object.type == "Button"});
     }
   }
 

@@ -16,7 +16,7 @@ namespace hookpoint::simulation {
 namespace {
 
 namespace record_field {
-constexpr const char* trails = "trails";
+constexpr const char *trails = "trails", *scene = "scene";
 }
 
 std::vector<std::string> format_names() {
@@ -37,6 +37,9 @@ const Fields<RecordSpec>& record_fields() {
       text_field(
           run_file_field::file, &RecordSpec::file,
           "name in the run's folder; if not given, the record's with the format's extension"),
+      boolean_field(record_field::scene, &RecordSpec::scene,
+                    "of mcap: every body's pose a row, its shapes and the ground once, as Foxglove "
+                    "draws them"),
   };
   return fields;
 }
@@ -63,6 +66,7 @@ class RecordLoader {
       spec_.file = fmt::format("{}.{}", spec_.name, format->extension);
     check_rate();
     check_file();
+    check_scene(*format);
     for (std::size_t i = 0; i < trails_.words.size(); ++i) add(trails_.words[i], trails_.places[i]);
     loading_.experiment.records.push_back(std::move(spec_));
   }
@@ -75,6 +79,12 @@ class RecordLoader {
   void check_file() const {
     complain(run_file_field::file,
              file_problem(output::record_files(spec_.format, spec_.file), loading_.experiment));
+  }
+  void check_scene(const output::RecordFormat& format) const {
+    if (object_.given(record_field::scene) && spec_.scene && !format.shows_scene)
+      complain(record_field::scene,
+               fmt::format("format {} has no scene: leave this out, or record with format = mcap",
+                           format.name));
   }
   void complain(const char* field, std::string problem) const {
     if (!problem.empty()) loading_.error(place_of(object_, field), std::move(problem));

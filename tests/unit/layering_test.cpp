@@ -77,7 +77,7 @@ const std::map<std::string, Rooms> rooms{
       {"figures/"}}},
     {"simulation",
      {{"joint_type", "experiment", "robot_tree", "resumable", "engine", "names", "kinematics",
-       "ground", "creep_velocity", "material_fields", "joint_properties", "identity"},
+       "ground", "ground_mesh", "creep_velocity", "material_fields", "joint_properties", "identity"},
       {"wiring/"},
       {"engine/"},
       {"analysis/"},

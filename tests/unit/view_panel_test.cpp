@@ -6,7 +6,9 @@
 #include <numbers>
 
 #include "output/text/json_reader.h"
+#include "tests/support/page_blocks.h"
 #include "tests/support/shown_text.h"
+#include "tests/support/text.h"
 #include "view/panel.h"
 
 namespace hookpoint {
@@ -36,7 +38,7 @@ const view::Valuator& valuator(const Widget& widget) {
   return std::get<view::Valuator>(widget.content);
 }
 
-class Figure7Panel : public testing::Test {
+class Figure7Panel : public ::testing::Test {
  protected:
   Figure7Panel()
       : shown_(std::filesystem::path(HOOKPOINT_SOURCE_DIR) /
@@ -226,6 +228,35 @@ Text d { text = "{1}"; values = w.time; }
   EXPECT_NE(told.find("10:50 `range` takes the least value first: 1,2"), std::string::npos) << told;
   EXPECT_NE(told.find("11:13 a Trace of a Plot.3D needs `x`"), std::string::npos) << told;
   EXPECT_NE(told.find("12:17 `{1}` stands for none of the 1 `values`"), std::string::npos) << told;
+}
+
+// The file of docs/view.md as it stands there.
+TEST(Panel, ReadsThePageOfTheManual) {
+  const auto blocks = testing::blocks_of(
+      testing::read_file(std::filesystem::path(HOOKPOINT_SOURCE_DIR) / "docs/view.md"));
+  const auto block = std::ranges::find(blocks, "hook", &testing::PageBlock::language);
+  ASSERT_NE(block, blocks.end());
+  ShownText shown(block->text);
+  const Panel panel = panel_of(*shown);
+  EXPECT_EQ(shown->told(), "");
+  for (const char* type : {"Window.grob", "Valuator.Slider", "Valuator.Dial", "Button.Light",
+                           "Text", "Plot.3D", "Table"})
+    EXPECT_EQ(all_of(panel, type).size(), 1u) << type;
+  EXPECT_EQ(all_of(panel, "Plot").size(), 2u);
+  EXPECT_EQ(valuator(*all_of(panel, "Valuator.Slider")[0]).port.unit, "N");
+  const auto& table = std::get<view::TableShown>(all_of(panel, "Table")[0]->content);
+  EXPECT_EQ(table.rows.back().trail, "lab.time");
+  EXPECT_GT(table.rows.size(), 3u);
+  // It is printed as a file that says the same.
+  ShownText printed(language::print(shown->root()));
+  EXPECT_EQ(view::to_json(panel_of(*printed)), view::to_json(panel));
+}
+
+TEST(Panel, PrintsFigure7AsItWas) {
+  Shown shown(std::filesystem::path(HOOKPOINT_SOURCE_DIR) /
+              "configs/paper/fig7_two_joint_arm.hook");
+  ShownText printed(language::print(shown.root()));
+  EXPECT_EQ(view::to_json(panel_of(*printed)), view::to_json(panel_of(shown)));
 }
 
 }  // namespace

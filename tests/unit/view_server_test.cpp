@@ -237,6 +237,16 @@ double resident() {
   return held * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6;
 }
 
+/// Sanitizers keep what is freed, to see who still uses it.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool memory_is_given_back = false;
+#else
+constexpr bool memory_is_given_back = true;
+#endif
+void expect_growth_below(double megabytes, double before) {
+  if (memory_is_given_back) EXPECT_LT(resident() - before, megabytes);
+}
+
 TEST(ViewServer, GivesThePageToWhoHasTheToken) {
   const Server server(options(), page);
   EXPECT_EQ(server.url(), "http://127.0.0.1:" + std::to_string(server.port()) + "/" + with_token);
@@ -456,7 +466,7 @@ TEST(ViewServer, AFrameThatClaimsAllMemoryTakesNone) {
   for (int i = 0; i < 64; ++i) client.socket.write(std::string(1'000'000, 'x'));
   server.send(1, "still there");
   EXPECT_EQ(client.next(), (Frame{text, "still there"}));
-  EXPECT_LT(resident() - before, 32.);
+  expect_growth_below(32., before);
 }
 
 TEST(ViewServer, NobodyWaitsForAClientThatNeverReads) {
@@ -473,8 +483,9 @@ TEST(ViewServer, NobodyWaitsForAClientThatNeverReads) {
     server.publish(bytes);
     publishing += seconds_since(begin);
   }
-  EXPECT_LT(publishing, 1.);
-  EXPECT_LT(resident() - before, 64.);
+  // To wait for the other, once, would take until it is given up.
+  EXPECT_LT(publishing, 5.);
+  expect_growth_below(64., before);
   server.publish(std::make_shared<const std::string>("newest"));
   std::size_t frames = 1;
   Frame frame = hearing.next();
@@ -493,7 +504,7 @@ TEST(ViewServer, AClientThatTakesNoAnswersIsGivenUp) {
   const Server::Event left = event(server);
   EXPECT_EQ(left.kind, Kind::left);
   EXPECT_EQ(left.client, client);
-  EXPECT_LT(resident() - before, 64.);
+  expect_growth_below(64., before);
 }
 
 TEST(ViewServer, ATextBetweenFramesKeepsItsPlace) {
@@ -521,7 +532,7 @@ TEST(ViewServer, EventsThatNobodyTakesAreBounded) {
     for (int i = 0; i < count; ++i) client.say(message + std::to_string(i));
   });
   std::this_thread::sleep_for(500ms);
-  EXPECT_LT(resident() - before, 32.);
+  expect_growth_below(32., before);
   const auto first = server.take_events();
   EXPECT_LE(first.size(), Server::most_events);
   // Once they are taken, the rest comes, in its order and whole.

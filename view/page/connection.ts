@@ -18,7 +18,6 @@ export interface Socket {
   onmessage: ((event: never) => void) | null;
   readyState: number;
   send(text: string): void;
-  close(): void;
 }
 
 interface Pending {
@@ -39,10 +38,13 @@ export class Connection {
   private pending = new Map<number, Pending>();
   private lastId = 0;
   private wait = firstWait;
-  private retry: ReturnType<typeof setTimeout> | null = null;
   private bodies: number | null = null; // of the description; before it no snapshot can be read
 
-  constructor(private readonly makeSocket: () => Socket, private readonly listeners: Listeners) {
+  constructor(
+    private readonly makeSocket: () => Socket,
+    private readonly listeners: Listeners,
+    private readonly later: (act: () => void, wait: number) => void = (act, wait) => void setTimeout(act, wait),
+  ) {
     this.connect();
   }
 
@@ -60,13 +62,6 @@ export class Connection {
       this.pending.set(id, { trace: name === "trace", resolve, reject });
       this.socket.send(JSON.stringify({ id, do: name, ...fields }));
     });
-  }
-
-  close(): void {
-    if (this.retry !== null) clearTimeout(this.retry);
-    const socket = this.socket;
-    this.socket = null;
-    socket?.close();
   }
 
   private connect(): void {
@@ -88,13 +83,12 @@ export class Connection {
       }
     };
     socket.onclose = () => {
-      if (this.socket !== socket) return;
       this.socket = null;
       const lost = [...this.pending.values()];
       this.pending.clear();
       for (const each of lost) each.reject(new Refused("the connection to the program was lost"));
       this.listeners.connected(false);
-      this.retry = setTimeout(() => this.connect(), this.wait);
+      this.later(() => this.connect(), this.wait);
       this.wait = Math.min(longestWait, 2 * this.wait);
     };
   }

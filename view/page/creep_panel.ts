@@ -27,7 +27,7 @@ export function makeCreepPanel(context: Context): Part {
     const swatch = element("span", { class: "swatch", "aria-hidden": "true" });
     swatch.style.background = subject.colour;
     const row = element("tr", { "data-trail": `Subjects[${index}]` },
-      element("th", { scope: "row" }, visible, element("label", { for: id, title: `draw ${subject.name}` }, swatch, subject.name)),
+      element("th", { scope: "row" }, element("span", {}, visible, element("label", { for: id, title: `draw ${subject.name}` }, swatch, subject.name))),
       ...columns.flatMap((column) => {
         const predicted = number(`Subjects[${index}].${column.name}_predicted`);
         predicted.classList.add("quiet");

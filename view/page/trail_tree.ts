@@ -3,7 +3,7 @@
 import { attempt, type Context, type Part } from "./context.ts";
 import { element, setText } from "./dom.ts";
 import { iconButton } from "./icons.ts";
-import { formatNumber, formatUnit, parseNumber } from "./numbers.ts";
+import { formatDecimals, formatNumber, formatUnit, parseNumber } from "./numbers.ts";
 import type { PortDescription } from "./protocol.ts";
 
 const mostFound = 200;
@@ -32,7 +32,9 @@ export function branchesOf(ports: PortDescription[]): Branch {
 /// A value that is watched while its row is on the page: name, number, unit, what can be done with it.
 export function makeValueRow(context: Context, port: PortDescription, name: string): Part {
   const number = element("span", { class: "number" });
-  const unwatch = context.values.watch(port.trail, (value) => setText(number, formatNumber(value)));
+  // Counts and switches have no unit and no decimals.
+  const unwatch = context.values.watch(port.trail, (value) =>
+    setText(number, port.unit === "" && Number.isInteger(value) && Math.abs(value) < 1e9 ? formatDecimals(value, 0) : formatNumber(value)));
   const plot = iconButton("plot", `plot ${port.trail}`, () => context.plot({ x: null, y: port.trail, label: port.trail, unit: port.unit, x_unit: "s" }));
   const row = element("div", { class: "value-row", "data-trail": port.trail, title: port.doc === "" ? port.trail : `${port.trail}: ${port.doc}` },
     element("span", { class: "name" }, name), number, element("span", { class: "unit" }, formatUnit(port.unit)), plot);

@@ -3,7 +3,7 @@ import { Color } from "three";
 
 export interface Palette {
   dark: boolean;
-  page: Color;
+  page: Color; // behind everything
   ink: Color;
   quiet: Color;
   warning: Color;
@@ -13,8 +13,8 @@ export interface Palette {
 }
 
 const fallbacks = {
-  light: { page: "#ffffff", ink: "#1a1a1a", quiet: "#6b6b6b", warning: "#b3261e" },
-  dark: { page: "#16181b", ink: "#e8e8e8", quiet: "#9a9a9a", warning: "#ff8a80" },
+  light: { panel: "#ffffff", ink: "#1a1a1a", quiet: "#6b6b6b", warning: "#b3261e" },
+  dark: { panel: "#1e2125", ink: "#e8e8e8", quiet: "#9a9a9a", warning: "#ff8a80" },
 };
 
 /// `probe` is an element of the page: a variable may hold any CSS colour, and only the browser knows which.
@@ -24,7 +24,7 @@ export function readPalette(probe: HTMLElement): Palette {
     probe.style.color = `var(--${name}, ${preferred[name]})`;
     return cssColour(getComputedStyle(probe).color, preferred[name]);
   };
-  const [page, ink, quiet, warning] = [read("page"), read("ink"), read("quiet"), read("warning")];
+  const [page, ink, quiet, warning] = [read("panel"), read("ink"), read("quiet"), read("warning")];
   const dark = lightness(page) < 0.5;
   return {
     dark,

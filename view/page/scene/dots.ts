@@ -10,12 +10,14 @@ attribute float size;
 uniform float scale;
 varying vec3 shade;
 varying float pixels;
+varying float rimmed;
 void main() {
   vec4 clip = projectionMatrix * modelViewMatrix * vec4(position, 1.);
   clip.z -= 4e-4 * clip.w;
   gl_Position = clip;
   gl_PointSize = size * scale;
   pixels = size * scale;
+  rimmed = size - 5.;
   shade = colour;
 }`;
 const fragmentShader = /* glsl */ `
@@ -23,11 +25,12 @@ uniform int mark;
 uniform vec3 rim;
 varying vec3 shade;
 varying float pixels;
+varying float rimmed;
 void main() {
   vec2 at = (gl_PointCoord - .5) * 2.;
   float reach = mark == 2 ? abs(at.x) + abs(at.y) : length(at);
   if (reach > 1.) discard;
-  bool border = pixels > 5. && reach > 1. - 2.6 / pixels;
+  bool border = rimmed > 0. && reach > 1. - 2.6 / pixels;
   vec3 colour = border ? rim : shade;
   if (mark == 1 && !border) colour = at.x * at.y > 0. ? rim : shade;
   if (mark == 3) {

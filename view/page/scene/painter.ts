@@ -1,6 +1,6 @@
 // The one WebGL context that all cameras of a page paint with, each into its own picture. Browsers allow only a few contexts, and a
 // picture that is a plain canvas stays when the context is lost.
-import { type PerspectiveCamera, type Scene, WebGLRenderer, PCFSoftShadowMap } from "three";
+import { type PerspectiveCamera, type Scene, WebGLRenderer, PCFShadowMap } from "three";
 
 export type Quality = "low" | "medium" | "high";
 
@@ -13,7 +13,7 @@ export class Painter {
   /// Throws where the browser gives no WebGL.
   private constructor(antialias: boolean) {
     this.renderer = new WebGLRenderer({ antialias, alpha: false, stencil: false, powerPreference: "default" });
-    this.renderer.shadowMap.type = PCFSoftShadowMap;
+    this.renderer.shadowMap.type = PCFShadowMap;
     this.renderer.shadowMap.enabled = true;
     this.renderer.setScissorTest(true);
     const canvas = this.renderer.domElement;

@@ -133,7 +133,8 @@ export class Robots {
 
     const { uniforms } = this;
     const common = { fragmentShader: plainFragment, uniforms };
-    const offset = { polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 };
+    // Behind its edges; a ghost stands before the run where both are at the same place.
+    const offset = { polygonOffset: !this.ghost, polygonOffsetFactor: 1, polygonOffsetUnits: 1 };
     const glassy = { transparent: this.ghost, depthWrite: !this.ghost };
     this.layers.push(new Mesh(surfaces, new ShaderMaterial({ ...common, ...offset, ...glassy, vertexShader: surfaceShader, side: FrontSide })));
     // A ghost's edges are as solid as the run's: they tell where it is.

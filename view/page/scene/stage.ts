@@ -1,12 +1,15 @@
 // What all layers of a scene are drawn from: the poses as drawn, of every subject, and where a point of the world is drawn.
 import { Matrix4, Vector3 } from "three";
-import type { Description, Snapshot } from "../protocol.ts";
+import type { Body, Description, Snapshot } from "../protocol.ts";
 import { exaggeratePose, magnifyDisplacement } from "./exaggeration.ts";
 import { placeMatrix } from "./robots.ts";
 import type { Ground } from "./terrain.ts";
 import { trianglesOf } from "./shapes.ts";
 
 export const numbersOfContact = 12;
+
+/// A description may have where a body stands at time 0 (x y z qw qx qy qz): a page that joins later cannot see it.
+type PlacedBody = Body & { start?: number[] };
 
 export class Stage {
   snapshot: Snapshot | null = null;
@@ -20,6 +23,7 @@ export class Stage {
   readonly weight: number; // of the heaviest robot [N]
   private readonly starts: Float64Array[];
   private started = false;
+  private told = false; // whether the description has the start poses
   private readonly normals: Vector3[] = []; // of the ground under each body's robot
 
   constructor(
@@ -33,6 +37,11 @@ export class Stage {
     this.visible = description.subjects.map(() => true);
     const masses = new Map<number, number>();
     for (const body of bodies) masses.set(body.robot, (masses.get(body.robot) ?? 0) + body.mass);
+    const starts = bodies.map((body) => (body as PlacedBody).start);
+    if (bodies.length > 0 && starts.every((each) => each !== undefined)) {
+      for (const each of this.starts) each.set(starts.flat());
+      this.told = true;
+    }
     this.weight = Math.max(0, ...masses.values()) * Math.hypot(...gravity);
   }
 
@@ -75,7 +84,12 @@ export class Stage {
   }
 
   take(snapshot: Snapshot): void {
-    if (!this.started || (snapshot.step === 0 && !snapshot.past && this.snapshot?.step !== 0)) this.start(snapshot);
+    if (!this.started && this.told) {
+      this.started = true;
+      this.measure();
+    } else if (!this.started || (!this.told && snapshot.step === 0 && !snapshot.past && this.snapshot?.step !== 0)) {
+      this.start(snapshot);
+    }
     this.snapshot = snapshot;
   }
   private normal(body: number): Vector3 | null {

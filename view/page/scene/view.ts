@@ -109,7 +109,7 @@ export class CameraView {
     if (getComputedStyle(host).position === "static") host.style.position = "relative";
     this.notice = document.createElement("p");
     this.notice.setAttribute("role", "status");
-    this.notice.style.cssText = "position:absolute;inset:auto 0;margin:0;padding:1em;background:var(--page, Canvas)";
+    this.notice.style.cssText = "position:absolute;inset:auto 0;margin:0;padding:1em;background:var(--panel, Canvas)";
     this.probe = document.createElement("span");
     this.probe.hidden = true;
     host.append(this.canvas, this.notice, this.probe);
@@ -140,7 +140,7 @@ export class CameraView {
 
   private build(): void {
     this.sun.shadow.mapSize.set(2048, 2048);
-    this.sun.shadow.bias = -5e-4;
+    this.sun.shadow.radius = 2.5;
     this.scene.add(this.sun, this.sun.target);
     if (this.ground) this.scene.add(this.ground.group);
     for (const robot of this.robots) this.scene.add(robot.group);
@@ -339,7 +339,7 @@ export class CameraView {
     // From the viewer, a little from above left, as on a drawing.
     this.light.head.set(-0.4, 0.6, 1).normalize().applyQuaternion(this.camera.quaternion);
     const shadow = this.sun.shadow.camera;
-    const size = 2.5 * stage.radius;
+    const size = 1.6 * stage.radius;
     this.sun.castShadow = this.shadows;
     this.sun.position.copy(this.target).addScaledVector(sunward, 4 * size);
     this.sun.target.position.copy(this.target);

@@ -38,7 +38,7 @@ export function makePlot(context: Context, widget: PlotWidget): Part {
       const value = element("span", { class: "number" });
       const swatch = element("span", { class: "swatch", "aria-hidden": "true" });
       swatch.style.background = colour;
-      const name = trace.x === null ? trace.label || trace.y : `${trace.label || trace.y} over ${trace.x}`;
+      const name = trace.x === null ? trace.label || trace.y : `${trace.label || trace.y} over ${trace.x.slice(trace.x.lastIndexOf(".") + 1)}`;
       group.append(element("span", { class: "plot-trace", title: trace.y }, swatch,
         element("span", {}, name), value, element("span", { class: "unit" }, formatUnit(trace.unit))));
       // Traces of one unit share a scale; those of a plot that is laid over with another have theirs at the right.

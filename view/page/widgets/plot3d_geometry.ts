@@ -27,7 +27,7 @@ export function niceTicks([least, greatest]: Range): number[] {
   const power = 10 ** Math.floor(Math.log10(rough));
   const step = [1, 2, 5, 10].map((factor) => factor * power).find((each) => each >= rough) ?? 10 * power;
   const ticks: number[] = [];
-  for (let i = Math.ceil(least / step - 1e-9); i * step <= greatest + 1e-9 * step; ++i) ticks.push(i * step);
+  for (let i = Math.ceil(least / step - 1e-9); i * step <= greatest + 1e-9 * step; ++i) ticks.push(i * step + 0); // + 0: no minus zero
   return ticks;
 }
 

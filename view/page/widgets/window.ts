@@ -42,13 +42,14 @@ function makeWindow(context: Context, widget: WindowWidget): Part {
     element("div", { class: "window-body" }, ...parts.map((part) => part.element)));
   if (widget.width) frame.style.width = `${widget.width}px`;
   else if (widget.children.some(isWide)) frame.classList.add("wide");
+  else if (!widget.children.some((child) => child.type === "Window" || child.type === "Window.grob")) frame.classList.add("narrow");
   // As high as the file says, or higher where what it holds would not fit.
   if (widget.height) frame.style.minHeight = `${widget.height}px`;
   return { element: frame, dispose: () => parts.forEach((part) => part.dispose()) };
 }
 
 function isWide(widget: Widget): boolean {
-  return (widget.type === "Plot" || widget.type === "Plot.3D" || widget.type === "Window.grob") && !widget.width;
+  return (widget.type === "Plot" || widget.type === "Plot.3D") && !widget.width;
 }
 
 /// Plots that are laid over others, by the trail of the one below, where that one is in the file.
