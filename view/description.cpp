@@ -42,7 +42,7 @@ std::string describe(Kind kind, const std::string& title, const Panel& panel,
   json.key("windows");
   write_panel(panel, json);
   json.key("scene");
-  write_scene(experiment, json);
+  write_scene(make_scene(experiment), json);
   json.key("subjects").begin_array();
   for (const auto& [name, colour] : described.subjects)
     json.begin_object().member("name", name).member("colour", colour).end_object();
