@@ -3,10 +3,11 @@
 import { addressOfSocket, Connection, type Socket } from "./connection.ts";
 import { Listeners, type Context, type Part, type Quality } from "./context.ts";
 import { element } from "./dom.ts";
+import { makeFilmPage } from "./film.ts";
 import { offerApi } from "./hookpoint_api.ts";
 import { Notices } from "./notices.ts";
 import { protocolVersion, type Description, type PlotTrace, type Snapshot, type Told } from "./protocol.ts";
-import { makeFilmPage, makeRunPage } from "./run_page.ts";
+import { makeRunPage } from "./run_page.ts";
 import { Branches } from "./series.ts";
 import { startTheme } from "./theme.ts";
 import { Setter, WatchedValues } from "./values.ts";
@@ -74,7 +75,7 @@ function describe(description: Description): void {
   const scrolled = document.scrollingElement?.scrollTop ?? 0;
   page?.dispose();
   context = makeContext(description);
-  page = description.kind === "film" || new URLSearchParams(location.search).has("film") ? makeFilmPage(context) : makeRunPage(context, themes);
+  page = description.kind === "film" ? makeFilmPage(context) : makeRunPage(context, themes);
   host.replaceChildren(page.element);
   document.scrollingElement?.scrollTo(0, scrolled);
   values.askAnew();

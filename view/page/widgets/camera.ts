@@ -35,7 +35,7 @@ interface Kept {
 }
 
 /// `fill`: as large as what it stands in, for a page that is only a camera.
-export function makeCamera(context: Context, widget: CameraWidget, fill = false): Part {
+export function makeCamera(context: Context, widget: CameraWidget, fill = false): Part & { view: CameraView } {
   const { description } = context;
   const bodies = description.scene.bodies;
   const host = element("div", { class: "camera-host" });
@@ -102,7 +102,7 @@ export function makeCamera(context: Context, widget: CameraWidget, fill = false)
     if (context.pictures.get(widget.trail) === picture) context.pictures.delete(widget.trail);
     view.dispose();
   };
-  if (fill) return { element: host, dispose };
+  if (fill) return { element: host, dispose, view };
 
   const followChoice = element("select", { "aria-label": "follow a body" }, element("option", { value: -1 }, "follows no body"),
     ...bodies.map((body, index) => element("option", { value: index, selected: index === follow }, `follows ${body.trail}`)));
@@ -129,7 +129,7 @@ export function makeCamera(context: Context, widget: CameraWidget, fill = false)
     element("figcaption", {}, element("span", { class: "name" }, widget.label), take, menu), host);
   frame.style.width = `${widget.width ?? defaultWidth}px`;
   host.style.height = `${widget.height ?? defaultHeight}px`;
-  return { element: frame, dispose };
+  return { element: frame, dispose, view };
 }
 
 /// A drag with control is a spring between a point of a body and the pointer.
