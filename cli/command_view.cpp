@@ -17,6 +17,7 @@
 #include "cli/run_loop.h"
 #include "output/figures/plot.h"
 #include "view/description.h"
+#include "view/ghosts.h"
 #include "view/live_session.h"
 #include "view/page_bundle.h"
 
@@ -37,6 +38,11 @@ std::string label_of(const simulation::Experiment& experiment) {
                                     : experiment.engine + " " + experiment.settings;
 }
 
+/// What is wrong with the file, as the loader tells it.
+struct WrongFile {
+  std::string problem;
+};
+
 /// What is watched, and what it is made from, which must live as long.
 class Watched {
  public:
@@ -49,6 +55,11 @@ class Watched {
     request.trails = arguments.record;
     request.leaves_files = arguments.out.has_value();
     add("", settings, request, arguments.movie);
+    for (const view::GhostSpec& ghost : view::load_ghosts(loaders_.front()->root())) {
+      application::Settings own = settings;
+      own.trails.insert(own.trails.end(), ghost.settings.begin(), ghost.settings.end());
+      add(ghost.label, own, {}, std::nullopt);
+    }
     for (const std::string& words : arguments.view.with) {
       application::Settings own = settings;
       for (auto& field : application::subject_fields(application_.schema(), words))
@@ -81,20 +92,28 @@ class Watched {
   }
 
  private:
-  void add(const std::string& words, application::Settings settings,
-           const simulation::LiveRunRequest& request,
+  void add(const std::string& label, application::Settings settings,
+           simulation::LiveRunRequest request,
            const std::optional<std::filesystem::path>& movie) {
     loaders_.push_back(std::make_unique<LiveLoader>(arguments_.file, std::move(settings),
                                                     arguments_.allow_plugins, movie));
+    LiveLoader& loader = *loaders_.back();
+    std::string problem;
+    auto first = loader.load({}, problem);
+    if (!first) throw WrongFile{problem};
+    if (subjects_.empty() && request.folder.empty())
+      request.folder = std::filesystem::path("runs") / first->experiment.world;
     auto run = std::make_unique<LiveRun>(
-        [loader = loaders_.back().get()](const std::vector<std::string>& overrides,
-                                         std::string& problem) {
-          return loader->load(overrides, problem);
+        [&loader, first = std::make_shared<std::optional<simulation::LoadedExperiment>>(
+                      std::move(first))](const std::vector<std::string>& overrides,
+                                         std::string& why) {
+          return overrides.empty() && *first ? std::exchange(*first, std::nullopt)
+                                             : loader.load(overrides, why);
         },
         request);
     const simulation::Experiment& experiment = run->experiment();
     const int index = static_cast<int>(subjects_.size());
-    view::Subject subject{words.empty() ? label_of(experiment) : words,
+    view::Subject subject{label.empty() ? label_of(experiment) : label,
                           output::series_style(index).color, std::move(run),
                           history_of(experiment), nullptr};
     subjects_.push_back(std::move(subject));
@@ -110,7 +129,7 @@ class Watched {
 /// A file that says how long, or that is to leave files, ends then; any other goes on until
 /// somebody has seen enough.
 std::optional<std::int64_t> last_step(const RunArguments& arguments, const LiveRun& run) {
-  const bool writes = !run.files().names().empty();
+  const bool writes = !run.names().empty();
   if (!writes && !arguments.duration) return std::nullopt;
   return run.last_step();
 }
@@ -134,8 +153,10 @@ int view(const RunArguments& arguments) {
     if (arguments.view.open) open_browser(server.url());
     const bool fine_to_the_end = session.run(guard.stop());
     run.close();
-    tell_files(run.files());
+    tell_files(run.folder(), run.names());
     return fine_to_the_end ? fine : truth_failed;
+  } catch (const WrongFile& file) {
+    std::cerr << file.problem << '\n';
   } catch (const simulation::ExperimentError& error) {
     application::print_error(error.what());
   } catch (const application::SubjectError& error) {

@@ -554,6 +554,32 @@ struct Watched {
   }
 };
 
+/// What plots draw, over time or over one another.
+struct Plotted {
+  std::vector<std::string> trails;
+
+  void operator()(const Widget& widget) { std::visit(*this, widget.content); }
+  void operator()(const Frame& frame) {
+    for (const Widget& child : frame.children) (*this)(child);
+  }
+  void operator()(const PlotShown& plot) { add(plot.traces); }
+  void operator()(const Plot3dShown& plot) {
+    add(plot.traces);
+    if (plot.surface) add(*plot.surface);
+  }
+  void operator()(const auto& /*no plot*/) {}
+
+ private:
+  void add(const std::vector<Trace>& traces) {
+    for (const Trace& trace : traces) add(trace);
+  }
+  void add(const Trace& trace) {
+    if (trace.x) trails.push_back(trace.x->trail);
+    trails.push_back(trace.y.trail);
+    if (trace.z) trails.push_back(trace.z->trail);
+  }
+};
+
 }  // namespace
 
 Panel make_panel(const language::Object& root, const simulation::Experiment& experiment,
@@ -565,6 +591,12 @@ std::vector<std::string> ports_of(const Panel& panel) {
   Watched watched;
   for (const Widget& widget : panel.windows) watched(widget);
   return std::move(watched.trails);
+}
+
+std::vector<std::string> plotted_of(const Panel& panel) {
+  Plotted plotted;
+  for (const Widget& widget : panel.windows) plotted(widget);
+  return std::move(plotted.trails);
 }
 
 void write_panel(const Panel& panel, output::JsonWriter& json) {

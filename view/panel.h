@@ -103,6 +103,9 @@ Panel make_panel(const language::Object& root, const simulation::Experiment& exp
 /// What a page needs to be told the values of, each once, in the order of the panel.
 std::vector<std::string> ports_of(const Panel& panel);
 
+/// What its plots draw.
+std::vector<std::string> plotted_of(const Panel& panel);
+
 /// The "windows" of docs/view_protocol.md: a list of WIDGETs.
 void write_panel(const Panel& panel, output::JsonWriter& json);
 std::string to_json(const Panel& panel);

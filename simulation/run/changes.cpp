@@ -98,6 +98,8 @@ void ChangeLog::add(std::span<const Change> changes) {
   for (const Change& change : changes) text += line_of(change);
   changes_.insert(changes_.end(), changes.begin(), changes.end());
   if (file_.empty()) return;
+  std::error_code ignored;
+  std::filesystem::create_directories(file_.parent_path(), ignored);
   const int flags = O_WRONLY | O_CREAT | O_CLOEXEC | (written_ ? O_APPEND : O_TRUNC);
   const int descriptor = ::open(file_.c_str(), flags, 0666);
   if (descriptor < 0) output::fail_file("write", file_);

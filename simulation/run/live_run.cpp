@@ -122,7 +122,7 @@ std::int64_t LiveRun::last_step() const {
 
 std::vector<std::string> LiveRun::names() const {
   std::vector<std::string> names = files_->names();
-  if (files_->uses_folder() && !log_.changes().empty()) names.emplace_back(ChangeLog::file_name);
+  if (!request_.folder.empty() && !log_.changes().empty()) names.emplace_back(ChangeLog::file_name);
   return names;
 }
 
@@ -196,12 +196,13 @@ std::unique_ptr<RunFiles> LiveRun::open_files(Track& track) const {
   return std::make_unique<RunFiles>(
       from.experiment, track.world, track.world.ports(),
       RunRequest{request_.folder, request_.trails, from.text, request_.leaves_files, from.engine,
-                 true, from.sources});
+                 from.sources, true});
 }
 
 void LiveRun::begin_take() {
-  log_ = ChangeLog(files_->uses_folder() ? request_.folder / ChangeLog::file_name
-                                         : std::filesystem::path());
+  log_.truncate(0);
+  log_ = ChangeLog(request_.folder.empty() ? std::filesystem::path()
+                                           : request_.folder / ChangeLog::file_name);
   edits_.clear();
   newest_ = 0;
   last_ = {};

@@ -32,6 +32,7 @@ using Load = std::function<std::optional<LoadedExperiment>(
     const std::vector<std::string>& overrides, std::string& problem)>;
 
 struct LiveRunRequest {
+  /// Where changes.csv goes too, once something is changed; empty: of nothing.
   std::filesystem::path folder;
   std::vector<std::string> trails;  ///< of trace.csv
   bool leaves_files = false;        ///< experiment.hook is written even beside nothing else

@@ -30,8 +30,8 @@ struct RunRequest {
   std::string text;                  ///< the experiment's
   bool leaves_files = false;         ///< experiment.hook is written even beside nothing else
   EngineDescription engine;          ///< that runs it
-  bool changes = false;              ///< people may change it: changes.csv is among its files
   std::vector<std::string> sources;  ///< files that `text` was made from, absolute
+  bool changes = false;              ///< people may change it: changes.csv is among its files
 };
 
 /// The Records and Movies of the file, and the rows of trace.csv: the row at the first step, then

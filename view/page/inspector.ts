@@ -31,12 +31,12 @@ export function makeInspector(context: Context): Part {
 }
 
 /// Rows of three or four numbers under each other, in columns.
-function numbersTable(label: string, rows: { name: string; unit: string; count: number }[]): { table: HTMLElement; show(row: number, numbers: ArrayLike<number>): void } {
+function numbersTable(label: string, rows: { name: string; unit: string; count: number; digits?: 0 }[]): { table: HTMLElement; show(row: number, numbers: ArrayLike<number>): void } {
   const cells = rows.map((row) => Array.from({ length: row.count }, () => element("td", { class: "number" })));
   const table = element("table", { class: "values", "aria-label": label }, element("tbody", {}, ...rows.map((row, i) =>
     element("tr", {}, element("th", { scope: "row" }, row.name), ...cells[i], ...(row.count < 4 ? [element("td", { colspan: 4 - row.count })] : []),
       element("td", { class: "unit" }, formatUnit(row.unit))))));
-  return { table, show: (row, numbers) => cells[row].forEach((cell, i) => setText(cell, formatNumber(numbers[i], 4))) };
+  return { table, show: (row, numbers) => cells[row].forEach((cell, i) => setText(cell, rows[row].digits === 0 ? String(numbers[i]) : formatNumber(numbers[i], 4))) };
 }
 
 function inspect(context: Context, body: Body, index: number): Part {
@@ -50,7 +50,7 @@ function inspect(context: Context, body: Body, index: number): Part {
     { name: "position", unit: "m", count: 3 },
     { name: "orientation w x y z", unit: "", count: 4 },
     { name: "contact force", unit: "N", count: 3 },
-    { name: "contacts", unit: "", count: 1 },
+    { name: "contacts", unit: "", count: 1, digits: 0 },
     { name: "deepest", unit: "m", count: 1 },
   ]);
   const draw = (snapshot: Snapshot) => {

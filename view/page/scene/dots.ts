@@ -1,5 +1,6 @@
 // Marks of a given size in pixels, in one draw call, filled anew for every frame.
-import { BufferAttribute, BufferGeometry, DynamicDrawUsage, Points, ShaderMaterial, type Color } from "three";
+import { BufferAttribute, BufferGeometry, type Color, Points, ShaderMaterial } from "three";
+import { GrowingBuffers } from "./growing_buffers.ts";
 
 export type Mark = "disc" | "quartered" | "diamond" | "ring";
 const marks: Mark[] = ["disc", "quartered", "diamond", "ring"];
@@ -43,9 +44,7 @@ void main() {
 
 export class Dots {
   readonly points: Points<BufferGeometry, ShaderMaterial>;
-  private count = 0;
-  private capacity = 0;
-  private attributes: BufferAttribute[] = [];
+  private readonly buffers: GrowingBuffers;
 
   constructor(mark: Mark, rim: Color, options: { onTop?: boolean; order?: number } = {}) {
     const material = new ShaderMaterial({
@@ -60,42 +59,27 @@ export class Dots {
     this.points.frustumCulled = false;
     this.points.matrixAutoUpdate = false;
     this.points.renderOrder = options.order ?? 2;
-    this.grow(64);
-  }
-  private grow(capacity: number): void {
-    const sizes: [string, number][] = [["position", 3], ["colour", 3], ["size", 1]];
-    const geometry = new BufferGeometry();
-    const earlier = this.attributes;
-    this.attributes = sizes.map(([name, size], k) => {
-      const attribute = new BufferAttribute(new Float32Array(capacity * size), size);
-      attribute.setUsage(DynamicDrawUsage);
-      if (earlier[k]) attribute.array.set(earlier[k].array);
-      geometry.setAttribute(name, attribute);
-      return attribute;
+    const names = ["position", "colour", "size"];
+    this.buffers = new GrowingBuffers([3, 3, 1], (array, size) => new BufferAttribute(array, size), (attributes) => {
+      this.points.geometry.dispose();
+      this.points.geometry = new BufferGeometry();
+      attributes.forEach((attribute, k) => this.points.geometry.setAttribute(names[k], attribute));
     });
-    this.points.geometry.dispose();
-    this.points.geometry = geometry;
-    this.capacity = capacity;
   }
   begin(): void {
-    this.count = 0;
+    this.buffers.begin();
   }
   add(x: number, y: number, z: number, colour: Color, size: number): void {
-    if (this.count === this.capacity) this.grow(2 * this.capacity);
-    const at = this.count++;
-    const [positions, colours, sizes] = this.attributes;
+    const at = this.buffers.next();
+    const [positions, colours, sizes] = this.buffers.attributes;
     positions.setXYZ(at, x, y, z);
     colours.setXYZ(at, colour.r, colour.g, colour.b);
     sizes.setX(at, size);
   }
   end(): void {
-    this.points.geometry.setDrawRange(0, this.count);
-    this.points.visible = this.count > 0;
-    for (const attribute of this.attributes) {
-      attribute.clearUpdateRanges();
-      attribute.addUpdateRange(0, this.count * attribute.itemSize);
-      attribute.needsUpdate = this.count > 0;
-    }
+    this.buffers.end();
+    this.points.geometry.setDrawRange(0, this.buffers.count);
+    this.points.visible = this.buffers.count > 0;
   }
   scale(scale: number): void {
     this.points.material.uniforms.scale.value = scale;

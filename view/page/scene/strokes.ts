@@ -1,8 +1,10 @@
 // Lines of a given width in pixels, in one draw call: WebGL itself draws lines of one pixel only. Filled anew for every frame, without
 // allocation once they have grown to what a frame needs.
 import {
-  BufferAttribute, DoubleSide, DynamicDrawUsage, InstancedBufferAttribute, InstancedBufferGeometry, Mesh, ShaderMaterial, Vector2, type Color, type Vector3,
+  BufferAttribute, type Color, DoubleSide, InstancedBufferAttribute, InstancedBufferGeometry, Mesh, ShaderMaterial, Vector2,
+  type Vector3,
 } from "three";
+import { GrowingBuffers } from "./growing_buffers.ts";
 
 const vertexShader = /* glsl */ `
 attribute vec3 start;
@@ -45,9 +47,7 @@ export interface StrokeOptions {
 
 export class Strokes {
   readonly mesh: Mesh<InstancedBufferGeometry, ShaderMaterial>;
-  private count = 0;
-  private capacity = 0;
-  private attributes: InstancedBufferAttribute[] = [];
+  private readonly buffers: GrowingBuffers;
 
   constructor(options: StrokeOptions = {}) {
     const material = new ShaderMaterial({
@@ -66,52 +66,33 @@ export class Strokes {
     this.mesh.frustumCulled = false;
     this.mesh.matrixAutoUpdate = false;
     this.mesh.renderOrder = options.order ?? 1;
-    this.grow(64);
-  }
-
-  private grow(capacity: number): void {
-    const sizes: [string, number][] = [["start", 3], ["end", 3], ["colour", 3], ["width", 1]];
-    // A new geometry: the buffers of the old one stay as large as they were made.
-    const old = this.mesh.geometry;
-    const geometry = new InstancedBufferGeometry();
-    geometry.setAttribute("position", old.getAttribute("position"));
-    geometry.setIndex(old.getIndex());
-    const earlier = this.attributes;
-    this.attributes = sizes.map(([name, size], k) => {
-      const attribute = new InstancedBufferAttribute(new Float32Array(capacity * size), size);
-      attribute.setUsage(DynamicDrawUsage);
-      if (earlier[k]) attribute.array.set(earlier[k].array);
-      geometry.setAttribute(name, attribute);
-      return attribute;
+    const names = ["start", "end", "colour", "width"];
+    this.buffers = new GrowingBuffers([3, 3, 3, 1], (array, size) => new InstancedBufferAttribute(array, size), (attributes) => {
+      const old = this.mesh.geometry;
+      const grown = new InstancedBufferGeometry();
+      grown.setAttribute("position", old.getAttribute("position"));
+      grown.setIndex(old.getIndex());
+      attributes.forEach((attribute, k) => grown.setAttribute(names[k], attribute));
+      this.mesh.geometry = grown;
+      old.dispose();
     });
-    this.mesh.geometry = geometry;
-    old.dispose();
-    this.capacity = capacity;
   }
 
   begin(): void {
-    this.count = 0;
+    this.buffers.begin();
   }
   add(start: Vector3, end: Vector3, colour: Color, width: number): void {
-    this.addNumbers(start.x, start.y, start.z, end.x, end.y, end.z, colour, width);
-  }
-  addNumbers(ax: number, ay: number, az: number, bx: number, by: number, bz: number, colour: Color, width: number): void {
-    if (this.count === this.capacity) this.grow(2 * this.capacity);
-    const at = this.count++;
-    const [starts, ends, colours, widths] = this.attributes;
-    starts.setXYZ(at, ax, ay, az);
-    ends.setXYZ(at, bx, by, bz);
+    const at = this.buffers.next();
+    const [starts, ends, colours, widths] = this.buffers.attributes;
+    starts.setXYZ(at, start.x, start.y, start.z);
+    ends.setXYZ(at, end.x, end.y, end.z);
     colours.setXYZ(at, colour.r, colour.g, colour.b);
     widths.setX(at, width);
   }
   end(): void {
-    this.mesh.geometry.instanceCount = this.count;
-    this.mesh.visible = this.count > 0;
-    for (const attribute of this.attributes) {
-      attribute.clearUpdateRanges();
-      attribute.addUpdateRange(0, this.count * attribute.itemSize);
-      attribute.needsUpdate = this.count > 0;
-    }
+    this.buffers.end();
+    this.mesh.geometry.instanceCount = this.buffers.count;
+    this.mesh.visible = this.buffers.count > 0;
   }
   /// Picture's size [pixels], and pixels of the device to one of the page.
   size(width: number, height: number, scale: number): void {

@@ -9,11 +9,9 @@ import { type Label, type Legends, Overlay, shortNumber } from "./overlay.ts";
 import { Light, sunward } from "./matte.ts";
 import { Painter, type Quality } from "./painter.ts";
 import { keysHelp, Pointer } from "./pointer.ts";
-import { onPlane } from "./pull.ts";
 import { Robots } from "./robots.ts";
-import { Dots } from "./dots.ts";
+import { Spring } from "./spring.ts";
 import { Stage } from "./stage.ts";
-import { Strokes } from "./strokes.ts";
 import { defaultSwitches, type Switch } from "./switches.ts";
 import { Ground } from "./terrain.ts";
 import { SlipTraces } from "./traces.ts";
@@ -63,8 +61,7 @@ export class CameraView {
   private readonly penetration = new Penetration(this.rim);
   private readonly traces = new SlipTraces(this.rim);
   private readonly decorations: Decorations;
-  private readonly spring = new Strokes({ onTop: true, order: 40 });
-  private readonly springEnds = new Dots("ring", this.rim, { onTop: true, order: 41 });
+  private readonly spring = new Spring(this.rim);
   private readonly overlay: Overlay;
   private readonly pointer: Pointer;
   private readonly caster = new Raycaster();
@@ -77,7 +74,6 @@ export class CameraView {
   private readonly offset = new Vector3(); // of the point looked at, by panning
   private readonly target = new Vector3();
   private selected = -1;
-  private pulled: { body: number; point: Vector3; drawn: Vector3; target: Vector3 } | null = null;
   private width = 0; // of the canvas in the page [CSS pixels]
   private height = 0;
   private frames = 0;
@@ -89,7 +85,8 @@ export class CameraView {
   private readonly scheme = matchMedia("(prefers-color-scheme: dark)");
   private readonly onScheme = (): void => this.repaint();
   private readonly onPainter = (): void => {
-    this.tell(this.painter?.lost ? "The browser has lost its graphics context. The picture stands still until it is back; everything else goes on." : "");
+    const lost = "The browser has lost its graphics context. The picture stands still until it is back; everything else goes on.";
+    this.tell(this.painter?.lost ? lost : "");
     this.changed();
   };
 
@@ -146,7 +143,7 @@ export class CameraView {
     for (const robot of this.robots) this.scene.add(robot.group);
     this.scene.add(
       this.forces.group, this.hooks.strokes.mesh, this.hooks.anchors.points, this.penetration.dots.points, this.traces.dots.points,
-      this.decorations.group, this.spring.mesh, this.springEnds.points,
+      this.decorations.group, this.spring.strokes.mesh, this.spring.ends.points,
     );
     for (const robot of this.robots) robot.group.visible = false; // until there are poses
     this.sizeLayers(1, 1, 1);
@@ -307,8 +304,8 @@ export class CameraView {
   }
   private sizeLayers(width: number, height: number, scale: number): void {
     for (const robot of this.robots) robot.size(width, height, scale);
-    for (const layer of [this.hooks.strokes, this.decorations.strokeLayer, this.spring]) layer.size(width, height, scale);
-    for (const layer of [this.hooks.anchors, this.penetration.dots, this.traces.dots, this.springEnds, ...this.decorations.dotLayers])
+    for (const layer of [this.hooks.strokes, this.decorations.strokeLayer, this.spring.strokes]) layer.size(width, height, scale);
+    for (const layer of [this.hooks.anchors, this.penetration.dots, this.traces.dots, this.spring.ends, ...this.decorations.dotLayers])
       layer.scale(scale);
   }
   private frame(): void {
@@ -377,19 +374,7 @@ export class CameraView {
     if (shown.slip_traces) this.traces.fill(stage);
     else this.traces.dots.points.visible = false;
     this.decorations.fill(shown);
-    this.fillSpring();
-  }
-  private fillSpring(): void {
-    this.spring.begin();
-    this.springEnds.begin();
-    if (this.pulled) {
-      const { body, point, drawn, target } = this.pulled;
-      this.stage.fromBody(0, body, drawn.copy(point));
-      this.spring.add(drawn, target, this.palette.warning, 2);
-      for (const end of [drawn, target]) this.springEnds.add(end.x, end.y, end.z, this.palette.warning, 9);
-    }
-    this.spring.end();
-    this.springEnds.end();
+    this.spring.fill(stage, this.palette.warning);
   }
   private writeLabels(width: number, height: number): void {
     this.labels.length = 0;
@@ -400,9 +385,9 @@ export class CameraView {
     if (this.shown.sensors && this.stage.snapshot && this.stage.visible[0])
       for (const sensor of this.description.scene.sensors)
         write(this.stage.fromBody(0, sensor.body, place.fromArray(sensor.location)), sensor.trail, false);
-    if (this.pulled) {
-      const force = this.pullForce ?? this.description.pull.stiffness * this.pulled.drawn.distanceTo(this.pulled.target);
-      write(place.copy(this.pulled.target), `${shortNumber(force)} N`, true);
+    if (this.spring.held && this.stage.snapshot) {
+      const force = this.pullForce ?? this.description.pull.stiffness * this.spring.stretch(this.stage);
+      write(place.copy(this.spring.target), `${shortNumber(force)} N`, true);
     }
   }
   private legends(width: number, height: number): Legends {
@@ -440,13 +425,6 @@ export class CameraView {
     const world = hit.point.toArray() as Numbers3;
     return { body, world, point: this.stage.toBody(0, body, hit.point.clone()).toArray() as Numbers3 };
   }
-  /// From where a point of a body is drawn, back to where it is.
-  private realTarget(): Numbers3 {
-    const { body, point, drawn, target } = this.pulled!;
-    this.stage.fromBody(0, body, drawn.copy(point));
-    const real = this.stage.realPoint(0, body, point, new Vector3());
-    return real.add(target).sub(drawn).toArray() as Numbers3;
-  }
   private gestures() {
     return {
       values: () => this.values,
@@ -470,24 +448,21 @@ export class CameraView {
       pullStart: (x: number, y: number) => {
         const found = this.pick(x, y);
         if (!found) return false;
-        this.pulled = {
-          body: found.body, point: new Vector3(...found.point), drawn: new Vector3(...found.world), target: new Vector3(...found.world),
-        };
-        this.onPullStart(found.body, found.point, this.realTarget());
+        this.spring.start(found.body, new Vector3(...found.point), new Vector3(...found.world));
+        this.onPullStart(found.body, found.point, this.spring.realTarget(this.stage).toArray());
         this.changed();
         return true;
       },
       pullMove: (x: number, y: number) => {
-        if (!this.pulled) return;
+        if (!this.spring.held) return;
         this.aim(x, y);
         cameraAxes(this.values, axisRight, axisUp, axisBack);
-        this.stage.fromBody(0, this.pulled.body, this.pulled.drawn.copy(this.pulled.point));
-        if (!onPlane(this.caster.ray, this.pulled.drawn, axisBack, this.pulled.target)) return;
-        this.onPullMove(this.realTarget());
+        if (!this.spring.move(this.stage, this.caster.ray, axisBack)) return;
+        this.onPullMove(this.spring.realTarget(this.stage).toArray());
         this.changed();
       },
       pullEnd: () => {
-        this.pulled = null;
+        this.spring.release();
         this.pullForce = null;
         this.onPullEnd();
         this.changed();
@@ -529,7 +504,7 @@ export class CameraView {
     this.painter?.leave(this.onPainter);
     this.painter = null;
     for (const each of [
-      ...this.robots, this.forces, this.hooks, this.penetration, this.traces, this.decorations, this.spring, this.springEnds,
+      ...this.robots, this.forces, this.hooks, this.penetration, this.traces, this.decorations, this.spring,
     ])
       each.dispose();
     this.ground?.dispose();
