@@ -35,10 +35,12 @@ MovieSession::MovieSession(const ShownMovie& movie, Audience& audience, MovieSes
 
 void MovieSession::show() {
   generation_ = reel_.generation();
-  const std::vector<simulation::Port> ports = reel_.world().ports();
+  std::vector<simulation::Port> ports = reel_.world().ports();
   Shown shown = request_.describe(ports);
+  for (simulation::Port& port : ports) port.writable = nullptr;
   traces_.want(shown.plotted);
-  audience_.show(std::move(shown.description), movie_.experiment, ports, std::move(shown.trails));
+  audience_.show(std::move(shown.description), movie_.experiment, std::move(ports),
+                 std::move(shown.trails));
 }
 
 double MovieSession::time_of(std::int64_t step) const {
