@@ -41,15 +41,28 @@ int view(const RunArguments& arguments);
 /// run --resume: goes on from a moment of a movie.
 int resume(const RunArguments& arguments);
 
+/// replay --film.
+struct FilmArguments {
+  std::filesystem::path file;         ///< empty: no film
+  std::optional<std::string> camera;  ///< trail; none: the first
+  std::string size = "1280x720";
+  std::string rate = "30";              ///< pictures a second
+  std::optional<std::string> from, to;  ///< "2.5 s"; none: all of the movie
+};
+
 struct ReplayArguments {
   std::filesystem::path movie;
-  std::optional<std::string> at;    ///< "2.5 s"; none: what the movie is
+  std::optional<std::string> at;    ///< "2.5 s"; none: all of it
   std::vector<std::string> record;  ///< trails, vectors, globs; none: a summary, as JSON all
   bool json = false;
+  bool about = false;
   bool allow_plugins = false;
+  ViewArguments view;
+  FilmArguments film;
 };
-/// replay: what a movie is, or a moment of it.
+/// replay: a movie in the window, what it is, a moment of it, or a film of it.
 int replay(const ReplayArguments& arguments);
+int film(const ReplayArguments& arguments);
 
 /// recover: the record that a killed run left as a spool.
 int recover(const std::filesystem::path& spool);

@@ -112,27 +112,6 @@ void add_movies(CLI::App* run_app, RunArguments& arguments) {
       ->type_name("TIME");
 }
 
-void add_movie_tools(CLI::App& app, Request& request) {
-  CLI::App* replay_app = add_command(app, request, "replay", "a run again as its movie has it",
-                                     [&] { return replay(request.replay); });
-  replay_app->add_option("MOVIE", request.replay.movie, "an .h5 file of run --movie")->required();
-  replay_app
-      ->add_option("--at", request.replay.at,
-                   "where everything is at this moment: \"2.5 s\" (default: what the movie is)")
-      ->type_name("TIME");
-  replay_app
-      ->add_option("--record", request.replay.record,
-                   "the ports that these trails name, joined by commas; globs as of `run`")
-      ->type_name("TRAIL,...")
-      ->delimiter(',');
-  replay_app->add_flag("--json", request.replay.json, "as JSON, 17 significant digits");
-  add_plugins(replay_app, request.replay.allow_plugins);
-  add_command(app, request, "recover", "the MATLAB record of a run that was killed",
-              [&] { return recover(request.file); })
-      ->add_option("FILE", request.file, "NAME.mat.spool")
-      ->required();
-}
-
 void add_serving(CLI::App* command, ViewArguments& arguments) {
   command->add_option("--port", arguments.port, "of the window's address (default: a free one)")
       ->type_name("N")
@@ -150,6 +129,53 @@ void add_serving(CLI::App* command, ViewArguments& arguments) {
                    "anywhere (default: 127.0.0.1)")
       ->type_name("ADDRESS");
   command->add_flag("!--no-open", arguments.open, "only print the address; open no browser");
+}
+
+void add_film(CLI::App* command, FilmArguments& arguments) {
+  CLI::Option* film =
+      command
+          ->add_option("--film", arguments.file,
+                       "draw it as a video, FILE.webm or FILE.mp4, or as pictures, DIR/%05d.png")
+          ->type_name("FILE");
+  command
+      ->add_option("--camera", arguments.camera, "whose film: a Window.grob (default: the first)")
+      ->type_name("TRAIL")
+      ->needs(film);
+  command->add_option("--size", arguments.size, "of the film's pictures (default: 1280x720)")
+      ->type_name("WIDTHxHEIGHT")
+      ->needs(film);
+  command->add_option("--fps", arguments.rate, "pictures a second of the film (default: 30)")
+      ->type_name("N")
+      ->needs(film);
+  command->add_option("--from", arguments.from, "where the film begins: \"2.5 s\"")
+      ->type_name("TIME")
+      ->needs(film);
+  command->add_option("--to", arguments.to, "where the film ends")->type_name("TIME")->needs(film);
+}
+
+void add_movie_tools(CLI::App& app, Request& request) {
+  CLI::App* replay_app = add_command(app, request, "replay",
+                                     "a run again as its movie has it: in the window, as a film",
+                                     [&] { return replay(request.replay); });
+  replay_app->add_option("MOVIE", request.replay.movie, "an .h5 file of run --movie")->required();
+  replay_app
+      ->add_option("--at", request.replay.at,
+                   "only say where everything is at this moment: \"2.5 s\"")
+      ->type_name("TIME");
+  replay_app
+      ->add_option("--record", request.replay.record,
+                   "the ports that these trails name, joined by commas; globs as of `run`")
+      ->type_name("TRAIL,...")
+      ->delimiter(',');
+  replay_app->add_flag("--json", request.replay.json, "as JSON, 17 significant digits");
+  replay_app->add_flag("--about", request.replay.about, "only say what the movie is");
+  add_film(replay_app, request.replay.film);
+  add_serving(replay_app, request.replay.view);
+  add_plugins(replay_app, request.replay.allow_plugins);
+  add_command(app, request, "recover", "the MATLAB record of a run that was killed",
+              [&] { return recover(request.file); })
+      ->add_option("FILE", request.file, "NAME.mat.spool")
+      ->required();
 }
 
 void add_subjects(CLI::App* command, ViewArguments& arguments) {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "simulation/wiring/port_search.h"
+#include "simulation/wiring/ports.h"
 
 namespace hookpoint::view {
 namespace {
@@ -96,7 +97,7 @@ void Audience::answer_trace(const Asked& asked, std::string bytes) {
 void Audience::answer_own(Server::ClientId client, std::int64_t id, const ReadPorts& asked) {
   std::vector<Port> found;
   for (const std::string& trail : asked.trails) {
-    auto port = simulation::look_up_port(*experiment_, ports_, trail);
+    auto port = find(trail);
     if (!port) return refuse(client, id, "there is no port `" + trail + "`");
     found.push_back(std::move(*port));
   }
@@ -142,6 +143,12 @@ void Audience::answer_own(Server::ClientId client, std::int64_t id, const WatchP
   lay_out();
 }
 
+std::optional<Port> Audience::find(const std::string& trail) const {
+  auto port = simulation::look_up_port(*experiment_, ports_, trail);
+  if (port && port->lazy != nullptr) port->lazy->begin();
+  return port;
+}
+
 void Audience::lay_out() {
   std::vector<std::string> trails = always_;
   for (const auto& [client, wish] : wishes_)
@@ -151,7 +158,7 @@ void Audience::lay_out() {
   units_.clear();
   sources_.clear();
   for (const std::string& trail : trails_) {
-    const auto port = simulation::look_up_port(*experiment_, ports_, trail);
+    const auto port = find(trail);
     units_.push_back(port ? port->unit : "");
     sources_.push_back(port ? port->value : nullptr);
   }
@@ -179,6 +186,12 @@ void Audience::tell_changed(std::int64_t step, double time, const std::string& t
   JsonWriter json;
   json.begin_object().member("tell", "changed").member("step", step).member("time", time);
   json.member("trail", trail).member("value", value);
+  server_.broadcast(json.end_object().text());
+}
+
+void Audience::tell_progress(std::string_view work, double done) {
+  JsonWriter json;
+  json.begin_object().member("tell", "working").member("of", work).member("done", done);
   server_.broadcast(json.end_object().text());
 }
 

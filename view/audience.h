@@ -46,14 +46,17 @@ class Audience {
   std::size_t joined() const { return joined_; }
 
   /// `members` writes what the answer holds beside `id` and `ok`.
-  void answer(const Asked& asked,
-              const std::function<void(output::JsonWriter&)>& members = [](output::JsonWriter&) {});
+  void answer(
+      const Asked& asked,
+      const std::function<void(output::JsonWriter&)>& members = [](output::JsonWriter&) {});
   void refuse(const Asked& asked, const std::string& problem);
   void answer_trace(const Asked& asked, std::string bytes);
 
   void tell_notice(std::string_view level, const std::string& text);
   void tell_changed(std::int64_t step, double time, const std::string& trail,
                     const std::string& value);
+  /// Of long work: how far it has come, from 0 to 1.
+  void tell_progress(std::string_view work, double done);
   void tell_ended(const std::string& reason);
 
   /// The newest instant; `state.layout` is filled in.
@@ -65,6 +68,8 @@ class Audience {
   void answer_own(Server::ClientId client, std::int64_t id, const WatchPorts& asked);
   void refuse(Server::ClientId client, std::optional<std::int64_t> id, const std::string& problem);
   void lay_out();
+  /// Its value is right from now on.
+  std::optional<simulation::Port> find(const std::string& trail) const;
   std::string layout_text() const;
 
   Server& server_;

@@ -54,8 +54,8 @@ class Members {
     const double value = number(name);
     if (value != std::floor(value) || value < static_cast<double>(least) ||
         value > static_cast<double>(most))
-      throw Problem(fmt::format("`{}` takes a whole number from {} to {}, not {}", name, least,
-                                most, value));
+      throw Problem(
+          fmt::format("`{}` takes a whole number from {} to {}, not {}", name, least, most, value));
     return static_cast<std::int64_t>(value);
   }
   std::vector<std::string> list(std::string_view name) const {
@@ -73,8 +73,7 @@ class Members {
       if (!path.starts_with(start)) continue;
       const std::string key = path.substr(start.size());
       const auto read = number_in(value);
-      if (!read)
-        throw Problem(fmt::format("`{}` takes a finite number, not `{}`", key, value));
+      if (!read) throw Problem(fmt::format("`{}` takes a finite number, not `{}`", key, value));
       values.emplace_back(key, *read);
     }
     return values;
@@ -124,7 +123,7 @@ Command set_speed(const Members& members) {
 }
 
 /// The bytes that base64 stands for (RFC 4648, section 4).
-std::string from_base64(std::string_view text) {
+std::string from_base64(std::string_view name, std::string_view text) {
   std::array<int, 256> digit;
   digit.fill(-1);
   const std::string_view alphabet =
@@ -138,7 +137,7 @@ std::string from_base64(std::string_view text) {
   int count = 0;
   for (const char letter : text) {
     const int value = digit[static_cast<unsigned char>(letter)];
-    if (value < 0) throw Problem("`png` is not base64");
+    if (value < 0) throw Problem(fmt::format("`{}` is not base64", name));
     bits = (bits << 6U) | static_cast<unsigned>(value);
     count += 6;
     if (count < 8) continue;
@@ -152,13 +151,26 @@ std::string from_base64(std::string_view text) {
 Command keep_picture(const Members& members) {
   const std::string& name = members.text("name");
   const bool plain = !name.empty() && name.size() <= 100 && name.front() != '.' &&
-                     name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
-                                            "0123456789_-.") == std::string::npos;
+                     name.find_first_not_of(
+                         "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                         "0123456789_-.") == std::string::npos;
   if (!plain || !name.ends_with(".png"))
     throw Problem("`name` is a file's name such as view-1.png: letters, digits, _ - .");
-  std::string bytes = from_base64(members.text("png"));
+  std::string bytes = from_base64("png", members.text("png"));
   if (!bytes.starts_with("\x89PNG\r\n\x1a\n")) throw Problem("`png` is no PNG file");
   return KeepPicture{name, std::move(bytes)};
+}
+
+constexpr std::int64_t most_files = 10'000'000, most_bytes = std::int64_t{1} << 40;
+
+std::size_t index_of(const Members& members, std::string_view name) {
+  return static_cast<std::size_t>(members.whole(name, 0, most_files));
+}
+
+Command film_part(const Members& members) {
+  return FilmPart{index_of(members, "file"),
+                  static_cast<std::uint64_t>(members.whole("at", 0, most_bytes)),
+                  from_base64("bytes", members.text("bytes"))};
 }
 
 using Parse = Command (*)(const Members&);
@@ -181,12 +193,18 @@ const std::map<std::string, Parse, std::less<>>& commands() {
       {"seek", [](const Members& m) -> Command { return Seek{m.number("time")}; }},
       {"reset", [](const Members&) -> Command { return Reset{}; }},
       {"edit",
-       [](const Members& m) -> Command { return EditField{m.text("trail"), m.text("value")}; }},
+       [](const Members& m) -> Command {
+         return EditField{m.text("trail"), m.text("value")};
+       }},
       {"fields", [](const Members&) -> Command { return ListFields{}; }},
       {"changes", [](const Members&) -> Command { return ListChanges{}; }},
       {"patch", [](const Members&) -> Command { return AskPatch{}; }},
       {"picture", keep_picture},
       {"quit", [](const Members&) -> Command { return Quit{}; }},
+      {"film_frame", [](const Members& m) -> Command { return AskFrame{index_of(m, "index")}; }},
+      {"film_part", film_part},
+      {"film_end", [](const Members& m) -> Command { return FilmEnd{index_of(m, "file")}; }},
+      {"film_failed", [](const Members& m) -> Command { return FilmFailed{m.text("text")}; }},
   };
   return table;
 }

@@ -55,10 +55,27 @@ struct KeepPicture {
   std::string png;   ///< its bytes
 };
 struct Quit {};
+/// Of a film: the moment of picture `index`.
+struct AskFrame {
+  std::size_t index = 0;
+};
+/// A piece of file `file`, of a picture or of the video.
+struct FilmPart {
+  std::size_t file = 0;
+  std::uint64_t at = 0;  ///< where in the file
+  std::string bytes;
+};
+/// The file has all its bytes.
+struct FilmEnd {
+  std::size_t file = 0;
+};
+struct FilmFailed {
+  std::string text;
+};
 
-using Command =
-    std::variant<SetPorts, ReadPorts, ListPorts, WatchPorts, AskTrace, Pause, Run, StepOn, SetSpeed,
-                 Seek, Reset, EditField, ListFields, ListChanges, AskPatch, KeepPicture, Quit>;
+using Command = std::variant<SetPorts, ReadPorts, ListPorts, WatchPorts, AskTrace, Pause, Run,
+                             StepOn, SetSpeed, Seek, Reset, EditField, ListFields, ListChanges,
+                             AskPatch, KeepPicture, Quit, AskFrame, FilmPart, FilmEnd, FilmFailed>;
 
 struct Request {
   /// As the page wrote it; none where the message was not read that far. The page's own number.

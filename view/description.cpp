@@ -27,9 +27,18 @@ double value_of(const std::vector<simulation::Port>& ports, const std::string& t
 
 std::string describe(Kind kind, const std::string& title, const Panel& panel,
                      const Subjects& subjects, const std::vector<simulation::Port>& ports) {
-  const simulation::LiveRun& run = subjects.run();
-  const simulation::Experiment& experiment = run.experiment();
-  const std::string no_history = run.no_history();
+  Described described{subjects.run().experiment(), subjects.run().no_history(), {}, {}};
+  for (const Subject& subject : subjects.all())
+    described.subjects.emplace_back(subject.name, subject.colour);
+  described.pull = {value_of(ports, "Simulator.pull.stiffness"),
+                    value_of(ports, "Simulator.pull.damping")};
+  return describe(kind, title, panel, described);
+}
+
+std::string describe(Kind kind, const std::string& title, const Panel& panel,
+                     const Described& described) {
+  const simulation::Experiment& experiment = described.experiment;
+  const std::string& no_history = described.no_history;
   output::JsonWriter json;
   json.begin_object().member("tell", "description").member("protocol", 1);
   json.member("version", HOOKPOINT_VERSION).member("title", title).member("kind", name_of(kind));
@@ -43,16 +52,16 @@ std::string describe(Kind kind, const std::string& title, const Panel& panel,
   json.key("scene");
   write_scene(make_scene(experiment), json);
   json.key("subjects").begin_array();
-  for (const Subject& subject : subjects.all())
-    json.begin_object()
-        .member("name", subject.name)
-        .member("colour", subject.colour)
-        .end_object();
+  for (const auto& [name, colour] : described.subjects)
+    json.begin_object().member("name", name).member("colour", colour).end_object();
   json.end_array();
-  json.key("pull").begin_object();
-  for (const char* constant : {"stiffness", "damping"})
-    json.member(constant, value_of(ports, std::string("Simulator.pull.") + constant));
-  return json.end_object().end_object().text();
+  json.key("pull").begin_object().member("stiffness", described.pull.stiffness);
+  json.member("damping", described.pull.damping).end_object();
+  if (described.film != nullptr) {
+    json.key("film");
+    write_film(*described.film, json);
+  }
+  return json.end_object().text();
 }
 
 }  // namespace hookpoint::view

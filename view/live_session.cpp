@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "output/file.h"
+#include "view/keep_picture.h"
 
 namespace hookpoint::view {
 namespace {
@@ -174,6 +174,8 @@ void LiveSession::carry_out(const Asked& asked) {
           problem.empty() ? audience_.answer(asked) : audience_.refuse(asked, problem);
         } else if constexpr (requires { reply(asked, command); }) {
           reply(asked, command);
+        } else {
+          audience_.refuse(asked, "only a page that makes a film asks for that");
         }
       },
       asked.command);
@@ -292,14 +294,7 @@ void LiveSession::reply(const Asked& asked, const AskPatch& /*command*/) {
 }
 
 void LiveSession::reply(const Asked& asked, const KeepPicture& command) {
-  const std::filesystem::path path = subjects_.run().folder() / command.name;
-  try {
-    std::filesystem::create_directories(path.parent_path());
-    output::write_file(path, command.png);
-    audience_.answer(asked, [&](JsonWriter& json) { json.member("path", path.string()); });
-  } catch (const std::exception& error) {
-    audience_.refuse(asked, error.what());
-  }
+  keep_picture(asked, command, subjects_.run().folder(), audience_);
 }
 
 }  // namespace hookpoint::view

@@ -14,18 +14,11 @@
 #include "view/audience.h"
 #include "view/file_watch.h"
 #include "view/pace.h"
+#include "view/shown.h"
 #include "view/subjects.h"
 #include "view/traces.h"
 
 namespace hookpoint::view {
-
-/// What a file says of its windows, at present.
-struct Shown {
-  std::string description;          ///< JSON (docs/view_protocol.md)
-  std::vector<std::string> trails;  ///< that its widgets read
-  std::vector<std::string> plotted; ///< of these, those that are plotted from the beginning on
-  std::vector<std::filesystem::path> sources;  ///< the run begins anew when one of them is saved
-};
 
 /// A field of the file, for those who edit.
 struct FileField {

@@ -3,11 +3,12 @@
 import { addressOfSocket, Connection, type Socket } from "./connection.ts";
 import { Listeners, type Context, type Part, type Quality } from "./context.ts";
 import { element } from "./dom.ts";
+import { makeFilmPage } from "./film.ts";
 import { offerApi } from "./hookpoint_api.ts";
 import { Notices } from "./notices.ts";
 import { answerPictureRequest } from "./picture_request.ts";
 import { protocolVersion, type Description, type PlotTrace, type Snapshot, type Told } from "./protocol.ts";
-import { makeFilmPage, makeRunPage } from "./run_page.ts";
+import { makeRunPage } from "./run_page.ts";
 import { Branches } from "./series.ts";
 import { makeStudyPage, type StudyPage } from "./study.ts";
 import type { StudiesDescription } from "./study/protocol.ts";
@@ -22,6 +23,7 @@ document.body.append(host, notices.element);
 const snapshots = new Listeners<[Snapshot]>();
 const branchings = new Listeners<[number]>();
 const themes = new Listeners<[]>();
+const progresses = new Listeners<[string, number]>();
 const qualities = new Listeners<[Quality]>();
 const exaggerations = new Listeners<[number]>();
 const visibilities = new Listeners<[number, boolean]>();
@@ -57,6 +59,7 @@ function hear(message: Told): void {
     case "layout": return values.setLayout(message);
     case "notice": return notices.add(message.level, message.text);
     case "ended": return notices.add("note", `ended: ${message.reason}`);
+    case "working": return progresses.tell(message.of, message.done);
     case "changed": return;
     case "row":
     case "figure":
@@ -97,7 +100,7 @@ function describe(description: Description): void {
   const scrolled = document.scrollingElement?.scrollTop ?? 0;
   page?.dispose();
   context = makeContext(description);
-  page = description.kind === "film" || new URLSearchParams(location.search).has("film") ? makeFilmPage(context) : makeRunPage(context, themes);
+  page = description.kind === "film" ? makeFilmPage(context) : makeRunPage(context, themes);
   host.replaceChildren(page.element);
   document.scrollingElement?.scrollTo(0, scrolled);
   values.askAnew();
@@ -124,6 +127,7 @@ function makeContext(description: Description): Context {
     onSnapshot: snapshots.add,
     onBranch: branchings.add,
     onTheme: themes.add,
+    onProgress: progresses.add,
     notice: (level, text) => notices.add(level, text),
     get quality() {
       return quality;

@@ -28,6 +28,17 @@ export interface Description {
   scene: SceneDescription;
   subjects: Subject[];
   pull: { stiffness: number; damping: number };
+  film?: Film;
+}
+
+/// What a page that makes a film is to draw.
+export interface Film {
+  camera: string; // trail
+  width: number;
+  height: number;
+  rate: number; // pictures a second
+  frames: number;
+  format: "png" | "webm" | "mp4";
 }
 
 export interface SceneDescription {
@@ -169,7 +180,13 @@ export interface Ended {
   tell: "ended";
   reason: string;
 }
-export type Told = Description | StudiesDescription | StudyTold | Layout | Notice | Changed | Ended;
+/// How far long work has come, from 0 to 1.
+export interface Working {
+  tell: "working";
+  of: string;
+  done: number;
+}
+export type Told = Description | StudiesDescription | StudyTold | Layout | Notice | Changed | Ended | Working;
 
 // ---- binary messages ----
 
@@ -255,6 +272,10 @@ export interface Requests {
   picture: { with: { name: string; png: string }; answer: { path: string } };
   open: OpenRequest;
   quit: { with: object; answer: object };
+  film_frame: { with: { index: number }; answer: { snapshot: number; time: number } };
+  film_part: { with: { file: number; at: number; bytes: string }; answer: object };
+  film_end: { with: { file: number }; answer: object };
+  film_failed: { with: { text: string }; answer: object };
 }
 export type RequestName = keyof Requests;
 

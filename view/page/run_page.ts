@@ -5,16 +5,15 @@ import { Listeners, type Context, type Part } from "./context.ts";
 import { makeCreepPanel } from "./creep_panel.ts";
 import { element } from "./dom.ts";
 import { iconButton } from "./icons.ts";
-import type { PlotTrace, Widget } from "./protocol.ts";
+import type { CameraWidget, PlotTrace } from "./protocol.ts";
 import { makeSidePanel } from "./side_panel.ts";
 import { toggleTheme } from "./theme.ts";
 import { makeTransport } from "./transport.ts";
-import { makeCamera } from "./widgets/camera.ts";
 import { makePlot } from "./widgets/plot.ts";
 import { makeWidget } from "./widgets/window.ts";
 
 /// A file that says nothing of windows is shown by one camera, whose place no port holds.
-function ownCamera(context: Context): Widget {
+export function ownCamera(context: Context): CameraWidget {
   return {
     type: "Window.grob", trail: "camera", label: context.description.world, drawer: context.description.world, follow: null,
     ports: { zoom: "", distance: "", euler1: "", euler2: "" }, show: {},
@@ -104,20 +103,4 @@ export function makeRunPage(context: Context, themeChanged: Listeners<[]>): Part
       [...parts, ...plots.values()].forEach((part) => part.dispose());
     },
   };
-}
-
-/// Only a camera, as large as the page: for a film, drawn picture by picture.
-export function makeFilmPage(context: Context): Part {
-  const wanted = new URLSearchParams(location.search).get("camera");
-  const cameras: Widget[] = [];
-  const collect = (widgets: Widget[]) => {
-    for (const widget of widgets) {
-      if (widget.type === "Window.grob") cameras.push(widget);
-      if (widget.type === "Window") collect(widget.children);
-    }
-  };
-  collect(context.description.windows);
-  const camera = cameras.find((each) => each.trail === wanted) ?? cameras[0] ?? ownCamera(context);
-  const part = makeCamera(context, camera as Extract<Widget, { type: "Window.grob" }>, true);
-  return { element: element("div", { class: "film" }, part.element), dispose: part.dispose };
 }

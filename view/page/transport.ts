@@ -53,9 +53,10 @@ export function makeTransport(context: Context, chrome: Chrome): Part & { action
   const run = iconButton("run", "run (Space)", actions.toggle);
   run.classList.add("main");
   const step = iconButton("step", "one step (right arrow)", actions.step);
-  const reset = iconButton("reset", "reset to time 0 (r)", actions.reset);
+  const reset = iconButton("reset", movie ? "to the beginning (r)" : "reset to time 0 (r)", actions.reset);
   const time = element("output", { class: "time", "aria-live": "off", "aria-label": "time" });
   const state = element("span", { class: "state", role: "status" });
+  const work = element("span", { class: "state", role: "status" });
   const scrubber = element("input", { type: "range", class: "scrubber", step: "any", "aria-label": movie ? "time line" : "history", min: 0, max: 1 });
   scrubber.disabled = true;
   if (!description.history.possible && description.history.why !== "") scrubber.title = description.history.why;
@@ -113,6 +114,7 @@ export function makeTransport(context: Context, chrome: Chrome): Part & { action
     element("span", { class: "group", role: "group", "aria-label": "transport" }, reset, run, step),
     element("span", { class: "clock" }, time, element("span", { class: "unit" }, "s"), state),
     scrubber,
+    work,
     element("span", { class: "group", role: "group", "aria-label": "speed" }, asked, reached),
     element("span", { class: "group tools", role: "group", "aria-label": "tools" },
       quality,
@@ -122,6 +124,7 @@ export function makeTransport(context: Context, chrome: Chrome): Part & { action
       iconButton("theme", "light or dark", chrome.theme),
       iconButton("help", "keys (?)", chrome.help)));
 
+  const forgetWork = context.onProgress((name, done) => setText(work, done < 1 ? `${name}: ${Math.floor(100 * done)} %` : ""));
   const forget = context.onSnapshot((snapshot) => {
     shown = snapshot;
     setIcon(run, snapshot.paused ? "run" : "pause", snapshot.paused ? (snapshot.past && !movie ? "go on from here (Space)" : "run (Space)") : "pause (Space)");
@@ -138,7 +141,10 @@ export function makeTransport(context: Context, chrome: Chrome): Part & { action
       scrubber.setAttribute("aria-valuetext", `${formatDecimals(snapshot.time, decimals)} s`);
     }
   });
-  return { element: element_, actions, dispose: forget };
+  return { element: element_, actions, dispose: () => {
+    forget();
+    forgetWork();
+  } };
 }
 
 /// A picture of every camera: into the run's folder, and where that cannot be, to the user.

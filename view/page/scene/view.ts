@@ -475,6 +475,11 @@ export class CameraView {
     };
   }
 
+  /// Draws at once, not with the next frame of the screen; the canvas has the picture then.
+  drawNow(): HTMLCanvasElement {
+    this.frame();
+    return this.canvas;
+  }
   /// The picture as it stands, or of another size, as PNG.
   picture(width = this.canvas.width, height = this.canvas.height): Promise<Blob> {
     if (!this.painter || this.painter.lost) return Promise.reject(new Error("this browser gives no WebGL to make a picture with"));

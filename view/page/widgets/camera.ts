@@ -35,7 +35,7 @@ interface Kept {
 }
 
 /// `fill`: as large as what it stands in, for a page that is only a camera.
-export function makeCamera(context: Context, widget: CameraWidget, fill = false): Part {
+export function makeCamera(context: Context, widget: CameraWidget, fill = false): Part & { view: CameraView } {
   const { description } = context;
   const bodies = description.scene.bodies;
   const host = element("div", { class: "camera-host" });
@@ -59,8 +59,12 @@ export function makeCamera(context: Context, widget: CameraWidget, fill = false)
   // Its ports, where it has any: one that the page shows of its own has none.
   const ports = widget.ports;
   const wired = placeNames.every((name) => ports[name]);
+  // A movie's ports stay as they were: once somebody has moved the camera, its place is the page's.
+  const movie = description.kind === "movie";
+  let moved = movie && kept !== undefined;
   const send = () => {
-    if (!wired) return;
+    if (movie) moved = true;
+    if (!wired || movie) return;
     const place = view.cameraValues;
     for (const name of placeNames) attempt(context, context.setter.set(ports[name], place[name]));
   };
@@ -71,7 +75,7 @@ export function makeCamera(context: Context, widget: CameraWidget, fill = false)
   if (kept !== undefined) send();
   const forget = wired
     ? placeNames.map((name) => context.values.watch(ports[name], (value) => {
-        if (value !== view.cameraValues[name]) {
+        if (!moved && value !== view.cameraValues[name]) {
           view.setCamera({ [name]: value });
           keep();
         }
@@ -93,7 +97,7 @@ export function makeCamera(context: Context, widget: CameraWidget, fill = false)
     context.onSelected((body) => view.select(body)),
   );
   view.onSelect = (body) => context.select(body);
-  forget.push(wirePull(context, view));
+  if (!movie) forget.push(wirePull(context, view));
   const picture = () => view.picture();
   context.pictures.set(widget.trail, picture);
 
@@ -102,7 +106,7 @@ export function makeCamera(context: Context, widget: CameraWidget, fill = false)
     if (context.pictures.get(widget.trail) === picture) context.pictures.delete(widget.trail);
     view.dispose();
   };
-  if (fill) return { element: host, dispose };
+  if (fill) return { element: host, dispose, view };
 
   const followChoice = element("select", { "aria-label": "follow a body" }, element("option", { value: -1 }, "follows no body"),
     ...bodies.map((body, index) => element("option", { value: index, selected: index === follow }, `follows ${body.trail}`)));
@@ -129,7 +133,7 @@ export function makeCamera(context: Context, widget: CameraWidget, fill = false)
     element("figcaption", {}, element("span", { class: "name" }, widget.label), take, menu), host);
   frame.style.width = `${widget.width ?? defaultWidth}px`;
   host.style.height = `${widget.height ?? defaultHeight}px`;
-  return { element: frame, dispose };
+  return { element: frame, dispose, view };
 }
 
 /// A drag with control is a spring between a point of a body and the pointer.

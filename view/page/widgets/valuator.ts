@@ -50,7 +50,7 @@ export class Valuator {
 
   /// Sets the port; the value that a person gave is shown until the program has taken or refused it.
   set(value: number): void {
-    if (Number.isNaN(value)) return;
+    if (Number.isNaN(value) || this.context.description.kind === "movie") return;
     if (this.widget.range !== null) value = Math.min(this.greatest, Math.max(this.least, value));
     this.value = value;
     this.widen(value);

@@ -18,6 +18,20 @@ import { makeText } from "./text.ts";
 
 /// The part of the page that a widget of the file is; null for a plot that is laid over another.
 export function makeWidget(context: Context, widget: Widget): Part | null {
+  const part = makePart(context, widget);
+  const controls = widget.type.startsWith("Valuator.") || widget.type.startsWith("Button");
+  if (part !== null && controls && context.description.kind === "movie") hold(part.element);
+  return part;
+}
+
+/// What a movie holds is shown and not changed.
+function hold(part: HTMLElement): void {
+  for (const control of [part, ...part.querySelectorAll("*")])
+    if (control instanceof HTMLInputElement || control instanceof HTMLButtonElement || control instanceof HTMLSelectElement) control.disabled = true;
+    else if (control.getAttribute("tabindex") !== null) control.setAttribute("aria-disabled", "true");
+}
+
+function makePart(context: Context, widget: Widget): Part | null {
   switch (widget.type) {
     case "Window": return makeWindow(context, widget);
     case "Window.grob": return makeCamera(context, widget);
