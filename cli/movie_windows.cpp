@@ -21,7 +21,11 @@ MovieWindows::MovieWindows(const std::filesystem::path& file, bool allow_plugins
 
 view::ShownMovie MovieWindows::movie() {
   return {experiment_, opened_.reader(),
-          [this] { return std::make_unique<simulation::World>(opened_.make_world(experiment_)); }};
+          // Made in its place: a world cannot be moved.
+          [this] {
+            return std::unique_ptr<simulation::World>(
+                new simulation::World(opened_.make_world(experiment_)));
+          }};
 }
 
 view::Shown MovieWindows::show(const std::vector<simulation::Port>& ports, const view::Film* film) {
@@ -33,7 +37,7 @@ view::Shown MovieWindows::show(const std::vector<simulation::Port>& ports, const
   const view::Kind kind = film == nullptr ? view::Kind::movie : view::Kind::film;
   view::Shown shown;
   shown.description = view::describe(
-      kind, title_, panel, {experiment_, "", {{law, output::series_style(0).color}}, film});
+      kind, title_, panel, {experiment_, "", {{law, output::series_style(0).color}}, {}, film});
   shown.trails = view::ports_of(panel);
   shown.plotted = view::plotted_of(panel);
   return shown;
