@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "application/application.h"
+#include "application/study_plans.h"
 #include "application/live_loader.h"
 #include "cli/commands.h"
 #include "cli/exit_status.h"
@@ -39,7 +40,7 @@ int repeat(const RunArguments& arguments) {
     std::cerr << problem << '\n';
     return wrong_input;
   }
-  tell_windows(loader.root());
+  tell_windows(loader.root(), arguments.file);
   tell_stability(first->experiment);
   const std::filesystem::path folder =
       arguments.out.value_or(std::filesystem::path("runs") / first->experiment.world);

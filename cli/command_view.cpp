@@ -79,12 +79,13 @@ class Watched {
   view::Shown show(view::Subjects& subjects) const {
     const language::Object& root = loaders_.front()->root();
     language::Diagnostics diagnostics;
-    const view::Panel panel = view::make_panel(root, subjects.run().experiment(),
-                                               subjects.run().world().ports(), diagnostics);
+    const std::vector<simulation::Port> ports = subjects.ports();
+    const view::Panel panel =
+        view::make_panel(root, subjects.run().experiment(), ports, diagnostics);
     application_.tell(diagnostics);
     view::Shown shown;
     shown.description = view::describe(
-        view::Kind::run, arguments_.file.filename().string(), panel, subjects);
+        view::Kind::run, arguments_.file.filename().string(), panel, subjects, ports);
     shown.trails = view::ports_of(panel);
     shown.plotted = view::plotted_of(panel);
     for (const std::string& source : language::sources_of(root)) shown.sources.emplace_back(source);

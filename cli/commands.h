@@ -67,7 +67,8 @@ int film(const ReplayArguments& arguments);
 /// recover: the record that a killed run left as a spool.
 int recover(const std::filesystem::path& spool);
 
-int study(const application::StudyArguments& arguments);
+/// study; with `view` its table fills in a browser meanwhile (cli/study_view.h).
+int study(const application::StudyArguments& arguments, const std::optional<ViewArguments>& view);
 
 /// check: every file's diagnostics.
 int check(const std::vector<std::filesystem::path>& files, bool allow_plugins);

@@ -234,7 +234,11 @@ void add_run_and_study(CLI::App& app, Request& request) {
       ->type_name("FILE.csv");
 
   CLI::App* study_app = add_command(app, request, "study", "run the studies of a file",
-                                    [&] { return study(request.study); });
+                                    [&] {
+                                      return study(request.study, request.run.viewed
+                                                                      ? std::optional(request.run.view)
+                                                                      : std::nullopt);
+                                    });
   study_app->add_option("FILE", request.study.file, "a .hook file with a Study")->required();
   add_trails(study_app, request.study.settings);
   for (const application::ShortForm& form : application::short_forms)
@@ -260,6 +264,9 @@ void add_run_and_study(CLI::App& app, Request& request) {
       ->type_name("SUBJECT")
       ->expected(1)
       ->take_all();
+  study_app->add_flag("--view", request.run.viewed,
+                      "in a browser, where table and figures fill meanwhile");
+  add_serving(study_app, request.run.view);
 }
 
 /// What the short forms take, as the language has it.

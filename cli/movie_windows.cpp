@@ -33,7 +33,7 @@ view::Shown MovieWindows::show(const std::vector<simulation::Port>& ports, const
   const view::Kind kind = film == nullptr ? view::Kind::movie : view::Kind::film;
   view::Shown shown;
   shown.description = view::describe(
-      kind, title_, panel, {experiment_, "", {{law, output::series_style(0).color}}, film});
+      kind, title_, panel, {experiment_, "", {{law, output::series_style(0).color}}, film}, ports);
   shown.trails = view::ports_of(panel);
   shown.plotted = view::plotted_of(panel);
   return shown;

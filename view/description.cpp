@@ -1,5 +1,7 @@
 #include "view/description.h"
 
+#include <algorithm>
+
 #include "view/scene.h"
 
 namespace hookpoint::view {
@@ -17,18 +19,22 @@ const char* name_of(Kind kind) {
   return "";
 }
 
+double value_of(const std::vector<simulation::Port>& ports, const std::string& trail) {
+  return *std::ranges::find(ports, trail, &simulation::Port::trail)->value;
+}
+
 }  // namespace
 
 std::string describe(Kind kind, const std::string& title, const Panel& panel,
-                     const Subjects& subjects) {
+                     const Subjects& subjects, const std::vector<simulation::Port>& ports) {
   Described described{subjects.run().experiment(), subjects.run().no_history(), {}};
   for (const Subject& subject : subjects.all())
     described.subjects.emplace_back(subject.name, subject.colour);
-  return describe(kind, title, panel, described);
+  return describe(kind, title, panel, described, ports);
 }
 
 std::string describe(Kind kind, const std::string& title, const Panel& panel,
-                     const Described& described) {
+                     const Described& described, const std::vector<simulation::Port>& ports) {
   const simulation::Experiment& experiment = described.experiment;
   const std::string& no_history = described.no_history;
   output::JsonWriter json;
@@ -47,6 +53,10 @@ std::string describe(Kind kind, const std::string& title, const Panel& panel,
   for (const auto& [name, colour] : described.subjects)
     json.begin_object().member("name", name).member("colour", colour).end_object();
   json.end_array();
+  json.key("pull").begin_object();
+  for (const char* constant : {"stiffness", "damping"})
+    json.member(constant, value_of(ports, std::string("Simulator.pull.") + constant));
+  json.end_object();
   if (described.film != nullptr) {
     json.key("film");
     write_film(*described.film, json);

@@ -21,11 +21,11 @@ struct Described {
   const Film* film = nullptr;
 };
 
-/// The "description" of docs/view_protocol.md. `title`: of the window.
+/// The "description" of docs/view_protocol.md. `title`: of the window; `ports`: of the run.
 std::string describe(Kind kind, const std::string& title, const Panel& panel,
-                     const Described& described);
+                     const Described& described, const std::vector<simulation::Port>& ports);
 /// Of a live run.
 std::string describe(Kind kind, const std::string& title, const Panel& panel,
-                     const Subjects& subjects);
+                     const Subjects& subjects, const std::vector<simulation::Port>& ports);
 
 }  // namespace hookpoint::view

@@ -39,6 +39,10 @@ std::vector<SceneBody> bodies_of(const Experiment& experiment) {
       body.parent = static_cast<int>(first + at.parent);
       body.joint = at.link.joint;
     });
+    const simulation::RobotSpec& spec = experiment.robots[robot];
+    const simulation::Pose base{spec.location, spec.orientation};
+    const std::vector<simulation::Pose> poses = simulation::body_poses(spec);
+    for (std::size_t i = 0; i < poses.size(); ++i) bodies[first + i].start = base * poses[i];
   }
   return bodies;
 }
@@ -117,6 +121,9 @@ class SceneWriter {
     json_.key("points").begin_array();
     for (const Vector3d& point : body.points) json_.numbers({point.x, point.y, point.z});
     json_.end_array();
+    const Vector3d& p = body.start.position;
+    const Quaterniond& q = body.start.orientation;
+    json_.key("start").numbers({p.x, p.y, p.z, q.w, q.x, q.y, q.z});
     json_.end_object();
   }
 

@@ -9,6 +9,7 @@
 #include "output/text/json.h"
 #include "simulation/experiment.h"
 #include "simulation/ground_mesh.h"
+#include "simulation/kinematics.h"
 
 namespace hookpoint::view {
 
@@ -20,6 +21,7 @@ struct SceneBody {
   simulation::MassSpec mass;
   std::vector<simulation::ShapeSpec> shapes;
   std::vector<Vector3d> points;  ///< boundary points, body axes [m]
+  simulation::Pose start;        ///< X_WB at time 0
 };
 
 struct SceneSensor {

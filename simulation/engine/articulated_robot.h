@@ -68,6 +68,8 @@ class ArticulatedRobot {
   const JointSet& joints() const { return joints_; }
   /// tau of the last accelerate(): drives and what joints exert by themselves [N m, N].
   const std::vector<double>& joint_torques() const { return joint_torques_; }
+  /// Indices of the experiment's Forces that act on it.
+  std::span<const std::size_t> forces() const { return forces_; }
   /// Whether forces of the inputs act on the robot, or acted when they were applied last.
   bool has_external_forces() const { return !forces_.empty() || pulled() || was_pulled_; }
 

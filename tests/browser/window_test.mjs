@@ -29,8 +29,8 @@ test("Fig. 7 has ten sliders, one light button and one button", async (t) => {
 test("moving goal_angle moves the arm", async (t) => {
   const { page } = await open(t);
   const link = "SimpleWorld.simplebot.leg1.link1";
-  await set(page, "pd1.pconstant", 2000);
-  await set(page, "pd1.dconstant", 400);
+  await set(page, "controllers.pconstant.value", 2000);
+  await set(page, "controllers.dconstant.value", 400);
   const slider = page.getByRole("slider", { name: "goal_angle" }).first();
   await slider.fill("1.2");
   await eventually("the controller has its goal", async () => Math.abs((await read(page, "pd1.goal")) - 1.2) < 0.02);

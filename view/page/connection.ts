@@ -102,7 +102,7 @@ export class Connection {
     }
     if (typeof message.tell === "string") {
       const told = message as Told;
-      if (told.tell === "description") this.bodies = told.scene.bodies.length;
+      if (told.tell === "description") this.bodies = told.kind === "study" ? 0 : told.scene.bodies.length;
       this.listeners.told(told);
       return;
     }

@@ -6,9 +6,12 @@ import { element } from "./dom.ts";
 import { makeFilmPage } from "./film.ts";
 import { offerApi } from "./hookpoint_api.ts";
 import { Notices } from "./notices.ts";
+import { answerPictureRequest } from "./picture_request.ts";
 import { protocolVersion, type Description, type PlotTrace, type Snapshot, type Told } from "./protocol.ts";
 import { makeRunPage } from "./run_page.ts";
 import { Branches } from "./series.ts";
+import { makeStudyPage, type StudyPage } from "./study.ts";
+import type { StudiesDescription } from "./study/protocol.ts";
 import { startTheme } from "./theme.ts";
 import { Setter, WatchedValues } from "./values.ts";
 import { overlaysOf } from "./widgets/window.ts";
@@ -20,7 +23,7 @@ document.body.append(host, notices.element);
 const snapshots = new Listeners<[Snapshot]>();
 const branchings = new Listeners<[number]>();
 const themes = new Listeners<[]>();
-const progresses = new Listeners<[string, number]>();
+const readings = new Listeners<[string, number]>();
 const qualities = new Listeners<[Quality]>();
 const exaggerations = new Listeners<[number]>();
 const visibilities = new Listeners<[number, boolean]>();
@@ -29,6 +32,7 @@ const kept = new Map<string, unknown>();
 
 let page: Part | null = null;
 let context: Context | null = null;
+let studies: StudyPage | null = null; // the page, where it is one of studies
 let described = ""; // the description that the page was made for
 let newest: Snapshot | null = null;
 let branches = new Branches();
@@ -47,23 +51,41 @@ const connection = new Connection(() => new WebSocket(addressOfSocket(location))
 const values = new WatchedValues(() => connection, (text) => notices.add("warning", text));
 const setter = new Setter(() => connection);
 startTheme(() => themes.tell());
-offerApi(connection, () => context);
+offerApi(connection, () => context, () => studies !== null);
 
 function hear(message: Told): void {
   switch (message.tell) {
-    case "description": return describe(message);
+    case "description": return message.kind === "study" ? describeStudies(message) : describe(message);
     case "layout": return values.setLayout(message);
     case "notice": return notices.add(message.level, message.text);
     case "ended": return notices.add("note", `ended: ${message.reason}`);
-    case "progress": return progresses.tell(message.of, message.done);
+    case "reading": return readings.tell(message.of, message.done);
     case "changed": return;
+    case "row":
+    case "figure":
+    case "progress":
+    case "state": return studies?.hear(message);
   }
 }
 
-function describe(description: Description): void {
+function announce(description: Description | StudiesDescription): void {
   if (description.protocol !== protocolVersion)
     notices.add("error", `the program speaks protocol ${description.protocol} and this page ${protocolVersion}: load the page again`);
   document.title = `${description.title} \u2013 hookpoint`;
+}
+
+function describeStudies(description: StudiesDescription): void {
+  announce(description);
+  const scrolled = document.scrollingElement?.scrollTop ?? 0;
+  page?.dispose();
+  context = null;
+  page = studies = makeStudyPage(connection, description, themes.add, (text) => notices.add("error", text));
+  host.replaceChildren(page.element);
+  document.scrollingElement?.scrollTo(0, scrolled);
+}
+
+function describe(description: Description): void {
+  announce(description);
   branches = new Branches();
   newest = null;
   const text = JSON.stringify(description);
@@ -74,6 +96,7 @@ function describe(description: Description): void {
     return;
   }
   described = text;
+  studies = null;
   const scrolled = document.scrollingElement?.scrollTop ?? 0;
   page?.dispose();
   context = makeContext(description);
@@ -81,6 +104,7 @@ function describe(description: Description): void {
   host.replaceChildren(page.element);
   document.scrollingElement?.scrollTo(0, scrolled);
   values.askAnew();
+  answerPictureRequest(context).catch((problem: Error) => notices.add("error", problem.message));
 }
 
 function draw(): void {
@@ -103,7 +127,7 @@ function makeContext(description: Description): Context {
     onSnapshot: snapshots.add,
     onBranch: branchings.add,
     onTheme: themes.add,
-    onProgress: progresses.add,
+    onReading: readings.add,
     notice: (level, text) => notices.add(level, text),
     get quality() {
       return quality;

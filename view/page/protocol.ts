@@ -1,6 +1,8 @@
 // The protocol of the window, version 1, as docs/view_protocol.md has it: what the program tells,
 // what the page asks. Everything is SI, world axes, z up, unless a unit is given.
 
+import type { OpenRequest, StudiesDescription, StudyTold } from "./study/protocol.ts";
+
 export const protocolVersion = 1;
 
 export type Vector3 = [number, number, number];
@@ -14,7 +16,7 @@ export interface Description {
   protocol: number;
   version: string;
   title: string;
-  kind: "run" | "movie" | "film" | "study";
+  kind: "run" | "movie" | "film";
   world: string;
   deltat: number;
   duration: number | null;
@@ -62,6 +64,7 @@ export interface Body {
   joint: "revolute" | "prismatic" | null; // about, or along, the body's own z through its origin
   shapes: Shape[];
   points: Vector3[];
+  start?: number[]; // pose at time 0: x y z, qw qx qy qz
 }
 
 interface PlacedShape {
@@ -177,13 +180,13 @@ export interface Ended {
   tell: "ended";
   reason: string;
 }
-/// How far long work has come, from 0 to 1.
-export interface Progress {
-  tell: "progress";
+/// Of a movie: how far it has been gone through for what `of` names, from 0 to 1.
+export interface ReadingTold {
+  tell: "reading";
   of: string;
   done: number;
 }
-export type Told = Description | Layout | Notice | Changed | Ended | Progress;
+export type Told = Description | StudiesDescription | StudyTold | Layout | Notice | Changed | Ended | ReadingTold;
 
 // ---- binary messages ----
 
@@ -267,6 +270,7 @@ export interface Requests {
   changes: { with: object; answer: { changes: Change[] } };
   patch: { with: object; answer: { name: string; text: string } };
   picture: { with: { name: string; png: string }; answer: { path: string } };
+  open: OpenRequest;
   quit: { with: object; answer: object };
   film_frame: { with: { index: number }; answer: { snapshot: number; time: number } };
   film_part: { with: { file: number; at: number; bytes: string }; answer: object };

@@ -1,15 +1,12 @@
 // What all layers of a scene are drawn from: the poses as drawn, of every subject, and where a point of the world is drawn.
 import { Matrix4, Vector3 } from "three";
-import type { Body, Description, Snapshot } from "../protocol.ts";
+import type { Description, Snapshot } from "../protocol.ts";
 import { exaggeratePose, magnifyDisplacement } from "./exaggeration.ts";
 import { placeMatrix } from "./robots.ts";
 import type { Ground } from "./terrain.ts";
 import { trianglesOf } from "./shapes.ts";
 
 export const numbersOfContact = 12;
-
-/// A description may have where a body stands at time 0 (x y z qw qx qy qz): a page that joins later cannot see it.
-type PlacedBody = Body & { start?: number[] };
 
 export class Stage {
   snapshot: Snapshot | null = null;
@@ -37,7 +34,7 @@ export class Stage {
     this.visible = description.subjects.map(() => true);
     const masses = new Map<number, number>();
     for (const body of bodies) masses.set(body.robot, (masses.get(body.robot) ?? 0) + body.mass);
-    const starts = bodies.map((body) => (body as PlacedBody).start);
+    const starts = bodies.map((body) => body.start);
     if (bodies.length > 0 && starts.every((each) => each !== undefined)) {
       for (const each of this.starts) each.set(starts.flat());
       this.told = true;
