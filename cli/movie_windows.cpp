@@ -20,8 +20,10 @@ MovieWindows::MovieWindows(const std::filesystem::path& file, bool allow_plugins
     : opened_(file, allow_plugins), experiment_(opened_.load()), title_(file.filename().string()) {}
 
 view::ShownMovie MovieWindows::movie() {
-  return {experiment_, opened_.reader(),
-          [this] { return std::make_unique<simulation::World>(opened_.make_world(experiment_)); }};
+  return {experiment_, opened_.reader(), [this] {
+            using simulation::World;  // cannot be moved: it is made where it stays
+            return std::unique_ptr<World>(new World(opened_.make_world(experiment_)));
+          }};
 }
 
 view::Shown MovieWindows::show(const std::vector<simulation::Port>& ports, const view::Film* film) {
