@@ -20,9 +20,11 @@ MovieWindows::MovieWindows(const std::filesystem::path& file, bool allow_plugins
     : opened_(file, allow_plugins), experiment_(opened_.load()), title_(file.filename().string()) {}
 
 view::ShownMovie MovieWindows::movie() {
-  return {experiment_, opened_.reader(), [this] {
-            using simulation::World;  // cannot be moved: it is made where it stays
-            return std::unique_ptr<World>(new World(opened_.make_world(experiment_)));
+  return {experiment_, opened_.reader(),
+          // Made in its place: a world cannot be moved.
+          [this] {
+            return std::unique_ptr<simulation::World>(
+                new simulation::World(opened_.make_world(experiment_)));
           }};
 }
 
@@ -35,7 +37,7 @@ view::Shown MovieWindows::show(const std::vector<simulation::Port>& ports, const
   const view::Kind kind = film == nullptr ? view::Kind::movie : view::Kind::film;
   view::Shown shown;
   shown.description = view::describe(
-      kind, title_, panel, {experiment_, "", {{law, output::series_style(0).color}}, film}, ports);
+      kind, title_, panel, {experiment_, "", {{law, output::series_style(0).color}}, {}, film});
   shown.trails = view::ports_of(panel);
   shown.plotted = view::plotted_of(panel);
   return shown;

@@ -189,9 +189,9 @@ void Audience::tell_changed(std::int64_t step, double time, const std::string& t
   server_.broadcast(json.end_object().text());
 }
 
-void Audience::tell_reading(std::string_view work, double done) {
+void Audience::tell_progress(std::string_view work, double done) {
   JsonWriter json;
-  json.begin_object().member("tell", "reading").member("of", work).member("done", done);
+  json.begin_object().member("tell", "working").member("of", work).member("done", done);
   server_.broadcast(json.end_object().text());
 }
 

@@ -55,8 +55,8 @@ class Audience {
   void tell_notice(std::string_view level, const std::string& text);
   void tell_changed(std::int64_t step, double time, const std::string& trail,
                     const std::string& value);
-  /// How far a movie has been gone through for `work`, from 0 to 1.
-  void tell_reading(std::string_view work, double done);
+  /// Of long work: how far it has come, from 0 to 1.
+  void tell_progress(std::string_view work, double done);
   void tell_ended(const std::string& reason);
 
   /// The newest instant; `state.layout` is filled in.

@@ -27,14 +27,16 @@ double value_of(const std::vector<simulation::Port>& ports, const std::string& t
 
 std::string describe(Kind kind, const std::string& title, const Panel& panel,
                      const Subjects& subjects, const std::vector<simulation::Port>& ports) {
-  Described described{subjects.run().experiment(), subjects.run().no_history(), {}};
+  Described described{subjects.run().experiment(), subjects.run().no_history(), {}, {}};
   for (const Subject& subject : subjects.all())
     described.subjects.emplace_back(subject.name, subject.colour);
-  return describe(kind, title, panel, described, ports);
+  described.pull = {value_of(ports, "Simulator.pull.stiffness"),
+                    value_of(ports, "Simulator.pull.damping")};
+  return describe(kind, title, panel, described);
 }
 
 std::string describe(Kind kind, const std::string& title, const Panel& panel,
-                     const Described& described, const std::vector<simulation::Port>& ports) {
+                     const Described& described) {
   const simulation::Experiment& experiment = described.experiment;
   const std::string& no_history = described.no_history;
   output::JsonWriter json;
@@ -53,10 +55,8 @@ std::string describe(Kind kind, const std::string& title, const Panel& panel,
   for (const auto& [name, colour] : described.subjects)
     json.begin_object().member("name", name).member("colour", colour).end_object();
   json.end_array();
-  json.key("pull").begin_object();
-  for (const char* constant : {"stiffness", "damping"})
-    json.member(constant, value_of(ports, std::string("Simulator.pull.") + constant));
-  json.end_object();
+  json.key("pull").begin_object().member("stiffness", described.pull.stiffness);
+  json.member("damping", described.pull.damping).end_object();
   if (described.film != nullptr) {
     json.key("film");
     write_film(*described.film, json);

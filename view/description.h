@@ -18,13 +18,18 @@ struct Described {
   const simulation::Experiment& experiment;
   std::string no_history;  ///< why one cannot go back, "" if one can
   std::vector<std::pair<std::string, std::string>> subjects;  ///< name and colour
+  /// What a drag begins with; zeros where nothing can be dragged.
+  struct {
+    double stiffness = 0.;  ///< [N/m]
+    double damping = 0.;    ///< [N s/m]
+  } pull{};
   const Film* film = nullptr;
 };
 
-/// The "description" of docs/view_protocol.md. `title`: of the window; `ports`: of the run.
+/// The "description" of docs/view_protocol.md. `title`: of the window.
 std::string describe(Kind kind, const std::string& title, const Panel& panel,
-                     const Described& described, const std::vector<simulation::Port>& ports);
-/// Of a live run.
+                     const Described& described);
+/// Of a live run; `ports`: all of it.
 std::string describe(Kind kind, const std::string& title, const Panel& panel,
                      const Subjects& subjects, const std::vector<simulation::Port>& ports);
 

@@ -131,7 +131,7 @@ void MovieSession::tell_progress() {
   if (reading && Clock::now() < next_progress_) return;
   next_progress_ = Clock::now() + between_progress;
   reading_told_ = reading;
-  audience_.tell_reading("plots", reading ? traces_.progress() : 1.);
+  audience_.tell_progress("plots", reading ? traces_.progress() : 1.);
 }
 
 MovieSession::Clock::time_point MovieSession::next_wake() const {

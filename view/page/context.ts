@@ -23,8 +23,8 @@ export interface Context {
   /// Tells when the run went on from an earlier moment: nothing after it holds any more.
   onBranch(listener: (time: number) => void): () => void;
   onTheme(listener: () => void): () => void;
-  /// How far a movie has been gone through, from 0 to 1.
-  onReading(listener: (work: string, done: number) => void): () => void;
+  /// How far long work has come, from 0 to 1.
+  onProgress(listener: (work: string, done: number) => void): () => void;
   notice(level: "note" | "warning" | "error", text: string): void;
 
   quality: Quality;

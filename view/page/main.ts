@@ -23,7 +23,7 @@ document.body.append(host, notices.element);
 const snapshots = new Listeners<[Snapshot]>();
 const branchings = new Listeners<[number]>();
 const themes = new Listeners<[]>();
-const readings = new Listeners<[string, number]>();
+const progresses = new Listeners<[string, number]>();
 const qualities = new Listeners<[Quality]>();
 const exaggerations = new Listeners<[number]>();
 const visibilities = new Listeners<[number, boolean]>();
@@ -59,7 +59,7 @@ function hear(message: Told): void {
     case "layout": return values.setLayout(message);
     case "notice": return notices.add(message.level, message.text);
     case "ended": return notices.add("note", `ended: ${message.reason}`);
-    case "reading": return readings.tell(message.of, message.done);
+    case "working": return progresses.tell(message.of, message.done);
     case "changed": return;
     case "row":
     case "figure":
@@ -127,7 +127,7 @@ function makeContext(description: Description): Context {
     onSnapshot: snapshots.add,
     onBranch: branchings.add,
     onTheme: themes.add,
-    onReading: readings.add,
+    onProgress: progresses.add,
     notice: (level, text) => notices.add(level, text),
     get quality() {
       return quality;

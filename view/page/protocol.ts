@@ -180,13 +180,13 @@ export interface Ended {
   tell: "ended";
   reason: string;
 }
-/// Of a movie: how far it has been gone through for what `of` names, from 0 to 1.
-export interface ReadingTold {
-  tell: "reading";
+/// How far long work has come, from 0 to 1.
+export interface Working {
+  tell: "working";
   of: string;
   done: number;
 }
-export type Told = Description | StudiesDescription | StudyTold | Layout | Notice | Changed | Ended | ReadingTold;
+export type Told = Description | StudiesDescription | StudyTold | Layout | Notice | Changed | Ended | Working;
 
 // ---- binary messages ----
 

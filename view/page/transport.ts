@@ -124,7 +124,7 @@ export function makeTransport(context: Context, chrome: Chrome): Part & { action
       iconButton("theme", "light or dark", chrome.theme),
       iconButton("help", "keys (?)", chrome.help)));
 
-  const forgetWork = context.onReading((name, done) => setText(work, done < 1 ? `${name}: ${Math.floor(100 * done)} %` : ""));
+  const forgetWork = context.onProgress((name, done) => setText(work, done < 1 ? `${name}: ${Math.floor(100 * done)} %` : ""));
   const forget = context.onSnapshot((snapshot) => {
     shown = snapshot;
     setIcon(run, snapshot.paused ? "run" : "pause", snapshot.paused ? (snapshot.past && !movie ? "go on from here (Space)" : "run (Space)") : "pause (Space)");
