@@ -44,8 +44,7 @@ std::vector<std::pair<std::string, std::string>> subject_fields(const language::
     });
     if (field == fields.end()) refuse(schema, word);
     if (given(*field))
-      throw SubjectError(
-          fmt::format("--with `{}`: `{}` is a second {}", words, word, *field));
+      throw SubjectError(fmt::format("--with `{}`: `{}` is a second {}", words, word, *field));
     set.emplace_back(*field, word);
   }
   if (set.empty()) refuse(schema, words);

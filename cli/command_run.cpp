@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "application/application.h"
-#include "application/study_plans.h"
 #include "application/live_loader.h"
+#include "application/study_plans.h"
 #include "cli/commands.h"
 #include "cli/exit_status.h"
 #include "cli/run_loop.h"

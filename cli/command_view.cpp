@@ -116,8 +116,8 @@ class Watched {
         view::make_panel(root, subjects.run().experiment(), ports, diagnostics);
     application_.tell(diagnostics);
     view::Shown shown;
-    shown.description = view::describe(
-        view::Kind::run, arguments_.file.filename().string(), panel, subjects, ports);
+    shown.description = view::describe(view::Kind::run, arguments_.file.filename().string(), panel,
+                                       subjects, ports);
     shown.trails = view::ports_of(panel);
     shown.plotted = view::plotted_of(panel);
     for (const std::string& source : language::sources_of(root)) shown.sources.emplace_back(source);
@@ -126,8 +126,7 @@ class Watched {
 
  private:
   void add(const std::string& label, application::Settings settings,
-           simulation::LiveRunRequest request,
-           const std::optional<std::filesystem::path>& movie) {
+           simulation::LiveRunRequest request, const std::optional<std::filesystem::path>& movie) {
     loaders_.push_back(std::make_unique<LiveLoader>(arguments_.file, std::move(settings),
                                                     arguments_.allow_plugins, movie));
     LiveLoader& loader = *loaders_.back();
@@ -137,9 +136,8 @@ class Watched {
     if (subjects_.empty() && request.folder.empty())
       request.folder = std::filesystem::path("runs") / first->experiment.world;
     auto run = std::make_unique<LiveRun>(
-        [&loader, first = std::make_shared<std::optional<simulation::LoadedExperiment>>(
-                      std::move(first))](const std::vector<std::string>& overrides,
-                                         std::string& why) {
+        [&loader, first = std::make_shared<std::optional<simulation::LoadedExperiment>>(std::move(
+                      first))](const std::vector<std::string>& overrides, std::string& why) {
           return overrides.empty() && *first ? std::exchange(*first, std::nullopt)
                                              : loader.load(overrides, why);
         },
@@ -147,8 +145,8 @@ class Watched {
     const simulation::Experiment& experiment = run->experiment();
     const int index = static_cast<int>(subjects_.size());
     view::Subject subject{label.empty() ? label_of(experiment) : label,
-                          output::series_style(index).color, std::move(run),
-                          history_of(experiment), nullptr};
+                          output::series_style(index).color, std::move(run), history_of(experiment),
+                          nullptr};
     subjects_.push_back(std::move(subject));
   }
 

@@ -15,11 +15,11 @@ namespace hookpoint::cli {
 
 /// How a window is served (docs/view.md).
 struct ViewArguments {
-  std::string bind = "127.0.0.1";  ///< address
-  std::uint16_t port = 0;          ///< 0: a free one
+  std::string bind = "127.0.0.1";    ///< address
+  std::uint16_t port = 0;            ///< 0: a free one
   std::optional<std::string> token;  ///< of the address; none: a fresh one
-  bool open = true;                ///< in the desktop's browser, where there is one
-  std::vector<std::string> with;   ///< subjects beside the run (application/subject_words.h)
+  bool open = true;                  ///< in the desktop's browser, where there is one
+  std::vector<std::string> with;     ///< subjects beside the run (application/subject_words.h)
 };
 
 struct RunArguments {

@@ -135,8 +135,9 @@ void add_serving(CLI::App* command, ViewArguments& arguments) {
       ->type_name("TEXT")
       ->check([](const std::string& text) {
         const bool plain = text.size() >= 16 && text.size() <= 128 &&
-                           text.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUV"
-                                                  "WXYZ0123456789-_") == std::string::npos;
+                           text.find_first_not_of(
+                               "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUV"
+                               "WXYZ0123456789-_") == std::string::npos;
         return plain ? std::string()
                      : "--token takes 16 to 128 letters, digits, - or _: who knows it may do what "
                        "you may";
@@ -246,12 +247,10 @@ void add_run_and_study(CLI::App& app, Request& request) {
                    "repeat what people changed while the run went on: the changes.csv that it left")
       ->type_name("FILE.csv");
 
-  CLI::App* study_app = add_command(app, request, "study", "run the studies of a file",
-                                    [&] {
-                                      return study(request.study, request.run.viewed
-                                                                      ? std::optional(request.run.view)
-                                                                      : std::nullopt);
-                                    });
+  CLI::App* study_app = add_command(app, request, "study", "run the studies of a file", [&] {
+    return study(request.study,
+                 request.run.viewed ? std::optional(request.run.view) : std::nullopt);
+  });
   study_app->add_option("FILE", request.study.file, "a .hook file with a Study")->required();
   add_trails(study_app, request.study.settings);
   for (const application::ShortForm& form : application::short_forms)

@@ -28,7 +28,8 @@ void read(const std::filesystem::path& path, ParsedFile& file) {
     stream.read(block.data(), static_cast<std::streamsize>(block.size()));
     text.append(block.data(), static_cast<std::size_t>(stream.gcount()));
   }
-  if (!stream.eof() && text.size() < most_bytes) file.report.error(start, "the file cannot be read");
+  if (!stream.eof() && text.size() < most_bytes)
+    file.report.error(start, "the file cannot be read");
 }
 
 }  // namespace

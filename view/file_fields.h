@@ -15,8 +15,8 @@ struct FileField {
   std::string doc;  ///< one line
 };
 
-/// Of every object of the experiment, what was given and what has a default; not of the windows, nor
-/// what names another object: a run has its parts for its life. O(fields).
+/// Of every object of the experiment, what was given and what has a default; not of the windows,
+/// nor what names another object: a run has its parts for its life. O(fields).
 std::vector<FileField> file_fields(const language::Object& root);
 
 }  // namespace hookpoint::view

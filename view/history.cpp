@@ -12,7 +12,8 @@ History::History(std::int64_t stride, std::size_t most_bytes)
 
 void History::keep(const simulation::LiveRun& run) {
   Moment moment;
-  const std::size_t one = moments_.empty() ? 0 : sizeof(Moment) + sizeof(double) * moments_.back().numbers.size();
+  const std::size_t one =
+      moments_.empty() ? 0 : sizeof(Moment) + sizeof(double) * moments_.back().numbers.size();
   if (moments_.size() > 1 && (moments_.size() + 1) * one > most_bytes_) {
     moment = std::move(moments_.front());
     moments_.pop_front();

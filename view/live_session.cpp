@@ -57,7 +57,8 @@ bool LiveSession::run(const std::atomic<bool>& stop) {
     if (files_.written()) {
       const std::string problem = perform(Reset{});
       if (!problem.empty())
-        audience_.tell_notice("error", "the file was saved, but the run goes on as it was: " + problem);
+        audience_.tell_notice("error",
+                              "the file was saved, but the run goes on as it was: " + problem);
     }
     const bool awaited = audience_.joined() == 0 && Clock::now() - begun < patience;
     if (plays() && !awaited) advance(std::min(next_snapshot_, Clock::now() + slice));
@@ -69,9 +70,7 @@ bool LiveSession::run(const std::atomic<bool>& stop) {
   return !failed_;
 }
 
-bool LiveSession::plays() const {
-  return !paused_ && !ended_ && subjects_.not_from_here().empty();
-}
+bool LiveSession::plays() const { return !paused_ && !ended_ && subjects_.not_from_here().empty(); }
 
 LiveSession::Clock::time_point LiveSession::next_wake() const {
   const auto now = Clock::now();
@@ -136,8 +135,7 @@ void LiveSession::end(const std::string& reason, bool failed) {
 
 void LiveSession::publish() {
   next_snapshot_ = std::max(next_snapshot_ + between_snapshots, Clock::now());
-  for (const std::string& notice : subjects_.take_notices())
-    audience_.tell_notice("note", notice);
+  for (const std::string& notice : subjects_.take_notices()) audience_.tell_notice("note", notice);
   tell_changes();
   if (audience_.empty()) return;
   const simulation::WorldState& state = subjects_.run().world().state();
@@ -147,7 +145,8 @@ void LiveSession::publish() {
   session.step = state.step;
   session.time = state.time;
   session.past = subjects_.past();
-  session.paused = paused_ || !subjects_.run().world().running() || !subjects_.not_from_here().empty();
+  session.paused =
+      paused_ || !subjects_.run().world().running() || !subjects_.not_from_here().empty();
   session.ended = ended_;
   session.failed = failed_;
   session.speed_asked = pace_.asked();

@@ -1,6 +1,6 @@
-// A live run and those who look on and take part: it steps at the pace that is asked for, tells them
-// where everything is, and carries out what they ask between two steps. Nobody who looks on is ever
-// waited for.
+// A live run and those who look on and take part: it steps at the pace that is asked for, tells
+// them where everything is, and carries out what they ask between two steps. Nobody who looks on is
+// ever waited for.
 #pragma once
 
 #include <atomic>

@@ -19,8 +19,8 @@ struct SessionState {
   std::int64_t step = 0;
   double time = 0.;  ///< [s]
   bool paused = false, past = false, ended = false, failed = false;
-  double speed_asked = 1.;    ///< 0: as fast as possible
-  double speed_reached = 0.;  ///< simulated over elapsed time
+  double speed_asked = 1.;                       ///< 0: as fast as possible
+  double speed_reached = 0.;                     ///< simulated over elapsed time
   double history_first = 0., history_last = 0.;  ///< [s]
 };
 

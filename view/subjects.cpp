@@ -21,15 +21,14 @@ struct Measured {
   const char* unit;
   double Reading::*value;
 };
-constexpr Measured measured[] = {
-    {"displacement", "m", &Reading::displacement},
-    {"displacement_predicted", "m", &Reading::displacement_predicted},
-    {"slip", "m", &Reading::slip},
-    {"slip_predicted", "m", &Reading::slip_predicted},
-    {"penetration", "m", &Reading::penetration},
-    {"penetration_predicted", "m", &Reading::penetration_predicted},
-    {"load", "N", &Reading::load},
-    {"load_predicted", "N", &Reading::load_predicted}};
+constexpr Measured measured[] = {{"displacement", "m", &Reading::displacement},
+                                 {"displacement_predicted", "m", &Reading::displacement_predicted},
+                                 {"slip", "m", &Reading::slip},
+                                 {"slip_predicted", "m", &Reading::slip_predicted},
+                                 {"penetration", "m", &Reading::penetration},
+                                 {"penetration_predicted", "m", &Reading::penetration_predicted},
+                                 {"load", "N", &Reading::load},
+                                 {"load_predicted", "N", &Reading::load_predicted}};
 
 }  // namespace
 
@@ -85,8 +84,8 @@ StepStatus Subjects::step() {
     if (!subject.stopped.empty()) continue;
     const StepStatus own = subject.run->step();
     if (own.ok()) continue;
-    subject.stopped = fmt::format("{} stopped at {:.6g} s: {}: {}", subject.name, own.time,
-                                  own.body, own.advice);
+    subject.stopped =
+        fmt::format("{} stopped at {:.6g} s: {}: {}", subject.name, own.time, own.body, own.advice);
     notices_.push_back(subject.stopped);
   }
   keep();
@@ -184,8 +183,7 @@ std::span<const SubjectState> Subjects::states() {
   states_.clear();
   for (Subject& subject : subjects_) {
     measure(subject);
-    states_.push_back(
-        {shown(subject), subject.run->world().state().bodies, subject.contacts});
+    states_.push_back({shown(subject), subject.run->world().state().bodies, subject.contacts});
   }
   return states_;
 }

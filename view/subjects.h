@@ -1,5 +1,5 @@
-// The run that is watched and those that go beside it: the same experiment under another engine, law
-// or integrator, stepped in lockstep, given what people do, and measured.
+// The run that is watched and those that go beside it: the same experiment under another engine,
+// law or integrator, stepped in lockstep, given what people do, and measured.
 #pragma once
 
 #include <functional>

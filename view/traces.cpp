@@ -110,8 +110,8 @@ Traces::Extract Traces::extract(const std::vector<std::string>& trails, double f
   const std::size_t stretch =
       count <= points ? 1 : 2 * ((count + points - 1) / std::max<std::size_t>(points, 1));
   const std::span<const double> times = std::span(times_).subspan(first, count);
-  extract.times = stretch == 1 ? std::vector(times.begin(), times.end())
-                               : instants_of(times, stretch);
+  extract.times =
+      stretch == 1 ? std::vector(times.begin(), times.end()) : instants_of(times, stretch);
   for (const std::string& trail : trails) {
     const auto at = std::ranges::find(trails_, trail);
     if (at == trails_.end()) {

@@ -65,7 +65,7 @@ inline constexpr const char *wire_rate = "rate", *wire_delay = "delay", *wire_no
 enum class Naming { optional, required, forbidden };
 
 struct ClassSchema {
-  std::string name;                 ///< "Terrain.Slope"
+  std::string name;  ///< "Terrain.Slope"
   /// The class within which alone the name means this; elsewhere it may mean another: a Plot in a
   /// Study. "" where it means this everywhere.
   std::string only_in;

@@ -30,10 +30,10 @@ struct Loading {
   Experiment experiment;
   std::map<const language::Object*, int> materials;  ///< index into Experiment::materials
   std::map<const language::Object*, BodyIndex> bodies;
-  std::vector<const language::Object*> bases;             ///< one a robot
+  std::vector<const language::Object*> bases;  ///< one a robot
   ObjectTrails trails;
-  std::vector<const language::Object*> components;        ///< one a ComponentSpec
-  std::size_t boundary_points = 0;                        ///< asked for, of all bodies
+  std::vector<const language::Object*> components;  ///< one a ComponentSpec
+  std::size_t boundary_points = 0;                  ///< asked for, of all bodies
 
   void error(const language::Position& position, std::string message) {
     diagnostics.error(position, std::move(message));

@@ -54,9 +54,11 @@ class Values {
     if (field.type == FieldType::numbers && field.min_count != field.max_count) return;
     for (int i = 0; i < components_of(field); ++i) {
       const std::string part = components_of(field) > 1 ? language::part_name(field, i) : "";
-      values_.push_back(
-          {loading_.trails[&object] + "." + field.name + part, unit_of(object, field), {}, true,
-           object.type == "Button"});
+      values_.push_back({loading_.trails[&object] + "." + field.name + part,
+                         unit_of(object, field),
+                         {},
+                         true,
+                         object.type == "Button"});
     }
   }
 

@@ -1,9 +1,9 @@
 // What a page may ask: the messages of docs/view_protocol.md, and those that are none.
-#include "view/commands.h"
-
 #include <gtest/gtest.h>
 
 #include <string>
+
+#include "view/commands.h"
 
 namespace hookpoint::view {
 namespace {
@@ -26,8 +26,8 @@ std::string problem_of(const std::string& message) {
 }
 
 TEST(ViewCommands, SetsPortsWhoseTrailsHoldPointsAndBrackets) {
-  const auto set = parsed<SetPorts>(
-      R"({"id":7,"do":"set","values":{"pd1.goal":0.5,"gait.goal[3]":-1e-3}})");
+  const auto set =
+      parsed<SetPorts>(R"({"id":7,"do":"set","values":{"pd1.goal":0.5,"gait.goal[3]":-1e-3}})");
   ASSERT_EQ(set.values.size(), 2U);
   EXPECT_EQ(set.values[0].first, "pd1.goal");
   EXPECT_EQ(set.values[0].second, 0.5);

@@ -1,12 +1,11 @@
 // What plots draw: no extreme is lost, however long the run; and what is kept of a run to go back.
-#include "view/traces.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "view/history.h"
+#include "view/traces.h"
 
 namespace hookpoint::view {
 namespace {
