@@ -2,7 +2,7 @@
 // one serves and the other shows.
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
-import { mkdtempSync, rmSync } from "node:fs";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { chromium } from "playwright-core";
@@ -57,20 +57,65 @@ export async function serve(test, words, folder) {
 
 /// Its page, which has drawn something. Whatever goes wrong in the page fails the test.
 export async function openPage(browser, url, options = {}) {
-  const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, ...options });
+  const context = await browser.newContext({ viewport: { width: 800, height: 600 }, ...options });
   const page = await context.newPage();
   page.problems = [];
   page.on("pageerror", (error) => page.problems.push(String(error)));
   page.on("console", (message) => message.type() === "error" && page.problems.push(message.text()));
   await page.goto(url);
-  await page.waitForFunction(() => Number(document.querySelector("canvas[data-trail]")?.dataset.frames ?? 0) > 0, null, { timeout: 60_000 });
+  await drawn(page);
+  await page.getByRole("combobox", { name: "quality of the picture" }).selectOption("low");
   return page;
 }
 
+export const drawn = (page) =>
+  page.waitForFunction(() => Number(document.querySelector("canvas[data-trail]")?.dataset.frames ?? 0) > 0, null, { timeout: 60_000 });
 export const widget = (page, trail) => page.locator(`[data-trail="${trail}"]`);
 export const read = (page, trail) => page.evaluate((name) => window.hookpoint.read(name).then(({ value }) => value), trail);
 export const time = (page) => page.evaluate(() => window.hookpoint.time());
 export const set = (page, trail, value) => page.evaluate(([name, number]) => window.hookpoint.set(name, number), [trail, value]);
+
+export const pause = (page) => page.getByRole("button", { name: "pause (Space)" }).click();
+export const resume = (page) => page.getByRole("button", { name: /^(run|go on from here) \(Space\)$/ }).click();
+export const speed = (page, factor) => page.getByRole("combobox", { name: "speed" }).selectOption(String(factor));
+/// 0 is as fast as possible.
+export const asFastAsPossible = "0";
+
+/// Writes a file of the experiment and answers its path.
+export function experiment(folder, name, text) {
+  const path = join(folder, name);
+  writeFileSync(path, text);
+  return path;
+}
+
+/// `hookpoint WORDS...` to its end: its exit status and what it said.
+export function run(words, folder) {
+  const child = spawn(program, words, { cwd: folder, stdio: ["ignore", "pipe", "pipe"] });
+  let out = "", complaints = "";
+  child.stdout.on("data", (bytes) => (out += bytes));
+  child.stderr.on("data", (bytes) => (complaints += bytes));
+  return new Promise((resolve) => child.on("close", (status) => resolve({ status, out, complaints })));
+}
+
+export const bytesOf = (...path) => readFileSync(join(...path));
+
+/// A block of 1 kg that rests on four corners of `stiffness` [N/m], on which friction holds it.
+export const block = (stiffness = 20_000, windows = "") => `
+World lab {
+  gravity = 9.81;
+  deltat = 1 ms;
+  Material rubber { normal_stiffness = ${stiffness}; normal_damping = 200; tangential_stiffness = 20000; tangential_damping = 200; static_friction = 0.3; kinetic_friction = 0.3; }
+  Terrain.Flat ground { material = rubber; }
+  Robot block {
+    Base.mobile { rest_on = ground; Shape.Box { dimensions = 0.2,0.2,0.1; mass = 1; } }
+  }
+  Force push { body = block.base; }
+}
+Window {
+  Window.grob camera { size = 320,240; drawer = lab; follow = lab.block.base; distance = 1; }
+  ${windows}
+}
+`;
 
 /// Resolves once `holds` resolves to true.
 export async function eventually(what, holds, milliseconds = 20_000) {
