@@ -91,7 +91,7 @@ const every = block(20_000, `
   Table numbers { rows = lab.turned.output, lab.push.force.y; }
   Plot way_of_turned { label = "turned"; show = lab.turned.output; }
   Plot.3D path { Trace { x = lab.block.position.x; y = lab.time; z = lab.block.position.z; } }
-`).replace("Force push", "Gain turned { gain = 2; } Gain counted Gain written Gain chosen Force push");
+`).replace("Force push", "Gain turned { gain = 2; } Gain counted {} Gain written {} Gain chosen {} Force push");
 
 test("every class of widget has its trail, its role and its name, and moves its port", async (t) => {
   const folder = workFolder(t);
