@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { request } from "node:http";
 import { connect } from "node:net";
 import { after, before, test } from "node:test";
-import { block, eventually, experiment, openBrowser, openPage, read, serve, time, workFolder } from "./support.mjs";
+import { block, eventually, experiment, openBrowser, openPage, read, serve, time, widget, workFolder } from "./support.mjs";
 
 const text = block(20_000, "Valuator.Slider across { range = -5 N, 5 N; Wire TO lab.push.force.y; }");
 let browser;
@@ -83,13 +83,24 @@ test("two pages see the same, and one that never reads is in nobody's way", asyn
   assert.deepEqual(one.problems, []);
 });
 
-test("a program that is gone is told of", async (t) => {
+test("a program that is gone is told of, and found again when it is back", async (t) => {
   const folder = workFolder(t);
-  const served = await serve(t, ["view", experiment(folder, "block.hook", text), "--no-open"], folder);
+  const file = experiment(folder, "block.hook", text);
+  const token = "0123456789abcdefghij";
+  const served = await serve(t, ["view", file, "--no-open", "--token", token], folder);
   const page = await openPage(browser, served.url);
   t.after(() => page.context().close());
   served.child.kill("SIGKILL");
   await served.ended;
-  await page.getByText("connection lost, trying again").waitFor();
+  const lost = page.getByText("connection lost, trying again");
+  await lost.waitFor();
   await assert.rejects(read(page, "lab.time"), /no connection/);
+
+  const again = await serve(t, ["view", file, "--no-open", "--token", token, "--port", new URL(served.url).port], folder);
+  assert.equal(again.url, served.url);
+  await lost.waitFor({ state: "hidden" });
+  await page.getByRole("slider", { name: "across" }).fill("1.5");
+  await eventually("it is heard", async () => (await read(page, "lab.push.force.y")) === 1.5);
+  const frames = Number(await widget(page, "camera").getAttribute("data-frames"));
+  await eventually("it is drawn", async () => Number(await widget(page, "camera").getAttribute("data-frames")) > frames);
 });

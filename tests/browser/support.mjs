@@ -2,6 +2,7 @@
 // one serves and the other shows.
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
+import { connect } from "node:net";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -95,6 +96,46 @@ export function run(words, folder) {
   child.stdout.on("data", (bytes) => (out += bytes));
   child.stderr.on("data", (bytes) => (complaints += bytes));
   return new Promise((resolve) => child.on("close", (status) => resolve({ status, out, complaints })));
+}
+
+/// The answer to one request, by a plain socket that is there for nothing else (RFC 6455; docs/view_protocol.md).
+export function ask(url, name, fields = {}) {
+  const { host, port, search } = new URL(url);
+  return new Promise((resolve, reject) => {
+    const socket = connect(Number(port), "127.0.0.1");
+    socket.on("error", reject);
+    socket.write(`GET /socket${search} HTTP/1.1\r\nHost: ${host}\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n` +
+      "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n");
+    const text = Buffer.from(JSON.stringify({ id: 1, do: name, ...fields }));
+    const length = Buffer.alloc(2);
+    length.writeUInt16BE(text.length);
+    // Final text frame with a mask of zeros, which changes nothing.
+    socket.write(Buffer.concat([Buffer.from([0x81, 0x80 | 126]), length, Buffer.alloc(4), text]));
+    let bytes = Buffer.alloc(0), shaken = false;
+    socket.on("data", (more) => {
+      bytes = Buffer.concat([bytes, more]);
+      if (!shaken) {
+        const end = bytes.indexOf("\r\n\r\n");
+        if (end < 0) return;
+        shaken = true;
+        bytes = bytes.subarray(end + 4);
+      }
+      while (bytes.length >= 10) {
+        const short = bytes[1] & 127;
+        const begin = short === 127 ? 10 : short === 126 ? 4 : 2;
+        const size = short === 127 ? Number(bytes.readBigUInt64BE(2)) : short === 126 ? bytes.readUInt16BE(2) : short;
+        if (bytes.length < begin + size) return;
+        const message = bytes.subarray(begin, begin + size);
+        const answer = (bytes[0] & 15) === 1 ? JSON.parse(message.toString()) : {};
+        bytes = bytes.subarray(begin + size);
+        if (answer.id !== 1) continue;
+        socket.destroy();
+        if (answer.error === undefined) resolve(answer);
+        else reject(new Error(answer.error));
+        return;
+      }
+    });
+  });
 }
 
 export const bytesOf = (...path) => readFileSync(join(...path));
