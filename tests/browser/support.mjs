@@ -2,7 +2,8 @@
 // one serves and the other shows.
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
-import { mkdtempSync, rmSync } from "node:fs";
+import { connect } from "node:net";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { chromium } from "playwright-core";
@@ -57,20 +58,105 @@ export async function serve(test, words, folder) {
 
 /// Its page, which has drawn something. Whatever goes wrong in the page fails the test.
 export async function openPage(browser, url, options = {}) {
-  const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, ...options });
+  const context = await browser.newContext({ viewport: { width: 800, height: 600 }, ...options });
   const page = await context.newPage();
   page.problems = [];
   page.on("pageerror", (error) => page.problems.push(String(error)));
   page.on("console", (message) => message.type() === "error" && page.problems.push(message.text()));
   await page.goto(url);
-  await page.waitForFunction(() => Number(document.querySelector("canvas[data-trail]")?.dataset.frames ?? 0) > 0, null, { timeout: 60_000 });
+  await drawn(page);
+  await page.getByRole("combobox", { name: "quality of the picture" }).selectOption("low");
   return page;
 }
 
+export const drawn = (page) =>
+  page.waitForFunction(() => Number(document.querySelector("canvas[data-trail]")?.dataset.frames ?? 0) > 0, null, { timeout: 60_000 });
 export const widget = (page, trail) => page.locator(`[data-trail="${trail}"]`);
 export const read = (page, trail) => page.evaluate((name) => window.hookpoint.read(name).then(({ value }) => value), trail);
 export const time = (page) => page.evaluate(() => window.hookpoint.time());
 export const set = (page, trail, value) => page.evaluate(([name, number]) => window.hookpoint.set(name, number), [trail, value]);
+
+export const pause = (page) => page.getByRole("button", { name: "pause (Space)" }).click();
+export const resume = (page) => page.getByRole("button", { name: /^(run|go on from here) \(Space\)$/ }).click();
+export const speed = (page, factor) => page.getByRole("combobox", { name: "speed" }).selectOption(String(factor));
+/// 0 is as fast as possible.
+export const asFastAsPossible = "0";
+
+/// Writes a file of the experiment and answers its path.
+export function experiment(folder, name, text) {
+  const path = join(folder, name);
+  writeFileSync(path, text);
+  return path;
+}
+
+/// `hookpoint WORDS...` to its end: its exit status and what it said.
+export function run(words, folder) {
+  const child = spawn(program, words, { cwd: folder, stdio: ["ignore", "pipe", "pipe"] });
+  let out = "", complaints = "";
+  child.stdout.on("data", (bytes) => (out += bytes));
+  child.stderr.on("data", (bytes) => (complaints += bytes));
+  return new Promise((resolve) => child.on("close", (status) => resolve({ status, out, complaints })));
+}
+
+/// The answer to one request, by a plain socket that is there for nothing else (RFC 6455; docs/view_protocol.md).
+export function ask(url, name, fields = {}) {
+  const { host, port, search } = new URL(url);
+  return new Promise((resolve, reject) => {
+    const socket = connect(Number(port), "127.0.0.1");
+    socket.on("error", reject);
+    socket.write(`GET /socket${search} HTTP/1.1\r\nHost: ${host}\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n` +
+      "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n");
+    const text = Buffer.from(JSON.stringify({ id: 1, do: name, ...fields }));
+    const length = Buffer.alloc(2);
+    length.writeUInt16BE(text.length);
+    // Final text frame with a mask of zeros, which changes nothing.
+    socket.write(Buffer.concat([Buffer.from([0x81, 0x80 | 126]), length, Buffer.alloc(4), text]));
+    let bytes = Buffer.alloc(0), shaken = false;
+    socket.on("data", (more) => {
+      bytes = Buffer.concat([bytes, more]);
+      if (!shaken) {
+        const end = bytes.indexOf("\r\n\r\n");
+        if (end < 0) return;
+        shaken = true;
+        bytes = bytes.subarray(end + 4);
+      }
+      while (bytes.length >= 10) {
+        const short = bytes[1] & 127;
+        const begin = short === 127 ? 10 : short === 126 ? 4 : 2;
+        const size = short === 127 ? Number(bytes.readBigUInt64BE(2)) : short === 126 ? bytes.readUInt16BE(2) : short;
+        if (bytes.length < begin + size) return;
+        const message = bytes.subarray(begin, begin + size);
+        const answer = (bytes[0] & 15) === 1 ? JSON.parse(message.toString()) : {};
+        bytes = bytes.subarray(begin + size);
+        if (answer.id !== 1) continue;
+        socket.destroy();
+        if (answer.error === undefined) resolve(answer);
+        else reject(new Error(answer.error));
+        return;
+      }
+    });
+  });
+}
+
+export const bytesOf = (...path) => readFileSync(join(...path));
+
+/// A block of 1 kg that rests on four corners of `stiffness` [N/m], on which friction holds it.
+export const block = (stiffness = 20_000, windows = "") => `
+World lab {
+  gravity = 9.81;
+  deltat = 1 ms;
+  Material rubber { normal_stiffness = ${stiffness}; normal_damping = 200; tangential_stiffness = 20000; tangential_damping = 200; static_friction = 0.3; kinetic_friction = 0.3; }
+  Terrain.Flat ground { material = rubber; }
+  Robot block {
+    Base.mobile { rest_on = ground; Shape.Box { dimensions = 0.2,0.2,0.1; mass = 1; } }
+  }
+  Force push { body = block.base; }
+}
+Window {
+  Window.grob camera { size = 320,240; drawer = lab; follow = lab.block.base; distance = 1; }
+  ${windows}
+}
+`;
 
 /// Resolves once `holds` resolves to true.
 export async function eventually(what, holds, milliseconds = 20_000) {
