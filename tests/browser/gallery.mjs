@@ -9,7 +9,8 @@ import { configs, eventually, openBrowser, openPage, serve, time, workFolder } f
 
 export const width = 1280, leastHeight = 500, mostHeight = 1800;
 
-/// `set`: what is moved at the beginning; `time`: of the picture [s]; `deltat`: of the file [s]; `exaggeration`: of displacements.
+/// `set`: what is moved at the beginning; `time`: of the picture [s]; `deltat`: of the file [s]; `exaggeration`: of displacements;
+/// `needs`: an engine.
 export const pictures = {
   window_hexapod: { file: "paper/fig1a_hexapod.hook", time: 3, deltat: 0.0004 },
   window_arm: {
@@ -19,7 +20,7 @@ export const pictures = {
       "controllers.goal_angle#2.value": 0.6, "controllers.pconstant#2.value": 400, "controllers.dconstant#2.value": 20,
     },
   },
-  window_creep: { file: "views/creep_side_by_side.hook", time: 5, deltat: 0.001, set: { "distance.value": 3 }, exaggeration: 1000 },
+  window_creep: { file: "views/creep_side_by_side.hook", time: 5, deltat: 0.001, set: { "distance.value": 3 }, exaggeration: 1000, needs: "mujoco" },
   window_study: { file: "studies/creep.hook", study: true },
 };
 
