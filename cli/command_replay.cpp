@@ -90,7 +90,8 @@ int show_moment(const ReplayArguments& arguments) {
 int show_window(const ReplayArguments& arguments) {
   const InterruptGuard guard;
   MovieWindows windows(arguments.movie, arguments.allow_plugins);
-  view::Server server({arguments.view.bind, arguments.view.port, view::fresh_token()},
+  view::Server server({arguments.view.bind, arguments.view.port,
+                       arguments.view.token.value_or(view::fresh_token())},
                       page_bundle::index_html);
   view::Audience audience(server);
   view::MovieSession session(windows.movie(), audience,

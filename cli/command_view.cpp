@@ -5,7 +5,9 @@
 #include <cmath>
 #include <cstdlib>
 #include <iostream>
+#include <map>
 #include <memory>
+#include <utility>
 
 #include "application/live_loader.h"
 #include "application/subject_meter.h"
@@ -47,21 +49,22 @@ struct WrongFile {
 class Watched {
  public:
   explicit Watched(const RunArguments& arguments)
-      : arguments_(arguments), application_(arguments.allow_plugins) {
-    application::Settings settings = arguments.settings;
-    if (arguments.duration) settings.world.emplace_back("duration", *arguments.duration);
+      : arguments_(arguments),
+        settings_(arguments.settings),
+        application_(arguments.allow_plugins) {
+    if (arguments.duration) settings_.world.emplace_back("duration", *arguments.duration);
     simulation::LiveRunRequest request;
     request.folder = arguments.out.value_or(std::filesystem::path());
     request.trails = arguments.record;
     request.leaves_files = arguments.out.has_value();
-    add("", settings, request, arguments.movie);
+    add("", settings_, request, arguments.movie);
     for (const view::GhostSpec& ghost : view::load_ghosts(loaders_.front()->root())) {
-      application::Settings own = settings;
+      application::Settings own = settings_;
       own.trails.insert(own.trails.end(), ghost.settings.begin(), ghost.settings.end());
       add(ghost.label, own, {}, std::nullopt);
     }
     for (const std::string& words : arguments.view.with) {
-      application::Settings own = settings;
+      application::Settings own = settings_;
       for (auto& field : application::subject_fields(application_.schema(), words))
         own.world.push_back(std::move(field));
       add(words, own, {}, std::nullopt);
@@ -75,6 +78,35 @@ class Watched {
   }
 
   view::Subjects& subjects() { return *all_; }
+
+  std::vector<view::FileField> fields() const {
+    return view::file_fields(loaders_.front()->root());
+  }
+
+  /// The experiment with what was changed, as a file of its own.
+  std::pair<std::string, std::string> patch(const LiveRun& run) const {
+    std::map<std::string, std::string> latest;
+    for (const simulation::Change& change : run.changes()) latest[change.trail] = change.value;
+    LiveLoader loader(arguments_.file, settings_, arguments_.allow_plugins);
+    std::vector<std::string> settings;
+    std::string told = "// " + arguments_.file.filename().string() + " with what was changed:\n";
+    std::string problem, text;
+    const auto take = [&](const std::vector<std::string>& with) {
+      auto loaded = loader.load(with, problem);
+      if (loaded) text = loaded->text;
+      return loaded.has_value();
+    };
+    take({});
+    for (const auto& [trail, value] : latest) {
+      // What is no field of the file, such as a pull, is no part of it.
+      settings.push_back(trail + "=" + value);
+      if (take(settings))
+        told += "//   " + settings.back() + "\n";
+      else
+        settings.pop_back();
+    }
+    return {arguments_.file.stem().string() + "-changed.hook", told + text};
+  }
 
   view::Shown show(view::Subjects& subjects) const {
     const language::Object& root = loaders_.front()->root();
@@ -121,6 +153,7 @@ class Watched {
   }
 
   const RunArguments& arguments_;
+  application::Settings settings_;  ///< of the command line
   application::Application application_;
   std::vector<std::unique_ptr<LiveLoader>> loaders_;
   std::vector<view::Subject> subjects_;
@@ -143,11 +176,14 @@ int view(const RunArguments& arguments) {
     Watched watched(arguments);
     LiveRun& run = watched.subjects().run();
     tell_stability(run.experiment());
-    view::Server server({arguments.view.bind, arguments.view.port, view::fresh_token()},
+    view::Server server({arguments.view.bind, arguments.view.port,
+                         arguments.view.token.value_or(view::fresh_token())},
                         page_bundle::index_html);
     view::Audience audience(server);
     view::LiveSessionRequest request;
     request.describe = [&](view::Subjects& subjects) { return watched.show(subjects); };
+    request.fields = [&] { return watched.fields(); };
+    request.patch = [&](const LiveRun& changed) { return watched.patch(changed); };
     request.last_step = last_step(arguments, run);
     view::LiveSession session(watched.subjects(), audience, std::move(request));
     std::cout << server.url() << std::endl;

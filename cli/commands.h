@@ -17,6 +17,7 @@ namespace hookpoint::cli {
 struct ViewArguments {
   std::string bind = "127.0.0.1";  ///< address
   std::uint16_t port = 0;          ///< 0: a free one
+  std::optional<std::string> token;  ///< of the address; none: a fresh one
   bool open = true;                ///< in the desktop's browser, where there is one
   std::vector<std::string> with;   ///< subjects beside the run (application/subject_words.h)
 };

@@ -128,6 +128,19 @@ void add_serving(CLI::App* command, ViewArguments& arguments) {
                    "the address to listen at; 0.0.0.0: whoever has the token may look on from "
                    "anywhere (default: 127.0.0.1)")
       ->type_name("ADDRESS");
+  command
+      ->add_option("--token", arguments.token,
+                   "of the address, so that open pages find a program that was started again "
+                   "(default: a fresh one)")
+      ->type_name("TEXT")
+      ->check([](const std::string& text) {
+        const bool plain = text.size() >= 16 && text.size() <= 128 &&
+                           text.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUV"
+                                                  "WXYZ0123456789-_") == std::string::npos;
+        return plain ? std::string()
+                     : "--token takes 16 to 128 letters, digits, - or _: who knows it may do what "
+                       "you may";
+      });
   command->add_flag("!--no-open", arguments.open, "only print the address; open no browser");
 }
 

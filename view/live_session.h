@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "view/audience.h"
+#include "view/file_fields.h"
 #include "view/file_watch.h"
 #include "view/pace.h"
 #include "view/shown.h"
@@ -19,11 +20,6 @@
 #include "view/traces.h"
 
 namespace hookpoint::view {
-
-/// A field of the file, for those who edit.
-struct FileField {
-  std::string trail, value, unit, doc;
-};
 
 struct LiveSessionRequest {
   std::function<Shown(Subjects&)> describe;

@@ -96,9 +96,10 @@ class ViewClient {
                              (members.empty() ? "" : ", " + members) + "}";
     constexpr char last_text = '\x81';
     std::string frame{last_text};
-    frame += static_cast<char>(0x80 | 126);
-    frame += static_cast<char>(text.size() >> 8);
-    frame += static_cast<char>(text.size());
+    const bool is_short = text.size() < 126;
+    frame += static_cast<char>(0x80 | (is_short ? text.size() : 126));
+    if (!is_short) frame += static_cast<char>(text.size() >> 8);
+    if (!is_short) frame += static_cast<char>(text.size());
     write(frame + std::string(4, '\0') + text);  // a mask of zeros
     return id;
   }

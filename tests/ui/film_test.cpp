@@ -121,7 +121,7 @@ TEST_F(FilmCommand, WrongInputIsSaid) {
   expect_refused("--film f.webm --from 0.2 --to 0.1", "lies before --from");
   expect_refused("--film f.webm --at 0.1", "--film takes neither --at nor --about");
   expect_refused("--camera look.eye", "--film");
-  EXPECT_EQ(place.entries(), 1U) << "only the movie";
+  EXPECT_EQ(place.entries(), 2U) << "only the scene and its movie";
 }
 
 TEST_F(FilmCommand, WithoutABrowserThePackageIsNamed) {

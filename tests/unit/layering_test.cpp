@@ -95,10 +95,18 @@ const std::map<std::string, Rooms> rooms{
     {"reference",
      {{"experiment_checks", "extremes", "ground", "library_abort", "peer", "peer_engine",
        "principal_axes", "resting_body", "robot_tree", "settings", "static_depth", "steady_creep",
-       "touching_points"},
+       "touching_points", "external_forces"},
       peers,
       {"engines"}}},
-    {"view", {{"widget_fields", "schema"}, {"panel", "scene", "ghosts"}}},
+    {"view",
+     {{"admission", "websocket", "commands", "snapshot", "traces", "pace", "file_watch",
+       "study_board", "film", "shown", "widget_fields"},
+      {"server", "schema"},
+      {"panel", "scene", "ghosts", "file_fields"},
+      {"audience", "history"},
+      {"subjects", "reel", "keep_picture"},
+      {"description", "movie_traces"},
+      {"live_session", "movie_session", "film_session"}}},
 };
 
 std::string included_path(const std::string& line) {

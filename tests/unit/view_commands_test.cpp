@@ -48,7 +48,7 @@ TEST(ViewCommands, TakesWhatTheProtocolLists) {
   EXPECT_EQ(trace.to, 2.5);
   EXPECT_EQ(trace.points, 100U);
   parsed<Pause>(R"({"id":1,"do":"pause"})");
-  parsed<Run>(R"({"id":1,"do":"run"})");
+  parsed<view::Run>(R"({"id":1,"do":"run"})");
   EXPECT_EQ(parsed<StepOn>(R"({"id":1,"do":"step"})").count, 1);
   EXPECT_EQ(parsed<StepOn>(R"({"id":1,"do":"step","count":20})").count, 20);
   EXPECT_EQ(parsed<SetSpeed>(R"({"id":1,"do":"speed","factor":0.001})").factor, 0.001);

@@ -1,4 +1,4 @@
-// Button: true while it is pressed, by a pointer or by a key.
+// Button: true once it is pressed, by a pointer or by a key, until the program has seen it.
 import { attempt, type Context, type Part } from "../context.ts";
 import { element } from "../dom.ts";
 import type { ButtonWidget } from "../protocol.ts";
@@ -10,8 +10,8 @@ export function makeButton(context: Context, widget: ButtonWidget): Part {
     if (pressed === down) return;
     down = pressed;
     button.classList.toggle("down", pressed);
-    // Of a press and its release within a frame the program is to see both.
-    attempt(context, context.connection.request("set", { values: { [widget.port]: pressed ? 1 : 0 } }));
+    // The program takes a press back by itself, once whatever is wired to the button has seen it.
+    if (pressed) attempt(context, context.connection.request("set", { values: { [widget.port]: 1 } }));
   };
   button.addEventListener("pointerdown", (event) => {
     if (event.button !== 0) return;
