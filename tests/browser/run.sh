@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# A test of the window in a real browser: tests/browser/run.sh BUILD_FOLDER NAME_test.mjs. Exit status 77 where Node, Chromium or npm's
-# registry is missing: then the test is skipped, by name.
+# A test of the window in a real browser: tests/browser/run.sh BUILD_FOLDER NAME_test.mjs, or another program of this folder with its
+# arguments. Exit status 77 where Node, Chromium or npm's registry is missing: then the test is skipped, by name.
 set -euo pipefail
 build=$(cd "$1" && pwd)
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -28,4 +28,8 @@ if [ ! -d "$folder/node_modules/playwright-core" ]; then
 fi
 flock -u 9
 cd "$folder"
-HOOKPOINT_PROGRAM="$build/hookpoint" HOOKPOINT_CONFIGS="$here/../../configs" HOOKPOINT_BROWSER="$browser" exec node --test "$2"
+export HOOKPOINT_PROGRAM="$build/hookpoint" HOOKPOINT_CONFIGS="$here/../../configs" HOOKPOINT_BROWSER="$browser"
+case "$2" in
+  *_test.mjs) exec node --test "$2" ;;
+  *) exec node "${@:2}" ;;
+esac
