@@ -41,12 +41,16 @@ class StudyMeter final : public view::Meter {
     penetration_ = predicted("penetration_mean");
     load_ = studies::support_force(context_).value_or(unknown);
     slip_ = studies::find_metric("slip_distance")->make(context_);
+    way_of_points_ = studies::find_metric("stick_displacement")->make(context_);
   }
 
   void observe(const simulation::WorldState& state) override {
     const Observation observation = observer_.observe(state);
     slip_->observe(observation);
-    reading_.displacement = observation.displacement;
+    way_of_points_->observe(observation);
+    // Of the feet, as the closed forms have it: the body leans besides. Of one in the air, the
+    // body.
+    reading_.displacement = way_of_points_->value().value_or(observation.displacement);
     reading_.displacement_predicted = way_.at(state.time);
     reading_.slip = slip_->value().value_or(unknown);
     // Of a body whose points hold, what they creep is their slip.
@@ -78,7 +82,7 @@ class StudyMeter final : public view::Meter {
 
   RunContext context_;
   studies::Observer observer_;
-  std::unique_ptr<studies::Metric> slip_;
+  std::unique_ptr<studies::Metric> slip_, way_of_points_;
   PredictedWay way_;
   double penetration_ = unknown, load_ = unknown;
   view::Reading reading_{};

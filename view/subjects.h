@@ -16,7 +16,7 @@ namespace hookpoint::view {
 
 /// What is measured of a subject, beside what closed forms say; NaN where there is none.
 struct Reading {
-  double displacement, displacement_predicted;  ///< of the base since the start, downhill [m]
+  double displacement, displacement_predicted;  ///< of the feet since the start, downhill [m]
   double slip, slip_predicted;                  ///< way of the boundary points on the ground [m]
   double penetration, penetration_predicted;    ///< mean of the points that touch [m]
   double load, load_predicted;                  ///< of the ground, along its normal [N]
