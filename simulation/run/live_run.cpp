@@ -200,6 +200,7 @@ std::unique_ptr<RunFiles> LiveRun::open_files(Track& track) const {
 }
 
 void LiveRun::begin_take() {
+  closed_ = false;
   log_.truncate(0);
   log_ = ChangeLog(request_.folder.empty() ? std::filesystem::path()
                                            : request_.folder / ChangeLog::file_name);
@@ -427,6 +428,8 @@ void LiveRun::give_up_future() {
 }
 
 void LiveRun::close() {
+  if (closed_) return;
+  closed_ = true;
   if (rewriting_) {
     files_->row(0, rewriting_->world.state().time);
     repeat(rewriting_, newest_, log_.changes().size(), files_.get());

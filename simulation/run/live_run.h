@@ -103,8 +103,8 @@ class LiveRun {
   std::int64_t last_step() const;
   /// Changes of the script whose step has not come.
   std::size_t left_of_script() const { return script_.size() - scripted_; }
-  /// Completes the files. Where a future was given up they are written anew first, by repeating the
-  /// take from time 0. Throws output::FileError.
+  /// Completes the files, once; a reset begins them anew. Where a future was given up they are
+  /// written anew first, by repeating the take from time 0. Throws output::FileError.
   void close();
   /// The same while the world is within a step that does not end; nothing is repeated.
   void close_within_step();
@@ -149,6 +149,7 @@ class LiveRun {
   std::unique_ptr<Track>
       rewriting_;  ///< that the files follow, at time 0, once they are out of date
   std::unique_ptr<RunFiles> files_;
+  bool closed_ = false;      ///< they are complete
   StepStatus start_;         ///< of what is to be written at time 0
   std::int64_t newest_ = 0;  ///< step of the take
   Moment last_;              ///< the newest moment, while a past one is shown
