@@ -107,8 +107,8 @@ export function ask(url, name, fields = {}) {
     socket.write(`GET /socket${search} HTTP/1.1\r\nHost: ${host}\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n` +
       "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n");
     const text = Buffer.from(JSON.stringify({ id: 1, do: name, ...fields }));
-    const length = Buffer.alloc(2);
-    length.writeUInt16BE(text.length);
+    assert.ok(text.length < 126, "a request of one short frame");
+    socket.on("close", () => reject(new Error("the program closed the connection")));
     let bytes = Buffer.alloc(0), parts = [], shaken = false;
     socket.on("data", (more) => {
       bytes = Buffer.concat([bytes, more]);
@@ -118,7 +118,7 @@ export function ask(url, name, fields = {}) {
         shaken = true;
         bytes = bytes.subarray(end + 4);
         // Final text frame with a mask of zeros, which changes nothing.
-        socket.write(Buffer.concat([Buffer.from([0x81, 0x80 | 126]), length, Buffer.alloc(4), text]));
+        socket.write(Buffer.concat([Buffer.from([0x81, 0x80 | text.length]), Buffer.alloc(4), text]));
       }
       while (bytes.length >= 2) {
         const short = bytes[1] & 127;
