@@ -36,7 +36,7 @@ test("sliders, a pull, an edit and a way back are repeated byte for byte", async
 
   // Back to before the last changes, and on: what lies after that moment is given up, in the files too.
   await pause(page);
-  const back = (await time(page)) - 0.2;
+  const back = Number(((await time(page)) - 0.2).toFixed(3));
   await page.getByRole("slider", { name: "history" }).fill(String(back));
   await eventually("the past", async () => Math.abs((await time(page)) - back) < 2e-3);
   await resume(page);

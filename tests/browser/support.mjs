@@ -107,11 +107,9 @@ export function ask(url, name, fields = {}) {
     socket.write(`GET /socket${search} HTTP/1.1\r\nHost: ${host}\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n` +
       "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n");
     const text = Buffer.from(JSON.stringify({ id: 1, do: name, ...fields }));
-    const length = Buffer.alloc(2);
-    length.writeUInt16BE(text.length);
-    // Final text frame with a mask of zeros, which changes nothing.
-    socket.write(Buffer.concat([Buffer.from([0x81, 0x80 | 126]), length, Buffer.alloc(4), text]));
-    let bytes = Buffer.alloc(0), shaken = false;
+    assert.ok(text.length < 126, "a request of one short frame");
+    socket.on("close", () => reject(new Error("the program closed the connection")));
+    let bytes = Buffer.alloc(0), parts = [], shaken = false;
     socket.on("data", (more) => {
       bytes = Buffer.concat([bytes, more]);
       if (!shaken) {
@@ -119,15 +117,22 @@ export function ask(url, name, fields = {}) {
         if (end < 0) return;
         shaken = true;
         bytes = bytes.subarray(end + 4);
+        // Final text frame with a mask of zeros, which changes nothing.
+        socket.write(Buffer.concat([Buffer.from([0x81, 0x80 | text.length]), Buffer.alloc(4), text]));
       }
-      while (bytes.length >= 10) {
+      while (bytes.length >= 2) {
         const short = bytes[1] & 127;
         const begin = short === 127 ? 10 : short === 126 ? 4 : 2;
+        if (bytes.length < begin) return;
         const size = short === 127 ? Number(bytes.readBigUInt64BE(2)) : short === 126 ? bytes.readUInt16BE(2) : short;
         if (bytes.length < begin + size) return;
-        const message = bytes.subarray(begin, begin + size);
-        const answer = (bytes[0] & 15) === 1 ? JSON.parse(message.toString()) : {};
+        // A long message comes in several frames; what begins with a brace is text.
+        if ((bytes[0] & 15) <= 2) parts.push(bytes.subarray(begin, begin + size));
+        const whole = (bytes[0] & 0x80) !== 0 ? Buffer.concat(parts).toString() : null;
         bytes = bytes.subarray(begin + size);
+        if (whole === null) continue;
+        parts = [];
+        const answer = whole.startsWith("{") ? JSON.parse(whole) : {};
         if (answer.id !== 1) continue;
         socket.destroy();
         if (answer.error === undefined) resolve(answer);

@@ -144,7 +144,7 @@ test("every class of widget has its trail, its role and its name, and moves its 
 
   const choice = page.getByRole("radiogroup", { name: "way" });
   assert.equal(await trailOf(choice), "inner.way");
-  await choice.getByText("run").click();
+  await choice.getByRole("radio", { name: "run" }).click();
   await moved("lab.chosen.input", 2);
 
   // What is shown of it: 2 * 2.94 and the slider's 1.5 N.
