@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 #include <utility>
 
 #include "simulation/wiring/port_search.h"
@@ -116,8 +117,11 @@ void Audience::answer_own(Server::ClientId client, std::int64_t id, const ListPo
   const std::string world = experiment_->world + ".";
   JsonWriter json = begin_answer(id);
   json.key("ports").begin_array();
+  std::set<std::string_view> listed;
   for (const Port& port : ports_) {
     const std::string_view trail = port.trail;
+    // A value that the engine computes hides the one that the file gave it.
+    if (!listed.insert(trail).second) continue;
     const bool inside = trail.starts_with(world);
     if (!simulation::glob_fits(asked.pattern, trail) &&
         !(inside && simulation::glob_fits(asked.pattern, trail.substr(world.size()))))

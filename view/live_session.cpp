@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -18,6 +19,19 @@ constexpr auto between_snapshots = 16'667us;  // 60 a second
 /// Requests are looked for at least so often.
 constexpr auto slice = 5ms;
 constexpr auto idle = 100ms;
+
+/// What a person holds there: where a slider's value is copied to a port, that is the slider.
+std::string held_by(const simulation::Experiment& experiment, const std::string& trail) {
+  const auto copies = [&](const simulation::WireSpec& wire) {
+    return (wire.to == trail || wire.to == experiment.world + "." + trail) && !wire.rate &&
+           wire.delay == 0. && wire.noise == 0.;
+  };
+  const auto wire = std::ranges::find_if(experiment.wires, copies);
+  if (wire == experiment.wires.end() || !experiment.values) return trail;
+  const auto held =
+      std::ranges::find(*experiment.values, wire->from, &simulation::ValueSpec::trail);
+  return held != experiment.values->end() && held->writable ? wire->from : trail;
+}
 
 }  // namespace
 
@@ -183,7 +197,9 @@ void LiveSession::carry_out(const Asked& asked) {
 
 std::string LiveSession::perform(const SetPorts& command) {
   std::vector<simulation::PortValue> values;
-  for (const auto& [trail, value] : command.values) values.push_back({trail, value});
+  const simulation::Experiment& experiment = subjects_.run().experiment();
+  for (const auto& [trail, value] : command.values)
+    values.push_back({held_by(experiment, trail), value});
   std::string problem = subjects_.set(values);
   quit_ = quit_ || subjects_.run().world().quit();
   return problem;

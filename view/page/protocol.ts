@@ -104,7 +104,7 @@ export type CameraWidget = WidgetFrame & {
   type: "Window.grob";
   drawer: string;
   follow: string | null;
-  ports: { zoom: string; distance: string; euler1: string; euler2: string };
+  ports: { zoom: string; distance: string; euler1: string; euler2: string; exaggeration?: string };
   show: Record<string, boolean>;
 };
 export type ValuatorWidget = WidgetFrame & {

@@ -25,17 +25,16 @@ export function makeRunPage(context: Context, themeChanged: Listeners<[]>): Part
   const bare = description.windows.length === 0;
   const desk = element("main", { class: bare ? "desk bare" : "desk" });
   const parts: Part[] = [];
-  for (const widget of bare ? [ownCamera(context)] : description.windows) {
-    const part = makeWidget(context, widget);
-    if (part === null) continue;
+  const add = (part: Part | null) => {
+    if (part === null) return;
     parts.push(part);
     desk.append(part.element);
-  }
-  if (description.subjects.length > 1) {
-    const creep = makeCreepPanel(context);
-    parts.push(creep);
-    desk.append(creep.element);
-  }
+  };
+  const [first, ...others] = bare ? [ownCamera(context)] : description.windows;
+  add(makeWidget(context, first));
+  // Beside or below the scene that it measures.
+  if (description.subjects.length > 1) add(makeCreepPanel(context));
+  for (const widget of others) add(makeWidget(context, widget));
 
   // Plots of trails that the user chose, kept when the page is made anew.
   const chosen = (context.kept.get("plots") as PlotTrace[] | undefined) ?? [];

@@ -81,6 +81,16 @@ export function makeCamera(context: Context, widget: CameraWidget, fill = false)
         }
       }))
     : [];
+  // A port where the file has it, one number for all of the page: whoever changed it last counts.
+  const exaggeration = ports.exaggeration;
+  let told = NaN, setAt = -Infinity;
+  if (exaggeration) {
+    forget.push(context.values.watch(exaggeration, (value) => {
+      told = value;
+      const settled = performance.now() - setAt > 400;
+      if (settled && value >= 1 && value !== context.exaggeration) context.setExaggeration(value);
+    }));
+  }
   let fitted = wired || kept !== undefined;
   forget.push(context.onSnapshot((snapshot) => {
     view.draw(snapshot);
@@ -92,7 +102,12 @@ export function makeCamera(context: Context, widget: CameraWidget, fill = false)
   forget.push(
     context.onTheme(() => view.repaint()),
     context.onQuality((quality) => (view.quality = quality)),
-    context.onExaggeration((factor) => (view.exaggeration = factor)),
+    context.onExaggeration((factor) => {
+      view.exaggeration = factor;
+      if (!exaggeration || movie || factor === told) return;
+      setAt = performance.now();
+      attempt(context, context.setter.set(exaggeration, factor));
+    }),
     context.onVisible((subject, visible) => view.setSubjectVisible(subject, visible)),
     context.onSelected((body) => view.select(body)),
   );
