@@ -235,7 +235,8 @@ void add_display_classes(language::Schema& schema) {
                             "sets"));
   schema.add(
       valuator_class("Valuator.Input", "a number that is typed, wired to the input that it sets"));
-  schema.add(button_class("Button", "a push button", "true while it is pressed"));
+  schema.add(button_class("Button", "a push button",
+                          "true once it is pressed, until the program has seen it"));
   schema.add(button_class("Button.Light", "a button that stays down and is lit until pressed again",
                           "true while it is lit"));
   schema.add(choice_class());

@@ -81,6 +81,9 @@ std::string why_not_alike(const World& before, const World& after, const Experim
   if (was.deltat != is.deltat)
     return fmt::format("the step would be {} s instead of {} s", output::shortest(is.deltat),
                        output::shortest(was.deltat));
+  if (was.contact != is.contact)
+    return fmt::format("what points on the ground remember under {} means nothing under {}",
+                       was.contact, is.contact);
   const auto old_layout = before.state_layout(), new_layout = after.state_layout();
   return layout_text(old_layout) == layout_text(new_layout) ? ""
                                                             : difference(old_layout, new_layout);
