@@ -80,6 +80,9 @@ bool LiveSession::run(const std::atomic<bool>& stop) {
     if (Clock::now() >= next_snapshot_) publish();
     if (!quit_) audience_.wait(next_wake());
   }
+  // Of a run that was changed the end is a change too: it repeats up to there.
+  if (stop && !subjects_.past() && !subjects_.run().changes().empty())
+    perform(SetPorts{{{"Simulator.quit", 1.}}});
   if (quit_) audience_.tell_ended("Simulator.quit is true");
   return !failed_;
 }

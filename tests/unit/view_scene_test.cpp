@@ -102,9 +102,11 @@ Extent extent_of(const GroundTiles& tiles) {
   return extent;
 }
 
-const std::string block =
-    " Robot b { Base.mobile { mass = 1; Shape.Cube dimensions = 0.1,0.1,0.1;"
-    " location = 2,0,3; } } }";
+std::string block_at(const std::string& x) {
+  return " Robot b { Base.mobile { mass = 1; Shape.Cube dimensions = 0.1,0.1,0.1; location = " + x +
+         ",0,3; } } }";
+}
+const std::string block = block_at("2"), block_in_the_middle = block_at("0");
 
 TEST(ViewScene, ShowsAPlaneWithoutAnEndAroundTheRobots) {
   const auto experiment = experiment_of(
@@ -123,7 +125,8 @@ TEST(ViewScene, ShowsAPlaneWithoutAnEndAroundTheRobots) {
 // 1.25 m of half a metre are three tiles, the last one cut.
 TEST(ViewScene, EndsWhereAPlaneEnds) {
   const auto experiment = experiment_of(
-      "World w { Terrain.Flat ground { height = 0.25; size = 1.25,1; spacing = 0.5; }" + block);
+      "World w { Terrain.Flat ground { height = 0.25; size = 1.25,1; spacing = 0.5; }" +
+      block_in_the_middle);
   const GroundTiles tiles = *view::make_scene(experiment).terrain;
   expect_on_ground(tiles, experiment);
   EXPECT_EQ(tiles.vertices.size(), 12u);
@@ -135,7 +138,7 @@ TEST(ViewScene, PaintsPatches) {
   const auto experiment = experiment_of(
       "World w { Material mud { } Material ice { } Terrain.Flat ground { material = mud; size = "
       "4,4; Patch { from = 0.1,0.1; to = 2,2; material = ice; } }" +
-      block);
+      block_in_the_middle);
   const Scene scene = view::make_scene(experiment);
   expect_on_ground(*scene.terrain, experiment);
   EXPECT_EQ(scene.materials, (std::vector<std::string>{"mud", "ice"}));
@@ -186,7 +189,8 @@ TEST(ViewScene, KnowsWhereSensorsAre) {
 }
 
 TEST(ViewScene, IsTheSceneOfTheProtocol) {
-  const auto experiment = experiment_of("World w { Terrain.Flat ground { size = 1,1; }" + block);
+  const auto experiment =
+      experiment_of("World w { Terrain.Flat ground { size = 1,1; }" + block_in_the_middle);
   const auto leaves = output::json_leaves(view::to_json(view::make_scene(experiment)));
   ASSERT_TRUE(leaves);
   const auto value = [&](const std::string& path) {

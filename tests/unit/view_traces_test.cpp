@@ -1,4 +1,4 @@
-// What plots draw: no extreme is lost, however long the run; and what is kept of a run to go back.
+// What plots draw: no extreme is lost, however long the run.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -65,22 +65,6 @@ TEST(Traces, ForgetWhatARunThatWentBackNeverReached) {
   traces.sample(5., Row{-5.});
   const auto extract = traces.extract({"a"}, 0., 100., 100);
   EXPECT_EQ(extract.values[0], (Row{0., 1., 2., 3., 4., -5.}));
-}
-
-TEST(History, KeepsTheLastMomentsAtEvenDistances) {
-  constexpr std::size_t size = 3, most = 10;
-  History history(5, size, most * (size + 1) * sizeof(double));
-  for (std::int64_t step = 0; step <= 1000; ++step) {
-    if (!history.due(step)) continue;
-    std::ranges::fill(history.keep(step), double(step));
-  }
-  EXPECT_EQ(history.first(), 1000 - 5 * (int(most) - 1));
-  EXPECT_EQ(history.at_or_before(history.first() - 1), nullptr);
-  ASSERT_NE(history.at_or_before(983), nullptr);
-  EXPECT_EQ(history.at_or_before(983)->step, 980);
-  EXPECT_EQ(history.at_or_before(983)->state, (Row{980., 980., 980.}));
-  history.cut(984);
-  EXPECT_EQ(history.at_or_before(1000)->step, 980);
 }
 
 }  // namespace
