@@ -142,7 +142,8 @@ TEST(Recorder, FormatsHaveNames) {
 TEST(Recorder, RowsNeedAPoseForEachBody) {
   const hookpoint::testing::Workplace place;
   RecordHeader header;
-  header.channels = {{"a"}};
+  header.channels.resize(1);
+  header.channels[0].path = "a";
   header.scene.bodies = {{"w.ball", {}}};
   const auto record = make_record_writer("mcap", place.folder() / "run.mcap", header);
   EXPECT_THROW(record->row(0., std::vector<double>(1)), std::logic_error);

@@ -58,8 +58,10 @@ void expect_painted(const Experiment& experiment, const std::vector<output::Scen
 }
 
 TEST(ShownGround, PlaneWithAnEdgeIsTwoTriangles) {
-  const auto shown = shown_ground(
-      on({.surface = contact::SlopeSurface{.angle = std::atan(0.5)}, .size_x = 4., .size_y = 3.}));
+  const auto shown = shown_ground(on({.surface = contact::SlopeSurface{.angle = std::atan(0.5)},
+                                      .size_x = 4.,
+                                      .size_y = 3.,
+                                      .patches = {}}));
   ASSERT_EQ(shown.size(), 1u);
   EXPECT_EQ(shown[0].material, "clay");
   ASSERT_EQ(shown[0].triangles.size(), 2u);
@@ -72,7 +74,8 @@ TEST(ShownGround, PlaneWithAnEdgeIsTwoTriangles) {
 }
 
 TEST(ShownGround, PlaneWithoutAnEdgeReachesTwentyMetresBeyondTheRobots) {
-  Experiment experiment = on({.surface = contact::FlatSurface{.height = 0.25}, .spacing = 0.5});
+  Experiment experiment =
+      on({.surface = contact::FlatSurface{.height = 0.25}, .spacing = 0.5, .patches = {}});
   experiment.robots.resize(2);
   experiment.robots[0].location = {-3., 0., 1.};
   experiment.robots[1].location = {5., 1., 1.};
@@ -144,10 +147,10 @@ TEST(ShownGround, GridIsItsTilesByMaterial) {
 }
 
 TEST(ShownGround, LargeGridKeepsEveryFewVerticesAndItsEdges) {
-  contact::GridSurface grid{.columns = 1000, .rows = 3};
+  contact::GridSurface grid{.columns = 1000, .rows = 3, .heights = {}};
   for (int row = 0; row < 3; ++row)
     for (int column = 0; column < 1000; ++column) grid.heights.push_back(column);
-  const auto shown = shown_ground(on({.surface = grid, .spacing = 0.1}));
+  const auto shown = shown_ground(on({.surface = grid, .spacing = 0.1, .patches = {}}));
   ASSERT_EQ(shown.size(), 1u);
   EXPECT_EQ(shown[0].vertices.size(), 3u * 251u) << "0, 4, ... 996, 999";
   EXPECT_NEAR(areas(shown)["clay"], 99.9 * 0.2, 1e-9);
