@@ -14,7 +14,7 @@ namespace {
 using testing::CommandResult;
 using testing::Workplace;
 
-bool chromium_is_there() {
+[[maybe_unused]] bool chromium_is_there() {
   return std::system("command -v chromium chromium-browser google-chrome >/dev/null 2>&1") == 0 ||
          std::getenv("HOOKPOINT_BROWSER") != nullptr;
 }
