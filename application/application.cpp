@@ -14,6 +14,7 @@
 #include "studies/compare/wall.h"
 #include "studies/schema.h"
 #include "unicode/display.h"
+#include "view/panel.h"
 #include "view/schema.h"
 
 namespace hookpoint::application {
@@ -203,7 +204,10 @@ std::unique_ptr<language::Object> Application::evaluate_set(const std::filesyste
 std::optional<simulation::Experiment> Application::load(const language::Object& root) const {
   language::Diagnostics diagnostics;
   auto experiment = simulation::load_experiment(root, diagnostics, search_path_);
+  // What its windows name must be there, whether or not they are opened.
+  if (experiment) view::make_panel(root, *experiment, {}, diagnostics);
   tell(diagnostics);
+  if (diagnostics.error_count() > 0) return std::nullopt;
   return experiment;
 }
 

@@ -54,11 +54,12 @@ std::vector<output::InputFile> inputs_of(const MatrixPlan& plan) {
 
 }  // namespace
 
-studies::ReportOutcome write_study_report(const studies::StudyRun& run,
-                                          const std::string& command) {
+studies::ReportOutcome write_study_report(const studies::StudyRun& run, const std::string& command,
+                                          const std::vector<std::string>& pictures) {
+  std::vector<std::string> files = result_files(run);
+  files.insert(files.end(), pictures.begin(), pictures.end());
   const studies::ReportContext context{command, peer_settings(run.result),
-                                       studies::provenance_lines(run.provenance),
-                                       result_files(run)};
+                                       studies::provenance_lines(run.provenance), files};
   studies::ReportOutcome outcome = studies::write_report(run.result, context, run.folder);
   run.files->finish();
   return outcome;

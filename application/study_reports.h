@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "application/study_plans.h"
 #include "output/result_folder.h"
@@ -15,9 +16,11 @@
 
 namespace hookpoint::application {
 
-/// Figures and report.html of a study that ran to its end. `command` runs it again. Throws
-/// output::FileError, as do all here.
-studies::ReportOutcome write_study_report(const studies::StudyRun& run, const std::string& command);
+/// Figures and report.html of a study that ran to its end. `command` runs it again. `pictures`:
+/// files of its folder that the report links to beside its own. Throws output::FileError, as do all
+/// here.
+studies::ReportOutcome write_study_report(const studies::StudyRun& run, const std::string& command,
+                                          const std::vector<std::string>& pictures = {});
 
 /// All files of a Wall that ran.
 void write_wall(const studies::WallRun& run, const studies::WallPlan& plan,

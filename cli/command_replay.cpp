@@ -1,15 +1,21 @@
+// replay: a movie in the window, what it is, or a moment of it.
 #include <fmt/format.h>
 
 #include <iostream>
 
 #include "cli/commands.h"
 #include "cli/exit_status.h"
+#include "cli/interrupt.h"
+#include "cli/movie_windows.h"
+#include "cli/open_browser.h"
 #include "cli/opened_movie.h"
 #include "cli/run_loop.h"
 #include "output/text/json.h"
 #include "output/text/number.h"
 #include "simulation/wiring/port_search.h"
 #include "unicode/display.h"
+#include "view/movie_session.h"
+#include "view/page_bundle.h"
 
 namespace hookpoint::cli {
 namespace {
@@ -57,12 +63,8 @@ void print_movie(const output::MovieReader& movie) {
   fmt::print("  {:<12} {} numbers an instant\n", "state", header.size);
 }
 
-int show(const ReplayArguments& arguments) {
+int show_moment(const ReplayArguments& arguments) {
   OpenedMovie movie(arguments.movie, arguments.allow_plugins);
-  if (!arguments.at) {
-    print_movie(movie.reader());
-    return fine;
-  }
   simulation::Experiment experiment = movie.load();
   simulation::World world = movie.make_world(experiment);
   simulation::Rewind rewind(experiment, movie.reader(), world);
@@ -84,15 +86,55 @@ int show(const ReplayArguments& arguments) {
   return fine;
 }
 
+/// In the windows of its experiment, until nobody wants to see more.
+int show_window(const ReplayArguments& arguments) {
+  const InterruptGuard guard;
+  MovieWindows windows(arguments.movie, arguments.allow_plugins);
+  view::Server server({arguments.view.bind, arguments.view.port,
+                       arguments.view.token.value_or(view::fresh_token())},
+                      page_bundle::index_html);
+  view::Audience audience(server);
+  view::MovieSession session(windows.movie(), audience,
+                             {[&](const std::vector<Port>& ports) { return windows.show(ports); },
+                              std::filesystem::absolute(arguments.movie).parent_path()});
+  std::cout << server.url() << std::endl;
+  if (arguments.view.open) open_browser(server.url());
+  session.run(guard.stop());
+  return fine;
+}
+
+int show(const ReplayArguments& arguments) {
+  if (arguments.at) return show_moment(arguments);
+  if (!arguments.about) return show_window(arguments);
+  print_movie(OpenedMovie(arguments.movie, arguments.allow_plugins).reader());
+  return fine;
+}
+
+/// "" or what does not go together.
+std::string conflict(const ReplayArguments& arguments) {
+  const bool moment = arguments.json || !arguments.record.empty();
+  if (!arguments.at && moment)
+    return "--json and --record tell of a moment: give it with --at, e.g. --at \"2.5 s\"";
+  if (arguments.at && arguments.about) return "--about tells of the whole movie: leave out --at";
+  if (!arguments.film.file.empty() && (arguments.at || arguments.about))
+    return "--film takes neither --at nor --about: --from and --to say which part of the movie";
+  return "";
+}
+
 }  // namespace
 
 int replay(const ReplayArguments& arguments) {
-  if (!arguments.at && (arguments.json || !arguments.record.empty())) {
-    application::print_error(
-        "--json and --record tell of a moment: give it with --at, e.g. --at \"2.5 s\"");
+  if (const std::string problem = conflict(arguments); !problem.empty()) {
+    application::print_error(problem);
     return wrong_input;
   }
-  return use_movie([&] { return show(arguments); });
+  if (!arguments.film.file.empty()) return film(arguments);
+  try {
+    return use_movie([&] { return show(arguments); });
+  } catch (const view::ServerError& error) {
+    application::print_error(error.what());
+    return wrong_input;
+  }
 }
 
 }  // namespace hookpoint::cli

@@ -48,7 +48,7 @@ int go_on(const RunArguments& arguments) {
   rewind.arrive(first);
   const int status = step_through(experiment, world, files, last);
   files.close();
-  tell_files(files);
+  tell_files(files.folder(), files.names());
   print_summary(experiment, world.state());
   return status;
 }
@@ -60,6 +60,11 @@ int resume(const RunArguments& arguments) {
     application::print_error(
         "run --resume goes on with the experiment inside the movie: it takes neither a FILE nor "
         "--set or its short forms");
+    return wrong_input;
+  }
+  if (arguments.changes) {
+    application::print_error(
+        "--changes are made from time 0 on: they go with a FILE, not with --resume");
     return wrong_input;
   }
   return use_movie([&] { return go_on(arguments); });

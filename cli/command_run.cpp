@@ -2,8 +2,11 @@
 
 #include <cmath>
 #include <iostream>
+#include <utility>
 
 #include "application/application.h"
+#include "application/live_loader.h"
+#include "application/study_plans.h"
 #include "cli/commands.h"
 #include "cli/exit_status.h"
 #include "cli/run_loop.h"
@@ -19,12 +22,48 @@ application::Settings settings_with_duration(const RunArguments& arguments) {
   return settings;
 }
 
-/// A file's windows are laid out and checked, and not shown yet.
-void tell_windows(const language::Object& root) {
+void tell_windows(const language::Object& root, const std::filesystem::path& file) {
   if (root.children_of("Window").empty()) return;
-  std::cerr
-      << "hookpoint: note: the file's windows are not shown: this version has no viewer; what "
-         "sliders and buttons would set keeps its value\n";
+  std::cerr << "hookpoint: note: the file's windows are not shown: `hookpoint view "
+            << application::shell_word(file.string()) << "` does\n";
+}
+
+/// A run again in which people changed something.
+int repeat(const RunArguments& arguments) {
+  const std::string file = arguments.changes->string();
+  std::vector<simulation::Change> changes = simulation::read_changes(*arguments.changes);
+  application::LiveLoader loader(arguments.file, settings_with_duration(arguments),
+                                 arguments.allow_plugins, arguments.movie);
+  std::string problem;
+  std::optional<simulation::LoadedExperiment> first = loader.load({}, problem);
+  if (!first) {
+    std::cerr << problem << '\n';
+    return wrong_input;
+  }
+  tell_windows(loader.root(), arguments.file);
+  tell_stability(first->experiment);
+  const std::filesystem::path folder =
+      arguments.out.value_or(std::filesystem::path("runs") / first->experiment.world);
+  const auto load = [&](const std::vector<std::string>& overrides, std::string& why) {
+    return overrides.empty() && first ? std::exchange(first, std::nullopt)
+                                      : loader.load(overrides, why);
+  };
+  try {
+    simulation::LiveRun run(load, {folder, arguments.record, arguments.out.has_value()},
+                            std::move(changes));
+    const int status = step_through(run);
+    run.close();
+    tell_files(run.folder(), run.names());
+    print_summary(run.experiment(), run.world().state());
+    if (const std::size_t left = run.left_of_script(); left > 0)
+      std::cerr << fmt::format(
+          "hookpoint: note: the last {} of the changes in {} were not made: the run ended before "
+          "their step\n",
+          left, file);
+    return status;
+  } catch (const simulation::ChangesError& error) {
+    throw simulation::ChangesError(fmt::format("{}, {}", file, error.what()));
+  }
 }
 
 }  // namespace
@@ -35,6 +74,17 @@ int run(const RunArguments& arguments) {
     application::print_error(arguments.file.empty()
                                  ? "run takes a FILE, or --resume MOVIE"
                                  : "--at is a moment of a movie: it goes with --resume");
+    return wrong_input;
+  }
+  if (arguments.viewed) return view(arguments);
+  if (arguments.changes) {
+    try {
+      return repeat(arguments);
+    } catch (const simulation::ChangesError& error) {
+      application::print_error(error.what());
+    } catch (const simulation::ExperimentError& error) {
+      application::print_error(error.what());
+    }
     return wrong_input;
   }
   application::Application application(arguments.allow_plugins);
@@ -54,7 +104,7 @@ int run(const RunArguments& arguments) {
         *experiment, world, world.ports(),
         {folder, arguments.record, language::print(*root), arguments.out.has_value(),
          application.describe_engine(*experiment), language::sources_of(*root)});
-    tell_windows(*root);
+    tell_windows(*root, arguments.file);
     tell_stability(*experiment);
     const auto steps =
         static_cast<std::int64_t>(std::llround(experiment->duration / experiment->deltat));
@@ -64,7 +114,7 @@ int run(const RunArguments& arguments) {
     const int status =
         step_through(*experiment, world, files, steps, expectations ? &*expectations : nullptr);
     files.close();
-    tell_files(files);
+    tell_files(files.folder(), files.names());
     print_summary(*experiment, world.state());
     if (status != fine || !expectations) return status;
     return print_expectations(*expectations);

@@ -1,11 +1,45 @@
 #include <algorithm>
+#include <iostream>
+#include <memory>
 
+#include "cli/commands.h"
 #include "cli/exit_status.h"
+#include "cli/open_browser.h"
 #include "cli/study_runs.h"
 
 namespace hookpoint::cli {
+namespace {
 
-int study(const application::StudyArguments& asked) {
+/// Every block of the file; once one was interrupted the others are not begun.
+int run_all(const StudyCommand& command) {
+  int status = fine;
+  const auto run_each = [&](const auto& plans, auto run_one) {
+    for (const auto& plan : plans)
+      if (status <= missing) status = std::max(status, run_one(command, plan));
+  };
+  run_each(command.file.studies, run_one_study);
+  run_each(command.file.walls, run_one_wall);
+  run_each(command.file.matrices, run_one_matrix);
+  return status;
+}
+
+int run_all_viewed(StudyCommand command, const ViewArguments& arguments) {
+  std::unique_ptr<StudyView> view;
+  try {
+    view = std::make_unique<StudyView>(arguments, command.arguments, command.file);
+  } catch (const view::ServerError& error) {
+    application::print_error(error.what());
+    return wrong_input;
+  }
+  command.view = view.get();
+  std::cout << view->url() << std::endl;
+  if (arguments.open) open_browser(view->url());
+  return view->serve([&] { return run_all(command); }, command.guard);
+}
+
+}  // namespace
+
+int study(const application::StudyArguments& asked, const std::optional<ViewArguments>& view) {
   application::Application application(asked.allow_plugins);
   application::StudyArguments arguments = asked;
   arguments.file = application.locate(asked.file);
@@ -18,16 +52,7 @@ int study(const application::StudyArguments& asked) {
   const InterruptGuard guard;
   const StudyCommand command{application.engines(), arguments, *file,
                              application::rerun_command(arguments), guard};
-  int status = fine;
-  const auto run_all = [&](const auto& plans, auto run_one) {
-    // Once one was interrupted the others are not begun.
-    for (const auto& plan : plans)
-      if (status <= missing) status = std::max(status, run_one(command, plan));
-  };
-  run_all(file->studies, run_one_study);
-  run_all(file->walls, run_one_wall);
-  run_all(file->matrices, run_one_matrix);
-  return status;
+  return view ? run_all_viewed(command, *view) : run_all(command);
 }
 
 }  // namespace hookpoint::cli

@@ -2,6 +2,7 @@
 // from the command line.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -12,35 +13,63 @@
 
 namespace hookpoint::cli {
 
+/// How a window is served (docs/view.md).
+struct ViewArguments {
+  std::string bind = "127.0.0.1";    ///< address
+  std::uint16_t port = 0;            ///< 0: a free one
+  std::optional<std::string> token;  ///< of the address; none: a fresh one
+  bool open = true;                  ///< in the desktop's browser, where there is one
+  std::vector<std::string> with;     ///< subjects beside the run (application/subject_words.h)
+};
+
 struct RunArguments {
   std::filesystem::path file;
   application::Settings settings;
   std::optional<std::string> duration;  ///< "10 s"
   std::optional<std::filesystem::path> out;
-  std::vector<std::string> record;              ///< trails, vectors, globs
-  std::optional<std::filesystem::path> movie;   ///< --movie; empty: movie.h5 in the run's folder
-  std::optional<std::filesystem::path> resume;  ///< a movie to go on from, instead of `file`
-  std::optional<std::string> at;                ///< moment of it; none: its last
-  bool allow_plugins = false;                   ///< of any folder; here and below: see Application
+  std::vector<std::string> record;               ///< trails, vectors, globs
+  std::optional<std::filesystem::path> movie;    ///< --movie; empty: movie.h5 in the run's folder
+  std::optional<std::filesystem::path> resume;   ///< a movie to go on from, instead of `file`
+  std::optional<std::string> at;                 ///< moment of it; none: its last
+  std::optional<std::filesystem::path> changes;  ///< changes.csv of a run that is repeated
+  bool allow_plugins = false;                    ///< of any folder; here and below: see Application
+  bool viewed = false;                           ///< --view
+  ViewArguments view;
 };
 int run(const RunArguments& arguments);
+/// view, and run --view: the windows that the file describes, in a browser.
+int view(const RunArguments& arguments);
 /// run --resume: goes on from a moment of a movie.
 int resume(const RunArguments& arguments);
 
+/// replay --film.
+struct FilmArguments {
+  std::filesystem::path file;         ///< empty: no film
+  std::optional<std::string> camera;  ///< trail; none: the first
+  std::string size = "1280x720";
+  std::string rate = "30";              ///< pictures a second
+  std::optional<std::string> from, to;  ///< "2.5 s"; none: all of the movie
+};
+
 struct ReplayArguments {
   std::filesystem::path movie;
-  std::optional<std::string> at;    ///< "2.5 s"; none: what the movie is
+  std::optional<std::string> at;    ///< "2.5 s"; none: all of it
   std::vector<std::string> record;  ///< trails, vectors, globs; none: a summary, as JSON all
   bool json = false;
+  bool about = false;
   bool allow_plugins = false;
+  ViewArguments view;
+  FilmArguments film;
 };
-/// replay: what a movie is, or a moment of it.
+/// replay: a movie in the window, what it is, a moment of it, or a film of it.
 int replay(const ReplayArguments& arguments);
+int film(const ReplayArguments& arguments);
 
 /// recover: the record that a killed run left as a spool.
 int recover(const std::filesystem::path& spool);
 
-int study(const application::StudyArguments& arguments);
+/// study; with `view` its table fills in a browser meanwhile (cli/study_view.h).
+int study(const application::StudyArguments& arguments, const std::optional<ViewArguments>& view);
 
 /// check: every file's diagnostics.
 int check(const std::vector<std::filesystem::path>& files, bool allow_plugins);

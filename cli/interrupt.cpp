@@ -73,6 +73,10 @@ void InterruptGuard::wait_for(std::chrono::milliseconds time) const {
   }
 }
 
+void InterruptGuard::interrupt() const {
+  if (!stop_requested) request_stop(SIGINT);
+}
+
 void InterruptGuard::wake() const { sem_post(&woken); }
 
 }  // namespace hookpoint::cli

@@ -22,6 +22,8 @@ class InterruptGuard {
   /// Waits for a signal, `wake` or the time to pass. One thread at a time.
   void wait() const;
   void wait_for(std::chrono::milliseconds time) const;
+  /// As the interrupt key does, once.
+  void interrupt() const;
   /// Ends a wait.
   void wake() const;
 };

@@ -94,12 +94,16 @@ void add_plugins(CLI::App* command, bool& allowed) {
                     "HOOKPOINT_TRUSTED_PLUGINS");
 }
 
-void add_movies(CLI::App* run_app, RunArguments& arguments) {
-  run_app
+void add_movie_option(CLI::App* command, RunArguments& arguments) {
+  command
       ->add_option("--movie", arguments.movie,
                    "log the whole state of each step (default: DIR/movie.h5)")
       ->type_name("[FILE.h5]")
       ->expected(0, 1);
+}
+
+void add_movies(CLI::App* run_app, RunArguments& arguments) {
+  add_movie_option(run_app, arguments);
   run_app
       ->add_option("--resume", arguments.resume,
                    "go on from a moment of this movie, for as long as --for says")
@@ -108,13 +112,69 @@ void add_movies(CLI::App* run_app, RunArguments& arguments) {
       ->type_name("TIME");
 }
 
+void add_serving(CLI::App* command, ViewArguments& arguments) {
+  command->add_option("--port", arguments.port, "of the window's address (default: a free one)")
+      ->type_name("N")
+      ->check([](const std::string& text) {
+        int value = -1;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        const bool number = error == std::errc{} && end == text.data() + text.size();
+        return number && value >= 0 && value <= 65535
+                   ? std::string()
+                   : "--port takes a whole number from 0 to 65535, not `" + text + "`";
+      });
+  command
+      ->add_option("--bind", arguments.bind,
+                   "the address to listen at; 0.0.0.0: whoever has the token may look on from "
+                   "anywhere (default: 127.0.0.1)")
+      ->type_name("ADDRESS");
+  command
+      ->add_option("--token", arguments.token,
+                   "of the address, so that open pages find a program that was started again "
+                   "(default: a fresh one)")
+      ->type_name("TEXT")
+      ->check([](const std::string& text) {
+        const bool plain = text.size() >= 16 && text.size() <= 128 &&
+                           text.find_first_not_of(
+                               "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUV"
+                               "WXYZ0123456789-_") == std::string::npos;
+        return plain ? std::string()
+                     : "--token takes 16 to 128 letters, digits, - or _: who knows it may do what "
+                       "you may";
+      });
+  command->add_flag("!--no-open", arguments.open, "only print the address; open no browser");
+}
+
+void add_film(CLI::App* command, FilmArguments& arguments) {
+  CLI::Option* film =
+      command
+          ->add_option("--film", arguments.file,
+                       "draw it as a video, FILE.webm or FILE.mp4, or as pictures, DIR/%05d.png")
+          ->type_name("FILE");
+  command
+      ->add_option("--camera", arguments.camera, "whose film: a Window.grob (default: the first)")
+      ->type_name("TRAIL")
+      ->needs(film);
+  command->add_option("--size", arguments.size, "of the film's pictures (default: 1280x720)")
+      ->type_name("WIDTHxHEIGHT")
+      ->needs(film);
+  command->add_option("--fps", arguments.rate, "pictures a second of the film (default: 30)")
+      ->type_name("N")
+      ->needs(film);
+  command->add_option("--from", arguments.from, "where the film begins: \"2.5 s\"")
+      ->type_name("TIME")
+      ->needs(film);
+  command->add_option("--to", arguments.to, "where the film ends")->type_name("TIME")->needs(film);
+}
+
 void add_movie_tools(CLI::App& app, Request& request) {
-  CLI::App* replay_app = add_command(app, request, "replay", "a run again as its movie has it",
+  CLI::App* replay_app = add_command(app, request, "replay",
+                                     "a run again as its movie has it: in the window, as a film",
                                      [&] { return replay(request.replay); });
   replay_app->add_option("MOVIE", request.replay.movie, "an .h5 file of run --movie")->required();
   replay_app
       ->add_option("--at", request.replay.at,
-                   "where everything is at this moment: \"2.5 s\" (default: what the movie is)")
+                   "only say where everything is at this moment: \"2.5 s\"")
       ->type_name("TIME");
   replay_app
       ->add_option("--record", request.replay.record,
@@ -122,6 +182,9 @@ void add_movie_tools(CLI::App& app, Request& request) {
       ->type_name("TRAIL,...")
       ->delimiter(',');
   replay_app->add_flag("--json", request.replay.json, "as JSON, 17 significant digits");
+  replay_app->add_flag("--about", request.replay.about, "only say what the movie is");
+  add_film(replay_app, request.replay.film);
+  add_serving(replay_app, request.replay.view);
   add_plugins(replay_app, request.replay.allow_plugins);
   add_command(app, request, "recover", "the MATLAB record of a run that was killed",
               [&] { return recover(request.file); })
@@ -129,30 +192,65 @@ void add_movie_tools(CLI::App& app, Request& request) {
       ->required();
 }
 
-void add_run_and_study(CLI::App& app, Request& request) {
-  CLI::App* run_app =
-      add_command(app, request, "run", "run a world", [&] { return run(request.run); });
-  run_app->add_option("FILE", request.run.file, "a .hook file with a World, unless --resume");
-  add_settings(run_app, request.run.settings);
-  add_plugins(run_app, request.run.allow_plugins);
+void add_subjects(CLI::App* command, ViewArguments& arguments) {
+  command
+      ->add_option("--with", arguments.with,
+                   "beside it the same experiment under another engine, law or integrator, e.g. "
+                   "mujoco:recommended (may be repeated)")
+      ->type_name("SUBJECT")
+      ->expected(1)
+      ->take_all();
+}
+
+/// What `run` and `view` have in common.
+void add_run_options(CLI::App* run_app, RunArguments& arguments) {
+  add_settings(run_app, arguments.settings);
+  add_plugins(run_app, arguments.allow_plugins);
   run_app
-      ->add_option("--for", request.run.duration,
+      ->add_option("--for", arguments.duration,
                    "how long: \"10 s\" (default: the World's duration)")
       ->type_name("TIME");
   run_app
-      ->add_option("--out", request.run.out,
+      ->add_option("--out", arguments.out,
                    "folder of what the run leaves (default with --record: runs/WORLD)")
       ->type_name("DIR");
   run_app
-      ->add_option("--record", request.run.record,
+      ->add_option("--record", arguments.record,
                    "ports to write to DIR/trace.csv, joined by commas: trails, vectors, globs (* "
                    "within a name, ** across)")
       ->type_name("TRAIL,...")
       ->delimiter(',');
-  add_movies(run_app, request.run);
+}
 
-  CLI::App* study_app = add_command(app, request, "study", "run the studies of a file",
-                                    [&] { return study(request.study); });
+void add_view(CLI::App& app, Request& request) {
+  CLI::App* view_app =
+      add_command(app, request, "view", "run a world in the windows that its file describes",
+                  [&] { return view(request.run); });
+  view_app->add_option("FILE", request.run.file, "a .hook file with a World")->required();
+  add_run_options(view_app, request.run);
+  add_movie_option(view_app, request.run);
+  add_serving(view_app, request.run.view);
+  add_subjects(view_app, request.run.view);
+}
+
+void add_run_and_study(CLI::App& app, Request& request) {
+  CLI::App* run_app =
+      add_command(app, request, "run", "run a world", [&] { return run(request.run); });
+  run_app->add_option("FILE", request.run.file, "a .hook file with a World, unless --resume");
+  add_run_options(run_app, request.run);
+  run_app->add_flag("--view", request.run.viewed, "in the windows that the file describes");
+  add_serving(run_app, request.run.view);
+  add_subjects(run_app, request.run.view);
+  add_movies(run_app, request.run);
+  run_app
+      ->add_option("--changes", request.run.changes,
+                   "repeat what people changed while the run went on: the changes.csv that it left")
+      ->type_name("FILE.csv");
+
+  CLI::App* study_app = add_command(app, request, "study", "run the studies of a file", [&] {
+    return study(request.study,
+                 request.run.viewed ? std::optional(request.run.view) : std::nullopt);
+  });
   study_app->add_option("FILE", request.study.file, "a .hook file with a Study")->required();
   add_trails(study_app, request.study.settings);
   for (const application::ShortForm& form : application::short_forms)
@@ -178,6 +276,9 @@ void add_run_and_study(CLI::App& app, Request& request) {
       ->type_name("SUBJECT")
       ->expected(1)
       ->take_all();
+  study_app->add_flag("--view", request.run.viewed,
+                      "in a browser, where table and figures fill meanwhile");
+  add_serving(study_app, request.run.view);
 }
 
 /// What the short forms take, as the language has it.
@@ -365,6 +466,7 @@ int main_with(int count, char** words) {
                        "the version of the program and of the engines found");
   Request request;
   add_run_and_study(app, request);
+  add_view(app, request);
   add_movie_tools(app, request);
   add_language_tools(app, request);
   add_ports(app, request);

@@ -46,10 +46,10 @@ simulation::Experiment OpenedMovie::load() {
     throw output::MovieError("the experiment inside the movie cannot be loaded");
   };
   if (!application_.load_plugins(text)) fail();
-  const auto root = application_.evaluate(text, {});
-  if (!root) fail();
+  root_ = application_.evaluate(text, {});
+  if (!root_) fail();
   language::Diagnostics diagnostics;
-  auto experiment = simulation::load_experiment(*root, diagnostics, {}, files);
+  auto experiment = simulation::load_experiment(*root_, diagnostics, {}, files);
   application::print_diagnostics(diagnostics);
   if (!experiment) fail();
   return *experiment;

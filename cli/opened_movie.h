@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 
 #include "application/application.h"
@@ -23,6 +24,8 @@ class OpenedMovie {
   /// The experiment, with the files that it read as they were. Its diagnostics are printed; throws
   /// output::MovieError when it has errors.
   simulation::Experiment load();
+  /// What was loaded.
+  const language::Object& root() const { return *root_; }
   /// At time 0. Throws simulation::ExperimentError.
   simulation::World make_world(const simulation::Experiment& experiment) const;
   simulation::EngineDescription describe_engine(const simulation::Experiment& experiment) const {
@@ -32,6 +35,7 @@ class OpenedMovie {
  private:
   output::MovieReader reader_;
   application::Application application_;
+  std::unique_ptr<language::Object> root_;
   std::filesystem::path folder_;  ///< of the files taken out; gone with this
 };
 

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <iostream>
+#include <utility>
 
 #include "application/application.h"
 #include "cli/exit_status.h"
@@ -29,6 +30,19 @@ std::string how_computed(const Experiment& experiment) {
   const bool own_time = law != nullptr && law->is_impulse_law;
   return fmt::format("engine dts, contact {}{}", experiment.contact,
                      own_time ? "" : ", " + experiment.integrator);
+}
+
+/// Says how a run that no step failed came to its end. Returns the exit status.
+int report_end(RunWatch& watch, const simulation::World& world) {
+  if (const std::string reason = world.ended(); !reason.empty())
+    watch.say(
+        fmt::format("hookpoint: note: the run ended at {:.6g} s: {}", world.state().time, reason));
+  if (!watch.stopped()) return fine;
+  watch.say(
+      fmt::format("hookpoint: error: interrupted at {:.6g} s; what was recorded up to then "
+                  "is kept",
+                  world.state().time));
+  return watch.status();
 }
 
 int report_failure(RunWatch& watch, const simulation::StepStatus& status) {
@@ -152,21 +166,31 @@ int step_through(const Experiment& experiment, simulation::World& world,
   }
   if (const std::string finding = energy.finding(); !finding.empty())
     watch.say("hookpoint: warning: " + finding);
-  if (const std::string reason = world.ended(); !reason.empty())
-    watch.say(
-        fmt::format("hookpoint: note: the run ended at {:.6g} s: {}", world.state().time, reason));
-  if (!watch.stopped()) return fine;
-  watch.say(
-      fmt::format("hookpoint: error: interrupted at {:.6g} s; what was recorded up to then "
-                  "is kept",
-                  world.state().time));
-  return watch.status();
+  return report_end(watch, world);
 }
 
-void tell_files(const simulation::RunFiles& files) {
-  if (files.names().empty()) return;
-  std::cerr << fmt::format("wrote {}: {}\n", files.folder().string(),
-                           fmt::join(files.names(), ", "));
+int step_through(simulation::LiveRun& run) {
+  RunWatch watch(run.experiment().world,
+                 {0., static_cast<double>(run.last_step()) * run.experiment().deltat},
+                 [&run] { run.close_within_step(); });
+  std::size_t told = 0;
+  std::uint64_t generation = run.generation();
+  while (run.world().state().step < run.last_step() && !watch.stopped() && run.ended().empty()) {
+    watch.begin_step();
+    const simulation::StepStatus status = run.step();
+    watch.end_step(run.world().state().time);
+    // Another world has nothing said yet.
+    if (std::exchange(generation, run.generation()) != generation) told = 0;
+    const std::vector<std::string>& notices = run.world().state().notices;
+    for (; told < notices.size(); ++told) watch.say("hookpoint: note: " + notices[told]);
+    if (!status.ok()) return report_failure(watch, status);
+  }
+  return report_end(watch, run.world());
+}
+
+void tell_files(const std::filesystem::path& folder, const std::vector<std::string>& names) {
+  if (names.empty()) return;
+  std::cerr << fmt::format("wrote {}: {}\n", folder.string(), fmt::join(names, ", "));
 }
 
 }  // namespace hookpoint::cli

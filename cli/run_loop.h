@@ -3,8 +3,12 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
 
 #include "simulation/run/expectation.h"
+#include "simulation/run/live_run.h"
 #include "simulation/run/run_files.h"
 #include "simulation/run/world.h"
 
@@ -19,8 +23,12 @@ int step_through(const simulation::Experiment& experiment, simulation::World& wo
                  simulation::RunFiles& files, std::int64_t last,
                  simulation::Expectations* expectations = nullptr);
 
+/// The same of a run with a script of changes, to its last step; what is changed drives the world,
+/// so nothing is said of its energy.
+int step_through(simulation::LiveRun& run);
+
 /// On stderr: where the files of a run that is over are. Nothing when it leaves none.
-void tell_files(const simulation::RunFiles& files);
+void tell_files(const std::filesystem::path& folder, const std::vector<std::string>& names);
 
 /// The truths that came with the scene beside what the run made of them, on stdout. Returns the
 /// exit status.

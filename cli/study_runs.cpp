@@ -9,6 +9,7 @@
 #include "application/study_reports.h"
 #include "cli/exit_status.h"
 #include "cli/run_bar.h"
+#include "cli/scene_picture.h"
 #include "output/file.h"
 #include "output/result_folder.h"
 #include "output/text/terminal.h"
@@ -39,7 +40,9 @@ std::string how_to_go_on(const StudyCommand& command, const std::filesystem::pat
          " --resume` goes on from there";
 }
 
-int interrupted(const StudyCommand& command, const std::filesystem::path& folder) {
+int interrupted(const StudyCommand& command, const studies::StudyPlan& plan,
+                const std::filesystem::path& folder) {
+  if (command.view != nullptr) command.view->interrupt(plan);
   application::print_error("interrupted" + how_to_go_on(command, folder));
   return command.guard.status();
 }
@@ -58,7 +61,40 @@ auto writing_into(const StudyCommand& command, const std::filesystem::path& fold
   }
 }
 
+/// With the bar, and the page where there is one.
+studies::RunOptions watched(const StudyCommand& command, const studies::StudyPlan& plan,
+                            RunBar& bar, const std::filesystem::path& folder) {
+  studies::RunOptions options = bar.watch(application::run_options(command.arguments, folder));
+  return command.view == nullptr ? options : command.view->watch(plan, std::move(options));
+}
+
+/// The table on stdout, unless a page shows it, and where the report is.
+void print_result(const StudyCommand& command, const std::string& table, const char* what,
+                  const std::filesystem::path& report) {
+  if (command.view == nullptr)
+    std::cout << table << '\n' << what << ": " << report.string() << '\n';
+  else
+    std::cerr << what << ": " << report.string() << '\n';
+}
+
 void tell(const std::string& notice) { std::cerr << "hookpoint: note: " << notice << '\n'; }
+
+/// Pictures for the report of a study that is watched: of the scene, as the first row has it. Not
+/// among the folder's hashed files, since another version of a browser draws other pixels.
+std::vector<std::string> draw_pictures(const StudyCommand& command, const studies::StudyPlan& plan,
+                                       const std::filesystem::path& folder) {
+  const std::string file = "pictures/scene.png";
+  std::error_code ignored;
+  std::filesystem::remove(folder / file, ignored);  // an earlier study's
+  if (command.view == nullptr) return {};
+  const studies::RowPlan& row = plan.rows.front();
+  const std::string problem =
+      draw_scene_picture({row.scene, row.settings, command.arguments.allow_plugins, folder / file},
+                         command.guard.stop());
+  if (problem.empty()) return {file};
+  tell("the report has no picture of the scene: " + problem);
+  return {};
+}
 
 /// A study that ran.
 struct StudyOutcome {
@@ -70,14 +106,16 @@ struct StudyOutcome {
 StudyOutcome run_into(const StudyCommand& command, const studies::StudyPlan& plan,
                       const std::filesystem::path& folder) {
   RunBar bar(plan.name);
-  studies::RunOptions options = bar.watch(application::run_options(command.arguments, folder));
+  studies::RunOptions options = watched(command, plan, bar, folder);
   options.tell = tell;
   studies::StudyRun run = studies::run_study(plan, command.engines, options, command.guard.stop());
   bar.end();
   for (const std::string& notice : run.notices) tell(notice);
-  if (run.interrupted) return {interrupted(command, run.folder), std::nullopt, {}};
-  studies::ReportOutcome report = application::write_study_report(run, command.command);
+  if (run.interrupted) return {interrupted(command, plan, run.folder), std::nullopt, {}};
+  studies::ReportOutcome report = application::write_study_report(
+      run, command.command, draw_pictures(command, plan, run.folder));
   for (const std::string& message : report.messages) application::print_error(message);
+  if (command.view != nullptr) command.view->finish(plan, run.result, run.folder / "report.html");
   const int status = !studies::all_truths_hold(run.result) ? truth_failed
                      : report.messages.empty()             ? fine
                                                            : missing;
@@ -96,8 +134,8 @@ int run_matrix_into(const StudyCommand& command, const application::MatrixPlan& 
         {std::move(outcome.run->result), part.text, std::move(outcome.figures)});
   }
   application::write_matrix(run, plan, command.file.text, command.engines, command.command);
-  std::cout << studies::matrix_terminal_table(run.result, coloured());
-  std::cout << "\nmatrix: " << (folder / "matrix.html").string() << '\n';
+  print_result(command, studies::matrix_terminal_table(run.result, coloured()), "matrix",
+               folder / "matrix.html");
   return status;
 }
 
@@ -109,15 +147,15 @@ int run_one_study(const StudyCommand& command, const studies::StudyPlan& plan) {
   const StudyOutcome outcome =
       writing_into(command, folder, [&] { return run_into(command, plan, folder); });
   if (!outcome.run) return outcome.status;
-  std::cout << studies::terminal_table(outcome.run->result, {coloured(), terminal_width()});
-  std::cout << "\nreport: " << (outcome.run->folder / "report.html").string() << '\n';
+  print_result(command,
+               studies::terminal_table(outcome.run->result, {coloured(), terminal_width()}),
+               "report", outcome.run->folder / "report.html");
   return outcome.status;
 }
 
 int run_one_wall(const StudyCommand& command, const studies::WallPlan& plan) {
   RunBar bar(plan.study.name);
-  studies::RunOptions options =
-      bar.watch(application::run_options(command.arguments, command.folder(plan.study.name)));
+  studies::RunOptions options = watched(command, plan.study, bar, command.folder(plan.study.name));
   options.tell = tell;
   const std::filesystem::path folder = studies::wall_folder(plan, options);
   const auto run = writing_into(command, folder, [&] {
@@ -126,10 +164,11 @@ int run_one_wall(const StudyCommand& command, const studies::WallPlan& plan) {
     if (ran) application::write_wall(*ran, plan, command.engines, command.command);
     return ran;
   });
-  if (!run) return interrupted(command, folder);
+  if (!run) return interrupted(command, plan.study, folder);
   for (const std::string& notice : run->notices) tell(notice);
-  std::cout << studies::wall_terminal_table(run->result, {coloured(), wall_table_width});
-  std::cout << "\nreport: " << (folder / "report.html").string() << '\n';
+  if (command.view != nullptr) command.view->finish(plan.study, folder / "report.html");
+  print_result(command, studies::wall_terminal_table(run->result, {coloured(), wall_table_width}),
+               "report", folder / "report.html");
   return run->result.failed() == 0 ? fine : truth_failed;
 }
 

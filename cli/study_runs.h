@@ -1,4 +1,5 @@
-// Blocks of a file that run on the command line: progress bar, files, table on stdout, exit status.
+// Blocks of a file that run on the command line: progress bar, files, table on stdout or in a
+// browser, exit status.
 #pragma once
 
 #include <filesystem>
@@ -7,6 +8,7 @@
 #include "application/application.h"
 #include "application/study_plans.h"
 #include "cli/interrupt.h"
+#include "cli/study_view.h"
 
 namespace hookpoint::cli {
 
@@ -17,6 +19,7 @@ struct StudyCommand {
   const application::StudyFile& file;
   std::string command;  ///< that does all again
   const InterruptGuard& guard;
+  StudyView* view = nullptr;  ///< where it is watched; stdout then has nothing of it
 
   /// Of the block `name`; empty without --out: its runner then takes runs/NAME-HASH.
   std::filesystem::path folder(const std::string& name) const {

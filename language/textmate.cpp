@@ -56,7 +56,8 @@ std::string number_rule() {
 std::string object_rule(const Schema& schema) {
   std::vector<std::string> classes, reserved(std::begin(reserved_words), std::end(reserved_words));
   for (const auto& [name, entry] : schema.classes()) {
-    if (std::ranges::find(reserved, name) == reserved.end()) classes.push_back(name);
+    if (entry.only_in.empty() && std::ranges::find(reserved, name) == reserved.end())
+      classes.push_back(name);
   }
   const std::string type = R"((?<![\w.])()" + alternatives(classes) + R"()(?![\w.]|\s*=[^=]))";
   const std::string name =

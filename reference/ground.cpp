@@ -21,19 +21,8 @@ struct Builder {
   }
 
   Ground operator()(const simulation::GridSpec& grid) const {
-    GroundMesh mesh;
-    for (int row = 0; row < grid.rows; ++row)
-      for (int column = 0; column < grid.columns; ++column)
-        mesh.vertices.push_back(
-            {grid.origin_x + column * terrain.spacing, grid.origin_y + row * terrain.spacing,
-             grid.heights[static_cast<std::size_t>(row) * grid.columns + column] - lowered_by});
-    for (int row = 0; row + 1 < grid.rows; ++row)
-      for (int column = 0; column + 1 < grid.columns; ++column) {
-        const int here = row * grid.columns + column;
-        const int above = here + grid.columns;
-        mesh.triangles.push_back({here, here + 1, above + 1});
-        mesh.triangles.push_back({here, above + 1, above});
-      }
+    GroundMesh mesh = simulation::grid_mesh(grid, terrain.spacing);
+    for (Vector3d& vertex : mesh.vertices) vertex.z -= lowered_by;
     return mesh;
   }
 };

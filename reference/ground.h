@@ -1,12 +1,11 @@
 // The terrain as a peer wants it: an infinite plane, or triangles.
 #pragma once
 
-#include <array>
 #include <variant>
-#include <vector>
 
 #include "math/vector3.h"
 #include "simulation/experiment.h"
+#include "simulation/ground_mesh.h"
 
 namespace hookpoint::reference {
 
@@ -17,11 +16,7 @@ struct GroundPlane {
   Vector3d normal;     ///< unit, out of the ground
   double offset = 0.;  ///< [m]
 };
-/// Triangles counter-clockwise from above, two a cell, diagonal from (i, j) to (i+1, j+1).
-struct GroundMesh {
-  std::vector<Vector3d> vertices;  ///< world axes [m]
-  std::vector<std::array<int, 3>> triangles;
-};
+using simulation::GroundMesh;
 using Ground = std::variant<GroundPlane, GroundMesh>;
 
 /// `lowered_by` [m]: a plane along its normal, a grid's vertices straight down, for balls about

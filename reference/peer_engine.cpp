@@ -83,6 +83,24 @@ class PeerEngine final : public simulation::Engine {
     has_details_ = true;
     publish_points();
   }
+  void tell_contacts(std::vector<simulation::ContactView>& contacts) const override {
+    contacts.clear();
+    if (!ground_ || state_.step == 0) return;
+    std::vector<Vector3d> forces(touching_.size());
+    world_->read_points(forces);
+    const auto add = [&](std::size_t body, const Vector3d& point, const Vector3d& force) {
+      if (dot(force, force) == 0.) return;
+      contacts.push_back({body, point, force, point, ground_->query(point).depth, -1.});
+    };
+    for (std::size_t i = 0; i < touching_.size(); ++i) {
+      const std::size_t body = touching_[i].body;
+      add(body, meet(*ground_, touching_[i], state_.bodies[body]).position, forces[i]);
+    }
+    // Where the step began, which is at most a step's motion away.
+    std::vector<ShapeForce> shapes;
+    world_->read_shapes(shapes);
+    for (const ShapeForce& shape : shapes) add(shape.body, shape.position, shape.force);
+  }
   void publish_ground_forces() override { state_.ground_force_time = world_->force_time(); }
 
  private:
@@ -90,6 +108,7 @@ class PeerEngine final : public simulation::Engine {
   /// from the state at the step's start.
   void take_inputs() {
     acting_.forces = inputs_.forces;
+    acting_.pull = inputs_.pull;
     for (const TreeBody& body : tree_.bodies) {
       if (body.link == nullptr) continue;
       const auto joint = static_cast<std::size_t>(body.joint);

@@ -23,7 +23,7 @@ struct ShapeForce {
 class PeerWorld {
  public:
   virtual ~PeerWorld() = default;
-  /// Advances by one step under `inputs.forces`, one a ForceSpec of the experiment, and
+  /// Advances by one step under `inputs.forces` and `inputs.pull` (external_forces.h), and
   /// `inputs.joint_torques`, one a joint: the drive's and what the joint exerts by itself at the
   /// step's start (dts/joint_forces.h), together. Empty on success, else the library's trouble in
   /// a few words.

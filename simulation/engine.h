@@ -54,6 +54,17 @@ struct GroundForce {
   Vector3d force;        ///< on the body, world axes [N]
 };
 
+/// A boundary point, or a place of a shape, that touches the ground, world axes: for people who
+/// look on.
+struct ContactView {
+  std::size_t body = 0;  ///< index in WorldState::bodies
+  Vector3d point;        ///< [m]
+  Vector3d force;        ///< on the robot [N]
+  Vector3d hook;         ///< anchor on the ground; the point itself where there is none [m]
+  double depth = 0.;     ///< along the ground's normal, > 0 inside [m]
+  double sliding = -1.;  ///< 1 while it slips, else 0; -1 where the engine does not say
+};
+
 /// Of when an engine tells its ground forces.
 enum class GroundForceTime {
   unknown,   ///< it does not tell them one by one
@@ -93,6 +104,14 @@ struct ForceInput {
   Vector3d torque;  ///< world axes [N m]
 };
 
+/// A force on any body, which a person exerts (wiring/pull.h).
+struct PullInput {
+  int robot = -1;         ///< -1: nobody pulls
+  int body = 0;           ///< of it: 0 is the base, then the links, chain by chain
+  std::size_t index = 0;  ///< of that body in WorldState::bodies
+  ForceInput force;
+};
+
 /// What acts on a world from outside, held over the next step.
 struct WorldInputs {
   /// One a joint, robots and chains in order: the drive's force beside what the joint does by
@@ -101,6 +120,7 @@ struct WorldInputs {
   std::vector<double> joint_torques;
   /// One a ForceSpec, in order. At first as written; a force over a window starts at zero.
   std::vector<ForceInput> forces;
+  PullInput pull;  ///< beside them
   // Of each robot, where its own are among them:
   std::vector<std::size_t> first_joints;
   std::vector<std::vector<std::size_t>> forces_of;
@@ -140,6 +160,12 @@ class Engine {
   /// From now on, after each step, `state().ground_forces` is kept up to date. An engine that does
   /// not know them leaves `ground_force_time` unknown.
   virtual void publish_ground_forces() {}
+  /// Puts what touches the ground at the published state in the place of `contacts`: boundary
+  /// points with a name or without. Changes nothing of the run and costs nothing but when it is
+  /// asked, O(boundary points); nobody needs to have asked for details. Under an impulse law a
+  /// body's mean force over the last step is shown in equal parts at the points that touch, for
+  /// single impulses are over; a peer's forces are those of the step that led there.
+  virtual void tell_contacts(std::vector<ContactView>& contacts) const { contacts.clear(); }
   /// What the ground's springs hold at the published state [J]; none where the engine does not
   /// tell, or where the ground gives energy by its law: impulses hold a body still by throwing it
   /// up.

@@ -153,12 +153,14 @@ struct ValueSpec {
   std::string unit;
   std::optional<double> value;  ///< none: that of the input which it is wired to, else 0
   bool writable = false;
+  bool momentary = false;  ///< it is false again by itself: a push button's
 };
 
 /// A component and the values that the file gives it.
 struct ComponentSpec {
   std::string trail;           ///< from the top, no two alike: "pd1"
   std::string type;            ///< class of control::Registry: "Controller.PD"
+  std::string attached;        ///< trail of the body or link that it is attached to; "" if none
   std::optional<double> rate;  ///< of its updates [Hz]; none: every step
   std::vector<std::pair<std::size_t, double>> values;  ///< index among the component's values
   std::vector<std::pair<std::size_t, std::string>>
@@ -180,7 +182,8 @@ struct RecordSpec {
   std::string file;            ///< in the run's folder
   std::optional<double> rate;  ///< of its rows [Hz]; none: every step
   std::vector<output::Channel>
-      channels;  ///< `path`: the port's trail from the top; an open `unit` is the port's
+      channels;       ///< `path`: the port's trail from the top; an open `unit` is the port's
+  bool scene = true;  ///< with poses and shapes, where the format takes them
 };
 
 /// A log of the run's whole state, from which it can be resumed.

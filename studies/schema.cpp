@@ -213,7 +213,7 @@ void add_study_classes(Schema& schema) {
       named("Measure", "A metric to measure, by its name.",
             {words("over", 1, "of `anisotropy`: the Sweep of directions; default azimuth")}));
   schema.add(truth_class(std::move(metrics)));
-  schema.add(named(
+  ClassSchema plot = named(
       "Plot",
       "A figure: a metric over a sweep, two sweeps or another metric, or a signal over time.",
       {text("title", "heading; default: the name"),
@@ -233,7 +233,9 @@ void add_study_classes(Schema& schema) {
        words("subjects", 100, "subjects that are drawn; default: all"),
        choice("scale", {"linear", "log", "log_x", "log_log"}, "linear",
               "axes that are logarithmic: log is y; of a map log is the colour")},
-      {"Only", "Reference"}));
+      {"Only", "Reference"});
+  plot.only_in = "Study";
+  schema.add(std::move(plot));
   schema.add(named("Reference",
                    "A line across a Plot at a value to hold the measured ones against.",
                    {text("title", "in the legend; default: the name"),

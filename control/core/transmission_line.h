@@ -97,6 +97,11 @@ class TransmissionLine {
   /// Whether the output of every step is the source's value of that step: a copy does as well, and
   /// the line then carries nothing.
   bool copies() const { return passes() && noise_ == 0.; }
+  /// The step of the last sample, when `step` has been; -1 before the first.
+  std::int64_t last_sample(std::int64_t step) const {
+    if (passes()) return step;
+    return schedule_.count() == 0 ? -1 : schedule_.step_of(schedule_.count() - 1);
+  }
   /// The output of the last step.
   double output() const { return output_; }
 

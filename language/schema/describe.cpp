@@ -79,7 +79,7 @@ std::string places(const ClassSchema& schema, const Schema* all) {
       const bool holds = std::ranges::any_of(parent.children, [&schema](const std::string& child) {
         return child == schema.name || (child.ends_with('.') && schema.name.starts_with(child));
       });
-      if (holds) found.push_back(name);
+      if (holds && all->find(schema.name, parent.name) == &schema) found.push_back(name);
     }
   }
   return join(found, ", ");

@@ -6,6 +6,10 @@
 namespace hookpoint::language {
 namespace {
 
+std::string key_of(std::string_view name, std::string_view within) {
+  return std::string(name) + " in " + std::string(within);
+}
+
 ClassSchema wire_class() {
   ClassSchema schema;
   schema.name = "Wire";
@@ -60,7 +64,7 @@ const FieldSchema* ClassSchema::find(std::string_view field) const {
 }
 
 void Schema::add(ClassSchema schema) {
-  std::string name = schema.name;
+  std::string name = schema.only_in.empty() ? schema.name : key_of(schema.name, schema.only_in);
   [[maybe_unused]] const bool added = classes_.emplace(std::move(name), std::move(schema)).second;
   assert(added && "a class is described once");
 }
@@ -68,6 +72,11 @@ void Schema::add(ClassSchema schema) {
 const ClassSchema* Schema::find(std::string_view name) const {
   const auto found = classes_.find(name);
   return found == classes_.end() ? nullptr : &found->second;
+}
+
+const ClassSchema* Schema::find(std::string_view name, std::string_view within) const {
+  const ClassSchema* own = find(key_of(name, within));
+  return own != nullptr ? own : find(name);
 }
 
 void Schema::add_reader(std::string extension, ForeignReader reader) {

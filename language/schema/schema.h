@@ -65,7 +65,10 @@ inline constexpr const char *wire_rate = "rate", *wire_delay = "delay", *wire_no
 enum class Naming { optional, required, forbidden };
 
 struct ClassSchema {
-  std::string name;                 ///< "Terrain.Slope"
+  std::string name;  ///< "Terrain.Slope"
+  /// The class within which alone the name means this; elsewhere it may mean another: a Plot in a
+  /// Study. "" where it means this everywhere.
+  std::string only_in;
   std::string doc;                  ///< one line
   std::string origin;               ///< the plugin's file; "" when it is the program's own
   std::vector<FieldSchema> fields;  ///< fields and ports, in the order of the manual
@@ -102,6 +105,9 @@ class Schema {
   Schema();
   void add(ClassSchema schema);
   const ClassSchema* find(std::string_view name) const;
+  /// What the name means inside an object of the class `within`.
+  const ClassSchema* find(std::string_view name, std::string_view within) const;
+  /// By their names; "Plot in Study" is what Plot means there only.
   const std::map<std::string, ClassSchema, std::less<>>& classes() const { return classes_; }
   /// Files whose names end in `extension` (".urdf") are read by `reader`.
   void add_reader(std::string extension, ForeignReader reader);

@@ -93,9 +93,10 @@ class Lexer {
   void next() {
     const char c = text_[at_];
     if (is_name_start(c)) {
-      std::size_t end = at_ + 1;
-      while (end < text_.size() && is_name(text_[end])) ++end;
-      add(TokenKind::identifier, end - at_);
+      add(TokenKind::identifier, name_length(at_));
+    } else if (c == '.' && begins_numbered_part()) {
+      symbol();
+      add(TokenKind::identifier, name_length(at_));
     } else if (is_digit(c) || (c == '.' && is_digit(peek(1)))) {
       add(TokenKind::number, number_length());
     } else if (c == '"') {
@@ -105,6 +106,22 @@ class Lexer {
     } else {
       symbol();
     }
+  }
+
+  std::size_t name_length(std::size_t from) const {
+    std::size_t end = from + 1;
+    while (end < text_.size() && is_name(text_[end])) ++end;
+    return end - from;
+  }
+
+  /// A dot right behind a name, and a part that begins with digits: Plot.3D. No number stands
+  /// there.
+  bool begins_numbered_part() const {
+    if (tokens_.empty() || tokens_.back().kind != TokenKind::identifier || !is_digit(peek(1)))
+      return false;
+    const Token& name = tokens_.back();
+    const std::string_view part = text_.substr(at_ + 1, name_length(at_ + 1));
+    return name.offset + name.length == at_ && !std::ranges::all_of(part, is_digit);
   }
 
   /// Digits, then a unit on the same line.

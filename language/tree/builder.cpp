@@ -100,7 +100,7 @@ void Builder::leave_out(const FileScope& scope, const Item& item) {
 
 const ClassSchema* Builder::class_of(const FileScope& scope, const Item& item) {
   const std::string name(evaluator(scope).text(item.place));
-  const ClassSchema* schema = schema_.schema().find(name);
+  const ClassSchema* schema = schema_.schema().find(name, owner().type);
   const Position place = position(scope, item.place);
   if (schema == nullptr) {
     if (report_.told_at(place)) return nullptr;

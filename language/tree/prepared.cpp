@@ -21,7 +21,8 @@ PreparedSchema::PreparedSchema(const Schema& schema) : schema_(schema) {
   for (const auto& [name, class_schema] : schema.classes()) {
     prepare(class_schema);
     check_names(class_schema);
-    if (name != "Wire" && name != "Group") class_names_.push_back(name);
+    if (name != "Wire" && name != "Group" && class_schema.only_in.empty())
+      class_names_.push_back(name);
   }
 }
 

@@ -21,6 +21,34 @@ class Printer {
     return std::move(text_);
   }
 
+  std::string value_text(const Object& object, const Field& field) {
+    std::string text;
+    const auto add = [&text](const std::string& element) {
+      text += (text.empty() ? "" : ", ") + element;
+    };
+    switch (field.schema->type) {
+      case FieldType::boolean:
+        return field.numbers[0] != 0. ? "true" : "false";
+      case FieldType::object:
+      case FieldType::port:
+        return reference_text(object, field.reference);
+      case FieldType::choice:
+        return field.words[0];
+      case FieldType::text:
+        return quote(field.words[0]);
+      case FieldType::words:
+        for (const std::string& word : field.words) add(quote(word));
+        return text;
+      default:
+        break;
+    }
+    if (!field.words.empty()) return field.words[0];  // it stands for the number
+    const std::string unit = unit_text(field.dimension);
+    for (const double number : field.numbers)
+      add(number_text(number) + (unit.empty() ? "" : " " + unit));
+    return text;
+  }
+
  private:
   void indent(int depth) { text_.append(2 * static_cast<std::size_t>(depth), ' '); }
 
@@ -61,34 +89,6 @@ class Printer {
     text_ += " }\n";
   }
 
-  std::string value_text(const Object& object, const Field& field) {
-    std::string text;
-    const auto add = [&text](const std::string& element) {
-      text += (text.empty() ? "" : ", ") + element;
-    };
-    switch (field.schema->type) {
-      case FieldType::boolean:
-        return field.numbers[0] != 0. ? "true" : "false";
-      case FieldType::object:
-      case FieldType::port:
-        return reference_text(object, field.reference);
-      case FieldType::choice:
-        return field.words[0];
-      case FieldType::text:
-        return quote(field.words[0]);
-      case FieldType::words:
-        for (const std::string& word : field.words) add(quote(word));
-        return text;
-      default:
-        break;
-    }
-    if (!field.words.empty()) return field.words[0];  // it stands for the number
-    const std::string unit = unit_text(field.dimension);
-    for (const double number : field.numbers)
-      add(number_text(number) + (unit.empty() ? "" : " " + unit));
-    return text;
-  }
-
   /// The trail from the top if it means the same from here, else as it was written.
   std::string reference_text(const Object& from, const Reference& reference) {
     std::string trail = reference.object->trail();
@@ -117,5 +117,9 @@ class Printer {
 }  // namespace
 
 std::string print(const Object& root) { return Printer(root).run(); }
+
+std::string print_value(const Object& root, const Object& object, const Field& field) {
+  return Printer(root).value_text(object, field);
+}
 
 }  // namespace hookpoint::language

@@ -88,6 +88,28 @@ MovieFile read_file(hid_t group, const char* name) {
   return file;
 }
 
+/// Who goes through a movie reads the chunks of a block again and again: those of two blocks stay
+/// in memory, one for what is shown and one for what is plotted.
+Hdf5Handle open_state(hid_t file) {
+  constexpr double most_bytes = 128e6, most_slots = 1e6, first_read_first_dropped = 1.;
+  Hdf5Handle state(H5Dopen2(file, "state", H5P_DEFAULT), H5Dclose);
+  const auto numbers = static_cast<double>(extent_of(state, 2)[0]);
+  hsize_t chunk[2];
+  {
+    const Hdf5Handle made(H5Dget_create_plist(state), H5Pclose);
+    if (H5Pget_layout(made) != H5D_CHUNKED || H5Pget_chunk(made, 2, chunk) != 2) return state;
+  }
+  const double instants = 2. * static_cast<double>(chunk[1]);
+  const double chunks = 2. * (numbers / static_cast<double>(chunk[0]) + 1.);
+  const double bytes = (numbers + static_cast<double>(chunk[0])) * instants * sizeof(double);
+  const Hdf5Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
+  H5Pset_chunk_cache(access, static_cast<std::size_t>(std::min(most_slots, 10. * chunks)),
+                     static_cast<std::size_t>(std::min(most_bytes, bytes)),
+                     first_read_first_dropped);
+  state.reset();  // an open dataset keeps the room that it was opened with
+  return {H5Dopen2(file, "state", access), H5Dclose};
+}
+
 }  // namespace
 
 struct MovieReader::Handles {
@@ -139,7 +161,7 @@ void MovieReader::read_header() {
   const Hdf5Handle files(H5Gopen2(file, "files", H5P_DEFAULT), H5Gclose);
   for (const std::string& key : names_in(files))
     header_.files.push_back(read_file(files, key.c_str()));
-  handles_->state = {H5Dopen2(file, "state", H5P_DEFAULT), H5Dclose};
+  handles_->state = open_state(file);
   const std::vector<hsize_t> extent = extent_of(handles_->state, 2);
   const Hdf5Handle time(H5Dopen2(file, "time", H5P_DEFAULT), H5Dclose);
   times_.resize(extent_of(time, 1)[0]);

@@ -1,12 +1,15 @@
 // MCAP: a topic a channel, messages {"value": number} as JSON with a schema that has the unit and
-// the range, in chunks with their indexes. A file that was cut off misses its summary; readers then
-// go through the chunks.
+// the range, in chunks with their indexes. Of a scene, beside them, /tf with the poses of each row,
+// and /scene, once, in a chunk of its own ahead of the rows. A file that was cut off misses its
+// summary; readers then go through the chunks.
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "output/bytes.h"
 #include "output/records/formats.h"
+#include "output/records/foxglove.h"
 #include "output/records/mcap_records.h"
 #include "output/text/json.h"
 #include "output/text/number.h"
@@ -55,42 +58,60 @@ std::uint64_t nanoseconds(double time) {
          static_cast<std::uint64_t>(std::llround((time - whole) * 1e9));
 }
 
-/// Bytes of a message record: prefix, channel, sequence, two times, {"value":...} of 24 digits.
-constexpr std::size_t longest_message = mcap::prefix_bytes + 2 + 4 + 8 + 8 + 34;
+/// Bytes of a message record ahead of its JSON: prefix, channel, sequence, two times.
+constexpr std::size_t message_head = mcap::prefix_bytes + 2 + 4 + 8 + 8;
+/// Of a channel's: {"value":...} of 24 digits.
+constexpr std::size_t longest_message = message_head + 34;
 constexpr std::size_t chunk_bytes = 1U << 20U;  ///< about; a run that is killed loses no more
 constexpr std::size_t most_rows = 512;          ///< of a chunk
 
 class McapRecord final : public RecordWriter {
  public:
   McapRecord(const std::filesystem::path& path, const RecordHeader& header)
-      : RecordWriter(header.channels.size()),
+      : RecordWriter(header.channels.size() + header.scene.bodies.size() * numbers_of_pose),
         file_(path),
-        channels_(static_cast<std::uint16_t>(header.channels.size())) {
-    if (header.channels.size() >= 0xffffU)
-      throw FileError("cannot write " + path.string() + ": MCAP has at most 65534 channels");
+        values_(header.channels.size()),
+        topics_(static_cast<std::uint16_t>(values_)) {
+    if (values_ >= 0xfffdU)
+      throw FileError("cannot write " + path.string() + ": MCAP has at most 65532 channels");
     for (const Channel& channel : header.channels) types_.push_back(json_type(channel));
+    std::size_t longest_row = values_ * longest_message;
+    if (!header.scene.bodies.empty()) {
+      transforms_.emplace(header.scene.bodies);
+      scene_.emplace(header.scene);
+      scene_waits_ = true;
+      longest_row += message_head + transforms_->longest();
+      ++topics_;
+    }
     write_start(header);
     chunk_rows_ =
-        std::clamp<std::size_t>(chunk_bytes / (longest_message * (channels_ + 1U)), 1, most_rows);
-    records_.reserve(chunk_rows_ * channels_ * longest_message);
-    block_.reserve(records_.capacity() + 64 + channels_ * (16 + 16 * chunk_rows_));
-    places_.resize(chunk_rows_ * channels_);
+        std::clamp<std::size_t>(chunk_bytes / (longest_row + longest_message), 1, most_rows);
+    records_.reserve(std::max(chunk_rows_ * longest_row, scene_bytes()));
+    block_.reserve(records_.capacity() + 64 + topics_ * (16 + 16 * chunk_rows_));
+    places_.resize(chunk_rows_ * (topics_ + 1U));
     times_.resize(chunk_rows_);
+    messages_.resize(topics_ + (scene_ ? 1U : 0U));
     chunks_.reserve(4096);
   }
 
  private:
+  void define(const std::string& topic, const std::string& schema_name, const std::string& schema,
+              const mcap::TextPairs& metadata) {
+    mcap::append_schema(definitions_.first, ++defined_, schema_name, schema);
+    mcap::append_channel(definitions_.second, defined_, defined_, topic, metadata);
+  }
+
   void write_start(const RecordHeader& header) {
-    for (std::uint16_t i = 0; i < channels_; ++i) {
-      const Channel& channel = header.channels[i];
-      const auto id = static_cast<std::uint16_t>(i + 1);
-      mcap::append_schema(definitions_.first, id, channel.path, json_schema(channel));
-      mcap::append_channel(definitions_.second, id, id, channel.path,
-                           {{"unit", channel.unit},
-                            {"type", channel.type},
-                            {"minimum", shortest(channel.minimum)},
-                            {"maximum", shortest(channel.maximum)},
-                            {"doc", channel.doc}});
+    for (const Channel& channel : header.channels)
+      define(channel.path, channel.path, json_schema(channel),
+             {{"unit", channel.unit},
+              {"type", channel.type},
+              {"minimum", shortest(channel.minimum)},
+              {"maximum", shortest(channel.maximum)},
+              {"doc", channel.doc}});
+    if (scene_) {
+      define("/tf", "foxglove.FrameTransforms", foxglove::frame_transforms_schema(), {});
+      define("/scene", "foxglove.SceneUpdate", foxglove::scene_update_schema(), {});
     }
     std::string bytes(mcap::magic);
     mcap::append_header(bytes, "hookpoint");
@@ -110,26 +131,64 @@ class McapRecord final : public RecordWriter {
     data_crc_ = mcap::crc32(bytes, data_crc_);
   }
 
-  void append(double time, std::span<const double> values) override {
-    times_[waiting_] = nanoseconds(time);
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      places_[i * chunk_rows_ + waiting_] = records_.size();
-      const std::size_t record = mcap::begin_record(records_, Opcode::message);
-      append_integer(records_, static_cast<std::uint16_t>(i + 1));
-      append_integer(records_, static_cast<std::uint32_t>(rows_ + waiting_));
-      append_integer(records_, times_[waiting_]);
-      append_integer(records_, times_[waiting_]);
-      append_value(records_, types_[i], values[i]);
+  void append(double time, std::span<const double> row) override {
+    const std::uint64_t now = nanoseconds(time);
+    if (scene_waits_) write_scene(now);
+    times_[waiting_] = now;
+    for (std::size_t i = 0; i < values_; ++i) {
+      const std::size_t record = begin_message(i, now);
+      append_value(records_, types_[i], row[i]);
       mcap::end_record(records_, record);
     }
-    if (++waiting_ == chunk_rows_) write_chunk();
+    if (transforms_) {
+      const std::size_t record = begin_message(values_, now);
+      transforms_->append(records_, now, row.subspan(values_));
+      mcap::end_record(records_, record);
+    }
+    if (++waiting_ == chunk_rows_) write_rows();
   }
 
-  /// The chunk that waits, then an index a channel, in one piece.
-  void write_chunk() {
+  /// The message of a topic in the row that waits last; its JSON follows.
+  std::size_t begin_message(std::size_t topic, std::uint64_t time) {
+    places_[topic * chunk_rows_ + waiting_] = records_.size();
+    const std::size_t record = mcap::begin_record(records_, Opcode::message);
+    append_integer(records_, static_cast<std::uint16_t>(topic + 1));
+    append_integer(records_, static_cast<std::uint32_t>(messages_[topic] + waiting_));
+    append_integer(records_, time);
+    append_integer(records_, time);
+    return record;
+  }
+
+  std::size_t scene_bytes() const { return scene_ ? message_head + scene_->longest() : 0; }
+
+  /// With the time of the first row, that players who begin there have it.
+  void write_scene(std::uint64_t time) {
+    times_[0] = time;
+    const std::size_t record = begin_message(topics_, time);
+    scene_->append(records_, time);
+    mcap::end_record(records_, record);
+    waiting_ = 1;
+    write_chunk(static_cast<std::uint16_t>(topics_), 1);
+    scene_waits_ = false;
+  }
+
+  void write_rows() {
     if (waiting_ == 0) return;
-    mcap::ChunkPlace place{times_[0], times_[waiting_ - 1], file_.size(),
-                           0,         records_.size(),      waiting_};
+    const std::uint64_t rows = waiting_;
+    write_chunk(0, topics_);
+    rows_ += rows;
+  }
+
+  /// The messages that wait, of `topics` topics from `first` on, then an index a topic, in one
+  /// piece.
+  void write_chunk(std::uint16_t first, std::uint16_t topics) {
+    mcap::ChunkPlace place{.start_time = times_[0],
+                           .end_time = times_[waiting_ - 1],
+                           .offset = file_.size(),
+                           .records_bytes = records_.size(),
+                           .rows = waiting_,
+                           .first_channel = static_cast<std::uint16_t>(first + 1),
+                           .channels = topics};
     block_.clear();
     const std::size_t chunk = mcap::begin_record(block_, Opcode::chunk);
     append_integer(block_, place.start_time);
@@ -141,19 +200,20 @@ class McapRecord final : public RecordWriter {
     block_ += records_;
     mcap::end_record(block_, chunk);
     place.length = block_.size();
-    for (std::size_t i = 0; i < channels_; ++i) {
+    for (std::size_t topic = first; topic < std::size_t{first} + topics; ++topic) {
       const std::size_t index = mcap::begin_record(block_, Opcode::message_index);
-      append_integer(block_, static_cast<std::uint16_t>(i + 1));
+      append_integer(block_, static_cast<std::uint16_t>(topic + 1));
       append_integer(block_, static_cast<std::uint32_t>(16 * waiting_));
       for (std::size_t row = 0; row < waiting_; ++row) {
         append_integer(block_, times_[row]);
-        append_integer(block_, places_[i * chunk_rows_ + row]);
+        append_integer(block_, places_[topic * chunk_rows_ + row]);
       }
       mcap::end_record(block_, index);
     }
     write_data(block_);
     chunks_.push_back(place);
-    rows_ += waiting_;
+    for (std::size_t topic = first; topic < std::size_t{first} + topics; ++topic)
+      messages_[topic] += waiting_;
     waiting_ = 0;
     records_.clear();
   }
@@ -165,14 +225,13 @@ class McapRecord final : public RecordWriter {
         {{"complete", complete ? "true" : "false"}, {"rows", std::to_string(rows_)}});
     std::vector<mcap::MetadataPlace> metadata = metadata_;
     metadata.push_back({"end", file_.size(), closing.size()});
-    const mcap::Totals totals{rows_, channels_, static_cast<std::uint32_t>(metadata.size()),
-                              chunks_};
+    const mcap::Totals totals{messages_, static_cast<std::uint32_t>(metadata.size()), chunks_};
     file_.write(closing + mcap::ending(file_.size() + closing.size(),
                                        mcap::crc32(closing, data_crc_), definitions_, totals,
                                        metadata));
   }
   void finish() override {
-    write_chunk();
+    write_rows();
     write_ending(true);
     file_.complete();
   }
@@ -188,18 +247,24 @@ class McapRecord final : public RecordWriter {
   }
 
   PartialFile file_;
-  std::uint16_t channels_;
+  std::size_t values_;    ///< of a row, ahead of the poses
+  std::uint16_t topics_;  ///< with a message a row
   std::vector<std::string_view> types_;
+  std::optional<foxglove::FrameTransforms> transforms_;
+  std::optional<foxglove::SceneUpdate> scene_;
+  bool scene_waits_ = false;  ///< for the first row
+  std::uint16_t defined_ = 0;
   std::pair<std::string, std::string> definitions_;  ///< schemas, channels
   std::vector<mcap::MetadataPlace> metadata_;
   std::uint32_t data_crc_ = 0;
   std::size_t chunk_rows_ = 1;
   std::string records_;                ///< messages that wait for their chunk
   std::string block_;                  ///< a chunk and its indexes on the way to the disk
-  std::vector<std::uint64_t> places_;  ///< of the messages in `records_`, channel by channel
+  std::vector<std::uint64_t> places_;  ///< of the messages in `records_`, topic by topic
   std::vector<std::uint64_t> times_;   ///< of the waiting rows [ns]
   std::vector<mcap::ChunkPlace> chunks_;
-  std::uint64_t rows_ = 0;  ///< in the file
+  std::vector<std::uint64_t> messages_;  ///< in the file, of each topic
+  std::uint64_t rows_ = 0;               ///< in the file
   std::size_t waiting_ = 0;
 };
 

@@ -2,6 +2,8 @@
 
 #include <zlib.h>
 
+#include <numeric>
+
 #include "output/bytes.h"
 
 namespace hookpoint::output::mcap {
@@ -92,18 +94,18 @@ void append_metadata(std::string& bytes, std::string_view name, const TextPairs&
   end_record(bytes, record);
 }
 
-void append_chunk_index(std::string& bytes, const ChunkPlace& place, std::uint16_t channels) {
+void append_chunk_index(std::string& bytes, const ChunkPlace& place) {
   const std::size_t record = begin_record(bytes, Opcode::chunk_index);
   append_integer(bytes, place.start_time);
   append_integer(bytes, place.end_time);
   append_integer(bytes, place.offset);
   append_integer(bytes, place.length);
-  append_integer(bytes, static_cast<std::uint32_t>(channels * 10U));
-  for (std::uint16_t i = 0; i < channels; ++i) {
-    append_integer(bytes, static_cast<std::uint16_t>(i + 1));
+  append_integer(bytes, static_cast<std::uint32_t>(place.channels * 10U));
+  for (std::uint16_t i = 0; i < place.channels; ++i) {
+    append_integer(bytes, static_cast<std::uint16_t>(place.first_channel + i));
     append_integer(bytes, place.offset + place.length + i * place.index_bytes());
   }
-  append_integer(bytes, channels * place.index_bytes());
+  append_integer(bytes, place.channels * place.index_bytes());
   append_string(bytes, "");  // no compression
   append_integer(bytes, place.records_bytes);
   append_integer(bytes, place.records_bytes);
@@ -120,18 +122,20 @@ void append_metadata_index(std::string& bytes, const MetadataPlace& place) {
 
 void append_statistics(std::string& bytes, const Totals& totals) {
   const std::size_t record = begin_record(bytes, Opcode::statistics);
-  append_integer(bytes, totals.rows * totals.channels);
-  append_integer(bytes, totals.channels);  // schemas
-  append_integer(bytes, std::uint32_t{totals.channels});
+  const auto channels = static_cast<std::uint16_t>(totals.messages.size());
+  append_integer(bytes,
+                 std::accumulate(totals.messages.begin(), totals.messages.end(), std::uint64_t{0}));
+  append_integer(bytes, channels);  // schemas
+  append_integer(bytes, std::uint32_t{channels});
   append_integer(bytes, std::uint32_t{0});  // attachments
   append_integer(bytes, totals.metadata);
   append_integer(bytes, static_cast<std::uint32_t>(totals.chunks.size()));
   append_integer(bytes, totals.chunks.empty() ? 0 : totals.chunks.front().start_time);
   append_integer(bytes, totals.chunks.empty() ? 0 : totals.chunks.back().end_time);
-  append_integer(bytes, static_cast<std::uint32_t>(totals.channels * 10U));
-  for (std::uint16_t i = 0; i < totals.channels; ++i) {
+  append_integer(bytes, static_cast<std::uint32_t>(channels * 10U));
+  for (std::uint16_t i = 0; i < channels; ++i) {
     append_integer(bytes, static_cast<std::uint16_t>(i + 1));
-    append_integer(bytes, totals.rows);
+    append_integer(bytes, totals.messages[i]);
   }
   end_record(bytes, record);
 }
@@ -156,8 +160,7 @@ std::string ending(std::uint64_t start, std::uint32_t data_crc,
   append_statistics(summary.bytes, totals);
   summary.end_group(Opcode::statistics);
   summary.begin_group();
-  for (const ChunkPlace& chunk : totals.chunks)
-    append_chunk_index(summary.bytes, chunk, totals.channels);
+  for (const ChunkPlace& chunk : totals.chunks) append_chunk_index(summary.bytes, chunk);
   summary.end_group(Opcode::chunk_index);
   summary.begin_group();
   for (const MetadataPlace& place : metadata) append_metadata_index(summary.bytes, place);

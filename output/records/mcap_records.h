@@ -46,18 +46,19 @@ void append_channel(std::string& bytes, std::uint16_t id, std::uint16_t schema,
                     std::string_view topic, const TextPairs& metadata);
 void append_metadata(std::string& bytes, std::string_view name, const TextPairs& metadata);
 
-/// Where a chunk stands in the file. Every channel has one message a row, so that all message
-/// indexes of a chunk have one length and follow from this.
+/// Where a chunk stands in the file. Its channels have consecutive ids, and each has one message a
+/// row, so that all message indexes of a chunk have one length and follow from this.
 struct ChunkPlace {
   std::uint64_t start_time = 0, end_time = 0;  ///< [ns]
   std::uint64_t offset = 0, length = 0;        ///< of the chunk record
   std::uint64_t records_bytes = 0;             ///< of the messages inside
   std::uint64_t rows = 0;
+  std::uint16_t first_channel = 1, channels = 0;
 
   /// Of one message index record.
   std::uint64_t index_bytes() const { return prefix_bytes + 2 + 4 + 16 * rows; }
 };
-void append_chunk_index(std::string& bytes, const ChunkPlace& place, std::uint16_t channels);
+void append_chunk_index(std::string& bytes, const ChunkPlace& place);
 
 struct MetadataPlace {
   std::string name;
@@ -67,8 +68,7 @@ void append_metadata_index(std::string& bytes, const MetadataPlace& place);
 
 /// What is said of the whole file; schemas and channels are as many.
 struct Totals {
-  std::uint64_t rows = 0;
-  std::uint16_t channels = 0;
+  std::span<const std::uint64_t> messages;  ///< of each channel
   std::uint32_t metadata = 0;
   std::span<const ChunkPlace> chunks;
 };

@@ -19,7 +19,9 @@ constexpr std::array<RecordFormat, 6> formats{{
     {"mat73", "mat", "MATLAB version 7.3 (HDF5 inside): the same, larger than 2 GB if need be"},
     {"hdf5", "h5", "HDF5: a compressed dataset a channel, annotated by attributes"},
     {"wl", "wl", "Mathematica: one association, read by Get"},
-    {"mcap", "mcap", "MCAP for Foxglove, PlotJuggler, Rerun: a topic a channel, with JSON schema"},
+    {"mcap", "mcap",
+     "MCAP for Foxglove, PlotJuggler, Rerun: a topic a channel, with JSON schema; poses and shapes",
+     true},
 }};
 
 constexpr std::array<Factory, formats.size()> factories{make_csv_record,   make_mat5_record,
@@ -29,7 +31,8 @@ constexpr std::array<Factory, formats.size()> factories{make_csv_record,   make_
 }  // namespace
 
 void RecordWriter::row(double time, std::span<const double> values) {
-  if (values.size() != channels_) throw std::logic_error("a row has not a value for each channel");
+  if (values.size() != values_)
+    throw std::logic_error("a row has not a value for each channel and a pose for each body");
   assert(!closed_);
   if (!refusal_.empty()) throw FileError(refusal_);
   time_ = time;

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "output/file.h"
+#include "output/records/scene.h"
 
 namespace hookpoint::output {
 
@@ -31,6 +32,7 @@ struct RecordHeader {
   double period = 0.;      ///< between rows [s]; 0 when it varies
   std::string experiment;  ///< the experiment's text, from which the run can be repeated
   std::vector<std::pair<std::string, std::string>> annotations;  ///< engine, version, seed, ...
+  Scene scene;  ///< what a player draws; only for a format that `shows_scene`
 };
 
 /// A record being written. Until `close` its file is named `<path>.partial`. A run that is cut off
@@ -43,10 +45,10 @@ class RecordWriter {
   RecordWriter(const RecordWriter&) = delete;
   RecordWriter& operator=(const RecordWriter&) = delete;
 
-  /// `values`: one a channel, in its unit. `time` [s], not before the last row's. Allocates
-  /// nothing, but for what the HDF5 library does at the end of a block. Throws FileError when the
-  /// disk refuses: the message names the file, the moment and what is kept; later rows throw the
-  /// same.
+  /// `values`: one a channel, in its unit, then numbers_of_pose for each body of the header's
+  /// scene. `time` [s], not before the last row's. Allocates nothing, but for what the HDF5 library
+  /// does at the end of a block. Throws FileError when the disk refuses: the message names the
+  /// file, the moment and what is kept; later rows throw the same.
   void row(double time, std::span<const double> values);
   /// The record complete under its own name. Does nothing once a row was refused. Throws FileError.
   void close();
@@ -58,7 +60,8 @@ class RecordWriter {
     std::int64_t rows = 0;
   };
 
-  explicit RecordWriter(std::size_t channels) : channels_(channels) {}
+  /// `values`: of a row.
+  explicit RecordWriter(std::size_t values) : values_(values) {}
   virtual void append(double time, std::span<const double> values) = 0;
   virtual void finish() = 0;
   /// Leaves what can be kept in a readable state. Called once, after a FileError of `append` or
@@ -68,7 +71,7 @@ class RecordWriter {
  private:
   [[noreturn]] void refuse(const FileError& error);
 
-  std::size_t channels_;
+  std::size_t values_;
   double time_ = 0.;
   std::string refusal_;  ///< the message of the first FileError
   bool closed_ = false;
@@ -78,6 +81,7 @@ struct RecordFormat {
   std::string_view name;       ///< as in `format = hdf5`
   std::string_view extension;  ///< "h5"
   std::string_view doc;        ///< one line
+  bool shows_scene = false;    ///< takes RecordHeader::scene, poses and shapes
 };
 
 /// All formats, in the order in which the manual lists them.

@@ -12,6 +12,7 @@
 #include "reference/bullet/points.h"
 #include "reference/bullet/robot.h"
 #include "reference/experiment_checks.h"
+#include "reference/external_forces.h"
 
 static_assert(std::is_same_v<btScalar, double>,
               "the tables say that Bullet runs in double precision");
@@ -75,8 +76,7 @@ class BulletWorld final : public PeerWorld {
     for (const TreeBody& body : tree.bodies) now_.push_back(body.initial);
     joints_now_.resize(tree.joints);
     for (std::size_t i = 0; i < experiment.robots.size(); ++i) add_robot(experiment, tree, i);
-    for (const simulation::ForceSpec& force : experiment.forces)
-      forced_.push_back(tree.index(force.robot, force.body));
+    forced_ = forced_bodies(experiment, tree);
     if (experiment.terrain) attach_points(experiment, tree);
   }
 
@@ -90,7 +90,7 @@ class BulletWorld final : public PeerWorld {
   BulletWorld& operator=(const BulletWorld&) = delete;
 
   std::string advance(const simulation::WorldInputs& inputs) override {
-    apply_forces(inputs.forces);
+    apply_forces(inputs);
     for (const auto& robot : robots_) robot->apply_torques(inputs.joint_torques);
     // No substeps: one step of exactly deltat, as every other engine takes.
     world_->stepSimulation(deltat_, 0);
@@ -252,21 +252,20 @@ class BulletWorld final : public PeerWorld {
     }
   }
 
-  void apply_forces(const std::vector<simulation::ForceInput>& forces) {
-    for (std::size_t i = 0; i < forces.size(); ++i) {
-      const simulation::ForceInput& force = forces[i];
+  void apply_forces(const simulation::WorldInputs& inputs) {
+    for_each_force(forced_, inputs, [&](std::size_t index, const simulation::ForceInput& force) {
       for (const auto& robot : robots_) {
-        const std::size_t body = forced_[i] - robot->first_body();  // wraps for those before it
+        const std::size_t body = index - robot->first_body();  // wraps for those before it
         if (body < robot->body_count()) robot->apply_force(body, force);
       }
       for (const Body& body : bodies_) {
-        if (body.index != forced_[i]) continue;
+        if (body.index != index) continue;
         const btTransform& X_WP = body.rigid->getWorldTransform();
         const btVector3 point = X_WP * (body.X_PB * bullet(force.point));
         body.rigid->applyForce(bullet(force.force), point - X_WP.getOrigin());
         body.rigid->applyTorque(bullet(force.torque));
       }
-    }
+    });
   }
 
   void read_motion(std::span<BodyState> bodies, std::span<JointState> joints) const {

@@ -22,6 +22,7 @@
 #include "reference/dart/contact.h"
 #include "reference/dart/shapes.h"
 #include "reference/experiment_checks.h"
+#include "reference/external_forces.h"
 #include "reference/extremes.h"
 #include "reference/library_abort.h"
 #include "reference/robot_tree.h"
@@ -55,8 +56,7 @@ class DartWorld final : public PeerWorld {
     solver->getCollisionOption().collisionFilter = filter_;
     world_->setConstraintSolver(std::move(solver));
     const RobotTree tree = robot_tree(experiment);
-    for (const auto& force : experiment.forces)
-      forced_.push_back(tree.index(force.robot, force.body));
+    forced_ = forced_bodies(experiment, tree);
     for (const TreeBody& body : tree.bodies) add_body(body);
     if (experiment.terrain) {
       add_ground(experiment);
@@ -303,13 +303,12 @@ class DartWorld final : public PeerWorld {
   /// False where an assertion of the library would end the process: its equations of motion would
   /// not be finite. `beyond_range_` then says whose.
   bool apply(const simulation::WorldInputs& inputs) {
-    for (std::size_t i = 0; i < forced_.size(); ++i) {
-      const simulation::ForceInput& force = inputs.forces[i];
-      if (!moderate(force.force) || !moderate(force.torque)) beyond_range_ = forced_[i];
-      BodyNode* node = bodies_[forced_[i]].node;
+    for_each_force(forced_, inputs, [&](std::size_t body, const simulation::ForceInput& force) {
+      if (!moderate(force.force) || !moderate(force.torque)) beyond_range_ = body;
+      BodyNode* node = bodies_[body].node;
       node->addExtForce(eigen(force.force), eigen(force.point));
       node->addExtTorque(eigen(force.torque));
-    }
+    });
     for (const Body& body : bodies_) {
       if (!moderate(now_[body.index].velocity) || !moderate(now_[body.index].angular_velocity))
         beyond_range_ = body.index;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "reference/experiment_checks.h"
+#include "reference/external_forces.h"
 #include "reference/mujoco/friction.h"
 #include "reference/mujoco/model.h"
 #include "reference/touching_points.h"
@@ -38,6 +39,7 @@ class MujocoWorld final : public PeerWorld {
         settings_(settings),
         tree_(robot_tree(experiment_)),
         touching_(touching_points(experiment_, tree_)),
+        forced_(forced_bodies(experiment_, tree_)),
         built_(make_mujoco_model(experiment_, tree_, settings)),
         model_(*built_.model),
         data_(make_mujoco_data(model_)),
@@ -197,10 +199,8 @@ class MujocoWorld final : public PeerWorld {
 
   void apply(const simulation::WorldInputs& inputs) {
     mju_zero(data_->qfrc_applied, model_.nv);
-    for (std::size_t i = 0; i < inputs.forces.size(); ++i) {
-      const simulation::ForceSpec& spec = experiment_.forces[i];
-      const MujocoBody& body = built_.bodies[tree_.index(spec.robot, spec.body)];
-      const simulation::ForceInput& force = inputs.forces[i];
+    for_each_force(forced_, inputs, [&](std::size_t index, const simulation::ForceInput& force) {
+      const MujocoBody& body = built_.bodies[index];
       const Vector3d point =
           vector(data_->xpos + 3 * body.id) +
           rotate(quaternion(data_->xquat + 4 * body.id), force.point - body.offset);
@@ -210,7 +210,7 @@ class MujocoWorld final : public PeerWorld {
       write(point, numbers.data() + 6);
       mj_applyFT(&model_, data_.get(), numbers.data(), numbers.data() + 3, numbers.data() + 6,
                  body.id, data_->qfrc_applied);
-    }
+    });
     for (std::size_t i = 0; i < tree_.bodies.size(); ++i)
       if (tree_.bodies[i].link != nullptr)
         data_->qfrc_applied[built_.bodies[i].velocity] +=
@@ -260,6 +260,7 @@ class MujocoWorld final : public PeerWorld {
   MujocoSettings settings_;
   RobotTree tree_;
   std::vector<TouchingPoint> touching_;
+  std::vector<std::size_t> forced_;  ///< body of each force
   MujocoModel built_;
   const mjModel& model_;
   MujocoPointer<mjData> data_;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "reference/experiment_checks.h"
+#include "reference/external_forces.h"
 #include "reference/ode/joints.h"
 #include "reference/ode/shapes.h"
 #include "reference/touching_points.h"
@@ -114,8 +115,7 @@ class OdeWorld final : public PeerWorld {
       surfaces_.push_back(surface_of({}, ode_settings(settings, solver, deltat_, {})));
     const RobotTree tree = robot_tree(experiment);
     add_bodies(experiment, tree);
-    for (const simulation::ForceSpec& force : experiment.forces)
-      forced_.push_back(tree.index(force.robot, force.body));
+    forced_ = forced_bodies(experiment, tree);
     if (!experiment.terrain) return;
     ground_.emplace(ground_of(*experiment.terrain));
     terrain_.emplace(*experiment.terrain);
@@ -127,7 +127,7 @@ class OdeWorld final : public PeerWorld {
     prepare_ode_for_this_thread();
     const OdeMessages messages;
     try {
-      apply_forces(inputs.forces);
+      apply_forces(inputs);
       joints_->apply(inputs.joint_torques);
       collide();
       const int taken = take_step();
@@ -194,16 +194,15 @@ class OdeWorld final : public PeerWorld {
     joints_.emplace(tree, world_.get(), ids);
   }
 
-  void apply_forces(const std::vector<simulation::ForceInput>& forces) {
-    for (std::size_t i = 0; i < forces.size(); ++i) {
-      const Body& body = bodies_[forced_[i]];
-      if (body.id == nullptr) continue;
-      const simulation::ForceInput& force = forces[i];
+  void apply_forces(const simulation::WorldInputs& inputs) {
+    for_each_force(forced_, inputs, [&](std::size_t index, const simulation::ForceInput& force) {
+      const Body& body = bodies_[index];
+      if (body.id == nullptr) return;
       const Vector3d point = force.point - body.center_of_mass;
       dBodyAddForceAtRelPos(body.id, force.force.x, force.force.y, force.force.z, point.x, point.y,
                             point.z);
       dBodyAddTorque(body.id, force.torque.x, force.torque.y, force.torque.z);
-    }
+    });
   }
 
   void collide() {

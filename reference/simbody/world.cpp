@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "reference/experiment_checks.h"
+#include "reference/external_forces.h"
 #include "reference/extremes.h"
 #include "reference/ground.h"
 #include "reference/robot_tree.h"
@@ -106,8 +107,7 @@ class SimbodyWorld final : public PeerWorld {
   SimbodyWorld(const simulation::Experiment& experiment, const SimbodySettings& settings)
       : deltat_(experiment.deltat) {
     const RobotTree tree = robot_tree(experiment);
-    for (const auto& force : experiment.forces)
-      forced_.push_back(tree.index(force.robot, force.body));
+    forced_ = forced_bodies(experiment, tree);
     for (std::size_t i = 0; i < tree.bodies.size(); ++i) {
       const TreeBody& body = tree.bodies[i];
       bodies_.push_back({body.mobile, body.link == nullptr ? -1 : body.joint});
@@ -183,15 +183,15 @@ class SimbodyWorld final : public PeerWorld {
   /// What acts over the step; false where it is extreme, and `beyond_range_` then says on whom.
   bool take(const simulation::WorldInputs& inputs) {
     std::ranges::fill(on_bodies_, simbody::Load{});
-    for (std::size_t i = 0; i < forced_.size() && !beyond_range_; ++i) {
-      const simulation::ForceInput& input = inputs.forces[i];
-      if (!moderate(input.force) || !moderate(input.torque)) beyond_range_ = forced_[i];
-      const auto q = model_->motion(static_cast<int>(forced_[i])).frame.orientation;
+    for_each_force(forced_, inputs, [&](std::size_t body, const simulation::ForceInput& input) {
+      if (beyond_range_) return;
+      if (!moderate(input.force) || !moderate(input.torque)) beyond_range_ = body;
+      const auto q = model_->motion(static_cast<int>(body)).frame.orientation;
       const Vector3d arm = rotate(Quaterniond{q[0], q[1], q[2], q[3]}, input.point);
-      simbody::Load& load = on_bodies_[forced_[i]];
+      simbody::Load& load = on_bodies_[body];
       load.force = plain(vector(load.force) + input.force);
       load.torque = plain(vector(load.torque) + input.torque + cross(arm, input.force));
-    }
+    });
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       if (bodies_[i].joint < 0) continue;
       on_joints_[i] = inputs.joint_torques[static_cast<std::size_t>(bodies_[i].joint)];

@@ -116,6 +116,12 @@ void ArticulatedRobot::apply_external_forces() {
                             body.p_WB + body.R_WB * input.point);
     dts::add_external_torque(workspace_, force.body, input.torque);
   }
+  was_pulled_ = pulled();
+  if (!was_pulled_) return;
+  const PullInput& pull = inputs_->pull;
+  const dts::BodyMotion<double>& body = workspace_.bodies[pull.body];
+  dts::add_external_force(workspace_, pull.body, pull.force.force,
+                          body.p_WB + body.R_WB * pull.force.point);
 }
 
 void ArticulatedRobot::accelerate() {

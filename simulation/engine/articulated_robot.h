@@ -68,8 +68,10 @@ class ArticulatedRobot {
   const JointSet& joints() const { return joints_; }
   /// tau of the last accelerate(): drives and what joints exert by themselves [N m, N].
   const std::vector<double>& joint_torques() const { return joint_torques_; }
-  /// Which of the experiment's Forces act on the robot.
+  /// Indices of the experiment's Forces that act on it.
   std::span<const std::size_t> forces() const { return forces_; }
+  /// Whether forces of the inputs act on the robot, or acted when they were applied last.
+  bool has_external_forces() const { return !forces_.empty() || pulled() || was_pulled_; }
 
   template <class Self, class Archive>
   static void exchange(Self& self, Archive& archive) {
@@ -83,11 +85,14 @@ class ArticulatedRobot {
   }
 
  private:
+  bool pulled() const { return inputs_->pull.robot == static_cast<int>(index_); }
+
   const Experiment* experiment_;
   std::size_t index_;
   const WorldInputs* inputs_;
   std::size_t first_joint_;  ///< where the robot's joints begin in WorldInputs::joint_torques
   std::span<const std::size_t> forces_;
+  bool was_pulled_ = false;  ///< when external forces were applied last
   dts::Model<double> model_;
   dts::State<double> state_;
   dts::Workspace<double> workspace_;

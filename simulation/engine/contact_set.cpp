@@ -311,6 +311,17 @@ void ContactSet::add_ground_forces(const dts::Workspace<double>& workspace, std:
   }
 }
 
+void ContactSet::add_contacts(std::size_t first_body, std::vector<ContactView>& contacts) const {
+  for (const ContactPoint& point : points_) {
+    const bool touches = point.depth > 0. || dot(point.force, point.force) > 0.;
+    if (culled_[point.body] > 0 || !touches) continue;
+    const contact::Memory<double>& memory = point.pending;
+    contacts.push_back({first_body + point.body, point.position, point.force,
+                        memory.attached ? memory.hook : point.position, point.depth,
+                        memory.sliding ? 1. : 0.});
+  }
+}
+
 double ContactSet::stored_energy() const {
   double sum = 0.;
   for (const ContactPoint& point : points_) {

@@ -96,6 +96,8 @@ class ContactSet {
   /// Adds the forces at the boundary points; the robot's first body is `first_body`.
   void add_ground_forces(const dts::Workspace<double>& workspace, std::size_t first_body,
                          std::vector<GroundForce>& forces) const;
+  /// Adds the boundary points that touch; the robot's first body is `first_body`.
+  void add_contacts(std::size_t first_body, std::vector<ContactView>& contacts) const;
   /// What the springs of the contacts hold at the evaluated state [J].
   double stored_energy() const;
   /// That a boundary point has left the terrain, whose edge tile then goes on; else "".

@@ -80,6 +80,14 @@ class DtsEngine final : public Engine, public Resumable {
     state_.ground_forces.reserve(points);
     copy_ground_forces();
   }
+  void tell_contacts(std::vector<ContactView>& contacts) const override {
+    contacts.clear();
+    for (const Part& part : parts_) {
+      const auto bodies =
+          std::span(state_.bodies).subspan(part.first_body, part.robot->body_count());
+      part.robot->add_contacts(part.first_body, bodies, contacts);
+    }
+  }
   std::optional<double> ground_energy() const override {
     if (under_impulse_law_) return std::nullopt;
     double sum = 0.;

@@ -46,6 +46,11 @@ void ForceRobot::add_ground_forces(std::size_t first_body, std::vector<GroundFor
   system_.contacts().add_ground_forces(system_.workspace(), first_body, forces);
 }
 
+void ForceRobot::add_contacts(std::size_t first_body, std::span<const BodyState> /*bodies*/,
+                              std::vector<ContactView>& contacts) const {
+  system_.contacts().add_contacts(first_body, contacts);
+}
+
 double ForceRobot::ground_energy() const { return system_.contacts().stored_energy(); }
 
 void ForceRobot::publish_contact_forces(bool wanted) { system_.publish_contact_forces(wanted); }

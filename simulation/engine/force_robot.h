@@ -22,6 +22,8 @@ class ForceRobot final : public RobotPart, private ForceDetails {
   StepStatus step(double time) override;
   void undo() override;
   void publish(std::span<BodyState> bodies, std::span<JointState> joints) const override;
+  void add_contacts(std::size_t first_body, std::span<const BodyState> bodies,
+                    std::vector<ContactView>& contacts) const override;
   ForceDetails* details() override { return this; }
   IntegratorState statistics() const override;
   const std::string& notice() const override { return system_.contacts().notice(); }

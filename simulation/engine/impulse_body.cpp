@@ -61,6 +61,12 @@ contact::ImpulseLoad ImpulseBody::load() const {
     load.torque +=
         cross(rotate(motion_.orientation, force.point - body.mass.center_of_mass), force.force);
   }
+  if (inputs_.pull.robot == static_cast<int>(index_)) {
+    const ForceInput& pull = inputs_.pull.force;
+    load.force += pull.force;
+    load.torque +=
+        cross(rotate(motion_.orientation, pull.point - body.mass.center_of_mass), pull.force);
+  }
   return load;
 }
 

@@ -1,11 +1,18 @@
 #include "simulation/engine/impulse_part.h"
 
+#include <algorithm>
+
 #include "contact/force_law.h"
+#include "simulation/engine/contact_point.h"
 #include "simulation/engine/impulse_body.h"
 #include "simulation/engine/impulse_robot.h"
 
 namespace hookpoint::simulation {
 namespace {
+
+/// A point that lies still is thrown up less high than that [m], beside what its rebound speed
+/// gives.
+constexpr double most_bounce = 1e-6;
 
 contact::ImpulseLaw impulse_law(const std::string& name) {
   if (const auto law = contact::find_impulse_law(name)) return *law;
@@ -34,6 +41,32 @@ StepStatus ImpulsePart::step(double time) {
   impacts_before_ = impacts_;
   impacts_ += static_cast<std::uint64_t>(tally.impacts);
   return {};
+}
+
+void ImpulsePart::add_contacts(std::size_t first_body, std::span<const BodyState> bodies,
+                               std::vector<ContactView>& contacts) const {
+  if (ground_ == nullptr) return;
+  const std::size_t before = contacts.size();
+  for (const BoundaryPoint& point : boundary_points(experiment_.robots[index_])) {
+    const BodyState& body = bodies[point.body];
+    if (body.contacts == 0) continue;
+    const Vector3d center = body.position + rotate(body.orientation, point.p_BP);
+    const Vector3d place = center - point.radius * ground_->query(center).normal;
+    const contact::TilePoint tile = ground_->query(place);
+    // Twice u0^2 / 2 g.
+    const double u0 = experiment_.materials[tile.material].constants.rebound_speed;
+    const double bounce = u0 * u0 / std::max(norm(experiment_.gravity), 1e-3);
+    if (tile.depth < -most_bounce - bounce) continue;
+    contacts.push_back(
+        {first_body + point.body, place, body.contact_force, place, tile.depth, -1.});
+  }
+  const auto told = std::span(contacts).subspan(before);
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const auto of_body = [&](const ContactView& contact) { return contact.body == first_body + i; };
+    const auto count = std::ranges::count_if(told, of_body);
+    for (ContactView& contact : told)
+      if (of_body(contact)) contact.force = (1. / static_cast<double>(count)) * contact.force;
+  }
 }
 
 void ImpulsePart::undo() {

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <memory>
+#include <span>
+#include <vector>
 
 #include "contact/impulse/impulse_resolution.h"
 #include "contact/terrain/terrain.h"
@@ -17,6 +19,8 @@ class ImpulsePart : public RobotPart {
   std::uint64_t impacts() const final { return impacts_; }
   const std::string& notice() const final { return notice_; }
   void forget_notice() final { notice_.clear(); }
+  void add_contacts(std::size_t first_body, std::span<const BodyState> bodies,
+                    std::vector<ContactView>& contacts) const final;
 
   /// Advances the robot by one step under the present inputs, above `ground`. On any status but ok
   /// the state is that before.

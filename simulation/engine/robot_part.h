@@ -42,6 +42,10 @@ class RobotPart {
 
   /// Writes the published values of this robot's bodies and joints.
   virtual void publish(std::span<BodyState> bodies, std::span<JointState> joints) const = 0;
+  /// Adds what touches the ground; the robot's bodies are published as `bodies`, the first of them
+  /// is `first_body` of the world's.
+  virtual void add_contacts(std::size_t first_body, std::span<const BodyState> bodies,
+                            std::vector<ContactView>& contacts) const = 0;
   /// Null under an impulse law, whose contacts do not last.
   virtual ForceDetails* details() { return nullptr; }
   /// What the integration has cost so far; zeros where there is no integrator.

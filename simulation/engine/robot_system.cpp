@@ -36,7 +36,7 @@ RobotSystem::RobotSystem(const Experiment& experiment, std::size_t index,
 }
 
 void RobotSystem::take_inputs() {
-  if (robot_.forces().empty()) return;
+  if (!robot_.has_external_forces()) return;
   robot_.apply_external_forces();
   contacts_.apply_forces_again(workspace());
 }

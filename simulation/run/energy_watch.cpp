@@ -34,7 +34,7 @@ bool is_passive(const Experiment& experiment) {
     if (force.window || !(force.torque == Vector3d{})) return false;
   }
   return std::ranges::none_of(experiment.wires, [&](const WireSpec& wire) {
-    return wire.to.starts_with(experiment.world + ".");
+    return wire.to.starts_with(experiment.world + ".") || wire.to.starts_with("Simulator.pull.");
   });
 }
 

@@ -26,7 +26,7 @@ std::string layout_text(const std::vector<StateSection>& sections) {
 
 Movies::Movies(const Experiment& experiment, const World& world,
                const std::filesystem::path& folder, const RunText& text, std::int64_t first_step)
-    : world_(world) {
+    : world_(&world) {
   if (experiment.movies.empty()) return;
   output::MovieHeader header;
   header.experiment = text.text;
@@ -37,6 +37,7 @@ Movies::Movies(const Experiment& experiment, const World& world,
   header.layout = layout_text(world.state_layout());
   header.size = world.state_size();
   state_.resize(header.size);
+  left_.resize(header.size);
   const std::int64_t passed = std::max(world.state().step + 1, first_step);
   for (const MovieSpec& spec : experiment.movies) {
     Movie movie{row_schedule(spec.rate, experiment.deltat), nullptr};
@@ -46,21 +47,22 @@ Movies::Movies(const Experiment& experiment, const World& world,
     movie.writer = output::make_movie_writer(folder / spec.file, header);
     movies_.push_back(std::move(movie));
   }
-  world_.save(state_);
+  world_->save(state_);
   for (Movie& movie : movies_) write(movie);
 }
 
 void Movies::write(Movie& movie) {
-  movie.writer->row(world_.state().time, state_);
-  movie.last = world_.state().step;
+  movie.writer->row(world_->state().time, state_);
+  movie.last = world_->state().step;
 }
 
 void Movies::row(std::int64_t step) {
+  if (changed_) write_left();
   bool saved = false;
   std::optional<output::FileError> refused;
   for (Movie& movie : movies_) {
     if (!movie.schedule.due(step)) continue;
-    if (!saved) world_.save(state_);
+    if (!saved) world_->save(state_);
     saved = true;
     try {
       write(movie);
@@ -71,12 +73,29 @@ void Movies::row(std::int64_t step) {
   if (refused) throw *refused;
 }
 
-void Movies::close() {
-  if (!movies_.empty()) world_.save(state_);
+/// The present instant; `even_again` where a movie has it already.
+void Movies::write_all(bool even_again) {
+  if (!movies_.empty()) world_->save(state_);
   for (Movie& movie : movies_) {
-    if (movie.last != world_.state().step) write(movie);
-    movie.writer->close();
+    if (even_again || movie.last != world_->state().step) write(movie);
   }
+}
+
+void Movies::before_change() {
+  if (movies_.empty() || changed_) return;
+  write_all(false);
+  changed_ = true;
+  changed_time_ = world_->state().time;
+}
+
+void Movies::write_left() {
+  for (Movie& movie : movies_) movie.writer->row(changed_time_, left_);
+  changed_ = false;
+}
+
+void Movies::close() {
+  write_all(changed_);
+  for (Movie& movie : movies_) movie.writer->close();
 }
 
 void Movies::close_within_step() {

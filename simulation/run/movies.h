@@ -28,6 +28,17 @@ class Movies {
   /// Called with every step once, in order, from `first_step` on. Allocates nothing. Throws
   /// output::FileError.
   void row(std::int64_t step);
+  bool empty() const { return movies_.empty(); }
+  /// Somebody is about to change the world between two steps. Each movie has the instant as the run
+  /// led to it, and, with the next row or `close`, as it was left: between two instants of a movie
+  /// nobody has changed anything. Throws output::FileError.
+  void before_change();
+  /// Before each step, which may fail.
+  void go_on() {
+    if (changed_) world_->save(left_);
+  }
+  /// From now on the instants are those of `world`, whose numbers are alike.
+  void rebind(const World& world) { world_ = &world; }
   /// All complete, each with the world's last instant. Throws output::FileError.
   void close();
   /// All complete as they are, while the world is within a step.
@@ -40,8 +51,13 @@ class Movies {
     std::int64_t last = -1;  ///< step of the last instant
   };
   void write(Movie& movie);
+  void write_all(bool even_again);
+  void write_left();
 
-  const World& world_;
+  const World* world_;
+  bool changed_ = false;      ///< since the last row
+  double changed_time_ = 0.;  ///< when [s]
+  std::vector<double> left_;  ///< what was left then
   std::vector<double> state_;
   std::vector<Movie> movies_;
 };

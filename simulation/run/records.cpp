@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <optional>
+
+#include "simulation/run/shown_scene.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -15,8 +18,15 @@ output::RecordHeader header_of(const RecordSpec& spec, const Experiment& experim
   header.channels = spec.channels;
   header.annotations = run_annotations(experiment, text.hash);
   header.experiment = text.text;
+  if (spec.scene && output::find_record_format(spec.format)->shows_scene)
+    header.scene = shown_scene(experiment);
   return header;
 }
+
+/// A body's ports in the order of a pose in a row.
+constexpr std::array<const char*, output::numbers_of_pose> pose_ports{
+    ".location.x",    ".location.y",    ".location.z",   ".orientation.w",
+    ".orientation.x", ".orientation.y", ".orientation.z"};
 
 }  // namespace
 
@@ -46,16 +56,32 @@ Records::Records(const Experiment& experiment, const std::vector<Port>& ports,
     output::RecordHeader header = header_of(spec, experiment, text);
     for (std::int64_t step = 0; step < first_step; ++step) record.schedule.due(step);
     header.period = record.schedule.period();
-    for (output::Channel& channel : header.channels) {
-      const Port port = find_port(experiment, ports, channel.path);
-      if (channel.unit.empty()) channel.unit = port.unit;
+    const auto add = [&](const std::string& trail) {
+      const Port port = find_port(experiment, ports, trail);
       record.sources.push_back(port.value);
       record.trails.push_back(port.trail);
+      return port.unit;
+    };
+    for (output::Channel& channel : header.channels) {
+      const std::string unit = add(channel.path);
+      if (channel.unit.empty()) channel.unit = unit;
     }
+    for (const output::SceneBody& body : header.scene.bodies)
+      for (const char* port : pose_ports) add(body.name + port);
     record.values.resize(record.sources.size());
     record.writer = output::make_record_writer(spec.format, folder / spec.file, header);
     records_.push_back(std::move(record));
   }
+}
+
+void Records::rebind(const Experiment& experiment, const std::vector<Port>& ports) {
+  std::vector<std::vector<const double*>> sources;
+  for (const Record& record : records_) {
+    sources.emplace_back();
+    for (const std::string& trail : record.trails)
+      sources.back().push_back(find_port(experiment, ports, trail).value);
+  }
+  for (std::size_t i = 0; i < records_.size(); ++i) records_[i].sources = std::move(sources[i]);
 }
 
 void Records::row(std::int64_t step, double time) {

@@ -38,6 +38,10 @@ class Records {
   /// Called with every step once, in order, from the first on. Allocates nothing. Throws
   /// output::FileError after all other files got their row.
   void row(std::int64_t step, double time);
+  /// From now on the values are those of `ports`: the run goes on in another world. Throws
+  /// ExperimentError where one is missing; all is then as it was.
+  void rebind(const Experiment& experiment, const std::vector<Port>& ports);
+  bool empty() const { return records_.empty(); }
   /// The port of a value that is to be written and is not finite, "" if there is none.
   const std::string& first_not_finite() const;
   /// All complete. Throws output::FileError.

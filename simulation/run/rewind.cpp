@@ -85,40 +85,79 @@ void Rewind::approach(std::int64_t step) {
 
 void Rewind::arrive(std::int64_t step) { run_to(step); }
 
+void Rewind::turn_to(std::int64_t step) {
+  const std::size_t before = instant_before(step);
+  const std::int64_t present = world_.state().step;
+  const bool there = present == step && whole_;
+  const bool on_the_way = present < step && present >= steps_[before];
+  if (!there && !on_the_way) put(before);
+  next_ = static_cast<std::size_t>(std::ranges::upper_bound(steps_, world_.state().step) -
+                                   steps_.begin());
+}
+
+std::string Rewind::go_on() {
+  step();
+  if (next_ == steps_.size() || world_.state().step < steps_[next_]) return "";
+  std::string differs = difference(next_);
+  if (!differs.empty()) world_.restore(recorded_);
+  // What somebody changed between two steps: the same step again, as it was left.
+  for (; next_ + 1 < steps_.size() && steps_[next_ + 1] == steps_[next_]; ++next_) {
+    movie_.read(next_ + 1, recorded_);
+    world_.restore(recorded_);
+  }
+  ++next_;
+  return differs;
+}
+
+std::size_t Rewind::instant_before(std::int64_t step) const {
+  const auto after = std::ranges::lower_bound(steps_, step) - steps_.begin();
+  return after == 0 ? 0 : static_cast<std::size_t>(after - 1);
+}
+
 void Rewind::put(std::size_t instant) {
   movie_.read(instant, recorded_);
   world_.restore(recorded_);
+  whole_ = false;
 }
 
 void Rewind::run_to(std::int64_t step) {
-  while (world_.state().step < step) {
-    const std::int64_t before = world_.state().step;
-    const StepStatus status = world_.step();
-    if (!status.ok() || world_.state().step == before)
-      throw MovieError(
-          fmt::format("the run cannot be repeated: no step leads on from {} s", time_text(before)));
-  }
+  while (world_.state().step < step) this->step();
+}
+
+void Rewind::step() {
+  const std::int64_t before = world_.state().step;
+  const StepStatus status = world_.step();
+  if (!status.ok() || world_.state().step == before)
+    throw MovieError(
+        fmt::format("the run cannot be repeated: no step leads on from {} s", time_text(before)));
+  whole_ = true;
+}
+
+void Rewind::compare(std::size_t instant) {
+  if (const std::string differs = difference(instant); !differs.empty()) throw MovieError(differs);
 }
 
 /// Bits, not values: -0 is not 0, and what is not a number equals itself.
-void Rewind::compare(std::size_t instant) {
+std::string Rewind::difference(std::size_t instant) {
   movie_.read(instant, recorded_);
   world_.save(computed_);
   const auto same = [](double a, double b) {
     return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
   };
   const auto differs = std::ranges::mismatch(recorded_, computed_, same).in1;
-  if (differs == recorded_.end()) return;
+  if (differs == recorded_.end()) return "";
   auto index = static_cast<std::size_t>(differs - recorded_.begin());
   auto section = sections_.begin();
   for (; index >= section->size; ++section) index -= section->size;
-  throw MovieError(fmt::format(
+  return fmt::format(
       "the run does not repeat: at {} s number {} of `{}` is {} in the movie and {} here. The "
       "movie is of hookpoint {}, this is {}; another build, another machine or a changed plugin "
-      "computes other last digits",
+      "computes other last digits, and a field that was edited while it ran (changes.csv) is not "
+      "in "
+      "the movie: --changes repeats such a run",
       time_text(steps_[instant]), index, section->name, output::seventeen_digits(*differs),
       output::seventeen_digits(computed_[static_cast<std::size_t>(differs - recorded_.begin())]),
-      version_of(movie_.header()), HOOKPOINT_VERSION));
+      version_of(movie_.header()), HOOKPOINT_VERSION);
 }
 
 }  // namespace hookpoint::simulation

@@ -31,9 +31,24 @@ class Rewind {
   /// From there to `step`.
   void arrive(std::int64_t step);
 
+  /// For who goes along a movie piece by piece: makes sure that steps lead from here to `step`.
+  /// Where an instant lies between, or `step` behind, the world is put to the last instant before
+  /// it.
+  void turn_to(std::int64_t step);
+  /// One step. At an instant the world is compared with the movie, and takes its numbers where they
+  /// differ. "" or how they do. Throws output::MovieError when no step leads on.
+  std::string go_on();
+  /// Whether what only a step computes is right: not when the world was just put to an instant.
+  bool whole() const { return whole_; }
+
  private:
   void put(std::size_t instant);
   void run_to(std::int64_t step);
+  void step();
+  /// The last instant before `step`; of the first moment, that one.
+  std::size_t instant_before(std::int64_t step) const;
+  /// "" or how the world differs from the movie.
+  std::string difference(std::size_t instant);
   void compare(std::size_t instant);
   std::string time_text(std::int64_t step) const;
 
@@ -43,6 +58,8 @@ class Rewind {
   std::vector<StateSection> sections_;
   std::vector<std::int64_t> steps_;  ///< of the instants
   std::vector<double> recorded_, computed_;
+  std::size_t next_ = 0;  ///< the first instant after the world's present step
+  bool whole_ = true;
 };
 
 }  // namespace hookpoint::simulation

@@ -5,6 +5,7 @@
 #include "output/records/files.h"
 #include "output/text/hash.h"
 #include "simulation/identity.h"
+#include "simulation/run/changes.h"
 #include "simulation/wiring/port_search.h"
 
 namespace hookpoint::simulation {
@@ -47,6 +48,7 @@ std::unique_ptr<output::ResultFolder> open_folder(const Experiment& experiment,
   std::vector<std::string> names = names_of(experiment, request);
   if (names.empty() && !request.leaves_files) return nullptr;
   names.emplace_back(experiment_file);
+  if (request.changes) names.emplace_back(ChangeLog::file_name);
   output::Manifest manifest;
   manifest.experiment = hash;
   manifest.about = {{"run", run_hash(hash, request.engine)},
@@ -79,7 +81,7 @@ void add_movie(const std::filesystem::path& file, Experiment& experiment) {
 }
 
 std::vector<std::string> run_files() {
-  return {experiment_file, trace_file, output::Manifest::file_name, ".lock"};
+  return {experiment_file, trace_file, ChangeLog::file_name, output::Manifest::file_name, ".lock"};
 }
 
 RunFiles::RunFiles(const Experiment& experiment, World& world, const std::vector<Port>& ports,
@@ -112,6 +114,15 @@ void RunFiles::row(std::int64_t step, double time) {
   if (!trace_) return;
   for (std::size_t i = 0; i < ports_.size(); ++i) values_[i] = *ports_[i].value;
   trace_->row(time, values_);
+}
+
+void RunFiles::rebind(const Experiment& experiment, const World& world,
+                      const std::vector<Port>& ports) {
+  std::vector<Port> found;
+  for (const Port& port : ports_) found.push_back(find_port(experiment, ports, port.trail));
+  records_.rebind(experiment, ports);
+  movies_.rebind(world);
+  for (std::size_t i = 0; i < ports_.size(); ++i) ports_[i].value = found[i].value;
 }
 
 const std::string& RunFiles::first_not_finite() const {

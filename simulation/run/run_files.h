@@ -31,6 +31,7 @@ struct RunRequest {
   bool leaves_files = false;         ///< experiment.hook is written even beside nothing else
   EngineDescription engine;          ///< that runs it
   std::vector<std::string> sources;  ///< files that `text` was made from, absolute
+  bool changes = false;              ///< people may change it: changes.csv is among its files
 };
 
 /// The Records and Movies of the file, and the rows of trace.csv: the row at the first step, then
@@ -43,6 +44,12 @@ class RunFiles {
   RunFiles(const Experiment& experiment, World& world, const std::vector<Port>& ports,
            const RunRequest& request, std::int64_t first_step = 0);
   void row(std::int64_t step, double time);
+  /// Around what somebody changes between two steps, see Movies.
+  void before_change() { movies_.before_change(); }
+  void go_on() { movies_.go_on(); }
+  /// The run goes on in another world of the same layout. Throws ExperimentError where that lacks a
+  /// port; all is then as it was.
+  void rebind(const Experiment& experiment, const World& world, const std::vector<Port>& ports);
   /// The port of a value that is to be written and is not finite, "" if there is none.
   const std::string& first_not_finite() const;
   void close();
@@ -52,6 +59,10 @@ class RunFiles {
   /// Where it writes, as the user names it: the run's folder and the files in it.
   const std::filesystem::path& folder() const { return place_; }
   const std::vector<std::string>& names() const { return names_; }
+  /// Whether a step leaves something.
+  bool has_rows() const { return trace_ || !movies_.empty() || !records_.empty(); }
+  /// Whether something goes into the folder.
+  bool uses_folder() const { return folder_ != nullptr; }
 
  private:
   RunFiles(const Experiment& experiment, World& world, const std::vector<Port>& ports,

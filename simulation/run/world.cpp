@@ -1,7 +1,11 @@
 #include "simulation/run/world.h"
 
+#include <fmt/format.h>
+
+#include <cmath>
 #include <utility>
 
+#include "output/text/number.h"
 #include "simulation/analysis/failure.h"
 #include "simulation/analysis/stability.h"
 
@@ -43,6 +47,25 @@ StepStatus stopped_by_port(double time, const std::string& trail) {
   return {StepStatus::Kind::not_finite, time, trail,
           "it is no longer a finite number: look at the gains, amplitudes and noise of what leads "
           "to it"};
+}
+
+std::vector<Port> World::settable(std::span<const PortValue> values) {
+  std::vector<Port> ports;
+  for (const auto& [trail, value] : values) {
+    const Port& port = ports.emplace_back(signals_.settable(trail));
+    if (!std::isfinite(value))
+      throw ExperimentError(fmt::format("`{}` takes a finite number", port.trail));
+    if (value < port.minimum || value > port.maximum)
+      throw ExperimentError(fmt::format("`{}` takes numbers from {} to {}, not {}", port.trail,
+                                        output::shortest(port.minimum),
+                                        output::shortest(port.maximum), output::shortest(value)));
+  }
+  return ports;
+}
+
+void World::set(const Port& port, double value) {
+  *port.writable = value;
+  signals_.follow();
 }
 
 std::string World::ended() const {

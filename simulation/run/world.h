@@ -25,6 +25,8 @@ class World {
   const WorldState& state() const { return engine_->state(); }
   /// What the ground's springs hold, where the engine tells [J].
   std::optional<double> ground_energy() const { return engine_->ground_energy(); }
+  /// What touches the ground (Engine::tell_contacts).
+  void tell_contacts(std::vector<ContactView>& contacts) const { engine_->tell_contacts(contacts); }
   /// What the next step is taken under.
   const WorldInputs& inputs() const { return engine_->inputs(); }
   /// From the next step on the bodies' `contact_force` in `state()` is right, as it is anyway once
@@ -32,6 +34,23 @@ class World {
   void publish_contact_forces() { engine_->publish_contact_forces(true); }
   /// Every port of the run. O(ports).
   std::vector<Port> ports() { return signals_.ports(); }
+  /// Every port that may be set between two steps. O(ports).
+  std::vector<Port> settable() { return signals_.settable(); }
+  /// The port of that trail, where it is one that may be written. O(ports).
+  std::optional<Port> input(std::string_view trail) { return signals_.input(trail); }
+  /// The ports that `values` may be set to, in order. Throws ExperimentError for one that nobody
+  /// may write, that a wire writes, or whose number is not finite or out of its range. O(ports).
+  std::vector<Port> settable(std::span<const PortValue> values);
+  /// Sets one of those between two steps. What only copies it has it at once, while `World.running`
+  /// is false too; a wire with a rate, a delay or noise takes it at its next sample.
+  void set(const Port& port, double value);
+  /// Whether each wire that starts there has sampled the port's value in a step after `step`.
+  bool sampled_after(std::int64_t step, const Port& port) const {
+    return signals_.sampled_after(step, port.value);
+  }
+  /// `World.running` and `Simulator.quit`.
+  bool running() const { return signals_.running(); }
+  bool quit() const { return signals_.quit(); }
   /// Why a run without windows ends here, or "" while it goes on: `Simulator.quit` is true, or
   /// `World.running` is false, which nothing can change any more once time stands still.
   std::string ended() const;

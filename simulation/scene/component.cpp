@@ -112,6 +112,9 @@ void load_component(const language::Object& object, const control::ComponentClas
   ComponentSpec spec = load_fields(object, stub_fields());
   spec.trail = loading.trails.at(&object);
   spec.type = type.name;
+  if (const auto field = attachment_field(type.attachment);
+      type.attachment != Attachment::none && object.given(field))
+    spec.attached = loading.trails.at(object.object(field));
   const auto component = type.make();
   for (const PortDescription& port : component->ports()) {
     if (port.kind == PortKind::text) load_text(object, port, spec, loading);

@@ -104,6 +104,7 @@ std::string text_of(Integer value) {
 std::string text_of(const Vector3d& value);     ///< 0,0,0
 std::string text_of(const Quaterniond& value);  ///< 1,0,0,0
 inline std::string text_of(const std::string& value) { return value; }
+inline std::string text_of(bool value) { return value ? "true" : "false"; }
 
 /// The field that `schema` describes, kept in `member`.
 template <class Spec, class Value>
@@ -138,6 +139,10 @@ Field<Spec> integer_field(std::string_view name, Value Spec::*member, std::strin
   return kept(member, integer_field(name, "", std::move(doc)));
 }
 FieldSchema boolean_field(std::string_view name, std::string default_text, std::string doc);
+template <class Spec>
+Field<Spec> boolean_field(std::string_view name, bool Spec::*member, std::string doc) {
+  return kept(member, boolean_field(name, "", std::move(doc)));
+}
 FieldSchema text_field(std::string_view name, std::string doc);
 template <class Spec>
 Field<Spec> text_field(std::string_view name, std::string Spec::*member, std::string doc) {

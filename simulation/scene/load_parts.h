@@ -13,6 +13,7 @@
 #include "language/tree/object.h"
 #include "language/tree/references.h"
 #include "simulation/experiment.h"
+#include "simulation/scene/trails.h"
 
 namespace hookpoint::simulation {
 
@@ -29,10 +30,10 @@ struct Loading {
   Experiment experiment;
   std::map<const language::Object*, int> materials;  ///< index into Experiment::materials
   std::map<const language::Object*, BodyIndex> bodies;
-  std::vector<const language::Object*> bases;             ///< one a robot
-  std::map<const language::Object*, std::string> trails;  ///< from the top, no two alike
-  std::vector<const language::Object*> components;        ///< one a ComponentSpec
-  std::size_t boundary_points = 0;                        ///< asked for, of all bodies
+  std::vector<const language::Object*> bases;  ///< one a robot
+  ObjectTrails trails;
+  std::vector<const language::Object*> components;  ///< one a ComponentSpec
+  std::size_t boundary_points = 0;                  ///< asked for, of all bodies
 
   void error(const language::Position& position, std::string message) {
     diagnostics.error(position, std::move(message));
@@ -129,14 +130,6 @@ void load_components(const language::Object& root, Loading& loading);
 /// Wires and attachments. Finds second drivers, missing attachments, loops without delay, and
 /// components that cannot start.
 void load_wires(const language::Object& root, Loading& loading);
-/// Why a run of the experiment has no such port though the class has it; "" when it has.
-std::string missing_port(const Experiment& experiment, const language::Object& object,
-                         const language::FieldSchema& field);
-/// A number of a run that a trail of the file names.
-struct NumberPort {
-  language::Target target;
-  std::string trail;  ///< of its port, from the top
-};
 /// The number that `trail`, written at `place`, names from `from`; none after saying what is wrong.
 std::optional<NumberPort> find_number(const language::Object& from, const std::string& trail,
                                       const language::Position& place, language::Names& names,

@@ -1,9 +1,4 @@
-// Trails of all objects, and the numbers that can be read though nothing computes them.
-#include <fmt/format.h>
-
-#include <set>
-
-#include "contact/force_law.h"
+// The numbers that can be read though nothing computes them.
 #include "control/registry.h"
 #include "language/tree/references.h"
 #include "simulation/robot_tree.h"
@@ -29,21 +24,10 @@ class Values {
  private:
   void visit(const language::Object& parent) {
     for (const auto& object : parent.children) {
-      loading_.trails.emplace(object.get(), trail_for(*object));
       add_fields(*object);
       add_loaded(*object);
       visit(*object);
     }
-  }
-
-  /// An object without a name goes by its type; what stands in two objects without a name may be
-  /// called alike: #2, #3 ... tell them apart.
-  std::string trail_for(const language::Object& object) {
-    std::string trail = object.trail();
-    if (object.name.empty()) trail += (trail.empty() ? "" : ".") + object.type;
-    std::string unique = trail;
-    for (int n = 2; !taken_.insert(unique).second; ++n) unique = trail + "#" + std::to_string(n);
-    return unique;
   }
 
   void add_fields(const language::Object& object) {
@@ -51,20 +35,30 @@ class Values {
     for (const FieldSchema& field : object.schema->fields) {
       // A component's own ports are its values; what the stub says beside them is a constant.
       if (component && (!field.setting || field.port != Direction::output)) continue;
-      if (field.port == Direction::none || field.type == FieldType::text ||
-          field.type == FieldType::choice || field.type == FieldType::words ||
-          field.type == FieldType::object || field.type == FieldType::port)
-        continue;
+      if (field.port == Direction::none || !is_number(field)) continue;
       const language::Field* value = object.find(field.name);
       const bool writable = field.port != Direction::output;
       if (value != nullptr) {
         const bool chosen = value->numbers.empty();  // a word stands for it: deltat = auto
         add(object, field, chosen ? std::vector{loading_.experiment.deltat} : value->numbers,
             writable);
-      } else if (writable && field.type != FieldType::numbers) {
-        values_.push_back(
-            {loading_.trails[&object] + "." + field.name, unit_of(object, field), {}, true});
+      } else if (writable) {
+        add_open(object, field);
       }
+    }
+  }
+
+  /// A port that the file leaves open. A list has one a part where its length is known all the
+  /// same.
+  void add_open(const language::Object& object, const FieldSchema& field) {
+    if (field.type == FieldType::numbers && field.min_count != field.max_count) return;
+    for (int i = 0; i < components_of(field); ++i) {
+      const std::string part = components_of(field) > 1 ? language::part_name(field, i) : "";
+      values_.push_back({loading_.trails[&object] + "." + field.name + part,
+                         unit_of(object, field),
+                         {},
+                         true,
+                         object.type == "Button"});
     }
   }
 
@@ -102,27 +96,14 @@ class Values {
   }
 
   Loading& loading_;
-  std::set<std::string> taken_;
   std::vector<ValueSpec> values_;
 };
 
 }  // namespace
 
-void load_values(const language::Object& root, Loading& loading) { Values(loading).run(root); }
-
-std::string missing_port(const Experiment& experiment, const language::Object& object,
-                         const language::FieldSchema& field) {
-  const bool detail = !field.setting && (object.type == "ContactPoint" || object.type == "Chain");
-  const bool peer = experiment.engine != "dts";
-  // A peer publishes ContactPoints, but no hips.
-  const bool published = peer ? object.type == "ContactPoint"
-                              : contact::find_force_law(experiment.contact).has_value();
-  if (!detail || published) return "";
-  return fmt::format(
-      "{} {} does not publish `{}` of a {}: choose engine dts and a force law, such "
-      "as hookpoint",
-      peer ? "engine" : "contact law", peer ? experiment.engine : experiment.contact, field.name,
-      object.type);
+void load_values(const language::Object& root, Loading& loading) {
+  loading.trails = trails_of(root);
+  Values(loading).run(root);
 }
 
 }  // namespace hookpoint::simulation

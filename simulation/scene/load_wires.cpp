@@ -20,7 +20,6 @@ using control::Attachment;
 using control::PortDescription;
 using control::PortKind;
 using language::FieldSchema;
-using language::FieldType;
 
 /// What an end of a wire names: the object, its port without a part, and the trails of its numbers.
 struct End {
@@ -38,11 +37,6 @@ struct Driver {
   const FieldSchema* input = nullptr;
   language::Position position;
 };
-
-int parts_of(const FieldSchema& field) {
-  if (field.type == FieldType::orientation) return 4;
-  return field.type == FieldType::numbers ? field.max_count : 1;
-}
 
 class Wires {
  public:
@@ -74,7 +68,7 @@ class Wires {
       end.trails.push_back(trail + reference.port);
       return end;
     }
-    const int parts = parts_of(*end.field);
+    const int parts = components_of(*end.field);
     for (int i = 0; i < parts; ++i)
       end.trails.push_back(trail + reference.port +
                            (parts > 1 ? language::part_name(*end.field, i) : ""));

@@ -16,7 +16,7 @@ namespace hookpoint::simulation {
 namespace {
 
 namespace record_field {
-constexpr const char* trails = "trails";
+constexpr const char *trails = "trails", *scene = "scene";
 }
 
 std::vector<std::string> format_names() {
@@ -37,24 +37,16 @@ const Fields<RecordSpec>& record_fields() {
       text_field(
           run_file_field::file, &RecordSpec::file,
           "name in the run's folder; if not given, the record's with the format's extension"),
+      boolean_field(record_field::scene, &RecordSpec::scene,
+                    "of mcap: every body's pose a row, its shapes and the ground once, as Foxglove "
+                    "draws them"),
   };
   return fields;
-}
-
-bool is_number(const FieldSchema& field) {
-  return field.type != FieldType::text && field.type != FieldType::choice &&
-         field.type != FieldType::object && field.type != FieldType::port &&
-         field.type != FieldType::words;
 }
 
 std::string type_of(const FieldSchema& field) {
   if (field.type == FieldType::boolean) return "bool";
   return field.type == FieldType::integer ? "int" : "double";
-}
-
-int components_of(const FieldSchema& field) {
-  if (field.type == FieldType::orientation) return 4;
-  return field.type == FieldType::numbers ? field.max_count : 1;
 }
 
 class RecordLoader {
@@ -74,6 +66,7 @@ class RecordLoader {
       spec_.file = fmt::format("{}.{}", spec_.name, format->extension);
     check_rate();
     check_file();
+    check_scene(*format);
     for (std::size_t i = 0; i < trails_.words.size(); ++i) add(trails_.words[i], trails_.places[i]);
     loading_.experiment.records.push_back(std::move(spec_));
   }
@@ -86,6 +79,12 @@ class RecordLoader {
   void check_file() const {
     complain(run_file_field::file,
              file_problem(output::record_files(spec_.format, spec_.file), loading_.experiment));
+  }
+  void check_scene(const output::RecordFormat& format) const {
+    if (object_.given(record_field::scene) && spec_.scene && !format.shows_scene)
+      complain(record_field::scene,
+               fmt::format("format {} has no scene: leave this out, or record with format = mcap",
+                           format.name));
   }
   void complain(const char* field, std::string problem) const {
     if (!problem.empty()) loading_.error(place_of(object_, field), std::move(problem));
@@ -136,20 +135,8 @@ void add_record_class(language::Schema& schema) {
 std::optional<NumberPort> find_number(const language::Object& from, const std::string& trail,
                                       const language::Position& place, language::Names& names,
                                       Loading& loading) {
-  const auto fail = [&](const std::string& message) {
-    loading.error(place, message);
-    return std::nullopt;
-  };
-  language::Unresolved why;
-  const auto target = names.resolve(from, trail, true, why);
-  if (!target) return fail(fmt::format("`{}`: {}", trail, why.message));
-  if (target->field == nullptr || !is_number(*target->field))
-    return fail(fmt::format("`{}` is no number that could be recorded", trail));
-  const auto object = loading.trails.find(target->object);
-  if (object == loading.trails.end()) return fail(fmt::format("`{}` has no value in a run", trail));
-  const std::string lacking = missing_port(loading.experiment, *target->object, *target->field);
-  if (!lacking.empty()) return fail(lacking);
-  return NumberPort{*target, object->second + "." + target->port};
+  return find_number(from, trail, place, names, loading.trails, loading.experiment,
+                     loading.diagnostics);
 }
 
 void load_records(const language::Object& root, Loading& loading) {

@@ -31,6 +31,12 @@ struct Port {
   double maximum = std::numeric_limits<double>::infinity();
 };
 
+/// A port and the number that somebody gives it, in its unit.
+struct PortValue {
+  std::string trail;
+  double value = 0.;
+};
+
 class DerivedPorts;
 
 /// What the engine publishes and what follows from it, and its joints' drives: robots in file

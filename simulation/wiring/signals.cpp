@@ -47,7 +47,8 @@ Signals::Signals(const Experiment& experiment, Engine& engine)
     : experiment_(experiment),
       engine_(engine),
       derived_(experiment, engine),
-      components_(experiment) {
+      components_(experiment),
+      pull_(experiment) {
   for (const ForceSpec& force : experiment.forces)
     held_.forces.push_back({force.point, force.force, force.torque});
   held_.envelopes.resize(experiment.forces.size(), 1.);
@@ -63,7 +64,21 @@ Signals::Signals(const Experiment& experiment, Engine& engine)
   const WiringOrder order = order_wiring(experiment, components_);
   if (!order.loop.empty()) throw ExperimentError("wires without delay form a loop");
   order_ = order.items;
+  find_held_lines();
   watch_values();
+}
+
+void Signals::find_held_lines() {
+  std::vector<bool> held(lines_.size(), false);
+  for (const WiringItem& item : order_) {
+    if (!item.is_wire) continue;
+    const Line& line = lines_[item.index];
+    const auto driver = std::ranges::find(lines_, line.from, &Line::to);
+    const bool still =
+        driver == lines_.end() || held[static_cast<std::size_t>(driver - lines_.begin())];
+    held[item.index] = line.copies && line.starts_at_input && still;
+    if (held[item.index]) held_lines_.push_back(item.index);
+  }
 }
 
 void Signals::watch_values() {
@@ -96,7 +111,9 @@ void Signals::connect(const std::vector<Port>& ports) {
     if (to->writable == nullptr) throw ExperimentError("no wire can end at `" + wire.to + "`");
     try {
       control::TransmissionLine line = transmission_line(wire, experiment_, *to->value);
-      lines_.push_back({from->value, to->writable, line.copies(), std::move(line)});
+      const bool copies = line.copies();
+      lines_.push_back(
+          {from->value, to->writable, copies, std::move(line), from->writable != nullptr});
     } catch (const std::exception& error) {
       throw ExperimentError("the wire from `" + wire.from + "` to `" + wire.to +
                             "`: " + error.what());
@@ -128,6 +145,46 @@ bool Signals::update(std::int64_t step) {
   return nothing == 0. && derived_.finite();
 }
 
+std::vector<Port> Signals::settable() {
+  std::vector<Port> settable = ports();
+  std::erase_if(settable, [this](const Port& port) {
+    return port.writable == nullptr ||
+           std::ranges::find(lines_, port.writable, &Line::to) != lines_.end();
+  });
+  return settable;
+}
+
+std::optional<Port> Signals::input(std::string_view trail) {
+  if (all_ports_.empty()) all_ports_ = ports();
+  std::optional<Port> port = look_up_port(experiment_, all_ports_, trail);
+  if (port && port->writable == nullptr) port.reset();
+  return port;
+}
+
+Port Signals::settable(std::string_view trail) {
+  if (all_ports_.empty()) all_ports_ = ports();
+  Port port = find_port(experiment_, all_ports_, trail);
+  if (port.writable == nullptr)
+    throw ExperimentError(fmt::format("`{}` follows from the run: nobody sets it", port.trail));
+  const auto line = std::ranges::find(lines_, port.writable, &Line::to);
+  if (line == lines_.end()) return port;
+  const WireSpec& wire = experiment_.wires[static_cast<std::size_t>(line - lines_.begin())];
+  throw ExperimentError(
+      fmt::format("`{}` is set by the wire from `{}`: {}", port.trail, wire.from,
+                  line->starts_at_input ? "set that instead" : "nobody else sets it"));
+}
+
+void Signals::follow() {
+  for (const std::size_t i : held_lines_) *lines_[i].to = *lines_[i].from + 0.;
+  apply_forces(engine_.state().step);
+}
+
+bool Signals::sampled_after(std::int64_t step, const double* value) const {
+  return std::ranges::all_of(lines_, [&](const Line& line) {
+    return line.from != value || line.line.last_sample(engine_.state().step) > step;
+  });
+}
+
 std::string Signals::first_not_finite() {
   for (const Port& port : ports()) {
     if (!std::isfinite(*port.value)) return port.trail;
@@ -145,6 +202,7 @@ void Signals::update_component(std::size_t index, std::int64_t step, double time
 }
 
 void Signals::apply_forces(std::int64_t step) {
+  pull_.act(engine_.state(), engine_.inputs().pull);
   std::vector<ForceInput>& acting = engine_.inputs().forces;
   for (std::size_t i = 0; i < acting.size(); ++i) {
     const ForceInput& whole = held_.forces[i];
@@ -179,6 +237,7 @@ void Signals::add_held_ports(std::vector<Port>& ports) {
   ports.push_back(held_port(world + "impacts", "", held_.impacts, false));
   ports.push_back(held_port(world + "running", "", held_.running, true));
   ports.push_back(held_port("Simulator.quit", "", held_.quit, true));
+  pull_.add_ports(ports);
   for (std::size_t i = 0; i < held_.forces.size(); ++i) {
     const std::string trail = world + experiment_.forces[i].name + ".";
     const auto add = [&](const std::string& name, const char* unit, Vector3d& v) {
@@ -232,6 +291,7 @@ void Signals::exchange(Self& self, Archive& archive) {
   for (std::size_t i = 0; i < self.held_.values.size(); ++i) {
     if ((*self.experiment_.values)[i].writable) archive("value", self.held_.values[i]);
   }
+  Pull::exchange(self.pull_, archive);
 }
 
 std::vector<StateSection> Signals::state_layout() const {

@@ -9,6 +9,7 @@
 #include "simulation/wiring/components.h"
 #include "simulation/wiring/derived_ports.h"
 #include "simulation/wiring/ports.h"
+#include "simulation/wiring/pull.h"
 #include "simulation/wiring/timing.h"
 #include "simulation/wiring/wiring_order.h"
 
@@ -34,6 +35,18 @@ class Signals {
   bool quit() const { return held_.quit != 0.; }
   /// Every port, of the engine too. O(ports), allocates.
   std::vector<Port> ports();
+  /// Every port that somebody may set between two steps. O(ports), allocates.
+  std::vector<Port> settable();
+  /// The port of that trail, where it is one that may be written. O(ports).
+  std::optional<Port> input(std::string_view trail);
+  /// The number that somebody may set by `trail` between two steps. Throws ExperimentError for one
+  /// that nobody may write, or that a wire writes. O(ports).
+  Port settable(std::string_view trail);
+  /// After numbers were set between two steps: what only copies them has them too, and what acts
+  /// from outside follows. However often it is called, the values are the same. Allocates nothing.
+  void follow();
+  /// Whether each wire that starts at `value` has sampled it in a step after `step`.
+  bool sampled_after(std::int64_t step, const double* value) const;
 
   /// What evolves beside the engine's own state, in stretches of one owner each.
   std::vector<StateSection> state_layout() const;
@@ -51,6 +64,7 @@ class Signals {
     double* to;
     bool copies;  ///< nothing happens to a value on its way
     control::TransmissionLine line;
+    bool starts_at_input;  ///< at a number that may be written, as its end is
   };
   struct Updates {
     control::Schedule schedule;
@@ -66,6 +80,7 @@ class Signals {
   };
 
   void connect(const std::vector<Port>& ports);
+  void find_held_lines();
   void update_component(std::size_t index, std::int64_t step, double time);
   void apply_forces(std::int64_t step);
   void watch_values();
@@ -77,11 +92,14 @@ class Signals {
   DerivedPorts derived_;
   Components components_;
   HeldPorts held_;
-  std::vector<Updates> updates_;        // one a component
-  std::vector<Line> lines_;             // one a wire
-  std::vector<std::size_t> delayed_;    // lines whose samples arrive in a later step
-  std::vector<WiringItem> order_;       // the other lines and the components
-  std::vector<const double*> watched_;  // ends of lines, outputs of components
+  Pull pull_;
+  std::vector<Updates> updates_;         // one a component
+  std::vector<Line> lines_;              // one a wire
+  std::vector<std::size_t> delayed_;     // lines whose samples arrive in a later step
+  std::vector<WiringItem> order_;        // the other lines and the components
+  std::vector<std::size_t> held_lines_;  // those that copy what only people change, in that order
+  std::vector<Port> all_ports_;          // once somebody has set something
+  std::vector<const double*> watched_;   // ends of lines, outputs of components
 };
 
 }  // namespace hookpoint::simulation

@@ -74,10 +74,14 @@ std::optional<WallPlan> make_wall_plan(const language::Object& root, const langu
                                        const PlanOptions& options,
                                        language::Diagnostics& diagnostics);
 
+/// A run of the Wall as a study's row, before it has run: its scene's index is what varies.
+RunResult empty_wall_row(const RowPlan& row);
+
 /// Runs all, by `options.jobs` threads, with the same result for any number of them; nothing when
 /// `stop` was set. Finished runs are kept in rows/ of the Wall's folder; with `options.resume` they
-/// are not run again. A run that diverges or cannot run is a cell with that status. Throws
-/// output::FolderError, output::FileError.
+/// are not run again. A run that diverges or cannot run is a cell with that status. A row that
+/// `options.row_done` hears of has one metric: how many of its truths hold, beside how many there
+/// are. Throws output::FolderError, output::FileError.
 std::optional<WallRun> run_wall(const WallPlan& plan, const EngineTable& engines,
                                 const RunOptions& options, const std::atomic<bool>& stop);
 

@@ -128,7 +128,10 @@ class WallPlanner {
     if (!experiment) return;
     for (std::string& source : language::sources_of(*tree)) inputs_.insert(std::move(source));
     simulation::write_chosen_step(*experiment, *tree);
-    add_row(block, std::move(*experiment), language::print(*tree), index);
+    RowPlan row;
+    row.scene = path;
+    row.settings = setting_words(evaluate);
+    add_row(block, std::move(row), std::move(*experiment), language::print(*tree), index);
   }
 
   /// An error of a scene, told once however many subjects have it.
@@ -153,13 +156,12 @@ class WallPlanner {
 
   /// Plans a run. Without ground all contact laws are the same: then only the first subject of each
   /// integrator has one.
-  void add_row(const Object& block, simulation::Experiment experiment, const std::string& printed,
-               std::size_t index) {
+  void add_row(const Object& block, RowPlan row, simulation::Experiment experiment,
+               const std::string& printed, std::size_t index) {
     if (!experiment.terrain && experiment.engine == "dts" &&
         !covered_.insert(experiment.integrator).second)
       return;
     warn_of_step(block, experiment, index);
-    RowPlan row;
     row.hash = simulation::experiment_hash(printed, experiment);
     hash_.add(row.hash);
     inputs_.merge(simulation::files_read(experiment));

@@ -13,6 +13,7 @@
 #include "simulation/run/world.h"
 #include "studies/compare/wall.h"
 #include "studies/run/row_runner.h"
+#include "studies/summary.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -125,6 +126,20 @@ void add_outcome(WallResult& result, const RowPlan& row, const RowOutcome& outco
   }
 }
 
+/// Its truths counted.
+RunResult wall_row(const RowPlan& row, const RowOutcome& outcome) {
+  RunResult run = empty_wall_row(row);
+  run.status = outcome.status;
+  if (outcome_of(run) == RunOutcome::skipped) return run;
+  const std::vector<const ExpectationSpec*> specs = covering(row);
+  double held = 0.;
+  for (std::size_t i = 0; i < specs.size(); ++i)
+    if (outcome.status == "ok" && ExpectationResult{specs[i], outcome.measured[i]}.ok()) ++held;
+  const auto all = static_cast<double>(specs.size());
+  run.metrics[0] = {held, all, held == all};
+  return run;
+}
+
 bool skipped(const WallCell& cell) { return cell.status.starts_with("skipped"); }
 
 int count_cells(const WallResult& result, bool ok) {
@@ -137,6 +152,14 @@ int count_cells(const WallResult& result, bool ok) {
 }
 
 }  // namespace
+
+RunResult empty_wall_row(const RowPlan& row) {
+  RunResult run;
+  run.parameters = {static_cast<double>(row.values[0])};
+  run.subject = row.subject;
+  run.metrics.resize(1);
+  return run;
+}
 
 int WallResult::passed() const { return count_cells(*this, true); }
 int WallResult::failed() const { return count_cells(*this, false); }
@@ -159,7 +182,10 @@ std::optional<WallRun> run_wall(const WallPlan& plan, const EngineTable& engines
   ProgressMeter meter(rows.size(), options);
   const RowWork work{[&](std::size_t row) { return run_scene(rows[row], engines, stop); },
                      [&](std::size_t row) { return plan.study.identity_of(rows[row], engines); },
-                     [&](std::size_t row) { return covering(rows[row]).size(); }, 0};
+                     [&](std::size_t row) { return covering(rows[row]).size(); }, 0,
+                     tell_rows(options, [&](std::size_t row, const RowOutcome& outcome) {
+                       return wall_row(rows[row], outcome);
+                     })};
   if (!run_rows(by_length(rows), work, options, store, meter, outcomes)) return std::nullopt;
   WallResult& result = run.result;
   result = {plan.study.name,

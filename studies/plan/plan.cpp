@@ -150,6 +150,9 @@ class SceneLoader {
     const language::EvaluateOptions ours = options;
     set("engine", subject.engine);
     set("settings", subject.settings);
+    row.scene = scene_;
+    row.settings = setting_words(options);
+    row.settings.push_back(fmt::format("{}.duration={} s", world_, plan.duration));
     Diagnostics found;
     if (evaluate(options, row, printed, found)) {
       forward(found, study, where);

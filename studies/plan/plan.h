@@ -87,6 +87,8 @@ struct RowPlan {
   std::string hash;  ///< of that and the files that it reads (simulation/identity.h)
   std::string
       refusal;  ///< why the row's engine cannot run the scene, which others can; "" if it can
+  std::filesystem::path scene;        ///< its file
+  std::vector<std::string> settings;  ///< what makes the experiment of it, as --set takes them
 };
 
 struct StudyPlan {

@@ -25,6 +25,15 @@ std::vector<language::Override> settings_of_scene(const SceneSettings& settings,
   return taken;
 }
 
+std::vector<std::string> setting_words(const language::EvaluateOptions& options) {
+  std::vector<std::string> words;
+  for (const auto& [parameter, value] : options.parameters)
+    words.push_back(parameter + "=" + value);
+  for (const language::Override& setting : options.overrides)
+    words.push_back(setting.trail + "=" + setting.value);
+  return words;
+}
+
 namespace {
 
 /// The field of that trail from the top; null where there is none. The names of an object and of a

@@ -21,6 +21,9 @@ std::vector<language::Override> settings_of_scene(const SceneSettings& settings,
                                                   const language::Object& scene,
                                                   const std::string& world);
 
+/// What `options` set, as --set takes it: "slope=5 deg", "world.engine=ode".
+std::vector<std::string> setting_words(const language::EvaluateOptions& options);
+
 /// The first of `settings` that sets a field which `one` and `other`, the same scene without the
 /// settings, have with different values; null for none.
 const language::Override* changed_setting(const std::vector<language::Override>& settings,

@@ -88,6 +88,17 @@ std::optional<double> impacts(const RunContext& context, const BodyOnPlane& body
 
 }  // namespace
 
+PeerContact peer_contact(const EngineEntry& engine, const simulation::Experiment& experiment) {
+  PeerContact contact;
+  if (engine.creep != nullptr)
+    if (const auto creep = engine.creep(experiment)) {
+      contact.creep = creep->downhill;
+      contact.creep_sideways = creep->sideways;
+    }
+  if (engine.softness != nullptr) contact.softness = engine.softness(experiment);
+  return contact;
+}
+
 std::optional<double> predict(std::string_view metric, const RunContext& context,
                               const PeerContact& peer) {
   if (metric == "fell") return joint_loop_fails(context);

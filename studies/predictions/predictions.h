@@ -5,6 +5,7 @@
 #include <optional>
 #include <string_view>
 
+#include "studies/engine_table.h"
 #include "studies/metric.h"
 
 namespace hookpoint::studies {
@@ -15,6 +16,9 @@ struct PeerContact {
   std::optional<double> softness;  ///< depth per newton at which a contact comes to rest [m/N]
   std::optional<double> creep_sideways = {};  ///< `creep_sideways` where friction holds [m/s]
 };
+
+/// Of a run of `experiment` by that engine.
+PeerContact peer_contact(const EngineEntry& engine, const simulation::Experiment& experiment);
 
 /// The closed form of `metric` for the run described by `context`, or nothing where there is none
 /// (docs/studies.md lists them). But for `fell`, and the depths of a robot whose joints gravity

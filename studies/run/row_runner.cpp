@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <exception>
 #include <map>
+#include <memory>
 #include <set>
 #include <thread>
 
@@ -52,6 +53,7 @@ std::vector<std::size_t> take_finished(std::span<const std::size_t> order, const
     auto outcome = store.load(row, work.identity(row), work.metrics(row), work.plots);
     if (outcome) {
       outcomes[row] = std::move(*outcome);
+      if (work.done) work.done(row, outcomes[row]);
       meter.advance(true);
       continue;
     }
@@ -90,6 +92,7 @@ bool run_rows(std::span<const std::size_t> order, const RowWork& work, const Run
         for (std::string& notice : outcome->notices) on_one_line(notice);
         store.save(row, work.identity(row), *outcome);
         outcomes[row] = std::move(*outcome);
+        if (work.done) work.done(row, outcomes[row]);
         meter.advance(false);
       }
     } catch (...) {
@@ -104,6 +107,18 @@ bool run_rows(std::span<const std::size_t> order, const RowWork& work, const Run
   }
   if (failure) std::rethrow_exception(failure);
   return !cut_short;
+}
+
+std::function<void(std::size_t row, const RowOutcome& outcome)> tell_rows(
+    const RunOptions& options,
+    std::function<RunResult(std::size_t row, const RowOutcome& outcome)> assemble) {
+  if (!options.row_done) return {};
+  return [&options, assemble = std::move(assemble), telling = std::make_shared<std::mutex>()](
+             std::size_t row, const RowOutcome& outcome) {
+    const RunResult result = assemble(row, outcome);
+    const std::lock_guard lock(*telling);
+    options.row_done(row, result);
+  };
 }
 
 std::vector<std::string> collect_notices(

@@ -34,6 +34,8 @@ struct RowWork {
   std::function<std::string(std::size_t row)> identity;  ///< of the run (StudyPlan::identity_of)
   std::function<std::size_t(std::size_t row)> metrics;   ///< how many values an outcome has
   std::size_t plots = 0;                                 ///< how many traces
+  /// Hears of each outcome, from any thread; may be none.
+  std::function<void(std::size_t row, const RowOutcome& outcome)> done{};
 };
 
 /// All rows of `order` by `options.jobs` workers, each outcome into its own slot; with
@@ -42,6 +44,12 @@ struct RowWork {
 /// what a worker throws.
 bool run_rows(std::span<const std::size_t> order, const RowWork& work, const RunOptions& options,
               const RowStore& store, ProgressMeter& meter, std::vector<RowOutcome>& outcomes);
+
+/// What calls `options.row_done` with what `assemble` makes of an outcome; nothing where nobody
+/// listens. `options` outlives it.
+std::function<void(std::size_t row, const RowOutcome& outcome)> tell_rows(
+    const RunOptions& options,
+    std::function<RunResult(std::size_t row, const RowOutcome& outcome)> assemble);
 
 /// What the rows have to say: each once, with the first row that says so and how many others do,
 /// whatever the numbers in it.

@@ -52,7 +52,10 @@ StudyRun run_study(const StudyPlan& plan, const EngineTable& engines, const RunO
                                       find_engine(engines, plan.rows[row].experiment.engine), stop);
                      },
                      [&](std::size_t row) { return plan.identity_of(plan.rows[row], engines); },
-                     [&](std::size_t) { return plan.metrics.size(); }, plan.plots.size()};
+                     [&](std::size_t) { return plan.metrics.size(); }, plan.plots.size(),
+                     tell_rows(options, [&](std::size_t row, const RowOutcome& outcome) {
+                       return assemble_row(plan, engines, row, outcome);
+                     })};
   run.interrupted = !run_rows(order, work, options, store, meter, outcomes) ||
                     (timed && !run_timing(plan, engines, stop, meter, outcomes));
   run.notices =

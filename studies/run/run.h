@@ -30,6 +30,10 @@ struct RunOptions {
   std::filesystem::path folder;                   ///< of the results; empty: runs/<study>-<hash>
   std::function<void(const Progress&)> progress;  ///< one call at a time, from any thread
   std::function<void(const std::string&)> tell;   ///< what the user should know
+  /// A row that has finished, or was taken over from an earlier run; one call at a time, from any
+  /// thread. What only all rows together tell is missing: its verdicts where they need other rows,
+  /// metrics of several runs, timing.
+  std::function<void(std::size_t row, const RunResult& result)> row_done{};
 };
 
 struct StudyRun {

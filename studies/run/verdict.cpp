@@ -33,10 +33,9 @@ bool applies(const StudyPlan& plan, const TruthPlan& truth, const RowPlan& row) 
   return named && plan.covers(truth.only, row);
 }
 
-/// Nothing where the Truth says nothing about the row.
-std::optional<bool> judge(const StudyPlan& plan, const StudyResult& result, std::size_t row,
+/// What the Truth says of the row by itself; nothing where it says nothing about it.
+std::optional<bool> judge(const StudyPlan& plan, const RunResult& run, std::size_t row,
                           const TruthPlan& truth) {
-  const RunResult& run = result.rows[row];
   if (has(run, RunOutcome::skipped) || !applies(plan, truth, plan.rows[row])) return std::nullopt;
   if (has(run, RunOutcome::refused) && truth.subjects.empty()) return std::nullopt;
   const MetricValue& metric = run.metrics[truth.metric];
@@ -48,32 +47,37 @@ std::optional<bool> judge(const StudyPlan& plan, const StudyResult& result, std:
   if (truth.value) ok = ok && near(measured, *truth.value, truth);
   if (truth.above) ok = ok && measured > *truth.above;
   if (truth.below) ok = ok && measured < *truth.below;
-  if (truth.same_over >= 0) {
-    const RunResult* other = first_of_sweep(plan, result, row, truth.same_over);
-    if (other == nullptr) return std::nullopt;
-    const auto& reference = other->metrics[truth.metric].measured;
-    ok = ok && reference && near(measured, *reference, truth);
-  }
   return ok;
 }
 
-PeerContact peer_contact(const EngineEntry& engine, const simulation::Experiment& experiment) {
-  PeerContact contact;
-  if (engine.creep != nullptr)
-    if (const auto creep = engine.creep(experiment)) {
-      contact.creep = creep->downhill;
-      contact.creep_sideways = creep->sideways;
-    }
-  if (engine.softness != nullptr) contact.softness = engine.softness(experiment);
-  return contact;
+/// The same, beside the row that it is to equal.
+std::optional<bool> judge(const StudyPlan& plan, const StudyResult& result, std::size_t row,
+                          const TruthPlan& truth) {
+  const auto alone = judge(plan, result.rows[row], row, truth);
+  const auto& measured = result.rows[row].metrics[truth.metric].measured;
+  if (!alone || !measured || truth.same_over < 0) return alone;
+  const RunResult* other = first_of_sweep(plan, result, row, truth.same_over);
+  if (other == nullptr) return std::nullopt;
+  const auto& reference = other->metrics[truth.metric].measured;
+  return *alone && reference && near(*measured, *reference, truth);
 }
 
-RunResult run_result(const StudyPlan& plan, const EngineTable& engines, const RowPlan& row,
-                     const RowOutcome& outcome) {
+void add_verdict(MetricValue& value, bool verdict) {
+  value.ok = value.ok.value_or(true) && verdict;
+}
+
+/// A row that has not run.
+RunResult empty_row(const StudyPlan& plan, const RowPlan& row) {
   RunResult run;
   for (std::size_t i = 0; i < plan.sweeps.size(); ++i)
     run.parameters.push_back(plan.sweeps[i].column.values[static_cast<std::size_t>(row.values[i])]);
   run.subject = row.subject;
+  return run;
+}
+
+RunResult run_result(const StudyPlan& plan, const EngineTable& engines, const RowPlan& row,
+                     const RowOutcome& outcome) {
+  RunResult run = empty_row(plan, row);
   run.status = outcome.status;
   run.traces = outcome.traces;
   for (const auto& measured : outcome.measured)
@@ -96,8 +100,7 @@ RunResult run_result(const StudyPlan& plan, const EngineTable& engines, const Ro
 
 }  // namespace
 
-StudyResult assemble(const StudyPlan& plan, const EngineTable& engines,
-                     const std::vector<RowOutcome>& outcomes) {
+StudyResult empty_table(const StudyPlan& plan) {
   StudyResult result;
   result.name = plan.name;
   result.title = plan.title;
@@ -111,16 +114,37 @@ StudyResult assemble(const StudyPlan& plan, const EngineTable& engines,
   for (const PlotPlan& plot : plan.plots) result.plots.push_back(plot.spec);
   for (const TruthPlan& truth : plan.truths)
     result.truths.push_back({truth.name, truth.words, static_cast<int>(truth.metric)});
-  for (std::size_t i = 0; i < plan.rows.size(); ++i)
-    result.rows.push_back(run_result(plan, engines, plan.rows[i], outcomes[i]));
+  for (const RowPlan& row : plan.rows) {
+    result.rows.push_back(empty_row(plan, row));
+    result.rows.back().metrics.resize(plan.metrics.size());
+  }
   result.warnings = plan.warnings;
+  return result;
+}
+
+RunResult assemble_row(const StudyPlan& plan, const EngineTable& engines, std::size_t row,
+                       const RowOutcome& outcome) {
+  RunResult run = run_result(plan, engines, plan.rows[row], outcome);
+  for (const TruthPlan& truth : plan.truths) {
+    MetricValue& value = run.metrics[truth.metric];
+    const bool alone = truth.same_over < 0 && plan.metrics[truth.metric]->scope == MetricScope::run;
+    if (!alone) continue;
+    if (const auto verdict = judge(plan, run, row, truth)) add_verdict(value, *verdict);
+  }
+  return run;
+}
+
+StudyResult assemble(const StudyPlan& plan, const EngineTable& engines,
+                     const std::vector<RowOutcome>& outcomes) {
+  StudyResult result = empty_table(plan);
+  for (std::size_t i = 0; i < plan.rows.size(); ++i)
+    result.rows[i] = run_result(plan, engines, plan.rows[i], outcomes[i]);
   measure_groups(plan, outcomes, result);
   for (std::size_t i = 0; i < plan.rows.size(); ++i) {
     for (std::size_t k = 0; k < plan.truths.size(); ++k) {
       const std::optional<bool> verdict = judge(plan, result, i, plan.truths[k]);
       if (!verdict) continue;
-      std::optional<bool>& ok = result.rows[i].metrics[plan.truths[k].metric].ok;
-      ok = ok.value_or(true) && *verdict;
+      add_verdict(result.rows[i].metrics[plan.truths[k].metric], *verdict);
       TruthResult& truth = result.truths[k];
       ++(*verdict ? truth.passed : truth.failed);
       if (!*verdict && truth.first_failure < 0) truth.first_failure = static_cast<int>(i);

@@ -47,6 +47,7 @@ expect "engines adds DART" "$(installed libdart-dev)" 1
 expect "engines adds no test package" "$(installed libgtest-dev)" 0
 run test || expect "setup test" "$said" "status 0"
 expect "test adds GoogleTest" "$(installed libgtest-dev)" 1
+expect "test adds Chromium" "$(installed chromium)" 1
 
 # An engine that the mirror lacks is told of once and not tried again.
 bare

@@ -112,18 +112,22 @@ inline std::string network_problem(const std::string& complaints) {
   return "";
 }
 
-/// node with @mcap/core, which npm fetches once, beside the build. Looked for once a program.
+/// node with @mcap/core and @foxglove/schemas, which npm fetches once, beside the build. Looked for
+/// once a program.
 inline const Reader& mcap_reader() {
   static const Reader reader = [] {
     for (const char* program : {"node", "npm"})
       if (!runs(std::string(program) + " --version")) return Reader{"", missing(program), ""};
     const std::filesystem::path folder = HOOKPOINT_BINARY_DIR "/mcap_reader";
     std::filesystem::create_directories(folder);
-    for (const char* file : {"package.json", "package-lock.json", "read.mjs"})
+    for (const char* file :
+         {"package.json", "package-lock.json", "open.mjs", "read.mjs", "read_scene.mjs"})
       std::filesystem::copy_file(reader_folder + "mcap/" + file, folder / file,
                                  std::filesystem::copy_options::overwrite_existing);
     Reader found{"node '" + folder.string() + "/read.mjs' ", "", ""};
-    if (std::filesystem::exists(folder / "node_modules/@mcap/core")) return found;
+    if (std::filesystem::exists(folder / "node_modules/@mcap/core") &&
+        std::filesystem::exists(folder / "node_modules/@foxglove/schemas"))
+      return found;
     const Reading npm = run_reader("cd '" + folder.string() +
                                        "' && npm ci --prefer-offline --no-audit --no-fund "
                                        "--fetch-retries=1 --fetch-retry-mintimeout=1000",
@@ -131,11 +135,22 @@ inline const Reader& mcap_reader() {
     if (npm.status == 0) return found;
     const std::string problem = network_problem(npm.output);
     if (problem.empty())
-      found.missing = "@mcap/core, which npm did not bring: " + npm.output;
+      found.missing = "@mcap/core and @foxglove/schemas, which npm did not bring: " + npm.output;
     else
-      found.out_of_reach = "@mcap/core, for which npm reaches no registry (" + problem + ")";
+      found.out_of_reach =
+          "@mcap/core and @foxglove/schemas, for which npm reaches no registry (" + problem + ")";
     return found;
   }();
+  return reader;
+}
+
+/// The reader of an MCAP file's scene, which prints the lines that read_scene.mjs tells.
+inline Reader scene_reader(bool cut_off = false) {
+  Reader reader = mcap_reader();
+  const std::string script = "read.mjs' ";
+  if (const std::size_t at = reader.command.find(script); at != std::string::npos)
+    reader.command.replace(at, script.size(), "read_scene.mjs' ");
+  reader.command += cut_off ? "stream " : "indexed ";
   return reader;
 }
 

@@ -81,7 +81,7 @@ TEST_P(Interrupt, OfAStepThatDoesNotEndKeepsTheRowsBefore) {
   const std::string trace = place.read("out/trace.csv");
   EXPECT_EQ(std::count(trace.begin(), trace.end(), '\n'), 1 + 50) << "0, 1, ... 49 ms";
   EXPECT_NE(place.read("out/fall.wl").find("\"complete\"->True|>"), std::string::npos);
-  const auto film = place.hookpoint("replay out/film.h5 --allow-plugins");
+  const auto film = place.hookpoint("replay out/film.h5 --allow-plugins --about");
   EXPECT_NE(film.out.find("complete"), std::string::npos) << film.err;
   EXPECT_NE(film.out.find("0 s to 0.049 s"), std::string::npos) << film.out;
 }

@@ -111,7 +111,7 @@ TEST_F(MovieCommand, ReplayGivesWhatTheTraceHas) {
 TEST_F(MovieCommand, BetweenRareInstantsNothingIsLost) {
   write("Movie rare { rate = 7 Hz; }");
   fine("run scene.hook --out run --record " + std::string(trails));
-  const std::string summary = fine("replay run/rare.h5").out;
+  const std::string summary = fine("replay run/rare.h5 --about").out;
   // 0, 1/7, ... 10/7 s and the end.
   EXPECT_NE(summary.find("instants     12,"), std::string::npos) << summary;
   for (const char* time : {"0", "0.142", "0.143", "0.144", "0.4", "1.43", "1.5"})
@@ -176,7 +176,7 @@ TEST_F(MovieCommand, AKilledRunLeavesAMovie) {
   CommandResult summary;
   for (int tries = 0; tries < 3 && summary.status != 0; ++tries) {
     kill_when_larger("run/film.h5.partial", 1'500'000);
-    summary = place.hookpoint("replay run/film.h5.partial");
+    summary = place.hookpoint("replay run/film.h5.partial --about");
   }
   ASSERT_EQ(summary.status, 0) << summary.err;
   EXPECT_NE(summary.out.find("cut off"), std::string::npos);

@@ -18,9 +18,21 @@ namespace fs = std::filesystem;
 
 const fs::path source = HOOKPOINT_SOURCE_DIR;
 
+/// `hookpoint view`, which goes on until somebody ends it, is ended once its page can be opened.
+constexpr const char* watched_briefly = R"(hookpoint() {
+  if [ "$1" != view ]; then command hookpoint "$@"; return; fi
+  command hookpoint "$@" --no-open >address &
+  until [ -s address ]; do kill -0 $!; sleep 0.05; done
+  kill -TERM $!
+  wait $!
+  rm address
+}
+)";
+
 /// The page as one script for a shell: a named block is a file of the folder reached by then.
 std::string script_of(const std::vector<testing::PageBlock>& blocks) {
-  std::string script = "set -euxo pipefail\nunset HOOKPOINT_TRUSTED_PLUGINS\n";
+  std::string script =
+      std::string("set -euxo pipefail\nunset HOOKPOINT_TRUSTED_PLUGINS\n") + watched_briefly;
   for (const testing::PageBlock& block : blocks) {
     script += block.language == "sh"
                   ? block.text
@@ -70,6 +82,14 @@ TEST_F(Tutorial, WithoutAControllerItSinksToTheGround) {
   const std::vector<double> height = column(place_->read("two_legs/limp/trace.csv"), 1);
   EXPECT_GT(height.front(), 0.35);
   EXPECT_LT(height.back(), 0.15);
+}
+
+TEST_F(Tutorial, WhatWasMovedByHandIsRepeated) {
+  const std::vector<double> again = column(place_->read("two_legs/again/trace.csv"), 1),
+                            limp = column(place_->read("two_legs/limp/trace.csv"), 1);
+  EXPECT_NEAR(again.back(), 0.25, 0.005) << "the page says so";
+  EXPECT_NEAR(limp.at(again.size() - 1), 0.19, 0.005);
+  EXPECT_EQ(place_->read("two_legs/again/changes.csv"), place_->read("two_legs/changes.csv"));
 }
 
 TEST_F(Tutorial, WithItItSquatsAsItSays) {

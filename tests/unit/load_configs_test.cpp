@@ -50,7 +50,7 @@ TEST_P(EveryConfig, Loads) {
     EXPECT_TRUE(is_included(GetParam())) << GetParam() << " stands in no scene";
     return;
   }
-  const bool is_world = folder == "scenes" || folder == "paper";
+  const bool is_world = folder == "scenes" || folder == "paper" || folder == "views";
   const Loaded loaded = load_file(GetParam());
   if (is_world) {
     EXPECT_TRUE(loaded.experiment) << loaded.diagnostics;

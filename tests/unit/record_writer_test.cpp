@@ -139,6 +139,18 @@ TEST(Recorder, FormatsHaveNames) {
   EXPECT_THROW(make_record_writer("xls", "run.xls", {}), std::invalid_argument);
 }
 
+TEST(Recorder, RowsNeedAPoseForEachBody) {
+  const hookpoint::testing::Workplace place;
+  RecordHeader header;
+  header.channels.resize(1);
+  header.channels[0].path = "a";
+  header.scene.bodies = {{"w.ball", {}}};
+  const auto record = make_record_writer("mcap", place.folder() / "run.mcap", header);
+  EXPECT_THROW(record->row(0., std::vector<double>(1)), std::logic_error);
+  record->row(0., std::vector<double>(1 + numbers_of_pose));
+  record->close();
+}
+
 TEST(Recorder, SameRowsGiveTheSameBytes) {
   const hookpoint::testing::Workplace place;
   const time_t before = std::time(nullptr);

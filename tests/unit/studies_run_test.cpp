@@ -2,6 +2,9 @@
 // results.csv, independence of the number of threads, resuming, failing rows.
 #include <gtest/gtest.h>
 
+#include <map>
+
+#include "simulation/scene/load.h"
 #include "studies/run/results_csv.h"
 #include "studies/run/verdict.h"
 #include "tests/support/study_runner.h"
@@ -132,6 +135,71 @@ TEST_F(StudyRunner, BytesDoNotDependOnTheNumberOfThreads) {
   run(*plan, "seven", 7);
   EXPECT_EQ(read(folder_ / "one/results.csv"), read(folder_ / "seven/results.csv"));
   EXPECT_FALSE(read(folder_ / "one/results.csv").empty());
+}
+
+TEST_F(StudyRunner, EachRowIsToldAsItFinishesAndIsThenInTheTable) {
+  const auto plan = this->plan(study);
+  ASSERT_TRUE(plan) << first_error();
+  for (const bool resume : {false, true}) {
+    std::map<std::size_t, RunResult> told;
+    RunOptions options{4, resume, folder_ / "told", {}, {}};
+    options.row_done = [&](std::size_t row, const RunResult& result) {
+      EXPECT_TRUE(told.emplace(row, result).second) << row;
+    };
+    const StudyRun run = run_study(*plan, engines_, options, stop_);
+    ASSERT_EQ(told.size(), run.result.rows.size());
+    for (const auto& [row, result] : told) {
+      const RunResult& final = run.result.rows[row];
+      EXPECT_EQ(result.parameters, final.parameters);
+      EXPECT_EQ(result.subject, final.subject);
+      EXPECT_EQ(result.status, final.status);
+      EXPECT_EQ(result.metrics[0].measured, final.metrics[0].measured);
+      EXPECT_EQ(result.metrics[0].predicted, final.metrics[0].predicted);
+      EXPECT_EQ(result.metrics[0].ok, final.metrics[0].ok);
+      EXPECT_EQ(result.traces[0].value, final.traces[0].value);
+    }
+  }
+  this->run(*plan, "untold", 4);
+  EXPECT_EQ(read(folder_ / "told/results.csv"), read(folder_ / "untold/results.csv"));
+}
+
+TEST_F(StudyRunner, AVerdictThatComparesRowsIsNotToldOfOneAlone) {
+  const auto plan = this->plan(
+      replaced(study, "above = 2 mm/s; below = 2.4 mm/s;", "same_over = slope; tolerance = 0.01;"));
+  ASSERT_TRUE(plan) << first_error();
+  RunOptions options{1, false, folder_ / "out", {}, {}};
+  options.row_done = [](std::size_t, const RunResult& result) {
+    EXPECT_FALSE(result.metrics[0].ok);
+  };
+  const StudyRun run = run_study(*plan, engines_, options, stop_);
+  EXPECT_EQ(run.result.rows[0].metrics[0].ok, true);
+  EXPECT_EQ(run.result.rows[6].metrics[0].ok, false);
+}
+
+TEST_F(StudyRunner, ARowsSettingsMakeItsExperimentOfItsScene) {
+  const auto plan = this->plan(study);
+  ASSERT_TRUE(plan) << first_error();
+  language::Library library(schema_, {});
+  for (const RowPlan& row : plan->rows) {
+    language::EvaluateOptions options;
+    for (const std::string& setting : row.settings) {
+      const std::size_t equals = setting.find('=');
+      options.overrides.push_back({setting.substr(0, equals), setting.substr(equals + 1)});
+    }
+    language::Diagnostics found;
+    const auto tree = library.evaluate(row.scene, options, found);
+    ASSERT_TRUE(tree) << plan->name_of(row);
+    const auto experiment = simulation::load_experiment(*tree, found, {});
+    ASSERT_TRUE(experiment) << plan->name_of(row);
+    EXPECT_EQ(std::get<contact::SlopeSurface>(experiment->terrain->surface).angle,
+              std::get<contact::SlopeSurface>(row.experiment.terrain->surface).angle);
+    EXPECT_EQ(experiment->materials[0].constants.static_friction,
+              row.experiment.materials[0].constants.static_friction);
+    EXPECT_EQ(experiment->engine, row.experiment.engine);
+    EXPECT_EQ(experiment->settings, row.experiment.settings);
+    EXPECT_EQ(experiment->contact, row.experiment.contact);
+    EXPECT_EQ(experiment->duration, plan->duration);
+  }
 }
 
 TEST_F(StudyRunner, ADivergedRowSaysWhenAndTheOthersRunOn) {

@@ -1,51 +1,18 @@
-// Reads an MCAP file with @mcap/core and prints it in the lines of tests/support/read_record.h.
-// usage: node read.mjs indexed|stream FILE   (stream: chunk by chunk, as one does with a file that was cut off)
-import { McapIndexedReader, McapStreamReader } from "@mcap/core";
-import { open, readFile } from "node:fs/promises";
+// Prints the channels of numbers of an MCAP file in the lines of tests/support/read_record.h. Topics that begin with a slash are a
+// scene's (read_scene.mjs).
+// usage: node read.mjs indexed|stream FILE
+import { contents, json } from "./open.mjs";
 
 const [mode, path] = process.argv.slice(2);
+const { schemas, channels, messages, metadata } = await contents(mode, path);
 const series = new Map(); // channel id -> { channel, times, values }
-const schemas = new Map();
-const about = [];
-
-function take(message) {
+for (const channel of channels.values())
+  if (!channel.topic.startsWith("/")) series.set(channel.id, { channel, times: [], values: [] });
+for (const message of messages) {
   const entry = series.get(message.channelId);
+  if (entry === undefined) continue;
   entry.times.push(message.logTime);
-  entry.values.push(JSON.parse(new TextDecoder().decode(message.data)).value);
-}
-function take_channel(channel) {
-  if (!series.has(channel.id)) series.set(channel.id, { channel, times: [], values: [] });
-}
-
-if (mode === "indexed") {
-  const file = await open(path, "r");
-  const reader = await McapIndexedReader.Initialize({
-    readable: {
-      size: async () => BigInt((await file.stat()).size),
-      read: async (offset, length) => {
-        const bytes = new Uint8Array(Number(length));
-        await file.read(bytes, 0, bytes.length, Number(offset));
-        return bytes;
-      },
-    },
-  });
-  for (const schema of reader.schemasById.values()) schemas.set(schema.id, schema);
-  for (const channel of reader.channelsById.values()) take_channel(channel);
-  for await (const message of reader.readMessages({ validateCrcs: true })) take(message);
-  for await (const metadata of reader.readMetadata()) about.push(metadata);
-  let counted = 0n;
-  for (const count of reader.statistics.channelMessageCounts.values()) counted += count;
-  if (counted !== reader.statistics.messageCount) throw new Error("the statistics disagree");
-  await file.close();
-} else {
-  const reader = new McapStreamReader({ validateCrcs: true });
-  reader.append(await readFile(path));
-  for (let record; (record = reader.nextRecord()); ) {
-    if (record.type === "Schema") schemas.set(record.id, record);
-    if (record.type === "Channel") take_channel(record);
-    if (record.type === "Message") take(record);
-    if (record.type === "Metadata") about.push(record);
-  }
+  entry.values.push(json(message.data).value);
 }
 
 const number = (value) =>
@@ -54,8 +21,7 @@ let first = true;
 for (const { channel, times, values } of series.values()) {
   if (first) console.log(["time", ...times.map((time) => `${time}`)].join("\t"));
   first = false;
-  const schema = JSON.parse(new TextDecoder().decode(schemas.get(channel.schemaId).data));
-  const value = schema.properties.value;
+  const value = json(schemas.get(channel.schemaId).data).properties.value;
   const get = (key) => channel.metadata.get(key);
   if (value.unit !== get("unit")) throw new Error("schema and channel disagree about the unit");
   if (!value.description.includes(`[${value.unit === "" ? "1" : value.unit}]`)) throw new Error("no unit in the description");
@@ -63,5 +29,5 @@ for (const { channel, times, values } of series.values()) {
   console.log(["channel", channel.topic, get("unit"), get("type"), get("minimum"), get("maximum"), get("doc")].join("\t"));
   console.log(["data", ...values.map(number)].join("\t"));
 }
-for (const metadata of about)
-  for (const [key, value] of metadata.metadata) console.log(["about", key, JSON.stringify(value)].join("\t"));
+for (const { metadata: entries } of metadata)
+  for (const [key, value] of entries) console.log(["about", key, JSON.stringify(value)].join("\t"));

@@ -1,0 +1,41 @@
+// The file of a run that people may change, loaded whenever a field of it is edited.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "application/application.h"
+#include "simulation/run/live_run.h"
+
+namespace hookpoint::application {
+
+class LiveLoader {
+ public:
+  /// `movie`: one that is added to those of the file (simulation/run/run_files.h).
+  LiveLoader(std::filesystem::path file, Settings settings, bool allow_plugins,
+             std::optional<std::filesystem::path> movie = std::nullopt);
+
+  /// Without overrides the file is read anew; with some it is as it was read then. What is wrong
+  /// with it goes into `problem`, warnings are told once.
+  std::optional<simulation::LoadedExperiment> load(const std::vector<std::string>& overrides,
+                                                   std::string& problem);
+  /// The tree of what was loaded last.
+  const language::Object& root() const { return *root_; }
+
+ private:
+  void read_anew();
+
+  const std::filesystem::path file_;
+  const Settings settings_;
+  const bool allow_plugins_;
+  const std::optional<std::filesystem::path> movie_;
+  std::string told_;  ///< errors of the load that is under way
+  std::shared_ptr<Application> application_;
+  std::filesystem::path found_;
+  std::unique_ptr<language::Object> root_;
+};
+
+}  // namespace hookpoint::application

@@ -1,0 +1,17 @@
+// What a window shows of the subjects that go side by side: the metrics of studies, one after each
+// step, and their closed forms.
+#pragma once
+
+#include <memory>
+
+#include "studies/engine_table.h"
+#include "view/subjects.h"
+
+namespace hookpoint::application {
+
+/// Null where nothing can be measured: no robot moves, or there is no ground. `engines` and
+/// `experiment` outlive it.
+std::unique_ptr<view::Meter> make_meter(const simulation::Experiment& experiment,
+                                        const studies::EngineTable& engines);
+
+}  // namespace hookpoint::application

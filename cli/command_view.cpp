@@ -1,0 +1,205 @@
+// view, and run --view: the windows that a file describes, in a browser.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <utility>
+
+#include "application/live_loader.h"
+#include "application/subject_meter.h"
+#include "application/subject_words.h"
+#include "cli/commands.h"
+#include "cli/exit_status.h"
+#include "cli/interrupt.h"
+#include "cli/open_browser.h"
+#include "cli/run_loop.h"
+#include "output/figures/plot.h"
+#include "view/description.h"
+#include "view/ghosts.h"
+#include "view/live_session.h"
+#include "view/page_bundle.h"
+
+namespace hookpoint::cli {
+namespace {
+
+using application::LiveLoader;
+using simulation::LiveRun;
+
+/// Moments are kept 50 times a simulated second, and not more often than every tenth step.
+view::History history_of(const simulation::Experiment& experiment) {
+  constexpr double between = 0.02;
+  return view::History(std::max<std::int64_t>(10, std::llround(between / experiment.deltat)));
+}
+
+std::string label_of(const simulation::Experiment& experiment) {
+  return experiment.engine == "dts" ? experiment.contact
+                                    : experiment.engine + " " + experiment.settings;
+}
+
+/// What is wrong with the file, as the loader tells it.
+struct WrongFile {
+  std::string problem;
+};
+
+/// What is watched, and what it is made from, which must live as long.
+class Watched {
+ public:
+  explicit Watched(const RunArguments& arguments)
+      : arguments_(arguments),
+        settings_(arguments.settings),
+        application_(arguments.allow_plugins) {
+    if (arguments.duration) settings_.world.emplace_back("duration", *arguments.duration);
+    simulation::LiveRunRequest request;
+    request.folder = arguments.out.value_or(std::filesystem::path());
+    request.trails = arguments.record;
+    request.leaves_files = arguments.out.has_value();
+    add("", settings_, request, arguments.movie);
+    for (const view::GhostSpec& ghost : view::load_ghosts(loaders_.front()->root())) {
+      application::Settings own = settings_;
+      own.trails.insert(own.trails.end(), ghost.settings.begin(), ghost.settings.end());
+      add(ghost.label, own, {}, std::nullopt);
+    }
+    for (const std::string& words : arguments.view.with) {
+      application::Settings own = settings_;
+      for (auto& field : application::subject_fields(application_.schema(), words))
+        own.world.push_back(std::move(field));
+      add(words, own, {}, std::nullopt);
+    }
+    view::MakeMeter meters;
+    if (subjects_.size() > 1)
+      meters = [this](const simulation::Experiment& experiment) {
+        return application::make_meter(experiment, application_.engines());
+      };
+    all_ = std::make_unique<view::Subjects>(std::move(subjects_), std::move(meters));
+  }
+
+  view::Subjects& subjects() { return *all_; }
+
+  std::vector<view::FileField> fields() const {
+    return view::file_fields(loaders_.front()->root());
+  }
+
+  /// The experiment with what was changed, as a file of its own.
+  std::pair<std::string, std::string> patch(const LiveRun& run) const {
+    std::map<std::string, std::string> latest;
+    for (const simulation::Change& change : run.changes()) latest[change.trail] = change.value;
+    LiveLoader loader(arguments_.file, settings_, arguments_.allow_plugins);
+    std::vector<std::string> settings;
+    std::string told = "// " + arguments_.file.filename().string() + " with what was changed:\n";
+    std::string problem, text;
+    const auto take = [&](const std::vector<std::string>& with) {
+      auto loaded = loader.load(with, problem);
+      if (loaded) text = loaded->text;
+      return loaded.has_value();
+    };
+    take({});
+    for (const auto& [trail, value] : latest) {
+      // What is no field of the file, such as a pull, is no part of it.
+      settings.push_back(trail + "=" + value);
+      if (take(settings))
+        told += "//   " + settings.back() + "\n";
+      else
+        settings.pop_back();
+    }
+    return {arguments_.file.stem().string() + "-changed.hook", told + text};
+  }
+
+  view::Shown show(view::Subjects& subjects) const {
+    const language::Object& root = loaders_.front()->root();
+    language::Diagnostics diagnostics;
+    const std::vector<simulation::Port> ports = subjects.ports();
+    const view::Panel panel =
+        view::make_panel(root, subjects.run().experiment(), ports, diagnostics);
+    application_.tell(diagnostics);
+    view::Shown shown;
+    shown.description = view::describe(view::Kind::run, arguments_.file.filename().string(), panel,
+                                       subjects, ports);
+    shown.trails = view::ports_of(panel);
+    shown.plotted = view::plotted_of(panel);
+    for (const std::string& source : language::sources_of(root)) shown.sources.emplace_back(source);
+    return shown;
+  }
+
+ private:
+  void add(const std::string& label, application::Settings settings,
+           simulation::LiveRunRequest request, const std::optional<std::filesystem::path>& movie) {
+    loaders_.push_back(std::make_unique<LiveLoader>(arguments_.file, std::move(settings),
+                                                    arguments_.allow_plugins, movie));
+    LiveLoader& loader = *loaders_.back();
+    std::string problem;
+    auto first = loader.load({}, problem);
+    if (!first) throw WrongFile{problem};
+    if (subjects_.empty() && request.folder.empty())
+      request.folder = std::filesystem::path("runs") / first->experiment.world;
+    auto run = std::make_unique<LiveRun>(
+        [&loader, first = std::make_shared<std::optional<simulation::LoadedExperiment>>(std::move(
+                      first))](const std::vector<std::string>& overrides, std::string& why) {
+          return overrides.empty() && *first ? std::exchange(*first, std::nullopt)
+                                             : loader.load(overrides, why);
+        },
+        request);
+    const simulation::Experiment& experiment = run->experiment();
+    const int index = static_cast<int>(subjects_.size());
+    view::Subject subject{label.empty() ? label_of(experiment) : label,
+                          output::series_style(index).color, std::move(run), history_of(experiment),
+                          nullptr};
+    subjects_.push_back(std::move(subject));
+  }
+
+  const RunArguments& arguments_;
+  application::Settings settings_;  ///< of the command line
+  application::Application application_;
+  std::vector<std::unique_ptr<LiveLoader>> loaders_;
+  std::vector<view::Subject> subjects_;
+  std::unique_ptr<view::Subjects> all_;
+};
+
+/// A file that says how long, or that is to leave files, ends then; any other goes on until
+/// somebody has seen enough.
+std::optional<std::int64_t> last_step(const RunArguments& arguments, const LiveRun& run) {
+  const bool writes = !run.names().empty();
+  if (!writes && !arguments.duration) return std::nullopt;
+  return run.last_step();
+}
+
+}  // namespace
+
+int view(const RunArguments& arguments) {
+  try {
+    const InterruptGuard guard;
+    Watched watched(arguments);
+    LiveRun& run = watched.subjects().run();
+    tell_stability(run.experiment());
+    view::Server server({arguments.view.bind, arguments.view.port,
+                         arguments.view.token.value_or(view::fresh_token())},
+                        page_bundle::index_html);
+    view::Audience audience(server);
+    view::LiveSessionRequest request;
+    request.describe = [&](view::Subjects& subjects) { return watched.show(subjects); };
+    request.fields = [&] { return watched.fields(); };
+    request.patch = [&](const LiveRun& changed) { return watched.patch(changed); };
+    request.last_step = last_step(arguments, run);
+    view::LiveSession session(watched.subjects(), audience, std::move(request));
+    std::cout << server.url() << std::endl;
+    if (arguments.view.open) open_browser(server.url());
+    const bool fine_to_the_end = session.run(guard.stop());
+    run.close();
+    tell_files(run.folder(), run.names());
+    return fine_to_the_end ? fine : truth_failed;
+  } catch (const WrongFile& file) {
+    std::cerr << file.problem << '\n';
+  } catch (const simulation::ExperimentError& error) {
+    application::print_error(error.what());
+  } catch (const application::SubjectError& error) {
+    application::print_error(error.what());
+  } catch (const view::ServerError& error) {
+    application::print_error(error.what());
+  }
+  return wrong_input;
+}
+
+}  // namespace hookpoint::cli

@@ -1,0 +1,98 @@
+#include "cli/study_boards.h"
+
+#include "studies/report/figures.h"
+#include "studies/run/verdict.h"
+#include "studies/summary.h"
+
+namespace hookpoint::cli {
+namespace {
+
+std::string word_of(studies::RunOutcome outcome) {
+  switch (outcome) {
+    case studies::RunOutcome::finished:
+      return "finished";
+    case studies::RunOutcome::foretold:
+      return "foretold";
+    case studies::RunOutcome::stopped:
+      return "stopped";
+    case studies::RunOutcome::skipped:
+      return "skipped";
+    case studies::RunOutcome::refused:
+      return "refused";
+  }
+  return "";
+}
+
+view::BoardStudy without_columns(const studies::StudyResult& table) {
+  view::BoardStudy board;
+  board.name = table.name;
+  board.title = table.title.empty() ? studies::spoken(table.name) : table.title;
+  board.question = table.question;
+  const std::vector<int> styles = studies::subject_styles(table);
+  for (std::size_t i = 0; i < table.subjects.size(); ++i)
+    board.subjects.push_back({table.subjects[i].name, output::series_style(styles[i]).color,
+                              studies::composition(table.subjects[i])});
+  return board;
+}
+
+/// Rows of which nothing but their place is known.
+void add_rows(view::BoardStudy& board, const std::vector<studies::RunResult>& rows) {
+  for (const studies::RunResult& run : rows) {
+    view::BoardRow row = board_row(run);
+    row.outcome = row.status = "";
+    board.rows.push_back(std::move(row));
+  }
+  board.progress.total = board.rows.size();
+}
+
+}  // namespace
+
+view::BoardStudy board_of(const studies::StudyPlan& plan) {
+  const studies::StudyResult table = studies::empty_table(plan);
+  view::BoardStudy board = without_columns(table);
+  for (const studies::SweepColumn& sweep : table.sweeps)
+    board.columns.push_back({sweep.name, sweep.unit, true});
+  for (const studies::MetricColumn& metric : table.metrics)
+    board.columns.push_back({metric.name, metric.unit});
+  add_rows(board, table.rows);
+  for (std::size_t plot = 0; plot < table.plots.size(); ++plot)
+    board.figures.push_back(board_figure(table, plot));
+  return board;
+}
+
+view::BoardStudy board_of(const studies::WallPlan& plan) {
+  view::BoardStudy board = without_columns(studies::empty_table(plan.study));
+  view::BoardColumn scene{"scene", "", true};
+  for (const studies::WallScene& each : plan.scenes) scene.names.push_back(each.name);
+  board.columns = {scene, {"truths_held", ""}};
+  std::vector<studies::RunResult> rows;
+  for (const studies::RowPlan& row : plan.study.rows) rows.push_back(studies::empty_wall_row(row));
+  add_rows(board, rows);
+  return board;
+}
+
+view::BoardRow board_row(const studies::RunResult& run) {
+  view::BoardRow row;
+  row.subject = static_cast<std::size_t>(run.subject);
+  row.varied = run.parameters;
+  row.outcome = word_of(studies::outcome_of(run));
+  row.status = run.status;
+  for (const studies::MetricValue& value : run.metrics)
+    row.cells.push_back({value.measured, value.predicted, value.ok});
+  return row;
+}
+
+view::BoardFigure board_figure(const studies::StudyResult& study, std::size_t plot) {
+  studies::Figure figure = studies::make_figure(study, plot);
+  if (figure.map) return {figure.caption, std::move(*figure.map)};
+  if (figure.panels) return {figure.caption, std::move(*figure.panels)};
+  output::PanelPlot single{.name = figure.plot.name,
+                           .title = figure.plot.title,
+                           .subtitle = figure.plot.subtitle,
+                           .across = 1,
+                           .own_axes = false,
+                           .panels = {figure.plot}};
+  return {figure.caption, std::move(single)};
+}
+
+}  // namespace hookpoint::cli

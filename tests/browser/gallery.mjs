@@ -1,0 +1,136 @@
+// The pictures of the manual's gallery: run.sh BUILD_FOLDER gallery.mjs FOLDER [NAME...]. A run is begun anew, paused, and stepped to
+// the moment of its picture, so that a picture is made of the same numbers every time.
+import assert from "node:assert/strict";
+import { mkdirSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { argv } from "node:process";
+import { fileURLToPath } from "node:url";
+import { configs, eventually, openBrowser, openPage, serve, time, workFolder } from "./support.mjs";
+
+export const width = 1280, leastHeight = 500, mostHeight = 1800;
+
+/// `set`: what is moved at the beginning; `time`: of the picture [s]; `deltat`: of the file [s]; `exaggeration`: of displacements;
+/// `needs`: an engine.
+export const pictures = {
+  window_hexapod: { file: "paper/fig1a_hexapod.hook", time: 3, deltat: 0.0004 },
+  window_arm: {
+    file: "paper/fig7_two_joint_arm.hook", time: 1.5, deltat: 0.001,
+    set: {
+      "zoom_factor.value": 1.3, "controllers.goal_angle.value": 0.8, "controllers.pconstant.value": 2000, "controllers.dconstant.value": 400,
+      "controllers.goal_angle#2.value": 0.6, "controllers.pconstant#2.value": 400, "controllers.dconstant#2.value": 20,
+    },
+  },
+  window_creep: { file: "views/creep_side_by_side.hook", time: 5, deltat: 0.001, set: { "distance.value": 3 }, exaggeration: 1000, needs: "mujoco" },
+  window_study: { file: "studies/creep.hook", study: true },
+};
+
+/// One picture as the bytes of a PNG; `test` is told what to end afterwards.
+export async function takePicture(test, browser, name) {
+  const picture = pictures[name];
+  const folder = workFolder(test);
+  const options = { viewport: { width, height: leastHeight }, colorScheme: "light", deviceScaleFactor: 1 };
+  const file = join(configs, picture.file);
+  const page = picture.study ? await openStudy(test, browser, file, folder, options) : await openRun(test, browser, file, folder, options, picture);
+  const bytes = await still(page);
+  assert.deepEqual(page.problems, []);
+  return bytes;
+}
+
+async function openRun(test, browser, file, folder, options, picture) {
+  const { url } = await serve(test, ["view", file, "--no-open"], folder);
+  const page = await openPage(browser, url, options);
+  test.after(() => page.context().close());
+  const steps = Math.round(picture.time / picture.deltat);
+  await ask(page, [["pause", {}], ["reset", {}],
+    ...(picture.set === undefined ? [] : [["set", { values: picture.set }]]), ["step", { count: steps }]]);
+  const reached = await time(page);
+  assert.ok(Math.abs(reached - picture.time) < picture.deltat / 2, `it stopped at ${reached} s`);
+  if (picture.exaggeration !== undefined) {
+    // Not by `fill`, which scrolls to it and leaves a frame around it.
+    await page.getByLabel("exaggeration of displacements").evaluate((slider, factor) => {
+      slider.value = Math.log10(factor);
+      slider.dispatchEvent(new Event("input"));
+    }, picture.exaggeration);
+  }
+  await fit(page);
+  return page;
+}
+
+/// As high as what is in the page, within reason.
+async function fit(page) {
+  const bottom = await page.evaluate(() => Math.max(...[...document.querySelectorAll("main > *")].map((each) => each.getBoundingClientRect().bottom)));
+  await page.setViewportSize({ width, height: Math.min(Math.max(Math.ceil(bottom) + 12, leastHeight), mostHeight) });
+}
+
+/// A study that is on its way: half of its rows are there, and it is held.
+async function openStudy(test, browser, file, folder, options) {
+  const { url, child } = await serve(test, ["study", file, "--quick", "--jobs", "1", "--view", "--no-open"], folder);
+  const context = await browser.newContext(options);
+  test.after(() => context.close());
+  const page = await context.newPage();
+  page.problems = [];
+  page.on("pageerror", (error) => page.problems.push(String(error)));
+  await page.goto(url);
+  const bar = page.locator("progress").first();
+  await eventually("half of the rows", async () => (await bar.count()) > 0 && (await bar.evaluate((each) => each.value / each.max)) >= 0.5, 300_000);
+  child.kill("SIGSTOP");
+  await fit(page);
+  return page;
+}
+
+/// Requests of a client of its own, in the page, one after the other (docs/view_protocol.md).
+async function ask(page, requests) {
+  await page.evaluate(async (all) => {
+    const socket = new WebSocket(`${location.origin.replace("http", "ws")}/socket${location.search}`);
+    await new Promise((resolve, reject) => {
+      socket.onopen = resolve;
+      socket.onerror = () => reject(new Error("no socket"));
+    });
+    for (const [id, [what, members]] of all.entries()) {
+      await new Promise((resolve, reject) => {
+        socket.onmessage = ({ data }) => {
+          if (typeof data !== "string") return;
+          const answer = JSON.parse(data);
+          if (answer.id !== id) return;
+          if (answer.ok) resolve();
+          else reject(new Error(`${what}: ${answer.error}`));
+        };
+        socket.send(JSON.stringify({ id, do: what, ...members }));
+      });
+    }
+    socket.close();
+  }, requests);
+}
+
+/// The page once it stands still, or after ten seconds as it is.
+async function still(page) {
+  let before = await page.screenshot();
+  for (const end = Date.now() + 10_000; Date.now() < end; ) {
+    await page.waitForTimeout(400);
+    const now = await page.screenshot();
+    if (now.equals(before)) return now;
+    before = now;
+  }
+  return before;
+}
+
+async function main([folder, ...names]) {
+  const unknown = names.filter((name) => !(name in pictures));
+  assert.deepEqual(unknown, [], `there are: ${Object.keys(pictures).join(", ")}`);
+  mkdirSync(folder, { recursive: true });
+  const browser = await openBrowser();
+  const ends = [];
+  try {
+    for (const name of names.length > 0 ? names : Object.keys(pictures)) {
+      const bytes = await takePicture({ after: (end) => ends.push(end) }, browser, name);
+      writeFileSync(join(folder, `${name}.png`), bytes);
+      console.log(`${name}.png: ${Math.ceil(bytes.length / 1000)} kB`);
+      for (const end of ends.splice(0).reverse()) await end();
+    }
+  } finally {
+    for (const end of ends.reverse()) await end();
+    await browser.close();
+  }
+}
+
+if (argv[1] === fileURLToPath(import.meta.url)) await main(argv.slice(2));

@@ -1,0 +1,173 @@
+// What the tests in a browser share: the program under test, Debian's Chromium, and the page that the
+// one serves and the other shows.
+import assert from "node:assert/strict";
+import { spawn } from "node:child_process";
+import { connect } from "node:net";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { chromium } from "playwright-core";
+
+export const program = process.env.HOOKPOINT_PROGRAM;
+export const configs = process.env.HOOKPOINT_CONFIGS;
+
+const flags = ["--no-sandbox", "--disable-gpu", "--use-gl=angle", "--use-angle=swiftshader", "--disable-quic",
+  "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync"];
+
+export async function openBrowser() {
+  return chromium.launch({ executablePath: process.env.HOOKPOINT_BROWSER, headless: true, args: flags });
+}
+
+/// A folder that goes with the test.
+export function workFolder(test) {
+  const folder = mkdtempSync(join(tmpdir(), "hookpoint-browser-"));
+  test.after(() => rmSync(folder, { recursive: true, force: true }));
+  return folder;
+}
+
+/// `hookpoint WORDS...`, which serves a window: resolves once it has printed its address.
+export async function serve(test, words, folder) {
+  const child = spawn(program, words, { cwd: folder, stdio: ["ignore", "pipe", "pipe"] });
+  let out = "", complaints = "";
+  const ended = new Promise((resolve) => child.on("exit", (status, signal) => resolve(status ?? signal)));
+  test.after(async () => {
+    child.kill("SIGKILL");
+    await ended;
+  });
+  child.stderr.on("data", (bytes) => (complaints += bytes));
+  await new Promise((resolve, reject) => {
+    child.stdout.on("data", (bytes) => {
+      out += bytes;
+      if (out.includes("\n")) resolve();
+    });
+    ended.then((status) => reject(new Error(`it ended with ${status}: ${complaints}`)));
+  });
+  const url = out.trim();
+  assert.match(url, /^http:\/\/127\.0\.0\.1:[0-9]+\/\?token=[0-9A-Za-z_-]+$/);
+  return {
+    url, child, ended,
+    out: () => out,
+    complaints: () => complaints,
+    /// Asks it to end, as the interrupt key does, and resolves to its exit status.
+    interrupt: () => {
+      child.kill("SIGINT");
+      return ended;
+    },
+  };
+}
+
+/// Its page, which has drawn something. Whatever goes wrong in the page fails the test.
+export async function openPage(browser, url, options = {}) {
+  const context = await browser.newContext({ viewport: { width: 800, height: 600 }, ...options });
+  const page = await context.newPage();
+  page.problems = [];
+  page.on("pageerror", (error) => page.problems.push(String(error)));
+  page.on("console", (message) => message.type() === "error" && page.problems.push(message.text()));
+  await page.goto(url);
+  await drawn(page);
+  await page.getByRole("combobox", { name: "quality of the picture" }).selectOption("low");
+  return page;
+}
+
+export const drawn = (page) =>
+  page.waitForFunction(() => Number(document.querySelector("canvas[data-trail]")?.dataset.frames ?? 0) > 0, null, { timeout: 60_000 });
+export const widget = (page, trail) => page.locator(`[data-trail="${trail}"]`);
+export const read = (page, trail) => page.evaluate((name) => window.hookpoint.read(name).then(({ value }) => value), trail);
+export const time = (page) => page.evaluate(() => window.hookpoint.time());
+export const set = (page, trail, value) => page.evaluate(([name, number]) => window.hookpoint.set(name, number), [trail, value]);
+
+export const pause = (page) => page.getByRole("button", { name: "pause (Space)" }).click();
+export const resume = (page) => page.getByRole("button", { name: /^(run|go on from here) \(Space\)$/ }).click();
+export const speed = (page, factor) => page.getByRole("combobox", { name: "speed" }).selectOption(String(factor));
+/// 0 is as fast as possible.
+export const asFastAsPossible = "0";
+
+/// Writes a file of the experiment and answers its path.
+export function experiment(folder, name, text) {
+  const path = join(folder, name);
+  writeFileSync(path, text);
+  return path;
+}
+
+/// `hookpoint WORDS...` to its end: its exit status and what it said.
+export function run(words, folder) {
+  const child = spawn(program, words, { cwd: folder, stdio: ["ignore", "pipe", "pipe"] });
+  let out = "", complaints = "";
+  child.stdout.on("data", (bytes) => (out += bytes));
+  child.stderr.on("data", (bytes) => (complaints += bytes));
+  return new Promise((resolve) => child.on("close", (status) => resolve({ status, out, complaints })));
+}
+
+/// The answer to one request, by a plain socket that is there for nothing else (RFC 6455; docs/view_protocol.md).
+export function ask(url, name, fields = {}) {
+  const { host, port, search } = new URL(url);
+  return new Promise((resolve, reject) => {
+    const socket = connect(Number(port), "127.0.0.1");
+    socket.on("error", reject);
+    socket.write(`GET /socket${search} HTTP/1.1\r\nHost: ${host}\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n` +
+      "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n");
+    const text = Buffer.from(JSON.stringify({ id: 1, do: name, ...fields }));
+    assert.ok(text.length < 126, "a request of one short frame");
+    socket.on("close", () => reject(new Error("the program closed the connection")));
+    let bytes = Buffer.alloc(0), parts = [], shaken = false;
+    socket.on("data", (more) => {
+      bytes = Buffer.concat([bytes, more]);
+      if (!shaken) {
+        const end = bytes.indexOf("\r\n\r\n");
+        if (end < 0) return;
+        shaken = true;
+        bytes = bytes.subarray(end + 4);
+        // Final text frame with a mask of zeros, which changes nothing.
+        socket.write(Buffer.concat([Buffer.from([0x81, 0x80 | text.length]), Buffer.alloc(4), text]));
+      }
+      while (bytes.length >= 2) {
+        const short = bytes[1] & 127;
+        const begin = short === 127 ? 10 : short === 126 ? 4 : 2;
+        if (bytes.length < begin) return;
+        const size = short === 127 ? Number(bytes.readBigUInt64BE(2)) : short === 126 ? bytes.readUInt16BE(2) : short;
+        if (bytes.length < begin + size) return;
+        // A long message comes in several frames; what begins with a brace is text.
+        if ((bytes[0] & 15) <= 2) parts.push(bytes.subarray(begin, begin + size));
+        const whole = (bytes[0] & 0x80) !== 0 ? Buffer.concat(parts).toString() : null;
+        bytes = bytes.subarray(begin + size);
+        if (whole === null) continue;
+        parts = [];
+        const answer = whole.startsWith("{") ? JSON.parse(whole) : {};
+        if (answer.id !== 1) continue;
+        socket.destroy();
+        if (answer.error === undefined) resolve(answer);
+        else reject(new Error(answer.error));
+        return;
+      }
+    });
+  });
+}
+
+export const bytesOf = (...path) => readFileSync(join(...path));
+
+/// A block of 1 kg that rests on four corners of `stiffness` [N/m], on which friction holds it.
+export const block = (stiffness = 20_000, windows = "") => `
+World lab {
+  gravity = 9.81;
+  deltat = 1 ms;
+  Material rubber { normal_stiffness = ${stiffness}; normal_damping = 200; tangential_stiffness = 20000; tangential_damping = 200; static_friction = 0.3; kinetic_friction = 0.3; }
+  Terrain.Flat ground { material = rubber; }
+  Robot block {
+    Base.mobile { rest_on = ground; Shape.Box { dimensions = 0.2,0.2,0.1; mass = 1; } }
+  }
+  Force push { body = block.base; }
+}
+Window {
+  Window.grob camera { size = 320,240; drawer = lab; follow = lab.block.base; distance = 1; }
+  ${windows}
+}
+`;
+
+/// Resolves once `holds` resolves to true.
+export async function eventually(what, holds, milliseconds = 20_000) {
+  for (const end = Date.now() + milliseconds; Date.now() < end; ) {
+    if (await holds()) return;
+    await new Promise((resolve) => setTimeout(resolve, 50));
+  }
+  assert.fail(`never: ${what}`);
+}

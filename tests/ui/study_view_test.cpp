@@ -1,0 +1,186 @@
+// study --view: the page is told every row as it finishes, the results are the same bytes as
+// without, and the program stays until it is told to go.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+
+#include "output/text/json_reader.h"
+#include "tests/support/child_process.h"
+#include "tests/support/command.h"
+#include "tests/support/window_client.h"
+
+namespace hookpoint {
+namespace {
+
+using testing::ChildProcess;
+using testing::WindowClient;
+using testing::Workplace;
+using Leaves = std::map<std::string, std::string>;
+
+constexpr const char* study = R"(
+Study watched {
+  scene = "scenes/sloped_block.hook";
+  title = "Watched";
+  duration = 0.2 s;
+  settle = 0.1 s;
+  Sweep slope { values = 10 deg, 20 deg; }
+  Sweep dt { values = 1 ms, 2 ms; }
+  Measure creep_speed;
+  Measure step_time;
+  Subject hook { engine = dts; contact = hookpoint; }
+  Subject impulse { engine = dts; contact = impulse; }
+  Truth creep_speed { below = 1 m/s; }
+  Plot by_slope { x = slope; y = creep_speed; }
+}
+)";
+
+/// The whole first line of standard output: none before it is there.
+std::string first_line(const std::string& out) {
+  const std::size_t end = out.find('\n');
+  return end == std::string::npos ? "" : out.substr(0, end);
+}
+
+/// What a page has been told of the only study of a file, from description on.
+struct Told {
+  Leaves description;
+  std::set<std::string> finished;  ///< rows
+  Leaves figure;                   ///< the latest
+  std::string done, total, report;
+};
+
+/// Listens until the study is done.
+Told listen(WindowClient& client) {
+  Told told;
+  while (told.report.empty()) {
+    const auto message = client.hear();
+    if (!message) return told;
+    const auto leaves = output::json_leaves(*message);
+    EXPECT_TRUE(leaves) << *message;
+    if (!leaves) return told;
+    Leaves read(leaves->begin(), leaves->end());
+    const std::string kind = read["tell"];
+    if (kind == "row" && !read["outcome"].empty()) told.finished.insert(read["row"]);
+    if (kind == "progress") told.done = read["done"], told.total = read["total"];
+    if (kind == "state") told.report = read["report"];
+    if (kind == "figure") told.figure = read;
+    if (kind != "description") continue;
+    for (int row = 0; row < 8; ++row) {
+      const std::string start = "studies[0].rows[" + std::to_string(row) + "].outcome";
+      if (!read[start].empty()) told.finished.insert(std::to_string(row));
+    }
+    told.done = read["studies[0].progress.done"];
+    told.total = read["studies[0].progress.total"];
+    told.report = read["studies[0].report"];
+    told.description = std::move(read);
+  }
+  return told;
+}
+
+class StudyView : public ::testing::Test {
+ protected:
+  StudyView() { work_.file("watched.hook", study); }
+
+  /// The words of `hookpoint study --view` into `out`.
+  static std::vector<std::string> words(const std::string& out) {
+    return {"study", "watched.hook", "--jobs", "2", "--out", out, "--view", "--no-open"};
+  }
+  static std::string wait_for_url(ChildProcess& process) {
+    process.wait_until([&] { return !first_line(process.out()).empty(); });
+    return first_line(process.out());
+  }
+
+  Workplace work_;
+};
+
+TEST_F(StudyView, APageHearsOfEveryRowAndTheBytesAreThoseOfAStudyUnseen) {
+  ASSERT_EQ(work_.hookpoint("study watched.hook --jobs 2 --out unseen").status, 0);
+  ChildProcess process(work_.folder(), words("seen"));
+  const std::string url = wait_for_url(process);
+  WindowClient client(url);
+  ASSERT_TRUE(client.connected()) << url << process.err();
+  const Told told = listen(client);
+  EXPECT_EQ(told.finished, (std::set<std::string>{"0", "1", "2", "3", "4", "5", "6", "7"}));
+  EXPECT_EQ(told.report, "seen/report.html");
+  // Eight rows, and each again alone for its timing.
+  EXPECT_EQ(told.done + " of " + told.total, "16 of 16");
+  EXPECT_EQ(told.description.at("kind"), "study");
+  EXPECT_EQ(told.description.at("title"), "watched.hook");
+  EXPECT_EQ(told.description.at("studies[0].title"), "Watched");
+  EXPECT_EQ(told.description.at("studies[0].columns[1].unit"), "ms");
+  EXPECT_EQ(told.description.at("studies[0].rows[7].varied[0]"), "20");
+
+  // Who joins later is told the same.
+  WindowClient late(url);
+  ASSERT_TRUE(late.connected());
+  const Told again = listen(late);
+  EXPECT_EQ(again.finished, told.finished);
+  EXPECT_EQ(again.description.at("studies[0].rows[0].cells[0][2]"), "true");
+  EXPECT_NE(again.description.at("studies[0].rows[0].cells[1][0]"), "null");
+  const std::string figure = "studies[0].figures[0].";
+  EXPECT_EQ(again.description.at(figure + "panels[0].series[0].label"), "hook");
+  EXPECT_EQ(again.description.at(figure + "panels[0].series[1].measured.x[1]"), "20");
+
+  process.signal(SIGTERM);
+  EXPECT_EQ(process.wait(), 0) << process.err();
+  EXPECT_EQ(process.out(), url + "\n");
+  EXPECT_FALSE(work_.read("seen/results.csv").empty());
+  EXPECT_EQ(work_.read("seen/results.csv"), work_.read("unseen/results.csv"));
+  EXPECT_EQ(work_.read("seen/by_slope.csv"), work_.read("unseen/by_slope.csv"));
+}
+
+TEST_F(StudyView, TheExitStatusIsTheStudysAndQuitEndsIt) {
+  std::string failing = study;
+  failing.replace(failing.find("below = 1 m/s"), 13, "above = 1 m/s");
+  work_.file("watched.hook", failing);
+  ChildProcess process(work_.folder(), words("out"));
+  WindowClient client(wait_for_url(process));
+  ASSERT_TRUE(client.connected()) << process.err();
+  EXPECT_EQ(listen(client).report, "out/report.html");
+  client.say(R"({"id": 5, "do": "quit"})");
+  EXPECT_EQ(process.wait(), 1) << process.err();
+}
+
+TEST_F(StudyView, WhatIsNoRequestIsAnsweredByItsReason) {
+  ChildProcess process(work_.folder(), words("out"));
+  WindowClient client(wait_for_url(process));
+  ASSERT_TRUE(client.connected()) << process.err();
+  listen(client);
+  for (const auto& [request, reason] : std::map<std::string, std::string>{
+           {"{", "not JSON"},
+           {R"({"id": 1, "do": "pause"})", "`open`"},
+           {R"({"id": 2, "do": "open", "study": 0, "row": 8})", "`row`"}}) {
+    client.say(request);
+    const auto answer = client.hear();
+    ASSERT_TRUE(answer) << request;
+    EXPECT_NE(answer->find("\"error\""), std::string::npos) << *answer;
+    EXPECT_NE(answer->find(reason), std::string::npos) << *answer;
+  }
+}
+
+TEST_F(StudyView, QuitInTheMidstIsAnInterruptThatMayBeResumed) {
+  std::string longer = study;
+  longer.replace(longer.find("duration = 0.2 s"), 16, "duration = 500 s");
+  work_.file("watched.hook", longer);
+  ChildProcess process(work_.folder(), words("out"));
+  WindowClient client(wait_for_url(process));
+  ASSERT_TRUE(client.connected()) << process.err();
+  ASSERT_TRUE(client.hear());
+  client.say(R"({"id": 5, "do": "quit"})");
+  EXPECT_EQ(process.wait(), 130) << process.err();
+  EXPECT_NE(process.err().find("interrupted"), std::string::npos) << process.err();
+}
+
+TEST_F(StudyView, APortThatIsTakenIsToldWithWhatToDo) {
+  ChildProcess first(work_.folder(), words("first"));
+  const std::string url = wait_for_url(first);
+  const std::string port = url.substr(17, url.find('/', 17) - 17);
+  const auto second =
+      work_.hookpoint("study watched.hook --view --no-open --out second --port " + port);
+  EXPECT_EQ(second.status, 2);
+  EXPECT_EQ(second.out, "");
+  EXPECT_NE(second.err.find("--port 0"), std::string::npos) << second.err;
+}
+
+}  // namespace
+}  // namespace hookpoint

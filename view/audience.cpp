@@ -1,0 +1,215 @@
+#include "view/audience.h"
+
+#include <algorithm>
+#include <limits>
+#include <set>
+#include <utility>
+
+#include "simulation/wiring/port_search.h"
+#include "simulation/wiring/ports.h"
+
+namespace hookpoint::view {
+namespace {
+
+using output::JsonWriter;
+using simulation::Port;
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+JsonWriter begin_answer(std::int64_t id) {
+  JsonWriter json;
+  json.begin_object().member("id", id).member("ok", true);
+  return json;
+}
+
+std::string notice_text(std::string_view level, const std::string& text) {
+  JsonWriter json;
+  json.begin_object().member("tell", "notice").member("level", level).member("text", text);
+  return json.end_object().text();
+}
+
+}  // namespace
+
+void Audience::show(std::string description, const simulation::Experiment& experiment,
+                    std::vector<Port> ports, std::vector<std::string> always) {
+  description_ = std::move(description);
+  experiment_ = &experiment;
+  ports_ = std::move(ports);
+  always_ = std::move(always);
+  server_.broadcast(description_);
+  lay_out();
+}
+
+std::vector<Asked> Audience::take_requests() {
+  using Kind = Server::Event::Kind;
+  std::vector<Asked> requests;
+  for (Server::Event& event : server_.take_events()) {
+    if (event.kind == Kind::joined) {
+      ++joined_;
+      wishes_[event.client];
+      server_.send(event.client, description_);
+      server_.send(event.client, layout_text());
+      continue;
+    }
+    if (event.kind == Kind::left) {
+      wishes_.erase(event.client);
+      lay_out();
+      continue;
+    }
+    Request request = parse_request(event.text);
+    if (!request.command) {
+      refuse(event.client, request.id, request.problem);
+      continue;
+    }
+    std::visit(
+        [&](auto& command) {
+          if constexpr (requires { answer_own(event.client, *request.id, command); })
+            answer_own(event.client, *request.id, command);
+          else
+            requests.push_back({event.client, *request.id, std::move(command)});
+        },
+        *request.command);
+  }
+  return requests;
+}
+
+void Audience::answer(const Asked& asked, const std::function<void(JsonWriter&)>& members) {
+  JsonWriter json = begin_answer(asked.id);
+  members(json);
+  server_.send(asked.client, json.end_object().text());
+}
+
+void Audience::refuse(const Asked& asked, const std::string& problem) {
+  refuse(asked.client, asked.id, problem);
+}
+
+void Audience::refuse(Server::ClientId client, std::optional<std::int64_t> id,
+                      const std::string& problem) {
+  JsonWriter json;
+  json.begin_object();
+  if (id) json.member("id", *id);
+  server_.send(client, json.member("error", problem).end_object().text());
+}
+
+void Audience::answer_trace(const Asked& asked, std::string bytes) {
+  server_.send_binary(asked.client, std::move(bytes));
+}
+
+void Audience::answer_own(Server::ClientId client, std::int64_t id, const ReadPorts& asked) {
+  std::vector<Port> found;
+  for (const std::string& trail : asked.trails) {
+    auto port = find(trail);
+    if (!port) return refuse(client, id, "there is no port `" + trail + "`");
+    found.push_back(std::move(*port));
+  }
+  JsonWriter json = begin_answer(id);
+  json.key("values").begin_array();
+  for (std::size_t i = 0; i < found.size(); ++i)
+    json.begin_object()
+        .member("trail", asked.trails[i])
+        .member("value", *found[i].value)
+        .member("unit", found[i].unit)
+        .end_object();
+  server_.send(client, json.end_array().end_object().text());
+}
+
+void Audience::answer_own(Server::ClientId client, std::int64_t id, const ListPorts& asked) {
+  const std::string world = experiment_->world + ".";
+  JsonWriter json = begin_answer(id);
+  json.key("ports").begin_array();
+  std::set<std::string_view> listed;
+  for (const Port& port : ports_) {
+    const std::string_view trail = port.trail;
+    // A value that the engine computes hides the one that the file gave it.
+    if (!listed.insert(trail).second) continue;
+    const bool inside = trail.starts_with(world);
+    if (!simulation::glob_fits(asked.pattern, trail) &&
+        !(inside && simulation::glob_fits(asked.pattern, trail.substr(world.size()))))
+      continue;
+    json.begin_object()
+        .member("trail", port.trail)
+        .member("unit", port.unit)
+        .member("writable", port.writable != nullptr)
+        .member("minimum", port.minimum)
+        .member("maximum", port.maximum)
+        .member("doc", port.doc)
+        .end_object();
+  }
+  server_.send(client, json.end_array().end_object().text());
+}
+
+void Audience::answer_own(Server::ClientId client, std::int64_t id, const WatchPorts& asked) {
+  std::vector<std::string>& wish = wishes_[client];
+  JsonWriter json = begin_answer(id);
+  server_.send(client, json.end_object().text());
+  if (wish == asked.trails) return;
+  wish = asked.trails;
+  lay_out();
+}
+
+std::optional<Port> Audience::find(const std::string& trail) const {
+  auto port = simulation::look_up_port(*experiment_, ports_, trail);
+  if (port && port->lazy != nullptr) port->lazy->begin();
+  return port;
+}
+
+void Audience::lay_out() {
+  std::vector<std::string> trails = always_;
+  for (const auto& [client, wish] : wishes_)
+    for (const std::string& trail : wish)
+      if (std::ranges::find(trails, trail) == trails.end()) trails.push_back(trail);
+  trails_ = std::move(trails);
+  units_.clear();
+  sources_.clear();
+  for (const std::string& trail : trails_) {
+    const auto port = find(trail);
+    units_.push_back(port ? port->unit : "");
+    sources_.push_back(port ? port->value : nullptr);
+  }
+  values_.resize(sources_.size());
+  ++layout_;
+  server_.broadcast(layout_text());
+}
+
+std::string Audience::layout_text() const {
+  JsonWriter json;
+  json.begin_object().member("tell", "layout").member("layout", layout_);
+  json.key("values").begin_array();
+  for (const std::string& trail : trails_) json.value(trail);
+  json.end_array().key("units").begin_array();
+  for (const std::string& unit : units_) json.value(unit);
+  return json.end_array().end_object().text();
+}
+
+void Audience::tell_notice(std::string_view level, const std::string& text) {
+  server_.broadcast(notice_text(level, text));
+}
+
+void Audience::tell_changed(std::int64_t step, double time, const std::string& trail,
+                            const std::string& value) {
+  JsonWriter json;
+  json.begin_object().member("tell", "changed").member("step", step).member("time", time);
+  json.member("trail", trail).member("value", value);
+  server_.broadcast(json.end_object().text());
+}
+
+void Audience::tell_progress(std::string_view work, double done) {
+  JsonWriter json;
+  json.begin_object().member("tell", "working").member("of", work).member("done", done);
+  server_.broadcast(json.end_object().text());
+}
+
+void Audience::tell_ended(const std::string& reason) {
+  JsonWriter json;
+  json.begin_object().member("tell", "ended").member("reason", reason);
+  server_.broadcast(json.end_object().text());
+}
+
+void Audience::publish(SessionState state, std::span<const SubjectState> subjects) {
+  for (std::size_t i = 0; i < sources_.size(); ++i)
+    values_[i] = sources_[i] == nullptr ? unknown : *sources_[i];
+  state.layout = layout_;
+  server_.publish(encode_snapshot(state, values_, subjects));
+}
+
+}  // namespace hookpoint::view

@@ -1,0 +1,318 @@
+#include "view/live_session.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "view/keep_picture.h"
+
+namespace hookpoint::view {
+namespace {
+
+using namespace std::chrono_literals;
+using output::JsonWriter;
+using simulation::StepStatus;
+
+constexpr auto between_snapshots = 16'667us;  // 60 a second
+/// Requests are looked for at least so often.
+constexpr auto slice = 5ms;
+constexpr auto idle = 100ms;
+
+/// What a person holds there: where a slider's value is copied to a port, that is the slider.
+std::string held_by(const simulation::Experiment& experiment, const std::string& trail) {
+  const auto copies = [&](const simulation::WireSpec& wire) {
+    return (wire.to == trail || wire.to == experiment.world + "." + trail) && !wire.rate &&
+           wire.delay == 0. && wire.noise == 0.;
+  };
+  const auto wire = std::ranges::find_if(experiment.wires, copies);
+  if (wire == experiment.wires.end() || !experiment.values) return trail;
+  const auto held =
+      std::ranges::find(*experiment.values, wire->from, &simulation::ValueSpec::trail);
+  return held != experiment.values->end() && held->writable ? wire->from : trail;
+}
+
+}  // namespace
+
+LiveSession::LiveSession(Subjects& subjects, Audience& audience, LiveSessionRequest request)
+    : subjects_(subjects), audience_(audience), request_(std::move(request)) {
+  show();
+  sample();
+}
+
+/// The run's world is another one: what is read of it is looked up anew.
+void LiveSession::show() {
+  generation_ = subjects_.run().generation();
+  Shown shown = request_.describe(subjects_);
+  for (const std::string& trail : shown.plotted) traces_.add(trail);
+  look_up_plotted();
+  files_.watch(std::move(shown.sources));
+  audience_.show(std::move(shown.description), subjects_.run().experiment(), subjects_.ports(),
+                 std::move(shown.trails));
+}
+
+void LiveSession::look_up_plotted() {
+  const std::vector<simulation::Port> ports = subjects_.ports();
+  plotted_.clear();
+  for (const std::string& trail : traces_.trails()) {
+    const auto port = simulation::look_up_port(subjects_.run().experiment(), ports, trail);
+    plotted_.push_back(port ? port->value : nullptr);
+  }
+  sample_.resize(plotted_.size());
+}
+
+bool LiveSession::run(const std::atomic<bool>& stop) {
+  const auto begun = Clock::now();
+  const auto patience = std::chrono::duration<double>(request_.patience);
+  next_snapshot_ = begun;
+  while (!stop && !quit_) {
+    for (const Asked& asked : audience_.take_requests()) carry_out(asked);
+    if (files_.written()) {
+      const std::string problem = perform(Reset{});
+      if (!problem.empty())
+        audience_.tell_notice("error",
+                              "the file was saved, but the run goes on as it was: " + problem);
+    }
+    const bool awaited = audience_.joined() == 0 && Clock::now() - begun < patience;
+    if (plays() && !awaited) advance(std::min(next_snapshot_, Clock::now() + slice));
+    if (generation_ != subjects_.run().generation()) show();
+    if (Clock::now() >= next_snapshot_) publish();
+    if (!quit_) audience_.wait(next_wake());
+  }
+  // Of a run that was changed the end is a change too: it repeats up to there.
+  if (stop && !subjects_.past() && !subjects_.run().changes().empty())
+    perform(SetPorts{{{"Simulator.quit", 1.}}});
+  if (quit_) audience_.tell_ended("Simulator.quit is true");
+  return !failed_;
+}
+
+bool LiveSession::plays() const { return !paused_ && !ended_ && subjects_.not_from_here().empty(); }
+
+LiveSession::Clock::time_point LiveSession::next_wake() const {
+  const auto now = Clock::now();
+  if (!plays()) return audience_.empty() ? now + idle : std::min(next_snapshot_, now + slice);
+  if (pace_.asked() == 0.) return now;
+  const double next = subjects_.run().world().state().time + subjects_.run().experiment().deltat;
+  return std::min({pace_.when(next), next_snapshot_, now + slice});
+}
+
+void LiveSession::advance(Clock::time_point until) {
+  const double deltat = subjects_.run().experiment().deltat;
+  for (auto now = Clock::now();; now = Clock::now()) {
+    const double time = subjects_.run().world().state().time;
+    pace_.reach(now, time);
+    if (pace_.asked() != 0. && time + 0.5 * deltat > pace_.due(now, time)) return;
+    if (now >= until || !step()) return;
+  }
+}
+
+bool LiveSession::step() {
+  simulation::LiveRun& run = subjects_.run();
+  const std::int64_t before = run.world().state().step;
+  if (request_.last_step && before >= *request_.last_step) {
+    end(fmt::format("the run has come to its end at {:.6g} s", run.world().state().time), false);
+    return false;
+  }
+  StepStatus status = subjects_.step();
+  if (status.ok() && !run.first_not_finite().empty())
+    status = simulation::stopped_by_port(run.world().state().time, run.first_not_finite());
+  if (!status.ok()) {
+    end(fmt::format("the run stopped at {:.6g} s: {}: {}", status.time, status.body, status.advice),
+        true);
+    return false;
+  }
+  if (run.take() != take_) {
+    take_ = run.take();
+    traces_.cut((static_cast<double>(before) + 0.5) * run.experiment().deltat);
+    sampled_ = before;
+  }
+  quit_ = quit_ || run.world().quit();
+  if (run.world().state().step == before) return false;
+  sample();
+  return true;
+}
+
+void LiveSession::sample() {
+  const std::int64_t step = subjects_.run().world().state().step;
+  if (step <= sampled_) return;
+  sampled_ = step;
+  const double time = subjects_.run().world().state().time;
+  for (std::size_t i = 0; i < plotted_.size(); ++i)
+    sample_[i] = plotted_[i] == nullptr ? std::numeric_limits<double>::quiet_NaN() : *plotted_[i];
+  traces_.sample(time, sample_);
+}
+
+void LiveSession::end(const std::string& reason, bool failed) {
+  ended_ = true;
+  failed_ = failed_ || failed;
+  subjects_.run().close();
+  audience_.tell_notice(failed ? "error" : "note", reason);
+}
+
+void LiveSession::publish() {
+  next_snapshot_ = std::max(next_snapshot_ + between_snapshots, Clock::now());
+  for (const std::string& notice : subjects_.take_notices()) audience_.tell_notice("note", notice);
+  tell_changes();
+  if (audience_.empty()) return;
+  const simulation::WorldState& state = subjects_.run().world().state();
+  const double deltat = subjects_.run().experiment().deltat;
+  SessionState session;
+  session.number = ++snapshots_;
+  session.step = state.step;
+  session.time = state.time;
+  session.past = subjects_.past();
+  session.paused =
+      paused_ || !subjects_.run().world().running() || !subjects_.not_from_here().empty();
+  session.ended = ended_;
+  session.failed = failed_;
+  session.speed_asked = pace_.asked();
+  session.speed_reached = plays() ? pace_.reached() : 0.;
+  session.history_first = static_cast<double>(subjects_.first_step()) * deltat;
+  session.history_last = static_cast<double>(subjects_.run().newest()) * deltat;
+  audience_.publish(session, subjects_.states());
+}
+
+void LiveSession::tell_changes() {
+  const std::vector<simulation::Change>& changes = subjects_.run().changes();
+  changes_told_ = std::min(changes_told_, changes.size());
+  for (; changes_told_ < changes.size(); ++changes_told_) {
+    const simulation::Change& change = changes[changes_told_];
+    audience_.tell_changed(change.step, change.time, change.trail, change.value);
+  }
+}
+
+void LiveSession::carry_out(const Asked& asked) {
+  std::visit(
+      [&](const auto& command) {
+        if constexpr (requires { perform(command); }) {
+          const std::string problem = perform(command);
+          problem.empty() ? audience_.answer(asked) : audience_.refuse(asked, problem);
+        } else if constexpr (requires { reply(asked, command); }) {
+          reply(asked, command);
+        } else {
+          audience_.refuse(asked, "only a page that makes a film asks for that");
+        }
+      },
+      asked.command);
+  next_snapshot_ = std::min(next_snapshot_, Clock::now());
+}
+
+std::string LiveSession::perform(const SetPorts& command) {
+  std::vector<simulation::PortValue> values;
+  const simulation::Experiment& experiment = subjects_.run().experiment();
+  for (const auto& [trail, value] : command.values)
+    values.push_back({held_by(experiment, trail), value});
+  std::string problem = subjects_.set(values);
+  quit_ = quit_ || subjects_.run().world().quit();
+  return problem;
+}
+
+std::string LiveSession::perform(const Pause& /*command*/) {
+  paused_ = true;
+  return "";
+}
+
+std::string LiveSession::perform(const Run& /*command*/) {
+  if (ended_) return "the run has ended; reset begins it anew";
+  if (std::string problem = subjects_.not_from_here(); !problem.empty()) return problem;
+  paused_ = false;
+  pace_.begin_anew();
+  if (!subjects_.run().world().running())
+    return fmt::format("{}.running is false: whatever holds it so must let go",
+                       subjects_.run().experiment().world);
+  return "";
+}
+
+std::string LiveSession::perform(const StepOn& command) {
+  if (ended_) return "the run has ended; reset begins it anew";
+  if (std::string problem = subjects_.not_from_here(); !problem.empty()) return problem;
+  paused_ = true;
+  for (std::int64_t i = 0; i < command.count && !quit_; ++i)
+    if (!step()) break;
+  return "";
+}
+
+std::string LiveSession::perform(const SetSpeed& command) {
+  pace_.ask(command.factor);
+  return "";
+}
+
+std::string LiveSession::perform(const Seek& command) {
+  const double deltat = subjects_.run().experiment().deltat;
+  paused_ = true;
+  pace_.begin_anew();
+  const double last = static_cast<double>(subjects_.run().newest());
+  return subjects_.seek(
+      static_cast<std::int64_t>(std::llround(std::clamp(command.time / deltat, 0., last))));
+}
+
+std::string LiveSession::perform(const Reset& /*command*/) {
+  if (std::string problem = subjects_.reset(); !problem.empty()) return problem;
+  ended_ = failed_ = false;
+  pace_.begin_anew();
+  traces_.clear();
+  sampled_ = -1;
+  take_ = subjects_.run().take();
+  show();
+  sample();
+  return "";
+}
+
+std::string LiveSession::perform(const EditField& command) {
+  return subjects_.edit(command.trail, command.value);
+}
+
+std::string LiveSession::perform(const Quit& /*command*/) {
+  quit_ = true;
+  return "";
+}
+
+void LiveSession::reply(const Asked& asked, const AskTrace& command) {
+  bool added = false;
+  for (const std::string& trail : command.trails) added = traces_.add(trail) || added;
+  if (added) look_up_plotted();
+  const Traces::Extract extract =
+      traces_.extract(command.trails, command.from, command.to, command.points);
+  audience_.answer_trace(asked, encode_trace(asked.id, extract.times, extract.values));
+}
+
+void LiveSession::reply(const Asked& asked, const ListFields& /*command*/) {
+  audience_.answer(asked, [&](JsonWriter& json) {
+    json.key("fields").begin_array();
+    for (const FileField& field : request_.fields())
+      json.begin_object()
+          .member("trail", field.trail)
+          .member("value", field.value)
+          .member("unit", field.unit)
+          .member("doc", field.doc)
+          .end_object();
+    json.end_array();
+  });
+}
+
+void LiveSession::reply(const Asked& asked, const ListChanges& /*command*/) {
+  audience_.answer(asked, [&](JsonWriter& json) {
+    json.key("changes").begin_array();
+    for (const simulation::Change& change : subjects_.run().changes())
+      json.begin_object()
+          .member("step", change.step)
+          .member("time", change.time)
+          .member("trail", change.trail)
+          .member("value", change.value)
+          .end_object();
+    json.end_array();
+  });
+}
+
+void LiveSession::reply(const Asked& asked, const AskPatch& /*command*/) {
+  const auto [name, text] = request_.patch(subjects_.run());
+  audience_.answer(asked,
+                   [&](JsonWriter& json) { json.member("name", name).member("text", text); });
+}
+
+void LiveSession::reply(const Asked& asked, const KeepPicture& command) {
+  keep_picture(asked, command, subjects_.run().folder(), audience_);
+}
+
+}  // namespace hookpoint::view

@@ -1,0 +1,45 @@
+// How fast simulated time is to pass, and how fast it does.
+#pragma once
+
+#include <chrono>
+#include <deque>
+#include <utility>
+
+namespace hookpoint::view {
+
+class Pace {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  /// Simulated over elapsed time; 0: as fast as possible.
+  double asked() const { return asked_; }
+  void ask(double factor) {
+    asked_ = factor;
+    begun_ = false;
+  }
+  /// The run has stood still, or been put to another moment.
+  void begin_anew() {
+    begun_ = false;
+    passed_.clear();
+  }
+
+  /// The simulated time that is due at `now`, of a run that has come to `time` [s]. One that cannot
+  /// keep up is not asked to make good what it has lost.
+  double due(Clock::time_point now, double time);
+  /// When `time` is due [s].
+  Clock::time_point when(double time) const;
+
+  /// The run has come to `time` at `now` [s].
+  void reach(Clock::time_point now, double time);
+  /// Over the last second; 0 of a run that stands.
+  double reached() const;
+
+ private:
+  double asked_ = 1.;
+  bool begun_ = false;
+  Clock::time_point start_;
+  double start_time_ = 0.;
+  std::deque<std::pair<Clock::time_point, double>> passed_;
+};
+
+}  // namespace hookpoint::view

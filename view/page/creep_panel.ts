@@ -1,0 +1,67 @@
+// Creep, made visible: each subject's displacement from its start, slip, penetration and load beside
+// what is predicted for it; which of them are drawn, and how much their displacements are exaggerated.
+import type { Context, Part } from "./context.ts";
+import { element, freshId, setText } from "./dom.ts";
+import { formatNumber } from "./numbers.ts";
+
+const columns = [
+  { name: "displacement", unit: "m" },
+  { name: "slip", unit: "m" },
+  { name: "penetration", unit: "m" },
+  { name: "load", unit: "N" },
+];
+const greatestPower = 6;
+
+export function makeCreepPanel(context: Context): Part {
+  const unwatch: (() => void)[] = [];
+  const number = (trail: string) => {
+    const cell = element("td", { class: "number" });
+    unwatch.push(context.values.watch(trail, (value) => setText(cell, formatNumber(value, 4))));
+    return cell;
+  };
+  const rows = context.description.subjects.map((subject, index) => {
+    const id = freshId();
+    const visible = element("input", { type: "checkbox", id, checked: context.visible[index] });
+    visible.checked = context.visible[index];
+    visible.addEventListener("change", () => context.setVisible(index, visible.checked));
+    const swatch = element("span", { class: "swatch", "aria-hidden": "true" });
+    swatch.style.background = subject.colour;
+    const row = element("tr", { "data-trail": `Subjects[${index}]` },
+      element("th", { scope: "row" }, element("span", {}, visible, element("label", { for: id, title: `draw ${subject.name}` }, swatch, subject.name))),
+      ...columns.flatMap((column) => {
+        const predicted = number(`Subjects[${index}].${column.name}_predicted`);
+        predicted.classList.add("quiet");
+        return [number(`Subjects[${index}].${column.name}`), predicted];
+      }));
+    unwatch.push(context.onSnapshot((snapshot) => {
+      const stopped = snapshot.subjects[index]?.fine === false;
+      row.classList.toggle("stopped", stopped);
+      row.title = stopped ? `${subject.name} has stopped` : "";
+    }));
+    return row;
+  });
+
+  const id = freshId();
+  const slider = element("input", { type: "range", id, min: 0, max: greatestPower, step: "any", value: Math.log10(context.exaggeration) });
+  const typed = element("output", { class: "number", for: id });
+  const show = (factor: number) => {
+    const text = factor >= 1000 ? factor.toExponential(1).replace("e+", "e") : Number(factor.toPrecision(2)).toString();
+    setText(typed, `\u00d7 ${text}`);
+    slider.setAttribute("aria-valuetext", `times ${text}`);
+    const power = Math.log10(factor);
+    if (Math.abs(Number(slider.value) - power) > 1e-9) slider.value = String(power);
+  };
+  slider.addEventListener("input", () => context.setExaggeration(10 ** Number(slider.value)));
+  unwatch.push(context.onExaggeration(show));
+  show(context.exaggeration);
+
+  const head = element("thead", {},
+    element("tr", {}, element("th", { rowspan: 2, scope: "col" }, "subject"), ...columns.map((column) => element("th", { colspan: 2, scope: "colgroup" }, `${column.name} [${column.unit}]`))),
+    element("tr", { class: "quiet" }, ...columns.flatMap(() => [element("th", { scope: "col" }, "now"), element("th", { scope: "col" }, "predicted")])));
+  return {
+    element: element("section", { class: "window creep", role: "group", "aria-label": "creep" }, element("h2", {}, "Creep"),
+      element("div", { class: "table-frame", tabindex: 0 }, element("table", { class: "values subjects", "aria-label": "creep of each subject" }, head, element("tbody", {}, ...rows))),
+      element("div", { class: "valuator slider" }, element("label", { for: id }, "exaggeration of displacements"), typed, element("span", {}), slider)),
+    dispose: () => unwatch.forEach((each) => each()),
+  };
+}

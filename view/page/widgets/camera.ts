@@ -1,0 +1,182 @@
+// Window.grob: a camera's picture of the world. Its place is in four ports, so that sliders, wires
+// and the mouse move it alike; what it shows is chosen in a menu.
+import { attempt, type Context, type Part } from "../context.ts";
+import { download, element, freshId } from "../dom.ts";
+import { icon, iconButton } from "../icons.ts";
+import type { CameraWidget } from "../protocol.ts";
+import { CameraView } from "../scene/view.ts";
+import { switches, type Switch } from "../scene/switches.ts";
+
+const placeNames = ["zoom", "distance", "euler1", "euler2"] as const;
+const defaultWidth = 480;
+const defaultHeight = 360;
+
+const switchNames: Record<Switch, string> = {
+  shapes: "shapes",
+  terrain: "terrain",
+  edges: "edges of the terrain",
+  contact_forces: "contact forces",
+  hooks: "hooks and their stretch",
+  slip_traces: "slip traces",
+  penetration: "penetration",
+  frames: "frames",
+  centers_of_mass: "centres of mass",
+  inertia: "boxes of inertia",
+  joint_axes: "joint axes",
+  sensors: "sensors",
+  boundary_points: "boundary points",
+};
+
+/// What a camera keeps when the page is made anew, as after the file was saved.
+interface Kept {
+  place: Record<(typeof placeNames)[number], number>;
+  show: Partial<Record<Switch, boolean>>;
+  follow: number | null;
+}
+
+/// `fill`: as large as what it stands in, for a page that is only a camera.
+export function makeCamera(context: Context, widget: CameraWidget, fill = false): Part & { view: CameraView } {
+  const { description } = context;
+  const bodies = description.scene.bodies;
+  const host = element("div", { class: "camera-host" });
+  const kept = context.kept.get(widget.trail) as Kept | undefined;
+  const ownFollow = widget.follow === null ? -1 : bodies.findIndex((body) => body.trail === widget.follow);
+  const follow = kept !== undefined ? kept.follow : ownFollow < 0 ? null : ownFollow;
+  const view = new CameraView(host, description, {
+    label: widget.label || widget.trail,
+    follow: follow !== null && follow < bodies.length ? follow : null,
+    show: kept?.show ?? (widget.show as Partial<Record<Switch, boolean>>),
+    quality: context.quality,
+    ...(kept === undefined ? {} : { camera: kept.place }),
+  });
+  view.canvas.dataset.trail = widget.trail;
+  view.exaggeration = context.exaggeration;
+  context.visible.forEach((visible, index) => view.setSubjectVisible(index, visible));
+  view.select(context.selected);
+  let followed = follow;
+  const keep = () => context.kept.set(widget.trail, { place: view.cameraValues, show: { ...view.show }, follow: followed } satisfies Kept);
+
+  // Its ports, where it has any: one that the page shows of its own has none.
+  const ports = widget.ports;
+  const wired = placeNames.every((name) => ports[name]);
+  // A movie's ports stay as they were: once somebody has moved the camera, its place is the page's.
+  const movie = description.kind === "movie";
+  let moved = movie && kept !== undefined;
+  const send = () => {
+    if (movie) moved = true;
+    if (!wired || movie) return;
+    const place = view.cameraValues;
+    for (const name of placeNames) attempt(context, context.setter.set(ports[name], place[name]));
+  };
+  view.onCameraChange = () => {
+    keep();
+    send();
+  };
+  if (kept !== undefined) send();
+  const forget = wired
+    ? placeNames.map((name) => context.values.watch(ports[name], (value) => {
+        if (!moved && value !== view.cameraValues[name]) {
+          view.setCamera({ [name]: value });
+          keep();
+        }
+      }))
+    : [];
+  // A port where the file has it, one number for all of the page: whoever changed it last counts.
+  const exaggeration = ports.exaggeration;
+  let told = NaN, setAt = -Infinity;
+  if (exaggeration) {
+    forget.push(context.values.watch(exaggeration, (value) => {
+      told = value;
+      const settled = performance.now() - setAt > 400;
+      if (settled && value >= 1 && value !== context.exaggeration) context.setExaggeration(value);
+    }));
+  }
+  let fitted = wired || kept !== undefined;
+  forget.push(context.onSnapshot((snapshot) => {
+    view.draw(snapshot);
+    if (fitted) return;
+    fitted = true;
+    view.setCamera({ distance: view.fittingDistance });
+  }));
+  if (context.latest !== null) view.draw(context.latest);
+  forget.push(
+    context.onTheme(() => view.repaint()),
+    context.onQuality((quality) => (view.quality = quality)),
+    context.onExaggeration((factor) => {
+      view.exaggeration = factor;
+      if (!exaggeration || movie || factor === told) return;
+      setAt = performance.now();
+      attempt(context, context.setter.set(exaggeration, factor));
+    }),
+    context.onVisible((subject, visible) => view.setSubjectVisible(subject, visible)),
+    context.onSelected((body) => view.select(body)),
+  );
+  view.onSelect = (body) => context.select(body);
+  if (!movie) forget.push(wirePull(context, view));
+  const picture = () => view.picture();
+  context.pictures.set(widget.trail, picture);
+
+  const dispose = () => {
+    forget.forEach((each) => each());
+    if (context.pictures.get(widget.trail) === picture) context.pictures.delete(widget.trail);
+    view.dispose();
+  };
+  if (fill) return { element: host, dispose, view };
+
+  const followChoice = element("select", { "aria-label": "follow a body" }, element("option", { value: -1 }, "follows no body"),
+    ...bodies.map((body, index) => element("option", { value: index, selected: index === follow }, `follows ${body.trail}`)));
+  followChoice.addEventListener("change", () => {
+    followed = Number(followChoice.value) < 0 ? null : Number(followChoice.value);
+    view.setFollow(followed);
+    keep();
+  });
+  const menu = element("details", { class: "menu" }, element("summary", { title: "what the camera shows", "aria-label": "what the camera shows" }, icon("more")),
+    element("div", { class: "menu-body" }, ...switches.map((name) => {
+      const id = freshId();
+      const box = element("input", { type: "checkbox", id });
+      box.checked = view.show[name];
+      box.addEventListener("change", () => {
+        view.show[name] = box.checked;
+        keep();
+      });
+      return element("div", {}, box, element("label", { for: id }, switchNames[name]));
+    }), followChoice));
+  const take = iconButton("picture", "save this picture", () => attempt(context, (async () => {
+    download(`${widget.trail.replace(/[^\w.-]+/g, "_")}.png`, await view.picture());
+  })()));
+  const frame = element("figure", { class: "camera" },
+    element("figcaption", {}, element("span", { class: "name" }, widget.label), take, menu), host);
+  frame.style.width = `${widget.width ?? defaultWidth}px`;
+  host.style.height = `${widget.height ?? defaultHeight}px`;
+  return { element: frame, dispose, view };
+}
+
+/// A drag with control is a spring between a point of a body and the pointer.
+function wirePull(context: Context, view: CameraView): () => void {
+  const pull = "Simulator.pull";
+  const set = (values: Record<string, number>) => {
+    for (const [name, value] of Object.entries(values)) attempt(context, context.setter.set(`${pull}.${name}`, value));
+  };
+  const target = ([x, y, z]: number[]) => ({ "target.x": x, "target.y": y, "target.z": z });
+  let unwatch: (() => void)[] = [];
+  const force = [NaN, NaN, NaN];
+  view.onPullStart = (body, [x, y, z], to) => {
+    set({ stiffness: context.description.pull.stiffness, damping: context.description.pull.damping,
+      "point.x": x, "point.y": y, "point.z": z, ...target(to), body });
+    unwatch = ["x", "y", "z"].map((axis, i) => context.values.watch(`${pull}.force.${axis}`, (value) => {
+      force[i] = value;
+      const size = Math.hypot(...force);
+      view.pullForce = Number.isNaN(size) ? null : size;
+    }));
+  };
+  view.onPullMove = (to) => set(target(to));
+  const end = () => {
+    unwatch.forEach((each) => each());
+    unwatch = [];
+  };
+  view.onPullEnd = () => {
+    set({ body: -1 });
+    end();
+  };
+  return end;
+}

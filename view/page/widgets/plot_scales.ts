@@ -1,0 +1,63 @@
+// What plots need besides uPlot: ranges that follow the data, numbers on axes, and lines that may
+// run back and forth.
+import uPlot from "uplot";
+import type { Range } from "../protocol.ts";
+
+/// Of the values of columns, where given only of times from `begin` to `end`; NaN are passed over.
+export function rangeOf(columns: ArrayLike<number>[], times?: ArrayLike<number>, begin = -Infinity, end = Infinity): Range {
+  let least = Infinity, greatest = -Infinity;
+  for (const column of columns)
+    for (let i = 0; i < column.length; ++i) {
+      if (times !== undefined && (times[i] < begin || times[i] > end)) continue;
+      if (column[i] < least) least = column[i];
+      if (column[i] > greatest) greatest = column[i];
+    }
+  return least <= greatest ? [least, greatest] : [0, 1];
+}
+
+/// A little air around; around a single value as much as it takes to see that it does not move.
+export function padded([least, greatest]: Range): Range {
+  const size = Math.max(Math.abs(least), Math.abs(greatest));
+  const span = greatest - least > 1e-12 * size ? greatest - least : size > 0 ? 0.2 * size : 2;
+  const middle = (least + greatest) / 2;
+  return [middle - 0.54 * span, middle + 0.54 * span];
+}
+
+/// Ticks with the decimals that their distance takes, all alike; powers of ten for the very large and small.
+export function axisNumbers(ticks: (number | null)[]): string[] {
+  const known = ticks.filter((tick): tick is number => tick !== null);
+  const distance = known.length > 1 ? Math.abs(known[1] - known[0]) : Math.abs(known[0] ?? 1);
+  const size = Math.max(...known.map(Math.abs), distance);
+  const minus = (text: string) => text.replace("e+", "e").replaceAll("-", "\u2212");
+  const far = size >= 1e5 || distance < 1e-4;
+  const digits = distance > 0 && size > 0 ? Math.min(12, Math.max(0, Math.floor(Math.log10(size)) - Math.floor(Math.log10(distance) + 1e-9))) : 0;
+  const decimals = distance > 0 ? Math.min(9, Math.max(0, -Math.floor(Math.log10(distance) + 1e-9))) : 0;
+  return ticks.map((tick) => {
+    if (tick === null) return "";
+    if (Math.abs(tick) < 1e-9 * distance) return "0";
+    return minus(far ? tick.toExponential(digits) : tick.toFixed(decimals));
+  });
+}
+
+/// The line of a phase plot: uPlot's own lines take it that x only rises.
+export const phasePath: uPlot.Series.PathBuilder = (plot, seriesIndex) => {
+  const stroke = new Path2D();
+  uPlot.orient(plot, seriesIndex, (_series, dataX, dataY, scaleX, scaleY, valToPosX, valToPosY, left, top, width, height) => {
+    let gap = true;
+    for (let i = 0; i < dataX.length; ++i) {
+      const x = dataX[i], y = dataY[i];
+      if (x === null || y === null || x === undefined || y === undefined || Number.isNaN(x) || Number.isNaN(y)) {
+        gap = true;
+        continue;
+      }
+      const atX = valToPosX(x, scaleX, width, left), atY = valToPosY(y, scaleY, height, top);
+      if (gap) stroke.moveTo(atX, atY);
+      else stroke.lineTo(atX, atY);
+      gap = false;
+    }
+    return null;
+  });
+  const clip = new Path2D();
+  clip.rect(plot.bbox.left, plot.bbox.top, plot.bbox.width, plot.bbox.height);
+  return { stroke, fill: null, clip, band: null, flags: 0 };
+};

@@ -1,0 +1,203 @@
+#include "view/scene.h"
+
+#include <algorithm>
+
+#include "simulation/names.h"
+#include "simulation/robot_tree.h"
+
+namespace hookpoint::view {
+namespace {
+
+using simulation::ComponentSpec;
+using simulation::Experiment;
+
+// Data.
+
+SceneBody scene_body(const simulation::BodySpec& body, int robot, std::string trail) {
+  SceneBody made;
+  made.trail = std::move(trail);
+  made.robot = robot;
+  made.mass = body.mass;
+  made.shapes = body.shapes;
+  made.points = body.boundary_points;
+  return made;
+}
+
+std::vector<SceneBody> bodies_of(const Experiment& experiment) {
+  const std::vector<std::string> trails = simulation::body_trails(experiment);
+  std::vector<SceneBody> bodies;
+  const auto add = [&](const simulation::BodySpec& body, std::size_t robot) -> SceneBody& {
+    std::string trail = experiment.world + "." + trails[bodies.size()];
+    bodies.push_back(scene_body(body, static_cast<int>(robot), std::move(trail)));
+    return bodies.back();
+  };
+  for (std::size_t robot = 0; robot < experiment.robots.size(); ++robot) {
+    const std::size_t first = bodies.size();
+    add(experiment.robots[robot].base, robot);
+    simulation::for_each_link(experiment.robots[robot], [&](const simulation::TreeLink& at) {
+      SceneBody& body = add(at.link.body, robot);
+      body.parent = static_cast<int>(first + at.parent);
+      body.joint = at.link.joint;
+    });
+    const simulation::RobotSpec& spec = experiment.robots[robot];
+    const simulation::Pose base{spec.location, spec.orientation};
+    const std::vector<simulation::Pose> poses = simulation::body_poses(spec);
+    for (std::size_t i = 0; i < poses.size(); ++i) bodies[first + i].start = base * poses[i];
+  }
+  return bodies;
+}
+
+/// Index of the body at `trail`, or in which it is a port; -1 if none.
+int body_at(const std::vector<SceneBody>& bodies, const std::string& trail) {
+  const auto found = std::ranges::find_if(bodies, [&](const SceneBody& body) {
+    return trail == body.trail || trail.starts_with(body.trail + ".");
+  });
+  return found == bodies.end() ? -1 : static_cast<int>(found - bodies.begin());
+}
+
+int body_of(const ComponentSpec& sensor, const Experiment& experiment,
+            const std::vector<SceneBody>& bodies) {
+  if (const int body = body_at(bodies, sensor.attached); body >= 0) return body;
+  for (const simulation::WireSpec& wire : experiment.wires) {
+    if (!wire.to.starts_with(sensor.trail + ".")) continue;
+    if (const int body = body_at(bodies, wire.from); body >= 0) return body;
+  }
+  return -1;
+}
+
+std::vector<SceneSensor> sensors_of(const Experiment& experiment,
+                                    const std::vector<SceneBody>& bodies) {
+  std::vector<SceneSensor> sensors;
+  for (const ComponentSpec& component : experiment.components) {
+    if (!component.type.starts_with("Sensor.")) continue;
+    const int body = body_of(component, experiment, bodies);
+    if (body >= 0) sensors.push_back({component.trail, component.type, body, {}});
+  }
+  return sensors;
+}
+
+// JSON.
+
+class SceneWriter {
+ public:
+  explicit SceneWriter(output::JsonWriter& json) : json_(json) {}
+
+  void operator()(const Scene& scene) {
+    json_.begin_object();
+    json_.key("bodies").begin_array();
+    for (const SceneBody& body : scene.bodies) (*this)(body);
+    json_.end_array();
+    json_.key("terrain");
+    if (scene.terrain) {
+      (*this)(*scene.terrain);
+    } else {
+      json_.null();
+    }
+    json_.key("materials").begin_array();
+    for (const std::string& material : scene.materials) json_.value(material);
+    json_.end_array();
+    vector("gravity", scene.gravity);
+    json_.key("sensors").begin_array();
+    for (const SceneSensor& sensor : scene.sensors) (*this)(sensor);
+    json_.end_array();
+    json_.end_object();
+  }
+
+  void operator()(const SceneBody& body) {
+    json_.begin_object().member("trail", body.trail).member("robot", body.robot);
+    json_.member("parent", body.parent).member("mass", body.mass.mass);
+    vector("center_of_mass", body.mass.center_of_mass);
+    const Symmetric3d& I = body.mass.inertia;
+    json_.key("inertia").numbers({I.xx, I.yy, I.zz, I.xy, I.xz, I.yz});
+    json_.key("joint");
+    if (body.joint) {
+      json_.value(simulation::joint_types[static_cast<std::size_t>(*body.joint)].name);
+    } else {
+      json_.null();
+    }
+    json_.key("shapes").begin_array();
+    for (const simulation::ShapeSpec& shape : body.shapes) (*this)(shape);
+    json_.end_array();
+    json_.key("points").begin_array();
+    for (const Vector3d& point : body.points) json_.numbers({point.x, point.y, point.z});
+    json_.end_array();
+    const Vector3d& p = body.start.position;
+    const Quaterniond& q = body.start.orientation;
+    json_.key("start").numbers({p.x, p.y, p.z, q.w, q.x, q.y, q.z});
+    json_.end_object();
+  }
+
+  void operator()(const simulation::ShapeSpec& shape) {
+    json_.begin_object();
+    std::visit(*this, shape.geometry);
+    vector("location", shape.location);
+    const Quaterniond& q = shape.orientation;
+    json_.key("orientation").numbers({q.w, q.x, q.y, q.z});
+    json_.end_object();
+  }
+  void operator()(const simulation::Box& box) {
+    json_.member("kind", "box");
+    vector("dimensions", box.dimensions);
+  }
+  void operator()(const simulation::Sphere& sphere) {
+    json_.member("kind", "sphere").member("radius", sphere.radius);
+  }
+  void operator()(const simulation::Cylinder& cylinder) {
+    json_.member("kind", "cylinder").member("radius", cylinder.radius);
+    json_.member("length", cylinder.length);
+  }
+  void operator()(const simulation::Legcone& cone) {
+    json_.member("kind", "legcone").member("length", cone.length);
+    json_.member("proximal_radius", cone.proximal_radius);
+    json_.member("distal_radius", cone.distal_radius);
+  }
+
+  void operator()(const simulation::GroundTiles& ground) {
+    std::vector<double> numbers;
+    for (const Vector3d& vertex : ground.vertices)
+      numbers.insert(numbers.end(), {vertex.x, vertex.y, vertex.z});
+    json_.begin_object().key("vertices").numbers(numbers);
+    json_.key("tiles").begin_array();
+    for (const simulation::GroundTiles::Tile& tile : ground.tiles) {
+      numbers.assign(1, tile.material);
+      numbers.insert(numbers.end(), tile.corners.begin(), tile.corners.begin() + tile.corner_count);
+      json_.numbers(numbers);
+    }
+    json_.end_array().end_object();
+  }
+
+  void operator()(const SceneSensor& sensor) {
+    json_.begin_object().member("trail", sensor.trail).member("type", sensor.type);
+    json_.member("body", sensor.body);
+    vector("location", sensor.location);
+    json_.end_object();
+  }
+
+ private:
+  void vector(const char* name, const Vector3d& v) { json_.key(name).numbers({v.x, v.y, v.z}); }
+
+  output::JsonWriter& json_;
+};
+
+}  // namespace
+
+Scene make_scene(const Experiment& experiment) {
+  Scene scene;
+  scene.bodies = bodies_of(experiment);
+  if (experiment.terrain) scene.terrain = simulation::visible_ground(experiment);
+  for (const simulation::MaterialSpec& material : experiment.materials)
+    scene.materials.push_back(material.name);
+  scene.gravity = experiment.gravity;
+  scene.sensors = sensors_of(experiment, scene.bodies);
+  return scene;
+}
+
+void write_scene(const Scene& scene, output::JsonWriter& json) { SceneWriter{json}(scene); }
+
+std::string to_json(const Scene& scene) {
+  output::JsonWriter json;
+  write_scene(scene, json);
+  return json.text();
+}
+
+}  // namespace hookpoint::view
