@@ -26,7 +26,7 @@ bool can_be_run(const std::filesystem::path& file) {
   return std::filesystem::is_regular_file(file, ignored) && ::access(file.c_str(), X_OK) == 0;
 }
 
-std::filesystem::path fresh_folder() {
+std::filesystem::path fresh_profile() {
   std::string pattern =
       (std::filesystem::temp_directory_path() / "hookpoint-browser-XXXXXX").string();
   if (mkdtemp(pattern.data()) == nullptr)
@@ -123,7 +123,7 @@ std::filesystem::path find_headless_browser() {
 
 HeadlessBrowser::HeadlessBrowser(const std::string& url, int width, int height) {
   const std::filesystem::path program = find_headless_browser();
-  folder_ = fresh_folder();
+  folder_ = fresh_profile();
   const int written = ::open((folder_ / "log").c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
   std::vector<std::string> words =
       arguments_for(folder_, write_opener(folder_, url), width, height);

@@ -18,8 +18,8 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 using Clock = std::chrono::steady_clock;
 
-constexpr seconds patience{60};
-constexpr milliseconds between_looks{20};
+constexpr seconds drawing_time{60};
+constexpr milliseconds between_pictures{20};
 constexpr int width = 960, height = 600;
 constexpr const char* name = "scene.png";
 
@@ -49,7 +49,7 @@ std::optional<std::string> wait_for_address(ChildProgram& viewer, Clock::time_po
     const bool running = viewer.running();
     if (auto line = viewer.take_line()) return line;
     if (!running) return std::nullopt;
-    std::this_thread::sleep_for(between_looks);
+    std::this_thread::sleep_for(between_pictures);
   }
   return std::nullopt;
 }
@@ -59,7 +59,7 @@ std::string first_line(const std::string& text) { return text.substr(0, text.fin
 /// Draws it into `folder`.
 std::string draw_into(const fs::path& folder, const PictureRequest& request,
                       const std::atomic<bool>& stop) {
-  const auto until = Clock::now() + patience;
+  const auto until = Clock::now() + drawing_time;
   std::vector<std::string> words{"view", request.scene.string(), "--no-open", "--out",
                                  (folder / "run").string()};
   for (const std::string& setting : request.settings) {
@@ -77,8 +77,8 @@ std::string draw_into(const fs::path& folder, const PictureRequest& request,
     if (auto said = browser.ended()) return "the browser ended: " + first_line(*said);
     if (!viewer.running()) return "its window has closed: " + first_line(viewer.errors());
     if (Clock::now() > until)
-      return "the browser has drawn nothing in " + std::to_string(patience.count()) + " s";
-    std::this_thread::sleep_for(between_looks);
+      return "the browser has drawn nothing in " + std::to_string(drawing_time.count()) + " s";
+    std::this_thread::sleep_for(between_pictures);
   }
   fs::create_directories(request.file.parent_path());
   fs::copy_file(drawn, request.file, fs::copy_options::overwrite_existing);

@@ -14,7 +14,7 @@ namespace {
 using output::JsonWriter;
 using simulation::Port;
 
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_port = std::numeric_limits<double>::quiet_NaN();
 
 JsonWriter begin_answer(std::int64_t id) {
   JsonWriter json;
@@ -207,7 +207,7 @@ void Audience::tell_ended(const std::string& reason) {
 
 void Audience::publish(SessionState state, std::span<const SubjectState> subjects) {
   for (std::size_t i = 0; i < sources_.size(); ++i)
-    values_[i] = sources_[i] == nullptr ? unknown : *sources_[i];
+    values_[i] = sources_[i] == nullptr ? no_port : *sources_[i];
   state.layout = layout_;
   server_.publish(encode_snapshot(state, values_, subjects));
 }

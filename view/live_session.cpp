@@ -306,9 +306,10 @@ void LiveSession::reply(const Asked& asked, const ListChanges& /*command*/) {
 }
 
 void LiveSession::reply(const Asked& asked, const AskPatch& /*command*/) {
-  const auto [name, text] = request_.patch(subjects_.run());
-  audience_.answer(asked,
-                   [&](JsonWriter& json) { json.member("name", name).member("text", text); });
+  const std::pair<std::string, std::string> file = request_.patch(subjects_.run());
+  audience_.answer(asked, [&](JsonWriter& json) {
+    json.member("name", file.first).member("text", file.second);
+  });
 }
 
 void LiveSession::reply(const Asked& asked, const KeepPicture& command) {

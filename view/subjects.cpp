@@ -13,8 +13,9 @@ using simulation::LiveRun;
 using simulation::Port;
 using simulation::StepStatus;
 
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-constexpr Reading nothing{unknown, unknown, unknown, unknown, unknown, unknown, unknown, unknown};
+constexpr double not_measured = std::numeric_limits<double>::quiet_NaN();
+constexpr Reading nothing{not_measured, not_measured, not_measured, not_measured,
+                          not_measured, not_measured, not_measured, not_measured};
 
 struct Measured {
   const char* name;

@@ -347,10 +347,10 @@ std::vector<std::string> LiveRun::overrides_at(std::size_t changes) const {
   std::vector<std::string> overrides;
   for (const std::size_t edit : edits_) {
     if (edit >= changes) break;
-    const auto& [step, time, trail, value] = log_.changes()[edit];
+    const Change& change = log_.changes()[edit];
     std::erase_if(overrides,
-                  [&](const std::string& text) { return text.starts_with(trail + "="); });
-    overrides.push_back(trail + "=" + value);
+                  [&](const std::string& text) { return text.starts_with(change.trail + "="); });
+    overrides.push_back(change.trail + "=" + change.value);
   }
   return overrides;
 }
