@@ -91,7 +91,8 @@ TEST(Folder, EveryFileIsTiedToItsExperiment) {
   }
   EXPECT_EQ(manifest->files.size(), 7u);
   EXPECT_NE(work.read("a/t.record.csv").find("hash," + manifest->experiment), std::string::npos);
-  EXPECT_NE(work.hookpoint("replay a/film.h5 --about").out.find(manifest->experiment), std::string::npos);
+  EXPECT_NE(work.hookpoint("replay a/film.h5 --about").out.find(manifest->experiment),
+            std::string::npos);
   ASSERT_EQ(manifest->inputs.size(), 1u);
   EXPECT_EQ(manifest->inputs[0].path, (work.folder() / "run.hook").string());
   EXPECT_EQ(manifest->inputs[0].hash, output::hash_of_file(work.folder() / "run.hook"));
