@@ -190,6 +190,10 @@ export class CameraView {
     }
     if (different) this.changed();
   }
+  /// Its place is a person's for a moment: older values of its ports do not move it.
+  hold(): void {
+    this.changedAt = performance.now();
+  }
   get cameraValues(): CameraValues {
     return { ...this.values };
   }
