@@ -49,7 +49,7 @@ export function makeCreepPanel(context: Context): Part {
   const slider = element("input", { type: "range", id, min: 0, max: greatestPower, step: "any", value: Math.log10(context.exaggeration) });
   const typed = element("output", { class: "number", for: id });
   const show = (factor: number) => {
-    const text = factor >= 1000 ? factor.toExponential(1).replace("e+", "e") : Number(factor.toPrecision(2)).toString();
+    const text = String(Number(factor.toPrecision(3)));
     setText(typed, `\u00d7 ${text}`);
     slider.setAttribute("aria-valuetext", `times ${text}`);
     const power = Math.log10(factor);

@@ -89,12 +89,12 @@ export function makePlot(context: Context, widget: PlotWidget, look?: PlotLook):
     const ink = () => colour ?? styleValue("--quiet");
     return {
       scale, side, label, labelSize: 16, labelGap: 0, labelFont: "11px system-ui, sans-serif", font: "11px system-ui, sans-serif",
-      size: scale === "x" ? 26 : 54, gap: 3, stroke: ink,
+      size: scale === "x" ? 26 : 54, space: scale === "x" ? 50 : 20, gap: 3, stroke: ink,
       grid: { show: side !== 1, stroke: () => styleValue("--rule"), width: 1 },
       ticks: { show: true, size: 4, stroke: () => styleValue("--rule"), width: 1 },
       ...(look === undefined || scale === "x"
         ? { values: (_: uPlot, ticks: number[]) => axisNumbers(ticks) }
-        : { splits: (_: uPlot, _index: number, least: number, greatest: number) => decadesWithin(least, greatest, look.even),
+        : { filter: (_: uPlot, ticks: number[]) => ticks, splits: (_: uPlot, _index: number, least: number, greatest: number) => decadesWithin(least, greatest, look.even),
             values: (_: uPlot, ticks: number[]) => ticks.map(decadeName) }),
     };
   }

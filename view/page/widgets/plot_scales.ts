@@ -31,9 +31,9 @@ export function paddedByDecades([least, greatest]: Range, even: number): Range {
   return [even * Math.sinh(begin - air), even * Math.sinh(end + air)];
 }
 
-/// 0, and the powers of ten from `even` on, of both signs: at most about eight.
+/// 0, and the powers of ten above `even`, of both signs: at most about eight.
 export function decadesWithin(least: number, greatest: number, even: number): number[] {
-  const first = Math.round(Math.log10(even));
+  const first = Math.round(Math.log10(even)) + 1;
   const last = Math.floor(Math.log10(Math.max(-least, greatest, even)) + 1e-9);
   const every = Math.max(1, Math.ceil((last - first + 1) / 4));
   const ticks = [0];
