@@ -9,7 +9,7 @@ import { configs, eventually, openBrowser, openPage, serve, time, workFolder } f
 
 export const width = 1280, leastHeight = 500, mostHeight = 1800;
 
-/// `set`: what is moved at the beginning; `time`: of the picture [s]; `deltat`: of the file [s]; `exaggeration`: of displacements;
+/// `set`: what is moved at the beginning; `time`: of the picture [s]; `deltat`: of the file [s];
 /// `needs`: an engine.
 export const pictures = {
   window_hexapod: { file: "paper/fig1a_hexapod.hook", time: 3, deltat: 0.0004 },
@@ -20,7 +20,7 @@ export const pictures = {
       "controllers.goal_angle#2.value": 0.6, "controllers.pconstant#2.value": 400, "controllers.dconstant#2.value": 20,
     },
   },
-  window_creep: { file: "views/creep_side_by_side.hook", time: 5, deltat: 0.001, set: { "distance.value": 3 }, exaggeration: 1000, needs: "mujoco" },
+  window_creep: { file: "views/creep_side_by_side.hook", time: 10, deltat: 0.001, needs: "mujoco" },
   window_study: { file: "studies/creep.hook", study: true },
 };
 
@@ -45,13 +45,6 @@ async function openRun(test, browser, file, folder, options, picture) {
     ...(picture.set === undefined ? [] : [["set", { values: picture.set }]]), ["step", { count: steps }]]);
   const reached = await time(page);
   assert.ok(Math.abs(reached - picture.time) < picture.deltat / 2, `it stopped at ${reached} s`);
-  if (picture.exaggeration !== undefined) {
-    // Not by `fill`, which scrolls to it and leaves a frame around it.
-    await page.getByLabel("exaggeration of displacements").evaluate((slider, factor) => {
-      slider.value = Math.log10(factor);
-      slider.dispatchEvent(new Event("input"));
-    }, picture.exaggeration);
-  }
   await fit(page);
   return page;
 }

@@ -17,7 +17,7 @@ TEST(Ghosts, AreWhatTheFileNames) {
   EXPECT_EQ(ghosts[0].name, "mujoco");
   EXPECT_EQ(ghosts[0].label, "MuJoCo");
   EXPECT_EQ(ghosts[0].settings, (Settings{"world.engine=mujoco", "world.settings=recommended"}));
-  EXPECT_EQ(ghosts[2].settings, (Settings{"world.engine=ode", "world.settings=default"}));
+  EXPECT_EQ(ghosts[2].settings, (Settings{"world.engine=ode_quickstep", "world.settings=default"}));
   EXPECT_EQ(ghosts[3].settings, Settings{"world.contact=impulse"});
 }
 

@@ -30,8 +30,10 @@ const open = 1;
 const firstWait = 250; // ms
 const longestWait = 4000;
 
-/// The answer to a request that the program refused.
-export class Refused extends Error {}
+/// The answer to a request that the program refused. What people read of it has no name of a class, which a bundle shortens.
+export class Refused extends Error {
+  override readonly name = "Refused";
+}
 
 export class Connection {
   private socket: Socket | null = null;

@@ -25,6 +25,8 @@ export interface Context {
   onTheme(listener: () => void): () => void;
   /// How far long work has come, from 0 to 1.
   onProgress(listener: (work: string, done: number) => void): () => void;
+  /// Tells when the page has the run begin anew: what a person arranged stays arranged.
+  resets: Listeners<[]>;
   notice(level: "note" | "warning" | "error", text: string): void;
 
   quality: Quality;

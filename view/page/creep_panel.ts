@@ -1,8 +1,11 @@
 // Creep, made visible: each subject's displacement from its start, slip, penetration and load beside
-// what is predicted for it; which of them are drawn, and how much their displacements are exaggerated.
+// what is predicted for it; which of them are drawn, how much their displacements are exaggerated,
+// and the displacements over time.
 import type { Context, Part } from "./context.ts";
 import { element, freshId, setText } from "./dom.ts";
 import { formatNumber } from "./numbers.ts";
+import type { PlotTrace } from "./protocol.ts";
+import { makePlot } from "./widgets/plot.ts";
 
 const columns = [
   { name: "displacement", unit: "m" },
@@ -11,6 +14,7 @@ const columns = [
   { name: "load", unit: "N" },
 ];
 const greatestPower = 6;
+const evenDisplacement = 1e-6; // [m]: some creep a thousand times as fast as others, and some stand
 
 export function makeCreepPanel(context: Context): Part {
   const unwatch: (() => void)[] = [];
@@ -45,7 +49,7 @@ export function makeCreepPanel(context: Context): Part {
   const slider = element("input", { type: "range", id, min: 0, max: greatestPower, step: "any", value: Math.log10(context.exaggeration) });
   const typed = element("output", { class: "number", for: id });
   const show = (factor: number) => {
-    const text = factor >= 1000 ? factor.toExponential(1).replace("e+", "e") : Number(factor.toPrecision(2)).toString();
+    const text = String(Number(factor.toPrecision(3)));
     setText(typed, `\u00d7 ${text}`);
     slider.setAttribute("aria-valuetext", `times ${text}`);
     const power = Math.log10(factor);
@@ -58,10 +62,30 @@ export function makeCreepPanel(context: Context): Part {
   const head = element("thead", {},
     element("tr", {}, element("th", { rowspan: 2, scope: "col" }, "subject"), ...columns.map((column) => element("th", { colspan: 2, scope: "colgroup" }, `${column.name} [${column.unit}]`))),
     element("tr", { class: "quiet" }, ...columns.flatMap(() => [element("th", { scope: "col" }, "now"), element("th", { scope: "col" }, "predicted")])));
+  const plot = makeDisplacements(context);
   return {
     element: element("section", { class: "window creep", role: "group", "aria-label": "creep" }, element("h2", {}, "Creep"),
-      element("div", { class: "table-frame", tabindex: 0 }, element("table", { class: "values subjects", "aria-label": "creep of each subject" }, head, element("tbody", {}, ...rows))),
-      element("div", { class: "valuator slider" }, element("label", { for: id }, "exaggeration of displacements"), typed, element("span", {}), slider)),
-    dispose: () => unwatch.forEach((each) => each()),
+      element("div", { class: "window-body" },
+        element("div", { class: "measured" },
+          element("div", { class: "table-frame", tabindex: 0 }, element("table", { class: "values subjects", "aria-label": "creep of each subject" }, head, element("tbody", {}, ...rows))),
+          element("div", { class: "valuator slider" }, element("label", { for: id }, "exaggeration of displacements"), typed, element("span", {}), slider)),
+        plot.element)),
+    dispose: () => {
+      unwatch.forEach((each) => each());
+      plot.dispose();
+    },
   };
+}
+
+/// The displacement of each subject in its colour, and dashed what is predicted for it.
+function makeDisplacements(context: Context): Part {
+  const { subjects } = context.description;
+  const traces = (ending: string): PlotTrace[] => subjects.map((subject, index) => ({ x: null, y: `Subjects[${index}].displacement${ending}`, label: subject.name, unit: "m", x_unit: "s" }));
+  return makePlot(context, {
+    type: "Plot", trail: "displacements of the subjects", label: "Displacement downhill, dashed: predicted",
+    traces: [...traces("_predicted"), ...traces("")], range: null, x_range: null, window: null, overlay: null,
+  }, {
+    lines: [...subjects.map(({ colour }) => ({ colour, dash: [6, 5] })), ...subjects.map(({ colour }) => ({ colour }))],
+    even: evenDisplacement,
+  });
 }

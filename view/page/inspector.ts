@@ -34,8 +34,8 @@ export function makeInspector(context: Context): Part {
 function numbersTable(label: string, rows: { name: string; unit: string; count: number; digits?: 0 }[]): { table: HTMLElement; show(row: number, numbers: ArrayLike<number>): void } {
   const cells = rows.map((row) => Array.from({ length: row.count }, () => element("td", { class: "number" })));
   const table = element("table", { class: "values", "aria-label": label }, element("tbody", {}, ...rows.map((row, i) =>
-    element("tr", {}, element("th", { scope: "row" }, row.name), ...cells[i], ...(row.count < 4 ? [element("td", { colspan: 4 - row.count })] : []),
-      element("td", { class: "unit" }, formatUnit(row.unit))))));
+    element("tr", {}, element("th", { scope: "row" }, row.name, " ", element("span", { class: "unit" }, formatUnit(row.unit))), ...cells[i],
+      ...(row.count < 4 ? [element("td", { colspan: 4 - row.count })] : [])))));
   return { table, show: (row, numbers) => cells[row].forEach((cell, i) => setText(cell, rows[row].digits === 0 ? String(numbers[i]) : formatNumber(numbers[i], 4))) };
 }
 

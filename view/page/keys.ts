@@ -6,7 +6,7 @@ const list: [string, string][] = [
   ["Space", "run or pause"],
   ["right arrow", "one step"],
   ["+  \u2212", "faster, slower"],
-  ["r", "reset to time 0"],
+  ["r", "reset to time 0, cameras stay"],
   ["p", "picture"],
   ["t", "all values, parameters and the selected body"],
   ["?", "this list"],

@@ -128,6 +128,7 @@ function makeContext(description: Description): Context {
     onBranch: branchings.add,
     onTheme: themes.add,
     onProgress: progresses.add,
+    resets: new Listeners(),
     notice: (level, text) => notices.add(level, text),
     get quality() {
       return quality;

@@ -23,6 +23,11 @@ export function decimalsOfRange(least: number, greatest: number): number {
   return Math.min(9, Math.max(0, 3 - Math.floor(Math.log10(size))));
 }
 
+/// A range so wide that its places are told apart by factors: three decades or more, above 0.
+export function spansDecades(least: number, greatest: number): boolean {
+  return least > 0 && greatest >= 1000 * least * (1 - 1e-12);
+}
+
 export function formatDecimals(value: number, decimals: number): string {
   if (!Number.isFinite(value)) return formatNumber(value);
   const text = Math.abs(value).toFixed(decimals);

@@ -280,7 +280,9 @@ export interface Requests {
 export type RequestName = keyof Requests;
 
 /// A binary message that is not as the protocol has it.
-export class ProtocolError extends Error {}
+export class ProtocolError extends Error {
+  override readonly name = "ProtocolError";
+}
 
 /// Reads doubles one after the other and tells when they run out.
 class Reader {

@@ -45,7 +45,10 @@ export function makeTransport(context: Context, chrome: Chrome): Part & { action
     step: () => attempt(context, connection.request("step", { count: 1 })),
     faster: () => setSpeed(neighbouringSpeed(speed, 1)),
     slower: () => setSpeed(neighbouringSpeed(speed, -1)),
-    reset: () => attempt(context, connection.request("reset", {})),
+    reset: () => {
+      attempt(context, connection.request("reset", {}));
+      context.resets.tell();
+    },
     picture: () => attempt(context, takePictures(context)),
     help: chrome.help,
   };

@@ -42,6 +42,16 @@ export class Stage {
     this.weight = Math.max(0, ...masses.values()) * Math.hypot(...gravity);
   }
 
+  /// How far from the world's origin a body is drawn [m]: one that creeps may have left the terrain.
+  get farthest(): number {
+    let farthest = 0;
+    for (const poses of this.drawn)
+      for (let at = 0; at < poses.length; at += 7) {
+        const distance = Math.hypot(poses[at], poses[at + 1], poses[at + 2]);
+        if (distance > farthest && distance < Infinity) farthest = distance;
+      }
+    return farthest;
+  }
   /// Displacements are measured from these poses.
   start(snapshot: Snapshot): void {
     snapshot.subjects.forEach((subject, k) => this.starts[k]?.set(subject.poses));

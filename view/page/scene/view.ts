@@ -190,6 +190,10 @@ export class CameraView {
     }
     if (different) this.changed();
   }
+  /// Its place is a person's for a moment: older values of its ports do not move it.
+  hold(): void {
+    this.changedAt = performance.now();
+  }
   get cameraValues(): CameraValues {
     return { ...this.values };
   }
@@ -331,7 +335,7 @@ export class CameraView {
     if (followed && stage.snapshot) stage.fromBody(0, this.follow!, this.target.fromArray(followed.center_of_mass));
     else this.target.copy(stage.center);
     this.target.add(this.offset);
-    const reach = Math.max(this.ground?.reach ?? 0, stage.radius) + this.target.length();
+    const reach = Math.max(this.ground?.reach ?? 0, stage.radius, stage.farthest) + this.target.length();
     placeCamera(this.camera, this.values, this.target, aspect, reach);
     // From the viewer, a little from above left, as on a drawing.
     this.light.head.set(-0.4, 0.6, 1).normalize().applyQuaternion(this.camera.quaternion);

@@ -56,7 +56,7 @@ test("a refusal rejects with the program's words", async () => {
   line.open();
   const set = connection.request("set", { values: { "pd1.gaol": 1 } });
   line.says({ id: line.sent[0].id, error: "no port pd1.gaol" });
-  await assert.rejects(set, (thrown) => thrown instanceof Refused && thrown.message === "no port pd1.gaol");
+  await assert.rejects(set, (thrown) => thrown instanceof Refused && String(thrown) === "Refused: no port pd1.gaol" && thrown.message === "no port pd1.gaol");
 });
 
 test("a trace is answered by its binary message, or by an error", async () => {

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { decimalsOfRange, decimalsOfTime, formatDecimals, formatNumber, formatSpeed, formatUnit, parseNumber } from "../numbers.ts";
+import { decimalsOfRange, decimalsOfTime, formatDecimals, formatNumber, formatSpeed, formatUnit, parseNumber, spansDecades } from "../numbers.ts";
 
 test("numbers keep their digits, so that they stay in their place", () => {
   const shown: [number, string][] = [
@@ -41,4 +41,12 @@ test("units and speeds", () => {
   assert.equal(formatSpeed(0.001), "1/1000");
   assert.equal(formatSpeed(10), "10");
   assert.equal(formatSpeed(0), "as fast as possible");
+});
+
+test("a range of three decades above 0 spans decades", () => {
+  assert.equal(spansDecades(1, 1e6), true);
+  assert.equal(spansDecades(0.001, 1), true);
+  assert.equal(spansDecades(1, 999), false);
+  assert.equal(spansDecades(0, 1e6), false);
+  assert.equal(spansDecades(-1e6, 1e6), false);
 });

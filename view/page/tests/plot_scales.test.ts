@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { branchesOf } from "../trail_tree.ts";
-import { axisNumbers, padded, rangeOf } from "../widgets/plot_scales.ts";
+import { axisNumbers, decadeName, decadesWithin, padded, paddedByDecades, rangeOf } from "../widgets/plot_scales.ts";
 import { niceTicks, project, surfaceOf } from "../widgets/plot3d_geometry.ts";
 
 test("a range is of what is seen, and passes over what is not known", () => {
@@ -52,4 +52,16 @@ test("trails become a tree by their parts", () => {
   const b = root.children.get("a")!.children.get("b")!;
   assert.equal(b.port?.trail, "a.b");
   assert.equal(b.children.get("c")?.port?.trail, "a.b.c");
+});
+
+test("a scale of both signs has 0 and powers of ten, few of them", () => {
+  assert.deepEqual(decadesWithin(-2e-5, 3e-4, 1e-6).map(decadeName), ["\u22121e\u22125", "0", "1e\u22125", "1e\u22124"]);
+  for (const greatest of [1e-5, 5e-3, 20, 1e6]) {
+    const ticks = decadesWithin(-greatest, greatest, 1e-6);
+    assert.ok(ticks.length >= 3 && ticks.length <= 9 && ticks.includes(0), `${ticks}`);
+    for (const tick of ticks) assert.ok(Math.abs(tick) <= greatest * (1 + 1e-9));
+  }
+  const [least, greatest] = paddedByDecades([1e-5, 1e-3], 1e-6);
+  assert.ok(least < 0 && least > -1e-6 && greatest > 1e-3 && greatest < 1e-2);
+  assert.deepEqual([1e-6, -1e-5, 0, 0.01, 10000, 1e6].map(decadeName), ["1e\u22126", "\u22121e\u22125", "0", "0.01", "10000", "1e6"]);
 });

@@ -101,3 +101,12 @@ test("the oldest traces make way", () => {
   near(places.place(8191, new Vector3()).x, 9999.1);
   near(places.place(0, new Vector3()).x, 9999.1 - 8191);
 });
+
+test("the camera reaches what creeps far away, and not what has no place", () => {
+  const stage = new Stage(description([0, 0, 0.1, 1, 0, 0, 0]), null);
+  stage.exaggeration = 1000;
+  // The second robot stands a metre beside the place where it started.
+  near(drawn(stage, snapshot(1, 0.02)).farthest, Math.hypot(20, 1000, 0.1), 1e-6);
+  drawn(stage, snapshot(2, NaN));
+  near(stage.farthest, 0);
+});

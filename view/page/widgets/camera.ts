@@ -8,6 +8,8 @@ import { CameraView } from "../scene/view.ts";
 import { switches, type Switch } from "../scene/switches.ts";
 
 const placeNames = ["zoom", "distance", "euler1", "euler2"] as const;
+const timeOfReset = 2000; // [ms] until its beginning has been seen
+const settlingTime = 400; // [ms] in which older values of a port that was just set come in
 const defaultWidth = 480;
 const defaultHeight = 360;
 
@@ -73,8 +75,19 @@ export function makeCamera(context: Context, widget: CameraWidget, fill = false)
     send();
   };
   if (kept !== undefined) send();
+  // The run's beginning is asked for with a reset, not the camera's: what it moves back is set again.
+  const restored = new Map<string, number>();
+  const restore = (name: string, port: string, value: number): boolean => {
+    const wanted = restored.get(name);
+    if (wanted === undefined || value === wanted) return false;
+    restored.delete(name);
+    // A port that a wire drives refuses; then the wire has it.
+    context.setter.set(port, wanted).catch(() => {});
+    return true;
+  };
   const forget = wired
     ? placeNames.map((name) => context.values.watch(ports[name], (value) => {
+        if (restore(name, ports[name], value)) view.hold();
         if (!moved && value !== view.cameraValues[name]) {
           view.setCamera({ [name]: value });
           keep();
@@ -87,8 +100,16 @@ export function makeCamera(context: Context, widget: CameraWidget, fill = false)
   if (exaggeration) {
     forget.push(context.values.watch(exaggeration, (value) => {
       told = value;
-      const settled = performance.now() - setAt > 400;
+      if (restore("exaggeration", exaggeration, value)) setAt = performance.now();
+      const settled = performance.now() - setAt > settlingTime;
       if (settled && value >= 1 && value !== context.exaggeration) context.setExaggeration(value);
+    }));
+  }
+  if (!movie) {
+    forget.push(context.resets.add(() => {
+      for (const name of wired ? placeNames : []) restored.set(name, view.cameraValues[name]);
+      if (exaggeration) restored.set("exaggeration", context.exaggeration);
+      setTimeout(() => restored.clear(), timeOfReset);
     }));
   }
   let fitted = wired || kept !== undefined;

@@ -8,20 +8,29 @@ import { formatNumber, formatUnit } from "../numbers.ts";
 import type { PlotTrace, PlotWidget, Range } from "../protocol.ts";
 import { csvOf } from "../series.ts";
 import { TraceFeed } from "../trace_feed.ts";
-import { axisNumbers, phasePath, padded, rangeOf } from "./plot_scales.ts";
+import { axisNumbers, decadeName, decadesWithin, paddedByDecades, phasePath, padded, rangeOf } from "./plot_scales.ts";
 
 /// The colours of the figures' series, for the traces of a plot in their order.
 export const traceColours = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#AA3377", "#7F7F7F"];
 const defaultHeight = 200;
 
+/// What is drawn otherwise than a file's plots are.
+export interface PlotLook {
+  /// Of each trace; one that has `dash` is no part of the legend.
+  lines: { colour: string; dash?: number[] }[];
+  /// Values are drawn on a scale of decades above this size and below its negative, and evenly between.
+  even: number;
+}
+
 interface Drawn {
   trace: PlotTrace;
   colour: string;
+  dash: number[] | undefined;
   scale: string;
   value: HTMLElement; // its number in the legend
 }
 
-export function makePlot(context: Context, widget: PlotWidget): Part {
+export function makePlot(context: Context, widget: PlotWidget, look?: PlotLook): Part {
   const overlays = context.overlays.get(widget.trail) ?? [];
   const plots = [widget, ...overlays];
   const phase = plots.some((plot) => plot.traces.some((trace) => trace.x !== null));
@@ -34,16 +43,16 @@ export function makePlot(context: Context, widget: PlotWidget): Part {
   for (const plot of plots) {
     const group = element("div", { role: "group", "aria-label": plot.label, "data-trail": plot === widget ? null : plot.trail });
     for (const trace of plot.traces) {
-      const colour = traceColours[drawn.length % traceColours.length];
+      const { colour, dash } = look?.lines[drawn.length] ?? { colour: traceColours[drawn.length % traceColours.length], dash: undefined };
       const value = element("span", { class: "number" });
       const swatch = element("span", { class: "swatch", "aria-hidden": "true" });
       swatch.style.background = colour;
       const name = trace.x === null ? trace.label || trace.y : `${trace.label || trace.y} over ${trace.x.slice(trace.x.lastIndexOf(".") + 1)}`;
-      group.append(element("span", { class: "plot-trace", title: trace.y }, swatch,
+      if (dash === undefined) group.append(element("span", { class: "plot-trace", title: trace.y }, swatch,
         element("span", {}, name), value, element("span", { class: "unit" }, formatUnit(trace.unit))));
       // Traces of one unit share a scale; those of a plot that is laid over with another have theirs at the right.
       const scale = plot === widget || trace.unit === widget.traces[0]?.unit ? "y" : "right";
-      drawn.push({ trace, colour, scale, value });
+      drawn.push({ trace, colour, dash, scale, value });
     }
     legend.append(group);
   }
@@ -72,17 +81,21 @@ export function makePlot(context: Context, widget: PlotWidget): Part {
     const columns = drawn.filter((each) => each.scale === scale).map((each) => columnOf(each.trace.y));
     if (phase) return padded(rangeOf(columns));
     const [begin, end] = rangeOfTime();
-    return padded(rangeOf(columns, feed.series.times, begin, end));
+    const range = rangeOf(columns, feed.series.times, begin, end);
+    return look === undefined ? padded(range) : paddedByDecades(range, look.even);
   }
 
   function axis(scale: string, label: string, side: uPlot.Axis.Side, colour: string | null): uPlot.Axis {
     const ink = () => colour ?? styleValue("--quiet");
     return {
       scale, side, label, labelSize: 16, labelGap: 0, labelFont: "11px system-ui, sans-serif", font: "11px system-ui, sans-serif",
-      size: scale === "x" ? 26 : 54, gap: 3, stroke: ink,
+      size: scale === "x" ? 26 : 54, space: scale === "x" ? 50 : 20, gap: 3, stroke: ink,
       grid: { show: side !== 1, stroke: () => styleValue("--rule"), width: 1 },
       ticks: { show: true, size: 4, stroke: () => styleValue("--rule"), width: 1 },
-      values: (_, ticks) => axisNumbers(ticks),
+      ...(look === undefined || scale === "x"
+        ? { values: (_: uPlot, ticks: number[]) => axisNumbers(ticks) }
+        : { filter: (_: uPlot, ticks: number[]) => ticks, splits: (_: uPlot, _index: number, least: number, greatest: number) => decadesWithin(least, greatest, look.even),
+            values: (_: uPlot, ticks: number[]) => ticks.map(decadeName) }),
     };
   }
   const unitsOf = (scale: string) =>
@@ -94,7 +107,7 @@ export function makePlot(context: Context, widget: PlotWidget): Part {
     legend: { show: false },
     scales: {
       x: { time: false, auto: true, range: () => (phase ? rangeOfPhase() : rangeOfTime()) },
-      y: { auto: true, range: () => rangeOfValues("y") },
+      y: { auto: true, range: () => rangeOfValues("y"), ...(look === undefined ? {} : { distr: 4 as const, asinh: look.even }) },
       ...(right ? { right: { auto: true, range: () => rangeOfValues("right") } } : {}),
     },
     axes: [
@@ -105,7 +118,7 @@ export function makePlot(context: Context, widget: PlotWidget): Part {
     series: [
       {},
       ...drawn.map((each): uPlot.Series => ({
-        label: each.trace.label, stroke: each.colour, width: 1.25, points: { show: false }, spanGaps: false,
+        label: each.trace.label, stroke: each.colour, width: 1.25, ...(each.dash === undefined ? {} : { dash: each.dash }), points: { show: false }, spanGaps: false,
         ...(phase ? { facets: [{ scale: "x", auto: true }, { scale: each.scale, auto: true }], paths: phasePath } : { scale: each.scale }),
       })),
     ],

@@ -23,6 +23,31 @@ export function padded([least, greatest]: Range): Range {
   return [middle - 0.54 * span, middle + 0.54 * span];
 }
 
+/// The same where values are drawn by decades above `even` and below its negative, and evenly between.
+export function paddedByDecades([least, greatest]: Range, even: number): Range {
+  const place = (value: number) => Math.asinh(value / even);
+  const [begin, end] = [place(Math.min(least, 0)), place(Math.max(greatest, 0))];
+  const air = 0.06 * Math.max(end - begin, 1);
+  return [even * Math.sinh(begin - air), even * Math.sinh(end + air)];
+}
+
+/// 0, and the powers of ten above `even`, of both signs: at most about eight.
+export function decadesWithin(least: number, greatest: number, even: number): number[] {
+  const first = Math.round(Math.log10(even)) + 1;
+  const last = Math.floor(Math.log10(Math.max(-least, greatest, even)) + 1e-9);
+  const every = Math.max(1, Math.ceil((last - first + 1) / 4));
+  const ticks = [0];
+  for (let power = last; power >= first; power -= every) ticks.push(10 ** power, -(10 ** power));
+  return ticks.filter((tick) => tick >= least && tick <= greatest).sort((a, b) => a - b);
+}
+
+export function decadeName(tick: number): string {
+  if (tick === 0) return "0";
+  const power = Math.round(Math.log10(Math.abs(tick)));
+  const size = power < -3 || power > 4 ? `1e${power}` : String(10 ** power);
+  return ((tick < 0 ? "-" : "") + size).replaceAll("-", "\u2212");
+}
+
 /// Ticks with the decimals that their distance takes, all alike; powers of ten for the very large and small.
 export function axisNumbers(ticks: (number | null)[]): string[] {
   const known = ticks.filter((tick): tick is number => tick !== null);

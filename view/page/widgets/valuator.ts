@@ -1,8 +1,11 @@
 // What sliders, dials, counters and inputs share: one number, wired to a port, that people and the
 // run both move.
 import { attempt, type Context } from "../context.ts";
-import { decimalsOfRange, parseNumber } from "../numbers.ts";
+import { decimalsOfRange, parseNumber, spansDecades } from "../numbers.ts";
 import type { Range, ValuatorWidget } from "../protocol.ts";
+
+/// Significant digits of a number whose range spans decades.
+export const digitsOfLogarithmic = 3;
 
 export class Valuator {
   value = NaN;
@@ -35,6 +38,15 @@ export class Valuator {
   }
   get greatest(): number {
     return this.range[1];
+  }
+  /// Whether equal ways are equal factors.
+  get logarithmic(): boolean {
+    return spansDecades(...this.range);
+  }
+  /// A value as it is written, "" where it is not known.
+  text(value: number): string {
+    if (Number.isNaN(value)) return "";
+    return this.logarithmic ? String(Number(value.toPrecision(digitsOfLogarithmic))) : value.toFixed(this.decimals);
   }
   get unit(): string {
     return this.widget.unit;
@@ -75,7 +87,7 @@ export class Valuator {
 /// The number of a valuator as a field that can be typed into; Enter or leaving it sets.
 export function wireNumberField(field: HTMLInputElement, valuator: Valuator): void {
   const show = () => {
-    field.value = Number.isNaN(valuator.value) ? "" : valuator.value.toFixed(valuator.decimals);
+    field.value = valuator.text(valuator.value);
   };
   const take = () => {
     const value = parseNumber(field.value);
