@@ -39,7 +39,18 @@ void LiveLoader::read_anew() {
   found_ = application_->find(file_);
 }
 
+const simulation::LoadedExperiment* LiveLoader::load_first(std::string& problem) {
+  first_ = evaluate({}, problem);
+  return first_ ? &*first_ : nullptr;
+}
+
 std::optional<simulation::LoadedExperiment> LiveLoader::load(
+    const std::vector<std::string>& overrides, std::string& problem) {
+  if (overrides.empty() && first_) return std::exchange(first_, std::nullopt);
+  return evaluate(overrides, problem);
+}
+
+std::optional<simulation::LoadedExperiment> LiveLoader::evaluate(
     const std::vector<std::string>& overrides, std::string& problem) {
   if (overrides.empty() || !application_) read_anew();
   told_.clear();

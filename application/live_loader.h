@@ -18,6 +18,9 @@ class LiveLoader {
   LiveLoader(std::filesystem::path file, Settings settings, bool allow_plugins,
              std::optional<std::filesystem::path> movie = std::nullopt);
 
+  /// The file for the first time: the next `load` without overrides gives it, unless it is called
+  /// again before. Null where it is wrong.
+  const simulation::LoadedExperiment* load_first(std::string& problem);
   /// Without overrides the file is read anew; with some it is as it was read then. What is wrong
   /// with it goes into `problem`, warnings are told once.
   std::optional<simulation::LoadedExperiment> load(const std::vector<std::string>& overrides,
@@ -27,6 +30,8 @@ class LiveLoader {
 
  private:
   void read_anew();
+  std::optional<simulation::LoadedExperiment> evaluate(const std::vector<std::string>& overrides,
+                                                       std::string& problem);
 
   const std::filesystem::path file_;
   const Settings settings_;
@@ -36,6 +41,7 @@ class LiveLoader {
   std::shared_ptr<Application> application_;
   std::filesystem::path found_;
   std::unique_ptr<language::Object> root_;
+  std::optional<simulation::LoadedExperiment> first_;
 };
 
 }  // namespace hookpoint::application

@@ -15,29 +15,32 @@ using studies::RunContext;
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-/// The way down a slope in time: what a law gives in at once, and what it creeps; or a slide.
+using view::Tally;
+
+/// The way down a slope since `time` 0 of the constants: what a law creeps, or a slide.
 struct PredictedWay {
-  double shift = unknown;  ///< [m]
   double speed = unknown;  ///< [m/s]
   std::optional<studies::RigidSlide> slide;
 
-  double at(double time) const {
-    if (slide) return slide->displacement(time);
-    return (std::isnan(shift) ? 0. : shift) + speed * time;
-  }
+  double at(double time) const { return slide ? slide->displacement(time) : speed * time; }
 };
+
+double known_or(double value, double otherwise) { return std::isnan(value) ? otherwise : value; }
 
 class StudyMeter final : public view::Meter {
  public:
-  StudyMeter(const studies::PeerContact& peer, RunContext context)
-      : context_(std::move(context)), observer_(context_, true) {
+  StudyMeter(const studies::PeerContact& peer, RunContext context, const Tally& behind)
+      : context_(std::move(context)), observer_(context_, true), behind_(behind) {
     const auto predicted = [&](const char* metric) {
       return studies::predict(metric, context_, peer).value_or(unknown);
     };
-    if (studies::regime_of(context_) == studies::Regime::slides)
-      way_.slide = studies::rigid_slide(context_);
-    way_.shift = predicted("stick_displacement");
+    give_in_ = known_or(predicted("stick_displacement"), 0.);
     way_.speed = predicted("creep_speed");
+    if (studies::regime_of(context_) == studies::Regime::slides) {
+      // From rest, or from the file's speed: of a change on the way nobody knows what it began at.
+      if (behind_.foretold.since == 0.) way_.slide = studies::rigid_slide(context_);
+      way_.speed = unknown;
+    }
     penetration_ = predicted("penetration_mean");
     load_ = studies::support_force(context_).value_or(unknown);
     slip_ = studies::find_metric("slip_distance")->make(context_);
@@ -50,11 +53,16 @@ class StudyMeter final : public view::Meter {
     way_of_points_->observe(observation);
     // Of the feet, as the closed forms have it: the body leans besides. Of one in the air, the
     // body.
-    reading_.displacement = way_of_points_->value().value_or(observation.displacement);
-    reading_.displacement_predicted = way_.at(state.time);
-    reading_.slip = slip_->value().value_or(unknown);
+    if (!start_) start_ = observation.displacement;
+    reading_.displacement =
+        behind_.displacement + way_of_points_->value().value_or(observation.displacement - *start_);
+    const Tally::Foretold& foretold = behind_.foretold;
+    const double time = state.time - foretold.since;
+    reading_.displacement_predicted =
+        foretold.displacement + give_in_ - foretold.give_in + way_.at(time);
+    reading_.slip = behind_.slip + slip_->value().value_or(unknown);
     // Of a body whose points hold, what they creep is their slip.
-    reading_.slip_predicted = std::abs(way_.speed) * state.time;
+    reading_.slip_predicted = foretold.slip + std::abs(way_.speed) * time;
     reading_.penetration = mean_depth(observation);
     reading_.penetration_predicted = penetration_;
     Vector3d force;
@@ -64,9 +72,19 @@ class StudyMeter final : public view::Meter {
                            });
     reading_.load = dot(force, context_.normal);
     reading_.load_predicted = load_;
+    time_ = state.time;
   }
 
   view::Reading read() const override { return reading_; }
+
+  Tally tally() const override { return {reading_.displacement, reading_.slip, behind_.foretold}; }
+  /// Where nothing is foretold, what follows is foretold from what was measured.
+  Tally tally_before_change() const override {
+    return {reading_.displacement,
+            reading_.slip,
+            {time_, known_or(reading_.displacement_predicted, reading_.displacement),
+             known_or(reading_.slip_predicted, reading_.slip), give_in_}};
+  }
 
  private:
   static double mean_depth(const Observation& observation) {
@@ -83,15 +101,20 @@ class StudyMeter final : public view::Meter {
   RunContext context_;
   studies::Observer observer_;
   std::unique_ptr<studies::Metric> slip_, way_of_points_;
+  const Tally behind_;
+  std::optional<double> start_;  ///< displacement of the body at the first instant [m]
   PredictedWay way_;
+  double give_in_ = 0.;  ///< what the law gives in at once, by its closed form [m]
   double penetration_ = unknown, load_ = unknown;
+  double time_ = 0.;  ///< of the reading [s]
   view::Reading reading_{};
 };
 
 }  // namespace
 
 std::unique_ptr<view::Meter> make_meter(const simulation::Experiment& experiment,
-                                        const studies::EngineTable& engines) {
+                                        const studies::EngineTable& engines,
+                                        const view::Tally& behind) {
   const auto engine = engines.find(experiment.engine);
   if (engine == engines.end()) return nullptr;
   try {
@@ -99,7 +122,7 @@ std::unique_ptr<view::Meter> make_meter(const simulation::Experiment& experiment
     if (!context.ground) return nullptr;
     context.make = engine->second.make;
     return std::make_unique<StudyMeter>(studies::peer_contact(engine->second, experiment),
-                                        std::move(context));
+                                        std::move(context), behind);
   } catch (const simulation::ExperimentError&) {
     return nullptr;  // no robot moves
   }

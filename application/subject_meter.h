@@ -5,13 +5,14 @@
 #include <memory>
 
 #include "studies/engine_table.h"
-#include "view/subjects.h"
+#include "view/meter.h"
 
 namespace hookpoint::application {
 
 /// Null where nothing can be measured: no robot moves, or there is no ground. `engines` and
-/// `experiment` outlive it.
+/// `experiment` outlive it. `behind`: what the run has added up before.
 std::unique_ptr<view::Meter> make_meter(const simulation::Experiment& experiment,
-                                        const studies::EngineTable& engines);
+                                        const studies::EngineTable& engines,
+                                        const view::Tally& behind);
 
 }  // namespace hookpoint::application

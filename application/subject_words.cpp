@@ -52,4 +52,9 @@ std::vector<std::pair<std::string, std::string>> subject_fields(const language::
   return set;
 }
 
+std::string subject_name(const simulation::Experiment& experiment) {
+  return experiment.engine == "dts" ? experiment.contact
+                                    : experiment.engine + " " + experiment.settings;
+}
+
 }  // namespace hookpoint::application

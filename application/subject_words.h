@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "language/schema/schema.h"
+#include "simulation/engine.h"
 
 namespace hookpoint::application {
 
@@ -20,5 +21,9 @@ struct SubjectError : std::runtime_error {
 /// Throws SubjectError.
 std::vector<std::pair<std::string, std::string>> subject_fields(const language::Schema& schema,
                                                                 const std::string& words);
+
+/// What tells an experiment from the same one under other words: our law, or the engine and its
+/// settings.
+std::string subject_name(const simulation::Experiment& experiment);
 
 }  // namespace hookpoint::application

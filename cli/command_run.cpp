@@ -35,8 +35,8 @@ int repeat(const RunArguments& arguments) {
   application::LiveLoader loader(arguments.file, settings_with_duration(arguments),
                                  arguments.allow_plugins, arguments.movie);
   std::string problem;
-  std::optional<simulation::LoadedExperiment> first = loader.load({}, problem);
-  if (!first) {
+  const simulation::LoadedExperiment* first = loader.load_first(problem);
+  if (first == nullptr) {
     std::cerr << problem << '\n';
     return wrong_input;
   }
@@ -45,8 +45,7 @@ int repeat(const RunArguments& arguments) {
   const std::filesystem::path folder =
       arguments.out.value_or(std::filesystem::path("runs") / first->experiment.world);
   const auto load = [&](const std::vector<std::string>& overrides, std::string& why) {
-    return overrides.empty() && first ? std::exchange(first, std::nullopt)
-                                      : loader.load(overrides, why);
+    return loader.load(overrides, why);
   };
   try {
     simulation::LiveRun run(load, {folder, arguments.record, arguments.out.has_value()},

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -18,6 +17,7 @@
 #include "cli/open_browser.h"
 #include "cli/run_loop.h"
 #include "output/figures/plot.h"
+#include "unicode/display.h"
 #include "view/description.h"
 #include "view/ghosts.h"
 #include "view/live_session.h"
@@ -33,11 +33,6 @@ using simulation::LiveRun;
 view::History history_of(const simulation::Experiment& experiment) {
   constexpr double between = 0.02;
   return view::History(std::max<std::int64_t>(10, std::llround(between / experiment.deltat)));
-}
-
-std::string label_of(const simulation::Experiment& experiment) {
-  return experiment.engine == "dts" ? experiment.contact
-                                    : experiment.engine + " " + experiment.settings;
 }
 
 /// What is wrong with the file, as the loader tells it.
@@ -71,8 +66,8 @@ class Watched {
     }
     view::MakeMeter meters;
     if (subjects_.size() > 1)
-      meters = [this](const simulation::Experiment& experiment) {
-        return application::make_meter(experiment, application_.engines());
+      meters = [this](const simulation::Experiment& experiment, const view::Tally& behind) {
+        return application::make_meter(experiment, application_.engines(), behind);
       };
     all_ = std::make_unique<view::Subjects>(std::move(subjects_), std::move(meters));
   }
@@ -83,29 +78,34 @@ class Watched {
     return view::file_fields(loaders_.front()->root());
   }
 
-  /// The experiment with what was changed, as a file of its own.
-  std::pair<std::string, std::string> patch(const LiveRun& run) const {
+  /// The experiment with what was changed, as a file of its own, its name and its text.
+  std::optional<std::pair<std::string, std::string>> patch(const LiveRun& run,
+                                                           std::string& problem) const {
     std::map<std::string, std::string> latest;
     for (const simulation::Change& change : run.changes()) latest[change.trail] = change.value;
-    LiveLoader loader(arguments_.file, settings_, arguments_.allow_plugins);
+    // A pull and the like are of the window, not of the file.
+    std::erase_if(latest,
+                  [](const auto& change) { return change.first.starts_with("Simulator."); });
     std::vector<std::string> settings;
-    std::string told = "// " + arguments_.file.filename().string() + " with what was changed:\n";
-    std::string problem, text;
-    const auto take = [&](const std::vector<std::string>& with) {
-      auto loaded = loader.load(with, problem);
-      if (loaded) text = loaded->text;
-      return loaded.has_value();
-    };
-    take({});
-    for (const auto& [trail, value] : latest) {
-      // What is no field of the file, such as a pull, is no part of it.
-      settings.push_back(trail + "=" + value);
-      if (take(settings))
-        told += "//   " + settings.back() + "\n";
+    for (const auto& [trail, value] : latest) settings.push_back(trail + "=" + value);
+    LiveLoader loader(arguments_.file, settings_, arguments_.allow_plugins);
+    auto plain = loader.load({}, problem);
+    if (!plain) return std::nullopt;
+    std::string why;
+    auto changed = loader.load(settings, why);
+    // Not every port is a field: those that are none are left out.
+    for (std::size_t i = 0; !changed && i < settings.size();) {
+      if (loader.load({settings[i]}, why))
+        ++i;
       else
-        settings.pop_back();
+        settings.erase(settings.begin() + static_cast<std::ptrdiff_t>(i));
+      if (i == settings.size()) changed = loader.load(settings, why);
     }
-    return {arguments_.file.stem().string() + "-changed.hook", told + text};
+    std::string text = "// " + unicode::printable(arguments_.file.filename().string()) +
+                       " with what was changed:\n";
+    for (const std::string& setting : settings) text += "//   " + setting + "\n";
+    text += (changed ? *changed : *plain).text;
+    return std::pair(arguments_.file.stem().string() + "-changed.hook", std::move(text));
   }
 
   view::Shown show(view::Subjects& subjects) const {
@@ -120,6 +120,7 @@ class Watched {
                                        subjects, ports);
     shown.trails = view::ports_of(panel);
     shown.plotted = view::plotted_of(panel);
+    for (std::string& trail : subjects.displacements()) shown.plotted.push_back(std::move(trail));
     for (const std::string& source : language::sources_of(root)) shown.sources.emplace_back(source);
     return shown;
   }
@@ -131,20 +132,18 @@ class Watched {
                                                     arguments_.allow_plugins, movie));
     LiveLoader& loader = *loaders_.back();
     std::string problem;
-    auto first = loader.load({}, problem);
-    if (!first) throw WrongFile{problem};
+    const simulation::LoadedExperiment* first = loader.load_first(problem);
+    if (first == nullptr) throw WrongFile{problem};
     if (subjects_.empty() && request.folder.empty())
       request.folder = std::filesystem::path("runs") / first->experiment.world;
     auto run = std::make_unique<LiveRun>(
-        [&loader, first = std::make_shared<std::optional<simulation::LoadedExperiment>>(std::move(
-                      first))](const std::vector<std::string>& overrides, std::string& why) {
-          return overrides.empty() && *first ? std::exchange(*first, std::nullopt)
-                                             : loader.load(overrides, why);
+        [&loader](const std::vector<std::string>& overrides, std::string& why) {
+          return loader.load(overrides, why);
         },
         request);
     const simulation::Experiment& experiment = run->experiment();
     const int index = static_cast<int>(subjects_.size());
-    view::Subject subject{label.empty() ? label_of(experiment) : label,
+    view::Subject subject{label.empty() ? application::subject_name(experiment) : label,
                           output::series_style(index).color, std::move(run), history_of(experiment),
                           nullptr};
     subjects_.push_back(std::move(subject));
@@ -161,7 +160,9 @@ class Watched {
 /// A file that says how long, or that is to leave files, ends then; any other goes on until
 /// somebody has seen enough.
 std::optional<std::int64_t> last_step(const RunArguments& arguments, const LiveRun& run) {
-  const bool writes = !run.names().empty();
+  const std::vector<std::string> names = run.names();
+  const bool writes = std::ranges::any_of(
+      names, [](const std::string& name) { return name != simulation::ChangeLog::file_name; });
   if (!writes && !arguments.duration) return std::nullopt;
   return run.last_step();
 }
@@ -181,8 +182,10 @@ int view(const RunArguments& arguments) {
     view::LiveSessionRequest request;
     request.describe = [&](view::Subjects& subjects) { return watched.show(subjects); };
     request.fields = [&] { return watched.fields(); };
-    request.patch = [&](const LiveRun& changed) { return watched.patch(changed); };
-    request.last_step = last_step(arguments, run);
+    request.patch = [&](const LiveRun& changed, std::string& problem) {
+      return watched.patch(changed, problem);
+    };
+    request.last_step = [&](const LiveRun& now) { return last_step(arguments, now); };
     view::LiveSession session(watched.subjects(), audience, std::move(request));
     std::cout << server.url() << std::endl;
     if (arguments.view.open) open_browser(server.url());

@@ -1,5 +1,6 @@
 #include "cli/movie_windows.h"
 
+#include "application/subject_words.h"
 #include "output/figures/plot.h"
 #include "view/description.h"
 
@@ -31,13 +32,15 @@ view::ShownMovie MovieWindows::movie() {
 view::Shown MovieWindows::show(const std::vector<simulation::Port>& ports, const view::Film* film) {
   language::Diagnostics diagnostics;
   const view::Panel panel = view::make_panel(opened_.root(), experiment_, ports, diagnostics);
-  const std::string law = experiment_.engine == "dts"
-                              ? experiment_.contact
-                              : experiment_.engine + " " + experiment_.settings;
   const view::Kind kind = film == nullptr ? view::Kind::movie : view::Kind::film;
   view::Shown shown;
-  shown.description = view::describe(
-      kind, title_, panel, {experiment_, "", {{law, output::series_style(0).color}}, {}, film});
+  shown.description =
+      view::describe(kind, title_, panel,
+                     {experiment_,
+                      "",
+                      {{application::subject_name(experiment_), output::series_style(0).color}},
+                      {},
+                      film});
   shown.trails = view::ports_of(panel);
   shown.plotted = view::plotted_of(panel);
   return shown;

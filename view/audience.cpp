@@ -40,37 +40,45 @@ void Audience::show(std::string description, const simulation::Experiment& exper
   lay_out();
 }
 
-std::vector<Asked> Audience::take_requests() {
+void Audience::hear() {
   using Kind = Server::Event::Kind;
-  std::vector<Asked> requests;
+  bool wishes_changed = false;
   for (Server::Event& event : server_.take_events()) {
     if (event.kind == Kind::joined) {
       ++joined_;
       wishes_[event.client];
       server_.send(event.client, description_);
       server_.send(event.client, layout_text());
-      continue;
+    } else if (event.kind == Kind::left) {
+      wishes_changed = wishes_.erase(event.client) > 0 || wishes_changed;
+    } else {
+      heard_.push_back(std::move(event));
     }
-    if (event.kind == Kind::left) {
-      wishes_.erase(event.client);
-      lay_out();
-      continue;
-    }
+  }
+  if (wishes_changed) lay_out();
+}
+
+std::optional<Asked> Audience::next() {
+  while (!heard_.empty()) {
+    const Server::Event event = std::move(heard_.front());
+    heard_.pop_front();
     Request request = parse_request(event.text);
     if (!request.command) {
       refuse(event.client, request.id, request.problem);
       continue;
     }
+    std::optional<Asked> asked;
     std::visit(
         [&](auto& command) {
           if constexpr (requires { answer_own(event.client, *request.id, command); })
             answer_own(event.client, *request.id, command);
           else
-            requests.push_back({event.client, *request.id, std::move(command)});
+            asked = {event.client, *request.id, std::move(command)};
         },
         *request.command);
+    if (asked) return asked;
   }
-  return requests;
+  return std::nullopt;
 }
 
 void Audience::answer(const Asked& asked, const std::function<void(JsonWriter&)>& members) {
@@ -139,7 +147,9 @@ void Audience::answer_own(Server::ClientId client, std::int64_t id, const ListPo
 }
 
 void Audience::answer_own(Server::ClientId client, std::int64_t id, const WatchPorts& asked) {
-  std::vector<std::string>& wish = wishes_[client];
+  const auto there = wishes_.find(client);
+  if (there == wishes_.end()) return;
+  std::vector<std::string>& wish = there->second;
   JsonWriter json = begin_answer(id);
   server_.send(client, json.end_object().text());
   if (wish == asked.trails) return;

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <chrono>
+#include <deque>
 #include <functional>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -36,9 +38,12 @@ class Audience {
   void show(std::string description, const simulation::Experiment& experiment,
             std::vector<simulation::Port> ports, std::vector<std::string> always);
 
-  /// What has been asked since the last call, in its order. What needs no session is answered here:
-  /// read, trails, watch, and messages that are none. Never waits.
-  std::vector<Asked> take_requests();
+  /// Takes in who has come and gone, and what has been asked. Never waits.
+  void hear();
+  /// The first of what was heard that only the session can carry out, none where all is done. What
+  /// comes before it and needs no session is answered on the way: read, trails, watch, and messages
+  /// that are none. So each is answered by the state that those before it have left.
+  std::optional<Asked> next();
   /// Until something is asked, or the time has come.
   void wait(std::chrono::steady_clock::time_point until) { server_.wait(until); }
   bool empty() const { return server_.clients() == 0; }
@@ -79,6 +84,7 @@ class Audience {
   std::vector<std::string> always_;
   std::map<Server::ClientId, std::vector<std::string>> wishes_;
   std::size_t joined_ = 0;
+  std::deque<Server::Event> heard_;
 
   // What snapshots carry.
   std::int64_t layout_ = 0;

@@ -35,9 +35,10 @@ std::size_t FilmSession::files() const {
 bool FilmSession::run(const std::atomic<bool>& stop) {
   heard_ = Clock::now();
   while (!stop && file_ < files()) {
-    for (const Asked& asked : audience_.take_requests()) {
+    audience_.hear();
+    while (const std::optional<Asked> asked = audience_.next()) {
       heard_ = Clock::now();
-      carry_out(asked);
+      carry_out(*asked);
     }
     look_after_page();
     if (file_ < files()) audience_.wait(Clock::now() + between_looks);

@@ -19,6 +19,9 @@ constexpr auto between_snapshots = 16'667us;  // 60 a second
 /// Requests are looked for at least so often.
 constexpr auto slice = 5ms;
 constexpr auto idle = 100ms;
+/// Columns that are kept of what pages ask for.
+constexpr std::size_t most_traces = 256;
+constexpr const char* begin_anew = "the run has ended; reset begins it anew";
 
 /// What a person holds there: where a slider's value is copied to a port, that is the slider.
 std::string held_by(const simulation::Experiment& experiment, const std::string& trail) {
@@ -48,6 +51,7 @@ void LiveSession::show() {
   for (const std::string& trail : shown.plotted) traces_.add(trail);
   look_up_plotted();
   files_.watch(std::move(shown.sources));
+  last_step_ = request_.last_step(subjects_.run());
   audience_.show(std::move(shown.description), subjects_.run().experiment(), subjects_.ports(),
                  std::move(shown.trails));
 }
@@ -63,34 +67,49 @@ void LiveSession::look_up_plotted() {
 }
 
 bool LiveSession::run(const std::atomic<bool>& stop) {
-  const auto begun = Clock::now();
-  const auto patience = std::chrono::duration<double>(request_.patience);
-  next_snapshot_ = begun;
+  next_snapshot_ = begun_ = Clock::now();
   while (!stop && !quit_) {
-    for (const Asked& asked : audience_.take_requests()) carry_out(asked);
-    if (files_.written()) {
-      const std::string problem = perform(Reset{});
-      if (!problem.empty())
-        audience_.tell_notice("error",
-                              "the file was saved, but the run goes on as it was: " + problem);
-    }
-    const bool awaited = audience_.joined() == 0 && Clock::now() - begun < patience;
-    if (plays() && !awaited) advance(std::min(next_snapshot_, Clock::now() + slice));
-    if (generation_ != subjects_.run().generation()) show();
+    answer_requests();
+    if (files_.written()) reload();
+    const auto until = std::min(next_snapshot_, Clock::now() + slice);
+    if (stepping_)
+      take_asked_steps(until);
+    else if (plays() && !awaits_first_page())
+      advance(until);
     if (Clock::now() >= next_snapshot_) publish();
     if (!quit_) audience_.wait(next_wake());
   }
-  // Of a run that was changed the end is a change too: it repeats up to there.
-  if (stop && !subjects_.past() && !subjects_.run().changes().empty())
-    perform(SetPorts{{{"Simulator.quit", 1.}}});
+  log_end();
   if (quit_) audience_.tell_ended("Simulator.quit is true");
   return !failed_;
+}
+
+/// While steps are being taken that somebody asked for, what was asked after them waits.
+void LiveSession::answer_requests() {
+  audience_.hear();
+  while (!stepping_ && !quit_) {
+    const std::optional<Asked> asked = audience_.next();
+    if (!asked) return;
+    carry_out(*asked);
+  }
+}
+
+void LiveSession::reload() {
+  if (const std::string problem = perform(Reset{}); !problem.empty())
+    audience_.tell_notice("error", "the file was saved, but the run goes on as it was: " + problem);
+}
+
+bool LiveSession::awaits_first_page() const {
+  return audience_.joined() == 0 &&
+         Clock::now() - begun_ < std::chrono::duration<double>(request_.patience);
 }
 
 bool LiveSession::plays() const { return !paused_ && !ended_ && subjects_.not_from_here().empty(); }
 
 LiveSession::Clock::time_point LiveSession::next_wake() const {
   const auto now = Clock::now();
+  if (stepping_) return now;
+  if (awaits_first_page()) return now + slice;
   if (!plays()) return audience_.empty() ? now + idle : std::min(next_snapshot_, now + slice);
   if (pace_.asked() == 0.) return now;
   const double next = subjects_.run().world().state().time + subjects_.run().experiment().deltat;
@@ -107,10 +126,19 @@ void LiveSession::advance(Clock::time_point until) {
   }
 }
 
+void LiveSession::take_asked_steps(Clock::time_point until) {
+  while (steps_left_ > 0 && !quit_ && Clock::now() < until)
+    steps_left_ = step() ? steps_left_ - 1 : 0;
+  if (steps_left_ > 0 && !quit_) return;
+  audience_.answer(*stepping_);
+  stepping_.reset();
+  next_snapshot_ = std::min(next_snapshot_, Clock::now());
+}
+
 bool LiveSession::step() {
   simulation::LiveRun& run = subjects_.run();
   const std::int64_t before = run.world().state().step;
-  if (request_.last_step && before >= *request_.last_step) {
+  if (last_step_ && before >= *last_step_) {
     end(fmt::format("the run has come to its end at {:.6g} s", run.world().state().time), false);
     return false;
   }
@@ -148,6 +176,15 @@ void LiveSession::end(const std::string& reason, bool failed) {
   failed_ = failed_ || failed;
   subjects_.run().close();
   audience_.tell_notice(failed ? "error" : "note", reason);
+}
+
+/// Of a run that was changed the end is a change too: it repeats up to there.
+void LiveSession::log_end() {
+  simulation::LiveRun& run = subjects_.run();
+  if (ended_ || run.changes().empty()) return;
+  if (subjects_.past()) subjects_.seek(run.newest());
+  if (!run.world().quit())
+    subjects_.set(std::vector<simulation::PortValue>{{"Simulator.quit", 1.}});
 }
 
 void LiveSession::publish() {
@@ -195,10 +232,12 @@ void LiveSession::carry_out(const Asked& asked) {
         }
       },
       asked.command);
+  if (generation_ != subjects_.run().generation()) show();
   next_snapshot_ = std::min(next_snapshot_, Clock::now());
 }
 
 std::string LiveSession::perform(const SetPorts& command) {
+  if (ended_) return begin_anew;
   std::vector<simulation::PortValue> values;
   const simulation::Experiment& experiment = subjects_.run().experiment();
   for (const auto& [trail, value] : command.values)
@@ -214,22 +253,13 @@ std::string LiveSession::perform(const Pause& /*command*/) {
 }
 
 std::string LiveSession::perform(const Run& /*command*/) {
-  if (ended_) return "the run has ended; reset begins it anew";
+  if (ended_) return begin_anew;
   if (std::string problem = subjects_.not_from_here(); !problem.empty()) return problem;
   paused_ = false;
   pace_.begin_anew();
   if (!subjects_.run().world().running())
     return fmt::format("{}.running is false: whatever holds it so must let go",
                        subjects_.run().experiment().world);
-  return "";
-}
-
-std::string LiveSession::perform(const StepOn& command) {
-  if (ended_) return "the run has ended; reset begins it anew";
-  if (std::string problem = subjects_.not_from_here(); !problem.empty()) return problem;
-  paused_ = true;
-  for (std::int64_t i = 0; i < command.count && !quit_; ++i)
-    if (!step()) break;
   return "";
 }
 
@@ -260,6 +290,7 @@ std::string LiveSession::perform(const Reset& /*command*/) {
 }
 
 std::string LiveSession::perform(const EditField& command) {
+  if (ended_) return begin_anew;
   return subjects_.edit(command.trail, command.value);
 }
 
@@ -268,9 +299,24 @@ std::string LiveSession::perform(const Quit& /*command*/) {
   return "";
 }
 
+void LiveSession::reply(const Asked& asked, const StepOn& command) {
+  if (ended_) return audience_.refuse(asked, begin_anew);
+  if (const std::string problem = subjects_.not_from_here(); !problem.empty())
+    return audience_.refuse(asked, problem);
+  paused_ = true;
+  stepping_ = asked;
+  steps_left_ = command.count;
+}
+
+/// What no port has is not kept: it stays unknown.
 void LiveSession::reply(const Asked& asked, const AskTrace& command) {
+  const std::vector<simulation::Port> ports = subjects_.ports();
   bool added = false;
-  for (const std::string& trail : command.trails) added = traces_.add(trail) || added;
+  for (const std::string& trail : command.trails) {
+    if (traces_.trails().size() == most_traces) break;
+    if (simulation::look_up_port(subjects_.run().experiment(), ports, trail))
+      added = traces_.add(trail) || added;
+  }
   if (added) look_up_plotted();
   const Traces::Extract extract =
       traces_.extract(command.trails, command.from, command.to, command.points);
@@ -306,9 +352,11 @@ void LiveSession::reply(const Asked& asked, const ListChanges& /*command*/) {
 }
 
 void LiveSession::reply(const Asked& asked, const AskPatch& /*command*/) {
-  const std::pair<std::string, std::string> file = request_.patch(subjects_.run());
+  std::string problem;
+  const auto file = request_.patch(subjects_.run(), problem);
+  if (!file) return audience_.refuse(asked, problem);
   audience_.answer(asked, [&](JsonWriter& json) {
-    json.member("name", file.first).member("text", file.second);
+    json.member("name", file->first).member("text", file->second);
   });
 }
 

@@ -50,7 +50,8 @@ double MovieSession::time_of(std::int64_t step) const {
 void MovieSession::run(const std::atomic<bool>& stop) {
   next_snapshot_ = next_progress_ = Clock::now();
   while (!stop && !quit_) {
-    for (const Asked& asked : audience_.take_requests()) carry_out(asked);
+    audience_.hear();
+    while (const std::optional<Asked> asked = audience_.next()) carry_out(*asked);
     if (generation_ != reel_.generation()) show();
     const auto until = std::min(next_snapshot_, Clock::now() + slice);
     advance(until);

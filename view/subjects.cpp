@@ -43,7 +43,7 @@ void Subjects::begin() {
   for (Subject& subject : subjects_) {
     subject.stopped.clear();
     subject.history.clear();
-    begin_measuring(subject);
+    begin_measuring(subject, {});
   }
   take_ = run().take();
   told_ = 0;
@@ -51,23 +51,32 @@ void Subjects::begin() {
 }
 
 /// From the present instant on; again whenever the run's world is another one.
-void Subjects::begin_measuring(Subject& subject) {
+void Subjects::begin_measuring(Subject& subject, const Tally& behind) {
   if (!make_meter_) return;
   subject.run->world().publish_contact_forces();
-  subject.meter = make_meter_(subject.run->experiment());
+  subject.meter = make_meter_(subject.run->experiment(), behind);
   if (subject.meter) subject.meter->observe(subject.run->world().state());
+  read(subject);
+}
+
+/// Of one that cannot be shown there is nothing to read.
+void Subjects::read(Subject& subject) {
+  subject.reading = subject.meter && shown(subject) ? subject.meter->read() : nothing;
 }
 
 void Subjects::keep() {
   for (Subject& subject : subjects_) {
     if (subject.run->no_history().empty() && subject.history.due(subject.run->world().state().step))
-      subject.history.keep(*subject.run);
+      subject.history.keep(*subject.run, subject.meter ? subject.meter->tally() : Tally{});
   }
 }
 
 void Subjects::observe() {
-  for (Subject& subject : subjects_)
-    if (subject.meter) subject.meter->observe(subject.run->world().state());
+  for (Subject& subject : subjects_) {
+    if (!subject.meter) continue;
+    if (shown(subject)) subject.meter->observe(subject.run->world().state());
+    read(subject);
+  }
 }
 
 /// Moments of a future that was given up are none of this run.
@@ -89,8 +98,8 @@ StepStatus Subjects::step() {
         fmt::format("{} stopped at {:.6g} s: {}: {}", subject.name, own.time, own.body, own.advice);
     notices_.push_back(subject.stopped);
   }
-  keep();
   observe();
+  keep();
   return status;
 }
 
@@ -111,7 +120,8 @@ std::string Subjects::edit(const std::string& trail, const std::string& value) {
     if (std::string problem = subject.run->edit(trail, value); !problem.empty())
       notices_.push_back(fmt::format("{} goes on without the change: {}", subject.name, problem));
   }
-  for (Subject& subject : subjects_) begin_measuring(subject);
+  for (Subject& subject : subjects_)
+    begin_measuring(subject, subject.meter ? subject.meter->tally_before_change() : Tally{});
   return "";
 }
 
@@ -130,11 +140,23 @@ std::string Subjects::seek(std::int64_t step) {
   step = std::clamp(step, first_step(), run().newest());
   for (Subject& subject : subjects_) {
     if (!subject.run->no_history().empty() || !subject.stopped.empty()) continue;
-    const simulation::Moment* from = subject.history.before(step);
+    const History::Kept* from = subject.history.before(step);
     if (from == nullptr) return "that moment is no longer in the history";
-    if (std::string problem = subject.run->seek(*from, step); !problem.empty()) return problem;
-    begin_measuring(subject);
+    std::optional<std::uint64_t> measured;  // the world that the meter is of
+    const auto measure = [&] {
+      const std::uint64_t generation = subject.run->generation();
+      if (!measured)
+        begin_measuring(subject, from->tally);
+      else if (*measured != generation)
+        begin_measuring(subject, subject.meter ? subject.meter->tally_before_change() : Tally{});
+      else if (subject.meter)
+        subject.meter->observe(subject.run->world().state());
+      measured = generation;
+    };
+    if (std::string problem = subject.run->seek(from->moment, step, measure); !problem.empty())
+      return problem;
   }
+  for (Subject& subject : subjects_) read(subject);
   return "";
 }
 
@@ -171,19 +193,23 @@ std::vector<Port> Subjects::ports() {
   return ports;
 }
 
-bool Subjects::shown(const Subject& subject) const {
-  return subject.stopped.empty() && (!past() || subject.run->no_history().empty());
+std::vector<std::string> Subjects::displacements() const {
+  std::vector<std::string> trails;
+  if (!make_meter_) return trails;
+  for (std::size_t i = 0; i < subjects_.size(); ++i)
+    for (const char* name : {"displacement", "displacement_predicted"})
+      trails.push_back(fmt::format("Subjects[{}].{}", i, name));
+  return trails;
 }
 
-void Subjects::measure(Subject& subject) {
-  subject.reading = subject.meter && shown(subject) ? subject.meter->read() : nothing;
-  subject.run->world().tell_contacts(subject.contacts);
+bool Subjects::shown(const Subject& subject) const {
+  return subject.stopped.empty() && (!past() || subject.run->no_history().empty());
 }
 
 std::span<const SubjectState> Subjects::states() {
   states_.clear();
   for (Subject& subject : subjects_) {
-    measure(subject);
+    subject.run->world().tell_contacts(subject.contacts);
     states_.push_back({shown(subject), subject.run->world().state().bodies, subject.contacts});
   }
   return states_;

@@ -2,7 +2,6 @@
 // law or integrator, stepped in lockstep, given what people do, and measured.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -10,27 +9,10 @@
 
 #include "simulation/run/live_run.h"
 #include "view/history.h"
+#include "view/meter.h"
 #include "view/snapshot.h"
 
 namespace hookpoint::view {
-
-/// What is measured of a subject, beside what closed forms say; NaN where there is none.
-struct Reading {
-  double displacement, displacement_predicted;  ///< of the feet since the start, downhill [m]
-  double slip, slip_predicted;                  ///< way of the boundary points on the ground [m]
-  double penetration, penetration_predicted;    ///< mean of the points that touch [m]
-  double load, load_predicted;                  ///< of the ground, along its normal [N]
-};
-
-/// Measures a run; the same code for every engine.
-class Meter {
- public:
-  virtual ~Meter() = default;
-  /// Called once for the first instant and once after each step.
-  virtual void observe(const simulation::WorldState& state) = 0;
-  virtual Reading read() const = 0;
-};
-using MakeMeter = std::function<std::unique_ptr<Meter>(const simulation::Experiment&)>;
 
 struct Subject {
   std::string name;    ///< "hookpoint", "mujoco recommended"
@@ -72,6 +54,9 @@ class Subjects {
   /// `Subjects[i].displacement` and so on, and every port of the run. They live until its
   /// generation grows.
   std::vector<simulation::Port> ports();
+  /// Of those ports the trails that are drawn over time: displacements and what is predicted for
+  /// them.
+  std::vector<std::string> displacements() const;
   /// For snapshots, at the present instant. Valid until the next call.
   std::span<const SubjectState> states();
   /// What those who look on should know, each once.
@@ -79,9 +64,9 @@ class Subjects {
 
  private:
   void begin();
-  void begin_measuring(Subject& subject);
+  void begin_measuring(Subject& subject, const Tally& behind);
   void observe();
-  void measure(Subject& subject);
+  void read(Subject& subject);
   void keep();
   void follow_takes();
   bool shown(const Subject& subject) const;

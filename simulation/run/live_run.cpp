@@ -194,12 +194,14 @@ void LiveRun::use(std::unique_ptr<Track> track) {
 
 // A take: rows from time 0 on, and the changes that led to them.
 
+RunRequest LiveRun::files_of(const LoadedExperiment& loaded) const {
+  return {request_.folder, request_.trails, loaded.text, request_.leaves_files,
+          loaded.engine,   loaded.sources,  true};
+}
+
 std::unique_ptr<RunFiles> LiveRun::open_files(Track& track) const {
-  const LoadedExperiment& from = *track.loaded;
-  return std::make_unique<RunFiles>(
-      from.experiment, track.world, track.world.ports(),
-      RunRequest{request_.folder, request_.trails, from.text, request_.leaves_files, from.engine,
-                 from.sources, true});
+  return std::make_unique<RunFiles>(track.experiment(), track.world, track.world.ports(),
+                                    files_of(*track.loaded));
 }
 
 void LiveRun::begin_take() {
@@ -283,6 +285,7 @@ std::string LiveRun::reset() {
   std::unique_ptr<Track> track;
   try {
     track = std::make_unique<Track>(from, std::vector<std::string>());
+    check_run_files(from->experiment, track->world, track->world.ports(), files_of(*from));
   } catch (const ExperimentError& error) {
     return error.what();
   }
@@ -362,16 +365,18 @@ void LiveRun::restore(const Moment& moment) {
   track_->changes = moment.changes;
 }
 
-std::string LiveRun::seek(const Moment& from, std::int64_t step) {
+std::string LiveRun::seek(const Moment& from, std::int64_t step,
+                          const std::function<void()>& at_each) {
   if (step < from.step || step > newest_)
     return fmt::format("step {} is not between {} and {}", step, from.step, newest_);
   try {
     if (present() == newest_ && track_->changes == log_.changes().size()) save(last_);
     restore(from);
+    at_each();
     std::size_t until = track_->changes;
     while (until < log_.changes().size() && (step == newest_ || log_.changes()[until].step < step))
       ++until;
-    repeat(track_, step, until, nullptr);
+    repeat(track_, step, until, nullptr, at_each);
   } catch (const ExperimentError& error) {
     return error.what();
   }
@@ -400,10 +405,12 @@ void LiveRun::repeat_change(std::unique_ptr<Track>& track, RunFiles* files) {
 
 /// Goes on to `step`, the first `changes` of the log made in their time.
 void LiveRun::repeat(std::unique_ptr<Track>& track, std::int64_t step, std::size_t changes,
-                     RunFiles* files) {
+                     RunFiles* files, const std::function<void()>& at_each) {
   for (;;) {
-    while (track->changes < changes && log_.changes()[track->changes].step == track->step())
+    while (track->changes < changes && log_.changes()[track->changes].step == track->step()) {
       repeat_change(track, files);
+      at_each();
+    }
     if (track->step() == step) return;
     if (files != nullptr) files->go_on();
     const std::int64_t before = track->step();
@@ -411,6 +418,7 @@ void LiveRun::repeat(std::unique_ptr<Track>& track, std::int64_t step, std::size
     if (!status.ok() || track->step() == before)
       throw ExperimentError(fmt::format("the run cannot be repeated from step {} on", before));
     if (files != nullptr) files->row(track->step(), track->world.state().time);
+    at_each();
   }
 }
 

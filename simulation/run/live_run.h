@@ -88,8 +88,10 @@ class LiveRun {
   /// The present moment. Throws ExperimentError where there is no history.
   void save(Moment& moment) const;
   /// Shows the moment of `step`: goes to `from`, a moment of this take at or before it, and repeats
-  /// the way to `step`, its changes included. The files stay as they are. "" or what is wrong.
-  std::string seek(const Moment& from, std::int64_t step);
+  /// the way to `step`, its changes included. The files stay as they are. `at_each` is told of
+  /// `from`, and whenever the world has gone on or has become another one. "" or what is wrong.
+  std::string seek(
+      const Moment& from, std::int64_t step, const std::function<void()>& at_each = [] {});
   /// The step to which the take has come; the world's own is less while a past moment is shown.
   std::int64_t newest() const { return newest_; }
   /// Grows whenever a future is given up: by a step or a change from a past moment that later
@@ -109,9 +111,7 @@ class LiveRun {
   /// The same while the world is within a step that does not end; nothing is repeated.
   void close_within_step();
   const std::filesystem::path& folder() const { return request_.folder; }
-  /// What it leaves, and where.
-  const RunFiles& files() const { return *files_; }
-  /// The same with changes.csv, where there is one.
+  /// What it leaves there, with changes.csv, where there is one.
   std::vector<std::string> names() const;
 
  private:
@@ -124,6 +124,7 @@ class LiveRun {
   std::unique_ptr<Track> edited(Track& track, const std::string& trail, const std::string& value,
                                 std::string& problem);
   void use(std::unique_ptr<Track> track);
+  RunRequest files_of(const LoadedExperiment& loaded) const;
   std::unique_ptr<RunFiles> open_files(Track& track) const;
   void begin_take();
   bool writes() const { return files_ != nullptr && rewriting_ == nullptr; }
@@ -134,8 +135,9 @@ class LiveRun {
   void make_scripted_changes();
   void release_buttons();
   void repeat_change(std::unique_ptr<Track>& track, RunFiles* files);
-  void repeat(std::unique_ptr<Track>& track, std::int64_t step, std::size_t changes,
-              RunFiles* files);
+  void repeat(
+      std::unique_ptr<Track>& track, std::int64_t step, std::size_t changes, RunFiles* files,
+      const std::function<void()>& at_each = [] {});
   void restore(const Moment& moment);
 
   Load load_;

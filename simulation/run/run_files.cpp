@@ -14,14 +14,6 @@ namespace {
 constexpr const char* experiment_file = "experiment.hook";
 constexpr const char* trace_file = "trace.csv";
 
-/// What cannot be written is found out before anything is.
-void check(const Experiment& experiment, const World& world, const std::vector<Port>& ports) {
-  for (const RecordSpec& record : experiment.records)
-    for (const output::Channel& channel : record.channels)
-      find_port(experiment, ports, channel.path);
-  if (!experiment.movies.empty()) static_cast<void>(world.state_layout());
-}
-
 /// The name that `file` has in the folder; "" of one that lies elsewhere.
 std::string name_in(const std::filesystem::path& folder, const std::string& file) {
   const std::filesystem::path whole = std::filesystem::absolute(folder).lexically_normal();
@@ -80,6 +72,15 @@ void add_movie(const std::filesystem::path& file, Experiment& experiment) {
   experiment.movies.push_back({"movie", path, std::nullopt});
 }
 
+void check_run_files(const Experiment& experiment, const World& world,
+                     const std::vector<Port>& ports, const RunRequest& request) {
+  find_all_ports(experiment, ports, request.trails);
+  for (const RecordSpec& record : experiment.records)
+    for (const output::Channel& channel : record.channels)
+      find_port(experiment, ports, channel.path);
+  if (!experiment.movies.empty()) static_cast<void>(world.state_layout());
+}
+
 std::vector<std::string> run_files() {
   return {experiment_file, trace_file, ChangeLog::file_name, output::Manifest::file_name, ".lock"};
 }
@@ -94,7 +95,8 @@ RunFiles::RunFiles(const Experiment& experiment, World& world, const std::vector
     : place_(request.folder),
       ports_(find_all_ports(experiment, ports, request.trails)),
       values_(ports_.size()),
-      folder_((check(experiment, world, ports), open_folder(experiment, request, text.hash))),
+      folder_((check_run_files(experiment, world, ports, request),
+               open_folder(experiment, request, text.hash))),
       movies_(experiment, world, request.folder, text, first_step),
       records_(experiment, ports, request.folder, text, first_step) {
   if (!ports_.empty()) {

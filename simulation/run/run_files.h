@@ -34,6 +34,10 @@ struct RunRequest {
   bool changes = false;              ///< people may change it: changes.csv is among its files
 };
 
+/// Finds out what cannot be written before anything is. Throws ExperimentError.
+void check_run_files(const Experiment& experiment, const World& world,
+                     const std::vector<Port>& ports, const RunRequest& request);
+
 /// The Records and Movies of the file, and the rows of trace.csv: the row at the first step, then
 /// one a step. What lies in the folder is tied to the experiment (output/result_folder.h).
 class RunFiles {
