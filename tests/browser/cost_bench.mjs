@@ -1,9 +1,10 @@
 // What a page that looks on costs a run that goes as fast as possible: the insect of Fig. 1a with and without one, by turns.
 // By hand: tests/browser/run.sh BUILD_FOLDER cost_bench.mjs. On the two cores of a small machine the browser itself, which draws by
-// software here, takes processor time from the run; the steps of a second of the program's own processor time leave that out.
+// software here, takes processor time and cache from the run; a listener that hears and asks all that the page does and draws nothing,
+// as a page on another machine would, leaves that out, and the steps of a second of the program's own processor time nearly do.
 import { readFileSync } from "node:fs";
 import { after, before, test } from "node:test";
-import { ask, configs, openBrowser, openPage, serve, workFolder } from "./support.mjs";
+import { ask, configs, openBrowser, openLine, openPage, serve, workFolder } from "./support.mjs";
 
 const scene = process.env.HOOKPOINT_BENCH_SCENE ?? `${configs}/paper/fig1a_hexapod.hook`;
 const world = process.env.HOOKPOINT_BENCH_WORLD ?? /^World (\w+)/m.exec(readFileSync(scene, "utf8"))?.[1] ?? "world";
@@ -30,19 +31,53 @@ async function measure(served) {
   return { elapsed: taken / ((performance.now() - clock) / 1000), processor: taken / (processorTime(served.child.pid) - worked) };
 }
 
+/// Every snapshot, and the trace of every plot five times a second, as the page has them.
+function listen(url) {
+  const plots = [];
+  const find = (widgets) => {
+    for (const each of widgets) {
+      if (each.type === "Plot") plots.push({ trails: each.traces.flatMap(({ x, y }) => (x === null ? [y] : [x, y])), from: 0 });
+      find(each.children ?? []);
+    }
+  };
+  let latest = 0, snapshots = 0, traces = 0, timer = null;
+  const line = openLine(url, (message) => {
+    if (message.tell === "description") {
+      find(message.windows);
+      timer = setInterval(() => plots.forEach(({ trails, from }, id) => line.say({ id, do: "trace", trails, from, to: latest, points: 4000 })), 200);
+    } else if (message[0] === 1) {
+      ++snapshots;
+      latest = message[4];
+    } else if (message[0] === 2 && message[3] > 0) {
+      ++traces;
+      plots[message[1]].from = message[3 + message[3]] + 1e-9;
+    }
+  }, (error) => { throw error; });
+  return () => {
+    clearInterval(timer);
+    line.close();
+    return { snapshots, traces };
+  };
+}
+
 test("steps a second with and without a page", { timeout: 300_000 }, async (t) => {
   const served = await serve(t, ["view", scene, "--no-open"], workFolder(t));
-  const plain = [], watched = [];
+  const kinds = { "without a page": [], "with a listener": [], "with a page": [] };
   await ask(served.url, "speed", { factor: 0 });
   for (let turn = 0; turn < turns; ++turn) {
     await new Promise((resolve) => setTimeout(resolve, 500));
-    plain.push(await measure(served));
+    kinds["without a page"].push(await measure(served));
+    const close = listen(served.url);
+    kinds["with a listener"].push(await measure(served));
+    const { snapshots, traces } = close();
+    t.diagnostic(`the listener heard ${snapshots} snapshots and ${traces} traces`);
     const page = await openPage(browser, served.url);
-    watched.push(await measure(served));
+    kinds["with a page"].push(await measure(served));
     await page.context().close();
   }
-  for (const kind of ["elapsed", "processor"]) {
-    const [without, beside] = [plain, watched].map((each) => median(each.map((one) => one[kind])));
-    t.diagnostic(`steps a second of ${kind} time: ${without.toFixed(0)} without a page, ${beside.toFixed(0)} with one: ${(100 * (without / beside - 1)).toFixed(1)} % slower`);
+  for (const time of ["elapsed", "processor"]) {
+    const rates = Object.entries(kinds).map(([kind, measured]) => [kind, median(measured.map((one) => one[time]))]);
+    for (const [kind, rate] of rates)
+      t.diagnostic(`steps a second of ${time} time ${kind}: ${rate.toFixed(0)}, ${(100 * (rates[0][1] / rate - 1)).toFixed(1)} % slower`);
   }
 });

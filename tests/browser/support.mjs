@@ -98,48 +98,64 @@ export function run(words, folder) {
   return new Promise((resolve) => child.on("close", (status) => resolve({ status, out, complaints })));
 }
 
-/// The answer to one request, by a plain socket that is there for nothing else (RFC 6455; docs/view_protocol.md).
-export function ask(url, name, fields = {}) {
+/// A line to the program by a plain socket (RFC 6455; docs/view_protocol.md), for who draws nothing. `hear` gets each whole message, as
+/// an object or as the numbers of a binary one.
+export function openLine(url, hear, failed) {
   const { host, port, search } = new URL(url);
+  const socket = connect(Number(port), "127.0.0.1");
+  socket.on("error", failed);
+  socket.on("close", () => failed(new Error("the program closed the connection")));
+  socket.write(`GET /socket${search} HTTP/1.1\r\nHost: ${host}\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n` +
+    "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n");
+  let bytes = Buffer.alloc(0), parts = [], shaken = false, waiting = [];
+  const say = (request) => {
+    const text = Buffer.from(JSON.stringify(request));
+    const short = text.length < 126;
+    // Final text frame with a mask of zeros, which changes nothing.
+    const head = short ? [0x81, 0x80 | text.length] : [0x81, 0xfe, text.length >> 8, text.length & 255];
+    const frame = Buffer.concat([Buffer.from(head), Buffer.alloc(4), text]);
+    if (shaken) socket.write(frame);
+    else waiting.push(frame);
+  };
+  socket.on("data", (more) => {
+    bytes = bytes.length === 0 ? more : Buffer.concat([bytes, more]);
+    if (!shaken) {
+      const end = bytes.indexOf("\r\n\r\n");
+      if (end < 0) return;
+      shaken = true;
+      bytes = bytes.subarray(end + 4);
+      for (const frame of waiting) socket.write(frame);
+      waiting = [];
+    }
+    while (bytes.length >= 2) {
+      const short = bytes[1] & 127;
+      const begin = short === 127 ? 10 : short === 126 ? 4 : 2;
+      if (bytes.length < begin) return;
+      const size = short === 127 ? Number(bytes.readBigUInt64BE(2)) : short === 126 ? bytes.readUInt16BE(2) : short;
+      if (bytes.length < begin + size) return;
+      // A long message comes in several frames; what begins with a brace is text.
+      if ((bytes[0] & 15) <= 2) parts.push(bytes.subarray(begin, begin + size));
+      const whole = (bytes[0] & 0x80) !== 0 ? Buffer.concat(parts) : null;
+      bytes = bytes.subarray(begin + size);
+      if (whole === null) continue;
+      parts = [];
+      if (whole[0] === 0x7b) hear(JSON.parse(whole.toString()));
+      else if (whole.length % 8 === 0) hear(new Float64Array(whole.buffer.slice(whole.byteOffset, whole.byteOffset + whole.length)));
+    }
+  });
+  return { say, close: () => socket.removeAllListeners("close").destroy() };
+}
+
+/// The answer to one request, by a line that is there for nothing else.
+export function ask(url, name, fields = {}) {
   return new Promise((resolve, reject) => {
-    const socket = connect(Number(port), "127.0.0.1");
-    socket.on("error", reject);
-    socket.write(`GET /socket${search} HTTP/1.1\r\nHost: ${host}\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n` +
-      "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n");
-    const text = Buffer.from(JSON.stringify({ id: 1, do: name, ...fields }));
-    assert.ok(text.length < 126, "a request of one short frame");
-    socket.on("close", () => reject(new Error("the program closed the connection")));
-    let bytes = Buffer.alloc(0), parts = [], shaken = false;
-    socket.on("data", (more) => {
-      bytes = Buffer.concat([bytes, more]);
-      if (!shaken) {
-        const end = bytes.indexOf("\r\n\r\n");
-        if (end < 0) return;
-        shaken = true;
-        bytes = bytes.subarray(end + 4);
-        // Final text frame with a mask of zeros, which changes nothing.
-        socket.write(Buffer.concat([Buffer.from([0x81, 0x80 | text.length]), Buffer.alloc(4), text]));
-      }
-      while (bytes.length >= 2) {
-        const short = bytes[1] & 127;
-        const begin = short === 127 ? 10 : short === 126 ? 4 : 2;
-        if (bytes.length < begin) return;
-        const size = short === 127 ? Number(bytes.readBigUInt64BE(2)) : short === 126 ? bytes.readUInt16BE(2) : short;
-        if (bytes.length < begin + size) return;
-        // A long message comes in several frames; what begins with a brace is text.
-        if ((bytes[0] & 15) <= 2) parts.push(bytes.subarray(begin, begin + size));
-        const whole = (bytes[0] & 0x80) !== 0 ? Buffer.concat(parts).toString() : null;
-        bytes = bytes.subarray(begin + size);
-        if (whole === null) continue;
-        parts = [];
-        const answer = whole.startsWith("{") ? JSON.parse(whole) : {};
-        if (answer.id !== 1) continue;
-        socket.destroy();
-        if (answer.error === undefined) resolve(answer);
-        else reject(new Error(answer.error));
-        return;
-      }
-    });
+    const line = openLine(url, (answer) => {
+      if (answer.id !== 1) return;
+      line.close();
+      if (answer.error === undefined) resolve(answer);
+      else reject(new Error(answer.error));
+    }, reject);
+    line.say({ id: 1, do: name, ...fields });
   });
 }
 
