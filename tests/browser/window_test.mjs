@@ -141,6 +141,12 @@ test("every class of widget has its trail, its role and its name, and moves its 
   await lamp.click();
   await moved("camera.contact_forces", 1);
   assert.equal(await lamp.getAttribute("aria-pressed"), "true");
+  // The camera's switches are ports: the lamp has turned one on, and the menu sets another.
+  await page.getByLabel("what the camera shows").click();
+  await eventually("the menu says so", () => page.getByRole("checkbox", { name: "contact forces" }).isChecked());
+  await page.getByRole("checkbox", { name: "frames" }).check();
+  await moved("camera.frames", 1);
+  await page.getByLabel("what the camera shows").click();
 
   const choice = page.getByRole("radiogroup", { name: "way" });
   assert.equal(await trailOf(choice), "inner.way");

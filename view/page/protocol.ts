@@ -1,6 +1,7 @@
 // The protocol of the window, version 1, as docs/view_protocol.md has it: what the program tells,
 // what the page asks. Everything is SI, world axes, z up, unless a unit is given.
 
+import type { Switch } from "./scene/switches.ts";
 import type { OpenRequest, StudiesDescription, StudyTold } from "./study/protocol.ts";
 
 export const protocolVersion = 1;
@@ -104,7 +105,7 @@ export type CameraWidget = WidgetFrame & {
   type: "Window.grob";
   drawer: string;
   follow: string | null;
-  ports: { zoom: string; distance: string; euler1: string; euler2: string; exaggeration?: string };
+  ports: { zoom: string; distance: string; euler1: string; euler2: string; exaggeration?: string } & Partial<Record<Switch, string>>;
   show: Record<string, boolean>;
 };
 export type ValuatorWidget = WidgetFrame & {

@@ -112,6 +112,37 @@ export function makeCamera(context: Context, widget: CameraWidget, fill = false)
       setTimeout(() => restored.clear(), timeOfReset);
     }));
   }
+  // So is each switch that the file has. The boxes of the menu stand as their switches do.
+  const boxes = new Map<Switch, HTMLInputElement>();
+  const toldOf = new Map<Switch, boolean>();
+  const show = (name: Switch, shown: boolean) => {
+    view.show[name] = shown;
+    const box = boxes.get(name);
+    if (box) box.checked = shown;
+    keep();
+  };
+  for (const name of switches) {
+    const port = ports[name];
+    if (!port) continue;
+    forget.push(context.values.watch(port, (value) => {
+      const shown = value !== 0;
+      const first = !toldOf.has(name);
+      if (Number.isNaN(value) || toldOf.get(name) === shown) return;
+      toldOf.set(name, shown);
+      if (shown === view.show[name]) return;
+      // What was chosen before the page was made anew is chosen again, unless a wire drives the port.
+      if (first && kept !== undefined && !movie) context.setter.set(port, Number(view.show[name])).catch(() => show(name, shown));
+      else show(name, shown);
+    }));
+  }
+  const choose = (name: Switch, shown: boolean) => {
+    show(name, shown);
+    const port = ports[name];
+    if (port && !movie) context.setter.set(port, Number(shown)).catch((refused: Error) => {
+      show(name, toldOf.get(name) ?? !shown);
+      context.notice("warning", refused.message);
+    });
+  };
   let fitted = wired || kept !== undefined;
   forget.push(context.onSnapshot((snapshot) => {
     view.draw(snapshot);
@@ -156,10 +187,8 @@ export function makeCamera(context: Context, widget: CameraWidget, fill = false)
       const id = freshId();
       const box = element("input", { type: "checkbox", id });
       box.checked = view.show[name];
-      box.addEventListener("change", () => {
-        view.show[name] = box.checked;
-        keep();
-      });
+      boxes.set(name, box);
+      box.addEventListener("change", () => choose(name, box.checked));
       return element("div", {}, box, element("label", { for: id }, switchNames[name]));
     }), followChoice));
   const take = iconButton("picture", "save this picture", () => attempt(context, (async () => {
