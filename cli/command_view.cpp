@@ -29,7 +29,8 @@ namespace {
 using application::LiveLoader;
 using simulation::LiveRun;
 
-/// Moments are kept 50 times a simulated second, and not more often than every tenth step.
+/// Moments are kept 50 times a simulated second, and not more often than every tenth step, of the
+/// last five minutes.
 view::History history_of(const simulation::Experiment& experiment) {
   constexpr double between = 0.02;
   return view::History(std::max<std::int64_t>(10, std::llround(between / experiment.deltat)));

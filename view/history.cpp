@@ -5,14 +5,15 @@
 
 namespace hookpoint::view {
 
-History::History(std::int64_t stride, std::size_t most_bytes)
-    : stride_(std::max<std::int64_t>(stride, 1)), most_bytes_(most_bytes) {}
+History::History(std::int64_t stride, std::size_t most, std::size_t most_bytes)
+    : stride_(std::max<std::int64_t>(stride, 1)), most_(most), most_bytes_(most_bytes) {}
 
 void History::keep(const simulation::LiveRun& run, const Tally& tally) {
   Kept kept;
   const std::size_t one =
       moments_.empty() ? 0 : sizeof(Kept) + sizeof(double) * moments_.back().moment.numbers.size();
-  if (moments_.size() > 1 && (moments_.size() + 1) * one > most_bytes_) {
+  const bool full = moments_.size() >= most_ || (moments_.size() + 1) * one > most_bytes_;
+  if (moments_.size() > 1 && full) {
     kept = std::move(moments_.front());
     moments_.pop_front();
   }

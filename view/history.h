@@ -18,8 +18,10 @@ class History {
     std::int64_t step() const { return moment.step; }
   };
 
-  /// `stride`: steps between two moments; `most_bytes`: of all, the oldest go first.
-  explicit History(std::int64_t stride, std::size_t most_bytes = std::size_t{256} << 20);
+  /// `stride`: steps between two moments; `most`: moments that are kept, in at most `most_bytes`.
+  /// The oldest go first.
+  explicit History(std::int64_t stride, std::size_t most = 15'000,
+                   std::size_t most_bytes = std::size_t{256} << 20);
 
   /// Whether the moment at `step` is to be kept, which must be later than all that are.
   bool due(std::int64_t step) const {
@@ -39,7 +41,7 @@ class History {
 
  private:
   std::int64_t stride_;
-  std::size_t most_bytes_;
+  std::size_t most_, most_bytes_;
   std::deque<Kept> moments_;
 };
 

@@ -10,6 +10,7 @@
 #include "tests/support/allocation_counter.h"
 #include "tests/support/command.h"
 #include "tests/support/text.h"
+#include "view/history.h"
 
 namespace hookpoint {
 namespace {
@@ -376,6 +377,28 @@ TEST_F(ChangesFile, TellsOfAChangeAfterTheEnd) {
   EXPECT_EQ(result.status, 0) << result.err;
   EXPECT_NE(result.err.find("the last 1 of the changes in c.csv were not made"), std::string::npos)
       << result.err;
+}
+
+TEST_F(LiveRunTest, HistoryIsOfTheLastMoments) {
+  start();
+  view::History history(2, 10);
+  for (std::int64_t step = 0; step <= 50; ++step) {
+    to(step);
+    if (history.due(step)) history.keep(*run, {});
+  }
+  EXPECT_EQ(history.first(), 32);
+  EXPECT_EQ(history.before(20), nullptr);
+  ASSERT_NE(history.before(41), nullptr);
+  EXPECT_EQ(history.before(41)->step(), 40);
+  // As many as fit into the room, where that is less.
+  const std::size_t one =
+      sizeof(view::History::Kept) + 8 * history.before(41)->moment.numbers.size();
+  view::History small(2, 10, 3 * one);
+  for (std::int64_t step = 52; step <= 70; ++step) {
+    to(step);
+    if (small.due(step)) small.keep(*run, {});
+  }
+  EXPECT_EQ(small.first(), 66);
 }
 
 }  // namespace
