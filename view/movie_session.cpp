@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 
+#include "simulation/wiring/ports.h"
 #include "view/keep_picture.h"
 
 namespace hookpoint::view {
@@ -38,9 +40,17 @@ void MovieSession::show() {
   std::vector<simulation::Port> ports = reel_.world().ports();
   Shown shown = request_.describe(ports);
   for (simulation::Port& port : ports) port.writable = nullptr;
-  traces_.want(shown.plotted);
+  want(shown.plotted);
   audience_.show(std::move(shown.description), movie_.experiment, std::move(ports),
                  std::move(shown.trails));
+}
+
+void MovieSession::want(const std::vector<std::string>& trails) {
+  std::vector<simulation::Port> ports;
+  traces_.want(trails, [&](const std::string& trail) {
+    if (ports.empty()) ports = reel_.world().ports();
+    return simulation::look_up_port(movie_.experiment, ports, trail).has_value();
+  });
 }
 
 double MovieSession::time_of(std::int64_t step) const {
@@ -191,7 +201,10 @@ void MovieSession::carry_out(const Asked& asked, const Reset& /*command*/) {
 }
 
 void MovieSession::carry_out(const Asked& asked, const AskTrace& command) {
-  traces_.want(command.trails);
+  if (command.trails.size() > Traces::most_columns)
+    return audience_.refuse(
+        asked, "a trace has at most " + std::to_string(Traces::most_columns) + " trails");
+  want(command.trails);
   waiting_.push_back({asked, command, Clock::now() + trace_patience});
 }
 
