@@ -135,7 +135,7 @@ TEST_F(FilmCommand, WithoutABrowserThePackageIsNamed) {
 
 TEST_F(FilmCommand, ABrowserThatEndsIsNoFaultOfTheInput) {
   const std::filesystem::path browser =
-      place.file("browser", "#!/bin/sh\necho no screen\nexit 1\n");
+      place.file("browser", "#!/bin/sh\necho no screen >&2\nexit 1\n");
   std::filesystem::permissions(browser, std::filesystem::perms::owner_all);
   setenv("HOOKPOINT_BROWSER", browser.c_str(), 1);
   const CommandResult result = place.hookpoint("replay m.h5 --film f.webm");
