@@ -28,7 +28,6 @@ Study watched {
   duration = 0.2 s;
   settle = 0.1 s;
   Sweep slope { values = 10 deg, 20 deg; }
-  Sweep dt { values = 1 ms, 2 ms; }
   Measure creep_speed;
   Measure step_time;
   Subject hook { engine = dts; contact = hookpoint; }
@@ -42,7 +41,6 @@ Study watched {
 std::string small_study() {
   std::string text = study;
   for (const auto& [from, to] : std::map<std::string, std::string>{
-           {"  Sweep dt { values = 1 ms, 2 ms; }\n", ""},
            {"  Measure step_time;\n", ""},
            {"  Subject impulse { engine = dts; contact = impulse; }\n", ""}})
     text.replace(text.find(from), from.size(), to);
@@ -79,7 +77,7 @@ Told listen(WindowClient& client) {
     if (kind == "state") told.report = read["report"];
     if (kind == "figure") told.figure = read;
     if (kind != "description") continue;
-    for (int row = 0; row < 8; ++row) {
+    for (int row = 0; row < 4; ++row) {
       const std::string start = "studies[0].rows[" + std::to_string(row) + "].outcome";
       if (!read[start].empty()) told.finished.insert(std::to_string(row));
     }
@@ -117,15 +115,15 @@ TEST_F(StudyView, APageHearsOfEveryRowAndTheBytesAreThoseOfAStudyUnseen) {
   WindowClient client(url);
   ASSERT_TRUE(client.connected()) << url << process.err();
   const Told told = listen(client);
-  EXPECT_EQ(told.finished, (std::set<std::string>{"0", "1", "2", "3", "4", "5", "6", "7"}));
+  EXPECT_EQ(told.finished, (std::set<std::string>{"0", "1", "2", "3"}));
   EXPECT_EQ(told.report, "seen/report.html");
-  // Eight rows, and each again alone for its timing.
-  EXPECT_EQ(told.done + " of " + told.total, "16 of 16");
+  // Four rows, and each again alone for its timing.
+  EXPECT_EQ(told.done + " of " + told.total, "8 of 8");
   EXPECT_EQ(told.description.at("kind"), "study");
   EXPECT_EQ(told.description.at("title"), "watched.hook");
   EXPECT_EQ(told.description.at("studies[0].title"), "Watched");
   EXPECT_EQ(told.description.at("studies[0].columns[1].unit"), "ms");
-  EXPECT_EQ(told.description.at("studies[0].rows[7].varied[0]"), "20");
+  EXPECT_EQ(told.description.at("studies[0].rows[3].varied[0]"), "20");
 
   // Who joins later is told the same.
   WindowClient late(url);
@@ -176,8 +174,8 @@ TEST_F(StudyView, ARowsWindowHasAFolderOfItsOwn) {
     const Leaves opened(answer->begin(), answer->end());
     ASSERT_TRUE(opened.contains("url")) << process.err();
     WindowClient window(opened.at("url"));
-    EXPECT_NE(window.ask("set", R"("values": {"sloped.mu": 0.5})").find("\"ok\""),
-              std::string::npos);
+    const std::string set = window.ask("set", R"("values": {"Simulator.pull.body": 0})");
+    EXPECT_NE(set.find("\"ok\""), std::string::npos) << set;
     const std::string folder = std::string("out/windows/0000") + row + "/";
     EXPECT_NE(work_.read(folder + "experiment.hook").find("World"), std::string::npos);
     EXPECT_TRUE(std::filesystem::exists(work_.folder() / folder / ".lock"));
