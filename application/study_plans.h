@@ -37,10 +37,12 @@ struct StudyFile {
   std::vector<MatrixPlan> matrices;
 
   std::size_t size() const { return studies.size() + walls.size() + matrices.size(); }
-  /// Where in `out` the results of the block `name` go: into a folder of its name, unless it is the
-  /// only one.
-  std::filesystem::path folder(const std::filesystem::path& out, const std::string& name) const {
-    return size() > 1 ? out / name : out;
+  /// Where the results of a block `name` go: into a folder of its name in `out`, or into `out`
+  /// itself where it is the only one; without `out` into runs/NAME-HASH.
+  std::filesystem::path folder(const std::optional<std::filesystem::path>& out,
+                               const std::string& name, const std::string& hash) const {
+    if (!out) return studies::folder_of(name, hash);
+    return size() > 1 ? *out / name : *out;
   }
 };
 

@@ -42,6 +42,11 @@ std::vector<std::string> result_files(const studies::StudyRun& run) {
   return files;
 }
 
+studies::ReportContext report_context(const studies::StudyRun& run, const std::string& command) {
+  return {command, peer_settings(run.result), studies::provenance_lines(run.provenance),
+          result_files(run)};
+}
+
 /// Those of all its studies, each once.
 std::vector<output::InputFile> inputs_of(const MatrixPlan& plan) {
   std::map<std::string, std::string> inputs;
@@ -54,15 +59,21 @@ std::vector<output::InputFile> inputs_of(const MatrixPlan& plan) {
 
 }  // namespace
 
-studies::ReportOutcome write_study_report(const studies::StudyRun& run, const std::string& command,
-                                          const std::vector<std::string>& pictures) {
-  std::vector<std::string> files = result_files(run);
-  files.insert(files.end(), pictures.begin(), pictures.end());
-  const studies::ReportContext context{command, peer_settings(run.result),
-                                       studies::provenance_lines(run.provenance), files};
-  studies::ReportOutcome outcome = studies::write_report(run.result, context, run.folder);
+studies::ReportOutcome write_study_report(const studies::StudyRun& run,
+                                          const std::string& command) {
+  studies::ReportOutcome outcome =
+      studies::write_report(run.result, report_context(run, command), run.folder);
   run.files->finish();
   return outcome;
+}
+
+void link_pictures(const studies::StudyRun& run, const std::string& command,
+                   const studies::ReportOutcome& report, const std::vector<std::string>& pictures) {
+  studies::ReportContext context = report_context(run, command);
+  context.files.insert(context.files.end(), pictures.begin(), pictures.end());
+  output::write_file(run.folder / "report.html",
+                     studies::report_html(run.result, context, report.figures));
+  run.files->finish();
 }
 
 void write_wall(const studies::WallRun& run, const studies::WallPlan& plan,

@@ -16,11 +16,12 @@
 
 namespace hookpoint::application {
 
-/// Figures and report.html of a study that ran to its end. `command` runs it again. `pictures`:
-/// files of its folder that the report links to beside its own. Throws output::FileError, as do all
-/// here.
-studies::ReportOutcome write_study_report(const studies::StudyRun& run, const std::string& command,
-                                          const std::vector<std::string>& pictures = {});
+/// Figures and report.html of a study that ran to its end. `command` runs it again. Throws
+/// output::FileError, as do all here.
+studies::ReportOutcome write_study_report(const studies::StudyRun& run, const std::string& command);
+/// That report once more, with links to `pictures`, files of its folder, beside its own.
+void link_pictures(const studies::StudyRun& run, const std::string& command,
+                   const studies::ReportOutcome& report, const std::vector<std::string>& pictures);
 
 /// All files of a Wall that ran.
 void write_wall(const studies::WallRun& run, const studies::WallPlan& plan,

@@ -145,6 +145,8 @@ int film(const ReplayArguments& arguments) {
     return status;
   } catch (const BrowserMissing& error) {
     application::print_error(error.what());
+  } catch (const view::DrawingError& error) {
+    application::print_error(error.what());
   } catch (const view::ServerError& error) {
     application::print_error(error.what());
   }

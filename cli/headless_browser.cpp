@@ -1,25 +1,17 @@
 #include "cli/headless_browser.h"
 
-#include <fcntl.h>
-#include <sys/prctl.h>
-#include <sys/wait.h>
+#include <stdlib.h>
 #include <unistd.h>
 
-#include <cerrno>
-#include <chrono>
-#include <csignal>
 #include <cstdlib>
 #include <sstream>
 #include <system_error>
-#include <thread>
 #include <vector>
 
 #include "output/file.h"
 
 namespace hookpoint::cli {
 namespace {
-
-using namespace std::chrono_literals;
 
 bool can_be_run(const std::filesystem::path& file) {
   std::error_code ignored;
@@ -77,25 +69,7 @@ std::vector<std::string> arguments_for(const std::filesystem::path& folder,
           "file://" + opener.string()};
 }
 
-/// In the child. A group of its own: the interrupt key is for this program, which then ends it.
-[[noreturn]] void become(const std::filesystem::path& program, std::vector<char*>& words,
-                         int written, pid_t parent) {
-  ::setpgid(0, 0);
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) ::_exit(127);
-  const int nothing = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
-  ::dup2(nothing, STDIN_FILENO);
-  ::dup2(written, STDOUT_FILENO);
-  ::dup2(written, STDERR_FILENO);
-  for (const int signal : {SIGINT, SIGTERM, SIGPIPE}) ::signal(signal, SIG_DFL);
-  ::execv(program.c_str(), words.data());
-  ::_exit(127);
-}
-
-std::string last_lines(const std::string& text) {
-  constexpr std::size_t most = 2000;
-  return text.size() <= most ? text : text.substr(text.size() - most);
-}
+constexpr std::size_t most_said = 2000;
 
 }  // namespace
 
@@ -124,50 +98,33 @@ std::filesystem::path find_headless_browser() {
 HeadlessBrowser::HeadlessBrowser(const std::string& url, int width, int height) {
   const std::filesystem::path program = find_headless_browser();
   folder_ = fresh_profile();
-  const int written = ::open((folder_ / "log").c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
-  std::vector<std::string> words =
-      arguments_for(folder_, write_opener(folder_, url), width, height);
-  words.insert(words.begin(), program.string());
-  std::vector<char*> pointers;
-  for (std::string& word : words) pointers.push_back(word.data());
-  pointers.push_back(nullptr);
-  const pid_t parent = ::getpid();
-  process_ = ::fork();
-  if (process_ == 0) become(program, pointers, written, parent);
-  const int problem = errno;
-  ::close(written);
-  if (process_ > 0) return;
-  process_ = 0;
-  std::error_code ignored;
-  std::filesystem::remove_all(folder_, ignored);
-  throw BrowserMissing("cannot start " + program.string() + ": " +
-                       std::system_category().message(problem));
+  try {
+    program_ = std::make_unique<ChildProgram>(
+        program, arguments_for(folder_, write_opener(folder_, url), width, height));
+  } catch (const std::system_error& error) {
+    remove_folder();
+    throw BrowserMissing(error.what());
+  }
 }
 
 HeadlessBrowser::~HeadlessBrowser() {
-  if (process_ != 0) {
-    ::kill(-process_, SIGTERM);
-    wait_for_end();
-  }
+  program_.reset();
+  remove_folder();
+}
+
+void HeadlessBrowser::remove_folder() const {
   std::error_code ignored;
   std::filesystem::remove_all(folder_, ignored);
 }
 
-/// A browser that does not listen is killed.
-void HeadlessBrowser::wait_for_end() {
-  const auto until = std::chrono::steady_clock::now() + 3s;
-  while (::waitpid(process_, nullptr, WNOHANG) == 0) {
-    if (std::chrono::steady_clock::now() > until) ::kill(-process_, SIGKILL);
-    std::this_thread::sleep_for(10ms);
-  }
-  ::kill(-process_, SIGKILL);  // what is left of its group
-  process_ = 0;
-}
-
 std::optional<std::string> HeadlessBrowser::ended() {
-  if (process_ != 0 && ::waitpid(process_, nullptr, WNOHANG) != process_) return std::nullopt;
-  process_ = 0;
-  return last_lines(output::read_file(folder_ / "log").value_or(""));
+  const bool running = program_->running();
+  // A pipe that is full would hold it up.
+  while (program_->take_line()) {
+  }
+  const std::string& said = program_->errors();
+  if (running) return std::nullopt;
+  return said.size() <= most_said ? said : said.substr(said.size() - most_said);
 }
 
 }  // namespace hookpoint::cli

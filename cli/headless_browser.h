@@ -1,12 +1,13 @@
 // A Chromium without a display, which draws a page of the program's own server: films, pictures.
 #pragma once
 
-#include <sys/types.h>
-
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
+
+#include "cli/child_program.h"
 
 namespace hookpoint::cli {
 
@@ -30,14 +31,15 @@ class HeadlessBrowser {
   HeadlessBrowser(const HeadlessBrowser&) = delete;
   HeadlessBrowser& operator=(const HeadlessBrowser&) = delete;
 
-  /// Once it has ended by itself, which it should not: the last lines that it wrote.
+  /// Once it has ended by itself, which it should not: the last lines that it wrote to standard
+  /// error. To be asked now and then.
   std::optional<std::string> ended();
 
  private:
-  void wait_for_end();
+  void remove_folder() const;
 
-  std::filesystem::path folder_;  ///< its profile, and what it writes
-  pid_t process_ = 0;             ///< and its group; 0: has ended
+  std::filesystem::path folder_;  ///< its profile
+  std::unique_ptr<ChildProgram> program_;
 };
 
 }  // namespace hookpoint::cli

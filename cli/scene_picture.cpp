@@ -59,6 +59,7 @@ std::string first_line(const std::string& text) { return text.substr(0, text.fin
 /// Draws it into `folder`.
 std::string draw_into(const fs::path& folder, const PictureRequest& request,
                       const std::atomic<bool>& stop) {
+  find_headless_browser();  // nothing is begun where there is none
   const auto until = Clock::now() + drawing_time;
   std::vector<std::string> words{"view", request.scene.string(), "--no-open", "--out",
                                  (folder / "run").string()};

@@ -79,21 +79,21 @@ void print_result(const StudyCommand& command, const std::string& table, const c
 
 void tell(const std::string& notice) { std::cerr << "hookpoint: note: " << notice << '\n'; }
 
-/// Pictures for the report of a study that is watched: of the scene, as the first row has it. Not
-/// among the folder's hashed files, since another version of a browser draws other pixels.
-std::vector<std::string> draw_pictures(const StudyCommand& command, const studies::StudyPlan& plan,
-                                       const std::filesystem::path& folder) {
-  const std::string file = "pictures/scene.png";
-  std::error_code ignored;
-  std::filesystem::remove(folder / file, ignored);  // an earlier study's
-  if (command.view == nullptr) return {};
+constexpr const char* picture_of_scene = "pictures/scene.png";
+
+/// A picture for the report of a study that is watched: of the scene, as the first row has it. Not
+/// among the folder's hashed files, since another version of a browser draws other pixels. Nobody
+/// waits for the browser: the page has the report before, and who goes gets no picture.
+void draw_picture(const StudyCommand& command, const studies::StudyPlan& plan,
+                  const studies::StudyRun& run, const studies::ReportOutcome& report) {
   const studies::RowPlan& row = plan.rows.front();
-  const std::string problem =
-      draw_scene_picture({row.scene, row.settings, command.arguments.allow_plugins, folder / file},
-                         command.guard.stop());
-  if (problem.empty()) return {file};
-  tell("the report has no picture of the scene: " + problem);
-  return {};
+  const std::string problem = draw_scene_picture(
+      {row.scene, row.settings, command.arguments.allow_plugins, run.folder / picture_of_scene},
+      command.guard.stop());
+  if (problem.empty())
+    application::link_pictures(run, command.command, report, {picture_of_scene});
+  else if (!command.guard.stop())
+    tell("the report has no picture of the scene: " + problem);
 }
 
 /// A study that ran.
@@ -112,10 +112,14 @@ StudyOutcome run_into(const StudyCommand& command, const studies::StudyPlan& pla
   bar.end();
   for (const std::string& notice : run.notices) tell(notice);
   if (run.interrupted) return {interrupted(command, plan, run.folder), std::nullopt, {}};
-  studies::ReportOutcome report = application::write_study_report(
-      run, command.command, draw_pictures(command, plan, run.folder));
+  std::error_code ignored;
+  std::filesystem::remove(run.folder / picture_of_scene, ignored);  // an earlier study's
+  studies::ReportOutcome report = application::write_study_report(run, command.command);
   for (const std::string& message : report.messages) application::print_error(message);
-  if (command.view != nullptr) command.view->finish(plan, run.result, run.folder / "report.html");
+  if (command.view != nullptr) {
+    command.view->finish(plan, run.result, run.folder / "report.html");
+    draw_picture(command, plan, run, report);
+  }
   const int status = !studies::all_truths_hold(run.result) ? truth_failed
                      : report.messages.empty()             ? fine
                                                            : missing;
@@ -142,8 +146,7 @@ int run_matrix_into(const StudyCommand& command, const application::MatrixPlan& 
 }  // namespace
 
 int run_one_study(const StudyCommand& command, const studies::StudyPlan& plan) {
-  std::filesystem::path folder = command.folder(plan.name);
-  if (folder.empty()) folder = plan.folder();
+  const std::filesystem::path folder = command.folder(plan);
   const StudyOutcome outcome =
       writing_into(command, folder, [&] { return run_into(command, plan, folder); });
   if (!outcome.run) return outcome.status;
@@ -155,9 +158,9 @@ int run_one_study(const StudyCommand& command, const studies::StudyPlan& plan) {
 
 int run_one_wall(const StudyCommand& command, const studies::WallPlan& plan) {
   RunBar bar(plan.study.name);
-  studies::RunOptions options = watched(command, plan.study, bar, command.folder(plan.study.name));
+  const std::filesystem::path folder = command.folder(plan.study);
+  studies::RunOptions options = watched(command, plan.study, bar, folder);
   options.tell = tell;
-  const std::filesystem::path folder = studies::wall_folder(plan, options);
   const auto run = writing_into(command, folder, [&] {
     auto ran = studies::run_wall(plan, command.engines, options, command.guard.stop());
     bar.end();
@@ -173,8 +176,7 @@ int run_one_wall(const StudyCommand& command, const studies::WallPlan& plan) {
 }
 
 int run_one_matrix(const StudyCommand& command, const application::MatrixPlan& plan) {
-  std::filesystem::path folder = command.folder(plan.name);
-  if (folder.empty()) folder = studies::folder_of(plan.name, plan.hash);
+  const std::filesystem::path folder = command.folder(plan);
   return writing_into(command, folder, [&] { return run_matrix_into(command, plan, folder); });
 }
 

@@ -21,9 +21,10 @@ struct StudyCommand {
   const InterruptGuard& guard;
   StudyView* view = nullptr;  ///< where it is watched; stdout then has nothing of it
 
-  /// Of the block `name`; empty without --out: its runner then takes runs/NAME-HASH.
-  std::filesystem::path folder(const std::string& name) const {
-    return arguments.out ? file.folder(*arguments.out, name) : std::filesystem::path();
+  /// Where the results of this Study or Matrix go.
+  template <class Plan>
+  std::filesystem::path folder(const Plan& plan) const {
+    return file.folder(arguments.out, plan.name, plan.hash);
   }
 };
 

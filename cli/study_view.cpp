@@ -1,9 +1,12 @@
 #include "cli/study_view.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <atomic>
 #include <exception>
 #include <thread>
+#include <utility>
 
 #include "cli/study_boards.h"
 #include "studies/run/verdict.h"
@@ -43,17 +46,23 @@ StudyView::StudyView(const ViewArguments& view, const application::StudyArgument
                      const application::StudyFile& file)
     : arguments_(arguments),
       address_(view.bind),
-      server_({view.bind, view.port}, page_bundle::index_html),
+      server_({view.bind, view.port, view.token.value_or(view::fresh_token())},
+              page_bundle::index_html),
       board_(arguments.file.filename().string(), HOOKPOINT_VERSION, boards_of(file)) {
-  const auto add = [&](const studies::StudyPlan& plan, bool has_table) {
+  const auto add = [&](const studies::StudyPlan& plan, std::filesystem::path folder,
+                       bool has_table) {
     places_[&plan] = shown_.size();
-    shown_.push_back({&plan, std::nullopt});
+    shown_.push_back({&plan, std::move(folder), std::nullopt});
     if (has_table) shown_.back().table = studies::empty_table(plan);
   };
-  for (const studies::StudyPlan& plan : file.studies) add(plan, true);
-  for (const studies::WallPlan& plan : file.walls) add(plan.study, false);
+  const auto folder_of = [&](const auto& plan) {
+    return file.folder(arguments.out, plan.name, plan.hash);
+  };
+  for (const studies::StudyPlan& plan : file.studies) add(plan, folder_of(plan), true);
+  for (const studies::WallPlan& plan : file.walls) add(plan.study, folder_of(plan.study), false);
   for (const application::MatrixPlan& matrix : file.matrices)
-    for (const application::MatrixPart& part : matrix.parts) add(part.plan, true);
+    for (const application::MatrixPart& part : matrix.parts)
+      add(part.plan, folder_of(matrix) / part.plan.name, true);
 }
 
 StudyView::~StudyView() = default;
@@ -175,7 +184,11 @@ void StudyView::open(const view::OpenRow& row, view::Server::ClientId client, st
     server_.send(client, view::refused_answer(id, "refused: " + plan.refusal));
     return;
   }
-  std::vector<std::string> words{"view", plan.scene.string(), "--no-open", "--bind", address_};
+  // A folder of its own: two rows of one scene would write over each other's changes.
+  const std::filesystem::path folder =
+      shown_[row.study].folder / fmt::format("windows/{:05}", row.row);
+  std::vector<std::string> words{"view",  plan.scene.string(), "--no-open", "--bind", address_,
+                                 "--out", folder.string()};
   for (const std::string& setting : plan.settings) {
     words.emplace_back("--set");
     words.push_back(setting);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
@@ -49,6 +50,7 @@ class StudyView {
   /// A study of the board.
   struct Shown {
     const studies::StudyPlan* plan;
+    std::filesystem::path folder;               ///< of its results
     std::optional<studies::StudyResult> table;  ///< so far; none of a Wall
     bool figures_are_old = false;
     bool progress_is_old = false;

@@ -1,4 +1,4 @@
-# Headers that most files include, read once. A file still includes all that it uses: the presets dev, asan, ci and tidy build all
+# Headers that most files include, read once. A file still includes all that it uses: the presets dev and asan build all
 # but the tests without (CMAKE_DISABLE_PRECOMPILE_HEADERS).
 set(HOOKPOINT_PRECOMPILED
   <algorithm> <array> <charconv> <chrono> <cmath> <cstdint> <filesystem> <fstream> <functional> <limits> <map> <memory> <numbers>

@@ -28,6 +28,11 @@ struct FilmError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The browser that was to draw is gone, or cannot; a whole sentence too.
+struct DrawingError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 /// By the file's name. Throws FilmError for one that is neither FILE.webm, FILE.mp4 nor
 /// DIR/%05d.png.
 FilmFormat film_format(const std::filesystem::path& file);

@@ -48,10 +48,10 @@ bool FilmSession::run(const std::atomic<bool>& stop) {
 }
 
 void FilmSession::look_after_page() {
-  if (const std::string lost = request_.lost(); !lost.empty()) throw FilmError(lost);
+  if (const std::string lost = request_.lost(); !lost.empty()) throw DrawingError(lost);
   if (Clock::now() - heard_ > patience)
-    throw FilmError(audience_.joined() == 0 ? "the browser did not open the page"
-                                            : "the browser has stopped drawing");
+    throw DrawingError(audience_.joined() == 0 ? "the browser did not open the page"
+                                               : "the browser has stopped drawing");
 }
 
 void FilmSession::carry_out(const Asked& asked) {
@@ -103,7 +103,7 @@ void FilmSession::carry_out(const Asked& asked, const FilmEnd& command) {
 }
 
 void FilmSession::carry_out(const Asked& /*asked*/, const FilmFailed& command) {
-  throw FilmError("the browser cannot make the film: " + command.text);
+  throw DrawingError("the browser cannot make the film: " + command.text);
 }
 
 }  // namespace hookpoint::view

@@ -27,7 +27,7 @@ class FilmSession {
   /// All outlive it.
   FilmSession(const ShownMovie& movie, Audience& audience, FilmSessionRequest request);
 
-  /// Until the film is complete, or `stop`; whether it is complete. Throws FilmError,
+  /// Until the film is complete, or `stop`; whether it is complete. Throws DrawingError,
   /// output::MovieError, output::FileError.
   bool run(const std::atomic<bool>& stop);
 

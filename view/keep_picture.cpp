@@ -1,13 +1,27 @@
 #include "view/keep_picture.h"
 
+#include <string>
+
 #include "output/file.h"
 
 namespace hookpoint::view {
+namespace {
+
+std::filesystem::path free_place(const std::filesystem::path& wanted) {
+  std::filesystem::path path = wanted;
+  for (int count = 2; std::filesystem::exists(path); ++count)
+    path.replace_filename(wanted.stem().string() + "-" + std::to_string(count) +
+                          wanted.extension().string());
+  return path;
+}
+
+}  // namespace
 
 void keep_picture(const Asked& asked, const KeepPicture& picture,
                   const std::filesystem::path& folder, Audience& audience) {
-  const std::filesystem::path path = folder / picture.name;
+  std::filesystem::path path;
   try {
+    path = free_place(folder / picture.name);
     if (!path.parent_path().empty()) std::filesystem::create_directories(path.parent_path());
     output::write_file(path, picture.png);
   } catch (const std::exception& error) {

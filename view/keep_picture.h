@@ -8,7 +8,7 @@
 namespace hookpoint::view {
 
 /// Writes it to `folder`, which is made where there is none, and answers with its path or with why
-/// there is none.
+/// there is none. A file that is there already stays: NAME-2.png is free beside NAME.png.
 void keep_picture(const Asked& asked, const KeepPicture& picture,
                   const std::filesystem::path& folder, Audience& audience);
 

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 
+#include "simulation/wiring/ports.h"
 #include "view/keep_picture.h"
 
 namespace hookpoint::view {
@@ -12,9 +14,6 @@ namespace {
 using namespace std::chrono_literals;
 using output::JsonWriter;
 
-constexpr auto between_snapshots = 16'667us;  // 60 a second
-constexpr auto slice = 5ms;                   // requests are looked for at least so often
-constexpr auto idle = 100ms;
 /// A trace is waited for so long before it is answered with what is known of it so far.
 constexpr auto trace_patience = 500ms;
 constexpr auto between_progress = 500ms;
@@ -38,9 +37,17 @@ void MovieSession::show() {
   std::vector<simulation::Port> ports = reel_.world().ports();
   Shown shown = request_.describe(ports);
   for (simulation::Port& port : ports) port.writable = nullptr;
-  traces_.want(shown.plotted);
+  want(shown.plotted);
   audience_.show(std::move(shown.description), movie_.experiment, std::move(ports),
                  std::move(shown.trails));
+}
+
+void MovieSession::want(const std::vector<std::string>& trails) {
+  std::vector<simulation::Port> ports;
+  traces_.want(trails, [&](const std::string& trail) {
+    if (ports.empty()) ports = reel_.world().ports();
+    return simulation::look_up_port(movie_.experiment, ports, trail).has_value();
+  });
 }
 
 double MovieSession::time_of(std::int64_t step) const {
@@ -53,11 +60,11 @@ void MovieSession::run(const std::atomic<bool>& stop) {
     audience_.hear();
     while (const std::optional<Asked> asked = audience_.next()) carry_out(*asked);
     if (generation_ != reel_.generation()) show();
-    const auto until = std::min(next_snapshot_, Clock::now() + slice);
+    const auto until = std::min(next_snapshot_, Clock::now() + Pace::slice);
     advance(until);
     answer_arrived();
     if (traces_.busy() && !audience_.empty())
-      traces_.work(std::max(until, Clock::now() + slice / 5));
+      traces_.work(std::max(until, Clock::now() + Pace::slice / 5));
     answer_traces();
     if (Clock::now() >= next_snapshot_) publish();
     if (!quit_) audience_.wait(next_wake());
@@ -101,7 +108,7 @@ void MovieSession::answer_traces() {
 }
 
 void MovieSession::publish() {
-  next_snapshot_ = std::max(next_snapshot_ + between_snapshots, Clock::now());
+  next_snapshot_ = std::max(next_snapshot_ + Pace::between_snapshots, Clock::now());
   tell_differences();
   tell_progress();
   const bool shown = reel_.there() || (!paused_ && travelling_.empty() && reel_.whole());
@@ -137,11 +144,11 @@ void MovieSession::tell_progress() {
 
 MovieSession::Clock::time_point MovieSession::next_wake() const {
   const auto now = Clock::now();
-  if (audience_.empty()) return now + idle;
+  if (audience_.empty()) return now + Pace::idle;
   if (traces_.busy() || !reel_.there() || (!paused_ && pace_.asked() == 0.)) return now;
-  if (paused_) return std::min(next_snapshot_, now + slice);
+  if (paused_) return std::min(next_snapshot_, now + Pace::slice);
   const double next = time_of(reel_.step() + 1);
-  return std::min({pace_.when(next), next_snapshot_, now + slice});
+  return std::min({pace_.when(next), next_snapshot_, now + Pace::slice});
 }
 
 void MovieSession::carry_out(const Asked& asked) {
@@ -191,7 +198,10 @@ void MovieSession::carry_out(const Asked& asked, const Reset& /*command*/) {
 }
 
 void MovieSession::carry_out(const Asked& asked, const AskTrace& command) {
-  traces_.want(command.trails);
+  if (command.trails.size() > Traces::most_columns)
+    return audience_.refuse(
+        asked, "a trace has at most " + std::to_string(Traces::most_columns) + " trails");
+  want(command.trails);
   waiting_.push_back({asked, command, Clock::now() + trace_patience});
 }
 

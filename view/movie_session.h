@@ -48,6 +48,7 @@ class MovieSession {
   void tell_progress();
   Clock::time_point next_wake() const;
   double time_of(std::int64_t step) const;
+  void want(const std::vector<std::string>& trails);
 
   void carry_out(const Asked& asked);
   void carry_out(const Asked& asked, const Pause& command);

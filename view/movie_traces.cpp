@@ -2,16 +2,36 @@
 
 #include <algorithm>
 #include <limits>
-#include <set>
 
 #include "simulation/wiring/ports.h"
 
 namespace hookpoint::view {
 
-void MovieTraces::want(const std::vector<std::string>& trails) {
+void MovieTraces::want(const std::vector<std::string>& trails,
+                       const std::function<bool(const std::string& trail)>& is_port) {
   for (const std::string& trail : trails)
-    if (pass_of(trail) == nullptr && std::ranges::find(waiting_, trail) == waiting_.end())
+    if (pass_of(trail) == nullptr && !is_waiting(trail) && columns() < Traces::most_columns &&
+        is_port(trail))
       waiting_.push_back(trail);
+}
+
+bool MovieTraces::is_waiting(const std::string& trail) const {
+  return std::ranges::find(waiting_, trail) != waiting_.end();
+}
+
+std::size_t MovieTraces::columns() const {
+  std::size_t count = waiting_.size();
+  for (const Pass& pass : passes_) count += pass.traces.trails().size();
+  return count;
+}
+
+std::set<const MovieTraces::Pass*> MovieTraces::passes_of(
+    const std::vector<std::string>& trails) const {
+  std::set<const Pass*> passes;
+  for (const std::string& trail : trails)
+    if (const Pass* pass = pass_of(trail); pass != nullptr || is_waiting(trail))
+      passes.insert(pass);
+  return passes;
 }
 
 const MovieTraces::Pass* MovieTraces::pass_of(const std::string& trail) const {
@@ -70,8 +90,7 @@ double MovieTraces::progress() const {
 }
 
 bool MovieTraces::known(const std::vector<std::string>& trails, double time) const {
-  std::set<const Pass*> needed;
-  for (const std::string& trail : trails) needed.insert(pass_of(trail));
+  const std::set<const Pass*> needed = passes_of(trails);
   return std::ranges::all_of(needed, [&](const Pass* pass) {
     // Several passes have the same row of instants once they are complete.
     return pass != nullptr && (pass->reel == nullptr || (needed.size() == 1 && pass->read >= time));
@@ -80,10 +99,9 @@ bool MovieTraces::known(const std::vector<std::string>& trails, double time) con
 
 Traces::Extract MovieTraces::extract(const std::vector<std::string>& trails, double from, double to,
                                      std::size_t points) const {
-  std::set<const Pass*> needed;
-  for (const std::string& trail : trails) needed.insert(pass_of(trail));
+  const std::set<const Pass*> needed = passes_of(trails);
   const bool comparable = needed.size() == 1 || known(trails, to);
-  if (trails.empty() || needed.contains(nullptr) || !comparable)
+  if (needed.empty() || needed.contains(nullptr) || !comparable)
     return {{}, std::vector<std::vector<double>>(trails.size())};
   Traces::Extract all;
   for (const Pass* pass : needed) {

@@ -11,6 +11,11 @@ class Pace {
  public:
   using Clock = std::chrono::steady_clock;
 
+  /// Of every session: 60 snapshots a second; requests are looked for at least so often; and where
+  /// nobody looks on.
+  static constexpr std::chrono::microseconds between_snapshots{16'667};
+  static constexpr std::chrono::milliseconds slice{5}, idle{100};
+
   /// Simulated over elapsed time; 0: as fast as possible.
   double asked() const { return asked_; }
   void ask(double factor) {

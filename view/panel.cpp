@@ -606,10 +606,4 @@ void write_panel(const Panel& panel, output::JsonWriter& json) {
   json.end_array();
 }
 
-std::string to_json(const Panel& panel) {
-  output::JsonWriter json;
-  write_panel(panel, json);
-  return json.text();
-}
-
 }  // namespace hookpoint::view

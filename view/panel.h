@@ -108,6 +108,5 @@ std::vector<std::string> plotted_of(const Panel& panel);
 
 /// The "windows" of docs/view_protocol.md: a list of WIDGETs.
 void write_panel(const Panel& panel, output::JsonWriter& json);
-std::string to_json(const Panel& panel);
 
 }  // namespace hookpoint::view

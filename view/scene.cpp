@@ -194,10 +194,4 @@ Scene make_scene(const Experiment& experiment) {
 
 void write_scene(const Scene& scene, output::JsonWriter& json) { SceneWriter{json}(scene); }
 
-std::string to_json(const Scene& scene) {
-  output::JsonWriter json;
-  write_scene(scene, json);
-  return json.text();
-}
-
 }  // namespace hookpoint::view

@@ -44,6 +44,5 @@ Scene make_scene(const simulation::Experiment& experiment);
 
 /// The "scene" of docs/view_protocol.md.
 void write_scene(const Scene& scene, output::JsonWriter& json);
-std::string to_json(const Scene& scene);
 
 }  // namespace hookpoint::view

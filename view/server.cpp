@@ -107,7 +107,7 @@ struct Shared {
   const ServerOptions options;
   asio::io_context context{1};
   Listening listening;
-  std::map<std::string, Resource, std::less<>> resources;
+  Resource index;  ///< the page
   std::map<Server::ClientId, std::shared_ptr<Connection>> connections;
   std::set<Server::ClientId> waiting;  ///< for room for their events
   bool ending = false;
@@ -261,10 +261,9 @@ class Connection : public std::enable_shared_from_this<Connection> {
       return answer(
           refusal(http::status::method_not_allowed, "only GET and HEAD", "Allow: GET, HEAD\r\n"));
     if (target.path == "/socket") return join();
-    const auto found = shared_.resources.find(target.path);
-    if (found == shared_.resources.end())
+    if (target.path != "/" && target.path != "/index.html")
       return answer(refusal(http::status::not_found, "there is no such file"));
-    answer({http::status::ok, found->second, ""});
+    answer({http::status::ok, shared_.index, ""});
   }
 
   void answer(const Answer& given) {
@@ -490,8 +489,7 @@ class Server::Implementation : public Shared {
   Implementation(const ServerOptions& given, std::string_view page) : Shared(given) {
     check(given);
     listen();
-    const Resource index{"text/html; charset=utf-8", std::make_shared<const std::string>(page)};
-    resources = {{"/", index}, {"/index.html", index}};
+    index = {"text/html; charset=utf-8", std::make_shared<const std::string>(page)};
     accept();
     // Signals are for the thread that steps.
     sigset_t all, before;
@@ -699,15 +697,6 @@ void Server::broadcast(const std::string& json) {
 
 void Server::publish(std::shared_ptr<const std::string> frame) {
   implementation_->publish(std::move(frame));
-}
-
-void Server::serve(std::string path, std::string content_type, std::string bytes) {
-  implementation_->later(
-      [server = implementation_.get(), path = std::move(path),
-       resource = Resource{std::move(content_type),
-                           std::make_shared<const std::string>(std::move(bytes))}] {
-        server->resources[path] = resource;
-      });
 }
 
 std::size_t Server::clients() const { return implementation_->clients; }

@@ -81,9 +81,6 @@ class Server {
   /// waits. It comes behind what was sent before it, and ahead of what is sent after it.
   void publish(std::shared_ptr<const std::string> frame);
 
-  /// Gives `bytes` at `path` (from its `/`) from now on, to who has the token.
-  void serve(std::string path, std::string content_type, std::string bytes);
-
   std::size_t clients() const;
 
  private:

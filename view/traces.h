@@ -29,6 +29,9 @@ class Extremes {
 /// middle: no extreme is ever lost, and its instant is right to within the stretch.
 class Traces {
  public:
+  /// Of a page's wishes together, with those of its plots: each costs memory at every instant.
+  static constexpr std::size_t most_columns = 256;
+
   /// `most`: instants kept; even, at least 4.
   explicit Traces(std::size_t most = 500'000) : most_(most) {}
 

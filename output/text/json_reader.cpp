@@ -33,8 +33,9 @@ class Leaves final : public nlohmann::json_sax<Json> {
   }
 
  private:
-  /// A path is as long as the document is deep: one made to be deep would fill the memory.
-  static constexpr std::size_t deepest = 64;
+  /// Each leaf has the path of what it lies in before its own name: a document made to be deep, or
+  /// of long names within one another, would fill the memory.
+  static constexpr std::size_t deepest = 64, longest_path = 512;
   struct Level {
     std::size_t path_length = 0;  ///< of the object or list itself
     bool list = false;
@@ -60,7 +61,7 @@ class Leaves final : public nlohmann::json_sax<Json> {
   bool open(bool list) {
     begin_value();
     levels_.push_back({path_.size(), list, 0, {}});
-    return levels_.size() <= deepest;
+    return levels_.size() <= deepest && path_.size() <= longest_path;
   }
   bool close() {
     levels_.pop_back();

@@ -13,6 +13,8 @@
 namespace hookpoint::simulation {
 namespace {
 
+constexpr std::size_t longest_glob = 1000;
+
 bool is_glob(std::string_view pattern) { return pattern.find_first_of("*?") != pattern.npos; }
 
 bool fits(const std::string& pattern, std::string_view trail) {
@@ -104,6 +106,7 @@ std::vector<Port> fitting(const std::vector<Port>& ports, const std::vector<std:
 }  // namespace
 
 bool glob_fits(std::string_view pattern, std::string_view text) {
+  if (pattern.size() > longest_glob) return false;
   // reached[i]: what was read of the pattern fits the first i characters of the text.
   std::vector<bool> reached(text.size() + 1, false);
   reached[0] = true;

@@ -10,7 +10,8 @@
 namespace hookpoint::simulation {
 
 /// Whether `pattern` fits all of `text`: `?` one character of a name, `*` any number of them, `**`
-/// any number whatever they are, dots too.
+/// any number whatever they are, dots too. One longer than any trail, of more than 1000 bytes, fits
+/// nothing. O(pattern * text).
 bool glob_fits(std::string_view pattern, std::string_view text);
 
 /// Of an element's trail that of its whole: "block.base.location" of "block.base.location.x",

@@ -64,8 +64,6 @@ struct WallRun {
 
 /// The file that a Scene of a Wall means, as an Include would name it.
 std::string scene_file(const language::Object& scene);
-/// Where a Wall's files go: `options.folder`, or runs/<wall>-<hash>.
-std::filesystem::path wall_folder(const WallPlan& plan, const RunOptions& options);
 /// The plan of `wall`, an object of `root`. Nothing when `diagnostics` got an error: a scene that
 /// is not there, has no Expect, or that no subject covers. A run whose step is above its law's
 /// stability bound gets a warning. Every run's scene is loaded here.

@@ -164,15 +164,10 @@ RunResult empty_wall_row(const RowPlan& row) {
 int WallResult::passed() const { return count_cells(*this, true); }
 int WallResult::failed() const { return count_cells(*this, false); }
 
-std::filesystem::path wall_folder(const WallPlan& plan, const RunOptions& options) {
-  if (!options.folder.empty()) return options.folder;
-  return plan.study.folder();
-}
-
 std::optional<WallRun> run_wall(const WallPlan& plan, const EngineTable& engines,
                                 const RunOptions& options, const std::atomic<bool>& stop) {
   const std::vector<RowPlan>& rows = plan.study.rows;
-  WallRun run{{}, wall_folder(plan, options), nullptr, {}};
+  WallRun run{{}, options.folder.empty() ? plan.study.folder() : options.folder, nullptr, {}};
   run.files = std::make_unique<output::ResultFolder>(
       run.folder, manifest_of(plan.study),
       std::vector<std::string>{"rows/", "results.csv", "experiment.hook", "provenance.json",

@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "tests/support/child_process.h"
+#include "tests/support/chromium.h"
 #include "tests/support/command.h"
 #include "tests/support/pendulum_movie.h"
 
@@ -13,18 +14,6 @@ namespace {
 
 using testing::CommandResult;
 using testing::Workplace;
-
-[[maybe_unused]] bool chromium_is_there() {
-  return std::system("command -v chromium chromium-browser google-chrome >/dev/null 2>&1") == 0 ||
-         std::getenv("HOOKPOINT_BROWSER") != nullptr;
-}
-/// A sanitized program draws nothing that the released one does not, and takes ten times as long.
-#ifdef __SANITIZE_ADDRESS__
-#define NEEDS_CHROMIUM GTEST_SKIP() << "films are made by the program as released"
-#else
-#define NEEDS_CHROMIUM \
-  if (!chromium_is_there()) GTEST_SKIP() << "chromium is not installed"
-#endif
 
 class FilmCommand : public ::testing::Test {
  protected:
@@ -142,6 +131,20 @@ TEST_F(FilmCommand, WithoutABrowserThePackageIsNamed) {
   EXPECT_EQ(WEXITSTATUS(raw), 3);
   const std::string said = place.read(".err");
   EXPECT_NE(said.find("apt-get install chromium"), std::string::npos) << said;
+}
+
+TEST_F(FilmCommand, ABrowserThatEndsIsNoFaultOfTheInput) {
+  const std::filesystem::path browser =
+      place.file("browser", "#!/bin/sh\necho no screen >&2\nexit 1\n");
+  std::filesystem::permissions(browser, std::filesystem::perms::owner_all);
+  setenv("HOOKPOINT_BROWSER", browser.c_str(), 1);
+  const CommandResult result = place.hookpoint("replay m.h5 --film f.webm");
+  unsetenv("HOOKPOINT_BROWSER");
+  EXPECT_EQ(result.status, 3) << result.err;
+  EXPECT_NE(result.err.find("the browser has ended by itself; it said: no screen"),
+            std::string::npos)
+      << result.err;
+  EXPECT_FALSE(std::filesystem::exists(place.folder() / "f.webm"));
 }
 
 TEST_F(FilmCommand, AnInterruptLeavesNothingHalfWritten) {

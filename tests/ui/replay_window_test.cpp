@@ -2,6 +2,7 @@
 // of the run that wrote it.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <memory>
@@ -10,13 +11,13 @@
 #include "tests/support/child_process.h"
 #include "tests/support/command.h"
 #include "tests/support/pendulum_movie.h"
-#include "tests/support/view_client.h"
+#include "tests/support/window_client.h"
 
 namespace hookpoint {
 namespace {
 
 using testing::ChildProcess;
-using testing::ViewClient;
+using testing::WindowClient;
 using testing::Workplace;
 
 constexpr const char* trails =
@@ -45,7 +46,7 @@ class ReplayWindow : public ::testing::Test {
         place.folder(), std::vector<std::string>{"replay", movie, "--no-open"});
     ASSERT_TRUE(program->wait_until([&] { return program->out().ends_with('\n'); }))
         << program->err();
-    client = std::make_unique<ViewClient>(program->out());
+    client = std::make_unique<WindowClient>(program->out());
   }
   /// Values by `read`, in the order of `trails`.
   std::vector<double> values(const std::string& answer) {
@@ -72,7 +73,7 @@ class ReplayWindow : public ::testing::Test {
 
   Workplace place;
   std::unique_ptr<ChildProcess> program;
-  std::unique_ptr<ViewClient> client;
+  std::unique_ptr<WindowClient> client;
 };
 
 TEST_F(ReplayWindow, EveryMomentIsThatOfTheRun) {
@@ -99,7 +100,9 @@ TEST_F(ReplayWindow, ATraceIsTheRecordOfTheRun) {
     std::vector<double> numbers;
     // A movie may answer with what it has read so far: it is asked again until it has come to the
     // end.
+    const auto until = std::chrono::steady_clock::now() + std::chrono::minutes(5);
     for (double from = 0.; from < 0.9995;) {
+      ASSERT_LT(std::chrono::steady_clock::now(), until) << "read up to " << from << " s";
       const auto part = client->ask_trace("\"trails\": " + quoted(trails) + ", \"from\": " +
                                           std::to_string(from) + ", \"to\": 1, \"points\": 5000");
       ASSERT_GE(part.size(), 2U);
@@ -117,6 +120,38 @@ TEST_F(ReplayWindow, ATraceIsTheRecordOfTheRun) {
   }
 }
 
+// The movie has no such trails: they cost no reading, and do not hold up those that it has.
+TEST_F(ReplayWindow, ATraceOfWhatIsNotThereIsNoNumber) {
+  open("50 Hz");
+  const std::string known = "world.pendulum.arm.rod.angle";
+  const std::string rest = ", \"from\": 0, \"to\": 1, \"points\": 5000";
+  const auto several = client->ask_trace("\"trails\": " + quoted("no.such," + known) + rest);
+  ASSERT_GE(several.size(), 2U);
+  const auto count = static_cast<std::size_t>(several[1]);
+  ASSERT_EQ(several.size(), 2 + 3 * count);
+  ASSERT_GT(count, 0U);
+  EXPECT_TRUE(std::isnan(several[2 + count]));
+  EXPECT_FALSE(std::isnan(several[2 + 2 * count]));
+  std::string many = known;
+  for (int i = 0; i < 255; ++i) many += ",no.such" + std::to_string(i);
+  EXPECT_EQ(client->ask_trace("\"trails\": " + quoted(many) + rest)[0], 256.);
+  const std::string answer = client->ask("trace", "\"trails\": " + quoted(many + ",one.more"));
+  EXPECT_NE(answer.find("at most 256 trails"), std::string::npos) << answer;
+}
+
+TEST_F(ReplayWindow, APictureIsPutBesideWhatIsThere) {
+  open("50 Hz");
+  const std::string header = "iVBORw0KGgo";  // the eight bytes of every PNG, and no more
+  for (const char* name : {"view.png", "view-2.png", "view-3.png"}) {
+    const std::string answer =
+        client->ask("picture", "\"name\": \"view.png\", \"png\": \"" + header + "=\"");
+    EXPECT_NE(answer.find(std::string("run/") + name), std::string::npos) << answer;
+    EXPECT_EQ(place.read(std::string("run/") + name), "\x89PNG\r\n\x1a\n");
+    place.file(std::string("run/") + name, "of a user");
+  }
+  EXPECT_EQ(place.read("run/view.png"), "of a user");
+}
+
 TEST_F(ReplayWindow, ItPlaysStepsAndEnds) {
   open("50 Hz");
   EXPECT_EQ(client->snapshot()[4], 0.);
@@ -124,10 +159,16 @@ TEST_F(ReplayWindow, ItPlaysStepsAndEnds) {
   EXPECT_EQ(client->snapshot()[3], 3.);
   client->ask("speed", "\"factor\": 0");
   client->ask("run");
+  const auto until = std::chrono::steady_clock::now() + std::chrono::minutes(5);
   std::vector<double> snapshot = client->snapshot();
-  while (snapshot[3] < 1000.) snapshot = client->snapshot();
-  EXPECT_EQ(snapshot[3], 1000.);
-  while ((static_cast<int>(snapshot[5]) & 1) == 0) snapshot = client->snapshot();
+  const auto stands_at_its_end = [&] {
+    return snapshot[3] == 1000. && (static_cast<int>(snapshot[5]) & 1) != 0;
+  };
+  while (!stands_at_its_end()) {
+    ASSERT_LT(std::chrono::steady_clock::now(), until) << "at step " << snapshot[3];
+    snapshot = client->snapshot();
+    ASSERT_GE(snapshot.size(), 6U) << "the connection ended";
+  }
   // From its end it begins again.
   client->ask("speed", "\"factor\": 0.1");
   client->ask("run");
@@ -155,7 +196,7 @@ TEST_F(ReplayWindow, TheUrlIsAllThatItPrintsAndASignalEndsIt) {
   open("50 Hz");
   EXPECT_EQ(program->out().find("http://127.0.0.1:"), 0U);
   EXPECT_EQ(program->out().find('\n'), program->out().size() - 1);
-  ViewClient other(program->out());
+  WindowClient other(program->out());
   const std::string description = other.wait_for("\"tell\": \"description\"");
   for (const char* has : {"\"kind\": \"movie\"", "\"look.eye\"", "\"look.way\"", "\"Window\""})
     EXPECT_NE(description.find(has), std::string::npos) << has;

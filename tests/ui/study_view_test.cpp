@@ -2,11 +2,14 @@
 // without, and the program stays until it is told to go.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <filesystem>
 #include <map>
 #include <set>
 
 #include "output/text/json_reader.h"
 #include "tests/support/child_process.h"
+#include "tests/support/chromium.h"
 #include "tests/support/command.h"
 #include "tests/support/window_client.h"
 
@@ -25,7 +28,6 @@ Study watched {
   duration = 0.2 s;
   settle = 0.1 s;
   Sweep slope { values = 10 deg, 20 deg; }
-  Sweep dt { values = 1 ms, 2 ms; }
   Measure creep_speed;
   Measure step_time;
   Subject hook { engine = dts; contact = hookpoint; }
@@ -34,6 +36,16 @@ Study watched {
   Plot by_slope { x = slope; y = creep_speed; }
 }
 )";
+
+/// One that is sooner done: two rows, and nothing is timed.
+std::string small_study() {
+  std::string text = study;
+  for (const auto& [from, to] : std::map<std::string, std::string>{
+           {"  Measure step_time;\n", ""},
+           {"  Subject impulse { engine = dts; contact = impulse; }\n", ""}})
+    text.replace(text.find(from), from.size(), to);
+  return text;
+}
 
 /// The whole first line of standard output: none before it is there.
 std::string first_line(const std::string& out) {
@@ -65,7 +77,7 @@ Told listen(WindowClient& client) {
     if (kind == "state") told.report = read["report"];
     if (kind == "figure") told.figure = read;
     if (kind != "description") continue;
-    for (int row = 0; row < 8; ++row) {
+    for (int row = 0; row < 4; ++row) {
       const std::string start = "studies[0].rows[" + std::to_string(row) + "].outcome";
       if (!read[start].empty()) told.finished.insert(std::to_string(row));
     }
@@ -79,7 +91,9 @@ Told listen(WindowClient& client) {
 
 class StudyView : public ::testing::Test {
  protected:
-  StudyView() { work_.file("watched.hook", study); }
+  /// No picture is drawn unless a test is about it.
+  StudyView() { setenv("HOOKPOINT_BROWSER", "/nowhere", 1); }
+  ~StudyView() override { unsetenv("HOOKPOINT_BROWSER"); }
 
   /// The words of `hookpoint study --view` into `out`.
   static std::vector<std::string> words(const std::string& out) {
@@ -94,21 +108,22 @@ class StudyView : public ::testing::Test {
 };
 
 TEST_F(StudyView, APageHearsOfEveryRowAndTheBytesAreThoseOfAStudyUnseen) {
+  work_.file("watched.hook", study);
   ASSERT_EQ(work_.hookpoint("study watched.hook --jobs 2 --out unseen").status, 0);
   ChildProcess process(work_.folder(), words("seen"));
   const std::string url = wait_for_url(process);
   WindowClient client(url);
   ASSERT_TRUE(client.connected()) << url << process.err();
   const Told told = listen(client);
-  EXPECT_EQ(told.finished, (std::set<std::string>{"0", "1", "2", "3", "4", "5", "6", "7"}));
+  EXPECT_EQ(told.finished, (std::set<std::string>{"0", "1", "2", "3"}));
   EXPECT_EQ(told.report, "seen/report.html");
-  // Eight rows, and each again alone for its timing.
-  EXPECT_EQ(told.done + " of " + told.total, "16 of 16");
+  // Four rows, and each again alone for its timing.
+  EXPECT_EQ(told.done + " of " + told.total, "8 of 8");
   EXPECT_EQ(told.description.at("kind"), "study");
   EXPECT_EQ(told.description.at("title"), "watched.hook");
   EXPECT_EQ(told.description.at("studies[0].title"), "Watched");
   EXPECT_EQ(told.description.at("studies[0].columns[1].unit"), "ms");
-  EXPECT_EQ(told.description.at("studies[0].rows[7].varied[0]"), "20");
+  EXPECT_EQ(told.description.at("studies[0].rows[3].varied[0]"), "20");
 
   // Who joins later is told the same.
   WindowClient late(url);
@@ -130,18 +145,62 @@ TEST_F(StudyView, APageHearsOfEveryRowAndTheBytesAreThoseOfAStudyUnseen) {
 }
 
 TEST_F(StudyView, TheExitStatusIsTheStudysAndQuitEndsIt) {
-  std::string failing = study;
+  std::string failing = small_study();
   failing.replace(failing.find("below = 1 m/s"), 13, "above = 1 m/s");
   work_.file("watched.hook", failing);
-  ChildProcess process(work_.folder(), words("out"));
-  WindowClient client(wait_for_url(process));
+  auto given = words("out");
+  given.insert(given.end(), {"--token", "known_before_it_began"});
+  ChildProcess process(work_.folder(), given);
+  const std::string url = wait_for_url(process);
+  EXPECT_TRUE(url.ends_with("?token=known_before_it_began")) << url;
+  WindowClient client(url);
   ASSERT_TRUE(client.connected()) << process.err();
   EXPECT_EQ(listen(client).report, "out/report.html");
   client.say(R"({"id": 5, "do": "quit"})");
   EXPECT_EQ(process.wait(), 1) << process.err();
 }
 
+// Both rows are of one scene, whose runs would have one folder.
+TEST_F(StudyView, ARowsWindowHasAFolderOfItsOwn) {
+  work_.file("watched.hook", small_study());
+  ChildProcess process(work_.folder(), words("out"));
+  WindowClient client(wait_for_url(process));
+  ASSERT_TRUE(client.connected()) << process.err();
+  listen(client);
+  for (const char* row : {"0", "1"}) {
+    const auto answer =
+        output::json_leaves(client.ask("open", std::string(R"("study": 0, "row": )") + row));
+    ASSERT_TRUE(answer);
+    const Leaves opened(answer->begin(), answer->end());
+    ASSERT_TRUE(opened.contains("url")) << process.err();
+    WindowClient window(opened.at("url"));
+    const std::string set = window.ask("set", R"("values": {"Simulator.pull.body": 0})");
+    EXPECT_NE(set.find("\"ok\""), std::string::npos) << set;
+    const std::string folder = std::string("out/windows/0000") + row + "/";
+    EXPECT_NE(work_.read(folder + "experiment.hook").find("World"), std::string::npos);
+    EXPECT_TRUE(std::filesystem::exists(work_.folder() / folder / ".lock"));
+  }
+  EXPECT_FALSE(std::filesystem::exists(work_.folder() / "runs"));
+}
+
+TEST_F(StudyView, TheReportLinksToAPictureOfItsScene) {
+  NEEDS_CHROMIUM;
+  unsetenv("HOOKPOINT_BROWSER");
+  work_.file("watched.hook", small_study());
+  ChildProcess process(work_.folder(), words("out"));
+  const std::string link = "pictures/scene.png";
+  const auto is_linked = [&] {
+    return work_.read("out/report.html").find(link) != std::string::npos;
+  };
+  process.wait_until(
+      [&] { return is_linked() || process.err().find("has no picture") != std::string::npos; });
+  EXPECT_TRUE(is_linked()) << process.err();
+  EXPECT_TRUE(work_.read("out/" + link).starts_with("\x89PNG\r\n\x1a\n"));
+  EXPECT_EQ(work_.read("out/files.json").find(link), std::string::npos);
+}
+
 TEST_F(StudyView, WhatIsNoRequestIsAnsweredByItsReason) {
+  work_.file("watched.hook", small_study());
   ChildProcess process(work_.folder(), words("out"));
   WindowClient client(wait_for_url(process));
   ASSERT_TRUE(client.connected()) << process.err();
@@ -159,7 +218,7 @@ TEST_F(StudyView, WhatIsNoRequestIsAnsweredByItsReason) {
 }
 
 TEST_F(StudyView, QuitInTheMidstIsAnInterruptThatMayBeResumed) {
-  std::string longer = study;
+  std::string longer = small_study();
   longer.replace(longer.find("duration = 0.2 s"), 16, "duration = 500 s");
   work_.file("watched.hook", longer);
   ChildProcess process(work_.folder(), words("out"));
@@ -172,6 +231,7 @@ TEST_F(StudyView, QuitInTheMidstIsAnInterruptThatMayBeResumed) {
 }
 
 TEST_F(StudyView, APortThatIsTakenIsToldWithWhatToDo) {
+  work_.file("watched.hook", small_study());
   ChildProcess first(work_.folder(), words("first"));
   const std::string url = wait_for_url(first);
   const std::string port = url.substr(17, url.find('/', 17) - 17);

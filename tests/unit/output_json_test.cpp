@@ -82,6 +82,20 @@ TEST(Json, WhatIsNoDocumentIsNotRead) {
   EXPECT_FALSE(json_leaves(std::string(100000, '[')).has_value()) << "deep";
 }
 
+// 64 leaves within names of 512 bytes may take 32 KiB, not the product of what is in the document.
+TEST(Json, ALongNameIsALeafsOwnAndNotThatOfMany) {
+  const auto nested = [](std::size_t length) {
+    const std::string name(length / 2, 'n');
+    return json_leaves("{\"" + name + "\": {\"" + name + "\": [0, 1]}, \"" +
+                       std::string(2000, 'm') + "\": 2}");
+  };
+  const auto leaves = nested(510);
+  ASSERT_TRUE(leaves);
+  EXPECT_EQ((*leaves)[1].first.size(), 511 + std::string("[1]").size());
+  EXPECT_EQ((*leaves)[2].first.size(), 2000U);
+  EXPECT_FALSE(nested(512)) << "with the dot 513";
+}
+
 TEST(Json, EscapesWhatItMust) {
   EXPECT_EQ(json_string("a\"b\\c\n\t\x01 \u00b5"), "\"a\\\"b\\\\c\\n\\t\\u0001 \u00b5\"");
 }

@@ -8,6 +8,8 @@ namespace {
 
 TEST(Glob, FitsWithinNamesAndAcross) {
   EXPECT_TRUE(glob_fits("w.*.x", "w.ball.x"));
+  EXPECT_TRUE(glob_fits(std::string(1000, '*'), "w.ball.x"));
+  EXPECT_FALSE(glob_fits(std::string(1001, '*'), "w.ball.x")) << "longer than any trail";
   EXPECT_FALSE(glob_fits("w.*.x", "w.ball.base.x")) << "a star stays within a name";
   EXPECT_TRUE(glob_fits("w.**.x", "w.ball.base.x"));
   EXPECT_TRUE(glob_fits("**", "w.ball.base.x"));

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "contact/terrain/terrain.h"
+#include "output/text/json.h"
 #include "output/text/json_reader.h"
 #include "tests/support/load_text.h"
 #include "view/scene.h"
@@ -191,7 +192,9 @@ TEST(ViewScene, KnowsWhereSensorsAre) {
 TEST(ViewScene, IsTheSceneOfTheProtocol) {
   const auto experiment =
       experiment_of("World w { Terrain.Flat ground { size = 1,1; }" + block_in_the_middle);
-  const auto leaves = output::json_leaves(view::to_json(view::make_scene(experiment)));
+  output::JsonWriter json;
+  view::write_scene(view::make_scene(experiment), json);
+  const auto leaves = output::json_leaves(json.text());
   ASSERT_TRUE(leaves);
   const auto value = [&](const std::string& path) {
     const auto found =
