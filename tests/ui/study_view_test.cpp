@@ -122,7 +122,7 @@ TEST_F(StudyView, APageHearsOfEveryRowAndTheBytesAreThoseOfAStudyUnseen) {
   EXPECT_EQ(told.description.at("kind"), "study");
   EXPECT_EQ(told.description.at("title"), "watched.hook");
   EXPECT_EQ(told.description.at("studies[0].title"), "Watched");
-  EXPECT_EQ(told.description.at("studies[0].columns[1].unit"), "ms");
+  EXPECT_EQ(told.description.at("studies[0].columns[1].unit"), "m/s");
   EXPECT_EQ(told.description.at("studies[0].rows[3].varied[0]"), "20");
 
   // Who joins later is told the same.
