@@ -25,7 +25,7 @@ constexpr const char* trails =
     "world.pendulum.arm.rod.total_torque,pd.output,pd.current";
 
 /// "a,b" as JSON.
-std::string quoted(const std::string& list) {
+std::string json_list(const std::string& list) {
   std::string text = "\"";
   for (const char letter : list) letter == ',' ? text += "\", \"" : text += letter;
   return "[" + text + "\"]";
@@ -85,7 +85,7 @@ TEST_F(ReplayWindow, EveryMomentIsThatOfTheRun) {
     for (const std::size_t step : {500U, 0U, 1000U, 501U, 142U, 143U, 1U, 0U, 999U}) {
       const std::string time = std::to_string(static_cast<double>(step) / 1000.);
       EXPECT_NE(client->ask("seek", "\"time\": " + time).find("\"ok\": true"), std::string::npos);
-      const std::string answer = client->ask("read", "\"trails\": " + quoted(trails));
+      const std::string answer = client->ask("read", "\"trails\": " + json_list(trails));
       EXPECT_EQ(values(answer), std::vector(record[step].begin() + 1, record[step].end()))
           << rate << ' ' << time << '\n'
           << answer;
@@ -103,7 +103,7 @@ TEST_F(ReplayWindow, ATraceIsTheRecordOfTheRun) {
     const auto until = std::chrono::steady_clock::now() + std::chrono::minutes(5);
     for (double from = 0.; from < 0.9995;) {
       ASSERT_LT(std::chrono::steady_clock::now(), until) << "read up to " << from << " s";
-      const auto part = client->ask_trace("\"trails\": " + quoted(trails) + ", \"from\": " +
+      const auto part = client->ask_trace("\"trails\": " + json_list(trails) + ", \"from\": " +
                                           std::to_string(from) + ", \"to\": 1, \"points\": 5000");
       ASSERT_GE(part.size(), 2U);
       ASSERT_EQ(part[0], 5.);
@@ -125,7 +125,7 @@ TEST_F(ReplayWindow, ATraceOfWhatIsNotThereIsNoNumber) {
   open("50 Hz");
   const std::string known = "world.pendulum.arm.rod.angle";
   const std::string rest = ", \"from\": 0, \"to\": 1, \"points\": 5000";
-  const auto several = client->ask_trace("\"trails\": " + quoted("no.such," + known) + rest);
+  const auto several = client->ask_trace("\"trails\": " + json_list("no.such," + known) + rest);
   ASSERT_GE(several.size(), 2U);
   const auto count = static_cast<std::size_t>(several[1]);
   ASSERT_EQ(several.size(), 2 + 3 * count);
@@ -134,8 +134,8 @@ TEST_F(ReplayWindow, ATraceOfWhatIsNotThereIsNoNumber) {
   EXPECT_FALSE(std::isnan(several[2 + 2 * count]));
   std::string many = known;
   for (int i = 0; i < 255; ++i) many += ",no.such" + std::to_string(i);
-  EXPECT_EQ(client->ask_trace("\"trails\": " + quoted(many) + rest)[0], 256.);
-  const std::string answer = client->ask("trace", "\"trails\": " + quoted(many + ",one.more"));
+  EXPECT_EQ(client->ask_trace("\"trails\": " + json_list(many) + rest)[0], 256.);
+  const std::string answer = client->ask("trace", "\"trails\": " + json_list(many + ",one.more"));
   EXPECT_NE(answer.find("at most 256 trails"), std::string::npos) << answer;
 }
 
