@@ -1,5 +1,5 @@
 // What a page may ask (docs/view_protocol.md), parsed and checked. Pure data: who carries it out is
-// view/session.
+// a session (live_session, movie_session, film_session).
 #pragma once
 
 #include <cstdint>

@@ -11,16 +11,9 @@
 namespace hookpoint::view {
 namespace {
 
-using namespace std::chrono_literals;
 using output::JsonWriter;
 using simulation::StepStatus;
 
-constexpr auto between_snapshots = 16'667us;  // 60 a second
-/// Requests are looked for at least so often.
-constexpr auto slice = 5ms;
-constexpr auto idle = 100ms;
-/// Columns that are kept of what pages ask for.
-constexpr std::size_t most_traces = 256;
 constexpr const char* begin_anew = "the run has ended; reset begins it anew";
 
 /// What a person holds there: where a slider's value is copied to a port, that is the slider.
@@ -71,7 +64,7 @@ bool LiveSession::run(const std::atomic<bool>& stop) {
   while (!stop && !quit_) {
     answer_requests();
     if (files_.written()) reload();
-    const auto until = std::min(next_snapshot_, Clock::now() + slice);
+    const auto until = std::min(next_snapshot_, Clock::now() + Pace::slice);
     if (stepping_)
       take_asked_steps(until);
     else if (plays() && !awaits_first_page())
@@ -109,11 +102,12 @@ bool LiveSession::plays() const { return !paused_ && !ended_ && subjects_.not_fr
 LiveSession::Clock::time_point LiveSession::next_wake() const {
   const auto now = Clock::now();
   if (stepping_) return now;
-  if (awaits_first_page()) return now + slice;
-  if (!plays()) return audience_.empty() ? now + idle : std::min(next_snapshot_, now + slice);
+  if (awaits_first_page()) return now + Pace::slice;
+  if (!plays())
+    return audience_.empty() ? now + Pace::idle : std::min(next_snapshot_, now + Pace::slice);
   if (pace_.asked() == 0.) return now;
   const double next = subjects_.run().world().state().time + subjects_.run().experiment().deltat;
-  return std::min({pace_.when(next), next_snapshot_, now + slice});
+  return std::min({pace_.when(next), next_snapshot_, now + Pace::slice});
 }
 
 void LiveSession::advance(Clock::time_point until) {
@@ -188,7 +182,7 @@ void LiveSession::log_end() {
 }
 
 void LiveSession::publish() {
-  next_snapshot_ = std::max(next_snapshot_ + between_snapshots, Clock::now());
+  next_snapshot_ = std::max(next_snapshot_ + Pace::between_snapshots, Clock::now());
   for (const std::string& notice : subjects_.take_notices()) audience_.tell_notice("note", notice);
   tell_changes();
   if (audience_.empty()) return;
@@ -313,7 +307,7 @@ void LiveSession::reply(const Asked& asked, const AskTrace& command) {
   const std::vector<simulation::Port> ports = subjects_.ports();
   bool added = false;
   for (const std::string& trail : command.trails) {
-    if (traces_.trails().size() == most_traces) break;
+    if (traces_.trails().size() >= Traces::most_columns) break;
     if (simulation::look_up_port(subjects_.run().experiment(), ports, trail))
       added = traces_.add(trail) || added;
   }
