@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 
 #include "application/application.h"
@@ -20,12 +21,16 @@ struct StudyCommand {
   std::string command;  ///< that does all again
   const InterruptGuard& guard;
   StudyView* view = nullptr;  ///< where it is watched; stdout then has nothing of it
+  std::shared_ptr<studies::RunStore> store{};  ///< of all its blocks; null: each has its own
 
   /// Of the block `name`; empty without --out: its runner then takes runs/NAME-HASH.
   std::filesystem::path folder(const std::string& name) const {
     return arguments.out ? file.folder(*arguments.out, name) : std::filesystem::path();
   }
 };
+
+/// The scripts that the studies would be submitted with, on stdout.
+int print_slurm_scripts(const StudyCommand& command);
 
 /// Each returns the exit status.
 int run_one_study(const StudyCommand& command, const studies::StudyPlan& plan);
