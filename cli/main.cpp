@@ -528,8 +528,9 @@ int main_with(int count, char** words) {
     return request.command();
   } catch (const output::PlaceError& error) {
     const bool may_move = app.got_subcommand("run") || app.got_subcommand("study");
-    throw output::FileError(std::string(error.what()) +
-                            (may_move ? "; --out names another folder" : ""));
+    const std::string message = error.what(), advice = "--out names another folder";
+    const bool said = message.find(advice) != std::string::npos;
+    throw output::FileError(message + (may_move && !said ? "; " + advice : ""));
   }
 }
 

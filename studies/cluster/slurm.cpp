@@ -150,6 +150,11 @@ void SlurmRuns::take_up_earlier(const Done& done) {
       for (const RunRequest& run : read_run_list(list_of(folder, task)).runs)
         if (wanted_.contains(run.identity)) job.tasks[task].missing.insert(run.identity);
     }
+    if (std::ranges::all_of(job.tasks, [](const Task& task) { return task.missing.empty(); })) {
+      // What it would make is no longer asked for.
+      ask_slurm("scancel", job.numbers, folder);
+      continue;
+    }
     options_.tell(
         fmt::format("job {} is still in Slurm's queue: waiting for it", job.numbers.back()));
     jobs_.push_back(std::move(job));
@@ -180,6 +185,8 @@ void SlurmRuns::make_job(const Request& request) {
       missing.insert(list.runs.back().identity);
     }
     output::write_file(list_of(job.folder, task), run_list_text(list));
+    // A shared file system may remember for a while that a file is not there.
+    output::write_file(journal_of(job.folder, task), "");
     job.tasks.push_back({JournalReader(journal_of(job.folder, task)), std::move(missing), 1, 0});
   }
   SlurmPlace place = options_.place;

@@ -128,6 +128,11 @@ output::Curve finite_part(const Trace& trace, bool logarithmic) {
 
 void fill(output::Series& series, const Gathered& gathered, const PlotSpec& spec) {
   series.unfinished = gathered.unfinished;
+  if (series.unfinished.size() > 2 * thinned_buckets) {
+    std::ranges::sort(series.unfinished);
+    const auto again = std::ranges::unique(series.unfinished);
+    series.unfinished.erase(again.begin(), again.end());
+  }
   if (gathered.curve_of != nullptr) {
     const Trace& trace = gathered.curve;
     series.measured = thin(finite_part(trace, spec.log_y), spec.log_x);
@@ -141,6 +146,9 @@ void fill(output::Series& series, const Gathered& gathered, const PlotSpec& spec
     series.predicted.x.push_back(x);
     series.predicted.y.push_back(*value.predicted);
   }
+  if (gathered.points.size() <= 2 * thinned_buckets) return;
+  series.measured = thin(series.measured, spec.log_x);
+  series.predicted = thin(series.predicted, spec.log_x);
 }
 
 using SeriesTable = std::map<SeriesKey, output::Series>;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <sqlite3.h>
 
-#include <array>
 #include <cstdint>
 #include <initializer_list>
 #include <map>
@@ -63,8 +62,6 @@ const char* remedy(int answer) {
 }
 
 }  // namespace
-
-std::string store_library_version() { return sqlite3_libversion(); }
 
 /// The open file with its prepared questions.
 class RunStore::Connection {

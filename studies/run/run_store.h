@@ -21,9 +21,6 @@ struct StoreError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The version of SQLite that stores are kept with: "3.40.1".
-std::string store_library_version();
-
 /// `runs.sqlite` in a folder: one writer, this process, for as long as the object lives. What
 /// `save` has returned from is there whenever the process ends. Any thread may call. Damage within
 /// a run is told by its hashes: the run then counts as missing.
