@@ -1,12 +1,11 @@
 #include "studies/cluster/shard.h"
 
-#include <exception>
 #include <mutex>
-#include <thread>
 #include <utility>
 #include <vector>
 
 #include "simulation/identity.h"
+#include "studies/run/workers.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -34,34 +33,15 @@ bool run_shard(const RunList& list, Journal& journal, language::Library& library
   std::vector<const RunRequest*> left;
   for (const RunRequest& run : list.runs)
     if (!journal.has(run.identity)) left.push_back(&run);
-  std::atomic<std::size_t> next{0};
-  std::atomic<bool> cut_short{false};
-  std::exception_ptr failure;
-  std::mutex mutex;
-  const auto work = [&] {
-    try {
-      for (std::size_t i = next++; i < left.size() && !cut_short; i = next++) {
-        const RunRequest& run = *left[i];
-        const auto record =
-            execute(run.measurement, experiment_of(run, library, engines), engines, "", stop);
-        const std::lock_guard lock(mutex);
-        if (record)
-          journal.add(run.identity, *record);
-        else
-          cut_short = true;
-      }
-    } catch (...) {
-      const std::lock_guard lock(mutex);
-      failure = std::current_exception();
-      cut_short = true;
-    }
-  };
-  {
-    std::vector<std::jthread> workers;
-    for (int i = 0; i < jobs; ++i) workers.emplace_back(work);
-  }
-  if (failure) std::rethrow_exception(failure);
-  return !cut_short;
+  std::mutex writing;
+  return work_through(left.size(), jobs, [&](std::size_t i) {
+    const RunRequest& run = *left[i];
+    const auto record =
+        execute(run.measurement, experiment_of(run, library, engines), engines, "", stop);
+    const std::lock_guard lock(writing);
+    if (record) journal.add(run.identity, *record);
+    return record.has_value();
+  });
 }
 
 }  // namespace hookpoint::studies

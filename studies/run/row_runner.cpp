@@ -3,13 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <exception>
 #include <set>
 #include <string_view>
-#include <thread>
 #include <utility>
 
 #include "simulation/run/energy_watch.h"
+#include "studies/run/workers.h"
 
 namespace hookpoint::studies {
 
@@ -96,32 +95,11 @@ void keep(std::size_t row, RunRecord record, const RowWork& work, RunStore& stor
 
 bool run_here(const Rows& rows, const RowWork& work, const RunOptions& options, RunStore& store,
               ProgressMeter& meter) {
-  std::atomic<std::size_t> next{0};
-  std::atomic<bool> cut_short{false};
-  std::exception_ptr failure;
-  std::mutex failure_mutex;
-  const auto run = [&] {
-    try {
-      for (std::size_t i = next++; i < rows.size() && !cut_short; i = next++) {
-        auto record = work.execute(rows[i]);
-        if (!record) {
-          cut_short = true;
-          return;
-        }
-        keep(rows[i], std::move(*record), work, store, meter);
-      }
-    } catch (...) {
-      const std::lock_guard lock(failure_mutex);
-      failure = std::current_exception();
-      cut_short = true;
-    }
-  };
-  {
-    std::vector<std::jthread> workers;
-    for (int i = 0; i < std::max(1, options.jobs); ++i) workers.emplace_back(run);
-  }
-  if (failure) std::rethrow_exception(failure);
-  return !cut_short;
+  return work_through(rows.size(), options.jobs, [&](std::size_t i) {
+    auto record = work.execute(rows[i]);
+    if (record) keep(rows[i], std::move(*record), work, store, meter);
+    return record.has_value();
+  });
 }
 
 /// What has a request goes away, the rest is run here.
