@@ -110,8 +110,8 @@ ResultFolder::ResultFolder(fs::path folder, Manifest manifest, std::vector<std::
   fs::create_directories(folder_, error);
   if (!fs::is_directory(folder_, ignored))
     throw PlaceError("cannot make the folder " + folder_.string() + ": " +
-                    (error ? error.message() : "a file has its name") +
-                    "; --out names another folder");
+                     (error ? error.message() : "a file has its name") +
+                     "; --out names another folder");
   try {
     lock();
     const Manifest earlier = read_manifest(folder_).value_or(Manifest{});
@@ -141,7 +141,7 @@ void ResultFolder::lock() {
     if (lock_ < 0) {
       const int reason = errno;
       throw PlaceError("cannot write into the folder " + folder_.string() + ": " +
-                      std::generic_category().message(reason) + "; --out names another folder");
+                       std::generic_category().message(reason) + "; --out names another folder");
     }
     if (::flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
       const std::string other = holder(lock_);
