@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "application/settings.h"
+#include "studies/cluster/slurm_script.h"
 
 namespace hookpoint::application {
 
@@ -18,6 +19,9 @@ struct StudyArguments {
   bool resume = false;
   std::vector<std::string> only;  ///< subjects
   bool allow_plugins = false;
-  Settings settings{};  ///< of the file and of the scenes that it runs
+  Settings settings{};   ///< of the file and of the scenes that it runs
+  bool slurm = false;    ///< the runs are made by a cluster
+  bool dry_run = false;  ///< only says what it would be asked
+  studies::SlurmSettings slurm_settings{};
 };
 }  // namespace hookpoint::application

@@ -9,6 +9,7 @@
 #include "output/file.h"
 #include "output/text/hash.h"
 #include "studies/plan/scene_settings.h"
+#include "studies/run/results_csv.h"
 
 namespace hookpoint::application {
 namespace {
@@ -144,6 +145,23 @@ std::optional<MatrixPlan> plan_matrix(Application& application, const language::
   return plan;
 }
 
+/// How Slurm was asked, as options again.
+std::string slurm_words(const studies::SlurmSettings& settings) {
+  std::string words = " --slurm";
+  const auto add = [&words](const char* option, const std::string& value) {
+    if (!value.empty()) words += std::string(" ") + option + " " + shell_word(value);
+  };
+  const auto count = [](std::size_t number) {
+    return number > 0 ? std::to_string(number) : std::string();
+  };
+  add("--partition", settings.partition);
+  add("--account", settings.account);
+  add("--time", settings.time);
+  add("--chunk", count(settings.chunk));
+  add("--array-limit", count(settings.array_limit));
+  return words;
+}
+
 }  // namespace
 
 std::string shell_word(const std::string& text) {
@@ -235,6 +253,13 @@ studies::RunOptions run_options(const StudyArguments& arguments,
   return options;
 }
 
+std::shared_ptr<studies::RunStore> shared_store(const StudyArguments& arguments,
+                                                const StudyFile& file) {
+  if (file.size() < 2 || !arguments.out) return nullptr;
+  return std::make_shared<studies::RunStore>(*arguments.out / studies::store_folder,
+                                             arguments.resume);
+}
+
 std::string rerun_command(const StudyArguments& arguments) {
   std::string command = "hookpoint study " + shell_word(arguments.file.string());
   for (const std::string& setting : arguments.settings.trails)
@@ -245,6 +270,7 @@ std::string rerun_command(const StudyArguments& arguments) {
   if (arguments.quick) command += " --quick";
   for (const std::string& subject : arguments.only) command += " --only " + shell_word(subject);
   if (arguments.allow_plugins) command += " --allow-plugins";
+  if (arguments.slurm) command += slurm_words(arguments.slurm_settings);
   return command;
 }
 

@@ -70,6 +70,11 @@ std::string nothing_to_study(const std::filesystem::path& file);
 studies::RunOptions run_options(const StudyArguments& arguments,
                                 const std::filesystem::path& folder);
 
+/// The store that all blocks of the file share, in the folder that the user named for them; null
+/// where each has its own. Throws studies::StoreError.
+std::shared_ptr<studies::RunStore> shared_store(const StudyArguments& arguments,
+                                                const StudyFile& file);
+
 /// `text` as one word of a shell's command.
 std::string shell_word(const std::string& text);
 

@@ -8,6 +8,7 @@
 #include "reference/engines.h"
 #include "studies/compare/wall_report.h"
 #include "studies/run/provenance.h"
+#include "studies/run/results_csv.h"
 
 namespace hookpoint::application {
 namespace {
@@ -85,16 +86,22 @@ void write_wall(const studies::WallRun& run, const studies::WallPlan& plan,
   run.files->finish();
 }
 
-MatrixRun begin_matrix(const MatrixPlan& plan, const std::filesystem::path& file,
-                       const std::filesystem::path& folder) {
+MatrixRun begin_matrix(const MatrixPlan& plan, const StudyArguments& arguments,
+                       const std::filesystem::path& folder,
+                       std::shared_ptr<studies::RunStore> store) {
   output::Manifest manifest;
   manifest.experiment = plan.hash;
-  return {{plan.name, plan.title, plan.question, file.string(), {}},
-          folder,
-          std::make_unique<output::ResultFolder>(
-              folder, std::move(manifest),
-              std::vector<std::string>{"experiment.hook", "provenance.json", "matrix.csv",
-                                       "matrix.html"})};
+  MatrixRun run{{plan.name, plan.title, plan.question, arguments.file.string(), {}},
+                folder,
+                std::make_unique<output::ResultFolder>(
+                    folder, std::move(manifest),
+                    std::vector<std::string>{studies::store_folder, "experiment.hook",
+                                             "provenance.json", "matrix.csv", "matrix.html"}),
+                std::move(store)};
+  if (!run.store)
+    run.store =
+        std::make_shared<studies::RunStore>(folder / studies::store_folder, arguments.resume);
+  return run;
 }
 
 void write_matrix(const MatrixRun& run, const MatrixPlan& plan, const std::string& text,

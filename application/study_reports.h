@@ -32,11 +32,14 @@ struct MatrixRun {
   studies::MatrixResult result;
   std::filesystem::path folder;
   std::unique_ptr<output::ResultFolder> files;  ///< locks the folder
+  std::shared_ptr<studies::RunStore> store;     ///< of all its studies
 };
 
-/// With no study in it yet, in its folder. Throws output::FolderError too.
-MatrixRun begin_matrix(const MatrixPlan& plan, const std::filesystem::path& file,
-                       const std::filesystem::path& folder);
+/// With no study in it yet, in its folder. `store`: that it shares with other blocks; null: it has
+/// its own. Throws output::FolderError and studies::StoreError too.
+MatrixRun begin_matrix(const MatrixPlan& plan, const StudyArguments& arguments,
+                       const std::filesystem::path& folder,
+                       std::shared_ptr<studies::RunStore> store);
 
 /// The files of a Matrix beside the folders of its studies. `text`: its file as printed.
 void write_matrix(const MatrixRun& run, const MatrixPlan& plan, const std::string& text,

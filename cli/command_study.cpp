@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <exception>
 #include <iostream>
 #include <memory>
 
@@ -6,6 +7,8 @@
 #include "cli/exit_status.h"
 #include "cli/open_browser.h"
 #include "cli/study_runs.h"
+#include "output/file.h"
+#include "studies/cluster/slurm.h"
 
 namespace hookpoint::cli {
 namespace {
@@ -37,12 +40,24 @@ int run_all_viewed(StudyCommand command, const ViewArguments& arguments) {
   return view->serve([&] { return run_all(command); }, command.guard);
 }
 
+int fail(const std::exception& error, int status) {
+  application::print_error(error.what());
+  return status;
+}
+
 }  // namespace
 
 int study(const application::StudyArguments& asked, const std::optional<ViewArguments>& view) {
   application::Application application(asked.allow_plugins);
   application::StudyArguments arguments = asked;
   arguments.file = application.locate(asked.file);
+  if (arguments.slurm) {
+    if (const auto problem = studies::problem_of(arguments.slurm_settings)) {
+      application::print_error(*problem);
+      return wrong_input;
+    }
+    if (!arguments.dry_run) studies::need_slurm();
+  }
   const auto file = application::plan_study_file(application, arguments);
   if (!file) return wrong_input;
   if (file->size() == 0) {
@@ -50,9 +65,25 @@ int study(const application::StudyArguments& asked, const std::optional<ViewArgu
     return wrong_input;
   }
   const InterruptGuard guard;
-  const StudyCommand command{application.engines(), arguments, *file,
-                             application::rerun_command(arguments), guard};
-  return view ? run_all_viewed(command, *view) : run_all(command);
+  StudyCommand command{application.engines(), arguments, *file,
+                       application::rerun_command(arguments), guard};
+  if (arguments.dry_run) return print_slurm_scripts(command);
+  try {
+    command.store = application::shared_store(arguments, *file);
+    return view ? run_all_viewed(command, *view) : run_all(command);
+  } catch (const output::PlaceError&) {
+    throw;
+  } catch (const output::FileError& error) {
+    return fail(error, truth_failed);
+  } catch (const studies::StoreError& error) {
+    return fail(error, truth_failed);
+  } catch (const studies::SlurmError& error) {
+    return fail(error, truth_failed);
+  } catch (const studies::SlurmRefusal& error) {
+    return fail(error, wrong_input);
+  } catch (const studies::ChangedInput& error) {
+    return fail(error, wrong_input);
+  }
 }
 
 }  // namespace hookpoint::cli

@@ -71,6 +71,13 @@ int recover(const std::filesystem::path& spool);
 /// study; with `view` its table fills in a browser meanwhile (cli/study_view.h).
 int study(const application::StudyArguments& arguments, const std::optional<ViewArguments>& view);
 
+struct RunsArguments {
+  std::filesystem::path list, journal;
+  int jobs = 1;
+};
+/// runs: those of a list that study --slurm wrote, into a journal.
+int runs(const RunsArguments& arguments);
+
 /// check: every file's diagnostics.
 int check(const std::vector<std::filesystem::path>& files, bool allow_plugins);
 /// fmt: rewrites each file in canonical layout; with `check_only` says which would change.

@@ -5,7 +5,8 @@ namespace hookpoint::cli {
 
 enum ExitStatus : int {
   fine = 0,
-  truth_failed = 1,  ///< a Truth failed, a run diverged, or files differ
+  truth_failed = 1,  ///< a Truth failed, a run diverged, files differ, or a study's results could
+                     ///< not be kept
   wrong_input = 2,   ///< what the user wrote cannot be read or run
   missing = 3,       ///< something is not on this machine
   // After a signal 128 and its number: 130 the interrupt key, 143 SIGTERM (InterruptGuard::status).
@@ -19,7 +20,7 @@ struct ExitMeaning {
 /// For people.
 inline constexpr ExitMeaning exit_meanings[] = {
     {fine, "fine"},
-    {truth_failed, "a truth failed, a run diverged, or files differ"},
+    {truth_failed, "a truth failed, a run diverged, files differ, or results could not be kept"},
     {wrong_input, "wrong input"},
     {missing, "something is missing on this machine"},
     {130, "interrupted (143 by SIGTERM)"},

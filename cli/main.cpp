@@ -37,6 +37,7 @@ std::string about() {
 struct Request {
   RunArguments run;
   application::StudyArguments study;
+  RunsArguments runs;
   ReplayArguments replay;
   AdviseArguments advise;
   CompareArguments compare;
@@ -202,6 +203,40 @@ void add_subjects(CLI::App* command, ViewArguments& arguments) {
       ->take_all();
 }
 
+/// Checks for a whole number from 1 on, of so many digits.
+std::function<std::string(const std::string&)> is_count(const std::string& option,
+                                                        std::size_t digits) {
+  return [option, digits](const std::string& text) {
+    const bool number = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+    return number && text.size() <= digits && text.find_first_not_of('0') != std::string::npos
+               ? std::string()
+               : option + " takes a whole number from 1 to " + std::string(digits, '9') +
+                     ", not `" + text + "`";
+  };
+}
+
+/// What makes a study the front end of a cluster.
+void add_slurm(CLI::App* study_app, application::StudyArguments& arguments) {
+  CLI::Option* slurm = study_app->add_flag(
+      "--slurm", arguments.slurm, "the runs are made by a job array of Slurm (docs/clusters.md)");
+  studies::SlurmSettings& settings = arguments.slurm_settings;
+  const auto add = [&](const char* option, auto& value, const char* doc, const char* type) {
+    return study_app->add_option(option, value, doc)->type_name(type)->needs(slurm);
+  };
+  add("--partition", settings.partition, "of the cluster (default: its own)", "NAME");
+  add("--account", settings.account, "that pays for it (default: your own)", "NAME");
+  add("--time", settings.time, "most that a task may take, as sbatch takes it", "TIME");
+  add("--chunk", settings.chunk, "runs of a task (default: about a hundred)", "N")
+      ->check(is_count("--chunk", 6));
+  add("--array-limit", settings.array_limit, "tasks at a time (default: as many as there is room)",
+      "N")
+      ->check(is_count("--array-limit", 6));
+  study_app
+      ->add_flag("--dry-run", arguments.dry_run,
+                 "print the script that would be submitted, no more")
+      ->needs(slurm);
+}
+
 /// What `run` and `view` have in common.
 void add_run_options(CLI::App* run_app, RunArguments& arguments) {
   add_settings(run_app, arguments.settings);
@@ -261,13 +296,7 @@ void add_run_and_study(CLI::App& app, Request& request) {
       ->type_name("DIR");
   study_app->add_option("--jobs", request.study.jobs, "threads (default: one a core)")
       ->type_name("N")
-      ->check([](const std::string& text) {
-        const bool digits =
-            !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
-        return digits && text.size() < 5 && text.find_first_not_of('0') != std::string::npos
-                   ? std::string()
-                   : "--jobs takes a whole number from 1 to 9999, not `" + text + "`";
-      });
+      ->check(is_count("--jobs", 4));
   study_app->add_flag("--quick", request.study.quick,
                       "the reduced size that continuous integration runs");
   study_app->add_flag("--resume", request.study.resume,
@@ -279,6 +308,16 @@ void add_run_and_study(CLI::App& app, Request& request) {
   study_app->add_flag("--view", request.run.viewed,
                       "in a browser, where table and figures fill meanwhile");
   add_serving(study_app, request.run.view);
+  add_slurm(study_app, request.study);
+  CLI::App* runs_app = add_command(app, request, "runs", "what a task of `study --slurm` does",
+                                   [&] { return runs(request.runs); });
+  runs_app->add_option("LIST", request.runs.list, "the task's list of runs")->required();
+  runs_app->add_option("--journal", request.runs.journal, "where the runs go")
+      ->type_name("FILE")
+      ->required();
+  runs_app->add_option("--jobs", request.runs.jobs, "threads (default: 1)")
+      ->type_name("N")
+      ->check(is_count("--jobs", 4));
 }
 
 /// What the short forms take, as the language has it.
@@ -489,8 +528,9 @@ int main_with(int count, char** words) {
     return request.command();
   } catch (const output::PlaceError& error) {
     const bool may_move = app.got_subcommand("run") || app.got_subcommand("study");
-    throw output::FileError(std::string(error.what()) +
-                            (may_move ? "; --out names another folder" : ""));
+    const std::string message = error.what(), advice = "--out names another folder";
+    const bool said = message.find(advice) != std::string::npos;
+    throw output::FileError(message + (may_move && !said ? "; " + advice : ""));
   }
 }
 

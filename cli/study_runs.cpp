@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <iostream>
 
 #include "application/study_reports.h"
@@ -13,8 +14,10 @@
 #include "output/file.h"
 #include "output/result_folder.h"
 #include "output/text/terminal.h"
+#include "studies/cluster/slurm.h"
 #include "studies/compare/wall_report.h"
 #include "studies/report/terminal_table.h"
+#include "studies/run/results_csv.h"
 #include "studies/run/verdict.h"
 
 namespace hookpoint::cli {
@@ -58,6 +61,10 @@ auto writing_into(const StudyCommand& command, const std::filesystem::path& fold
     throw output::PlaceError(error.what() + how_to_go_on(command, folder));
   } catch (const output::FileError& error) {
     throw output::FileError(error.what() + how_to_go_on(command, folder));
+  } catch (const studies::StoreError& error) {
+    throw studies::StoreError(error.what() + how_to_go_on(command, folder));
+  } catch (const studies::SlurmError& error) {
+    throw studies::SlurmError(error.what() + how_to_go_on(command, folder));
   }
 }
 
@@ -79,6 +86,35 @@ void print_result(const StudyCommand& command, const std::string& table, const c
 
 void tell(const std::string& notice) { std::cerr << "hookpoint: note: " << notice << '\n'; }
 
+/// How Slurm is asked for the runs of a study whose results go to `folder`.
+studies::SlurmRuns::Options slurm_options(const StudyCommand& command,
+                                          const studies::StudyPlan& plan,
+                                          const std::filesystem::path& folder) {
+  const char* search_path = std::getenv("HOOKPOINT_PATH");
+  studies::SlurmRuns::Options options{
+      command.arguments.slurm_settings,
+      {plan.name, std::filesystem::read_symlink("/proc/self/exe"), std::filesystem::current_path(),
+       search_path == nullptr ? "" : search_path},
+      std::filesystem::absolute(folder / studies::cluster_folder).lexically_normal(),
+      command.arguments.allow_plugins,
+      command.arguments.resume,
+      tell};
+  options.settings.jobs = std::max(1, command.arguments.jobs);
+  return options;
+}
+
+void print_slurm_script(const StudyCommand& command, const studies::StudyPlan& plan,
+                        const std::filesystem::path& folder) {
+  const std::size_t runs = studies::remote_runs(plan, command.engines);
+  if (runs == 0) return tell(plan.name + " has no run for a cluster");
+  studies::SlurmRuns::Options options = slurm_options(command, plan, folder);
+  const std::filesystem::path of_job = options.folder / studies::task_number(0);
+  options.place.name = studies::job_name(plan.name, of_job);
+  const std::size_t chunk = studies::runs_of_a_task(runs, options.settings);
+  std::cout << studies::slurm_script(options.settings, options.place, of_job,
+                                     (runs + chunk - 1) / chunk);
+}
+
 constexpr const char* picture_of_scene = "pictures/scene.png";
 
 /// A picture for the report of a study that is watched: of the scene, as the first row has it. Not
@@ -87,13 +123,22 @@ constexpr const char* picture_of_scene = "pictures/scene.png";
 void draw_picture(const StudyCommand& command, const studies::StudyPlan& plan,
                   const studies::StudyRun& run, const studies::ReportOutcome& report) {
   const studies::RowPlan& row = plan.rows.front();
-  const std::string problem = draw_scene_picture(
-      {row.scene, row.settings, command.arguments.allow_plugins, run.folder / picture_of_scene},
-      command.guard.stop());
+  const std::string problem =
+      draw_scene_picture({row.scene->file, plan.settings_of(row), command.arguments.allow_plugins,
+                          run.folder / picture_of_scene},
+                         command.guard.stop());
   if (problem.empty())
     application::link_pictures(run, command.command, report, {picture_of_scene});
   else if (!command.guard.stop())
     tell("the report has no picture of the scene: " + problem);
+}
+
+/// Who makes the runs on a cluster; null where they are made here.
+std::unique_ptr<studies::RemoteRuns> remote_runs(const StudyCommand& command,
+                                                 const studies::StudyPlan& plan,
+                                                 const std::filesystem::path& folder) {
+  if (!command.arguments.slurm) return nullptr;
+  return std::make_unique<studies::SlurmRuns>(slurm_options(command, plan, folder));
 }
 
 /// A study that ran.
@@ -104,10 +149,14 @@ struct StudyOutcome {
 };
 
 StudyOutcome run_into(const StudyCommand& command, const studies::StudyPlan& plan,
-                      const std::filesystem::path& folder) {
+                      const std::filesystem::path& folder,
+                      const std::shared_ptr<studies::RunStore>& store) {
   RunBar bar(plan.name);
   studies::RunOptions options = watched(command, plan, bar, folder);
   options.tell = tell;
+  options.store = store;
+  const auto remote = remote_runs(command, plan, folder);
+  options.remote = remote.get();
   studies::StudyRun run = studies::run_study(plan, command.engines, options, command.guard.stop());
   bar.end();
   for (const std::string& notice : run.notices) tell(notice);
@@ -128,10 +177,11 @@ StudyOutcome run_into(const StudyCommand& command, const studies::StudyPlan& pla
 
 int run_matrix_into(const StudyCommand& command, const application::MatrixPlan& plan,
                     const std::filesystem::path& folder) {
-  application::MatrixRun run = application::begin_matrix(plan, command.arguments.file, folder);
+  application::MatrixRun run =
+      application::begin_matrix(plan, command.arguments, folder, command.store);
   int status = fine;
   for (const application::MatrixPart& part : plan.parts) {
-    StudyOutcome outcome = run_into(command, part.plan, folder / part.plan.name);
+    StudyOutcome outcome = run_into(command, part.plan, folder / part.plan.name, run.store);
     status = std::max(status, outcome.status);
     if (!outcome.run) return status;
     run.result.studies.push_back(
@@ -145,10 +195,19 @@ int run_matrix_into(const StudyCommand& command, const application::MatrixPlan& 
 
 }  // namespace
 
+int print_slurm_scripts(const StudyCommand& command) {
+  for (const studies::StudyPlan& plan : command.file.studies)
+    print_slurm_script(command, plan, command.folder(plan));
+  for (const application::MatrixPlan& matrix : command.file.matrices)
+    for (const application::MatrixPart& part : matrix.parts)
+      print_slurm_script(command, part.plan, command.folder(matrix) / part.plan.name);
+  return fine;
+}
+
 int run_one_study(const StudyCommand& command, const studies::StudyPlan& plan) {
   const std::filesystem::path folder = command.folder(plan);
   const StudyOutcome outcome =
-      writing_into(command, folder, [&] { return run_into(command, plan, folder); });
+      writing_into(command, folder, [&] { return run_into(command, plan, folder, command.store); });
   if (!outcome.run) return outcome.status;
   print_result(command,
                studies::terminal_table(outcome.run->result, {coloured(), terminal_width()}),
@@ -161,6 +220,9 @@ int run_one_wall(const StudyCommand& command, const studies::WallPlan& plan) {
   const std::filesystem::path folder = command.folder(plan.study);
   studies::RunOptions options = watched(command, plan.study, bar, folder);
   options.tell = tell;
+  options.store = command.store;
+  if (command.arguments.slurm)
+    tell("the Wall " + plan.study.name + " has few runs, which are made here");
   const auto run = writing_into(command, folder, [&] {
     auto ran = studies::run_wall(plan, command.engines, options, command.guard.stop());
     bar.end();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 
 #include "application/application.h"
@@ -20,6 +21,7 @@ struct StudyCommand {
   std::string command;  ///< that does all again
   const InterruptGuard& guard;
   StudyView* view = nullptr;  ///< where it is watched; stdout then has nothing of it
+  std::shared_ptr<studies::RunStore> store{};  ///< of all its blocks; null: each has its own
 
   /// Where the results of this Study or Matrix go.
   template <class Plan>
@@ -27,6 +29,9 @@ struct StudyCommand {
     return file.folder(arguments.out, plan.name, plan.hash);
   }
 };
+
+/// The scripts that the studies would be submitted with, on stdout.
+int print_slurm_scripts(const StudyCommand& command);
 
 /// Each returns the exit status.
 int run_one_study(const StudyCommand& command, const studies::StudyPlan& plan);

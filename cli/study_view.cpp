@@ -179,17 +179,19 @@ void StudyView::open(const view::OpenRow& row, view::Server::ClientId client, st
     known->asked.emplace_back(client, id);
     return;
   }
-  const studies::RowPlan& plan = shown_[row.study].plan->rows[row.row];
-  if (!plan.refusal.empty()) {
-    server_.send(client, view::refused_answer(id, "refused: " + plan.refusal));
+  const studies::StudyPlan& plan = *shown_[row.study].plan;
+  const studies::RowPlan& planned = plan.rows[row.row];
+  if (!planned.refusal.empty()) {
+    server_.send(client, view::refused_answer(id, "refused: " + planned.refusal));
     return;
   }
   // A folder of its own: two rows of one scene would write over each other's changes.
   const std::filesystem::path folder =
       shown_[row.study].folder / fmt::format("windows/{:05}", row.row);
-  std::vector<std::string> words{"view",  plan.scene.string(), "--no-open", "--bind", address_,
-                                 "--out", folder.string()};
-  for (const std::string& setting : plan.settings) {
+  std::vector<std::string> words{
+      "view",         planned.scene->file.string(), "--no-open", "--bind", address_, "--out",
+      folder.string()};
+  for (const std::string& setting : plan.settings_of(planned)) {
     words.emplace_back("--set");
     words.push_back(setting);
   }

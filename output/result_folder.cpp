@@ -109,9 +109,9 @@ ResultFolder::ResultFolder(fs::path folder, Manifest manifest, std::vector<std::
   std::error_code error, ignored;
   fs::create_directories(folder_, error);
   if (!fs::is_directory(folder_, ignored))
-    throw FileError("cannot make the folder " + folder_.string() + ": " +
-                    (error ? error.message() : "a file has its name") +
-                    "; --out names another folder");
+    throw PlaceError("cannot make the folder " + folder_.string() + ": " +
+                     (error ? error.message() : "a file has its name") +
+                     "; --out names another folder");
   try {
     lock();
     const Manifest earlier = read_manifest(folder_).value_or(Manifest{});
@@ -140,8 +140,8 @@ void ResultFolder::lock() {
     lock_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     if (lock_ < 0) {
       const int reason = errno;
-      throw FileError("cannot write into the folder " + folder_.string() + ": " +
-                      std::generic_category().message(reason) + "; --out names another folder");
+      throw PlaceError("cannot write into the folder " + folder_.string() + ": " +
+                       std::generic_category().message(reason) + "; --out names another folder");
     }
     if (::flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
       const std::string other = holder(lock_);

@@ -6,6 +6,8 @@
 
 #include "output/file.h"
 #include "output/result_folder.h"
+#include "studies/plan/plan.h"
+#include "studies/run/run_store.h"
 
 namespace hookpoint::python {
 namespace {
@@ -73,7 +75,11 @@ void add_errors(py::module_& module) {
       PyErr_SetString(error_class, error.what());
     } catch (const output::FolderError& error) {
       PyErr_SetString(error_class, error.what());
+    } catch (const studies::ChangedInput& error) {
+      PyErr_SetString(error_class, error.what());
     } catch (const output::FileError& error) {
+      PyErr_SetString(PyExc_OSError, error.what());
+    } catch (const studies::StoreError& error) {
       PyErr_SetString(PyExc_OSError, error.what());
     }
   });

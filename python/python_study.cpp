@@ -8,6 +8,8 @@
 #include <charconv>
 #include <cmath>
 #include <future>
+#include <memory>
+#include <utility>
 
 #include "application/study_plans.h"
 #include "application/study_reports.h"
@@ -132,16 +134,18 @@ class StudyRunner {
       : arguments_(arguments),
         file_(file),
         engines_(engines),
-        command_(application::rerun_command(arguments)) {}
+        command_(application::rerun_command(arguments)),
+        store_(application::shared_store(arguments, file)) {}
 
   py::dict study(const studies::StudyPlan& plan) {
-    return result_of(run(plan, folder(plan.name)).run);
+    return result_of(run(plan, folder(plan.name), store_).run);
   }
 
   py::dict wall(const studies::WallPlan& plan) {
     const std::filesystem::path to = folder(plan.study.name);
     std::vector<std::string> told;
-    const studies::RunOptions options = options_into(to, told);
+    studies::RunOptions options = options_into(to, told);
+    options.store = store_;
     const auto run = run_beside([&](const std::atomic<bool>& stop) {
       return studies::run_wall(plan, engines_, options, stop);
     });
@@ -159,10 +163,10 @@ class StudyRunner {
 
   py::dict matrix(const application::MatrixPlan& plan) {
     const std::filesystem::path to = folder(plan.name);
-    application::MatrixRun whole = application::begin_matrix(plan, arguments_.file, to);
+    application::MatrixRun whole = application::begin_matrix(plan, arguments_, to, store_);
     py::dict parts;
     for (const application::MatrixPart& part : plan.parts) {
-      Finished finished = run(part.plan, to / part.plan.name);
+      Finished finished = run(part.plan, to / part.plan.name, whole.store);
       parts[py::str(part.plan.name)] = result_of(finished.run);
       whole.result.studies.push_back(
           {std::move(finished.run.result), part.text, std::move(finished.report.figures)});
@@ -193,9 +197,11 @@ class StudyRunner {
     return options;
   }
 
-  Finished run(const studies::StudyPlan& plan, const std::filesystem::path& to) {
+  Finished run(const studies::StudyPlan& plan, const std::filesystem::path& to,
+               std::shared_ptr<studies::RunStore> store) {
     std::vector<std::string> told;
-    const studies::RunOptions options = options_into(to, told);
+    studies::RunOptions options = options_into(to, told);
+    options.store = std::move(store);
     Finished finished{run_beside([&](const std::atomic<bool>& stop) {
                         return studies::run_study(plan, engines_, options, stop);
                       }),
@@ -211,6 +217,7 @@ class StudyRunner {
   const application::StudyFile& file_;
   const studies::EngineTable& engines_;
   std::string command_;
+  std::shared_ptr<studies::RunStore> store_;
   TemporaryFolder unkept_;
 };
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -58,13 +59,26 @@ struct Trace {
   std::vector<double> value;
 };
 
+/// A curve that is read when it is asked for: those of 100,000 runs do not fit into memory.
+class RecordedTrace {
+ public:
+  /// Nothing was recorded.
+  RecordedTrace() = default;
+  RecordedTrace(Trace trace) : read_([trace = std::move(trace)] { return trace; }) {}
+  explicit RecordedTrace(std::function<Trace()> read) : read_(std::move(read)) {}
+  Trace read() const { return read_ ? read_() : Trace{}; }
+
+ private:
+  std::function<Trace()> read_;
+};
+
 struct RunResult {
   std::vector<double> parameters;  ///< one a sweep, in the sweep's unit
   int subject = 0;                 ///< index into StudyResult::subjects
   Regime regime = Regime::none;
   std::vector<MetricValue> metrics;  ///< one a metric
   std::string status = "ok";  ///< "ok", or what stopped the run, with its time: never a missing row
-  std::vector<Trace> traces;  ///< one a PlotSpec with x = time, empty for the others
+  std::vector<RecordedTrace> traces;  ///< one a PlotSpec, empty for those not over time
 };
 
 /// How far the trajectories of subjects at equal swept values are from each other.

@@ -21,8 +21,15 @@ struct WallScene {
   std::string file;   ///< as the Wall writes it
 };
 
+/// What a Wall knows of a run beside its row.
+struct WallRunPlan {
+  std::vector<simulation::ExpectationSpec> expectations;  ///< that cover it
+  std::string law, integrator;                            ///< "" where it has none
+};
+
 struct WallPlan {
   StudyPlan study;  ///< name, subjects, hash; a row a run, its one value the index of the scene
+  std::vector<WallRunPlan> runs;  ///< one a row
   std::vector<WallScene> scenes;
 };
 
@@ -76,10 +83,10 @@ std::optional<WallPlan> make_wall_plan(const language::Object& root, const langu
 RunResult empty_wall_row(const RowPlan& row);
 
 /// Runs all, by `options.jobs` threads, with the same result for any number of them; nothing when
-/// `stop` was set. Finished runs are kept in rows/ of the Wall's folder; with `options.resume` they
-/// are not run again. A run that diverges or cannot run is a cell with that status. A row that
+/// `stop` was set. Finished runs are kept as those of a study are; with `options.resume` they are
+/// not run again. A run that diverges or cannot run is a cell with that status. A row that
 /// `options.row_done` hears of has one metric: how many of its truths hold, beside how many there
-/// are. Throws output::FolderError, output::FileError.
+/// are. Throws output::FolderError, output::FileError, StoreError.
 std::optional<WallRun> run_wall(const WallPlan& plan, const EngineTable& engines,
                                 const RunOptions& options, const std::atomic<bool>& stop);
 

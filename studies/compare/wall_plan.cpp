@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 
+#include "contact/force_law.h"
 #include "language/names.h"
 #include "output/text/hash.h"
 #include "simulation/identity.h"
@@ -121,17 +122,11 @@ class WallPlanner {
     set("settings", subject.settings);
     if (!covers_some(*plain, subject)) return;
     Diagnostics found;
-    const auto tree = library_.evaluate(path, evaluate, found);
-    std::optional<simulation::Experiment> experiment;
-    if (tree) experiment = simulation::load_experiment(*tree, found, library_.search_path());
-    tell(found, block, subject.info.name);
-    if (!experiment) return;
-    for (std::string& source : language::sources_of(*tree)) inputs_.insert(std::move(source));
-    simulation::write_chosen_step(*experiment, *tree);
     RowPlan row;
-    row.scene = path;
-    row.settings = setting_words(evaluate);
-    add_row(block, std::move(row), std::move(*experiment), language::print(*tree), index);
+    row.scene = std::make_shared<const RowScene>(RowScene{path, evaluate});
+    auto loaded = load_scene(library_, *row.scene, found);
+    tell(found, block, subject.info.name);
+    if (loaded) add_row(block, std::move(row), std::move(*loaded), index);
   }
 
   /// An error of a scene, told once however many subjects have it.
@@ -156,20 +151,27 @@ class WallPlanner {
 
   /// Plans a run. Without ground all contact laws are the same: then only the first subject of each
   /// integrator has one.
-  void add_row(const Object& block, RowPlan row, simulation::Experiment experiment,
-               const std::string& printed, std::size_t index) {
+  void add_row(const Object& block, RowPlan row, LoadedScene loaded, std::size_t index) {
+    const simulation::Experiment& experiment = loaded.experiment;
     if (!experiment.terrain && experiment.engine == "dts" &&
         !covered_.insert(experiment.integrator).second)
       return;
     warn_of_step(block, experiment, index);
-    row.hash = simulation::experiment_hash(printed, experiment);
+    row.hash = simulation::experiment_hash(loaded.printed, experiment);
     hash_.add(row.hash);
-    inputs_.merge(simulation::files_read(experiment));
+    inputs_.merge(loaded.sources);
+    plan_.study.seeds.insert(experiment.seed);
     row.values = {static_cast<int>(plan_.scenes.size()) - 1};
     row.subject = static_cast<int>(index);
-    row.experiment = std::move(experiment);
-    heights_.take(row);
+    row.deltat = experiment.deltat;
+    row.duration = experiment.duration;
+    row.engine = experiment.engine;
     plan_.study.rows.push_back(std::move(row));
+    WallRunPlan& run = plan_.runs.emplace_back();
+    run.law = experiment.terrain ? experiment.contact : "";
+    run.integrator = contact::find_force_law(experiment.contact) ? experiment.integrator : "";
+    for (const simulation::ExpectationSpec& spec : experiment.expectations)
+      if (spec.covers(experiment)) run.expectations.push_back(spec);
   }
 
   void warn_of_step(const Object& block, const simulation::Experiment& experiment,
@@ -198,14 +200,13 @@ class WallPlanner {
   std::set<std::string> covered_;
   std::set<std::string> refused_;  ///< scenes, each with what is wrong
   output::Hash hash_;
-  SharedHeights heights_;
   std::set<std::string> inputs_;  ///< files that the rows were made from and read
 };
 
 /// A subject that names no engine has that of its scenes.
 void complete_subjects(StudyPlan& study) {
   for (const RowPlan& row : study.rows)
-    study.subjects[static_cast<std::size_t>(row.subject)].info.engine = row.experiment.engine;
+    study.subjects[static_cast<std::size_t>(row.subject)].info.engine = row.engine;
 }
 
 }  // namespace
@@ -220,6 +221,7 @@ std::optional<WallPlan> make_wall_plan(const Object& root, const Object& wall,
   WallPlan plan;
   plan.study.name = wall.name;
   plan.study.file = file;
+  plan.study.library = &library;
   plan.study.quick = options.quick;
   if (wall.find("title") != nullptr) plan.study.title = wall.word("title");
   if (wall.find("question") != nullptr) plan.study.question = wall.word("question");

@@ -3,15 +3,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
+#include <optional>
+#include <utility>
 
-#include "contact/force_law.h"
 #include "output/file.h"
 #include "output/text/csv.h"
+#include "output/text/hash.h"
 #include "output/text/number.h"
+#include "simulation/identity.h"
 #include "simulation/run/energy_watch.h"
 #include "simulation/run/expectation.h"
 #include "simulation/run/world.h"
 #include "studies/compare/wall.h"
+#include "studies/run/results_csv.h"
 #include "studies/run/row_runner.h"
 #include "studies/summary.h"
 
@@ -21,61 +26,71 @@ namespace {
 using simulation::ExpectationResult;
 using simulation::ExpectationSpec;
 
-std::vector<const ExpectationSpec*> covering(const RowPlan& row) {
-  std::vector<const ExpectationSpec*> specs;
-  for (const ExpectationSpec& spec : row.experiment.expectations) {
-    if (spec.covers(row.experiment)) specs.push_back(&spec);
+/// A Wall's runs are kept under another identity than a study's: other things are looked at.
+std::string wall_identity(const RowPlan& row, const EngineTable& engines) {
+  const auto engine = engines.find(row.engine);
+  const simulation::EngineDescription description =
+      engine == engines.end() ? simulation::EngineDescription{row.engine, {}, {}, false, {}}
+                              : engine->second.description;
+  return output::Hash().add("expected").add(simulation::run_hash(row.hash, description)).text();
+}
+
+/// With the name of each truth that covers the run, and nothing under it.
+RunRecord nothing_measured(const WallRunPlan& planned) {
+  RunRecord record;
+  for (const ExpectationSpec& spec : planned.expectations) record.values[spec.name];
+  return record;
+}
+
+void run_scene(const simulation::Experiment& experiment, const EngineEntry& engine,
+               const std::atomic<bool>& stop, RunRecord& record) {
+  simulation::World world(experiment, engine.make(experiment));
+  simulation::Expectations expectations(experiment, world.ports());
+  const std::int64_t steps = std::llround(experiment.duration / experiment.deltat);
+  simulation::EnergyWatch energy(experiment, world, steps);
+  expectations.observe(0.);
+  for (std::int64_t step = 0; step < steps && world.ended().empty(); ++step) {
+    if (stop.load(std::memory_order_relaxed)) return;
+    const simulation::StepStatus status = world.step();
+    if (!status.ok()) {
+      record.status = fmt::format("stopped at {:.6g} s: {}", status.time, status.advice);
+      break;
+    }
+    expectations.observe(world.state().time);
+    energy.observe();
   }
-  return specs;
+  record.notices = world.state().notices;
+  if (std::string finding = energy.finding(); !finding.empty())
+    record.notices.push_back(std::move(finding));
+  if (record.status != "ok") return;
+  for (const ExpectationResult& result : expectations.results())
+    record.values[result.spec->name].measured = result.measured;
 }
 
 /// A value for each truth that covers the run; nothing when `stop` was set meanwhile.
-std::optional<RowOutcome> run_scene(const RowPlan& row, const EngineTable& engines,
-                                    const std::atomic<bool>& stop) {
-  RowOutcome outcome;
-  outcome.measured.resize(covering(row).size());
-  const auto engine = engines.find(row.experiment.engine);
+std::optional<RunRecord> run_scene(const WallPlan& plan, std::size_t row,
+                                   const EngineTable& engines, const std::atomic<bool>& stop) {
+  const RowPlan& planned = plan.study.rows[row];
+  RunRecord record = nothing_measured(plan.runs[row]);
+  const auto engine = engines.find(planned.engine);
   if (engine == engines.end() || !engine->second.description.found) {
-    outcome.status =
-        fmt::format("skipped: engine {} is not on this machine", row.experiment.engine);
-    return outcome;
+    record.status = fmt::format("skipped: engine {} is not on this machine", planned.engine);
+    return record;
   }
   try {
-    const simulation::Experiment experiment = row.whole();
-    simulation::World world(experiment, engine->second.make(experiment));
-    simulation::Expectations expectations(experiment, world.ports());
-    const std::int64_t steps = std::llround(experiment.duration / experiment.deltat);
-    simulation::EnergyWatch energy(experiment, world, steps);
-    expectations.observe(0.);
-    for (std::int64_t step = 0; step < steps && world.ended().empty(); ++step) {
-      if (stop.load(std::memory_order_relaxed)) return std::nullopt;
-      const simulation::StepStatus status = world.step();
-      if (!status.ok()) {
-        outcome.status = fmt::format("stopped at {:.6g} s: {}", status.time, status.advice);
-        break;
-      }
-      expectations.observe(world.state().time);
-      energy.observe();
-    }
-    outcome.notices = world.state().notices;
-    if (std::string finding = energy.finding(); !finding.empty())
-      outcome.notices.push_back(std::move(finding));
-    if (outcome.status != "ok") return outcome;
-    const std::vector<ExpectationResult> results = expectations.results();
-    for (std::size_t i = 0; i < results.size(); ++i) outcome.measured[i] = results[i].measured;
+    run_scene(plan.study.experiment_of(planned), engine->second, stop, record);
   } catch (const simulation::ExperimentError& error) {
-    outcome.status = fmt::format("cannot run: {}", error.what());
+    record.status = fmt::format("cannot run: {}", error.what());
   }
-  return outcome;
+  if (stop.load(std::memory_order_relaxed)) return std::nullopt;
+  return record;
 }
 
 /// The longest scenes first, so that the last thread to finish is not far behind.
 std::vector<std::size_t> by_length(const std::vector<RowPlan>& rows) {
   std::vector<std::size_t> order(rows.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  const auto steps = [&](std::size_t i) {
-    return rows[i].experiment.duration / rows[i].experiment.deltat;
-  };
+  const auto steps = [&](std::size_t i) { return rows[i].duration / rows[i].deltat; };
   std::ranges::stable_sort(order,
                            [&](std::size_t a, std::size_t b) { return steps(a) > steps(b); });
   return order;
@@ -108,18 +123,17 @@ WallLine& line_of(WallResult& result, std::size_t scene, const ExpectationSpec& 
   return result.lines.back();
 }
 
-void add_outcome(WallResult& result, const RowPlan& row, const RowOutcome& outcome) {
+void add_record(WallResult& result, const RowPlan& row, const WallRunPlan& planned,
+                RunRecord record) {
   const auto scene = static_cast<std::size_t>(row.values[0]);
-  const std::vector<const ExpectationSpec*> specs = covering(row);
-  for (std::size_t i = 0; i < specs.size(); ++i) {
-    WallCell& cell = line_of(result, scene, *specs[i]).cells[static_cast<std::size_t>(row.subject)];
-    cell.expected = specs[i]->expected;
-    cell.status = outcome.status;
-    cell.law = row.experiment.terrain ? row.experiment.contact : "";
-    cell.integrator =
-        contact::find_force_law(row.experiment.contact) ? row.experiment.integrator : "";
-    if (outcome.status != "ok") continue;
-    const ExpectationResult found{specs[i], outcome.measured[i]};
+  for (const ExpectationSpec& spec : planned.expectations) {
+    WallCell& cell = line_of(result, scene, spec).cells[static_cast<std::size_t>(row.subject)];
+    cell.expected = spec.expected;
+    cell.status = record.status;
+    cell.law = planned.law;
+    cell.integrator = planned.integrator;
+    if (record.status != "ok") continue;
+    const ExpectationResult found{&spec, record.values[spec.name].measured};
     cell.measured = found.measured;
     cell.error = found.error();
     cell.ok = found.ok();
@@ -127,15 +141,15 @@ void add_outcome(WallResult& result, const RowPlan& row, const RowOutcome& outco
 }
 
 /// Its truths counted.
-RunResult wall_row(const RowPlan& row, const RowOutcome& outcome) {
+RunResult wall_row(const RowPlan& row, const WallRunPlan& planned, RunRecord record) {
   RunResult run = empty_wall_row(row);
-  run.status = outcome.status;
+  run.status = record.status;
   if (outcome_of(run) == RunOutcome::skipped) return run;
-  const std::vector<const ExpectationSpec*> specs = covering(row);
   double held = 0.;
-  for (std::size_t i = 0; i < specs.size(); ++i)
-    if (outcome.status == "ok" && ExpectationResult{specs[i], outcome.measured[i]}.ok()) ++held;
-  const auto all = static_cast<double>(specs.size());
+  for (const ExpectationSpec& spec : planned.expectations)
+    if (record.status == "ok" && ExpectationResult{&spec, record.values[spec.name].measured}.ok())
+      ++held;
+  const auto all = static_cast<double>(planned.expectations.size());
   run.metrics[0] = {held, all, held == all};
   return run;
 }
@@ -170,18 +184,31 @@ std::optional<WallRun> run_wall(const WallPlan& plan, const EngineTable& engines
   WallRun run{{}, options.folder.empty() ? plan.study.folder() : options.folder, nullptr, {}};
   run.files = std::make_unique<output::ResultFolder>(
       run.folder, manifest_of(plan.study),
-      std::vector<std::string>{"rows/", "results.csv", "experiment.hook", "provenance.json",
+      std::vector<std::string>{store_folder, "results.csv", "experiment.hook", "provenance.json",
                                "report.html"});
-  const RowStore store(run.folder / "rows", options.resume);
-  std::vector<RowOutcome> outcomes(rows.size());
+  const auto store = open_store(options, run.folder);
+  std::vector<std::string> identities;
+  for (const RowPlan& row : rows) identities.push_back(wall_identity(row, engines));
+  const auto kept = [&](std::size_t row) {
+    return store->numbers(identities[row]).value_or(RunRecord{});
+  };
   ProgressMeter meter(rows.size(), options);
-  const RowWork work{[&](std::size_t row) { return run_scene(rows[row], engines, stop); },
-                     [&](std::size_t row) { return plan.study.identity_of(rows[row], engines); },
-                     [&](std::size_t row) { return covering(rows[row]).size(); }, 0,
-                     tell_rows(options, [&](std::size_t row, const RowOutcome& outcome) {
-                       return wall_row(rows[row], outcome);
-                     })};
-  if (!run_rows(by_length(rows), work, options, store, meter, outcomes)) return std::nullopt;
+  RowWork work{plan.study.name, identities,
+               [&](std::size_t row) { return run_scene(plan, row, engines, stop); },
+               [&](std::size_t row, const RunRecord& record) {
+                 return std::ranges::all_of(plan.runs[row].expectations,
+                                            [&](const ExpectationSpec& spec) {
+                                              return record.values.contains(spec.name);
+                                            });
+               }};
+  std::mutex telling;
+  if (options.row_done)
+    work.done = [&](std::size_t row) {
+      const RunResult result = wall_row(rows[row], plan.runs[row], kept(row));
+      const std::lock_guard lock(telling);
+      options.row_done(row, result);
+    };
+  if (!run_rows(by_length(rows), work, options, *store, meter, stop)) return std::nullopt;
   WallResult& result = run.result;
   result = {plan.study.name,
             plan.study.title,
@@ -192,8 +219,13 @@ std::optional<WallRun> run_wall(const WallPlan& plan, const EngineTable& engines
             {},
             plan.study.warnings};
   for (const SubjectPlan& subject : plan.study.subjects) result.subjects.push_back(subject.info);
-  for (std::size_t i = 0; i < outcomes.size(); ++i) add_outcome(result, rows[i], outcomes[i]);
-  run.notices = collect_notices(outcomes, [&](std::size_t row) {
+  Notices notices;
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    RunRecord record = kept(row);
+    notices.add(row, record.notices);
+    add_record(result, rows[row], plan.runs[row], std::move(record));
+  }
+  run.notices = notices.texts([&](std::size_t row) {
     const auto scene = static_cast<std::size_t>(rows[row].values[0]);
     const auto subject = static_cast<std::size_t>(rows[row].subject);
     return plan.scenes[scene].name + " under " + plan.study.subjects[subject].info.name;

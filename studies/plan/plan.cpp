@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -13,12 +14,14 @@
 #include "language/names.h"
 #include "output/text/hash.h"
 #include "simulation/identity.h"
-#include "simulation/scene/load.h"
 #include "studies/plan/plan_parts.h"
 #include "studies/plan/scene_settings.h"
 #include "studies/plan/step_warning.h"
 
 namespace hookpoint::studies {
+
+using language::Diagnostics;
+using language::Object;
 
 bool Condition::holds(double value) const {
   const double slack = 1e-9 * std::abs(value);
@@ -41,15 +44,15 @@ bool StudyPlan::measures(MetricScope scope) const {
       metrics, [&](const MetricDefinition* metric) { return metric->scope == scope; });
 }
 
-std::vector<std::size_t> StudyPlan::rows_along(std::size_t row, int sweep) const {
-  std::vector<std::size_t> found;
-  std::vector<int> values = rows[row].values;
+std::vector<std::vector<std::size_t>> StudyPlan::groups_along(int sweep) const {
+  std::map<std::pair<int, std::vector<int>>, std::vector<std::size_t>> groups;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (rows[i].subject != rows[row].subject) continue;
-    const auto at = static_cast<std::size_t>(sweep);
-    if (sweep >= 0) values[at] = rows[i].values[at];
-    if (rows[i].values == values) found.push_back(i);
+    std::vector<int> values = rows[i].values;
+    if (sweep >= 0) values[static_cast<std::size_t>(sweep)] = 0;
+    groups[{rows[i].subject, std::move(values)}].push_back(i);
   }
+  std::vector<std::vector<std::size_t>> found;
+  for (auto& [key, group] : groups) found.push_back(std::move(group));
   return found;
 }
 
@@ -63,15 +66,34 @@ std::string StudyPlan::name_of(const RowPlan& row) const {
   return text + ")";
 }
 
-std::string StudyPlan::identity_of(const RowPlan& row, const EngineTable& engines) const {
-  const auto engine = engines.find(row.experiment.engine);
-  const simulation::EngineDescription description =
-      engine == engines.end()
-          ? simulation::EngineDescription{row.experiment.engine, {}, {}, false, {}}
-          : engine->second.description;
-  output::Hash identity;
-  identity.add(printed).add(name_of(row)).add(fmt::format("{} {}", settle, duration));
-  return identity.add(simulation::run_hash(row.hash, description)).text();
+RowScene StudyPlan::scene_of(const RowPlan& row) const {
+  RowScene scene = *row.scene;
+  for (std::size_t i = 0; i < sweeps.size(); ++i)
+    scene.options.parameters[sweeps[i].column.name] =
+        sweeps[i].texts[static_cast<std::size_t>(row.values[i])];
+  return scene;
+}
+
+std::vector<std::string> StudyPlan::settings_of(const RowPlan& row) const {
+  const RowScene scene = scene_of(row);
+  std::vector<std::string> words = setting_words(scene.options);
+  if (!scene.timed_world.empty())
+    words.push_back(fmt::format("{}.duration={} s", scene.timed_world, row.duration));
+  return words;
+}
+
+simulation::Experiment StudyPlan::experiment_of(const RowPlan& row) const {
+  Diagnostics untold;
+  auto loaded = load_scene(*library, scene_of(row), untold);
+  const bool same =
+      loaded && (!row.refusal.empty() ||
+                 simulation::experiment_hash(loaded->printed, loaded->experiment) == row.hash);
+  if (!same)
+    throw ChangedInput(name_of(row) +
+                       ": its scene, or a file that it reads, was changed after the study had "
+                       "been planned; start it again with --resume");
+  loaded->experiment.duration = row.duration;
+  return std::move(loaded->experiment);
 }
 
 std::filesystem::path folder_of(const std::string& name, const std::string& hash) {
@@ -81,44 +103,14 @@ std::filesystem::path folder_of(const std::string& name, const std::string& hash
 
 namespace {
 
-/// The grid under the experiment; null of another ground.
-simulation::GridSpec* grid_of(simulation::Experiment& experiment) {
-  return experiment.terrain ? std::get_if<simulation::GridSpec>(&experiment.terrain->surface)
-                            : nullptr;
-}
-
-}  // namespace
-
-void SharedHeights::take(RowPlan& row) {
-  simulation::GridSpec* grid = grid_of(row.experiment);
-  if (grid == nullptr) return;
-  const std::string_view bytes(reinterpret_cast<const char*>(grid->heights.data()),
-                               grid->heights.size() * sizeof(double));
-  RowPlan::Heights& known = known_[output::Hash().add(bytes).text()];
-  std::vector<double> heights = std::exchange(grid->heights, std::vector<double>());
-  if (known == nullptr) known = std::make_shared<const std::vector<double>>(std::move(heights));
-  row.heights = known;
-}
-
-simulation::Experiment RowPlan::whole() const {
-  simulation::Experiment result = experiment;
-  if (heights) grid_of(result)->heights = *heights;
-  return result;
-}
-
-namespace {
-
-using language::Diagnostics;
-using language::Object;
-
 /// Evaluates and loads the scene of each row. The same warning in many rows is told once.
 class SceneLoader {
  public:
   SceneLoader(language::Library& library, std::filesystem::path scene, Diagnostics& diagnostics)
       : library_(library), scene_(std::move(scene)), diagnostics_(diagnostics) {}
 
-  /// Fills `row.experiment`; false when the scene cannot be loaded so.
-  bool load(const StudyPlan& plan, const Object& study, RowPlan& row, std::string& printed) {
+  /// What `row` runs, whose scene and engine are set; nothing when the scene cannot be loaded so.
+  std::optional<LoadedScene> load(const StudyPlan& plan, const Object& study, RowPlan& row) {
     const SubjectPlan& subject = plan.subjects[static_cast<std::size_t>(row.subject)];
     language::EvaluateOptions options;
     std::string where = "with subject = " + subject.info.name;
@@ -130,53 +122,48 @@ class SceneLoader {
       options.parameters[sweep.column.name] = text;
       where += fmt::format(", {} = {}", sweep.column.name, text);
     }
-    if (!find_world(options)) return false;
+    if (!find_world(options)) return std::nullopt;
     for (const language::Override& setting : taken_) {
       if (const auto problem = problem_of(setting, plan, subject)) {
         diagnostics_.error(study.position, *problem);
-        return false;
+        return std::nullopt;
       }
     }
     if (const language::Override* decided = decided_by_study(options.parameters)) {
       diagnostics_.error(study.position, decided_already(*decided));
-      return false;
+      return std::nullopt;
     }
-    options.overrides = taken_;
-    const auto set = [&](const char* field, const std::string& value) {
-      if (!value.empty()) options.overrides.push_back({world_ + "." + field, value});
-    };
-    set("contact", subject.contact);
-    set("integrator", subject.integrator);
-    const language::EvaluateOptions ours = options;
-    set("engine", subject.engine);
-    set("settings", subject.settings);
-    row.scene = scene_;
-    row.settings = setting_words(options);
-    row.settings.push_back(fmt::format("{}.duration={} s", world_, plan.duration));
+    const SubjectScenes& scenes = scenes_of(row.subject, subject);
+    row.scene = scenes.whole;
     Diagnostics found;
-    if (evaluate(options, row, printed, found)) {
+    if (auto loaded = load_scene(library_, plan.scene_of(row), found)) {
       forward(found, study, where);
-      return true;
+      row.engine = loaded->experiment.engine;
+      return loaded;
     }
+    row.scene = scenes.under_ours;
     Diagnostics untold;
     const bool peer = !subject.engine.empty() && subject.engine != "dts";
-    if (!peer || !evaluate(ours, row, printed, untold)) {
+    auto loaded = peer ? load_scene(library_, plan.scene_of(row), untold) : std::nullopt;
+    if (!loaded) {
       forward(found, study, where);
-      return false;
+      return std::nullopt;
     }
     row.refusal = first_error(found);
-    row.experiment.engine = subject.engine;
-    row.experiment.settings = subject.settings;
-    printed += subject.engine + row.refusal;
-    return true;
+    row.engine = subject.engine;
+    loaded->experiment.engine = subject.engine;
+    loaded->experiment.settings = subject.settings;
+    loaded->printed += subject.engine + row.refusal;
+    return loaded;
   }
 
   /// Warns of a step above the stability bound, once for each subject and step.
-  void warn_of_step(StudyPlan& plan, const Object& study, const RowPlan& row) {
-    const std::string& subject = plan.subjects[static_cast<std::size_t>(row.subject)].info.name;
-    const std::pair<std::string, double> run{subject, row.experiment.deltat};
+  void warn_of_step(StudyPlan& plan, const Object& study, int subject_index,
+                    const simulation::Experiment& experiment) {
+    const std::string& subject = plan.subjects[static_cast<std::size_t>(subject_index)].info.name;
+    const std::pair<std::string, double> run{subject, experiment.deltat};
     if (stepped_.contains(run)) return;
-    const std::optional<std::string> what = step_warning(row.experiment);
+    const std::optional<std::string> what = step_warning(experiment);
     if (!what) return;
     stepped_.insert(run);
     diagnostics_.warning(study.position, *what);
@@ -188,22 +175,29 @@ class SceneLoader {
   SceneSettings settings;               ///< from outside
   std::vector<std::string> parameters;  ///< the scene's
   std::vector<std::string> settable;    ///< names at the scene's top
-  std::set<std::string> inputs;         ///< files that the rows so far were made from and read
 
  private:
-  /// Fills the row's experiment and its text; false after errors.
-  bool evaluate(const language::EvaluateOptions& options, RowPlan& row, std::string& printed,
-                Diagnostics& found) {
-    const auto tree = library_.evaluate(scene_, options, found);
-    std::optional<simulation::Experiment> experiment;
-    if (tree) experiment = simulation::load_experiment(*tree, found, library_.search_path());
-    if (!experiment || found.has_errors()) return false;
-    simulation::write_chosen_step(*experiment, *tree);
-    row.experiment = std::move(*experiment);
-    inputs.merge(simulation::files_read(row.experiment));
-    for (std::string& source : language::sources_of(*tree)) inputs.insert(std::move(source));
-    printed = language::print(*tree);
-    return true;
+  /// What a subject's rows share: as it says, and without its engine.
+  struct SubjectScenes {
+    std::shared_ptr<const RowScene> whole, under_ours;
+  };
+  const SubjectScenes& scenes_of(int index, const SubjectPlan& subject) {
+    SubjectScenes& scenes = scenes_[index];
+    if (scenes.whole) return scenes;
+    RowScene scene{scene_, {}, world_};
+    for (const Assignment& fix : fixes) scene.options.parameters[fix.parameter] = fix.text;
+    for (const Assignment& fix : subject.fixes) scene.options.parameters[fix.parameter] = fix.text;
+    scene.options.overrides = taken_;
+    const auto set = [&](const char* field, const std::string& value) {
+      if (!value.empty()) scene.options.overrides.push_back({world_ + "." + field, value});
+    };
+    set("contact", subject.contact);
+    set("integrator", subject.integrator);
+    scenes.under_ours = std::make_shared<const RowScene>(scene);
+    set("engine", subject.engine);
+    set("settings", subject.settings);
+    scenes.whole = std::make_shared<const RowScene>(std::move(scene));
+    return scenes;
   }
 
   static std::string first_error(const Diagnostics& found) {
@@ -289,7 +283,8 @@ class SceneLoader {
   std::filesystem::path scene_;
   Diagnostics& diagnostics_;
   std::string world_;
-  std::vector<language::Override> taken_;                  ///< the settings that the scene takes
+  std::vector<language::Override> taken_;  ///< the settings that the scene takes
+  std::map<int, SubjectScenes> scenes_;
   std::unique_ptr<Object> plain_;                          ///< the scene without them
   std::set<std::map<std::string, std::string>> compared_;  ///< Params of rows compared with it
   std::set<std::string> told_;
@@ -305,9 +300,12 @@ bool next_combination(const std::vector<SweepPlan>& sweeps, std::vector<int>& va
   return false;
 }
 
+/// What the first row of each subject runs under, by the subject's index.
+using FirstRows = std::map<int, simulation::Experiment>;
+
 bool plan_rows(StudyPlan& plan, const Object& study, SceneLoader& loader,
-               const PlanOptions& options, output::Hash& hash) {
-  SharedHeights heights;
+               const PlanOptions& options, output::Hash& hash, FirstRows& first_rows,
+               std::set<std::string>& inputs) {
   std::vector<int> values(plan.sweeps.size(), 0);
   do {
     for (std::size_t i = 0; i < plan.subjects.size(); ++i) {
@@ -315,18 +313,22 @@ bool plan_rows(StudyPlan& plan, const Object& study, SceneLoader& loader,
       RowPlan row;
       row.values = values;
       row.subject = static_cast<int>(i);
+      row.duration = plan.duration;
       if (!options.only.empty() && std::find(options.only.begin(), options.only.end(),
                                              subject.info.name) == options.only.end())
         continue;
       if (!plan.covers(subject.only, row)) continue;
-      std::string printed;
-      if (!loader.load(plan, study, row, printed)) return false;
-      row.experiment.duration = plan.duration;
-      if (row.refusal.empty()) loader.warn_of_step(plan, study, row);
-      row.hash = simulation::experiment_hash(printed, row.experiment);
+      auto loaded = loader.load(plan, study, row);
+      if (!loaded) return false;
+      row.deltat = loaded->experiment.deltat;
+      loaded->experiment.duration = plan.duration;
+      if (row.refusal.empty()) loader.warn_of_step(plan, study, row.subject, loaded->experiment);
+      row.hash = simulation::experiment_hash(loaded->printed, loaded->experiment);
       hash.add(row.hash);
-      if (plan.rows.empty()) plan.scene_printed = printed;
-      heights.take(row);
+      inputs.merge(loaded->sources);
+      plan.seeds.insert(loaded->experiment.seed);
+      if (plan.rows.empty()) plan.scene_printed = loaded->printed;
+      first_rows.try_emplace(row.subject, std::move(loaded->experiment));
       plan.rows.push_back(std::move(row));
     }
   } while (next_combination(plan.sweeps, values));
@@ -334,13 +336,11 @@ bool plan_rows(StudyPlan& plan, const Object& study, SceneLoader& loader,
 }
 
 /// A scene may set engine, law and integrator itself: the table names those in force.
-void complete_subjects(StudyPlan& plan, const EngineTable& engines) {
+void complete_subjects(StudyPlan& plan, const EngineTable& engines, const FirstRows& first_rows) {
   for (std::size_t i = 0; i < plan.subjects.size(); ++i) {
     SubjectInfo& info = plan.subjects[i].info;
-    const auto row = std::find_if(
-        plan.rows.begin(), plan.rows.end(),
-        [&](const RowPlan& candidate) { return candidate.subject == static_cast<int>(i); });
-    const simulation::Experiment* experiment = row == plan.rows.end() ? nullptr : &row->experiment;
+    const auto row = first_rows.find(static_cast<int>(i));
+    const simulation::Experiment* experiment = row == first_rows.end() ? nullptr : &row->second;
     info.engine = experiment != nullptr ? experiment->engine : plan.subjects[i].engine;
     const auto entry = engines.find(info.engine);
     info.available = entry != engines.end() && entry->second.description.found;
@@ -377,6 +377,7 @@ std::optional<StudyPlan> make_plan(const Object& root, const Object& study, cons
   StudyPlan plan;
   plan.name = study.name;
   plan.file = file;
+  plan.library = &library;
   plan.quick = options.quick;
   if (study.find("title") != nullptr) plan.title = study.word("title");
   if (study.find("question") != nullptr) plan.question = study.word("question");
@@ -399,17 +400,19 @@ std::optional<StudyPlan> make_plan(const Object& root, const Object& study, cons
   hash.add(plan.printed);
   hash.add(fmt::format("{} {} {} {}", plan.name, language::join(options.only, ","), plan.settle,
                        plan.duration));
-  if (!plan_rows(plan, study, loader, options, hash)) return std::nullopt;
+  FirstRows first_rows;
+  std::set<std::string> inputs;
+  if (!plan_rows(plan, study, loader, options, hash, first_rows, inputs)) return std::nullopt;
   plan.settable = loader.settable;
   plan.hash = hash.text();
-  for (std::string& source : language::sources_of(root)) loader.inputs.insert(std::move(source));
-  plan.inputs = simulation::hashed(loader.inputs);
+  for (std::string& source : language::sources_of(root)) inputs.insert(std::move(source));
+  plan.inputs = simulation::hashed(inputs);
   if (plan.rows.empty()) {
     diagnostics.error(study.position,
                       "the study has no run: no Subject, or none that its Only blocks allow");
     return std::nullopt;
   }
-  complete_subjects(plan, engines);
+  complete_subjects(plan, engines, first_rows);
   return plan;
 }
 

@@ -1,10 +1,12 @@
 // A Study block as a plan: every run there will be, checked, before the first one starts.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <optional>
+#include <set>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +16,7 @@
 #include "simulation/experiment.h"
 #include "studies/engine_table.h"
 #include "studies/metric.h"
+#include "studies/plan/row_scene.h"
 #include "studies/result.h"
 
 namespace hookpoint::studies {
@@ -78,17 +81,19 @@ struct PlotPlan {
 struct RowPlan {
   std::vector<int> values;  ///< one index a sweep
   int subject = 0;
-  using Heights = std::shared_ptr<const std::vector<double>>;
-
-  simulation::Experiment experiment;  ///< without the heights of a ground that is a grid
-  Heights heights;                    ///< those, shared by the rows that stand on them; or null
-  /// The experiment as it is run.
-  simulation::Experiment whole() const;
-  std::string hash;  ///< of that and the files that it reads (simulation/identity.h)
+  /// Its scene but for the swept values, shared by all rows of the subject.
+  std::shared_ptr<const RowScene> scene;
+  double deltat = 0., duration = 0.;  ///< [s]
+  std::string engine;                 ///< that runs it
+  std::string hash;                   ///< of its experiment and the files that this reads
+                                      ///< (simulation/identity.h)
   std::string
       refusal;  ///< why the row's engine cannot run the scene, which others can; "" if it can
-  std::filesystem::path scene;        ///< its file
-  std::vector<std::string> settings;  ///< what makes the experiment of it, as --set takes them
+};
+
+/// A row's inputs are not what they were when it was planned. The message says what to do.
+struct ChangedInput : std::runtime_error {
+  using std::runtime_error::runtime_error;
 };
 
 struct StudyPlan {
@@ -109,7 +114,9 @@ struct StudyPlan {
   std::string hash;
   std::vector<output::InputFile> inputs;  ///< files that the study was made from and that it reads
 
-  std::vector<std::string> settable;  ///< Params and objects at the top of its scenes
+  std::vector<std::string> settable;     ///< Params and objects at the top of its scenes
+  std::set<std::uint64_t> seeds;         ///< of its rows
+  language::Library* library = nullptr;  ///< with its scenes; outlives the plan
 
   /// Of runs whose step is above the largest stable one: "lugre: deltat 0.01 s is above ...".
   std::vector<std::string> warnings;
@@ -119,24 +126,18 @@ struct StudyPlan {
   std::filesystem::path folder() const;
   /// What a row is called: "creep (dts_hookpoint, slope = 5 deg)".
   std::string name_of(const RowPlan& row) const;
-  /// What decides a row's outcome: the study's text, the row's experiment, this program, the
-  /// engine.
-  std::string identity_of(const RowPlan& row, const EngineTable& engines) const;
+  /// What a row's experiment is made of.
+  RowScene scene_of(const RowPlan& row) const;
+  /// The same as `--set` takes it: "slope=5 deg", "world.engine=ode".
+  std::vector<std::string> settings_of(const RowPlan& row) const;
+  /// A row's experiment, as it is run; of one that is refused, as it would be under our engine.
+  /// Thread-safe. Throws ChangedInput.
+  simulation::Experiment experiment_of(const RowPlan& row) const;
   /// Whether a metric of this scope is measured.
   bool measures(MetricScope scope) const;
-  /// The rows that differ from `row` at most in the value of `sweep`, in its order; indices. Of no
-  /// sweep, -1, the row alone.
-  std::vector<std::size_t> rows_along(std::size_t row, int sweep) const;
-};
-
-/// The heights of the grounds of a plan's rows, equal ones kept once.
-class SharedHeights {
- public:
-  /// Moves the heights of the row's ground out of its experiment, to those that equal them.
-  void take(RowPlan& row);
-
- private:
-  std::map<std::string, RowPlan::Heights> known_;  ///< by their hash
+  /// The rows in groups that differ at most in the value of `sweep`, in its order; indices. Of no
+  /// sweep, -1, each row alone.
+  std::vector<std::vector<std::size_t>> groups_along(int sweep) const;
 };
 
 /// runs/<name>-<the hash's first twelve digits>.
@@ -144,8 +145,8 @@ std::filesystem::path folder_of(const std::string& name, const std::string& hash
 
 /// The plan of `study` (an object of `root`, evaluated from `file`). Nothing when `diagnostics` got
 /// an error: a misspelt name, a unit that does not fit, a value outside the scene's range, a law
-/// that its integrator cannot advance. Every row's scene is evaluated and loaded here, in one
-/// thread; running them needs no language any more.
+/// that its integrator cannot advance. Every row's scene is evaluated and loaded here, once, and
+/// again when it runs: `library` outlives the plan.
 std::optional<StudyPlan> make_plan(const language::Object& root, const language::Object& study,
                                    const std::string& file, language::Library& library,
                                    const EngineTable& engines, const PlanOptions& options,

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <utility>
 
 #include "output/text/number.h"
 #include "studies/report/figure_parts.h"
@@ -85,6 +86,7 @@ struct Gathered {
   std::map<double, MetricValue> points;
   std::vector<double> unfinished;
   const RunResult* curve_of = nullptr;  ///< over time: the row whose curve goes farthest
+  Trace curve;
   double reach = -1.;
 };
 
@@ -101,11 +103,13 @@ void gather_point(Gathered& series, double x, const RunResult& row, std::size_t 
 
 void gather_curve(Gathered& series, const RunResult& row, std::size_t plot) {
   if (plot >= row.traces.size()) return;
+  Trace trace = row.traces[plot].read();
   double reach = 0.;
-  for (const double value : row.traces[plot].value)
+  for (const double value : trace.value)
     if (std::isfinite(value)) reach = std::max(reach, std::abs(value));
-  if (row.traces[plot].time.empty() || reach <= series.reach) return;
+  if (trace.time.empty() || reach <= series.reach) return;
   series.curve_of = &row;
+  series.curve = std::move(trace);
   series.reach = reach;
 }
 
@@ -122,11 +126,15 @@ output::Curve finite_part(const Trace& trace, bool logarithmic) {
   return curve;
 }
 
-void fill(output::Series& series, const Gathered& gathered, const PlotSpec& spec,
-          std::size_t plot) {
+void fill(output::Series& series, const Gathered& gathered, const PlotSpec& spec) {
   series.unfinished = gathered.unfinished;
+  if (series.unfinished.size() > 2 * thinned_buckets) {
+    std::ranges::sort(series.unfinished);
+    const auto again = std::ranges::unique(series.unfinished);
+    series.unfinished.erase(again.begin(), again.end());
+  }
   if (gathered.curve_of != nullptr) {
-    const Trace& trace = gathered.curve_of->traces[plot];
+    const Trace& trace = gathered.curve;
     series.measured = thin(finite_part(trace, spec.log_y), spec.log_x);
     if (outcome_of(*gathered.curve_of) == RunOutcome::stopped)
       series.unfinished.push_back(trace.time.back());
@@ -138,6 +146,9 @@ void fill(output::Series& series, const Gathered& gathered, const PlotSpec& spec
     series.predicted.x.push_back(x);
     series.predicted.y.push_back(*value.predicted);
   }
+  if (gathered.points.size() <= 2 * thinned_buckets) return;
+  series.measured = thin(series.measured, spec.log_x);
+  series.predicted = thin(series.predicted, spec.log_x);
 }
 
 using SeriesTable = std::map<SeriesKey, output::Series>;
@@ -165,7 +176,7 @@ SeriesTable series_of(const StudyResult& study, const PlotSpec& spec, std::size_
     output::Series series;
     series.label = series_label(study, spec, key);
     series.style = series_style(study, spec, key);
-    fill(series, points, spec, plot);
+    fill(series, points, spec);
     if (!series.measured.x.empty() || !series.unfinished.empty()) table.emplace(key, series);
   }
   return table;

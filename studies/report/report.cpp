@@ -13,6 +13,9 @@
 namespace hookpoint::studies {
 namespace {
 
+/// Swept values that a reader still looks at one by one.
+constexpr std::size_t most_told = 40;
+
 std::string paragraph(const std::string& style, const std::string& content) {
   return "<p class=\"" + style + "\">" + content + "</p>\n";
 }
@@ -52,7 +55,11 @@ std::string varied_line(const StudyResult& study) {
   for (const SweepColumn& sweep : study.sweeps) {
     text += text.empty() ? "Varied: " : "; ";
     text += html(spoken(sweep.name)) + " ";
-    for (std::size_t i = 0; i < sweep.values.size(); ++i)
+    if (sweep.values.size() > most_told)
+      text += std::to_string(sweep.values.size()) + " values from " +
+              output::rounded(sweep.values.front(), 6) + " to " +
+              output::rounded(sweep.values.back(), 6);
+    for (std::size_t i = 0; i < sweep.values.size() && sweep.values.size() <= most_told; ++i)
       text += (i > 0 ? ", " : "") + output::rounded(sweep.values[i], 6);
     if (!sweep.unit.empty()) text += " " + html(sweep.unit);
   }

@@ -313,7 +313,9 @@ std::string runs_table(const StudyResult& study) {
   std::string text;
   if (!all)
     text += "<p>" + std::to_string(listed) + " of " + std::to_string(study.rows.size()) +
-            " runs: those that fail a truth or stopped. results.csv holds every one.</p>\n";
+            " runs: those that fail a truth or stopped. <a href=\"results.csv\">results.csv</a> "
+            "holds every one.</p>\n";
+  if (listed == 0) return text;
   text +=
       "<div class=\"filter\" hidden><label>Filter <input type=\"search\" placeholder=\"words\" "
       "size=\"24\"></label>"

@@ -9,9 +9,13 @@
 #include <ctime>
 #include <memory>
 #include <string>
+#include <utility>
 
+#include "output/text/hash.h"
+#include "simulation/identity.h"
 #include "simulation/run/energy_watch.h"
 #include "simulation/run/world.h"
+#include "studies/predictions/predictions.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -37,21 +41,20 @@ std::string failure(const StepStatus& status) {
                      status.advice);
 }
 
-/// A trace being recorded: at step 0, then at `trace_samples` steps spread evenly or, for a
-/// logarithmic time axis, in geometric progression. A signal that counts from `settle` starts
-/// there.
+/// A curve over time being recorded: at step 0, then at `trace_samples` steps. A signal that counts
+/// from `settle` starts there.
 class Recording {
  public:
-  Recording(const PlotPlan& plot, std::int64_t first, std::int64_t steps)
-      : plot_(plot), first_(first), steps_(steps - first) {
+  Recording(const RecordedSignal& recorded, std::int64_t first, std::int64_t steps)
+      : recorded_(recorded), first_(first), steps_(steps - first) {
     trace_.time.reserve(trace_samples + 1);
     trace_.value.reserve(trace_samples + 1);
   }
   void observe(const RunContext& context, const Observation& observation) {
     const std::int64_t step = observation.world.step - first_;
     if (step < due_) return;
-    const double value = plot_.signal->value(context, observation);
-    if (step == 0 && plot_.signal->since_settle) {
+    const double value = recorded_.signal->value(context, observation);
+    if (step == 0 && recorded_.signal->since_settle) {
       start_time_ = observation.world.time;
       start_value_ = value;
     }
@@ -59,16 +62,19 @@ class Recording {
     trace_.value.push_back(value - start_value_);
     while (due_ <= step) due_ = step_of(++sample_);
   }
-  Trace take() { return std::move(trace_); }
+  KeptCurve take() {
+    trace_.time.insert(trace_.time.end(), trace_.value.begin(), trace_.value.end());
+    return {trace_.time.size(), std::move(trace_.time)};
+  }
 
  private:
   std::int64_t step_of(int sample) const {
     const double part = static_cast<double>(sample) / trace_samples;
     const double last = static_cast<double>(steps_);
     if (sample > trace_samples) return INT64_MAX;
-    return std::llround(plot_.spec.log_x ? std::pow(last, part) : part * last);
+    return std::llround(recorded_.logarithmic ? std::pow(last, part) : part * last);
   }
-  const PlotPlan& plot_;
+  const RecordedSignal& recorded_;
   std::int64_t first_, steps_, due_ = 0;
   double start_time_ = 0., start_value_ = 0.;
   int sample_ = 0;
@@ -94,7 +100,12 @@ class PathRecording {
     time_ = time;
     position_ = position;
   }
-  std::vector<Vector3d> take() { return std::move(path_); }
+  KeptCurve take() const {
+    KeptCurve curve;
+    for (const Vector3d& p : path_) curve.samples.insert(curve.samples.end(), {p.x, p.y, p.z});
+    curve.size = curve.samples.size();
+    return curve;
+  }
 
  private:
   double interval_, time_ = 0.;
@@ -105,131 +116,210 @@ class PathRecording {
 /// Everything that looks at a run.
 class Watch {
  public:
-  Watch(const StudyPlan& plan, const RowPlan& row, const RunContext& context, std::int64_t steps)
-      : context_(context), observer_(context, needs_points(plan)) {
-    for (const MetricDefinition* metric : plan.metrics)
+  Watch(const Measurement& measurement, const RunContext& context, std::int64_t steps)
+      : measurement_(measurement), context_(context), observer_(context, needs_points()) {
+    for (const MetricDefinition* metric : measurement.metrics)
       metrics_.push_back(metric->make == nullptr ? nullptr : metric->make(context));
-    if (plan.measures(MetricScope::subjects)) path_.emplace(plan.duration);
-    const std::int64_t settle = std::llround(plan.settle / row.experiment.deltat);
-    for (const PlotPlan& plot : plan.plots) {
-      const bool recorded = plot.signal != nullptr && plan.covers(plot.only, row);
-      const std::int64_t first = recorded && plot.signal->since_settle ? settle : 0;
-      recordings_.push_back(recorded ? std::optional<Recording>(std::in_place, plot, first, steps)
-                                     : std::nullopt);
-    }
+    if (measurement.path) path_.emplace(measurement.duration);
+    const std::int64_t settle = std::llround(measurement.settle / context.experiment->deltat);
+    recordings_.reserve(measurement.signals.size());
+    for (const RecordedSignal& recorded : measurement.signals)
+      recordings_.emplace_back(recorded, recorded.signal->since_settle ? settle : 0, steps);
   }
   void observe(const simulation::World& world) {
     const Observation observation = observer_.observe(world.state(), &world.inputs());
     for (const auto& metric : metrics_)
       if (metric) metric->observe(observation);
-    for (auto& recording : recordings_)
-      if (recording) recording->observe(context_, observation);
+    for (Recording& recording : recordings_) recording.observe(context_, observation);
     if (path_) path_->observe(observation);
   }
   /// `broken`: the engine could not go on. Otherwise a run that is not complete was ended.
-  void finish(RowOutcome& outcome, bool complete, bool broken) {
-    for (const auto& metric : metrics_) {
+  void finish(RunRecord& record, bool complete, bool broken) {
+    for (std::size_t i = 0; i < metrics_.size(); ++i) {
       std::optional<double> value;
-      if (metric && complete) value = metric->value();
-      if (metric && broken) value = metric->value_of_broken_run();
-      outcome.measured.push_back(value && std::isfinite(*value) ? value : std::nullopt);
+      if (metrics_[i] && complete) value = metrics_[i]->value();
+      if (metrics_[i] && broken) value = metrics_[i]->value_of_broken_run();
+      if (value && !std::isfinite(*value)) value.reset();
+      record.values[std::string(measurement_.metrics[i]->name)].measured = value;
     }
-    for (auto& recording : recordings_)
-      outcome.traces.push_back(recording ? recording->take() : Trace{});
-    if (path_) outcome.path = path_->take();
+    for (std::size_t i = 0; i < recordings_.size(); ++i)
+      record.curves[measurement_.signals[i].name()] = recordings_[i].take();
+    if (path_) record.curves[path_curve] = path_->take();
   }
 
  private:
-  static bool needs_points(const StudyPlan& plan) {
-    const bool metric = std::any_of(plan.metrics.begin(), plan.metrics.end(),
-                                    [](const MetricDefinition* m) { return m->needs_points; });
-    return metric || std::any_of(plan.plots.begin(), plan.plots.end(), [](const PlotPlan& plot) {
-             return plot.signal != nullptr && plot.signal->name == "penetration";
+  bool needs_points() const {
+    return std::ranges::any_of(measurement_.metrics, &MetricDefinition::needs_points) ||
+           std::ranges::any_of(measurement_.signals, [](const RecordedSignal& recorded) {
+             return recorded.signal->name == "penetration";
            });
   }
+  const Measurement& measurement_;
   const RunContext& context_;
   Observer observer_;
   std::vector<std::unique_ptr<Metric>> metrics_;
-  std::vector<std::optional<Recording>> recordings_;
+  std::vector<Recording> recordings_;
   std::optional<PathRecording> path_;
 };
 
-RowOutcome not_run(const StudyPlan& plan, std::string status) {
-  RowOutcome outcome;
-  outcome.status = std::move(status);
-  outcome.measured.resize(plan.metrics.size());
-  outcome.traces.resize(plan.plots.size());
-  return outcome;
+/// With every name that is measured, and nothing under it but the closed forms.
+RunRecord not_run(const Measurement& measurement, RunRecord record, std::string status) {
+  record.status = std::move(status);
+  for (const MetricDefinition* metric : measurement.metrics)
+    record.values[std::string(metric->name)].measured.reset();
+  for (const RecordedSignal& recorded : measurement.signals) record.curves[recorded.name()] = {};
+  if (measurement.path) record.curves[path_curve] = {};
+  return record;
+}
+
+void predict_all(const Measurement& measurement, const RunContext& context,
+                 const EngineEntry& engine, RunRecord& record) {
+  const PeerContact peer = peer_contact(engine, *context.experiment);
+  for (const MetricDefinition* metric : measurement.metrics)
+    record.values[std::string(metric->name)].predicted = predict(metric->name, context, peer);
+}
+
+/// As `execute`, of an engine that is there; may throw.
+std::optional<RunRecord> step_through(const Measurement& measurement, const RunContext& context,
+                                      const EngineEntry& engine, RunRecord record,
+                                      const std::atomic<bool>& stop) {
+  const simulation::Experiment& experiment = *context.experiment;
+  const std::int64_t steps = std::llround(measurement.duration / experiment.deltat);
+  auto made = engine.make(experiment);
+  if (std::ranges::any_of(measurement.metrics, &MetricDefinition::needs_forces))
+    made->publish_ground_forces();
+  simulation::World world(experiment, std::move(made));
+  if (std::ranges::any_of(measurement.metrics, &MetricDefinition::needs_contact_force))
+    world.publish_contact_forces();
+  Watch watch(measurement, context, steps);
+  simulation::EnergyWatch energy(experiment, world, steps);
+  StepStatus status;
+  watch.observe(world);
+  std::string ended = world.ended();
+  for (std::int64_t step = 0; step < steps && status.ok() && ended.empty(); ++step) {
+    if (stop.load(std::memory_order_relaxed)) return std::nullopt;
+    status = world.step();
+    if (status.ok()) watch.observe(world);
+    if (status.ok()) energy.observe();
+    ended = world.ended();
+  }
+  if (!status.ok()) record.status = failure(status);
+  record.notices = world.state().notices;
+  if (std::string finding = energy.finding(); !finding.empty())
+    record.notices.push_back(std::move(finding));
+  const bool cut_short = status.ok() && world.state().step < steps;
+  if (cut_short) record.status = fmt::format("ended at {:.6g} s: {}", world.state().time, ended);
+  watch.finish(record, status.ok() && !cut_short, !status.ok());
+  return record;
 }
 
 }  // namespace
 
-std::optional<RowOutcome> execute(const StudyPlan& plan, const RowPlan& row,
-                                  const EngineEntry* engine, const std::atomic<bool>& stop) {
-  if (engine == nullptr || !engine->description.found)
-    return not_run(plan,
-                   fmt::format("skipped: engine {} is not on this machine", row.experiment.engine));
-  if (!row.refusal.empty()) return not_run(plan, "refused: " + row.refusal);
+std::string RecordedSignal::name() const {
+  return std::string(signal->name) + (logarithmic ? ", logarithmic" : "");
+}
+
+bool Measurement::found_in(const RunRecord& record) const {
+  return std::ranges::all_of(metrics,
+                             [&](const MetricDefinition* metric) {
+                               return record.values.contains(std::string(metric->name));
+                             }) &&
+         std::ranges::all_of(signals,
+                             [&](const RecordedSignal& recorded) {
+                               return record.curves.contains(recorded.name());
+                             }) &&
+         (!path || record.curves.contains(path_curve));
+}
+
+Measurement measurement_of(const StudyPlan& plan, const RowPlan& row) {
+  Measurement measurement{plan.settle, plan.duration, {}, {}, plan.measures(MetricScope::subjects)};
+  for (const MetricDefinition* metric : plan.metrics)
+    if (!metric->timing()) measurement.metrics.push_back(metric);
+  for (const PlotPlan& plot : plan.plots)
+    if (plot.signal != nullptr && plan.covers(plot.only, row))
+      measurement.signals.push_back({plot.signal, plot.spec.log_x});
+  return measurement;
+}
+
+std::string run_identity(const std::string& experiment, const Measurement& measurement,
+                         const std::string& engine, const EngineTable& engines) {
+  const auto entry = engines.find(engine);
+  const simulation::EngineDescription description =
+      entry == engines.end() ? simulation::EngineDescription{engine, {}, {}, false, {}}
+                             : entry->second.description;
+  return output::Hash()
+      .add("measured")
+      .add(fmt::format("{} {}", measurement.settle, measurement.duration))
+      .add(simulation::run_hash(experiment, description))
+      .text();
+}
+
+Trace trace_of(const KeptCurve& curve) {
+  const auto middle = curve.samples.begin() + static_cast<std::ptrdiff_t>(curve.samples.size() / 2);
+  return {{curve.samples.begin(), middle}, {middle, curve.samples.end()}};
+}
+
+std::vector<Vector3d> path_of(const KeptCurve& curve) {
+  std::vector<Vector3d> path;
+  for (std::size_t i = 0; i + 2 < curve.samples.size(); i += 3)
+    path.push_back({curve.samples[i], curve.samples[i + 1], curve.samples[i + 2]});
+  return path;
+}
+
+std::optional<RunRecord> execute(const Measurement& measurement,
+                                 const simulation::Experiment& experiment,
+                                 const EngineTable& engines, const std::string& refusal,
+                                 const std::atomic<bool>& stop) {
+  const auto engine = engines.find(experiment.engine);
+  const bool found = engine != engines.end() && engine->second.description.found;
+  const std::string why_not =
+      !found ? fmt::format("skipped: engine {} is not on this machine", experiment.engine)
+      : !refusal.empty() ? "refused: " + refusal
+                         : "";
+  RunRecord record;
   try {
-    const simulation::Experiment experiment = row.whole();
-    RunContext context = make_context(experiment, plan.settle, plan.duration);
-    context.make = engine->make;
-    const std::int64_t steps = std::llround(plan.duration / row.experiment.deltat);
-    auto made = engine->make(experiment);
-    if (std::ranges::any_of(plan.metrics, &MetricDefinition::needs_forces))
-      made->publish_ground_forces();
-    simulation::World world(experiment, std::move(made));
-    if (std::ranges::any_of(plan.metrics, &MetricDefinition::needs_contact_force))
-      world.publish_contact_forces();
-    Watch watch(plan, row, context, steps);
-    simulation::EnergyWatch energy(experiment, world, steps);
-    StepStatus status;
-    watch.observe(world);
-    std::string ended = world.ended();
-    for (std::int64_t step = 0; step < steps && status.ok() && ended.empty(); ++step) {
-      if (stop.load(std::memory_order_relaxed)) return std::nullopt;
-      status = world.step();
-      if (status.ok()) watch.observe(world);
-      if (status.ok()) energy.observe();
-      ended = world.ended();
+    RunContext context = make_context(experiment, measurement.settle, measurement.duration);
+    record.regime = regime_of(context);
+    if (!why_not.empty()) return not_run(measurement, std::move(record), why_not);
+    context.make = engine->second.make;
+    try {
+      predict_all(measurement, context, engine->second, record);
+    } catch (const simulation::ExperimentError&) {
+      // The run itself says why, if it cannot be.
     }
-    RowOutcome outcome;
-    if (!status.ok()) outcome.status = failure(status);
-    outcome.notices = world.state().notices;
-    if (std::string finding = energy.finding(); !finding.empty())
-      outcome.notices.push_back(std::move(finding));
-    const bool cut_short = status.ok() && world.state().step < steps;
-    if (cut_short) outcome.status = fmt::format("ended at {:.6g} s: {}", world.state().time, ended);
-    watch.finish(outcome, status.ok() && !cut_short, !status.ok());
-    return outcome;
+    return step_through(measurement, context, engine->second, record, stop);
   } catch (const simulation::ExperimentError& error) {
-    const bool peer = row.experiment.engine != "dts";
-    return not_run(plan, fmt::format("{}: {}", peer ? "refused" : "cannot run", error.what()));
+    if (!why_not.empty()) return not_run(measurement, std::move(record), why_not);
+    const bool peer = experiment.engine != "dts";
+    if (peer) record.values.clear();
+    return not_run(measurement, std::move(record),
+                   fmt::format("{}: {}", peer ? "refused" : "cannot run", error.what()));
   }
 }
 
-std::vector<std::optional<double>> execute_timing(const StudyPlan& plan, const RowPlan& row,
-                                                  const EngineEntry& engine) {
+RunRecord execute_timing(std::span<const MetricDefinition* const> metrics,
+                         const simulation::Experiment& experiment, const EngineEntry& engine) {
   // Processor time: wall time counts whoever else uses the machine, and counts long steps of one
   // engine more often interrupted than short ones of another.
   constexpr int steps = 200;
   std::array<double, 5> stretches{};
-  std::vector<std::optional<double>> values(plan.metrics.size());
-  const simulation::Experiment experiment = row.whole();
+  RunRecord record;
+  for (const MetricDefinition* metric : metrics)
+    if (metric->timing()) record.values[std::string(metric->name)];
   simulation::World world(experiment, engine.make(experiment));
   for (double& seconds : stretches) {
     const std::clock_t start = std::clock();
     for (int step = 0; step < steps; ++step)
-      if (!world.step().ok()) return values;
+      if (!world.step().ok()) return record;
     seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   }
   std::sort(stretches.begin(), stretches.end());
   const double step_time = stretches[stretches.size() / 2] / steps;
-  for (std::size_t i = 0; i < plan.metrics.size(); ++i) {
-    if (plan.metrics[i]->name == "step_time") values[i] = step_time;
-    if (plan.metrics[i]->name == "realtime_factor") values[i] = row.experiment.deltat / step_time;
+  for (auto& [name, value] : record.values) {
+    if (name == "step_time") value.measured = step_time;
+    if (name == "realtime_factor") value.measured = experiment.deltat / step_time;
   }
-  return values;
+  return record;
 }
 
 }  // namespace hookpoint::studies

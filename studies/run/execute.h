@@ -1,38 +1,69 @@
-// One run of a plan: steps an engine, shows every state to the metrics, keeps the traces.
+// One run: steps an engine, shows every state to the metrics, records curves.
 #pragma once
 
 #include <atomic>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "studies/engine_table.h"
+#include "studies/metric.h"
 #include "studies/plan/plan.h"
+#include "studies/run/run_record.h"
 
 namespace hookpoint::studies {
 
-struct RowOutcome {
-  std::string status = "ok";
-  std::vector<std::string> notices;             ///< of its engine
-  std::vector<std::optional<double>> measured;  ///< one a metric of the plan
-  std::vector<Trace> traces;  ///< one a plot of the plan, empty for those not over time
-  /// Positions of the body's origin at `path_samples` equal intervals of the duration, where
-  /// distances are measured: fewer of a run that did not finish [m].
-  std::vector<Vector3d> path;
+/// A signal over time that a run records, evenly or, for a logarithmic axis, in geometric
+/// progression.
+struct RecordedSignal {
+  const SignalDefinition* signal = nullptr;
+  bool logarithmic = false;
+  /// Of its curve: times, then as many values.
+  std::string name() const;
 };
 
-/// Most samples of a trace.
+/// What is looked at while a run goes on.
+struct Measurement {
+  double settle = 0., duration = 0.;  ///< [s]
+  std::vector<const MetricDefinition*> metrics;
+  std::vector<RecordedSignal> signals;
+  /// Whether positions of the body's origin are recorded, for distances between trajectories.
+  bool path = false;
+
+  /// Whether `record` has all of it.
+  bool found_in(const RunRecord& record) const;
+};
+
+/// What the row of the plan is measured for; timing is not.
+Measurement measurement_of(const StudyPlan& plan, const RowPlan& row);
+
+/// What decides the numbers of a run, whatever study it stands in: experiment, times, program,
+/// engine; as 32 hexadecimal digits. `experiment`: its hash (simulation/identity.h).
+std::string run_identity(const std::string& experiment, const Measurement& measurement,
+                         const std::string& engine, const EngineTable& engines);
+
+/// Most samples of a curve over time.
 inline constexpr int trace_samples = 500;
 /// Intervals between the samples of a path.
 inline constexpr int path_samples = 200;
+/// The curve of the path: x, y, z of the body's origin at `path_samples` equal intervals of the
+/// duration, fewer of a run that did not finish [m].
+inline constexpr const char* path_curve = "path";
 
-/// Runs `row`; nothing when `stop` was set meanwhile. Timing metrics stay empty. An engine that
-/// fails gives a status, no exception.
-std::optional<RowOutcome> execute(const StudyPlan& plan, const RowPlan& row,
-                                  const EngineEntry* engine, const std::atomic<bool>& stop);
+Trace trace_of(const KeptCurve& curve);
+std::vector<Vector3d> path_of(const KeptCurve& curve);
 
-/// The timing metrics of `row`, one a metric of the plan (others empty): median over five stretches
-/// of 200 steps. To be called while nothing else runs.
-std::vector<std::optional<double>> execute_timing(const StudyPlan& plan, const RowPlan& row,
-                                                  const EngineEntry& engine);
+/// Runs the experiment; nothing when `stop` was set meanwhile. An engine that fails or is not there
+/// gives a status, no exception. `refusal`: why the engine is not tried; "" to try.
+std::optional<RunRecord> execute(const Measurement& measurement,
+                                 const simulation::Experiment& experiment,
+                                 const EngineTable& engines, const std::string& refusal,
+                                 const std::atomic<bool>& stop);
+
+/// The timing metrics among `metrics`: median over five stretches of 200 steps. To be called while
+/// nothing else runs.
+RunRecord execute_timing(std::span<const MetricDefinition* const> metrics,
+                         const simulation::Experiment& experiment, const EngineEntry& engine);
 
 }  // namespace hookpoint::studies

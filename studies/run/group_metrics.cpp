@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 namespace hookpoint::studies {
 namespace {
@@ -9,19 +10,17 @@ namespace {
 /// Gives every row the spread over the runs of its group (those that differ from it in the swept
 /// value alone); nothing where one of these has no value.
 void measure_over_sweep(const StudyPlan& plan, std::size_t metric, StudyResult& result) {
-  std::vector<std::optional<double>> of_groups;
-  for (std::size_t row = 0; row < plan.rows.size(); ++row) {
+  for (const std::vector<std::size_t>& group : plan.groups_along(plan.metric_sweeps[metric])) {
     std::vector<double> parts;
     bool whole = true;
-    for (const std::size_t other : plan.rows_along(row, plan.metric_sweeps[metric])) {
-      const std::optional<double>& part = result.rows[other].metrics[metric].measured;
+    for (const std::size_t row : group) {
+      const std::optional<double>& part = result.rows[row].metrics[metric].measured;
       whole = whole && part.has_value();
       if (part) parts.push_back(*part);
     }
-    of_groups.push_back(whole ? spread(parts) : std::nullopt);
+    const std::optional<double> of_group = whole ? spread(parts) : std::nullopt;
+    for (const std::size_t row : group) result.rows[row].metrics[metric].measured = of_group;
   }
-  for (std::size_t row = 0; row < plan.rows.size(); ++row)
-    result.rows[row].metrics[metric].measured = of_groups[row];
 }
 
 /// Rows at equal swept values, in their order.
@@ -35,19 +34,17 @@ std::vector<std::vector<std::size_t>> groups_of_subjects(const StudyPlan& plan) 
 }
 
 PeerDistances distances_of(const StudyPlan& plan, const std::vector<std::size_t>& group,
-                           const std::vector<RowOutcome>& outcomes, const StudyResult& result) {
+                           const KeptRows& kept, const StudyResult& result) {
   const std::size_t subjects = plan.subjects.size();
   PeerDistances matrix{result.rows[group.front()].parameters,
                        std::vector<std::optional<double>>(subjects * subjects)};
-  for (const std::size_t a : group) {
-    for (const std::size_t b : group) {
-      if (outcomes[a].status != "ok" || outcomes[b].status != "ok") continue;
-      const auto line = static_cast<std::size_t>(plan.rows[a].subject);
-      const auto column = static_cast<std::size_t>(plan.rows[b].subject);
-      matrix.distances[line * subjects + column] =
-          path_distance(outcomes[a].path, outcomes[b].path);
-    }
-  }
+  std::vector<std::pair<std::size_t, std::vector<Vector3d>>> paths;  // of subjects that finished
+  for (const std::size_t row : group)
+    if (result.rows[row].status == "ok")
+      paths.emplace_back(static_cast<std::size_t>(plan.rows[row].subject), kept.path(row));
+  for (const auto& [line, one] : paths)
+    for (const auto& [column, other] : paths)
+      matrix.distances[line * subjects + column] = path_distance(one, other);
   return matrix;
 }
 
@@ -64,10 +61,10 @@ std::optional<double> median_distance(const PeerDistances& matrix, std::size_t s
   return others[(others.size() - 1) / 2];
 }
 
-void measure_between_subjects(const StudyPlan& plan, std::size_t metric,
-                              const std::vector<RowOutcome>& outcomes, StudyResult& result) {
+void measure_between_subjects(const StudyPlan& plan, std::size_t metric, const KeptRows& kept,
+                              StudyResult& result) {
   for (const std::vector<std::size_t>& group : groups_of_subjects(plan)) {
-    PeerDistances matrix = distances_of(plan, group, outcomes, result);
+    PeerDistances matrix = distances_of(plan, group, kept, result);
     for (const std::size_t row : group)
       result.rows[row].metrics[metric].measured = median_distance(
           matrix, static_cast<std::size_t>(plan.rows[row].subject), plan.subjects.size());
@@ -91,12 +88,11 @@ std::optional<double> spread(std::span<const double> values) {
   return greatest / least - 1.;
 }
 
-void measure_groups(const StudyPlan& plan, const std::vector<RowOutcome>& outcomes,
-                    StudyResult& result) {
+void measure_groups(const StudyPlan& plan, const KeptRows& kept, StudyResult& result) {
   for (std::size_t metric = 0; metric < plan.metrics.size(); ++metric) {
     if (plan.metrics[metric]->scope == MetricScope::sweep) measure_over_sweep(plan, metric, result);
     if (plan.metrics[metric]->scope == MetricScope::subjects)
-      measure_between_subjects(plan, metric, outcomes, result);
+      measure_between_subjects(plan, metric, kept, result);
   }
 }
 

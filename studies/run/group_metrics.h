@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "studies/plan/plan.h"
-#include "studies/run/execute.h"
+#include "studies/run/kept_rows.h"
 
 namespace hookpoint::studies {
 
@@ -16,8 +16,7 @@ double path_distance(std::span<const Vector3d> a, std::span<const Vector3d> b);
 std::optional<double> spread(std::span<const double> values);
 
 /// Fills in the metrics of scope sweep, whose rows hold each run's part so far, and of scope
-/// subjects, and `result.peer_distances`. Depends on the outcomes alone.
-void measure_groups(const StudyPlan& plan, const std::vector<RowOutcome>& outcomes,
-                    StudyResult& result);
+/// subjects, and `result.peer_distances`.
+void measure_groups(const StudyPlan& plan, const KeptRows& kept, StudyResult& result);
 
 }  // namespace hookpoint::studies

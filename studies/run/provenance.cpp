@@ -5,7 +5,6 @@
 
 #include <array>
 #include <ctime>
-#include <set>
 #include <thread>
 
 #include "output/text/hash.h"
@@ -30,8 +29,6 @@ output::Manifest manifest_of(const StudyPlan& plan) { return {plan.hash, {}, {},
 Provenance make_provenance(const StudyPlan& plan, const EngineTable& engines) {
   utsname host{};
   uname(&host);
-  std::set<std::uint64_t> seeds;
-  for (const RowPlan& row : plan.rows) seeds.insert(row.experiment.seed);
   Provenance provenance;
   provenance.study = plan.name;
   provenance.file = plan.file;
@@ -43,7 +40,7 @@ Provenance make_provenance(const StudyPlan& plan, const EngineTable& engines) {
   provenance.inputs = plan.inputs;
   for (const auto& [name, entry] : engines)
     provenance.engines.emplace_back(name, entry.description);
-  provenance.seeds.assign(seeds.begin(), seeds.end());
+  provenance.seeds.assign(plan.seeds.begin(), plan.seeds.end());
   provenance.host = host.nodename;
   provenance.system = fmt::format("{} {}", host.sysname, host.release);
   provenance.machine = host.machine;

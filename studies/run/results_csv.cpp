@@ -58,7 +58,7 @@ std::string trace_file(const std::string& plot, std::size_t row) {
 void write_traces(const std::filesystem::path& folder, const StudyResult& result) {
   for (std::size_t row = 0; row < result.rows.size(); ++row) {
     for (std::size_t i = 0; i < result.plots.size(); ++i) {
-      const Trace& trace = result.rows[row].traces[i];
+      const Trace trace = result.rows[row].traces[i].read();
       const PlotSpec& plot = result.plots[i];
       if (trace.time.empty()) continue;
       output::CsvTable table;
@@ -105,8 +105,8 @@ output::CsvTable results_table(const StudyResult& result, bool timing) {
 }
 
 std::vector<std::string> study_files(const StudyPlan& plan) {
-  std::vector<std::string> files{"rows/", "experiment.hook", "scene.hook", "provenance.json",
-                                 "report.html"};
+  std::vector<std::string> files{store_folder, cluster_folder,    "experiment.hook",
+                                 "scene.hook", "provenance.json", "report.html"};
   for (const std::string_view table : table_names) files.push_back(std::string(table) + ".csv");
   for (const PlotPlan& plot : plan.plots) {
     for (const char* type : {".svg", ".csv", ".gp"}) files.push_back(plot.spec.name + type);

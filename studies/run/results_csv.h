@@ -18,7 +18,12 @@ namespace hookpoint::studies {
 /// others (results.csv, the same bytes every time).
 output::CsvTable results_table(const StudyResult& result, bool timing);
 
-/// The names of all that a study may leave in its folder, reports and figures too, and rows/.
+/// Folders of a study's own folder, kept from run to run: its runs where it shares no store, and
+/// what goes to and fro between it and a cluster.
+inline constexpr const char* store_folder = "store/";
+inline constexpr const char* cluster_folder = "cluster/";
+
+/// The names of all that a study may leave in its folder, reports and figures too.
 std::vector<std::string> study_files(const StudyPlan& plan);
 
 /// Writes all of them into `folder`. Throws output::FileError.

@@ -3,13 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <exception>
-#include <map>
-#include <memory>
 #include <set>
-#include <thread>
+#include <string_view>
+#include <utility>
 
 #include "simulation/run/energy_watch.h"
+#include "studies/run/workers.h"
 
 namespace hookpoint::studies {
 
@@ -30,6 +29,8 @@ void ProgressMeter::advance(bool resumed) {
 
 namespace {
 
+using Rows = std::vector<std::size_t>;
+
 /// What several rows have in common to say: `text` with a # for each number.
 std::string kind_of(const std::string& text) {
   if (text.starts_with(simulation::energy_finding)) return std::string(simulation::energy_finding);
@@ -41,106 +42,111 @@ std::string kind_of(const std::string& text) {
   return plain;
 }
 
-void on_one_line(std::string& text) { std::ranges::replace(text, '\n', ' '); }
-
-/// Takes what the store has of the rows; those that are left to run.
-std::vector<std::size_t> take_finished(std::span<const std::size_t> order, const RowWork& work,
-                                       const RunOptions& options, const RowStore& store,
-                                       ProgressMeter& meter, std::vector<RowOutcome>& outcomes) {
-  std::vector<std::size_t> left;
-  std::size_t others = 0;
-  for (const std::size_t row : order) {
-    auto outcome = store.load(row, work.identity(row), work.metrics(row), work.plots);
-    if (outcome) {
-      outcomes[row] = std::move(*outcome);
-      if (work.done) work.done(row, outcomes[row]);
-      meter.advance(true);
+/// Of `rows` those that the store has not; it then knows whose the others are.
+Rows take_finished(std::span<const std::size_t> rows, const RowWork& work, RunStore& store,
+                   ProgressMeter& meter) {
+  Rows left;
+  for (const std::size_t row : rows) {
+    const std::string& identity = work.identity[row];
+    const auto record = store.load(identity);
+    if (!record || !work.complete(row, *record)) {
+      left.push_back(row);
       continue;
     }
-    if (store.has(row)) ++others;
-    left.push_back(row);
+    if (store.assigned(work.study, row) != identity) store.assign(work.study, row, identity);
+    if (work.done) work.done(row);
+    meter.advance(true);
   }
-  if (others > 0 && options.tell)
+  return left;
+}
+
+/// Tells of rows that were run before, as something else than what they are now.
+void tell_of_others(const Rows& left, const RowWork& work, const RunOptions& options,
+                    const RunStore& store) {
+  if (!options.tell) return;
+  const std::set<std::string_view> wanted(work.identity.begin(), work.identity.end());
+  const auto others = std::ranges::count_if(left, [&](std::size_t row) {
+    const auto before = store.assigned(work.study, row);
+    return before && (*before == work.identity[row] || !wanted.contains(*before));
+  });
+  if (others > 0)
     options.tell(fmt::format(
         "{} of the finished rows {} of another study, scene, input file, program or engine, or "
         "damaged: {} anew",
         others, others == 1 ? "is" : "are", others == 1 ? "it is run" : "they are run"));
-  return left;
+}
+
+/// The first row of each run, the others into `again`.
+Rows first_of_each(const Rows& rows, const RowWork& work, Rows& again) {
+  Rows first;
+  std::set<std::string_view> known;
+  for (const std::size_t row : rows)
+    (known.insert(work.identity[row]).second ? first : again).push_back(row);
+  return first;
+}
+
+/// Into the store and to whoever listens.
+void keep(std::size_t row, RunRecord record, const RowWork& work, RunStore& store,
+          ProgressMeter& meter) {
+  store.save(work.study, row, work.identity[row], std::move(record));
+  if (work.done) work.done(row);
+  meter.advance(false);
+}
+
+bool run_here(const Rows& rows, const RowWork& work, const RunOptions& options, RunStore& store,
+              ProgressMeter& meter) {
+  return work_through(rows.size(), options.jobs, [&](std::size_t i) {
+    auto record = work.execute(rows[i]);
+    if (record) keep(rows[i], std::move(*record), work, store, meter);
+    return record.has_value();
+  });
+}
+
+/// What has a request goes away, the rest is run here.
+bool run_all(const Rows& rows, const RowWork& work, const RunOptions& options, RunStore& store,
+             ProgressMeter& meter, const std::atomic<bool>& stop) {
+  Rows here, away;
+  for (const std::size_t row : rows)
+    (options.remote != nullptr && work.request && work.request(row) ? away : here).push_back(row);
+  if (!run_here(here, work, options, store, meter)) return false;
+  if (away.empty()) return true;
+  return options.remote->run(
+      away.size(), [&](std::size_t index) { return *work.request(away[index]); },
+      [&](std::size_t index, RunRecord record) {
+        keep(away[index], std::move(record), work, store, meter);
+      },
+      stop);
 }
 
 }  // namespace
 
 bool run_rows(std::span<const std::size_t> order, const RowWork& work, const RunOptions& options,
-              const RowStore& store, ProgressMeter& meter, std::vector<RowOutcome>& outcomes) {
-  const std::vector<std::size_t> left =
-      options.resume ? take_finished(order, work, options, store, meter, outcomes)
-                     : std::vector<std::size_t>(order.begin(), order.end());
-  std::atomic<std::size_t> next{0};
-  std::atomic<bool> cut_short{false};
-  std::exception_ptr failure;
-  std::mutex failure_mutex;
-  const auto run = [&] {
-    try {
-      for (std::size_t i = next++; i < left.size() && !cut_short; i = next++) {
-        const std::size_t row = left[i];
-        auto outcome = work.execute(row);
-        if (!outcome) {
-          cut_short = true;
-          return;
-        }
-        on_one_line(outcome->status);
-        for (std::string& notice : outcome->notices) on_one_line(notice);
-        store.save(row, work.identity(row), *outcome);
-        outcomes[row] = std::move(*outcome);
-        if (work.done) work.done(row, outcomes[row]);
-        meter.advance(false);
-      }
-    } catch (...) {
-      const std::lock_guard lock(failure_mutex);
-      failure = std::current_exception();
-      cut_short = true;
-    }
-  };
-  {
-    std::vector<std::jthread> workers;
-    for (int i = 0; i < std::max(1, options.jobs); ++i) workers.emplace_back(run);
+              RunStore& store, ProgressMeter& meter, const std::atomic<bool>& stop) {
+  Rows left = take_finished(order, work, store, meter);
+  tell_of_others(left, work, options, store);
+  while (!left.empty()) {
+    Rows again;
+    if (!run_all(first_of_each(left, work, again), work, options, store, meter, stop)) return false;
+    left = take_finished(again, work, store, meter);
   }
-  if (failure) std::rethrow_exception(failure);
-  return !cut_short;
+  return true;
 }
 
-std::function<void(std::size_t row, const RowOutcome& outcome)> tell_rows(
-    const RunOptions& options,
-    std::function<RunResult(std::size_t row, const RowOutcome& outcome)> assemble) {
-  if (!options.row_done) return {};
-  return [&options, assemble = std::move(assemble), telling = std::make_shared<std::mutex>()](
-             std::size_t row, const RowOutcome& outcome) {
-    const RunResult result = assemble(row, outcome);
-    const std::lock_guard lock(*telling);
-    options.row_done(row, result);
-  };
+void Notices::add(std::size_t row, const std::vector<std::string>& notices) {
+  for (const std::string& notice : notices) {
+    const auto [place, is_new] = places_.try_emplace(kind_of(notice), found_.size());
+    if (is_new) found_.push_back({row, notice, row, 1});
+    Notice& found = found_[place->second];
+    if (found.last_row != row) ++found.rows;
+    found.last_row = row;
+  }
 }
 
-std::vector<std::string> collect_notices(
-    const std::vector<RowOutcome>& outcomes,
-    const std::function<std::string(std::size_t row)>& name_of) {
-  struct Notice {
-    std::size_t row;
-    std::string text;
-    std::set<std::size_t> rows;
-  };
-  std::vector<Notice> found;
-  std::map<std::string, std::size_t> places;
-  for (std::size_t i = 0; i < outcomes.size(); ++i) {
-    for (const std::string& notice : outcomes[i].notices) {
-      const auto [place, is_new] = places.try_emplace(kind_of(notice), found.size());
-      if (is_new) found.push_back({i, notice, {}});
-      found[place->second].rows.insert(i);
-    }
-  }
+std::vector<std::string> Notices::texts(
+    const std::function<std::string(std::size_t row)>& name_of) const {
   std::vector<std::string> notices;
-  for (const Notice& notice : found) {
-    const std::size_t others = notice.rows.size() - 1;
+  for (const Notice& notice : found_) {
+    const std::size_t others = notice.rows - 1;
     notices.push_back(name_of(notice.row) + ": " + notice.text +
                       (others == 0   ? ""
                        : others == 1 ? " (so does 1 more run)"

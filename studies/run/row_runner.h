@@ -1,17 +1,19 @@
-// The rows of a plan by several threads, each once, kept on disk as they finish.
+// The rows of a plan, each run once, by several threads or elsewhere, kept on disk as they finish.
 #pragma once
 
 #include <atomic>
 #include <chrono>
 #include <functional>
+#include <map>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "studies/run/execute.h"
-#include "studies/run/row_store.h"
 #include "studies/run/run.h"
+#include "studies/run/run_request.h"
+#include "studies/run/run_store.h"
 
 namespace hookpoint::studies {
 
@@ -30,31 +32,39 @@ class ProgressMeter {
 
 /// How a row of the plan is run, and what it leaves.
 struct RowWork {
-  std::function<std::optional<RowOutcome>(std::size_t row)> execute;  ///< nothing: interrupted
-  std::function<std::string(std::size_t row)> identity;  ///< of the run (StudyPlan::identity_of)
-  std::function<std::size_t(std::size_t row)> metrics;   ///< how many values an outcome has
-  std::size_t plots = 0;                                 ///< how many traces
-  /// Hears of each outcome, from any thread; may be none.
-  std::function<void(std::size_t row, const RowOutcome& outcome)> done{};
+  std::string study;                                                 ///< whose rows they are
+  std::span<const std::string> identity;                             ///< of each row's run
+  std::function<std::optional<RunRecord>(std::size_t row)> execute;  ///< nothing: interrupted
+  /// Whether a record has all that the row asks for.
+  std::function<bool(std::size_t row, const RunRecord& record)> complete;
+  /// The row's run for another process; nothing where it is made here. May be none.
+  std::function<std::optional<RunRequest>(std::size_t row)> request{};
+  /// Hears of each row that is in the store, from any thread; may be none.
+  std::function<void(std::size_t row)> done{};
 };
 
-/// All rows of `order` by `options.jobs` workers, each outcome into its own slot; with
-/// `options.resume` those that the store has are not run again, and `options.tell` hears of those
-/// that it has of other runs. False when interrupted: what is finished is in the store. Rethrows
-/// what a worker throws.
+/// Sees to it that the store has the runs of all rows of `order`: those that it has are not run
+/// again, and rows that are the same run have one. By `options.jobs` workers, or by
+/// `options.remote`. `options.tell` hears of rows whose run is no longer what it was. False when
+/// interrupted: what is finished is in the store. Rethrows what a worker throws.
 bool run_rows(std::span<const std::size_t> order, const RowWork& work, const RunOptions& options,
-              const RowStore& store, ProgressMeter& meter, std::vector<RowOutcome>& outcomes);
-
-/// What calls `options.row_done` with what `assemble` makes of an outcome; nothing where nobody
-/// listens. `options` outlives it.
-std::function<void(std::size_t row, const RowOutcome& outcome)> tell_rows(
-    const RunOptions& options,
-    std::function<RunResult(std::size_t row, const RowOutcome& outcome)> assemble);
+              RunStore& store, ProgressMeter& meter, const std::atomic<bool>& stop);
 
 /// What the rows have to say: each once, with the first row that says so and how many others do,
 /// whatever the numbers in it.
-std::vector<std::string> collect_notices(
-    const std::vector<RowOutcome>& outcomes,
-    const std::function<std::string(std::size_t row)>& name_of);
+class Notices {
+ public:
+  void add(std::size_t row, const std::vector<std::string>& notices);
+  std::vector<std::string> texts(const std::function<std::string(std::size_t row)>& name_of) const;
+
+ private:
+  struct Notice {
+    std::size_t row = 0;
+    std::string text;
+    std::size_t last_row = 0, rows = 0;
+  };
+  std::vector<Notice> found_;
+  std::map<std::string, std::size_t> places_;
+};
 
 }  // namespace hookpoint::studies

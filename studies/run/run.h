@@ -15,6 +15,8 @@
 #include "studies/plan/plan.h"
 #include "studies/result.h"
 #include "studies/run/provenance.h"
+#include "studies/run/run_request.h"
+#include "studies/run/run_store.h"
 
 namespace hookpoint::studies {
 
@@ -34,6 +36,10 @@ struct RunOptions {
   /// thread. What only all rows together tell is missing: its verdicts where they need other rows,
   /// metrics of several runs, timing.
   std::function<void(std::size_t row, const RunResult& result)> row_done{};
+  /// Of several studies that share their runs; none: one in the study's folder. It then has the
+  /// runs of before with `resume` alone.
+  std::shared_ptr<RunStore> store{};
+  RemoteRuns* remote = nullptr;  ///< who makes the runs; null: this process
 };
 
 struct StudyRun {
@@ -47,11 +53,19 @@ struct StudyRun {
   bool interrupted = false;  ///< `stop` was set: finished rows are kept, no tables are written
 };
 
+/// How many of the plan's runs another process could make: those that have an engine.
+std::size_t remote_runs(const StudyPlan& plan, const EngineTable& engines);
+
+/// The store of runs that `options` ask for, for results in `folder`. Throws StoreError.
+std::shared_ptr<RunStore> open_store(const RunOptions& options,
+                                     const std::filesystem::path& folder);
+
 /// Runs all rows of `plan`, then the timing metrics alone, and writes results.csv, timing.csv (with
 /// timing metrics), experiment.hook, scene.hook, provenance.json, traces/ and files.json, after
 /// what an earlier run left in the folder. Each row is isolated: one that diverges or cannot run is
 /// a row with that status. `stop` may be set at any time, also from a signal handler. Throws
-/// output::FolderError when the folder is not to be had, output::FileError when the disk refuses.
+/// output::FolderError when the folder is not to be had, output::FileError and StoreError when the
+/// disk refuses.
 StudyRun run_study(const StudyPlan& plan, const EngineTable& engines, const RunOptions& options,
                    const std::atomic<bool>& stop);
 

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
 
-#include "studies/predictions/predictions.h"
 #include "studies/run/group_metrics.h"
 #include "studies/summary.h"
 
@@ -15,15 +16,6 @@ bool has(const RunResult& run, RunOutcome outcome) { return outcome_of(run) == o
 bool near(double measured, double expected, const TruthPlan& truth) {
   return std::abs(measured - expected) <=
          std::max(truth.within, truth.tolerance * std::abs(expected));
-}
-
-/// The row that differs from `row` only in that it has the first value of sweep `sweep`; null when
-/// the plan has none.
-const RunResult* first_of_sweep(const StudyPlan& plan, const StudyResult& result, std::size_t row,
-                                int sweep) {
-  const std::size_t first = plan.rows_along(row, sweep).front();
-  const bool there = plan.rows[first].values[static_cast<std::size_t>(sweep)] == 0;
-  return there ? &result.rows[first] : nullptr;
 }
 
 bool applies(const StudyPlan& plan, const TruthPlan& truth, const RowPlan& row) {
@@ -50,15 +42,26 @@ std::optional<bool> judge(const StudyPlan& plan, const RunResult& run, std::size
   return ok;
 }
 
-/// The same, beside the row that it is to equal.
+/// For each row that of its group which has the first value of sweep `sweep`; -1 when the plan has
+/// none.
+std::vector<std::ptrdiff_t> first_of_groups(const StudyPlan& plan, int sweep) {
+  std::vector<std::ptrdiff_t> first(plan.rows.size(), -1);
+  for (const std::vector<std::size_t>& group : plan.groups_along(sweep)) {
+    if (plan.rows[group.front()].values[static_cast<std::size_t>(sweep)] != 0) continue;
+    for (const std::size_t row : group) first[row] = static_cast<std::ptrdiff_t>(group.front());
+  }
+  return first;
+}
+
+/// What a Truth that holds along a sweep says of the row, beside the row that it is to equal.
 std::optional<bool> judge(const StudyPlan& plan, const StudyResult& result, std::size_t row,
-                          const TruthPlan& truth) {
+                          const TruthPlan& truth, std::ptrdiff_t equals) {
   const auto alone = judge(plan, result.rows[row], row, truth);
   const auto& measured = result.rows[row].metrics[truth.metric].measured;
-  if (!alone || !measured || truth.same_over < 0) return alone;
-  const RunResult* other = first_of_sweep(plan, result, row, truth.same_over);
-  if (other == nullptr) return std::nullopt;
-  const auto& reference = other->metrics[truth.metric].measured;
+  if (!alone || !measured) return alone;
+  if (equals < 0) return std::nullopt;
+  const RunResult& other = result.rows[static_cast<std::size_t>(equals)];
+  const auto& reference = other.metrics[truth.metric].measured;
   return *alone && reference && near(*measured, *reference, truth);
 }
 
@@ -75,27 +78,35 @@ RunResult empty_row(const StudyPlan& plan, const RowPlan& row) {
   return run;
 }
 
-RunResult run_result(const StudyPlan& plan, const EngineTable& engines, const RowPlan& row,
-                     const RowOutcome& outcome) {
-  RunResult run = empty_row(plan, row);
-  run.status = outcome.status;
-  run.traces = outcome.traces;
-  for (const auto& measured : outcome.measured)
-    run.metrics.push_back({measured, std::nullopt, std::nullopt});
-  const auto engine = engines.find(row.experiment.engine);
-  try {
-    const simulation::Experiment experiment = row.whole();
-    const RunContext context = make_context(experiment, plan.settle, plan.duration);
-    run.regime = regime_of(context);
-    const bool ran = !has(run, RunOutcome::skipped) && !has(run, RunOutcome::refused);
-    if (!ran || engine == engines.end()) return run;
-    const PeerContact peer = peer_contact(engine->second, experiment);
-    for (std::size_t i = 0; i < plan.metrics.size(); ++i)
-      run.metrics[i].predicted = predict(plan.metrics[i]->name, context, peer);
-  } catch (const simulation::ExperimentError&) {
-    return run;  // the row's status says already why it could not run
+RunResult run_result(const StudyPlan& plan, const KeptRows& kept, std::size_t row,
+                     RunRecord record) {
+  RunResult run = empty_row(plan, plan.rows[row]);
+  run.status = std::move(record.status);
+  run.regime = record.regime;
+  for (const MetricDefinition* metric : plan.metrics) {
+    const KeptValue& value = record.values[std::string(metric->name)];
+    run.metrics.push_back({value.measured, value.predicted, std::nullopt});
   }
+  run.traces.reserve(plan.plots.size());
+  for (std::size_t plot = 0; plot < plan.plots.size(); ++plot)
+    run.traces.push_back(kept.trace(row, plot));
   return run;
+}
+
+void judge_all(const StudyPlan& plan, std::size_t index, StudyResult& result) {
+  const TruthPlan& planned = plan.truths[index];
+  TruthResult& truth = result.truths[index];
+  const bool along = planned.same_over >= 0;
+  const auto first =
+      along ? first_of_groups(plan, planned.same_over) : std::vector<std::ptrdiff_t>();
+  for (std::size_t row = 0; row < plan.rows.size(); ++row) {
+    const std::optional<bool> verdict = along ? judge(plan, result, row, planned, first[row])
+                                              : judge(plan, result.rows[row], row, planned);
+    if (!verdict) continue;
+    add_verdict(result.rows[row].metrics[planned.metric], *verdict);
+    ++(*verdict ? truth.passed : truth.failed);
+    if (!*verdict && truth.first_failure < 0) truth.first_failure = static_cast<int>(row);
+  }
 }
 
 }  // namespace
@@ -122,9 +133,8 @@ StudyResult empty_table(const StudyPlan& plan) {
   return result;
 }
 
-RunResult assemble_row(const StudyPlan& plan, const EngineTable& engines, std::size_t row,
-                       const RowOutcome& outcome) {
-  RunResult run = run_result(plan, engines, plan.rows[row], outcome);
+RunResult assemble_row(const StudyPlan& plan, const KeptRows& kept, std::size_t row) {
+  RunResult run = run_result(plan, kept, row, kept.numbers(row));
   for (const TruthPlan& truth : plan.truths) {
     MetricValue& value = run.metrics[truth.metric];
     const bool alone = truth.same_over < 0 && plan.metrics[truth.metric]->scope == MetricScope::run;
@@ -134,22 +144,15 @@ RunResult assemble_row(const StudyPlan& plan, const EngineTable& engines, std::s
   return run;
 }
 
-StudyResult assemble(const StudyPlan& plan, const EngineTable& engines,
-                     const std::vector<RowOutcome>& outcomes) {
+StudyResult assemble(const StudyPlan& plan, const KeptRows& kept, Notices& notices) {
   StudyResult result = empty_table(plan);
-  for (std::size_t i = 0; i < plan.rows.size(); ++i)
-    result.rows[i] = run_result(plan, engines, plan.rows[i], outcomes[i]);
-  measure_groups(plan, outcomes, result);
-  for (std::size_t i = 0; i < plan.rows.size(); ++i) {
-    for (std::size_t k = 0; k < plan.truths.size(); ++k) {
-      const std::optional<bool> verdict = judge(plan, result, i, plan.truths[k]);
-      if (!verdict) continue;
-      add_verdict(result.rows[i].metrics[plan.truths[k].metric], *verdict);
-      TruthResult& truth = result.truths[k];
-      ++(*verdict ? truth.passed : truth.failed);
-      if (!*verdict && truth.first_failure < 0) truth.first_failure = static_cast<int>(i);
-    }
+  for (std::size_t row = 0; row < plan.rows.size(); ++row) {
+    RunRecord record = kept.numbers(row);
+    notices.add(row, record.notices);
+    result.rows[row] = run_result(plan, kept, row, std::move(record));
   }
+  measure_groups(plan, kept, result);
+  for (std::size_t i = 0; i < plan.truths.size(); ++i) judge_all(plan, i, result);
   return result;
 }
 

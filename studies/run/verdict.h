@@ -1,10 +1,11 @@
-// From outcomes to the table: predictions beside measurements, Truths judged.
+// From kept runs to the table: closed forms beside measurements, Truths judged.
 #pragma once
 
 #include <vector>
 
 #include "studies/plan/plan.h"
-#include "studies/run/execute.h"
+#include "studies/run/kept_rows.h"
+#include "studies/run/row_runner.h"
 
 namespace hookpoint::studies {
 
@@ -13,13 +14,11 @@ namespace hookpoint::studies {
 StudyResult empty_table(const StudyPlan& plan);
 
 /// A row by itself, with the verdicts of the Truths that look at no other.
-RunResult assemble_row(const StudyPlan& plan, const EngineTable& engines, std::size_t row,
-                       const RowOutcome& outcome);
+RunResult assemble_row(const StudyPlan& plan, const KeptRows& kept, std::size_t row);
 
-/// The table of `plan` from one outcome a row. Depends on the outcomes alone, not on the order in
-/// which they came.
-StudyResult assemble(const StudyPlan& plan, const EngineTable& engines,
-                     const std::vector<RowOutcome>& outcomes);
+/// The table of `plan`. Depends on the kept runs alone, not on the order in which they came.
+/// `notices` gets those of the runs.
+StudyResult assemble(const StudyPlan& plan, const KeptRows& kept, Notices& notices);
 
 /// Every Truth holds and no run failed: what exit status 0 means. Skipped rows neither pass nor
 /// fail.

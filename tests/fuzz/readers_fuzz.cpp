@@ -21,8 +21,10 @@
 #include "simulation/scene/terrain/ascii_grid.h"
 #include "simulation/scene/terrain/png_grid.h"
 #include "simulation/scene/urdf/urdf.h"
-#include "studies/run/row_store.h"
+#include "studies/cluster/journal.h"
+#include "studies/cluster/run_list.h"
 #include "studies/run/run_folder.h"
+#include "studies/run/run_record.h"
 #include "tests/fuzz/fuzz.h"
 #include "unicode/display.h"
 #include "unicode/utf8.h"
@@ -143,14 +145,23 @@ void read_elf(const std::string& bytes) {
   fuzz::require(constant.problem.empty() || constant.bytes.empty(), "a constant and a problem");
 }
 
-/// As it is, and with the hash that a whole row ends with, without which nothing of it is looked
-/// at.
+/// A kept run as it is, and with the hash that its numbers end with, without which nothing of them
+/// is looked at; as samples; as a journal and as a list of runs.
 void read_row(const std::string& bytes) {
   const std::string whole = bytes + "\nend " + output::Hash().add(bytes).text() + "\n";
-  for (const std::string& file : {bytes, whole}) {
-    const studies::RowStore store(written(file, "00000.row").parent_path(), true);
-    const auto row = store.load(0, "hash", 2, 1);
-    if (row) fuzz::require(row->measured.size() == 2 && row->traces.size() == 1, "a row cut short");
+  for (const std::string& text : {bytes, whole}) {
+    auto record = studies::read_numbers(text);
+    if (!record) continue;
+    fuzz::require(studies::read_numbers(studies::numbers_text(*record)).has_value(),
+                  "a run that is not read back");
+    studies::read_samples(bytes + output::Hash().add(bytes).text(), *record);
+  }
+  std::string_view rest = bytes;
+  while (studies::take_entry(rest))
+    fuzz::require(rest.size() < bytes.size(), "an entry without bytes");
+  try {
+    studies::read_run_list(written(bytes, "list.json"));
+  } catch (const studies::RunListError&) {
   }
 }
 

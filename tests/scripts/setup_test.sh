@@ -35,7 +35,7 @@ installed() { grep -cxF "$1" "$work/has" || true; }
 
 bare
 run run || expect "setup run" "$said" "status 0"
-for package in g++ libode-dev libxxhash-dev; do expect "run needs $package" "$(installed $package)" 1; done
+for package in g++ libode-dev libxxhash-dev libsqlite3-dev; do expect "run needs $package" "$(installed $package)" 1; done
 for package in libgtest-dev libdart-dev libsimbody-dev libmujoco-dev octave pybind11-dev; do expect "run needs no $package" "$(installed $package)" 0; done
 expect "apt-get asks nothing" "$(grep -c '^asks' "$work/calls" || true)" 0
 : >"$work/calls"
@@ -48,6 +48,7 @@ expect "engines adds no test package" "$(installed libgtest-dev)" 0
 run test || expect "setup test" "$said" "status 0"
 expect "test adds GoogleTest" "$(installed libgtest-dev)" 1
 expect "test adds Chromium" "$(installed chromium)" 1
+expect "test adds Slurm" "$(installed slurm-wlm)$(installed munge)" 11
 
 # An engine that the mirror lacks is told of once and not tried again.
 bare

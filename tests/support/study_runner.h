@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "reference/engines.h"
 #include "simulation/scene/schema.h"
@@ -100,7 +101,9 @@ class StudyRunner : public ::testing::Test {
   }
   std::optional<StudyPlan> plan(const std::string& text, const PlanOptions& options = {}) {
     write("study.hook", text);
-    language::Library library(schema_, {});
+    // A plan loads its scenes from it for as long as it is used.
+    language::Library& library = *libraries_.emplace_back(
+        std::make_unique<language::Library>(schema_, std::vector<std::filesystem::path>{}));
     diagnostics_ = {};
     const auto root = library.evaluate(folder_ / "study.hook", {}, diagnostics_);
     if (!root) return std::nullopt;
@@ -118,6 +121,7 @@ class StudyRunner : public ::testing::Test {
 
   std::filesystem::path folder_;
   language::Schema schema_;
+  std::vector<std::unique_ptr<language::Library>> libraries_;
   EngineTable engines_;
   language::Diagnostics diagnostics_;
   std::atomic<bool> stop_{false};

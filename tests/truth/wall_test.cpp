@@ -4,13 +4,15 @@
 #include <algorithm>
 #include <string>
 
-#include "output/text/hash.h"
+#include "studies/run/run_store.h"
 #include "tests/support/command.h"
+#include "tests/support/store_file.h"
 
 namespace hookpoint {
 namespace {
 
 using testing::config;
+using testing::remove_run;
 using testing::Workplace;
 
 // The laws that cost least; the whole Wall is `hookpoint study configs/studies/truths.hook`.
@@ -52,14 +54,15 @@ TEST(Wall, ResumesWithWhatIsMissing) {
   work.file("small.hook", small_wall);
   ASSERT_EQ(work.hookpoint("study small.hook --out here").status, 0);
   const std::string whole = work.read("here/results.csv");
-  // A row that is there is taken as it is; one that is not is run.
-  std::string row = work.read("here/rows/00000.row");
-  row.erase(row.rfind("\nend "));
-  const std::size_t value = row.find("value ") + 6;
-  row.replace(value, row.find('\n', value) - value, "0.125");
-  row += "\nend " + output::Hash().add(row).text() + "\n";  // as a row that is whole
-  work.file("here/rows/00000.row", row);
-  std::filesystem::remove(work.folder() / "here/rows/00001.row");
+  // A run that is there is taken as it is; one that is not is made.
+  {
+    studies::RunStore store(work.folder() / "here/store", true);
+    const std::string identity = store.assigned("small", 0).value();
+    studies::RunRecord changed = store.load(identity).value();
+    changed.values.begin()->second.measured = 0.125;
+    store.save("small", 0, identity, changed);
+  }
+  remove_run(work.folder() / "here/store", 1);
   const auto resumed = work.hookpoint("study small.hook --out here --resume");
   EXPECT_EQ(resumed.status, 1) << resumed.err;
   const std::string changed = work.read("here/results.csv");
@@ -71,7 +74,6 @@ TEST(Wall, ResumesWithWhatIsMissing) {
   // Without --resume all is run again; rows of another plan are not taken.
   EXPECT_EQ(work.hookpoint("study small.hook --out here").status, 0);
   EXPECT_EQ(work.read("here/results.csv"), whole);
-  work.file("here/rows/00000.row", row);
   EXPECT_EQ(work.hookpoint("study small.hook --out here --resume --only lugre").status, 0);
 }
 

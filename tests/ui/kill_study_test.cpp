@@ -34,8 +34,9 @@ std::map<std::string, std::string> files_of(const Workplace& work, const std::st
     std::string text = work.read(entry.path());
     if (name == "provenance.json" || name == "report.html")
       text = std::regex_replace(text, date, "date");
-    // The list of hashes has that of the date's file.
-    if (name != "files.json") files[name] = std::move(text);
+    // The list of hashes has that of the date's file; the store has its runs in the order in which
+    // they ended.
+    if (name != "files.json" && !name.starts_with("store/")) files[name] = std::move(text);
   }
   return files;
 }

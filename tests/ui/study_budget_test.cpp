@@ -1,6 +1,9 @@
 // Studies that ask for more than any machine has: one diagnostic at the Sweep, exit status 2, at
 // once.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <string>
 
 #include "tests/support/command.h"
 
@@ -42,6 +45,29 @@ TEST(StudyBudget, ASweepOfTooManyValuesIsRefused) {
   EXPECT_EQ(half.status, wrong_input);
   EXPECT_NE(half.err.find("`count` takes a whole number"), std::string::npos) << half.err;
   EXPECT_FALSE(std::filesystem::exists(place.folder() / "results"));
+}
+
+// Of 100,000 short runs there is room in 500 MB: what a run takes more is measured over 2000. A
+// hexapod's experiment alone has more than 100 kB.
+TEST(StudyBudget, AHundredThousandRunsTakeLessThan500Megabytes) {
+  const Workplace place;
+  const auto peak = [&](int count) {
+    place.file(
+        "many.hook",
+        "Study many { scene = \"scenes/walking_hexapod.hook\"; duration = 1 ms; settle = 0 s;\n"
+        "  Sweep allowance { from = 0.5 mm; to = 1 mm; count = " +
+            std::to_string(count) +
+            "; }\n  Subject ours { } Measure penetration_max; Measure peer_distance;\n"
+            "  Plot time { x = time; y = displacement; Only allowance { values = 1 mm; } } }\n");
+    const CommandResult result = place.hookpoint("study many.hook --jobs 2 --out results");
+    EXPECT_EQ(result.status, 0) << result.err;
+    rusage usage{};
+    getrusage(RUSAGE_CHILDREN, &usage);
+    return 1024. * static_cast<double>(usage.ru_maxrss);
+  };
+  const double few = peak(100), many = peak(2100);
+  const double a_run = (many - few) / 2000.;
+  EXPECT_LT(few + 100'000. * a_run, 500e6) << a_run << " bytes a run";
 }
 
 TEST(StudyBudget, RunsAreCountedOverAllSweeps) {

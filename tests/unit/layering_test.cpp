@@ -91,6 +91,7 @@ const std::map<std::string, Rooms> rooms{
       {"metrics/"},
       {"plan/"},
       {"run/"},
+      {"cluster/"},
       {"report/"},
       {"compare/"}}},
     {"reference",

@@ -184,8 +184,10 @@ TEST(Tables, ARegimeOfWhichNoMetricSaysAnythingHasNone) {
 TEST(Figures, LongCurvesKeepTheirEnvelope) {
   StudyResult study = synthetic_study();
   for (RunResult& row : study.rows) {
-    if (row.traces[2].value.empty()) continue;
-    row.traces[2].value[1234] = 7.;  // one sample among 2001
+    Trace curve = row.traces[2].read();
+    if (curve.value.empty()) continue;
+    curve.value[1234] = 7.;  // one sample among 2001
+    row.traces[2] = curve;
   }
   const Figure figure = make_figure(study, 2);
   const auto& y = figure.plot.series[1].measured.y;

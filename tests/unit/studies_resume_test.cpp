@@ -1,6 +1,5 @@
 // What --resume takes and what it does not: rows of the same run, whole.
 #include "output/text/hash.h"
-#include "studies/run/row_store.h"
 #include "tests/support/study_runner.h"
 
 namespace hookpoint::studies {
@@ -63,38 +62,50 @@ TEST_F(Resume, RunsAnewWhatAnotherSceneMade) {
   EXPECT_EQ(steps_of_resume(study), 6 * steps_a_row);
 }
 
-TEST_F(Resume, KnowsARowWhoseFileWasCutOffOrDamaged) {
+// Another question, another title, another value of a sweep, another metric: the runs are the same.
+TEST_F(Resume, TakesARunInWhateverStudyItStands) {
   run_whole();
-  const std::filesystem::path file = folder_ / "out/rows/00002.row";
-  const std::string whole = read(file);
-  const auto plan = this->plan(study);
-  const RowStore store(folder_ / "out/rows", true);
-  const std::string identity = plan->identity_of(plan->rows[2], engines_);
-  const auto outcome = store.load(2, identity, 1, 1);
-  ASSERT_TRUE(outcome);
-  EXPECT_EQ(outcome->traces[0].time.size(), 101u);
-  EXPECT_FALSE(store.load(2, identity + "0", 1, 1));
-  EXPECT_FALSE(store.load(2, identity, 2, 1));
-  for (std::size_t length = 0; length < whole.size(); ++length) {
-    write("out/rows/00002.row", whole.substr(0, length));
-    ASSERT_FALSE(store.load(2, identity, 1, 1)) << length;
-  }
-  for (std::size_t i = 0; i < whole.size(); ++i) {
-    std::string damaged = whole;
-    damaged[i] = static_cast<char>(damaged[i] ^ 1);
-    write("out/rows/00002.row", damaged);
-    ASSERT_FALSE(store.load(2, identity, 1, 1)) << i;
-  }
-  EXPECT_EQ(steps_of_resume(study), steps_a_row);
-  EXPECT_EQ(read(file), whole);
+  EXPECT_EQ(steps_of_resume(replaced(study, "Study creep {", "Study other { title = \"Again\";")),
+            0);
+  EXPECT_EQ(told_, "");
+  EXPECT_EQ(steps_of_resume(replaced(study, "10 deg, 20 deg", "10 deg, 15 deg, 20 deg")),
+            2 * steps_a_row);
+  EXPECT_EQ(told_, "");
+  // Measured by running again, and kept beside what was there.
+  EXPECT_EQ(steps_of_resume(replaced(study, "Measure creep_speed;", "Measure slip_distance;")),
+            6 * steps_a_row);
   EXPECT_EQ(steps_of_resume(study), 0);
+  EXPECT_EQ(steps_of_resume(replaced(study, "duration = 1 s;", "duration = 1 s; settle = 0.1 s;")),
+            6 * steps_a_row)
+      << "measured from another time on";
 }
 
-TEST_F(Resume, LeavesTheUsersFilesInRows) {
+// Two rows that are the same run: friction does nothing to the Slider's scene but stand in it.
+TEST_F(Resume, MakesARunThatStandsInTwoRowsOnce) {
+  const std::string twice = replaced(study, "Subject peer { engine = ode; settings = matched; }",
+                                     "Subject again { engine = dts; }");
+  Slider::steps_taken = 0;
+  const auto plan = this->plan(twice);
+  ASSERT_TRUE(plan) << first_error();
+  const StudyRun run = this->run(*plan, "twice", 2);
+  EXPECT_EQ(Slider::steps_taken, 3 * steps_a_row);
+  ASSERT_EQ(run.result.rows.size(), 6u);
+  EXPECT_EQ(run.result.rows[0].metrics[0].measured, run.result.rows[1].metrics[0].measured);
+  EXPECT_EQ(run.result.rows[1].traces[0].read().time.size(), 101u);
+}
+
+TEST_F(Resume, ATimeIsKeptForItsOwnStudyAlone) {
+  const std::string timed = replaced(study, "Measure creep_speed;", "Measure step_time;");
+  EXPECT_GT(steps_of_resume(timed), 6 * steps_a_row);
+  EXPECT_EQ(steps_of_resume(timed), 0);
+  EXPECT_EQ(steps_of_resume(replaced(timed, "Study creep", "Study other")), 6 * 5 * 200);
+}
+
+TEST_F(Resume, LeavesTheUsersFilesInTheStoresFolder) {
   run_whole();
-  write("out/rows/notes.row", "mine");
+  write("out/store/notes.txt", "mine");
   run_whole();
-  EXPECT_EQ(read(folder_ / "out/rows/notes.row"), "mine");
+  EXPECT_EQ(read(folder_ / "out/store/notes.txt"), "mine");
 }
 
 TEST_F(Resume, AFigureMayNotHaveTheNameOfATable) {
@@ -115,24 +126,20 @@ TEST_F(Resume, ProvenanceNamesTheFilesAndTheirHashes) {
   EXPECT_EQ(plan(study)->hash.size(), 32u);
 }
 
-// A study on a ground of 16 million heights has a row for every value of its sweeps.
-TEST_F(Resume, RowsStandOnTheSameHeights) {
+// What a study was planned with is what runs: a file that is edited meanwhile is no part of it.
+TEST_F(Resume, AFileThatIsEditedAfterThePlanIsAnError) {
   write("heights.txt", "0 0\n0 0.5\n");
   write("scene.hook", replaced(slider_scene, "Terrain.Slope ground { angle = slope;",
                                "Terrain.Grid ground { file = \"heights.txt\"; height = mu;"));
-  const auto plan =
-      this->plan(replaced(study, "Sweep slope {", "Sweep mu { values = 0, 1; } Sweep slope {"));
-  ASSERT_TRUE(plan) << first_error();
-  const auto heights = [&](std::size_t row) { return plan->rows[row].heights.get(); };
-  ASSERT_EQ(plan->rows.size(), 12u);
-  EXPECT_EQ(heights(0), heights(5));
-  EXPECT_EQ(heights(6), heights(11));
-  EXPECT_NE(heights(0), heights(6)) << "0 and 1 m high";
-  const auto& ground = std::get<contact::GridSurface>(plan->rows[6].experiment.terrain->surface);
-  EXPECT_EQ(ground.heights.capacity(), 0u);
-  const simulation::Experiment whole = plan->rows[6].whole();
-  EXPECT_EQ(std::get<contact::GridSurface>(whole.terrain->surface).heights, *heights(6));
-  EXPECT_EQ(std::ranges::max(*heights(6)), 1.5);
+  const auto gridded = this->plan(replaced(
+      study, "Sweep slope { values = 10 deg, 20 deg, 30 deg; }", "Sweep mu { values = 0, 1; }"));
+  ASSERT_TRUE(gridded) << first_error();
+  EXPECT_EQ(
+      std::get<contact::GridSurface>(gridded->experiment_of(gridded->rows[2]).terrain->surface)
+          .heights.size(),
+      4u);
+  write("heights.txt", "0 0\n0 0.25\n");
+  EXPECT_THROW(gridded->experiment_of(gridded->rows[2]), ChangedInput);
 }
 
 }  // namespace

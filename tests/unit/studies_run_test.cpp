@@ -46,10 +46,11 @@ TEST_F(StudyRunner, RowsAreOrderedSweepsOutermostSubjectsInnermost) {
   EXPECT_EQ(order, "000 010 100 101 110 111 200 201 210 211 ");
   EXPECT_EQ(plan->sweeps[0].column.unit, "deg");
   EXPECT_EQ(plan->sweeps[0].column.values, (std::vector<double>{10., 20., 30.}));
-  EXPECT_NEAR(std::get<contact::SlopeSurface>(plan->rows[2].experiment.terrain->surface).angle,
-              0.3490658503988659, 1e-16);
-  EXPECT_EQ(plan->rows[3].experiment.engine, "ode");
-  EXPECT_EQ(plan->rows[3].experiment.settings, "matched");
+  const Experiment third = plan->experiment_of(plan->rows[2]);
+  EXPECT_NEAR(std::get<contact::SlopeSurface>(third.terrain->surface).angle, 0.3490658503988659,
+              1e-16);
+  EXPECT_EQ(plan->rows[3].engine, "ode");
+  EXPECT_EQ(plan->experiment_of(plan->rows[3]).settings, "matched");
 }
 
 TEST_F(StudyRunner, ResultsHaveTheColumnsAndValuesOfTheManual) {
@@ -71,8 +72,8 @@ TEST_F(StudyRunner, ResultsHaveTheColumnsAndValuesOfTheManual) {
   EXPECT_EQ(table.rows[2][9], "true");   // 2.35 mm/s
   EXPECT_EQ(table.rows[6][9], "false");  // 2.52 mm/s
   EXPECT_FALSE(all_truths_hold(run.result));
-  EXPECT_EQ(run.result.rows[4].traces[0].time.size(), 101u);
-  EXPECT_TRUE(run.result.rows[2].traces[0].time.empty());
+  EXPECT_EQ(run.result.rows[4].traces[0].read().time.size(), 101u);
+  EXPECT_TRUE(run.result.rows[2].traces[0].read().time.empty());
   for (const char* file :
        {"results.csv", "experiment.hook", "scene.hook", "provenance.json", "traces/fig5_00004.csv"})
     EXPECT_TRUE(std::filesystem::exists(run.folder / file)) << file;
@@ -99,7 +100,7 @@ TEST_F(StudyRunner, ASignalThatCountsFromSettleStartsThereAtZero) {
   const auto plan = this->plan(replaced(study, "y = displacement", "y = drift"));
   ASSERT_TRUE(plan) << first_error();
   const StudyRun run = this->run(*plan, "out");
-  const Trace& trace = run.result.rows[4].traces[0];
+  const Trace trace = run.result.rows[4].traces[0].read();
   ASSERT_EQ(trace.time.size(), 81u);  // of 100 steps, those from 0.2 s
   EXPECT_EQ(trace.time.front(), 0.);
   EXPECT_EQ(trace.value.front(), 0.);
@@ -156,7 +157,7 @@ TEST_F(StudyRunner, EachRowIsToldAsItFinishesAndIsThenInTheTable) {
       EXPECT_EQ(result.metrics[0].measured, final.metrics[0].measured);
       EXPECT_EQ(result.metrics[0].predicted, final.metrics[0].predicted);
       EXPECT_EQ(result.metrics[0].ok, final.metrics[0].ok);
-      EXPECT_EQ(result.traces[0].value, final.traces[0].value);
+      EXPECT_EQ(result.traces[0].read().value, final.traces[0].read().value);
     }
   }
   this->run(*plan, "untold", 4);
@@ -182,23 +183,25 @@ TEST_F(StudyRunner, ARowsSettingsMakeItsExperimentOfItsScene) {
   language::Library library(schema_, {});
   for (const RowPlan& row : plan->rows) {
     language::EvaluateOptions options;
-    for (const std::string& setting : row.settings) {
+    for (const std::string& setting : plan->settings_of(row)) {
       const std::size_t equals = setting.find('=');
       options.overrides.push_back({setting.substr(0, equals), setting.substr(equals + 1)});
     }
     language::Diagnostics found;
-    const auto tree = library.evaluate(row.scene, options, found);
+    const auto tree = library.evaluate(row.scene->file, options, found);
     ASSERT_TRUE(tree) << plan->name_of(row);
     const auto experiment = simulation::load_experiment(*tree, found, {});
     ASSERT_TRUE(experiment) << plan->name_of(row);
+    const Experiment runs = plan->experiment_of(row);
     EXPECT_EQ(std::get<contact::SlopeSurface>(experiment->terrain->surface).angle,
-              std::get<contact::SlopeSurface>(row.experiment.terrain->surface).angle);
+              std::get<contact::SlopeSurface>(runs.terrain->surface).angle);
     EXPECT_EQ(experiment->materials[0].constants.static_friction,
-              row.experiment.materials[0].constants.static_friction);
-    EXPECT_EQ(experiment->engine, row.experiment.engine);
-    EXPECT_EQ(experiment->settings, row.experiment.settings);
-    EXPECT_EQ(experiment->contact, row.experiment.contact);
+              runs.materials[0].constants.static_friction);
+    EXPECT_EQ(experiment->engine, runs.engine);
+    EXPECT_EQ(experiment->settings, runs.settings);
+    EXPECT_EQ(experiment->contact, runs.contact);
     EXPECT_EQ(experiment->duration, plan->duration);
+    EXPECT_EQ(runs.duration, plan->duration);
   }
 }
 

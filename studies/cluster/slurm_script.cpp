@@ -1,0 +1,102 @@
+#include "studies/cluster/slurm_script.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
+#include "output/text/hash.h"
+
+namespace hookpoint::studies {
+namespace {
+
+constexpr std::string_view letters_and_digits =
+    "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789";
+
+bool consists_of(const std::string& text, std::string_view marks) {
+  return std::ranges::all_of(text, [&](char c) {
+    return letters_and_digits.find(c) != std::string_view::npos ||
+           marks.find(c) != std::string_view::npos;
+  });
+}
+
+/// One word for bash, whatever is in it: a quote is closed, written by itself, and opened again.
+std::string quoted(const std::string& text) {
+  std::string word = "'";
+  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return word + "'";
+}
+
+std::string file_name(const char* kind, std::size_t task, const char* type) {
+  return kind + ("_" + task_number(task)) + type;
+}
+
+}  // namespace
+
+std::optional<std::string> problem_of(const SlurmSettings& settings) {
+  const std::pair<const char*, const std::string*> names[] = {{"--partition", &settings.partition},
+                                                              {"--account", &settings.account}};
+  for (const auto& [option, name] : names)
+    if (!consists_of(*name, "_-.,@+"))
+      return fmt::format("{} takes a name of Slurm's, not `{}`", option, *name);
+  if (!consists_of(settings.time, ":-"))
+    return fmt::format(
+        "--time takes minutes or [days-]hours:minutes:seconds as Slurm does, not `{}`",
+        settings.time);
+  return std::nullopt;
+}
+
+std::size_t runs_of_a_task(std::size_t runs, const SlurmSettings& settings) {
+  if (settings.chunk > 0) return settings.chunk;
+  constexpr std::size_t most_tasks = 1000, usual = 100, machines = 8;
+  const auto share = [&](std::size_t tasks) { return (runs + tasks - 1) / tasks; };
+  return std::max({share(most_tasks), std::min(usual, share(machines)), std::size_t{1}});
+}
+
+std::string task_number(std::size_t task) { return fmt::format("{:05}", task); }
+
+std::filesystem::path list_of(const std::filesystem::path& folder, std::size_t task) {
+  return folder / file_name("list", task, ".json");
+}
+std::filesystem::path journal_of(const std::filesystem::path& folder, std::size_t task) {
+  return folder / file_name("runs", task, ".journal");
+}
+std::filesystem::path log_of(const std::filesystem::path& folder, std::size_t task) {
+  return folder / file_name("log", task, ".txt");
+}
+
+std::string job_name(const std::string& study, const std::filesystem::path& folder) {
+  std::string name = "hookpoint-";
+  for (const char c : study) name += consists_of(std::string(1, c), "_-.") ? c : '_';
+  constexpr std::size_t digits = 12;
+  return name + "-" + output::Hash().add(folder.string()).text().substr(0, digits);
+}
+
+std::string slurm_script(const SlurmSettings& settings, const SlurmPlace& place,
+                         const std::filesystem::path& folder, std::size_t tasks) {
+  std::string script = "#!/bin/bash\n";
+  const auto option = [&script](const std::string& text) { script += "#SBATCH --" + text + "\n"; };
+  option("job-name=" + place.name);
+  option(fmt::format("array=0-{}{}", tasks - 1,
+                     settings.array_limit > 0 ? fmt::format("%{}", settings.array_limit) : ""));
+  option(fmt::format("cpus-per-task={}", settings.jobs));
+  if (!settings.partition.empty()) option("partition=" + settings.partition);
+  if (!settings.account.empty()) option("account=" + settings.account);
+  if (!settings.time.empty()) option("time=" + settings.time);
+  // Each task writes its own log, below: in the names that Slurm takes, % and \ mean something.
+  option("output=/dev/null");
+  script += "folder=" + quoted(folder.string()) + "\n";
+  script += "printf -v number '%05d' \"$SLURM_ARRAY_TASK_ID\"\n";
+  script += "exec >>\"$folder/log_$number.txt\" 2>&1\n";
+  if (!place.search_path.empty())
+    script += "export HOOKPOINT_PATH=" + quoted(place.search_path) + "\n";
+  script += "cd " + quoted(place.directory.string()) + " || exit 3\n";
+  script +=
+      "exec " + quoted(place.program.string()) +
+      " runs \"$folder/list_$number.json\" --journal \"$folder/runs_$number.journal\" --jobs " +
+      std::to_string(settings.jobs) + "\n";
+  return script;
+}
+
+}  // namespace hookpoint::studies
