@@ -103,8 +103,11 @@ std::optional<Recommendation> recommend(const TunePlan& plan,
     front.push_back(score_of(plan, candidates[member]).objectives);
   const auto beats_all = [&](const Scores& scores) {
     return std::ranges::all_of(references, [&](std::size_t reference) {
-      const Score other = score_of(plan, candidates[reference]);
-      return other.violation > 0. || no_worse(scores, other.objectives);
+      const Candidate& other = candidates[reference];
+      const bool told = std::ranges::all_of(plan.objectives, [&](const ObjectivePlan& objective) {
+        return value_of(objective, other).has_value();
+      });
+      return !told || no_worse(scores, score_of(plan, other).objectives);
     });
   };
   const auto beating = static_cast<std::size_t>(std::ranges::count_if(front, beats_all));

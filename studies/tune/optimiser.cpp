@@ -2,7 +2,8 @@
 // what it is told of an infeasible point: every objective is 1e100 (1 + violation), greater than
 // any number of a feasible one. Then whoever is feasible dominates whoever is not, of two that are
 // not the lesser violation dominates, and fronts of feasible points, in which crowding counts, are
-// as they were. CMA-ES only compares values, so the same does for it.
+// as they were. CMA-ES only compares values, so the same does for it. pagmo's NSGA-II refuses a
+// single objective: it is told it twice, and domination is then the order of its values.
 #include "studies/tune/optimiser.h"
 
 #include <algorithm>
@@ -38,11 +39,17 @@ struct SharedSearch {
   std::vector<Point> heard;
   std::map<Point, std::vector<double>> known;  ///< fitness of the generation's points
 
+  /// As pagmo is told them.
+  std::size_t objectives() const {
+    return options.method == SearchMethod::nsga2 ? std::max<std::size_t>(options.objectives, 2)
+                                                 : options.objectives;
+  }
   std::vector<std::vector<double>> fitness(std::span<const Point> points) const {
     std::vector<std::vector<double>> all;
     for (Score& scored : score(points, generation)) {
       if (scored.violation > 0.)
-        scored.objectives.assign(options.objectives, infeasible * (1. + scored.violation));
+        scored.objectives.assign(objectives(), infeasible * (1. + scored.violation));
+      scored.objectives.resize(objectives(), scored.objectives.front());
       all.push_back(std::move(scored.objectives));
     }
     return all;
@@ -54,9 +61,7 @@ struct BoxProblem {
   std::shared_ptr<SharedSearch> shared;
 
   std::size_t constants() const { return shared ? shared->options.constants : 1; }
-  pagmo::vector_double::size_type get_nobj() const {
-    return shared ? shared->options.objectives : 1;
-  }
+  pagmo::vector_double::size_type get_nobj() const { return shared ? shared->objectives() : 1; }
   std::pair<pagmo::vector_double, pagmo::vector_double> get_bounds() const {
     return {pagmo::vector_double(constants(), 0.), pagmo::vector_double(constants(), 1.)};
   }

@@ -126,7 +126,7 @@ class TuneBuilder {
   std::string words_of(const RequirementPlan& require) const {
     const MetricDefinition& metric = *plan_.runs.metrics[require.metric];
     const auto value = [&](double number) {
-      return output::shortest(tidy(number)) +
+      return output::rounded(number, 6) +
              (metric.unit.empty() ? "" : " " + std::string(metric.unit));
     };
     std::vector<std::string> parts;

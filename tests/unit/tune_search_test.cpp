@@ -145,6 +145,22 @@ TEST(Search, ByCmaesFindsTheMinimumOfAQuadricInWholeGenerations) {
   EXPECT_LT(best, 1e-9);
 }
 
+TEST(Search, ByNsga2TakesASingleObjectiveToo) {
+  const SearchOptions options{SearchMethod::nsga2, 3, 1, 20, 60, 1, {}};
+  double best = 1e300;
+  search(options, [&](std::span<const Point> points, int) {
+    std::vector<Score> scores;
+    for (const Point& x : points) {
+      double f = 0.;
+      for (const double part : x) f += (part - 0.7) * (part - 0.7);
+      best = std::min(best, f);
+      scores.push_back({{f}, 0.});
+    }
+    return scores;
+  });
+  EXPECT_LT(best, 1e-4);
+}
+
 TEST(Search, LetsOutWhatTheScoresThrow) {
   SearchOptions options = zdt1_options();
   int generations = 0;
