@@ -81,11 +81,13 @@ class NearestParameters {
     double sum = 0.;
     for (const simulation::ConstantAdvice& constant : advised_) {
       const language::Field* field = material.find(constant.name);
-      if (field == nullptr || field->numbers.empty() || !(constant.advised > 0.)) continue;
+      const bool positive = field != nullptr && !field->numbers.empty() &&
+                            field->numbers.front() > 0. && constant.advised > 0.;
+      if (!positive) continue;
       const double ratio = std::log(field->numbers.front() / constant.advised);
       sum += ratio * ratio;
     }
-    return std::isfinite(sum) ? sum : std::numeric_limits<double>::infinity();
+    return sum;
   }
 
   const TunePlan& plan_;
