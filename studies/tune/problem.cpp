@@ -208,6 +208,8 @@ SceneSource source_of(const Object& tune, const Object* subject, const SubjectPl
     for (const Object* fix : owner->children_of("Fix"))
       source.settled.push_back(
           {ConstantPlace::scene_parameter, fix->name, text_of(*fix->find("value"))});
+    for (const Object* only : owner->children_of("Only"))
+      diagnostics.error(only->position, "a Tune sweeps nothing: there is no Only here");
   }
   const auto set = [&](const char* field, const std::string& value) {
     if (!value.empty()) source.world.emplace_back(field, value);

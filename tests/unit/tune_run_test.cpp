@@ -253,6 +253,7 @@ TEST_F(TuneFile, SaysWhatIsWrongWithATune) {
       {good + " population = 10;", "a multiple of 4"},
       {good + " method = cmaes; Objective unrest { minimise; }", "cmaes takes one Objective"},
       {good + " settle = 5 s;", "nothing would be measured"},
+      {good + " Subject a { Only slope { to = 1; } }", "sweeps nothing"},
       {good + " Fix wight { value = 1; }", "no Param of the scene is called `wight`"},
       {"Vary restitution { from = 0.5; to = 1.5; } Objective fell { minimise; }", "1.5"},
   };
