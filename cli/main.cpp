@@ -297,7 +297,8 @@ void add_tune(CLI::App& app, Request& request) {
       ->type_name("DIR");
   add_jobs(tune_app, request.study.jobs);
   tune_app->add_flag("--quick", request.study.quick,
-                     "8 candidates a generation, 3 generations, 2 seeds, a fifth of the duration");
+                     "8 candidates a generation, 3 generations, 2 seeds, a fifth of the duration, "
+                     "no Sobol indices");
   tune_app->add_flag("--resume", request.study.resume,
                      "go on with what an interrupted tuning has finished");
 }

@@ -87,6 +87,13 @@ std::optional<double> value_of(const ObjectivePlan& objective, const Candidate& 
   return values ? std::optional(take_of(objective, *values)) : std::nullopt;
 }
 
+bool meets(const Candidate& candidate, const RequirementPlan& required) {
+  return std::ranges::all_of(candidate.measured, [&](const auto& measured) {
+    const auto& value = measured[required.metric];
+    return value && !(required.missed_by(*value) > 0.);
+  });
+}
+
 double violation_of(const TunePlan& plan, const Candidate& candidate) {
   double violation = 0.;
   std::set<std::size_t> needed;

@@ -43,6 +43,9 @@ double standard_error_of(std::span<const double> values);
 double take_of(const ObjectivePlan& objective, std::span<const double> values);
 std::optional<double> value_of(const ObjectivePlan& objective, const Candidate& candidate);
 
+/// Whether every seed has a value that the requirement allows.
+bool meets(const Candidate& candidate, const RequirementPlan& required);
+
 /// How far the candidate is from the requirements: the sum over them of the seed that misses most,
 /// and a million for each part of the seeds of which an objective or a requirement has no value.
 double violation_of(const TunePlan& plan, const Candidate& candidate);

@@ -18,7 +18,7 @@ bool no_worse(const Scores& one, const Scores& other) {
   return true;
 }
 
-bool counts(const Candidate& candidate) {
+bool is_contender(const Candidate& candidate) {
   return candidate.stage == CandidateStage::own || candidate.stage == CandidateStage::analytic ||
          candidate.stage == CandidateStage::search;
 }
@@ -28,7 +28,7 @@ Recommendation least_missing(const TunePlan& plan, const std::vector<Candidate>&
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const double violation = violation_of(plan, candidates[i]);
-    if (!counts(candidates[i]) || !(violation < least)) continue;
+    if (!is_contender(candidates[i]) || !(violation < least)) continue;
     least = violation;
     found.candidate = i;
   }
@@ -78,7 +78,7 @@ std::vector<std::size_t> pareto_set(const TunePlan& plan,
                                     const std::vector<Candidate>& candidates) {
   std::vector<std::pair<Scores, std::size_t>> feasible;
   for (std::size_t i = 0; i < candidates.size(); ++i)
-    if (counts(candidates[i]) && is_feasible(plan, candidates[i]))
+    if (is_contender(candidates[i]) && is_feasible(plan, candidates[i]))
       feasible.emplace_back(score_of(plan, candidates[i]).objectives, i);
   // Whoever dominates comes before whom it dominates.
   std::ranges::sort(feasible);

@@ -70,14 +70,11 @@ void write_constants(output::JsonWriter& json, const TunePlan& plan, const Candi
 void write_requirements(output::JsonWriter& json, const TunePlan& plan, const TuneResult& result) {
   json.key("requirements").begin_array();
   for (const RequirementPlan& required : plan.requirements) {
-    const auto met = [&](const Candidate& candidate) {
-      return std::ranges::all_of(candidate.measured, [&](const auto& measured) {
-        const auto& value = measured[required.metric];
-        return value && !(required.missed_by(*value) > 0.);
-      });
-    };
-    json.begin_object().member("words", required.words).member("met", met(result.best()));
-    if (result.fresh) json.member("met_with_fresh_seeds", met(result.candidates[*result.fresh]));
+    json.begin_object()
+        .member("words", required.words)
+        .member("met", meets(result.best(), required));
+    if (result.fresh)
+      json.member("met_with_fresh_seeds", meets(result.candidates[*result.fresh], required));
     json.end_object();
   }
   json.end_array();

@@ -19,7 +19,7 @@ using language::Diagnostics;
 using language::Object;
 
 /// What --quick leaves of a search.
-constexpr int quick_population = 8, quick_generations = 3, quick_seeds = 2, quick_samples = 4;
+constexpr int quick_population = 8, quick_generations = 3, quick_seeds = 2, quick_samples = 0;
 
 double to_six_digits(double value) {
   char digits[32];

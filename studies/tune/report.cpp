@@ -86,18 +86,18 @@ std::string constants_table(const TunePlan& plan, const TuneResult& result) {
 }
 
 /// "better by 0.01 ± 0.002"
-std::string verdict_text(const ObjectiveComparison& comparison) {
+std::string comparison_text(const ObjectiveComparison& comparison) {
   std::string text(words_of(comparison.verdict));
   if (comparison.verdict == Verdict::untold || !comparison.other) return text;
   return fmt::format("{} ({} ± {})", text, output::rounded(comparison.difference, 3),
                      output::rounded(comparison.margin, 2));
 }
 
-std::string verdict_cell(const ObjectiveComparison& comparison) {
+std::string comparison_cell(const ObjectiveComparison& comparison) {
   const char* style = comparison.verdict == Verdict::better  ? "good"
                       : comparison.verdict == Verdict::worse ? "bad"
                                                              : "soft";
-  return fmt::format("<span class=\"{}\">{}</span>", style, html(verdict_text(comparison)));
+  return fmt::format("<span class=\"{}\">{}</span>", style, html(comparison_text(comparison)));
 }
 
 /// On fresh seeds where they were run.
@@ -119,7 +119,7 @@ std::string comparison_table(const TunePlan& plan, const TuneResult& result) {
     for (const TuneReference& reference : result.references) {
       const std::size_t other = checked ? *reference.fresh : reference.candidate;
       row.push_back(html(with_error(objective, result.candidates[other], unit)));
-      if (checked) row.push_back(verdict_cell(reference.comparisons[i]));
+      if (checked) row.push_back(comparison_cell(reference.comparisons[i]));
     }
     table.row(row);
   }
@@ -145,10 +145,7 @@ std::string requirements_table(const TunePlan& plan, const TuneResult& result) {
   for (const RequirementPlan& required : plan.requirements) {
     const std::string unit(plan.runs.metrics[required.metric]->unit);
     const auto cell = [&](const Candidate& candidate) {
-      const bool met = std::ranges::all_of(candidate.measured, [&](const auto& measured) {
-        const auto& value = measured[required.metric];
-        return value && !(required.missed_by(*value) > 0.);
-      });
+      const bool met = meets(candidate, required);
       return fmt::format("<span class=\"{}\">{} {}</span>", met ? "good" : "bad", met ? "✓" : "✗",
                          html(range_of_seeds(candidate, required.metric, unit)));
     };

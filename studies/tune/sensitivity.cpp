@@ -50,6 +50,9 @@ class DesignValues {
   std::size_t block_, output_;
 };
 
+/// Fewer samples say nothing: the error of an index goes as one over their square root.
+constexpr std::size_t least_samples = 16;
+
 std::optional<SobolIndices> indices_of(const DesignValues& values, std::size_t constants,
                                        std::size_t samples) {
   SobolIndices indices{BoxPoint(constants), BoxPoint(constants), 0., 0};
@@ -59,7 +62,7 @@ std::optional<SobolIndices> indices_of(const DesignValues& values, std::size_t c
     ++indices.used;
     sum += *values.at(j, 0) + *values.at(j, 1);
   }
-  if (indices.used < 2) return std::nullopt;
+  if (indices.used < least_samples) return std::nullopt;
   const auto used = static_cast<double>(indices.used);
   const double mean = sum / (2. * used);
   for (std::size_t j = 0; j < samples; ++j) {

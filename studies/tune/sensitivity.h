@@ -25,7 +25,7 @@ struct SobolIndices {
 /// `samples` (constants + 2) points in one batch: Saltelli's design of a Sobol sequence in twice as
 /// many dimensions as constants, shifted by a random vector from `seed`; Jansen's estimators
 /// (Saltelli et al. 2010, Comput. Phys. Commun. 181, table 2, rows (c) and (f)). A sample of which
-/// a value is missing is left out; nothing is told of an output with fewer than two, or that never
+/// a value is missing is left out; nothing is told of an output with fewer than 16, or that never
 /// changes.
 std::vector<std::optional<SobolIndices>> sobol_indices(std::size_t constants, std::size_t outputs,
                                                        std::size_t samples, std::uint64_t seed,

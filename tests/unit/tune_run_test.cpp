@@ -37,7 +37,7 @@ Tune stiffest {
   Vary normal_stiffness { from = 1 kN/m; to = 100 kN/m; scale = log; }
   Objective penetration_mean { minimise; }
   Require stable_step { above = 10 ms; }
-  method = cmaes; population = 8; generations = 12; seeds = 2; samples = 4;
+  method = cmaes; population = 8; generations = 12; seeds = 2; samples = 16;
 }
 )";
 
@@ -108,16 +108,16 @@ TEST_F(TuneFile, FindsTheStiffestFloorThatAStepAllows) {
   EXPECT_EQ(result.candidates[0].values[0], 5.);
   // One constant explains all of the variance.
   ASSERT_TRUE(result.indices[0]);
-  EXPECT_NEAR(result.indices[0]->total[0], 1., 0.8);
+  EXPECT_NEAR(result.indices[0]->total[0], 1., 0.5);
 }
 
 TEST_F(TuneFile, LeavesTheSameBytesForAnyThreadsInterruptedAndResumed) {
-  const auto found = plans(stiffest, true);
+  const auto found = plans(stiffest);
   ASSERT_EQ(found.size(), 1u) << told_;
   const TuneResult whole = run(found[0], "whole", 1);
   EXPECT_FALSE(whole.interrupted);
   run(found[0], "threads", 3);
-  const TuneResult part = run(found[0], "resumed", 2, false, 15);
+  const TuneResult part = run(found[0], "resumed", 2, false, 75);
   EXPECT_TRUE(part.interrupted);
   EXPECT_NE(place_.read("resumed/recommended.json").find("\"complete\": false"), std::string::npos);
   EXPECT_LT(part.candidates.size(), whole.candidates.size());
