@@ -2,6 +2,7 @@
 
 #include "application/application.h"
 #include "application/study_plans.h"
+#include "application/tune_plans.h"
 #include "cli/commands.h"
 #include "cli/exit_status.h"
 #include "output/file.h"
@@ -9,15 +10,17 @@
 namespace hookpoint::cli {
 namespace {
 
-/// What `run` and `study` would find before anything runs, found.
+/// What `run`, `study` and `tune` would find before anything runs, found.
 bool can_run(application::Application& application, const language::Object& root,
              const std::filesystem::path& file, bool allow_plugins) {
   if (!root.children_of("World").empty() && !application.load(root)) return false;
   application::StudyArguments arguments;
   arguments.file = file;
   arguments.allow_plugins = allow_plugins;
-  return !application::holds_study(root) ||
-         application::plan_study_file(application, root, arguments).has_value();
+  if (application::holds_study(root) && !application::plan_study_file(application, root, arguments))
+    return false;
+  return !application::holds_tune(root) ||
+         application::plan_tune_file(application, root, arguments).has_value();
 }
 
 }  // namespace

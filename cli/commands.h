@@ -77,6 +77,8 @@ struct RunsArguments {
 };
 /// runs: those of a list that study --slurm wrote, into a journal.
 int runs(const RunsArguments& arguments);
+/// tune: the Tune blocks of a file.
+int tune(const application::StudyArguments& arguments);
 
 /// check: every file's diagnostics.
 int check(const std::vector<std::filesystem::path>& files, bool allow_plugins);
@@ -134,9 +136,10 @@ int engines(bool json);
 /// --version: the program's, then a line an engine that was found.
 std::string version_text();
 
-/// What FILE.hook without a command means: true when it holds a Study, false for a world; none when
-/// it has errors, which are printed. Anything else is for the command to tell.
-std::optional<bool> holds_study(const std::filesystem::path& file,
-                                const application::Settings& settings, bool allow_plugins);
+/// What FILE.hook without a command means: "study" when it holds one, "tune" when it holds a Tune,
+/// "run" for a world; none when it has errors, which are printed. Anything else is for the command
+/// to tell.
+std::optional<std::string> command_for(const std::filesystem::path& file,
+                                       const application::Settings& settings, bool allow_plugins);
 
 }  // namespace hookpoint::cli

@@ -268,6 +268,18 @@ void add_view(CLI::App& app, Request& request) {
   add_subjects(view_app, request.run.view);
 }
 
+void add_jobs(CLI::App* command, int& jobs) {
+  command->add_option("--jobs", jobs, "threads (default: one a core)")
+      ->type_name("N")
+      ->check([](const std::string& text) {
+        const bool digits =
+            !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+        return digits && text.size() < 5 && text.find_first_not_of('0') != std::string::npos
+                   ? std::string()
+                   : "--jobs takes a whole number from 1 to 9999, not `" + text + "`";
+      });
+}
+
 void add_run_and_study(CLI::App& app, Request& request) {
   CLI::App* run_app =
       add_command(app, request, "run", "run a world", [&] { return run(request.run); });
@@ -294,9 +306,7 @@ void add_run_and_study(CLI::App& app, Request& request) {
   study_app
       ->add_option("--out", request.study.out, "folder of the results (default: runs/STUDY-HASH)")
       ->type_name("DIR");
-  study_app->add_option("--jobs", request.study.jobs, "threads (default: one a core)")
-      ->type_name("N")
-      ->check(is_count("--jobs", 4));
+  add_jobs(study_app, request.study.jobs);
   study_app->add_flag("--quick", request.study.quick,
                       "the reduced size that continuous integration runs");
   study_app->add_flag("--resume", request.study.resume,
@@ -318,6 +328,24 @@ void add_run_and_study(CLI::App& app, Request& request) {
   runs_app->add_option("--jobs", request.runs.jobs, "threads (default: 1)")
       ->type_name("N")
       ->check(is_count("--jobs", 4));
+}
+
+void add_tune(CLI::App& app, Request& request) {
+  CLI::App* tune_app =
+      add_command(app, request, "tune", "search constants for what a file's Tune blocks ask",
+                  [&] { return tune(request.study); });
+  tune_app->add_option("FILE", request.study.file, "a .hook file with a Tune")->required();
+  add_trails(tune_app, request.study.settings);
+  add_plugins(tune_app, request.study.allow_plugins);
+  tune_app
+      ->add_option("--out", request.study.out, "folder of the results (default: runs/TUNE-HASH)")
+      ->type_name("DIR");
+  add_jobs(tune_app, request.study.jobs);
+  tune_app->add_flag("--quick", request.study.quick,
+                     "8 candidates a generation, 3 generations, 2 seeds, a fifth of the duration, "
+                     "no Sobol indices");
+  tune_app->add_flag("--resume", request.study.resume,
+                     "go on with what an interrupted tuning has finished");
 }
 
 /// What the short forms take, as the language has it.
@@ -459,9 +487,9 @@ std::vector<std::string> command_names(const CLI::App& app) {
   return names;
 }
 
-/// Whether FILE.hook, the first of `words`, is a study's with what the others set in it. What is
-/// wrong with them the command tells that they are for.
-std::optional<bool> holds_study(const std::vector<std::string>& words) {
+/// The command that FILE.hook, the first of `words`, is for with what the others set in it. What is
+/// wrong with them that command tells.
+std::optional<std::string> command_for(const std::vector<std::string>& words) {
   CLI::App app;
   app.set_help_flag();
   app.allow_extras();
@@ -475,20 +503,20 @@ std::optional<bool> holds_study(const std::vector<std::string>& words) {
     app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
   } catch (const CLI::ParseError&) {
   }
-  return cli::holds_study(words[0], settings, allowed);
+  return cli::command_for(words[0], settings, allowed);
 }
 
-/// The words as a command would have them: `FILE.hook ...` gets `study` or `run` in front, by what
-/// the file holds. Empty when the first word is neither a command, an option nor a file, or the
-/// file has errors; the user has been told.
+/// The words as a command would have them: `FILE.hook ...` gets `study`, `tune` or `run` in front,
+/// by what the file holds. Empty when the first word is neither a command, an option nor a file, or
+/// the file has errors; the user has been told.
 std::vector<std::string> with_command(const CLI::App& app, std::vector<std::string> words) {
   if (words.empty() || words[0].starts_with("-")) return words;
   const std::vector<std::string> names = command_names(app);
   if (std::find(names.begin(), names.end(), words[0]) != names.end()) return words;
   if (std::filesystem::path(words[0]).extension() == ".hook") {
-    const std::optional<bool> study = holds_study(words);
-    if (!study) return {};
-    words.insert(words.begin(), *study ? "study" : "run");
+    const std::optional<std::string> command = command_for(words);
+    if (!command) return {};
+    words.insert(words.begin(), *command);
     return words;
   }
   const std::string nearest = language::nearest_name(words[0], names);
@@ -505,6 +533,7 @@ int main_with(int count, char** words) {
                        "the version of the program and of the engines found");
   Request request;
   add_run_and_study(app, request);
+  add_tune(app, request);
   add_view(app, request);
   add_movie_tools(app, request);
   add_language_tools(app, request);
@@ -527,7 +556,8 @@ int main_with(int count, char** words) {
   try {
     return request.command();
   } catch (const output::PlaceError& error) {
-    const bool may_move = app.got_subcommand("run") || app.got_subcommand("study");
+    const bool may_move =
+        app.got_subcommand("run") || app.got_subcommand("study") || app.got_subcommand("tune");
     const std::string message = error.what(), advice = "--out names another folder";
     const bool said = message.find(advice) != std::string::npos;
     throw output::FileError(message + (may_move && !said ? "; " + advice : ""));

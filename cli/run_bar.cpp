@@ -9,6 +9,10 @@ studies::RunOptions RunBar::watch(studies::RunOptions options) {
   return options;
 }
 
+void RunBar::message(const std::string& text) {
+  if (bar_) bar_->message(text);
+}
+
 void RunBar::show(const studies::Progress& progress) {
   if (!bar_) bar_.emplace(name_, progress.total, progress.resumed);
   shown_ = std::max(shown_, progress.resumed);

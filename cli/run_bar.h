@@ -16,6 +16,8 @@ class RunBar {
   /// The same options, with the progress shown here; this outlives the run.
   studies::RunOptions watch(studies::RunOptions options);
   void end() { bar_.reset(); }
+  /// A line of its own, above the bar.
+  void message(const std::string& text);
 
  private:
   void show(const studies::Progress& progress);

@@ -43,6 +43,7 @@ std::unique_ptr<Object> Library::evaluate(const std::filesystem::path& file,
   report.order_file(parsed.source);
   Builder builder(implementation_->prepared, implementation_->files, report);
   std::unique_ptr<Object> root = builder.build(parsed, split);
+  if (options.amend) options.amend(*root);
   Checker checker(implementation_->prepared, implementation_->files, builder.left_out(), report);
   for (const Override& setting : split.overrides)
     checker.apply(*root, setting, param_names(parsed));

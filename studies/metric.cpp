@@ -90,6 +90,10 @@ constexpr auto metrics = std::to_array<MetricDefinition>({
      "1 if unrest is above 1 mm/s or the engine broke the run off: what should rest does not; else "
      "0",
      make_restless},
+    {"stable_step", "s",
+     "largest stable step of the run's integrator at its start (docs/contact.md); nothing for a "
+     "peer, an impulse law or an adaptive integrator",
+     make_stable_step},
     {"spin_max", "rad/s", "greatest angular speed of the body after `settle`", make_spin_max},
     {"fell", "",
      "1 if the base came lower over the ground than half its height at the start, or its z turned "

@@ -195,6 +195,7 @@ std::unique_ptr<Metric> make_contact_breaks(const RunContext&);
 std::unique_ptr<Metric> make_impacts(const RunContext&);
 std::unique_ptr<Metric> make_unrest(const RunContext&);
 std::unique_ptr<Metric> make_restless(const RunContext&);
+std::unique_ptr<Metric> make_stable_step(const RunContext&);
 std::unique_ptr<Metric> make_fell(const RunContext&);
 std::unique_ptr<Metric> make_walked_distance(const RunContext&);
 std::unique_ptr<Metric> make_walking_speed(const RunContext&);

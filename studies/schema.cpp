@@ -47,6 +47,12 @@ FieldSchema positive(FieldSchema field) {
   return field;
 }
 
+FieldSchema within(double least, double most, FieldSchema field) {
+  field.minimum = least;
+  field.maximum = most;
+  return field;
+}
+
 FieldSchema values(std::string name, std::string doc) {
   FieldSchema field = number(std::move(name), "?", std::move(doc));
   field.type = FieldType::numbers;
@@ -100,8 +106,8 @@ ClassSchema named(std::string name, std::string doc, std::vector<FieldSchema> fi
   schema.fields = std::move(fields);
   schema.children = std::move(children);
   schema.naming = Naming::required;
-  schema.names_a_subject =
-      schema.name != "Study" && schema.name != "Wall" && schema.name != "Matrix";
+  schema.names_a_subject = schema.name != "Study" && schema.name != "Wall" &&
+                           schema.name != "Matrix" && schema.name != "Tune";
   return schema;
 }
 
@@ -184,6 +190,79 @@ ClassSchema truth_class(std::vector<std::string> metrics) {
   return truth;
 }
 
+ClassSchema tune_class() {
+  ClassSchema tune = named(
+      "Tune",
+      "Constants of a scene's ground, or any Params of it, searched for what its objectives ask.",
+      {text("title", "heading of the report"),
+       text("question", "what is tuned for, first thing in the report"),
+       required(text("scene", "file of the world, whose Params may be varied")),
+       text("terrain",
+            "file of a Terrain and its Material, in the place of the scene's; its Params may be "
+            "varied"),
+       words("material", 1,
+             "the Material whose fields are varied; default: that of the ground, where it has one "
+             "alone"),
+       positive(number("duration", "s", "simulated time of every run; default: the scene's")),
+       with_default(at_least_zero(number("settle", "s", "time from which metrics look")), "0"),
+       positive(number("quick_duration", "s", "duration under --quick; default: a fifth")),
+       at_least_zero(number("quick_settle", "s", "settle under --quick; default: a fifth")),
+       choice("method", {"nsga2", "cmaes"}, "nsga2",
+              "NSGA-II, for any number of objectives, or CMA-ES, for one"),
+       with_default(within(8, 10000,
+                           integer("population",
+                                   "candidates of a generation; of nsga2 a "
+                                   "multiple of 4")),
+                    "40"),
+       with_default(within(1, 10000,
+                           integer("generations",
+                                   "generations, the first guesses' own "
+                                   "included")),
+                    "25"),
+       with_default(
+           within(1, 1000, integer("seeds", "runs of a candidate, each with another seed")), "4"),
+       with_default(at_least_zero(integer("seed", "of the search, not of the runs")), "1"),
+       with_default(within(0, 100000,
+                           integer("samples",
+                                   "of Sobol's indices: each is samples (constants + 2) "
+                                   "candidates; 0: none")),
+                    "32")},
+      {"Subject", "Vary", "Objective", "Require", "Fix"});
+  tune.top_level = true;
+  return tune;
+}
+
+/// What an Objective is asked for with: a word by itself.
+ClassSchema direction_class(std::string name, std::string doc) {
+  ClassSchema direction;
+  direction.name = std::move(name);
+  direction.only_in = "Objective";
+  direction.doc = std::move(doc);
+  direction.naming = Naming::forbidden;
+  return direction;
+}
+
+void add_tune_classes(Schema& schema) {
+  schema.add(tune_class());
+  schema.add(named(
+      "Vary",
+      "A constant to tune: a Param of the terrain's file or of the scene, a field of "
+      "the Material, or one of the World.",
+      {required(number("from", "?", "least value")), required(number("to", "?", "greatest value")),
+       choice("scale", {"linear", "log"}, "linear", "how its range is searched")}));
+  schema.add(
+      named("Objective", "A metric to make small or great, by its name.",
+            {choice("take", {"mean", "worst"}, "mean", "what is taken of the seeds' values")},
+            {"minimise", "maximise"}));
+  schema.add(direction_class("minimise", "the less the better"));
+  schema.add(direction_class("maximise", "the more the better"));
+  schema.add(
+      named("Require", "What a metric must be with every seed, by its name.",
+            {number("equals", "?", "the value"),
+             at_least_zero(number("within", "?", "allowed difference from `equals`; default 0")),
+             number("above", "?", "it must be greater"), number("below", "?", "it must be less")}));
+}
+
 }  // namespace
 
 void add_study_classes(Schema& schema) {
@@ -246,6 +325,7 @@ void add_study_classes(Schema& schema) {
   schema.add(named("Only", "Restricts its owner to some values of a swept Param.",
                    {values("values", "exactly these values"), number("from", "?", "least value"),
                     number("to", "?", "greatest value")}));
+  add_tune_classes(schema);
 }
 
 }  // namespace hookpoint::studies

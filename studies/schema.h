@@ -1,5 +1,5 @@
 // The classes of the language that a study is written with: Study, Subject, Sweep, Measure, Truth,
-// Plot, Fix, Only.
+// Plot, Fix, Only, and Tune with Vary, Objective and Require.
 #pragma once
 
 #include "language/schema/schema.h"

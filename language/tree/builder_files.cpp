@@ -88,6 +88,10 @@ void Builder::lay_param(FileScope& scope, const Item& item, bool top_of_file) {
     const bool good = !values || check_argument(given->second, *values, item, scope);
     values = good ? given->second.values : std::vector<Value>{};
   }
+  const bool one_number =
+      values && values->size() == 1 && values->front().kind == ValueKind::number;
+  if (scope.includer == nullptr && one_number)
+    open_.front().object->parameters.emplace_back(name, values->front().quantity.value);
   define(scope, name, std::move(values).value_or(std::vector<Value>{}), place);
 }
 

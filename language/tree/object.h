@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "language/dimension.h"
@@ -63,6 +64,8 @@ class Object {
   std::vector<Wire> wires;
   /// Of the root: the libraries that its files name, as absolute paths, each once.
   std::vector<std::string> plugins;
+  /// Of the root: the Params of its file that are one number, with their values in SI.
+  std::vector<std::pair<std::string, double>> parameters;
 
   /// The field if it is given or has a default, else null.
   const Field* find(std::string_view field) const;

@@ -35,6 +35,8 @@ struct Series {
   std::vector<double> unfinished;  ///< x of the runs that gave no value
   /// A line to hold the others against: only `predicted`, dashed and black whatever the style.
   bool reference = false;
+  /// Every point by itself, no line from one to the next.
+  bool scattered = false;
 };
 
 struct Plot {

@@ -166,14 +166,14 @@ class AxesScript {
     const SeriesStyle style = series_style(series.style);
     const std::string color = " lc rgb '" + style.color + "'";
     const std::string pen = "lines lw 1.6" + color;
-    const std::string points = rows.some(i, plot_.series.size());
+    const std::string points = series.scattered ? rows.all() : rows.some(i, plot_.series.size());
     const std::string filled =
         "points ps 0.8 lw 1.4 pt " + std::to_string(style.filled_marker) + color;
     const std::string hollow =
         "points ps 0.8 lw 1.4 pt " + std::to_string(style.hollow_marker) + color;
     const bool is_joined = joined(series);
     const std::string faint = "lines lw 0.8 lc rgb '#80" + style.color.substr(1) + "'";
-    add_rows(rows.all(), "shown($4)", is_joined ? pen : faint);
+    if (!series.scattered) add_rows(rows.all(), "shown($4)", is_joined ? pen : faint);
     add_rows(points, "positive($4)", filled);
     if (layout_.y.logarithmic && negative(series.measured))
       add_rows(points, "negative($4)", hollow);
@@ -213,7 +213,7 @@ class AxesScript {
 }  // namespace
 
 bool joined(const Series& series) {
-  return series.measured.x.size() > dense || series.predicted.x.empty();
+  return !series.scattered && (series.measured.x.size() > dense || series.predicted.x.empty());
 }
 
 std::size_t write_axes(std::ostream& out, const Plot& plot, const Layout& layout,

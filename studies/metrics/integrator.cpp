@@ -58,7 +58,7 @@ class DistanceFromLimit : public Metric {
   std::optional<double> error_;
 };
 
-class Notices : public Metric {
+class NoticeCount : public Metric {
  public:
   void observe(const Observation& observation) override {
     count_ = static_cast<double>(observation.world.notices.size());
@@ -86,7 +86,7 @@ class TruthError : public Metric {
 
 }  // namespace
 
-std::unique_ptr<Metric> make_notices(const RunContext&) { return std::make_unique<Notices>(); }
+std::unique_ptr<Metric> make_notices(const RunContext&) { return std::make_unique<NoticeCount>(); }
 std::unique_ptr<Metric> make_truth_error(const RunContext& context) {
   return std::make_unique<TruthError>(context);
 }

@@ -1,7 +1,10 @@
 // Metrics of a robot that should come to rest: whether its contacts and its integrator let it.
+#include "simulation/analysis/stability.h"
+
 #include <algorithm>
 #include <cmath>
 
+#include "contact/force_law.h"
 #include "studies/metric.h"
 
 namespace hookpoint::studies {
@@ -29,6 +32,24 @@ class Restless : public Unrest {
   std::optional<double> value_of_broken_run() const override { return 1.; }
 };
 
+/// Of the experiment alone, whatever becomes of the run.
+class StableStep : public Metric {
+ public:
+  explicit StableStep(const RunContext& context) : context_(context) {}
+  void observe(const Observation&) override {}
+  std::optional<double> value() const override {
+    const simulation::Experiment& experiment = *context_.experiment;
+    if (experiment.engine != "dts" || !contact::find_force_law(experiment.contact))
+      return std::nullopt;
+    const double step = simulation::stability_bound(experiment).step;
+    return std::isfinite(step) ? std::optional(step) : std::nullopt;
+  }
+  std::optional<double> value_of_broken_run() const override { return value(); }
+
+ private:
+  const RunContext& context_;
+};
+
 }  // namespace
 
 std::unique_ptr<Metric> make_unrest(const RunContext& context) {
@@ -36,6 +57,9 @@ std::unique_ptr<Metric> make_unrest(const RunContext& context) {
 }
 std::unique_ptr<Metric> make_restless(const RunContext& context) {
   return std::make_unique<Restless>(context);
+}
+std::unique_ptr<Metric> make_stable_step(const RunContext& context) {
+  return std::make_unique<StableStep>(context);
 }
 
 }  // namespace hookpoint::studies

@@ -14,7 +14,8 @@ std::vector<std::filesystem::path> config_files() {
   for (const auto& entry : std::filesystem::recursive_directory_iterator(
            std::filesystem::path(HOOKPOINT_SOURCE_DIR) / "configs")) {
     // Studies have classes of their own, which their own tests know.
-    const bool study = entry.path().parent_path().filename() == "studies";
+    const auto folder = entry.path().parent_path().filename();
+    const bool study = folder == "studies" || folder == "tunings";
     if (entry.path().extension() == ".hook" && !study) files.push_back(entry.path());
   }
   std::ranges::sort(files);

@@ -81,6 +81,30 @@ TEST(Restless, IsARunThatTheEngineBrokeOff) {
   EXPECT_FALSE(find_metric("unrest")->make(context)->value_of_broken_run());
 }
 
+TEST(StableStep, IsTheBoundOfAPointOnASpringAndADamper) {
+  // m = 1 kg, k = 1e4 N/m, c = 10 N s/m, half as stiff along the ground: dt^2 k + 2 dt c = 4 m.
+  Experiment point = block_on_slope(0., 0.);
+  point.robots[0].base.boundary_points = {{0., 0., 0.}};
+  point.robots[0].location = {0., 0., -1e-4};
+  auto& constants = point.materials[0].constants;
+  constants.normal_stiffness = 1e4;
+  constants.normal_damping = constants.tangential_damping = 10.;
+  constants.tangential_stiffness = 5e3;
+  const auto rests = [](const RunContext&, WorldState&) {};
+  const double bound = (std::sqrt(10. * 10. + 4. * 1e4) - 10.) / 1e4;
+  EXPECT_NEAR(*measure(point, "stable_step", 0., 0.1, rests), bound, 1e-6 * bound);
+  const RunContext context = make_context(point, 0., 1.);
+  EXPECT_NEAR(*find_metric("stable_step")->make(context)->value_of_broken_run(), bound,
+              1e-6 * bound);
+  for (const char* other : {"impulse", "impulse_reversal"}) {
+    point.contact = other;
+    EXPECT_FALSE(measure(point, "stable_step", 0., 0.1, rests)) << other;
+  }
+  point.contact = "hookpoint";
+  point.engine = "ode";
+  EXPECT_FALSE(measure(point, "stable_step", 0., 0.1, rests));
+}
+
 /// Moves the body downhill by s(t).
 auto downhill(std::function<double(double)> s) {
   return [s](const RunContext& context, WorldState& world) {

@@ -1,0 +1,286 @@
+#include "studies/tune/outputs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "output/figures/plot.h"
+#include "output/file.h"
+#include "output/text/json.h"
+#include "output/text/number.h"
+#include "studies/run/results_csv.h"
+#include "studies/tune/figures.h"
+
+namespace hookpoint::studies {
+namespace {
+
+using output::shortest;
+
+std::string empty_or(const std::optional<double>& value) {
+  return value ? shortest(*value) : std::string();
+}
+
+void add_constant_titles(output::CsvTable& table, const TunePlan& plan) {
+  for (const VariedConstant& constant : plan.varied)
+    table.header.push_back(output::column_title(constant.name, constant.unit.text));
+}
+
+void add_constants(std::vector<std::string>& row, const Candidate& candidate) {
+  for (const auto& value : candidate.values) row.push_back(empty_or(value));
+}
+
+/// "ok", or what the first run that did not finish says.
+std::string status_of(const Candidate& candidate) {
+  const auto failed = std::ranges::find_if(
+      candidate.statuses, [](const std::string& status) { return status != "ok"; });
+  return failed == candidate.statuses.end() ? "ok" : *failed;
+}
+
+/// Mean, standard error and "1.5 2.5", the seeds' values, of one metric.
+void add_metric(std::vector<std::string>& row, const Candidate& candidate, std::size_t metric) {
+  const auto values = values_of_seeds(candidate, metric);
+  row.push_back(values ? shortest(mean_of(*values)) : "");
+  row.push_back(values ? shortest(standard_error_of(*values)) : "");
+  std::string each;
+  for (const auto& measured : candidate.measured)
+    each += (each.empty() ? "" : " ") + (measured[metric] ? shortest(*measured[metric]) : "-");
+  row.push_back(each);
+}
+
+std::string number_text(std::size_t index) { return std::to_string(index + 1); }
+
+void write_value(output::JsonWriter& json, std::string_view key,
+                 const std::optional<double>& value) {
+  json.key(key);
+  if (value)
+    json.value(*value);
+  else
+    json.null();
+}
+
+void write_constants(output::JsonWriter& json, const TunePlan& plan, const Candidate& candidate) {
+  json.key("constants").begin_object();
+  for (std::size_t i = 0; i < plan.varied.size(); ++i) {
+    json.key(plan.varied[i].name).begin_object();
+    write_value(json, "value", candidate.values[i]);
+    json.member("unit", plan.varied[i].unit.text).end_object();
+  }
+  json.end_object();
+}
+
+void write_requirements(output::JsonWriter& json, const TunePlan& plan, const TuneResult& result) {
+  json.key("requirements").begin_array();
+  for (const RequirementPlan& required : plan.requirements) {
+    json.begin_object()
+        .member("words", required.words)
+        .member("met", meets(result.best(), required));
+    if (result.fresh)
+      json.member("met_with_fresh_seeds", meets(result.candidates[*result.fresh], required));
+    json.end_object();
+  }
+  json.end_array();
+}
+
+void write_reference(output::JsonWriter& json, const TunePlan& plan, const TuneResult& result,
+                     const TuneReference& reference) {
+  const Candidate& candidate = result.candidates[reference.candidate];
+  json.key(reference.key).begin_object().member("evaluation", reference.candidate + 1);
+  json.member("feasible", is_feasible(plan, candidate));
+  write_constants(json, plan, candidate);
+  json.key("objectives").begin_object();
+  for (std::size_t i = 0; i < reference.comparisons.size(); ++i) {
+    const ObjectiveComparison& comparison = reference.comparisons[i];
+    json.key(plan.name_of(plan.objectives[i])).begin_object();
+    write_value(json, "recommended", comparison.tuned);
+    write_value(json, reference.key, comparison.other);
+    json.member("difference", comparison.difference).member("margin_95", comparison.margin);
+    json.member("verdict", words_of(comparison.verdict)).end_object();
+  }
+  json.end_object().end_object();
+}
+
+void write_objectives(output::JsonWriter& json, const TunePlan& plan, const TuneResult& result) {
+  json.key("objectives").begin_object();
+  for (const ObjectivePlan& objective : plan.objectives) {
+    json.key(plan.name_of(objective)).begin_object();
+    json.member("unit", plan.unit_of(objective));
+    json.member("direction", objective.maximise ? "maximise" : "minimise");
+    write_value(json, "value", value_of(objective, result.best()));
+    const auto values = values_of_seeds(result.best(), objective.metric);
+    write_value(json, "standard_error",
+                values ? std::optional(standard_error_of(*values)) : std::nullopt);
+    json.end_object();
+  }
+  json.end_object();
+}
+
+/// A field of a Material as the file writes it.
+std::string field_text(const language::Field& field) {
+  const std::string& unit = field.schema->unit;
+  return fmt::format("  {} = {}{};\n", field.schema->name, shortest(field.numbers.front()),
+                     unit.empty() ? "" : " " + unit);
+}
+
+/// A comment's line, whatever stands in it.
+std::string comment(const std::string& text) { return "// " + output::one_line(text) + "\n"; }
+
+}  // namespace
+
+std::string_view words_of(ObjectiveComparison::Verdict verdict) {
+  switch (verdict) {
+    case ObjectiveComparison::Verdict::better:
+      return "better";
+    case ObjectiveComparison::Verdict::worse:
+      return "worse";
+    case ObjectiveComparison::Verdict::within_noise:
+      return "within the noise";
+    case ObjectiveComparison::Verdict::untold:
+      return "not told";
+  }
+  return "";
+}
+
+std::vector<ConstantSetting> settings_of(const TunePlan& plan, const Candidate& candidate) {
+  std::vector<double> values;
+  if (candidate.stage != CandidateStage::own)
+    for (const auto& value : candidate.values) values.push_back(*value);
+  return plan.settings(values);
+}
+
+std::string material_file(const TunePlan& plan) {
+  return "materials/" + plan.scene->material() + "_tuned.hook";
+}
+
+std::vector<std::string> tune_files(const TunePlan& plan) {
+  std::vector<std::string> files{
+      store_folder,        "evaluations.csv", "pareto.csv", "sobol.csv",       "recommended.json",
+      material_file(plan), "experiment.hook", "scene.hook", "provenance.json", "report.html"};
+  for (const std::string& figure : tune_figure_names(plan))
+    for (const char* type : {".svg", ".csv", ".gp"}) files.push_back(figure + type);
+  return files;
+}
+
+output::CsvTable evaluations_table(const TunePlan& plan, const TuneResult& result) {
+  output::CsvTable table;
+  table.header = {"evaluation", "stage", "generation"};
+  add_constant_titles(table, plan);
+  table.header.insert(table.header.end(), {"feasible", "violation"});
+  for (const MetricDefinition* metric : plan.runs.metrics) {
+    const std::string name(metric->name);
+    for (const char* part : {"", "_error", "_seeds"})
+      table.header.push_back(output::column_title(name + part, metric->unit));
+  }
+  table.header.insert(table.header.end(), {"first_seed", "seeds", "status"});
+  for (std::size_t i = 0; i < result.candidates.size(); ++i) {
+    const Candidate& candidate = result.candidates[i];
+    const double violation = violation_of(plan, candidate);
+    std::vector<std::string>& row = table.rows.emplace_back();
+    row = {number_text(i), std::string(name_of(candidate.stage)),
+           candidate.generation > 0 ? std::to_string(candidate.generation) : ""};
+    add_constants(row, candidate);
+    row.insert(row.end(), {violation > 0. ? "no" : "yes", shortest(violation)});
+    for (std::size_t metric = 0; metric < plan.runs.metrics.size(); ++metric)
+      add_metric(row, candidate, metric);
+    row.insert(row.end(), {std::to_string(candidate.first_seed), std::to_string(candidate.seeds()),
+                           status_of(candidate)});
+  }
+  return table;
+}
+
+output::CsvTable pareto_table(const TunePlan& plan, const TuneResult& result) {
+  output::CsvTable table;
+  table.header = {"evaluation"};
+  add_constant_titles(table, plan);
+  for (const ObjectivePlan& objective : plan.objectives) {
+    const std::string unit = plan.unit_of(objective);
+    table.header.push_back(output::column_title(plan.name_of(objective), unit));
+    table.header.push_back(output::column_title(plan.name_of(objective) + "_error", unit));
+  }
+  table.header.emplace_back("recommended");
+  for (const std::size_t member : result.pareto) {
+    const Candidate& candidate = result.candidates[member];
+    std::vector<std::string>& row = table.rows.emplace_back();
+    row.push_back(number_text(member));
+    add_constants(row, candidate);
+    for (const ObjectivePlan& objective : plan.objectives) {
+      const auto values = *values_of_seeds(candidate, objective.metric);
+      row.push_back(shortest(take_of(objective, values)));
+      row.push_back(shortest(standard_error_of(values)));
+    }
+    row.emplace_back(member == result.recommended->candidate ? "yes" : "");
+  }
+  return table;
+}
+
+output::CsvTable indices_table(const TunePlan& plan, const TuneResult& result) {
+  output::CsvTable table;
+  table.header = {"objective", "constant", "first_order", "total_order", "samples"};
+  for (std::size_t i = 0; i < result.indices.size(); ++i) {
+    if (!result.indices[i]) continue;
+    const SobolIndices& indices = *result.indices[i];
+    for (std::size_t c = 0; c < plan.varied.size(); ++c)
+      table.rows.push_back({plan.name_of(plan.objectives[i]), plan.varied[c].name,
+                            shortest(indices.first[c]), shortest(indices.total[c]),
+                            std::to_string(indices.used)});
+  }
+  return table;
+}
+
+std::string recommended_json(const TunePlan& plan, const TuneResult& result) {
+  output::JsonWriter json;
+  json.begin_object().member("tune", plan.label).member("material", plan.scene->material());
+  json.member("complete", !result.interrupted);
+  json.member("evaluations", result.candidates.size());
+  if (!result.recommended) return json.end_object().text();
+  json.member("evaluation", result.recommended->candidate + 1);
+  json.member("feasible", result.recommended->feasible);
+  json.member("reason", result.recommended->reason);
+  write_constants(json, plan, result.best());
+  write_objectives(json, plan, result);
+  write_requirements(json, plan, result);
+  json.member("seeds", plan.seeds);
+  json.member("fresh_seeds", result.fresh ? fresh_seeds(plan) : 0);
+  json.member("analytic_guess", result.analytic_words);
+  json.key("compared_with").begin_object();
+  for (const TuneReference& reference : result.references)
+    write_reference(json, plan, result, reference);
+  return json.end_object().end_object().text();
+}
+
+std::string material_text(const TunePlan& plan, const TuneResult& result,
+                          const std::string& command) {
+  language::Diagnostics untold;
+  const auto tree = plan.scene->compose(settings_of(plan, result.best()), 1, untold);
+  if (tree == nullptr) return "";
+  std::string text = comment(plan.scene->material() + " as tuned by `" + command + "`" +
+                             (result.interrupted ? ", which was interrupted" : ""));
+  std::string values;
+  for (std::size_t i = 0; i < plan.varied.size(); ++i)
+    if (const auto& value = result.best().values[i])
+      values += (values.empty() ? "" : ", ") + plan.varied[i].name + " = " +
+                plan.varied[i].unit.with_unit(*value);
+  text += comment("with " + values + ": " + result.recommended->reason + ".") + "\n";
+  text += "Material " + plan.scene->material() + "_tuned {\n";
+  for (const language::Field& field : plan.scene->material_of(*tree).fields)
+    if (!field.numbers.empty()) text += field_text(field);
+  return text + "}\n";
+}
+
+void write_tune_files(const TunePlan& plan, const TuneRun& run, const std::string& command) {
+  const std::filesystem::path& folder = run.folder;
+  const TuneResult& result = run.result;
+  output::write_csv(folder / "evaluations.csv", evaluations_table(plan, result));
+  output::write_file(folder / "recommended.json", recommended_json(plan, result));
+  output::write_file(folder / "experiment.hook", plan.runs.printed);
+  output::write_file(folder / "provenance.json", provenance_json(run.provenance));
+  if (!result.indices.empty()) output::write_csv(folder / "sobol.csv", indices_table(plan, result));
+  if (!result.recommended) return;
+  output::write_csv(folder / "pareto.csv", pareto_table(plan, result));
+  output::make_folder_of(folder / material_file(plan));
+  output::write_file(folder / material_file(plan), material_text(plan, result, command));
+  language::Diagnostics untold;
+  const auto scene = plan.scene->compose(settings_of(plan, result.best()), 1, untold);
+  if (scene != nullptr) output::write_file(folder / "scene.hook", language::print(*scene));
+}
+
+}  // namespace hookpoint::studies

@@ -1,0 +1,41 @@
+// The files of a tuning's folder beside its figures and report.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "output/text/csv.h"
+#include "studies/tune/tune.h"
+
+namespace hookpoint::studies {
+
+/// The names of all that a tuning may leave, the store too.
+std::vector<std::string> tune_files(const TunePlan& plan);
+
+/// Every candidate in order: stage, generation, constants, whether it meets the requirements; of
+/// each metric mean, standard error and the seeds' values; and what became of its runs.
+output::CsvTable evaluations_table(const TunePlan& plan, const TuneResult& result);
+/// The Pareto set: number of the evaluation, constants, objectives, and which is recommended.
+output::CsvTable pareto_table(const TunePlan& plan, const TuneResult& result);
+/// Sobol's indices: a row an objective and constant.
+output::CsvTable indices_table(const TunePlan& plan, const TuneResult& result);
+/// recommended.json.
+std::string recommended_json(const TunePlan& plan, const TuneResult& result);
+/// materials/NAME_tuned.hook: the Material with the recommended constants. `command` makes it.
+std::string material_text(const TunePlan& plan, const TuneResult& result,
+                          const std::string& command);
+
+/// "materials/clay_tuned.hook".
+std::string material_file(const TunePlan& plan);
+
+/// Writes all of them, experiment.hook, scene.hook (with the recommended constants) and
+/// provenance.json. Throws output::FileError.
+void write_tune_files(const TunePlan& plan, const TuneRun& run, const std::string& command);
+
+/// What a candidate sets in the scene; nothing for the files' own constants.
+std::vector<ConstantSetting> settings_of(const TunePlan& plan, const Candidate& candidate);
+
+/// "better", "worse", "within the noise", "not told".
+std::string_view words_of(ObjectiveComparison::Verdict verdict);
+
+}  // namespace hookpoint::studies

@@ -1,0 +1,86 @@
+// What a Tune block asks for: what is varied, what is wanted, what is required, and how it is
+// searched.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "studies/plan/plan.h"
+#include "studies/plan/plan_values.h"
+#include "studies/tune/optimiser.h"
+#include "studies/tune/scene.h"
+
+namespace hookpoint::studies {
+
+/// A Vary block. Values are in the unit that its author wrote, to six digits: what stands in a
+/// file is what was run.
+struct VariedConstant {
+  std::string name;
+  ConstantPlace place = ConstantPlace::scene_parameter;
+  WrittenUnit unit;
+  double from = 0., to = 1.;
+  bool logarithmic = false;
+
+  /// The value at a share 0..1 of the range.
+  double at(double share) const;
+  /// The share of the range at which a value lies, 0 below and 1 above it.
+  double share_of(double value) const;
+  ConstantSetting setting(double value) const;
+};
+
+/// An Objective block.
+struct ObjectivePlan {
+  enum class Take { mean, worst };
+  std::size_t metric = 0;  ///< index into TunePlan::runs.metrics
+  bool maximise = false;
+  Take take = Take::mean;
+};
+
+/// A Require block.
+struct RequirementPlan {
+  std::size_t metric = 0;
+  std::optional<double> equals, above, below;
+  double within = 0.;
+  std::string words;  ///< "stable_step is above 0.0005 s"
+
+  /// How far a value is from what is required, as a part of the bound's magnitude (of 1 where that
+  /// is 0); 0 where it holds.
+  double missed_by(double value) const;
+};
+
+struct TunePlan {
+  std::string name, title, question;
+  std::string label;  ///< the name, with the subject's where there are several
+  /// What is measured in a run and for how long; it has no rows. Its one subject is the tuned one.
+  StudyPlan runs;
+  std::vector<VariedConstant> varied;
+  std::vector<std::optional<double>> own;  ///< values of the files themselves, one a constant
+  std::vector<ObjectivePlan> objectives;
+  std::vector<RequirementPlan> requirements;
+  SearchMethod method = SearchMethod::nsga2;
+  int population = 40, generations = 25, seeds = 4, samples = 32;
+  std::uint64_t seed = 1;
+  std::shared_ptr<const TuneScene> scene;
+  std::string runs_hash;  ///< of all that decides the numbers of a run but its constants and seed
+
+  std::string unit_of(const ObjectivePlan& objective) const;
+  std::string name_of(const ObjectivePlan& objective) const;
+  std::filesystem::path folder() const { return folder_of(label, runs.hash); }
+  /// What a candidate sets in the scene; of no values nothing.
+  std::vector<ConstantSetting> settings(const std::vector<double>& values) const;
+};
+
+/// The plans of a Tune block, one a Subject; nothing when `diagnostics` got an error. The library
+/// outlives them. Loads the scene with its own constants and at the corners of its ranges.
+std::optional<std::vector<TunePlan>> make_tune_plans(const language::Object& root,
+                                                     const language::Object& tune,
+                                                     const std::string& file,
+                                                     language::Library& library,
+                                                     const EngineTable& engines, bool quick,
+                                                     language::Diagnostics& diagnostics);
+
+}  // namespace hookpoint::studies

@@ -1,0 +1,93 @@
+// The scene of a tuning: a world, another ground under it where one is named, and constants set
+// from outside.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "language/document.h"
+#include "simulation/experiment.h"
+
+namespace hookpoint::studies {
+
+/// What a constant of a tuning is in its files.
+enum class ConstantPlace { terrain_parameter, scene_parameter, material_field, world_field };
+
+/// A constant and the text of its value.
+struct ConstantSetting {
+  ConstantPlace place = ConstantPlace::scene_parameter;
+  std::string name;
+  std::string text;
+};
+
+/// The files and what does not change from candidate to candidate.
+struct SceneSource {
+  std::filesystem::path scene;
+  std::filesystem::path terrain;         ///< empty: the scene's own ground
+  std::string material;                  ///< "": that of the ground, where it has one alone
+  std::vector<ConstantSetting> settled;  ///< Fix blocks
+  /// Fields of the World that the subject sets: "contact", "impulse".
+  std::vector<std::pair<std::string, std::string>> world;
+};
+
+/// A scene as it is with some constants: the tree, and what it says.
+struct TunedScene {
+  std::unique_ptr<language::Object> tree;
+  simulation::Experiment experiment;
+};
+
+class TuneScene {
+ public:
+  /// Reads what the files declare; errors at `place` go to `diagnostics`. The library outlives it.
+  TuneScene(language::Library& library, SceneSource source, const language::Position& place,
+            language::Diagnostics& diagnostics);
+
+  /// Where the name stands: the first of the terrain's Params, the scene's, the Material's fields
+  /// and the World's. Nothing if nowhere.
+  std::optional<ConstantPlace> place_of(const std::string& name) const;
+  /// All names that have a place.
+  std::vector<std::string> names() const;
+  /// The value that the files themselves give a constant, in SI; nothing where they give none.
+  std::optional<double> own_value(const ConstantSetting& constant) const;
+
+  /// The tree with these constants; null after errors. Every stream of random numbers, and a Param
+  /// `seed` of the scene or the terrain, gets `seed`. May be called from several threads.
+  std::unique_ptr<language::Object> compose(std::span<const ConstantSetting> constants,
+                                            std::uint64_t seed,
+                                            language::Diagnostics& diagnostics) const;
+  /// The experiment of that tree.
+  std::optional<TunedScene> load(std::span<const ConstantSetting> constants, std::uint64_t seed,
+                                 language::Diagnostics& diagnostics) const;
+
+  /// The Material of a composed tree that is tuned.
+  const language::Object& material_of(const language::Object& tree) const;
+  const std::string& material() const { return source_.material; }
+  const std::filesystem::path& scene_file() const { return source_.scene; }
+  const std::filesystem::path& terrain_file() const { return source_.terrain; }
+
+ private:
+  using Names = std::vector<std::string>;
+
+  std::unique_ptr<language::Object> compose_terrain(std::span<const ConstantSetting> constants,
+                                                    std::uint64_t seed,
+                                                    language::Diagnostics& diagnostics) const;
+  bool find_material(const language::Object& tree, const language::Position& place,
+                     language::Diagnostics& diagnostics);
+
+  language::Library& library_;
+  SceneSource source_;
+  Names terrain_parameters_, scene_parameters_, material_fields_, world_fields_;
+  std::string world_;           ///< trail of the World
+  std::string material_trail_;  ///< from the top
+  std::vector<std::pair<std::string, double>> terrain_values_, scene_values_;  ///< of Params, SI
+  std::unique_ptr<language::Object> own_;                                      ///< composed plain
+};
+
+}  // namespace hookpoint::studies

@@ -1,0 +1,99 @@
+// `hookpoint tune` as a user runs it: what it prints, leaves and returns.
+#include <gtest/gtest.h>
+
+#include "tests/support/child_process.h"
+#include "tests/support/command.h"
+
+namespace hookpoint {
+namespace {
+
+using testing::ChildProcess;
+using testing::CommandResult;
+using testing::Workplace;
+namespace fs = std::filesystem;
+
+constexpr const char* block = R"(World world {
+  Material floor { normal_stiffness = 5 kN/m; }
+  Terrain.Flat ground { material = floor; }
+  Robot block { Base.mobile { rest_on = ground; Shape.Box { dimensions = .2, .2, .1; mass = 1; } } }
+}
+)";
+
+std::string tune_of(const std::string& duration) {
+  return R"(Tune floor_for_block {
+  scene = "block.hook"; duration = )" +
+         duration + R"(;
+  Vary normal_stiffness { from = 1 kN/m; to = 100 kN/m; scale = log; }
+  Objective penetration_max { minimise; }
+  Objective stable_step { maximise; }
+  population = 8; generations = 3; seeds = 1; samples = 2;
+}
+)";
+}
+
+TEST(TuneCommand, LeavesWhatItSaysAndExitsWithZero) {
+  const Workplace place;
+  place.file("block.hook", block);
+  place.file("tune.hook", tune_of("0.2 s"));
+  const CommandResult result = place.hookpoint("tune tune.hook --out out --jobs 2");
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.out.find("normal_stiffness"), std::string::npos) << result.out;
+  EXPECT_NE(result.err.find("generation 3 of 3"), std::string::npos) << result.err;
+  for (const char* file : {"evaluations.csv", "pareto.csv", "sobol.csv", "recommended.json",
+                           "report.html", "experiment.hook", "scene.hook", "provenance.json",
+                           "files.json", "pareto_front.svg", "materials/floor_tuned.hook"})
+    EXPECT_FALSE(place.read(fs::path("out") / file).empty()) << file;
+  EXPECT_EQ(place.hookpoint("fmt --check out/materials/floor_tuned.hook").status, 0);
+  EXPECT_EQ(place.hookpoint("run out/scene.hook --for \"10 ms\" --out again").status, 0);
+  // Without a command the file is for `tune`.
+  EXPECT_EQ(place.hookpoint("tune.hook --out out --resume").status, 0);
+}
+
+TEST(TuneCommand, RefusesWhatItCannotTune) {
+  const Workplace place;
+  place.file("block.hook", block);
+  place.file("bad.hook", "Tune t { scene = \"block.hook\"; Vary mass { from = 1; to = 2; } }\n");
+  const CommandResult world = place.hookpoint("tune block.hook --out out");
+  EXPECT_EQ(world.status, 2);
+  EXPECT_NE(world.err.find("holds no Tune"), std::string::npos) << world.err;
+  const CommandResult bad = place.hookpoint("tune bad.hook --out out");
+  EXPECT_EQ(bad.status, 2);
+  EXPECT_NE(bad.err.find("bad.hook:1:"), std::string::npos) << bad.err;
+  EXPECT_EQ(place.hookpoint("check bad.hook").status, 2);
+  EXPECT_FALSE(fs::exists(place.folder() / "out"));
+}
+
+TEST(TuneCommand, EndsWithOneWhereNothingMeetsTheRequirements) {
+  const Workplace place;
+  place.file("block.hook", block);
+  std::string text = tune_of("0.2 s");
+  text.insert(text.find("population"), "Require stable_step { above = 1 s; } ");
+  place.file("tune.hook", text);
+  const CommandResult result = place.hookpoint("tune tune.hook --out out");
+  EXPECT_EQ(result.status, 1) << result.err;
+  EXPECT_NE(result.out.find("the requirements are not met"), std::string::npos) << result.out;
+  EXPECT_NE(place.read("out/report.html").find("No candidate meets"), std::string::npos);
+}
+
+TEST(TuneCommand, InterruptedItLeavesWhatIsKnownAndGoesOn) {
+  const Workplace place;
+  place.file("block.hook", block);
+  place.file("tune.hook", tune_of("5 s"));
+  ChildProcess tuning(place.folder(), {"tune", "tune.hook", "--out", "out", "--jobs", "1"});
+  ASSERT_TRUE(tuning.wait_until([&] {
+    return tuning.err().find("generation 1 of 3") != std::string::npos;
+  })) << tuning.err();
+  tuning.signal(SIGINT);
+  EXPECT_EQ(tuning.wait(), 130);
+  EXPECT_NE(tuning.err().find("--resume` goes on from there"), std::string::npos) << tuning.err();
+  EXPECT_NE(place.read("out/recommended.json").find("\"complete\": false"), std::string::npos);
+  EXPECT_NE(place.read("out/report.html").find("Interrupted"), std::string::npos);
+  EXPECT_EQ(place.hookpoint("tune tune.hook --out out --resume").status, 0);
+  EXPECT_EQ(place.hookpoint("tune tune.hook --out whole").status, 0);
+  for (const char* file : {"evaluations.csv", "recommended.json", "materials/floor_tuned.hook",
+                           "pareto_front.svg", "sobol.csv"})
+    EXPECT_EQ(place.read(fs::path("out") / file), place.read(fs::path("whole") / file)) << file;
+}
+
+}  // namespace
+}  // namespace hookpoint
