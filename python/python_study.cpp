@@ -186,7 +186,7 @@ class StudyRunner {
 
   bool kept() const { return arguments_.out.has_value(); }
   std::filesystem::path folder(const std::string& name) const {
-    return kept() ? file_.folder(*arguments_.out, name) : unkept_.path() / name;
+    return kept() ? file_.folder(arguments_.out, name, {}) : unkept_.path() / name;
   }
 
   /// What the run has to tell goes to `told`, since it runs in a thread that is not Python's.

@@ -102,7 +102,7 @@ const std::map<std::string, Rooms> rooms{
       peers,
       {"engines"}}},
     {"view",
-     {{"admission", "websocket", "commands", "snapshot", "traces", "pace", "file_watch",
+     {{"admission", "websocket", "commands", "snapshot", "traces", "pace", "file_watch", "meter",
        "study_board", "film", "shown", "widget_fields"},
       {"server", "schema"},
       {"panel", "scene", "ghosts", "file_fields"},
