@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <csignal>
+#include <limits>
 #include <map>
 #include <memory>
 
@@ -74,8 +75,9 @@ class ViewWindow : public ::testing::Test {
   double read(const std::string& trail) {
     const Leaves answer = ask("read", "\"trails\": [\"" + trail + "\"]");
     const auto value = answer.find("values[0].value");
-    if (value == answer.end()) return NAN;
-    return value->second == "null" ? NAN : std::stod(value->second);
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    if (value == answer.end()) return unknown;
+    return value->second == "null" ? unknown : std::stod(value->second);
   }
   void step(int count) {
     EXPECT_EQ(ask("step", "\"count\": " + std::to_string(count))["error"], "");
