@@ -1,6 +1,7 @@
 #include "language/textmate.h"
 
 #include <algorithm>
+#include <set>
 
 #include "language/syntax/token.h"
 #include "language/units.h"
@@ -54,11 +55,12 @@ std::string number_rule() {
 
 /// A class, and the name that it may give to its object.
 std::string object_rule(const Schema& schema) {
-  std::vector<std::string> classes, reserved(std::begin(reserved_words), std::end(reserved_words));
-  for (const auto& [name, entry] : schema.classes()) {
-    if (entry.only_in.empty() && std::ranges::find(reserved, name) == reserved.end())
-      classes.push_back(name);
-  }
+  const std::vector<std::string> reserved(std::begin(reserved_words), std::end(reserved_words));
+  // Two classes may have one name, in different places.
+  std::set<std::string> names;
+  for (const auto& [key, entry] : schema.classes()) names.insert(entry.name);
+  for (const std::string& word : reserved) names.erase(word);
+  const std::vector<std::string> classes(names.begin(), names.end());
   const std::string type = R"((?<![\w.])()" + alternatives(classes) + R"()(?![\w.]|\s*=[^=]))";
   const std::string name =
       R"((?:\s+(?!(?:)" + alternatives(reserved) + R"()\b)([A-Za-z_]\w*)(?![\w.]|\s*=[^=]))?)";

@@ -353,7 +353,7 @@ TEST(Manual, BashCompletesCommandsOptionsAndTheirWords) {
     EXPECT_EQ(std::system(script.c_str()), 0);
     return work.read(".out");
   };
-  EXPECT_EQ(completed("hookpoint ru", 1), "run\n");
+  EXPECT_EQ(completed("hookpoint ru", 1), "run runs\n");
   EXPECT_EQ(completed("hookpoint mi", 1), "mine.hook\n");
   EXPECT_EQ(completed("hookpoint run --eng", 2), "--engine\n");
   EXPECT_EQ(completed("hookpoint run --engine bul", 3), "bullet\n");

@@ -127,7 +127,7 @@ TEST(InterruptedStudy, BeginsNoOther) {
   place.file("run.hook", block);
   place.file("study.hook", endless);
   ChildProcess study(place.folder(), {"study", "study.hook", "--out", "out", "--jobs", "1"});
-  ASSERT_TRUE(study.wait_until([&] { return fs::exists(place.folder() / "out/first/rows"); }))
+  ASSERT_TRUE(study.wait_until([&] { return fs::exists(place.folder() / "out/first/files.json"); }))
       << study.err();
   study.signal(SIGINT);
   EXPECT_EQ(study.wait(), 130);
