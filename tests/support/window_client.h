@@ -57,12 +57,7 @@ class WindowClient {
   /// One text message.
   void say(const std::string& text) {
     constexpr char last_text = '\x81';
-    std::string frame{last_text};
-    const bool is_short = text.size() < 126;
-    frame += static_cast<char>(0x80 | (is_short ? text.size() : 126));
-    if (!is_short) frame += static_cast<char>(text.size() >> 8);
-    if (!is_short) frame += static_cast<char>(text.size());
-    write(frame + std::string(4, '\0') + text);  // a mask of zeros
+    write(frame(last_text, text));
   }
   /// The next text message. Nothing, here and below: the connection has ended, or it took minutes.
   std::optional<std::string> hear() {
@@ -103,6 +98,15 @@ class WindowClient {
     std::vector<double> doubles;
   };
 
+  static std::string frame(char head, const std::string& payload) {
+    std::string bytes{head};
+    const bool is_short = payload.size() < 126;
+    bytes += static_cast<char>(0x80 | (is_short ? payload.size() : 126));
+    if (!is_short) bytes += static_cast<char>(payload.size() >> 8);
+    if (!is_short) bytes += static_cast<char>(payload.size());
+    return bytes + std::string(4, '\0') + payload;  // a mask of zeros
+  }
+
   /// Its id.
   std::string request(const std::string& name, const std::string& members) {
     const std::string id = std::to_string(++last_id_);
@@ -138,8 +142,11 @@ class WindowClient {
     }
     const std::string payload = read(size);
     const int opcode = head[0] & 0x0f;
-    constexpr int text = 1, binary = 2, close = 8;
+    constexpr int text = 1, binary = 2, close = 8, ping = 9;
+    constexpr char pong = '\x8a';
     if (payload.size() < size || opcode == close) return std::nullopt;
+    // Who says nothing for long is taken for gone.
+    if (opcode == ping) write(frame(pong, payload));
     if (opcode == text) return Message{payload, {}};
     if (opcode != binary) return next();
     Message message;
