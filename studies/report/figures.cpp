@@ -130,8 +130,8 @@ void fill(output::Series& series, const Gathered& gathered, const PlotSpec& spec
   series.unfinished = gathered.unfinished;
   if (series.unfinished.size() > 2 * thinned_buckets) {
     std::ranges::sort(series.unfinished);
-    const auto again = std::ranges::unique(series.unfinished);
-    series.unfinished.erase(again.begin(), again.end());
+    const auto again = std::unique(series.unfinished.begin(), series.unfinished.end());
+    series.unfinished.erase(again, series.unfinished.end());
   }
   if (gathered.curve_of != nullptr) {
     const Trace& trace = gathered.curve;
