@@ -134,10 +134,9 @@ void search_by_cmaes(const SearchOptions& options, const std::shared_ptr<SharedS
   pagmo::cmaes cmaes(1, automatic, automatic, automatic, automatic, first_width, never, never,
                      /*memory=*/true, /*force_bounds=*/true, narrow(options.seed));
   while (++shared->generation < options.generations) {
-    const pagmo::cmaes rehearsal = cmaes;
     shared->rehearsed = true;
     shared->heard.clear();
-    (void)rehearsal.evolve(population);
+    (void)pagmo::cmaes(cmaes).evolve(population);
     shared->rehearsed = false;
     const auto fitness = shared->fitness(shared->heard);
     shared->known.clear();

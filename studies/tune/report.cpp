@@ -31,7 +31,7 @@ std::string row_of(const std::vector<std::string>& cells, std::size_t words, con
 
 class HtmlTable {
  public:
-  HtmlTable(std::vector<std::string> head, std::size_t words) : words_(words) {
+  HtmlTable(const std::vector<std::string>& head, std::size_t words) : words_(words) {
     text_ = "<div class=\"scroll\"><table><thead>" + row_of(head, words, "th") + "</thead><tbody>";
   }
   void row(const std::vector<std::string>& cells) { text_ += row_of(cells, words_, "td"); }
