@@ -9,7 +9,6 @@
 namespace hookpoint::view {
 namespace {
 
-using simulation::LiveRun;
 using simulation::Port;
 using simulation::StepStatus;
 
