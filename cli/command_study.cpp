@@ -5,9 +5,9 @@
 
 #include "cli/commands.h"
 #include "cli/exit_status.h"
+#include "cli/keeping_runs.h"
 #include "cli/open_browser.h"
 #include "cli/study_runs.h"
-#include "output/file.h"
 #include "studies/cluster/slurm.h"
 
 namespace hookpoint::cli {
@@ -69,14 +69,10 @@ int study(const application::StudyArguments& asked, const std::optional<ViewArgu
                        application::rerun_command(arguments), guard};
   if (arguments.dry_run) return print_slurm_scripts(command);
   try {
-    command.store = application::shared_store(arguments, *file);
-    return view ? run_all_viewed(command, *view) : run_all(command);
-  } catch (const output::PlaceError&) {
-    throw;
-  } catch (const output::FileError& error) {
-    return fail(error, truth_failed);
-  } catch (const studies::StoreError& error) {
-    return fail(error, truth_failed);
+    return keeping_runs([&] {
+      command.store = application::shared_store(arguments, *file);
+      return view ? run_all_viewed(command, *view) : run_all(command);
+    });
   } catch (const studies::SlurmError& error) {
     return fail(error, truth_failed);
   } catch (const studies::SlurmRefusal& error) {

@@ -10,6 +10,7 @@
 #include "cli/commands.h"
 #include "cli/exit_status.h"
 #include "cli/interrupt.h"
+#include "cli/keeping_runs.h"
 #include "cli/run_bar.h"
 #include "language/names.h"
 #include "studies/tune/report.h"
@@ -86,17 +87,14 @@ int tune(const application::StudyArguments& asked) {
   const auto plans = application::plan_tune_file(application, *root, arguments);
   if (!plans) return wrong_input;
   const InterruptGuard guard;
-  int status = fine;
-  try {
+  return keeping_runs([&] {
+    int status = fine;
     for (const studies::TunePlan& plan : *plans) {
       status = std::max(status, tune_one(application, arguments, plan, plans->size() > 1, guard));
       if (guard.stop()) break;
     }
-  } catch (const studies::StoreError& error) {
-    application::print_error(error.what());
-    return truth_failed;
-  }
-  return status;
+    return status;
+  });
 }
 
 }  // namespace hookpoint::cli

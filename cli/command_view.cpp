@@ -90,22 +90,19 @@ class Watched {
     std::vector<std::string> settings;
     for (const auto& [trail, value] : latest) settings.push_back(trail + "=" + value);
     LiveLoader loader(arguments_.file, settings_, arguments_.allow_plugins);
-    auto plain = loader.load({}, problem);
-    if (!plain) return std::nullopt;
-    std::string why;
-    auto changed = loader.load(settings, why);
-    // Not every port is a field: those that are none are left out.
-    for (std::size_t i = 0; !changed && i < settings.size();) {
-      if (loader.load({settings[i]}, why))
-        ++i;
-      else
-        settings.erase(settings.begin() + static_cast<std::ptrdiff_t>(i));
-      if (i == settings.size()) changed = loader.load(settings, why);
+    auto changed = loader.load(settings, problem);
+    if (!changed) {
+      // Not every port is a field: those that are none are left out.
+      std::erase_if(settings, [&](const std::string& setting) {
+        return !loader.load({setting}, problem).has_value();
+      });
+      changed = loader.load(settings, problem);
     }
+    if (!changed) return std::nullopt;
     std::string text = "// " + unicode::printable(arguments_.file.filename().string()) +
                        " with what was changed:\n";
     for (const std::string& setting : settings) text += "//   " + setting + "\n";
-    text += (changed ? *changed : *plain).text;
+    text += changed->text;
     return std::pair(arguments_.file.stem().string() + "-changed.hook", std::move(text));
   }
 

@@ -71,11 +71,17 @@ class SlurmCluster {
   SlurmCluster& operator=(const SlurmCluster&) = delete;
 
   bool ready() const { return ready_; }
+  /// Jobs that are submitted wait, or may begin.
+  bool hold() const { return set_partition("DOWN"); }
+  bool release() const { return set_partition("UP"); }
   std::string log() const {
     return read_file(folder_ / "log/slurmctld.log") + read_file(folder_ / "log/slurmd.log");
   }
 
  private:
+  bool set_partition(const std::string& state) const {
+    return std::system(("scontrol update PartitionName=main State=" + state).c_str()) == 0;
+  }
   std::string path(const char* name) const { return (folder_ / name).string(); }
   static std::string node() {
     std::array<char, 256> name{};
