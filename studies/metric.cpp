@@ -106,7 +106,22 @@ constexpr auto metrics = std::to_array<MetricDefinition>({
      make_walking_speed},
     {"foot_slip", "",
      "path of a foot over the ground while in it, mean of the feet, per walked_distance",
-     make_foot_slip},
+     make_foot_slip, false, Regime::none, MetricScope::run, false, false, true},
+    {"hook_losses", "",
+     "contacts of a foot lost while its leg is to stand, per stance; nothing without a gait that "
+     "tells `stance`",
+     make_hook_losses, false, Regime::none, MetricScope::run, false, false, true, true},
+    {"stance_slip", "m",
+     "distance along the ground from where a foot first touches in a stance to where it last does, "
+     "mean of the stances",
+     make_stance_slip, false, Regime::none, MetricScope::run, false, false, true, true},
+    {"stance_depth", "m",
+     "mean depth of a foot in the ground while its leg is to stand and it touches",
+     make_stance_depth, false, Regime::none, MetricScope::run, false, false, true, true},
+    {"stance_lift", "m",
+     "greatest height over the ground that a foot reaches between two touches of a stance, mean of "
+     "the stances",
+     make_stance_lift, false, Regime::none, MetricScope::run, false, false, true, true},
     {"cost_of_transport", "",
      "work of the joints' torques, taken positive whichever way it goes, per weight and "
      "walked_distance",
@@ -224,7 +239,17 @@ RunContext make_context(const simulation::Experiment& experiment, double settle,
   return context;
 }
 
-Observer::Observer(const RunContext& context, bool with_points) : context_(context) {
+Observer::Observer(const RunContext& context, bool with_points, bool with_feet)
+    : context_(context) {
+  if (with_feet && context.ground) {
+    const auto& chains = context.robot_spec().chains;
+    simulation::for_each_link(context.robot_spec(), [&](const simulation::TreeLink& at) {
+      const auto chain = static_cast<std::size_t>(&at.chain - chains.data());
+      if (at.is_last() && !at.link.body.boundary_points.empty())
+        followed_.push_back({chain, context.body + at.body, &at.link.body, {}});
+    });
+    feet_.reserve(followed_.size());
+  }
   if (!with_points) return;
   std::size_t count = 0;
   simulation::for_each_body(context.robot_spec(), [&](const simulation::BodySpec& body) {
@@ -238,7 +263,43 @@ Observation Observer::observe(const simulation::WorldState& world,
                               const simulation::WorldInputs* inputs) {
   const simulation::BodyState& body = world.bodies[context_.body];
   if (points_.capacity() > 0) observe_points(world);
-  return {world, body, dot(body.position - context_.start, context_.downhill), points_, inputs};
+  if (!followed_.empty()) observe_feet(world);
+  return {world,   body,   dot(body.position - context_.start, context_.downhill),
+          points_, inputs, feet_};
+}
+
+void Observer::observe_feet(const simulation::WorldState& world) {
+  const bool seen = !feet_.empty();
+  if (!seen) feet_.resize(followed_.size());
+  for (std::size_t i = 0; i < feet_.size(); ++i) {
+    FollowedFoot& foot = followed_[i];
+    const simulation::BodyState& body = world.bodies[foot.body];
+    const FootObservation before = feet_[i];
+    FootObservation now;
+    now.depth = -std::numeric_limits<double>::infinity();
+    for (std::size_t point = 0; point < foot.spec->boundary_points.size(); ++point) {
+      const Vector3d p_WP =
+          body.position + rotate(body.orientation, foot.spec->boundary_points[point]);
+      const double radius = foot.spec->boundary_radius(point);
+      const contact::TilePoint tile = context_.ground->query(p_WP);
+      if (!(tile.depth + radius > now.depth)) continue;
+      now.depth = tile.depth + radius;
+      now.point = point;
+      now.position = p_WP - radius * tile.normal;
+      now.normal = tile.normal;
+    }
+    now.chain = foot.chain;
+    now.contacts = body.contacts;
+    const contact::BallFrame frame{body.orientation, now.normal};
+    if (seen && before.point == now.point) {
+      const Vector3d moved =
+          now.position - before.position -
+          contact::rolling_displacement(foot.frame, frame, foot.spec->boundary_radius(now.point));
+      now.slip = tangential(moved, now.normal);
+    }
+    foot.frame = frame;
+    feet_[i] = now;
+  }
 }
 
 void Observer::observe_points(const simulation::WorldState& world) {

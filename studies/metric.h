@@ -51,6 +51,19 @@ struct PointObservation {
   double depth = 0.;  ///< along the ground's normal, > 0 inside [m]; minus infinity without ground
 };
 
+/// The foot of a chain of the measured robot: of the boundary points of its last link the one that
+/// is deepest in the ground, or nearest to it.
+struct FootObservation {
+  std::size_t chain = 0;  ///< among the robot's
+  std::size_t point = 0;  ///< among the link's
+  double depth = 0.;      ///< along the ground's normal, > 0 inside [m]
+  Vector3d position;      ///< where it meets the ground, or would, world [m]
+  Vector3d normal;        ///< of the ground there
+  Vector3d slip;     ///< of the material there along the ground since the step before [m]; 0 if
+                     ///< another point was deepest then
+  int contacts = 0;  ///< of the link: boundary points that carried ground force
+};
+
 /// One step as metrics see it.
 struct Observation {
   const simulation::WorldState& world;
@@ -58,6 +71,10 @@ struct Observation {
   double displacement = 0.;                  ///< of the body's origin since the start, downhill [m]
   std::span<const PointObservation> points;  ///< empty unless a metric asked for them
   const simulation::WorldInputs* inputs = nullptr;  ///< of the step to come, where they are known
+  std::span<const FootObservation> feet{};  ///< empty unless a metric asked, or without ground
+  /// One a chain, above 0.5 while its leg is to stand; empty unless a metric asked and a gait
+  /// tells.
+  std::span<const double* const> stance{};
 };
 
 /// Whether `settle` has come. Half a step before counts: times are multiples of the step, rounded.
@@ -71,22 +88,33 @@ struct RolledBall {
   Vector3d rolled;  ///< [m]
 };
 
-/// Makes observations of a run; its buffer is sized once.
+/// A foot as an Observer follows it.
+struct FollowedFoot {
+  std::size_t chain = 0;  ///< among the robot's
+  std::size_t body = 0;   ///< of its link in WorldState::bodies
+  const simulation::BodySpec* spec = nullptr;
+  contact::BallFrame frame{};  ///< how its deepest point stood at the last observation
+};
+
+/// Makes observations of a run; its buffers are sized once.
 class Observer {
  public:
-  Observer(const RunContext& context, bool with_points);
+  Observer(const RunContext& context, bool with_points, bool with_feet = false);
   /// Valid until the next call.
   Observation observe(const simulation::WorldState& world,
                       const simulation::WorldInputs* inputs = nullptr);
 
  private:
   void observe_points(const simulation::WorldState& world);
+  void observe_feet(const simulation::WorldState& world);
   /// The next point: a ball of `radius` about p_WP on a body that is turned by R_WB.
   void observe_point(const Vector3d& p_WP, const Quaterniond& R_WB, double radius);
 
   const RunContext& context_;
   std::vector<PointObservation> points_;  // reserved for all points; no room when nobody asks
   std::vector<RolledBall> balls_;         // one a point, once they were seen
+  std::vector<FollowedFoot> followed_;    // one a foot that is asked for
+  std::vector<FootObservation> feet_;     // of these, once they were seen
 };
 
 class Metric {
@@ -119,6 +147,8 @@ struct MetricDefinition {
   MetricScope scope = MetricScope::run;
   bool needs_forces = false;         ///< WorldState::ground_forces
   bool needs_contact_force = false;  ///< that of bodies
+  bool needs_feet = false;           ///< Observation::feet
+  bool needs_stance = false;         ///< of the gait
   bool timing() const { return scope == MetricScope::timing; }
 };
 
@@ -200,6 +230,10 @@ std::unique_ptr<Metric> make_fell(const RunContext&);
 std::unique_ptr<Metric> make_walked_distance(const RunContext&);
 std::unique_ptr<Metric> make_walking_speed(const RunContext&);
 std::unique_ptr<Metric> make_foot_slip(const RunContext&);
+std::unique_ptr<Metric> make_hook_losses(const RunContext&);
+std::unique_ptr<Metric> make_stance_slip(const RunContext&);
+std::unique_ptr<Metric> make_stance_depth(const RunContext&);
+std::unique_ptr<Metric> make_stance_lift(const RunContext&);
 std::unique_ptr<Metric> make_cost_of_transport(const RunContext&);
 std::unique_ptr<Metric> make_body_height_min(const RunContext&);
 std::unique_ptr<Metric> make_tilt_max(const RunContext&);

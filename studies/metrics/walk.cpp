@@ -2,60 +2,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "studies/metric.h"
+#include "studies/metrics/walk_metric.h"
 
 namespace hookpoint::studies {
 namespace {
 
-constexpr double fallen_share = 0.5;                   // of the height at the start
-constexpr double fallen_tilt = std::numbers::pi / 3.;  // [rad]
-constexpr double least_walk = 1e-3;                    // [m]: a ratio to a shorter way is rounding
-
-/// Watches a robot until it falls; what it does afterwards is no walk and is not counted.
-class WalkMetric : public Metric {
- public:
-  explicit WalkMetric(const RunContext& context)
-      : context_(context),
-        upright_(rotate(context.robot_spec().orientation, Vector3d{0., 0., 1.})),
-        start_height_(height_over_ground(context.start)) {
-    const Vector3d x = rotate(context.robot_spec().orientation, Vector3d{1., 0., 0.});
-    const Vector3d along = tangential(x, context.normal);
-    heading_ = norm(along) > 0. ? (1. / norm(along)) * along : x;
-  }
-
-  void observe(const Observation& observation) final {
-    fallen_ = fallen_ ||
-              height_over_ground(observation.body.position) < fallen_share * start_height_ ||
-              tilt(observation.body) > fallen_tilt;
-    if (!fallen_ && settled(context_, observation)) watch(observation);
-  }
-
- protected:
-  /// A step after `settle` of a robot that has not fallen.
-  virtual void watch(const Observation& observation) = 0;
-
-  bool fallen() const { return fallen_; }
-  const RunContext& context() const { return context_; }
-  const Vector3d& heading() const { return heading_; }
-  /// Along the ground's normal [m]; infinite without ground.
-  double height_over_ground(const Vector3d& point) const {
-    return context_.ground ? -context_.ground->query(point).depth
-                           : std::numeric_limits<double>::infinity();
-  }
-  /// Angle between the base's z and where it was at the start [rad].
-  double tilt(const simulation::BodyState& base) const {
-    const Vector3d z = rotate(base.orientation, Vector3d{0., 0., 1.});
-    return std::atan2(norm(cross(upright_, z)), dot(upright_, z));
-  }
-
- private:
-  const RunContext& context_;
-  Vector3d upright_, heading_;
-  double start_height_;
-  bool fallen_ = false;
-};
+constexpr double least_walk = 1e-3;  // [m]: a ratio to a shorter way is rounding
 
 class Fell : public WalkMetric {
  public:
@@ -100,61 +54,27 @@ class WalkingSpeed : public WalkedDistance {
   }
 };
 
-/// A foot is the boundary point of a chain's last link that is deepest in the ground.
 class FootSlip : public WalkedDistance {
  public:
-  explicit FootSlip(const RunContext& context) : WalkedDistance(context) {
-    simulation::for_each_link(context.robot_spec(), [&](const simulation::TreeLink& at) {
-      if (at.is_last()) feet_.push_back({context.body + at.body, &at.link.body, 0, false, {}, {}});
-    });
-  }
+  using WalkedDistance::WalkedDistance;
   std::optional<double> value() const override {
-    if (fallen() || feet_.empty() || std::abs(distance()) < least_walk) return std::nullopt;
-    return path_ / static_cast<double>(feet_.size()) / std::abs(distance());
+    if (fallen() || inside_.empty() || std::abs(distance()) < least_walk) return std::nullopt;
+    return path_ / static_cast<double>(inside_.size()) / std::abs(distance());
   }
 
  private:
-  struct Foot {
-    std::size_t body;
-    const simulation::BodySpec* spec;
-    std::size_t point;  ///< that was deepest
-    bool inside;
-    Vector3d position{};         ///< where it touched at the last step [m]
-    contact::BallFrame frame{};  ///< how it stood there
-  };
-
   void watch(const Observation& observation) override {
     WalkedDistance::watch(observation);
-    if (!context().ground) return;
-    for (Foot& foot : feet_) follow(foot, observation.world.bodies[foot.body]);
+    inside_.resize(observation.feet.size(), false);
+    for (std::size_t i = 0; i < inside_.size(); ++i) {
+      const FootObservation& foot = observation.feet[i];
+      const bool inside = foot.depth > 0.;
+      if (inside && inside_[i]) path_ += norm(foot.slip);
+      inside_[i] = inside;
+    }
   }
 
-  void follow(Foot& foot, const simulation::BodyState& body) {
-    Foot now = foot;
-    now.inside = false;
-    contact::TilePoint deepest;
-    for (std::size_t i = 0; i < foot.spec->boundary_points.size(); ++i) {
-      const Vector3d p_WP = body.position + rotate(body.orientation, foot.spec->boundary_points[i]);
-      contact::TilePoint tile = context().ground->query(p_WP);
-      const double radius = foot.spec->boundary_radius(i);
-      tile.depth += radius;
-      if (!(tile.depth > 0.) || (now.inside && tile.depth <= deepest.depth)) continue;
-      now.inside = true;
-      now.point = i;
-      now.position = p_WP - radius * tile.normal;
-      now.frame = {body.orientation, tile.normal};
-      deepest = tile;
-    }
-    if (foot.inside && now.inside && foot.point == now.point) {
-      const double radius = foot.spec->boundary_radius(now.point);
-      const Vector3d slip = now.position - foot.position -
-                            contact::rolling_displacement(foot.frame, now.frame, radius);
-      path_ += norm(tangential(slip, deepest.normal));
-    }
-    foot = now;
-  }
-
-  std::vector<Foot> feet_;
+  std::vector<bool> inside_;  ///< each foot, at the step before
   double path_ = 0.;
 };
 

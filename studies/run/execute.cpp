@@ -16,6 +16,7 @@
 #include "simulation/run/energy_watch.h"
 #include "simulation/run/world.h"
 #include "studies/predictions/predictions.h"
+#include "studies/run/stance_ports.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -116,10 +117,13 @@ class PathRecording {
 /// Everything that looks at a run.
 class Watch {
  public:
-  Watch(const Measurement& measurement, const RunContext& context, std::int64_t steps)
-      : measurement_(measurement), context_(context), observer_(context, needs_points()) {
+  Watch(const Measurement& measurement, const RunContext& context, std::int64_t steps,
+        simulation::World& world)
+      : measurement_(measurement), context_(context), observer_(context, needs_points(), needs_feet()) {
     for (const MetricDefinition* metric : measurement.metrics)
       metrics_.push_back(metric->make == nullptr ? nullptr : metric->make(context));
+    if (std::ranges::any_of(measurement.metrics, &MetricDefinition::needs_stance))
+      stance_ = stance_ports(context, world);
     if (measurement.path) path_.emplace(measurement.duration);
     const std::int64_t settle = std::llround(measurement.settle / context.experiment->deltat);
     recordings_.reserve(measurement.signals.size());
@@ -127,7 +131,8 @@ class Watch {
       recordings_.emplace_back(recorded, recorded.signal->since_settle ? settle : 0, steps);
   }
   void observe(const simulation::World& world) {
-    const Observation observation = observer_.observe(world.state(), &world.inputs());
+    Observation observation = observer_.observe(world.state(), &world.inputs());
+    observation.stance = stance_;
     for (const auto& metric : metrics_)
       if (metric) metric->observe(observation);
     for (Recording& recording : recordings_) recording.observe(context_, observation);
@@ -148,6 +153,9 @@ class Watch {
   }
 
  private:
+  bool needs_feet() const {
+    return std::ranges::any_of(measurement_.metrics, &MetricDefinition::needs_feet);
+  }
   bool needs_points() const {
     return std::ranges::any_of(measurement_.metrics, &MetricDefinition::needs_points) ||
            std::ranges::any_of(measurement_.signals, [](const RecordedSignal& recorded) {
@@ -158,6 +166,7 @@ class Watch {
   const RunContext& context_;
   Observer observer_;
   std::vector<std::unique_ptr<Metric>> metrics_;
+  std::vector<const double*> stance_;
   std::vector<Recording> recordings_;
   std::optional<PathRecording> path_;
 };
@@ -191,7 +200,7 @@ std::optional<RunRecord> step_through(const Measurement& measurement, const RunC
   simulation::World world(experiment, std::move(made));
   if (std::ranges::any_of(measurement.metrics, &MetricDefinition::needs_contact_force))
     world.publish_contact_forces();
-  Watch watch(measurement, context, steps);
+  Watch watch(measurement, context, steps, world);
   simulation::EnergyWatch energy(experiment, world, steps);
   StepStatus status;
   watch.observe(world);

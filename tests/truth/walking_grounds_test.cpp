@@ -28,7 +28,7 @@ struct Walk {
 Walk walk(const std::string& scene, const Parameters& parameters, double duration = 6.) {
   const simulation::Experiment experiment = load_scene("scenes/" + scene, parameters);
   const studies::RunContext context = studies::make_context(experiment, settle, duration);
-  studies::Observer observer(context, true);
+  studies::Observer observer(context, true, true);
   std::map<std::string, std::unique_ptr<studies::Metric>> metrics;
   for (const char* name : {"fell", "walking_speed", "foot_slip", "penetration_max", "tilt_max"})
     metrics[name] = studies::find_metric(name)->make(context);

@@ -2,7 +2,9 @@
 // moved over a slope; no engine runs here.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <numbers>
 
@@ -49,17 +51,23 @@ struct Axes {
 
 using Move = std::function<void(const Axes&, WorldState&)>;
 
+/// Which of the two legs are to stand at a step; none: no gait tells.
+using Command = std::function<std::array<double, 2>(std::int64_t step)>;
+
 /// Shows `metric` the states that `move` writes at every step; feet are in the air unless it says
 /// otherwise.
-std::optional<double> measure(std::string_view name, double angle, const Move& move) {
+std::optional<double> measure(std::string_view name, double angle, const Move& move,
+                              const Command& command = {}) {
   const Experiment experiment = walker(angle);
   const RunContext context = make_context(experiment, 1., 3.);
   const auto metric = find_metric(name)->make(context);
-  Observer observer(context, false);
+  Observer observer(context, false, true);
   const Axes axes(context);
   WorldState world;
   world.bodies.resize(3);
   world.joints.resize(2);
+  std::array<double, 2> stands{};
+  const std::array<const double*, 2> stance{stands.data(), stands.data() + 1};
   for (int step = 0; step <= 300; ++step) {
     world.step = step;
     world.time = step * experiment.deltat;
@@ -67,7 +75,10 @@ std::optional<double> measure(std::string_view name, double angle, const Move& m
     for (auto& body : world.bodies) body.orientation = experiment.robots[0].orientation;
     for (std::size_t leg : {1, 2}) world.bodies[leg].position = 0.1 * axes.normal;
     move(axes, world);
-    metric->observe(observer.observe(world));
+    Observation observation = observer.observe(world);
+    if (command) stands = command(step);
+    if (command) observation.stance = stance;
+    metric->observe(observation);
   }
   return metric->value();
 }
@@ -149,6 +160,56 @@ TEST(FootSlip, IsThePathInTheGroundPerWayWalked) {
 TEST(FootSlip, NeedsAWay) {
   EXPECT_FALSE(measure("foot_slip", 0.3, [](const Axes&, WorldState&) {}));
 }
+
+/// Leg 0 is to stand in the first 20 of each 40 steps, leg 1 never.
+std::array<double, 2> stand_and_swing(std::int64_t step) { return {step % 40 < 20 ? 1. : 0., 0.}; }
+
+/// Foot 0 in stance: 1 mm in the ground, but for the steps 5 to 7, 3 mm over it, and step 12, 1 mm
+/// over it. It goes on by 4 mm while it is over it for the first time, by 0.5 mm back at step 10,
+/// and sways sideways by 2 mm and back in steps 14 and 15. In the swing it is in the ground too,
+/// then goes 8 cm on.
+void hop(const Axes& axes, WorldState& world) {
+  stroll(axes, world);
+  const auto at = static_cast<int>(world.step % 40);
+  double depth = 0.001, along = 0.08 * double(world.step / 40), sideways = 0.;
+  if (at >= 5 && at < 8) depth = -0.003;
+  if (at == 12) depth = -0.001;
+  if (at >= 6) along += 0.004;
+  if (at >= 10) along -= 0.0005;
+  if (at == 14) sideways = 0.002;
+  if (at >= 25) depth = -0.02;
+  world.bodies[1].position = -depth * axes.normal + along * axes.along + Vector3d{0., sideways, 0.};
+}
+
+TEST(Stance, LossesLiftSlipAndDepthAreOfWholeStances) {
+  EXPECT_EQ(*measure("hook_losses", 0.3, hop, stand_and_swing), 2.);
+  EXPECT_NEAR(*measure("stance_lift", 0.3, hop, stand_and_swing), 0.003, 1e-12);
+  EXPECT_NEAR(*measure("stance_slip", 0.3, hop, stand_and_swing), 0.0035, 1e-12);
+  EXPECT_NEAR(*measure("stance_depth", 0.3, hop, stand_and_swing), 0.001, 1e-12);
+}
+
+TEST(Stance, AFootThatCarriesForceTouches) {
+  // As a peer holds it: never in the ground, 10 um over it, without force in step 9 of the stance.
+  const auto held = [](const Axes& axes, WorldState& world) {
+    hop(axes, world);
+    world.bodies[1].position = 1e-5 * axes.normal;
+    world.bodies[1].contacts = world.step % 40 == 9 ? 0 : 1;
+  };
+  EXPECT_EQ(*measure("hook_losses", 0.3, held, stand_and_swing), 1.);
+  EXPECT_EQ(*measure("stance_slip", 0.3, held, stand_and_swing), 0.);
+}
+
+TEST(Stance, CountsAStanceWithATouchOnly) {
+  // From 2 s on the foot is over the ground all the time: of five whole stances two are left.
+  const auto over = [](const Axes& axes, WorldState& world) {
+    hop(axes, world);
+    if (world.time >= 2.) world.bodies[1].position = 0.05 * axes.normal;
+  };
+  EXPECT_EQ(*measure("hook_losses", 0.3, over, stand_and_swing), 2.);
+  EXPECT_FALSE(measure("hook_losses", 0.3, stroll, stand_and_swing));
+}
+
+TEST(Stance, NeedsAGait) { EXPECT_FALSE(measure("hook_losses", 0.3, hop)); }
 
 TEST(CostOfTransport, IsTheWorkWhicheverWayPerWeightAndWay) {
   // One joint turns to and fro by 0.01 rad a step against 3 N m: 200 steps after settle, 6 J. The
