@@ -21,5 +21,14 @@ TEST(DocumentedTables, TheCreepOfEveryPeerIsThatOfItsStudy) {
   EXPECT_EQ(std::system(command.c_str()), 0) << work.read("out");
 }
 
+TEST(DocumentedTables, TheWalksOnSevenGroundsAreThoseOfTheirStudy) {
+  const testing::Workplace work;
+  const std::string command = "HOOKPOINT='" HOOKPOINT_BINARY_DIR
+                              "/hookpoint' '" HOOKPOINT_SOURCE_DIR
+                              "/scripts/documented_tables' --check terrains >'" +
+                              (work.folder() / "out").string() + "' 2>&1";
+  EXPECT_EQ(std::system(command.c_str()), 0) << work.read("out");
+}
+
 }  // namespace
 }  // namespace hookpoint
