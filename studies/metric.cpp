@@ -239,6 +239,11 @@ RunContext make_context(const simulation::Experiment& experiment, double settle,
   return context;
 }
 
+double height_over_ground(const RunContext& context, const Vector3d& point) {
+  return context.ground ? -context.ground->query(point).depth
+                        : std::numeric_limits<double>::infinity();
+}
+
 Observer::Observer(const RunContext& context, bool with_points, bool with_feet)
     : context_(context) {
   if (with_feet && context.ground) {
@@ -264,8 +269,13 @@ Observation Observer::observe(const simulation::WorldState& world,
   const simulation::BodyState& body = world.bodies[context_.body];
   if (points_.capacity() > 0) observe_points(world);
   if (!followed_.empty()) observe_feet(world);
-  return {world,   body,   dot(body.position - context_.start, context_.downhill),
-          points_, inputs, feet_};
+  return {world,
+          body,
+          dot(body.position - context_.start, context_.downhill),
+          height_over_ground(context_, body.position),
+          points_,
+          inputs,
+          feet_};
 }
 
 void Observer::observe_feet(const simulation::WorldState& world) {

@@ -68,14 +68,19 @@ struct FootObservation {
 struct Observation {
   const simulation::WorldState& world;
   const simulation::BodyState& body;
-  double displacement = 0.;                  ///< of the body's origin since the start, downhill [m]
-  std::span<const PointObservation> points;  ///< empty unless a metric asked for them
+  double displacement = 0.;  ///< of the body's origin since the start, downhill [m]
+  double height = 0.;  ///< of the body's origin over the ground, along its normal [m]; infinite
+                       ///< without ground
+  std::span<const PointObservation> points;         ///< empty unless a metric asked for them
   const simulation::WorldInputs* inputs = nullptr;  ///< of the step to come, where they are known
   std::span<const FootObservation> feet{};  ///< empty unless a metric asked, or without ground
   /// One a chain, above 0.5 while its leg is to stand; empty unless a metric asked and a gait
   /// tells.
   std::span<const double* const> stance{};
 };
+
+/// Along the ground's normal [m]; infinite without ground.
+double height_over_ground(const RunContext& context, const Vector3d& point);
 
 /// Whether `settle` has come. Half a step before counts: times are multiples of the step, rounded.
 inline bool settled(const RunContext& context, const Observation& observation) {

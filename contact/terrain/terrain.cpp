@@ -1,5 +1,6 @@
 #include "contact/terrain/terrain.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -64,6 +65,7 @@ Terrain::Terrain(TerrainDescription description) : description_(std::move(descri
     origin_y_ = grid->origin_y;
     columns_ = grid->columns - 1;
     rows_ = grid->rows - 1;
+    measure(*grid);
     if (description_.patches.empty()) return;
     tile_materials_.reserve(2 * static_cast<std::size_t>(columns_ * rows_));
     for (double row = 0.; row < rows_; ++row) {
@@ -171,9 +173,37 @@ TilePoint Terrain::query(const Vector3d& point) const {
   return result;
 }
 
+void Terrain::measure(const GridSurface& grid) {
+  highest_ = *std::ranges::max_element(grid.heights);
+  const std::size_t columns = static_cast<std::size_t>(grid.columns);
+  double rise_x = 0., rise_y = 0.;
+  for (std::size_t i = 0; i < grid.heights.size(); ++i) {
+    if ((i + 1) % columns != 0)
+      rise_x = std::max(rise_x, std::abs(grid.heights[i + 1] - grid.heights[i]));
+    if (i + columns < grid.heights.size())
+      rise_y = std::max(rise_y, std::abs(grid.heights[i + columns] - grid.heights[i]));
+  }
+  least_normal_z_ = normal_of(rise_x / description_.spacing, rise_y / description_.spacing).z;
+}
+
+// depth = (h - z) n_z with h <= highest, and 0 < least n_z <= n_z where h < z.
+double Terrain::deepest_over_grid(const Vector3d& center, const Vector3d& reach) const {
+  const double over = center.z - reach.z - highest_;
+  const double s = center.x - origin_x_, t = center.y - origin_y_;
+  const double width = columns_ * description_.spacing, length = rows_ * description_.spacing;
+  const bool within = s >= reach.x && s <= width - reach.x && t >= reach.y && t <= length - reach.y;
+  return over > 0. && within ? -over * least_normal_z_ : std::numeric_limits<double>::infinity();
+}
+
 // The corner that lies deepest is as far below the centre as the normal's part along each edge
 // says.
 double Terrain::deepest(const Vector3d& center, const Matrix3d& R_WB, const Vector3d& half) const {
+  if (std::holds_alternative<GridSurface>(description_.surface))
+    return deepest_over_grid(
+        center,
+        {std::abs(R_WB.xx) * half.x + std::abs(R_WB.xy) * half.y + std::abs(R_WB.xz) * half.z,
+         std::abs(R_WB.yx) * half.x + std::abs(R_WB.yy) * half.y + std::abs(R_WB.yz) * half.z,
+         std::abs(R_WB.zx) * half.x + std::abs(R_WB.zy) * half.y + std::abs(R_WB.zz) * half.z});
   if (!unbounded_x_ || !unbounded_y_) return std::numeric_limits<double>::infinity();
   const TilePoint tile = point_on(plane_of({}, center.x, center.y), center);
   const Vector3d n = transpose_times(R_WB, tile.normal);

@@ -80,8 +80,9 @@ class Terrain {
   TilePoint query(double x, double y, double z) const { return query(Vector3d{x, y, z}); }
 
   /// A depth that no point of a box exceeds but by rounding (under 1 nm within 1000 km): the depth
-  /// of its deepest corner in a plane without edges; infinite for any other terrain, where only
-  /// `query` knows. `center` p_WC [m], `R_WB` the box's axes, `half` half its edges [m]. O(1).
+  /// of its deepest corner in a plane without edges; over a grid, for a box that lies higher than
+  /// all of it, its height over the highest vertex times the least n_z; infinite where only `query`
+  /// knows. `center` p_WC [m], `R_WB` the box's axes, `half` half its edges [m]. O(1).
   double deepest(const Vector3d& center, const Matrix3d& R_WB, const Vector3d& half) const;
 
   /// What to tell the user, once, when a point has left the terrain.
@@ -110,6 +111,10 @@ class Terrain {
   TilePoint point_on(const Plane& plane, const Vector3d& point) const;
   Tile tile_at(double x, double y) const;
   Plane plane_of(const Tile& tile, double x, double y) const;
+  /// Finds what `deepest` asks of a grid.
+  void measure(const GridSurface& grid);
+  /// `reach`: of a box along the world's axes, half [m].
+  double deepest_over_grid(const Vector3d& center, const Vector3d& reach) const;
   int painted_material(const Tile& tile) const;
   int material_of(const Tile& tile) const;
 
@@ -120,6 +125,8 @@ class Terrain {
   double gradient_x_ = 0., gradient_y_ = 0.;  ///< of a plane
   Vector3d normal_;                           ///< of a plane
   std::vector<int> tile_materials_;           ///< of a grid with patches: two a cell, row by row
+  double highest_ = 0.;                       ///< vertex of a grid [m]
+  double least_normal_z_ = 0.;                ///< no tile of a grid has less
 };
 
 }  // namespace hookpoint::contact

@@ -119,7 +119,7 @@ class BodyHeightMin : public WalkMetric {
 
  private:
   void watch(const Observation& observation) override {
-    least_ = std::min(least_, height_over_ground(observation.body.position));
+    least_ = std::min(least_, observation.height);
   }
   double least_ = std::numeric_limits<double>::infinity();
 };

@@ -2,8 +2,6 @@
 #pragma once
 
 #include <cmath>
-#include <limits>
-#include <numbers>
 
 #include "studies/metric.h"
 
@@ -15,18 +13,17 @@ class WalkMetric : public Metric {
   explicit WalkMetric(const RunContext& context)
       : context_(context),
         upright_(rotate(context.robot_spec().orientation, Vector3d{0., 0., 1.})),
-        start_height_(height_over_ground(context.start)) {
+        start_height_(height_over_ground(context, context.start)) {
     const Vector3d x = rotate(context.robot_spec().orientation, Vector3d{1., 0., 0.});
     const Vector3d along = tangential(x, context.normal);
     heading_ = norm(along) > 0. ? (1. / norm(along)) * along : x;
   }
 
   void observe(const Observation& observation) final {
-    constexpr double fallen_share = 0.5;                   // of the height at the start
-    constexpr double fallen_tilt = std::numbers::pi / 3.;  // [rad]
-    fallen_ = fallen_ ||
-              height_over_ground(observation.body.position) < fallen_share * start_height_ ||
-              tilt(observation.body) > fallen_tilt;
+    constexpr double fallen_share = 0.5;   // of the height at the start
+    constexpr double fallen_cosine = 0.5;  // of the tilt: 60 deg
+    fallen_ = fallen_ || observation.height < fallen_share * start_height_ ||
+              dot(upright_, up(observation.body)) < fallen_cosine;
     if (!fallen_ && settled(context_, observation)) watch(observation);
   }
 
@@ -37,18 +34,17 @@ class WalkMetric : public Metric {
   bool fallen() const { return fallen_; }
   const RunContext& context() const { return context_; }
   const Vector3d& heading() const { return heading_; }
-  /// Along the ground's normal [m]; infinite without ground.
-  double height_over_ground(const Vector3d& point) const {
-    return context_.ground ? -context_.ground->query(point).depth
-                           : std::numeric_limits<double>::infinity();
-  }
   /// Angle between the base's z and where it was at the start [rad].
   double tilt(const simulation::BodyState& base) const {
-    const Vector3d z = rotate(base.orientation, Vector3d{0., 0., 1.});
+    const Vector3d z = up(base);
     return std::atan2(norm(cross(upright_, z)), dot(upright_, z));
   }
 
  private:
+  static Vector3d up(const simulation::BodyState& base) {
+    return rotate(base.orientation, Vector3d{0., 0., 1.});
+  }
+
   const RunContext& context_;
   Vector3d upright_, heading_;
   double start_height_;

@@ -30,6 +30,43 @@ GridSurface random_grid(int columns, int rows) {
   return grid;
 }
 
+/// A box that `deepest` bounds has no point deeper than it says, by a search over its corners and
+/// faces; and a box over all of the grid is bounded.
+TEST(Terrain, NoPointOfABoxOverAGridIsDeeperThanSaid) {
+  TerrainDescription description;
+  description.surface = random_grid(9, 7);
+  description.spacing = 0.25;
+  const Terrain ground(description);
+  std::mt19937 generator(11);
+  std::uniform_real_distribution<double> unit(-1., 1.);
+  int bounded = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const Vector3d center{-0.3 + 1.3 * unit(generator), 1.15 + 1. * unit(generator),
+                          0.5 + 0.4 * unit(generator)};
+    const Quaterniond turn =
+        exponential(Vector3d{3. * unit(generator), 3. * unit(generator), 3. * unit(generator)});
+    const Vector3d half{0.12, 0.05, 0.08};
+    const double bound = ground.deepest(center, rotation_matrix(turn), half);
+    if (std::isinf(bound)) continue;
+    ++bounded;
+    EXPECT_LT(bound, 0.);
+    for (int corner = 0; corner < 27; ++corner) {
+      const Vector3d share{corner % 3 - 1., corner / 3 % 3 - 1., corner / 9 - 1.};
+      const Vector3d point =
+          center + rotate(turn, Vector3d{share.x * half.x, share.y * half.y, share.z * half.z});
+      const TilePoint tile = ground.query(point);
+      EXPECT_LE(tile.depth, bound + 1e-12);
+      EXPECT_FALSE(tile.outside);
+    }
+  }
+  EXPECT_GT(bounded, 500);
+  const Matrix3d level = Matrix3d::identity();
+  EXPECT_TRUE(std::isinf(ground.deepest({-0.3, 1.1, 0.3}, level, {0.1, 0.1, 0.1})))
+      << "in reach of the highest vertex";
+  EXPECT_TRUE(std::isinf(ground.deepest({-1.25, 1.1, 3.}, level, {0.1, 0.1, 0.1})))
+      << "over the edge, where the edge's plane goes on";
+}
+
 TEST(Terrain, DepthIsAlongTheNormalOfAPlane) {
   const Terrain flat(TerrainDescription{FlatSurface{0.25}, 1., 0., 0., 0, {}});
   EXPECT_EQ(flat.query(3., -700., 0.2).normal, (Vector3d{0., 0., 1.}));
