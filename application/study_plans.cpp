@@ -32,12 +32,19 @@ std::optional<std::vector<studies::StudyPlan>> plan_studies(Application& applica
   return plans;
 }
 
+/// One a core unless it was said.
+int threads(const StudyArguments& arguments) {
+  return arguments.jobs > 0 ? arguments.jobs
+                            : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+}
+
 studies::PlanOptions plan_options(const StudyArguments& arguments,
                                   const std::vector<std::string>& only) {
   studies::PlanOptions options{arguments.quick, only, {}};
   for (const std::string& setting : arguments.settings.trails)
     options.settings.trails.push_back(override_from(setting));
   options.settings.world = arguments.settings.world;
+  options.jobs = threads(arguments);
   return options;
 }
 
@@ -145,23 +152,6 @@ std::optional<MatrixPlan> plan_matrix(Application& application, const language::
   return plan;
 }
 
-/// How Slurm was asked, as options again.
-std::string slurm_words(const studies::SlurmSettings& settings) {
-  std::string words = " --slurm";
-  const auto add = [&words](const char* option, const std::string& value) {
-    if (!value.empty()) words += std::string(" ") + option + " " + shell_word(value);
-  };
-  const auto count = [](std::size_t number) {
-    return number > 0 ? std::to_string(number) : std::string();
-  };
-  add("--partition", settings.partition);
-  add("--account", settings.account);
-  add("--time", settings.time);
-  add("--chunk", count(settings.chunk));
-  add("--array-limit", count(settings.array_limit));
-  return words;
-}
-
 }  // namespace
 
 std::string shell_word(const std::string& text) {
@@ -245,9 +235,7 @@ std::string nothing_to_study(const std::filesystem::path& file) {
 studies::RunOptions run_options(const StudyArguments& arguments,
                                 const std::filesystem::path& folder) {
   studies::RunOptions options;
-  options.jobs = arguments.jobs > 0
-                     ? arguments.jobs
-                     : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  options.jobs = threads(arguments);
   options.resume = arguments.resume;
   options.folder = folder;
   return options;
@@ -260,6 +248,24 @@ std::shared_ptr<studies::RunStore> shared_store(const StudyArguments& arguments,
                                              arguments.resume);
 }
 
+std::string slurm_words(const StudyArguments& arguments) {
+  if (!arguments.slurm) return "";
+  const studies::SlurmSettings& settings = arguments.slurm_settings;
+  std::string words = " --slurm";
+  const auto add = [&words](const char* option, const std::string& value) {
+    if (!value.empty()) words += std::string(" ") + option + " " + shell_word(value);
+  };
+  const auto count = [](std::size_t number) {
+    return number > 0 ? std::to_string(number) : std::string();
+  };
+  add("--partition", settings.partition);
+  add("--account", settings.account);
+  add("--time", settings.time);
+  add("--chunk", count(settings.chunk));
+  add("--array-limit", count(settings.array_limit));
+  return words;
+}
+
 std::string rerun_command(const StudyArguments& arguments) {
   std::string command = "hookpoint study " + shell_word(arguments.file.string());
   for (const std::string& setting : arguments.settings.trails)
@@ -270,8 +276,7 @@ std::string rerun_command(const StudyArguments& arguments) {
   if (arguments.quick) command += " --quick";
   for (const std::string& subject : arguments.only) command += " --only " + shell_word(subject);
   if (arguments.allow_plugins) command += " --allow-plugins";
-  if (arguments.slurm) command += slurm_words(arguments.slurm_settings);
-  return command;
+  return command + slurm_words(arguments);
 }
 
 }  // namespace hookpoint::application

@@ -78,6 +78,9 @@ std::shared_ptr<studies::RunStore> shared_store(const StudyArguments& arguments,
 /// `text` as one word of a shell's command.
 std::string shell_word(const std::string& text);
 
+/// How Slurm was asked, as options again, after a space; "" where it was not.
+std::string slurm_words(const StudyArguments& arguments);
+
 /// "hookpoint study FILE ..." as it was called.
 std::string rerun_command(const StudyArguments& arguments);
 

@@ -35,7 +35,7 @@ std::string tune_command(const StudyArguments& arguments) {
     command += " --set " + shell_word(setting);
   if (arguments.quick) command += " --quick";
   if (arguments.allow_plugins) command += " --allow-plugins";
-  return command;
+  return command + slurm_words(arguments);
 }
 
 std::vector<std::string> write_tuning(const studies::TuneRun& run, const studies::TunePlan& plan,

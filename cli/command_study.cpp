@@ -1,14 +1,13 @@
 #include <algorithm>
-#include <exception>
 #include <iostream>
 #include <memory>
 
+#include "cli/cluster_runs.h"
 #include "cli/commands.h"
 #include "cli/exit_status.h"
 #include "cli/keeping_runs.h"
 #include "cli/open_browser.h"
 #include "cli/study_runs.h"
-#include "studies/cluster/slurm.h"
 
 namespace hookpoint::cli {
 namespace {
@@ -40,24 +39,13 @@ int run_all_viewed(StudyCommand command, const ViewArguments& arguments) {
   return view->serve([&] { return run_all(command); }, command.guard);
 }
 
-int fail(const std::exception& error, int status) {
-  application::print_error(error.what());
-  return status;
-}
-
 }  // namespace
 
 int study(const application::StudyArguments& asked, const std::optional<ViewArguments>& view) {
   application::Application application(asked.allow_plugins);
   application::StudyArguments arguments = asked;
   arguments.file = application.locate(asked.file);
-  if (arguments.slurm) {
-    if (const auto problem = studies::problem_of(arguments.slurm_settings)) {
-      application::print_error(*problem);
-      return wrong_input;
-    }
-    if (!arguments.dry_run) studies::need_slurm();
-  }
+  if (const auto refusal = slurm_refusal(arguments)) return *refusal;
   const auto file = application::plan_study_file(application, arguments);
   if (!file) return wrong_input;
   if (file->size() == 0) {
@@ -68,18 +56,12 @@ int study(const application::StudyArguments& asked, const std::optional<ViewArgu
   StudyCommand command{application.engines(), arguments, *file,
                        application::rerun_command(arguments), guard};
   if (arguments.dry_run) return print_slurm_scripts(command);
-  try {
+  return making_runs_away([&] {
     return keeping_runs([&] {
       command.store = application::shared_store(arguments, *file);
       return view ? run_all_viewed(command, *view) : run_all(command);
     });
-  } catch (const studies::SlurmError& error) {
-    return fail(error, truth_failed);
-  } catch (const studies::SlurmRefusal& error) {
-    return fail(error, wrong_input);
-  } catch (const studies::ChangedInput& error) {
-    return fail(error, wrong_input);
-  }
+  });
 }
 
 }  // namespace hookpoint::cli

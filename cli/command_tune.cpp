@@ -7,6 +7,7 @@
 #include "application/application.h"
 #include "application/study_plans.h"
 #include "application/tune_plans.h"
+#include "cli/cluster_runs.h"
 #include "cli/commands.h"
 #include "cli/exit_status.h"
 #include "cli/interrupt.h"
@@ -34,6 +35,17 @@ std::filesystem::path folder_for(const application::StudyArguments& arguments,
   return several ? *arguments.out / plan.label : *arguments.out;
 }
 
+void tell(const std::string& notice) { std::cerr << "hookpoint: note: " << notice << '\n'; }
+
+/// --dry-run: the script of a generation's job, of each plan.
+int print_tune_scripts(const application::StudyArguments& arguments,
+                       const std::vector<studies::TunePlan>& plans) {
+  for (const studies::TunePlan& plan : plans)
+    print_slurm_script(arguments, plan.label, folder_for(arguments, plan, plans.size() > 1),
+                       plan.runs_of_a_generation());
+  return fine;
+}
+
 int tune_one(const application::Application& application,
              const application::StudyArguments& arguments, const studies::TunePlan& plan,
              bool several, const InterruptGuard& guard) {
@@ -48,9 +60,9 @@ int tune_one(const application::Application& application,
   {
     RunBar bar(plan.label);
     studies::TuneOptions options{bar.watch(application::run_options(arguments, folder)), {}};
-    options.run.tell = [](const std::string& notice) {
-      std::cerr << "hookpoint: note: " << notice << '\n';
-    };
+    options.run.tell = tell;
+    const auto remote = remote_runs(arguments, plan.label, folder, tell);
+    options.run.remote = remote.get();
     options.generation = [&bar](const studies::GenerationReport& report) {
       bar.message(generation_text(report));
     };
@@ -77,6 +89,7 @@ int tune(const application::StudyArguments& asked) {
   application::Application application(asked.allow_plugins);
   application::StudyArguments arguments = asked;
   arguments.file = application.locate(asked.file);
+  if (const auto refusal = slurm_refusal(arguments)) return *refusal;
   const auto root = application.evaluate_set(arguments.file, arguments.settings);
   if (!root) return wrong_input;
   if (!application::holds_tune(*root)) {
@@ -86,14 +99,17 @@ int tune(const application::StudyArguments& asked) {
   }
   const auto plans = application::plan_tune_file(application, *root, arguments);
   if (!plans) return wrong_input;
+  if (arguments.dry_run) return print_tune_scripts(arguments, *plans);
   const InterruptGuard guard;
-  return keeping_runs([&] {
-    int status = fine;
-    for (const studies::TunePlan& plan : *plans) {
-      status = std::max(status, tune_one(application, arguments, plan, plans->size() > 1, guard));
-      if (guard.stop()) break;
-    }
-    return status;
+  return making_runs_away([&] {
+    return keeping_runs([&] {
+      int status = fine;
+      for (const studies::TunePlan& plan : *plans) {
+        status = std::max(status, tune_one(application, arguments, plan, plans->size() > 1, guard));
+        if (guard.stop()) break;
+      }
+      return status;
+    });
   });
 }
 

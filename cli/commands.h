@@ -75,7 +75,7 @@ struct RunsArguments {
   std::filesystem::path list, journal;
   int jobs = 1;
 };
-/// runs: those of a list that study --slurm wrote, into a journal.
+/// runs: those of a list that --slurm wrote, into a journal.
 int runs(const RunsArguments& arguments);
 /// tune: the Tune blocks of a file.
 int tune(const application::StudyArguments& arguments);

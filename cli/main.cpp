@@ -215,13 +215,13 @@ std::function<std::string(const std::string&)> is_count(const std::string& optio
   };
 }
 
-/// What makes a study the front end of a cluster.
-void add_slurm(CLI::App* study_app, application::StudyArguments& arguments) {
-  CLI::Option* slurm = study_app->add_flag(
+/// What makes a command the front end of a cluster.
+void add_slurm(CLI::App* command, application::StudyArguments& arguments) {
+  CLI::Option* slurm = command->add_flag(
       "--slurm", arguments.slurm, "the runs are made by a job array of Slurm (docs/clusters.md)");
   studies::SlurmSettings& settings = arguments.slurm_settings;
   const auto add = [&](const char* option, auto& value, const char* doc, const char* type) {
-    return study_app->add_option(option, value, doc)->type_name(type)->needs(slurm);
+    return command->add_option(option, value, doc)->type_name(type)->needs(slurm);
   };
   add("--partition", settings.partition, "of the cluster (default: its own)", "NAME");
   add("--account", settings.account, "that pays for it (default: your own)", "NAME");
@@ -231,10 +231,37 @@ void add_slurm(CLI::App* study_app, application::StudyArguments& arguments) {
   add("--array-limit", settings.array_limit, "tasks at a time (default: as many as there is room)",
       "N")
       ->check(is_count("--array-limit", 6));
-  study_app
+  command
       ->add_flag("--dry-run", arguments.dry_run,
                  "print the script that would be submitted, no more")
       ->needs(slurm);
+}
+
+void add_jobs(CLI::App* command, int& jobs) {
+  command->add_option("--jobs", jobs, "threads (default: one a core)")
+      ->type_name("N")
+      ->check(is_count("--jobs", 4));
+}
+
+/// In what the help of commands that make many runs differs.
+struct ManyRunsText {
+  std::string block, folder, quick, resume;
+};
+
+/// What `study` and `tune` have in common.
+void add_many_runs(CLI::App* command, application::StudyArguments& arguments,
+                   const ManyRunsText& text) {
+  command->add_option("FILE", arguments.file, "a .hook file with " + text.block)->required();
+  add_trails(command, arguments.settings);
+  add_plugins(command, arguments.allow_plugins);
+  command
+      ->add_option("--out", arguments.out,
+                   "folder of the results (default: runs/" + text.folder + "-HASH)")
+      ->type_name("DIR");
+  add_jobs(command, arguments.jobs);
+  command->add_flag("--quick", arguments.quick, text.quick);
+  command->add_flag("--resume", arguments.resume, text.resume);
+  add_slurm(command, arguments);
 }
 
 /// What `run` and `view` have in common.
@@ -268,18 +295,6 @@ void add_view(CLI::App& app, Request& request) {
   add_subjects(view_app, request.run.view);
 }
 
-void add_jobs(CLI::App* command, int& jobs) {
-  command->add_option("--jobs", jobs, "threads (default: one a core)")
-      ->type_name("N")
-      ->check([](const std::string& text) {
-        const bool digits =
-            !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
-        return digits && text.size() < 5 && text.find_first_not_of('0') != std::string::npos
-                   ? std::string()
-                   : "--jobs takes a whole number from 1 to 9999, not `" + text + "`";
-      });
-}
-
 void add_run_and_study(CLI::App& app, Request& request) {
   CLI::App* run_app =
       add_command(app, request, "run", "run a world", [&] { return run(request.run); });
@@ -298,19 +313,11 @@ void add_run_and_study(CLI::App& app, Request& request) {
     return study(request.study,
                  request.run.viewed ? std::optional(request.run.view) : std::nullopt);
   });
-  study_app->add_option("FILE", request.study.file, "a .hook file with a Study")->required();
-  add_trails(study_app, request.study.settings);
+  add_many_runs(study_app, request.study,
+                {"a Study", "STUDY", "the reduced size that continuous integration runs",
+                 "run only the rows that an interrupted study lacks"});
   for (const application::ShortForm& form : application::short_forms)
     if (form.in_studies) add_short_form(study_app, request.study.settings, form);
-  add_plugins(study_app, request.study.allow_plugins);
-  study_app
-      ->add_option("--out", request.study.out, "folder of the results (default: runs/STUDY-HASH)")
-      ->type_name("DIR");
-  add_jobs(study_app, request.study.jobs);
-  study_app->add_flag("--quick", request.study.quick,
-                      "the reduced size that continuous integration runs");
-  study_app->add_flag("--resume", request.study.resume,
-                      "run only the rows that an interrupted study lacks");
   study_app->add_option("--only", request.study.only, "run only this subject (may be repeated)")
       ->type_name("SUBJECT")
       ->expected(1)
@@ -318,8 +325,7 @@ void add_run_and_study(CLI::App& app, Request& request) {
   study_app->add_flag("--view", request.run.viewed,
                       "in a browser, where table and figures fill meanwhile");
   add_serving(study_app, request.run.view);
-  add_slurm(study_app, request.study);
-  CLI::App* runs_app = add_command(app, request, "runs", "what a task of `study --slurm` does",
+  CLI::App* runs_app = add_command(app, request, "runs", "what a task of --slurm does",
                                    [&] { return runs(request.runs); });
   runs_app->add_option("LIST", request.runs.list, "the task's list of runs")->required();
   runs_app->add_option("--journal", request.runs.journal, "where the runs go")
@@ -334,18 +340,11 @@ void add_tune(CLI::App& app, Request& request) {
   CLI::App* tune_app =
       add_command(app, request, "tune", "search constants for what a file's Tune blocks ask",
                   [&] { return tune(request.study); });
-  tune_app->add_option("FILE", request.study.file, "a .hook file with a Tune")->required();
-  add_trails(tune_app, request.study.settings);
-  add_plugins(tune_app, request.study.allow_plugins);
-  tune_app
-      ->add_option("--out", request.study.out, "folder of the results (default: runs/TUNE-HASH)")
-      ->type_name("DIR");
-  add_jobs(tune_app, request.study.jobs);
-  tune_app->add_flag("--quick", request.study.quick,
-                     "8 candidates a generation, 3 generations, 2 seeds, a fifth of the duration, "
-                     "no Sobol indices");
-  tune_app->add_flag("--resume", request.study.resume,
-                     "go on with what an interrupted tuning has finished");
+  add_many_runs(tune_app, request.study,
+                {"a Tune", "TUNE",
+                 "8 candidates a generation, 3 generations, 2 seeds, a fifth of the duration, no "
+                 "Sobol indices",
+                 "go on with what an interrupted tuning has finished"});
 }
 
 /// What the short forms take, as the language has it.

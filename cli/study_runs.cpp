@@ -4,17 +4,16 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <iostream>
 
 #include "application/study_reports.h"
+#include "cli/cluster_runs.h"
 #include "cli/exit_status.h"
 #include "cli/run_bar.h"
 #include "cli/scene_picture.h"
 #include "output/file.h"
 #include "output/result_folder.h"
 #include "output/text/terminal.h"
-#include "studies/cluster/slurm.h"
 #include "studies/compare/wall_report.h"
 #include "studies/report/terminal_table.h"
 #include "studies/run/results_csv.h"
@@ -86,33 +85,11 @@ void print_result(const StudyCommand& command, const std::string& table, const c
 
 void tell(const std::string& notice) { std::cerr << "hookpoint: note: " << notice << '\n'; }
 
-/// How Slurm is asked for the runs of a study whose results go to `folder`.
-studies::SlurmRuns::Options slurm_options(const StudyCommand& command,
-                                          const studies::StudyPlan& plan,
-                                          const std::filesystem::path& folder) {
-  const char* search_path = std::getenv("HOOKPOINT_PATH");
-  studies::SlurmRuns::Options options{
-      command.arguments.slurm_settings,
-      {plan.name, std::filesystem::read_symlink("/proc/self/exe"), std::filesystem::current_path(),
-       search_path == nullptr ? "" : search_path},
-      std::filesystem::absolute(folder / studies::cluster_folder).lexically_normal(),
-      command.arguments.allow_plugins,
-      command.arguments.resume,
-      tell};
-  options.settings.jobs = std::max(1, command.arguments.jobs);
-  return options;
-}
-
-void print_slurm_script(const StudyCommand& command, const studies::StudyPlan& plan,
-                        const std::filesystem::path& folder) {
+void print_script_of(const StudyCommand& command, const studies::StudyPlan& plan,
+                     const std::filesystem::path& folder) {
   const std::size_t runs = studies::remote_runs(plan, command.engines);
   if (runs == 0) return tell(plan.name + " has no run for a cluster");
-  studies::SlurmRuns::Options options = slurm_options(command, plan, folder);
-  const std::filesystem::path of_job = options.folder / studies::task_number(0);
-  options.place.name = studies::job_name(plan.name, of_job);
-  const std::size_t chunk = studies::runs_of_a_task(runs, options.settings);
-  std::cout << studies::slurm_script(options.settings, options.place, of_job,
-                                     (runs + chunk - 1) / chunk);
+  print_slurm_script(command.arguments, plan.name, folder, runs);
 }
 
 constexpr const char* picture_of_scene = "pictures/scene.png";
@@ -133,14 +110,6 @@ void draw_picture(const StudyCommand& command, const studies::StudyPlan& plan,
     tell("the report has no picture of the scene: " + problem);
 }
 
-/// Who makes the runs on a cluster; null where they are made here.
-std::unique_ptr<studies::RemoteRuns> remote_runs(const StudyCommand& command,
-                                                 const studies::StudyPlan& plan,
-                                                 const std::filesystem::path& folder) {
-  if (!command.arguments.slurm) return nullptr;
-  return std::make_unique<studies::SlurmRuns>(slurm_options(command, plan, folder));
-}
-
 /// A study that ran.
 struct StudyOutcome {
   int status = fine;
@@ -155,7 +124,7 @@ StudyOutcome run_into(const StudyCommand& command, const studies::StudyPlan& pla
   studies::RunOptions options = watched(command, plan, bar, folder);
   options.tell = tell;
   options.store = store;
-  const auto remote = remote_runs(command, plan, folder);
+  const auto remote = remote_runs(command.arguments, plan.name, folder, tell);
   options.remote = remote.get();
   studies::StudyRun run = studies::run_study(plan, command.engines, options, command.guard.stop());
   bar.end();
@@ -197,10 +166,10 @@ int run_matrix_into(const StudyCommand& command, const application::MatrixPlan& 
 
 int print_slurm_scripts(const StudyCommand& command) {
   for (const studies::StudyPlan& plan : command.file.studies)
-    print_slurm_script(command, plan, command.folder(plan));
+    print_script_of(command, plan, command.folder(plan));
   for (const application::MatrixPlan& matrix : command.file.matrices)
     for (const application::MatrixPart& part : matrix.parts)
-      print_slurm_script(command, part.plan, command.folder(matrix) / part.plan.name);
+      print_script_of(command, part.plan, command.folder(matrix) / part.plan.name);
   return fine;
 }
 

@@ -1,4 +1,4 @@
-#include "studies/run/workers.h"
+#include "studies/workers.h"
 
 #include <algorithm>
 #include <atomic>

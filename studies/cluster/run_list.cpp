@@ -17,12 +17,22 @@ void write_pair(output::JsonWriter& json, const std::string& name, const std::st
   json.begin_array().value(name).value(value).end_array();
 }
 
+void write_parameters(output::JsonWriter& json, const char* key,
+                      const std::map<std::string, std::string>& parameters) {
+  json.key(key).begin_array();
+  for (const auto& [name, value] : parameters) write_pair(json, name, value);
+  json.end_array();
+}
+
 void write_run(output::JsonWriter& json, const RunRequest& run) {
   json.begin_object().member("name", run.name).member("identity", run.identity);
   json.member("scene", std::filesystem::absolute(run.scene.file).string());
-  json.key("parameters").begin_array();
-  for (const auto& [name, value] : run.scene.options.parameters) write_pair(json, name, value);
-  json.end_array().key("overrides").begin_array();
+  write_parameters(json, "parameters", run.scene.options.parameters);
+  if (run.scene.ground) {
+    json.member("ground", std::filesystem::absolute(run.scene.ground->file).string());
+    write_parameters(json, "ground_parameters", run.scene.ground->parameters);
+  }
+  json.key("overrides").begin_array();
   for (const language::Override& set : run.scene.options.overrides)
     write_pair(json, set.trail, set.value);
   json.end_array();
@@ -51,7 +61,11 @@ class RunReader {
     else if (kind == "scene")
       run_.scene.file = value;
     else if (kind == "parameters")
-      return read_parameter(second, value);
+      return read_parameter(run_.scene.options.parameters, second, value);
+    else if (kind == "ground")
+      run_.scene.ground = {value, {}};
+    else if (kind == "ground_parameters" && run_.scene.ground)
+      return read_parameter(run_.scene.ground->parameters, second, value);
     else if (kind == "overrides")
       return read_override(second, value);
     else if (kind == "settle")
@@ -70,9 +84,10 @@ class RunReader {
   }
 
  private:
-  bool read_parameter(bool second, const std::string& value) {
+  bool read_parameter(std::map<std::string, std::string>& parameters, bool second,
+                      const std::string& value) {
     if (second)
-      run_.scene.options.parameters[parameter_] = value;
+      parameters[parameter_] = value;
     else
       parameter_ = value;
     return true;

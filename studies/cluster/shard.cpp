@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "simulation/identity.h"
-#include "studies/run/workers.h"
+#include "studies/workers.h"
 
 namespace hookpoint::studies {
 namespace {

@@ -77,7 +77,7 @@ SlurmRuns::~SlurmRuns() = default;
 
 bool SlurmRuns::run(std::size_t count, const Request& request, const Done& done,
                     const std::atomic<bool>& stop) {
-  for (std::size_t i = 0; i < count; ++i) wanted_[request(i).identity] = i;
+  for (std::size_t i = 0; i < count; ++i) wanted_[request(i).identity].push_back(i);
   if (options_.resume)
     take_up_earlier(done);
   else
@@ -166,8 +166,8 @@ void SlurmRuns::make_job(const Request& request) {
   for (const Job& job : jobs_)
     for (const Task& task : job.tasks) coming.insert(task.missing.begin(), task.missing.end());
   std::vector<std::size_t> left;
-  for (const auto& [identity, index] : wanted_)
-    if (!coming.contains(identity)) left.push_back(index);
+  for (const auto& [identity, indices] : wanted_)
+    if (!coming.contains(identity)) left.push_back(indices.front());
   if (left.empty()) return;
   std::ranges::sort(left);
   std::size_t number = 0;
@@ -222,9 +222,9 @@ void SlurmRuns::submit(Job& job, const std::string& array) {
 void SlurmRuns::hand_on(std::pair<std::string, RunRecord> entry, const Done& done) {
   const auto place = wanted_.find(entry.first);
   if (place == wanted_.end()) return;
-  const std::size_t index = place->second;
+  const std::vector<std::size_t> indices = std::move(place->second);
   wanted_.erase(place);
-  done(index, std::move(entry.second));
+  for (const std::size_t index : indices) done(index, entry.second);
 }
 
 void SlurmRuns::read_journals(Job& job, const Done& done) {

@@ -80,7 +80,8 @@ class SlurmRuns : public RemoteRuns {
   void hand_on(std::pair<std::string, RunRecord> entry, const Done& done);
 
   Options options_;
-  std::map<std::string, std::size_t> wanted_;  ///< identities that are not there yet
+  /// Identities that are not there yet, and whose they are.
+  std::map<std::string, std::vector<std::size_t>> wanted_;
   std::vector<Job> jobs_;
   bool controller_silent_ = false;
 };

@@ -17,6 +17,7 @@
 #include "studies/plan/plan_parts.h"
 #include "studies/plan/scene_settings.h"
 #include "studies/plan/step_warning.h"
+#include "studies/workers.h"
 
 namespace hookpoint::studies {
 
@@ -103,72 +104,81 @@ std::filesystem::path folder_of(const std::string& name, const std::string& hash
 
 namespace {
 
-/// Evaluates and loads the scene of each row. The same warning in many rows is told once.
+/// A row's scene as it was loaded, and what there is to say about it.
+struct LoadedRow {
+  std::optional<LoadedScene> scene;
+  Diagnostics found;
+  std::string refusal;                 ///< why its engine cannot run it; "": it can
+  std::optional<std::string> warning;  ///< of its step
+};
+
+/// Evaluates and loads the scene of each row, in three parts: `prepare` and `accept` one row after
+/// the other, `load` from any thread. The same warning in many rows is told once.
 class SceneLoader {
  public:
   SceneLoader(language::Library& library, std::filesystem::path scene, Diagnostics& diagnostics)
       : library_(library), scene_(std::move(scene)), diagnostics_(diagnostics) {}
 
-  /// What `row` runs, whose scene and engine are set; nothing when the scene cannot be loaded so.
-  std::optional<LoadedScene> load(const StudyPlan& plan, const Object& study, RowPlan& row) {
+  /// Sets the scene of `row`; false after an error.
+  bool prepare(const StudyPlan& plan, const Object& study, RowPlan& row) {
     const SubjectPlan& subject = plan.subjects[static_cast<std::size_t>(row.subject)];
     language::EvaluateOptions options;
-    std::string where = "with subject = " + subject.info.name;
     for (const Assignment& fix : fixes) options.parameters[fix.parameter] = fix.text;
     for (const Assignment& fix : subject.fixes) options.parameters[fix.parameter] = fix.text;
     for (std::size_t i = 0; i < plan.sweeps.size(); ++i) {
       const SweepPlan& sweep = plan.sweeps[i];
-      const std::string& text = sweep.texts[static_cast<std::size_t>(row.values[i])];
-      options.parameters[sweep.column.name] = text;
-      where += fmt::format(", {} = {}", sweep.column.name, text);
+      options.parameters[sweep.column.name] = sweep.texts[static_cast<std::size_t>(row.values[i])];
     }
-    if (!find_world(options)) return std::nullopt;
+    if (!find_world(options)) return false;
     for (const language::Override& setting : taken_) {
       if (const auto problem = problem_of(setting, plan, subject)) {
         diagnostics_.error(study.position, *problem);
-        return std::nullopt;
+        return false;
       }
     }
     if (const language::Override* decided = decided_by_study(options.parameters)) {
       diagnostics_.error(study.position, decided_already(*decided));
-      return std::nullopt;
+      return false;
     }
-    const SubjectScenes& scenes = scenes_of(row.subject, subject);
-    row.scene = scenes.whole;
-    Diagnostics found;
-    if (auto loaded = load_scene(library_, plan.scene_of(row), found)) {
-      forward(found, study, where);
-      row.engine = loaded->experiment.engine;
+    row.scene = scenes_of(row.subject, subject).whole;
+    return true;
+  }
+
+  LoadedRow load(const StudyPlan& plan, const RowPlan& row) const {
+    const SubjectPlan& subject = plan.subjects[static_cast<std::size_t>(row.subject)];
+    LoadedRow loaded;
+    loaded.scene = load_scene(library_, plan.scene_of(row), loaded.found);
+    if (loaded.scene) {
+      simulation::Experiment& experiment = loaded.scene->experiment;
+      experiment.duration = plan.duration;
+      if (!stepped_.contains({subject.info.name, experiment.deltat}))
+        loaded.warning = step_warning(experiment);
       return loaded;
     }
-    row.scene = scenes.under_ours;
+    if (subject.engine.empty() || subject.engine == "dts") return loaded;
+    RowPlan ours = row;
+    ours.scene = scenes_.at(row.subject).under_ours;
     Diagnostics untold;
-    const bool peer = !subject.engine.empty() && subject.engine != "dts";
-    auto loaded = peer ? load_scene(library_, plan.scene_of(row), untold) : std::nullopt;
-    if (!loaded) {
-      forward(found, study, where);
-      return std::nullopt;
-    }
-    row.refusal = first_error(found);
-    row.engine = subject.engine;
-    loaded->experiment.engine = subject.engine;
-    loaded->experiment.settings = subject.settings;
-    loaded->printed += subject.engine + row.refusal;
+    loaded.scene = load_scene(library_, plan.scene_of(ours), untold);
+    if (!loaded.scene) return loaded;
+    loaded.refusal = first_error(loaded.found);
+    loaded.scene->experiment.duration = plan.duration;
+    loaded.scene->experiment.engine = subject.engine;
+    loaded.scene->experiment.settings = subject.settings;
+    loaded.scene->printed += subject.engine + loaded.refusal;
     return loaded;
   }
 
-  /// Warns of a step above the stability bound, once for each subject and step.
-  void warn_of_step(StudyPlan& plan, const Object& study, int subject_index,
-                    const simulation::Experiment& experiment) {
-    const std::string& subject = plan.subjects[static_cast<std::size_t>(subject_index)].info.name;
-    const std::pair<std::string, double> run{subject, experiment.deltat};
-    if (stepped_.contains(run)) return;
-    const std::optional<std::string> what = step_warning(experiment);
-    if (!what) return;
-    stepped_.insert(run);
-    diagnostics_.warning(study.position, *what);
-    diagnostics_.note(study.position, "with subject = " + subject);
-    plan.warnings.push_back(subject + ": " + *what);
+  /// Tells what there is to say and completes the row; false after an error.
+  bool accept(StudyPlan& plan, const Object& study, const LoadedRow& loaded, RowPlan& row) {
+    if (!loaded.scene || loaded.refusal.empty()) forward(loaded.found, study, place_of(plan, row));
+    if (!loaded.scene) return false;
+    if (!loaded.refusal.empty()) row.scene = scenes_.at(row.subject).under_ours;
+    row.refusal = loaded.refusal;
+    row.engine = loaded.scene->experiment.engine;
+    row.deltat = loaded.scene->experiment.deltat;
+    if (loaded.warning) warn_of_step(plan, study, row, *loaded.warning);
+    return true;
   }
 
   std::vector<Assignment> fixes;        ///< the study's own
@@ -177,6 +187,26 @@ class SceneLoader {
   std::vector<std::string> settable;    ///< names at the scene's top
 
  private:
+  /// Warns of a step above the stability bound, once for each subject and step.
+  void warn_of_step(StudyPlan& plan, const Object& study, const RowPlan& row,
+                    const std::string& what) {
+    const std::string& subject = plan.subjects[static_cast<std::size_t>(row.subject)].info.name;
+    if (!stepped_.insert({subject, row.deltat}).second) return;
+    diagnostics_.warning(study.position, what);
+    diagnostics_.note(study.position, "with subject = " + subject);
+    plan.warnings.push_back(subject + ": " + what);
+  }
+
+  /// "with subject = ours, slope = 10 deg"
+  static std::string place_of(const StudyPlan& plan, const RowPlan& row) {
+    std::string where =
+        "with subject = " + plan.subjects[static_cast<std::size_t>(row.subject)].info.name;
+    for (std::size_t i = 0; i < plan.sweeps.size(); ++i)
+      where += fmt::format(", {} = {}", plan.sweeps[i].column.name,
+                           plan.sweeps[i].texts[static_cast<std::size_t>(row.values[i])]);
+    return where;
+  }
+
   /// What a subject's rows share: as it says, and without its engine.
   struct SubjectScenes {
     std::shared_ptr<const RowScene> whole, under_ours;
@@ -303,9 +333,61 @@ bool next_combination(const std::vector<SweepPlan>& sweeps, std::vector<int>& va
 /// What the first row of each subject runs under, by the subject's index.
 using FirstRows = std::map<int, simulation::Experiment>;
 
-bool plan_rows(StudyPlan& plan, const Object& study, SceneLoader& loader,
-               const PlanOptions& options, output::Hash& hash, FirstRows& first_rows,
-               std::set<std::string>& inputs) {
+/// The rows of a plan as they are made, some at a time: so many scenes have room, and so many are
+/// worth several threads.
+class RowPlanner {
+ public:
+  RowPlanner(StudyPlan& plan, const Object& study, SceneLoader& loader, int jobs,
+             output::Hash& hash)
+      : plan_(plan), study_(study), loader_(loader), jobs_(jobs), hash_(hash) {}
+
+  /// False after an error, as from `finish`.
+  bool add(RowPlan row) {
+    if (!loader_.prepare(plan_, study_, row)) return false;
+    waiting_.push_back(std::move(row));
+    return waiting_.size() < most_waiting || finish();
+  }
+
+  bool finish() {
+    std::vector<LoadedRow> loaded(waiting_.size());
+    work_through(waiting_.size(), jobs_, [&](std::size_t i) {
+      loaded[i] = loader_.load(plan_, waiting_[i]);
+      return true;
+    });
+    for (std::size_t i = 0; i < waiting_.size(); ++i)
+      if (!accept(std::move(loaded[i]), std::move(waiting_[i]))) return false;
+    waiting_.clear();
+    return true;
+  }
+
+  FirstRows first_rows;
+  std::set<std::string> inputs;
+
+ private:
+  static constexpr std::size_t most_waiting = 64;
+
+  bool accept(LoadedRow loaded, RowPlan row) {
+    if (!loader_.accept(plan_, study_, loaded, row)) return false;
+    LoadedScene& scene = *loaded.scene;
+    row.hash = simulation::experiment_hash(scene.printed, scene.experiment);
+    hash_.add(row.hash);
+    inputs.merge(scene.sources);
+    plan_.seeds.insert(scene.experiment.seed);
+    if (plan_.rows.empty()) plan_.scene_printed = scene.printed;
+    first_rows.try_emplace(row.subject, std::move(scene.experiment));
+    plan_.rows.push_back(std::move(row));
+    return true;
+  }
+
+  StudyPlan& plan_;
+  const Object& study_;
+  SceneLoader& loader_;
+  int jobs_;
+  output::Hash& hash_;
+  std::vector<RowPlan> waiting_;
+};
+
+bool plan_rows(const StudyPlan& plan, const PlanOptions& options, RowPlanner& planner) {
   std::vector<int> values(plan.sweeps.size(), 0);
   do {
     for (std::size_t i = 0; i < plan.subjects.size(); ++i) {
@@ -317,22 +399,10 @@ bool plan_rows(StudyPlan& plan, const Object& study, SceneLoader& loader,
       if (!options.only.empty() && std::find(options.only.begin(), options.only.end(),
                                              subject.info.name) == options.only.end())
         continue;
-      if (!plan.covers(subject.only, row)) continue;
-      auto loaded = loader.load(plan, study, row);
-      if (!loaded) return false;
-      row.deltat = loaded->experiment.deltat;
-      loaded->experiment.duration = plan.duration;
-      if (row.refusal.empty()) loader.warn_of_step(plan, study, row.subject, loaded->experiment);
-      row.hash = simulation::experiment_hash(loaded->printed, loaded->experiment);
-      hash.add(row.hash);
-      inputs.merge(loaded->sources);
-      plan.seeds.insert(loaded->experiment.seed);
-      if (plan.rows.empty()) plan.scene_printed = loaded->printed;
-      first_rows.try_emplace(row.subject, std::move(loaded->experiment));
-      plan.rows.push_back(std::move(row));
+      if (plan.covers(subject.only, row) && !planner.add(std::move(row))) return false;
     }
   } while (next_combination(plan.sweeps, values));
-  return true;
+  return planner.finish();
 }
 
 /// A scene may set engine, law and integrator itself: the table names those in force.
@@ -400,19 +470,18 @@ std::optional<StudyPlan> make_plan(const Object& root, const Object& study, cons
   hash.add(plan.printed);
   hash.add(fmt::format("{} {} {} {}", plan.name, language::join(options.only, ","), plan.settle,
                        plan.duration));
-  FirstRows first_rows;
-  std::set<std::string> inputs;
-  if (!plan_rows(plan, study, loader, options, hash, first_rows, inputs)) return std::nullopt;
+  RowPlanner planner(plan, study, loader, options.jobs, hash);
+  if (!plan_rows(plan, options, planner)) return std::nullopt;
   plan.settable = loader.settable;
   plan.hash = hash.text();
-  for (std::string& source : language::sources_of(root)) inputs.insert(std::move(source));
-  plan.inputs = simulation::hashed(inputs);
+  for (std::string& source : language::sources_of(root)) planner.inputs.insert(std::move(source));
+  plan.inputs = simulation::hashed(planner.inputs);
   if (plan.rows.empty()) {
     diagnostics.error(study.position,
                       "the study has no run: no Subject, or none that its Only blocks allow");
     return std::nullopt;
   }
-  complete_subjects(plan, engines, first_rows);
+  complete_subjects(plan, engines, planner.first_rows);
   return plan;
 }
 

@@ -31,6 +31,7 @@ struct PlanOptions {
   bool quick = false;
   std::vector<std::string> only;  ///< names of subjects; empty for all
   SceneSettings settings{};
+  int jobs = 1;  ///< threads that load scenes
 };
 
 /// An `Only` block: some values of a swept Param.

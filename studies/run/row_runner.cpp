@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "simulation/run/energy_watch.h"
-#include "studies/run/workers.h"
+#include "studies/workers.h"
 
 namespace hookpoint::studies {
 

@@ -24,8 +24,8 @@ class RemoteRuns {
   virtual ~RemoteRuns() = default;
   using Request = std::function<RunRequest(std::size_t index)>;
   using Done = std::function<void(std::size_t index, RunRecord record)>;
-  /// Makes `count` runs, no two of one identity, and hands each to `done` as it comes, one call at
-  /// a time. False when `stop` was set meanwhile.
+  /// Makes `count` runs, those of one identity once, and hands each to `done` as it comes, one call
+  /// at a time. False when `stop` was set meanwhile.
   virtual bool run(std::size_t count, const Request& request, const Done& done,
                    const std::atomic<bool>& stop) = 0;
 };

@@ -70,6 +70,9 @@ struct TunePlan {
   std::string unit_of(const ObjectivePlan& objective) const;
   std::string name_of(const ObjectivePlan& objective) const;
   std::filesystem::path folder() const { return folder_of(label, runs.hash); }
+  std::size_t runs_of_a_generation() const {
+    return static_cast<std::size_t>(population) * static_cast<std::size_t>(seeds);
+  }
   /// What a candidate sets in the scene; of no values nothing.
   std::vector<ConstantSetting> settings(const std::vector<double>& values) const;
 };

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "output/text/hash.h"
+#include "simulation/identity.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -54,6 +55,18 @@ std::optional<RunRecord> RunBatches::execute(const WantedRun& wanted) const {
   return studies::execute(measurement_, scene->experiment, engines_, "", stop_);
 }
 
+std::optional<RunRequest> RunBatches::request(const WantedRun& wanted) const {
+  language::Diagnostics untold;
+  RowScene row = plan_.scene.row_scene(wanted.constants, wanted.seed);
+  const auto scene = plan_.scene.load(wanted.constants, wanted.seed, untold);
+  if (!scene) return std::nullopt;
+  const std::string experiment =
+      simulation::experiment_hash(language::print(*scene->tree), scene->experiment);
+  return RunRequest{fmt::format("{}, seed {}", plan_.runs.name, wanted.seed),
+                    run_identity(experiment, measurement_, scene->experiment.engine, engines_),
+                    std::move(row), measurement_};
+}
+
 std::optional<WantedOutcome> RunBatches::outcome_of(std::size_t run) const {
   const auto record = store_->numbers(identities_[run]);
   if (!record || !measurement_.found_in(*record)) return std::nullopt;
@@ -68,9 +81,16 @@ std::vector<WantedOutcome> RunBatches::run(std::span<const WantedRun> wanted) {
   for (const WantedRun& one : wanted) identities_.push_back(identity_of(one));
   std::vector<std::size_t> order(wanted.size());
   std::iota(order.begin(), order.end(), first);
+  // A request is asked for several times, and costs as much as loading the scene.
+  std::vector<std::optional<std::optional<RunRequest>>> requests(wanted.size());
   const RowWork work{
       plan_.runs.name, identities_, [&](std::size_t run) { return execute(wanted[run - first]); },
-      [&](std::size_t, const RunRecord& record) { return measurement_.found_in(record); }};
+      [&](std::size_t, const RunRecord& record) { return measurement_.found_in(record); },
+      [&](std::size_t run) {
+        auto& known = requests[run - first];
+        if (!known) known = request(wanted[run - first]);
+        return *known;
+      }};
   const bool all = run_rows(order, work, options_, *store_, meter_, stop_);
   std::vector<WantedOutcome> outcomes;
   std::vector<std::optional<WantedOutcome>> finished;

@@ -64,6 +64,8 @@ class RunBatches {
  private:
   std::string identity_of(const WantedRun& wanted) const;
   std::optional<RunRecord> execute(const WantedRun& wanted) const;
+  /// For another process; nothing where its scene cannot be loaded.
+  std::optional<RunRequest> request(const WantedRun& wanted) const;
   /// Nothing where the run is not finished.
   std::optional<WantedOutcome> outcome_of(std::size_t run) const;
 

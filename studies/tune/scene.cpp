@@ -16,31 +16,6 @@ using language::Object;
 /// The Param that every run of a candidate has another value of.
 constexpr const char* seed_parameter = "seed";
 
-bool is_terrain(const Object& object) { return object.type.starts_with("Terrain."); }
-
-/// Takes Terrains and Materials out of `owner`, and of the Groups in it.
-void clear_ground(Object& owner) {
-  std::erase_if(owner.children,
-                [](const auto& child) { return is_terrain(*child) || child->type == "Material"; });
-  for (const auto& child : owner.children)
-    if (child->type == "Group") clear_ground(*child);
-}
-
-/// Moves what stands at the top of a terrain's file into the world.
-void move_ground(Object& terrain, Object& world) {
-  for (auto& child : terrain.children) {
-    if (child->implicit) continue;
-    child->parent = &world;
-    world.children.push_back(std::move(child));
-  }
-}
-
-Object* world_of(Object& root) {
-  const auto found =
-      std::ranges::find_if(root.children, [](const auto& child) { return child->type == "World"; });
-  return found == root.children.end() ? nullptr : found->get();
-}
-
 bool names_it(const std::vector<std::string>& names, const std::string& name) {
   return std::ranges::find(names, name) != names.end();
 }
@@ -107,16 +82,16 @@ TuneScene::TuneScene(language::Library& library, SceneSource source,
   if (diagnostics.has_errors()) return;
   own_ = compose({}, 1, diagnostics);
   if (own_ == nullptr) return;
-  const Object* world = world_of(*own_);
-  if (world == nullptr) {
+  const std::vector<const Object*> worlds = own_->children_of("World");
+  if (worlds.empty()) {
     diagnostics.error(place, "the scene has no World");
     return;
   }
-  world_ = world->trail();
-  world_fields_ = number_fields(*world->schema);
+  world_ = worlds.front()->trail();
+  world_fields_ = number_fields(*worlds.front()->schema);
   scene_values_ = own_->parameters;
   if (!source_.terrain.empty()) {
-    const auto terrain = compose_terrain({}, 1, diagnostics);
+    const auto terrain = lay_down(library_, *row_scene({}, 1).ground, diagnostics);
     if (terrain != nullptr) terrain_values_ = terrain->parameters;
   }
   if (find_material(*own_, place, diagnostics))
@@ -186,60 +161,33 @@ std::optional<double> TuneScene::own_value(const ConstantSetting& constant) cons
   return std::nullopt;
 }
 
-std::unique_ptr<Object> TuneScene::compose_terrain(std::span<const ConstantSetting> constants,
-                                                   std::uint64_t seed,
-                                                   Diagnostics& diagnostics) const {
-  language::EvaluateOptions options;
-  options.parameters =
-      parameter_values(constants, ConstantPlace::terrain_parameter, terrain_parameters_, seed);
-  auto tree = library_.evaluate(source_.terrain, options, diagnostics);
-  if (tree == nullptr) return nullptr;
-  if (tree->children_of("Terrain.").empty()) {
-    diagnostics.error(tree->position, "the terrain's file holds no Terrain");
-    return nullptr;
-  }
-  for (const auto& child : tree->children) {
-    if (child->implicit || is_terrain(*child) || child->type == "Material" ||
-        child->type == "Group")
-      continue;
-    diagnostics.error(child->position,
-                      "a terrain's file holds a Terrain and Materials alone, no " + child->type);
-    return nullptr;
-  }
-  return tree;
-}
-
-std::unique_ptr<Object> TuneScene::compose(std::span<const ConstantSetting> constants,
-                                           std::uint64_t seed, Diagnostics& diagnostics) const {
+RowScene TuneScene::row_scene(std::span<const ConstantSetting> constants,
+                              std::uint64_t seed) const {
   std::vector<ConstantSetting> all(source_.settled);
   all.insert(all.end(), constants.begin(), constants.end());
-  std::unique_ptr<Object> terrain;
-  if (!source_.terrain.empty()) {
-    terrain = compose_terrain(all, seed, diagnostics);
-    if (terrain == nullptr) return nullptr;
-  }
-  language::EvaluateOptions options;
-  options.parameters =
+  RowScene scene{source_.scene, {}};
+  if (!source_.terrain.empty())
+    scene.ground = {source_.terrain, parameter_values(all, ConstantPlace::terrain_parameter,
+                                                      terrain_parameters_, seed)};
+  scene.options.parameters =
       parameter_values(all, ConstantPlace::scene_parameter, scene_parameters_, seed);
-  if (terrain != nullptr)
-    options.amend = [&terrain](Object& root) {
-      Object* world = world_of(root);
-      if (world == nullptr) return;
-      clear_ground(*world);
-      move_ground(*terrain, *world);
-    };
   for (const ConstantSetting& constant : all) {
     const bool material = constant.place == ConstantPlace::material_field;
     if (material || constant.place == ConstantPlace::world_field)
-      options.overrides.push_back(
+      scene.options.overrides.push_back(
           {(material ? material_trail_ : world_) + "." + constant.name, constant.text});
   }
   if (!world_.empty()) {
     for (const auto& [field, text] : source_.world)
-      options.overrides.push_back({world_ + "." + field, text});
-    options.overrides.push_back({world_ + ".seed", std::to_string(seed)});
+      scene.options.overrides.push_back({world_ + "." + field, text});
+    scene.options.overrides.push_back({world_ + ".seed", std::to_string(seed)});
   }
-  return library_.evaluate(source_.scene, options, diagnostics);
+  return scene;
+}
+
+std::unique_ptr<Object> TuneScene::compose(std::span<const ConstantSetting> constants,
+                                           std::uint64_t seed, Diagnostics& diagnostics) const {
+  return lay_down(library_, row_scene(constants, seed), diagnostics);
 }
 
 std::optional<TunedScene> TuneScene::load(std::span<const ConstantSetting> constants,

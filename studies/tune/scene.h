@@ -14,6 +14,7 @@
 
 #include "language/document.h"
 #include "simulation/experiment.h"
+#include "studies/plan/row_scene.h"
 
 namespace hookpoint::studies {
 
@@ -57,8 +58,10 @@ class TuneScene {
   /// The value that the files themselves give a constant, in SI; nothing where they give none.
   std::optional<double> own_value(const ConstantSetting& constant) const;
 
-  /// The tree with these constants; null after errors. Every stream of random numbers, and a Param
-  /// `seed` of the scene or the terrain, gets `seed`. May be called from several threads.
+  /// The files and what is set in them for these constants. Every stream of random numbers, and a
+  /// Param `seed` of the scene or the terrain, gets `seed`.
+  RowScene row_scene(std::span<const ConstantSetting> constants, std::uint64_t seed) const;
+  /// Its tree; null after errors. May be called from several threads.
   std::unique_ptr<language::Object> compose(std::span<const ConstantSetting> constants,
                                             std::uint64_t seed,
                                             language::Diagnostics& diagnostics) const;
@@ -75,9 +78,6 @@ class TuneScene {
  private:
   using Names = std::vector<std::string>;
 
-  std::unique_ptr<language::Object> compose_terrain(std::span<const ConstantSetting> constants,
-                                                    std::uint64_t seed,
-                                                    language::Diagnostics& diagnostics) const;
   bool find_material(const language::Object& tree, const language::Position& place,
                      language::Diagnostics& diagnostics);
 

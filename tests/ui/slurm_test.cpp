@@ -171,6 +171,55 @@ TEST_F(Slurm, ARefusalIsToldInItsOwnWords) {
   EXPECT_NE(result.err.find("invalid partition"), std::string::npos) << result.err;
 }
 
+/// A tuning with a scene, another ground under it, its Params and seeds.
+constexpr const char* block_scene =
+    "Param speed = 0.5 m/s;\n"
+    "World world { Material own; Terrain.Flat ground { material = own; }\n"
+    "  Robot block { Base.mobile { rest_on = ground; velocity = speed, 0, 0;\n"
+    "    Shape.Box { dimensions = .2, .2, .1; mass = 1; } } } }\n";
+constexpr const char* rough_ground =
+    "Param seed = 1; Param normal_stiffness = 5 kN/m;\n"
+    "Material soil { normal_stiffness = normal_stiffness; }\n"
+    "Terrain.Rough ground { amplitude = 1 mm; wavelength = 0.3; seed = seed; size = 4, 4;\n"
+    "  material = soil; }\n";
+constexpr const char* block_tuning =
+    "Tune soil { scene = \"block.hook\"; terrain = \"ground.hook\"; duration = 0.2 s;\n"
+    "  Vary normal_stiffness { from = 1 kN/m; to = 100 kN/m; scale = log; }\n"
+    "  Vary speed { from = 0.1; to = 1; }\n"
+    "  Objective penetration_max { minimise; } Objective slip_distance { minimise; }\n"
+    "  population = 8; generations = 2; seeds = 2; samples = 2; }\n";
+
+TEST_F(Slurm, TunesWithTheSameBytesAsOneMachine) {
+  work_.file("block.hook", block_scene);
+  work_.file("ground.hook", rough_ground);
+  work_.file("tune.hook", block_tuning);
+  const CommandResult here = work_.hookpoint("tune tune.hook --jobs 2 --out here");
+  ASSERT_EQ(here.status, 0) << here.err;
+  const CommandResult there = work_.hookpoint("tune tune.hook --slurm --chunk 8 --out there");
+  ASSERT_EQ(there.status, 0) << there.err;
+  EXPECT_NE(there.err.find("16 runs in 2 tasks"), std::string::npos) << there.err;
+  for (const char* name : {"evaluations.csv", "pareto.csv", "sobol.csv", "recommended.json"})
+    EXPECT_EQ(work_.read(fs::path("there") / name), work_.read(fs::path("here") / name)) << name;
+  EXPECT_FALSE(fs::exists(work_.folder() / "there/cluster/00000")) << "what is merged goes away";
+}
+
+TEST_F(Slurm, ATuningThatLostItsFrontEndGoesOn) {
+  work_.file("block.hook", block_scene);
+  work_.file("ground.hook", rough_ground);
+  work_.file("tune.hook", block_tuning);
+  ASSERT_EQ(work_.hookpoint("tune tune.hook --jobs 2 --out here").status, 0);
+  {
+    ChildProcess front(work_.folder(), {"tune", "tune.hook", "--slurm", "--out", "dead"});
+    ASSERT_TRUE(front.wait_until([&] { return journal_bytes("dead") > 0; })) << front.err();
+    front.signal(SIGKILL);
+    EXPECT_EQ(front.wait(), 1000 + SIGKILL);
+  }
+  const CommandResult resumed = work_.hookpoint("tune tune.hook --slurm --resume --out dead");
+  EXPECT_EQ(resumed.status, 0) << resumed.err;
+  for (const char* name : {"evaluations.csv", "pareto.csv", "sobol.csv", "recommended.json"})
+    EXPECT_EQ(work_.read(fs::path("dead") / name), work_.read(fs::path("here") / name)) << name;
+}
+
 class Script : public ::testing::Test {
  protected:
   Script() { work_.file("study.hook", fall_study); }
@@ -188,6 +237,18 @@ TEST_F(Script, OfADryRunIsPrintedAndNothingElseIsDone) {
         "#SBATCH --time=1-0:30\n", "#SBATCH --array=0-3%2\n", "#SBATCH --cpus-per-task=3\n",
         " runs \"$folder/list_$number.json\" --journal \"$folder/runs_$number.journal\" --jobs 3"})
     EXPECT_NE(result.out.find(line), std::string::npos) << line << '\n' << result.out;
+  EXPECT_EQ(work_.entries(), before);
+}
+
+TEST_F(Script, OfATuningIsThatOfAGeneration) {
+  work_.file("block.hook", block_scene);
+  work_.file("ground.hook", rough_ground);
+  work_.file("tune.hook", block_tuning);
+  const std::size_t before = work_.entries();
+  const CommandResult result =
+      work_.hookpoint("tune tune.hook --slurm --dry-run --chunk 5 --out out");
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.out.find("#SBATCH --array=0-3\n"), std::string::npos) << result.out;
   EXPECT_EQ(work_.entries(), before);
 }
 
