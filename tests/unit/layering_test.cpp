@@ -85,7 +85,7 @@ const std::map<std::string, Rooms> rooms{
       {"run/"},
       {"scene/"}}},
     {"studies",
-     {{"regime", "result", "metric", "summary", "body_on_plane", "engine_table"},
+     {{"regime", "result", "metric", "summary", "body_on_plane", "engine_table", "workers"},
       {"schema"},
       {"predictions/"},
       {"metrics/"},
