@@ -101,14 +101,18 @@ std::optional<Recommendation> recommend(const TunePlan& plan,
   std::vector<Scores> front;
   for (const std::size_t member : pareto)
     front.push_back(score_of(plan, candidates[member]).objectives);
-  const auto beats_all = [&](const Scores& scores) {
-    return std::ranges::all_of(references, [&](std::size_t reference) {
-      const Candidate& other = candidates[reference];
-      const bool told = std::ranges::all_of(plan.objectives, [&](const ObjectivePlan& objective) {
-        return value_of(objective, other).has_value();
-      });
-      return !told || no_worse(scores, score_of(plan, other).objectives);
+  // What has no value, or misses a requirement, is no choice to be measured by.
+  std::vector<Scores> others;
+  for (const std::size_t reference : references) {
+    const Candidate& other = candidates[reference];
+    const bool told = std::ranges::all_of(plan.objectives, [&](const ObjectivePlan& objective) {
+      return value_of(objective, other).has_value();
     });
+    if (told && is_feasible(plan, other)) others.push_back(score_of(plan, other).objectives);
+  }
+  const auto beats_all = [&](const Scores& scores) {
+    return std::ranges::all_of(others,
+                               [&](const Scores& other) { return no_worse(scores, other); });
   };
   const auto beating = static_cast<std::size_t>(std::ranges::count_if(front, beats_all));
   const KneeDistance distance(front);
@@ -124,15 +128,22 @@ std::optional<Recommendation> recommend(const TunePlan& plan,
     best.reason = "the best value of the one objective";
     return best;
   }
-  best.reason = beating > 0 ? fmt::format(
-                                  "of the {} of {} Pareto members that are no worse than the "
-                                  "file's own constants and the analytic guess in any objective, ",
-                                  beating, front.size())
-                            : fmt::format(
-                                  "no Pareto member is as good as the file's own constants and "
-                                  "the analytic guess in every objective, so a trade-off: of all "
-                                  "{}, ",
-                                  front.size());
+  const std::string known = references.size() > 1
+                                ? "the file's own constants and the analytic guess"
+                                : "the file's own constants";
+  const std::string compared =
+      others.size() < references.size() ? "what of " + known + " meets all requirements" : known;
+  if (others.empty())
+    best.reason =
+        fmt::format("{} miss a requirement; of all {} Pareto members, ", known, front.size());
+  else if (beating > 0)
+    best.reason =
+        fmt::format("of the {} of {} Pareto members that are no worse than {} in any objective, ",
+                    beating, front.size(), compared);
+  else
+    best.reason = fmt::format(
+        "no Pareto member is as good as {} in every objective, so a trade-off: of all {}, ",
+        compared, front.size());
   best.reason += "the nearest to the ideal point, objectives scaled over the Pareto set";
   return best;
 }

@@ -26,10 +26,10 @@ struct Recommendation {
   std::string reason;
 };
 
-/// Of the Pareto set, the members that are no worse than any of the `references` in any objective
-/// (requirements do not count here), or all of it where there are none such; of these the nearest
-/// to the ideal point, with every objective scaled to 0..1 over the Pareto set. Where nothing is
-/// feasible, what misses least. Nothing without candidates.
+/// Of the Pareto set, the members that are no worse in any objective than any of the `references`
+/// that meets all requirements, or all of it where there are none such; of these the nearest to the
+/// ideal point, with every objective scaled to 0..1 over the Pareto set. Where nothing is feasible,
+/// what misses least. Nothing without candidates.
 std::optional<Recommendation> recommend(const TunePlan& plan,
                                         const std::vector<Candidate>& candidates,
                                         const std::vector<std::size_t>& pareto,

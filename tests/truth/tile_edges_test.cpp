@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <sstream>
 #include <string>
@@ -128,12 +129,13 @@ INSTANTIATE_TEST_SUITE_P(Laws, TileEdges, ::testing::ValuesIn(force_laws()),
 
 /// A hexapod that falls on its side, rolls over and comes to rest: bodies come to the ground and
 /// leave it. All that is published of its bodies, every step.
-std::vector<double> tumbling_hexapod(const std::string& law, const std::string& integrator,
-                                     double extent) {
+std::vector<double> tumbling_hexapod(
+    const std::string& law, const std::string& integrator,
+    const std::function<void(contact::TerrainDescription&)>& change) {
   simulation::Experiment experiment =
       testing::load_scene("scenes/walking_hexapod.hook", {{"dt", "0.25 ms"}},
                           {{"world.contact", law}, {"world.integrator", integrator}});
-  experiment.terrain->size_x = experiment.terrain->size_y = extent;
+  change(*experiment.terrain);
   experiment.robots[0].location.z = 0.3;
   experiment.robots[0].angular_velocity = {12., 3., 0.};
   const auto engine = simulation::make_dts(experiment);
@@ -155,10 +157,33 @@ std::vector<double> tumbling_hexapod(const std::string& law, const std::string& 
 TEST(EndlessPlane, BodiesPassedOverChangeNoBit) {
   for (const char* integrator : {"semi_implicit_euler", "rk4"}) {
     for (const char* law : {"hookpoint", "exponential"}) {
-      const auto passed_over = tumbling_hexapod(law, integrator, 0.);
-      EXPECT_EQ(passed_over, tumbling_hexapod(law, integrator, 2000.)) << integrator << law;
+      const auto with_extent = [](double extent) {
+        return
+            [extent](contact::TerrainDescription& plane) { plane.size_x = plane.size_y = extent; };
+      };
+      const auto passed_over = tumbling_hexapod(law, integrator, with_extent(0.));
+      EXPECT_EQ(passed_over, tumbling_hexapod(law, integrator, with_extent(2000.)))
+          << integrator << law;
     }
   }
+}
+
+// As are those that hang over all of a grid; over one with a tower in a far corner none does.
+TEST(Grid, BodiesPassedOverChangeNoBit) {
+  const auto with_tower = [](double tower) {
+    return [tower](contact::TerrainDescription& ground) {
+      contact::GridSurface grid{161, 161, {}, -20., -20.};
+      for (int i = 0; i < grid.columns * grid.rows; ++i)
+        grid.heights.push_back(2e-3 * std::sin(0.7 * i));
+      grid.heights.front() = tower;
+      ground.surface = std::move(grid);
+      ground.spacing = 0.25;
+    };
+  };
+  for (const char* law : {"hookpoint", "exponential"})
+    EXPECT_EQ(tumbling_hexapod(law, "semi_implicit_euler", with_tower(0.)),
+              tumbling_hexapod(law, "semi_implicit_euler", with_tower(100.)))
+        << law;
 }
 
 }  // namespace

@@ -249,6 +249,23 @@ TEST(Choice, RecommendsTheKneeAmongThoseThatBeatBothReferences) {
   EXPECT_NE(beats->reason.find("of the 1 of 4"), std::string::npos) << beats->reason;
 }
 
+TEST(Choice, IsNotMeasuredByWhatMissesARequirement) {
+  TunePlan plan = plan_of(2);
+  RequirementPlan required;
+  required.below = 5.;
+  plan.requirements.push_back(required);
+  std::vector<Candidate> all;
+  for (const auto& [x, y] : {std::pair{0., 10.}, {2., 2.}, {4., 1.}, {6., 0.5}, {4.5, 1.5}})
+    all.push_back(candidate_of({x, y}));
+  const std::vector<std::size_t> front = pareto_set(plan, all);
+  const auto knee = recommend(plan, all, front, std::vector<std::size_t>{3});
+  EXPECT_EQ(knee->candidate, 1u) << "none has the 0.5 of the reference, which may not be";
+  EXPECT_NE(knee->reason.find("miss a requirement; of all 3"), std::string::npos) << knee->reason;
+  const auto beats = recommend(plan, all, front, std::vector<std::size_t>{3, 4});
+  EXPECT_EQ(beats->candidate, 2u);
+  EXPECT_NE(beats->reason.find("what of the file's own"), std::string::npos) << beats->reason;
+}
+
 TEST(Choice, WhereNothingIsFeasibleWhatMissesLeastIsNamedSo) {
   TunePlan plan = plan_of(1);
   RequirementPlan required;
