@@ -219,7 +219,7 @@ void SlurmRuns::submit(Job& job, const std::string& array) {
   output::write_file(job.folder / job_file, text);
 }
 
-void SlurmRuns::hand_on(std::pair<std::string, RunRecord> entry, const Done& done) {
+void SlurmRuns::hand_on(const std::pair<std::string, RunRecord>& entry, const Done& done) {
   const auto place = wanted_.find(entry.first);
   if (place == wanted_.end()) return;
   const std::vector<std::size_t> indices = std::move(place->second);
@@ -231,7 +231,7 @@ void SlurmRuns::read_journals(Job& job, const Done& done) {
   for (Task& task : job.tasks) {
     while (auto entry = task.journal.next()) {
       task.missing.erase(entry->first);
-      hand_on(std::move(*entry), done);
+      hand_on(*entry, done);
     }
   }
 }

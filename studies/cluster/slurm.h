@@ -77,7 +77,7 @@ class SlurmRuns : public RemoteRuns {
   /// Looks after the tasks that ended without their runs; throws for those that failed twice.
   void look_after(Job& job);
   std::optional<std::set<std::size_t>> queued_tasks(const Job& job);
-  void hand_on(std::pair<std::string, RunRecord> entry, const Done& done);
+  void hand_on(const std::pair<std::string, RunRecord>& entry, const Done& done);
 
   Options options_;
   /// Identities that are not there yet, and whose they are.

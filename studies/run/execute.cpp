@@ -119,7 +119,9 @@ class Watch {
  public:
   Watch(const Measurement& measurement, const RunContext& context, std::int64_t steps,
         simulation::World& world)
-      : measurement_(measurement), context_(context), observer_(context, needs_points(), needs_feet()) {
+      : measurement_(measurement),
+        context_(context),
+        observer_(context, needs_points(), needs_feet()) {
     for (const MetricDefinition* metric : measurement.metrics)
       metrics_.push_back(metric->make == nullptr ? nullptr : metric->make(context));
     if (std::ranges::any_of(measurement.metrics, &MetricDefinition::needs_stance))
