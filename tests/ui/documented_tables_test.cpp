@@ -30,5 +30,12 @@ TEST(DocumentedTables, TheWalksOnSevenGroundsAreThoseOfTheirStudy) {
   EXPECT_EQ(std::system(command.c_str()), 0) << work.read("out");
 }
 
+TEST(DocumentedTables, TheTunedGroundsAreThoseOfTheirMaterials) {
+  const testing::Workplace work;
+  const std::string command = "'" HOOKPOINT_SOURCE_DIR "/scripts/tuned_grounds' --check >'" +
+                              (work.folder() / "out").string() + "' 2>&1";
+  EXPECT_EQ(std::system(command.c_str()), 0) << work.read("out");
+}
+
 }  // namespace
 }  // namespace hookpoint
