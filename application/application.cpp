@@ -47,9 +47,11 @@ std::vector<std::string> scene_files(const language::Object& root) {
   std::vector<std::string> files;
   for (const language::Object* study : root.children_of("Study"))
     files.push_back(study->word("scene"));
-  for (const language::Object* tune : root.children_of("Tune")) {
-    files.push_back(tune->word("scene"));
-    if (tune->given("terrain")) files.push_back(tune->word("terrain"));
+  for (const char* type : {"Tune", "Calibrate"}) {
+    for (const language::Object* block : root.children_of(type)) {
+      files.push_back(block->word("scene"));
+      if (block->given("terrain")) files.push_back(block->word("terrain"));
+    }
   }
   for (const language::Object* wall : root.children_of("Wall")) {
     for (const language::Object* scene : wall->children_of("Scene"))

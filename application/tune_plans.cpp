@@ -10,7 +10,9 @@
 
 namespace hookpoint::application {
 
-bool holds_tune(const language::Object& root) { return !root.children_of("Tune").empty(); }
+bool holds_tune(const language::Object& root) {
+  return !root.children_of("Tune").empty() || !root.children_of("Calibrate").empty();
+}
 
 std::optional<std::vector<studies::TunePlan>> plan_tune_file(Application& application,
                                                              const language::Object& root,

@@ -13,7 +13,7 @@
 
 namespace hookpoint::application {
 
-/// Whether a file that was evaluated holds a Tune.
+/// Whether a file that was evaluated holds a Tune or a Calibrate.
 bool holds_tune(const language::Object& root);
 
 /// The plans of all Tune blocks of `root`, evaluated from `arguments.file`, one a subject; nothing

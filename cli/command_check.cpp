@@ -1,6 +1,7 @@
 #include <iostream>
 
 #include "application/application.h"
+#include "application/calibration_plans.h"
 #include "application/study_plans.h"
 #include "application/tune_plans.h"
 #include "cli/commands.h"
@@ -20,7 +21,8 @@ bool can_run(application::Application& application, const language::Object& root
   if (application::holds_study(root) && !application::plan_study_file(application, root, arguments))
     return false;
   return !application::holds_tune(root) ||
-         application::plan_tune_file(application, root, arguments).has_value();
+         (application::plan_tune_file(application, root, arguments).has_value() &&
+          application::plan_calibrate_file(application, root, arguments).has_value());
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "application/application.h"
+#include "application/calibration_plans.h"
 #include "application/study_plans.h"
 #include "application/tune_plans.h"
 #include "cli/cluster_runs.h"
@@ -14,6 +15,7 @@
 #include "cli/keeping_runs.h"
 #include "cli/run_bar.h"
 #include "language/names.h"
+#include "studies/calibrate/report.h"
 #include "studies/tune/report.h"
 
 namespace hookpoint::cli {
@@ -37,13 +39,24 @@ std::filesystem::path folder_for(const application::StudyArguments& arguments,
 
 void tell(const std::string& notice) { std::cerr << "hookpoint: note: " << notice << '\n'; }
 
-/// --dry-run: the script of a generation's job, of each plan.
+/// --dry-run: the script of a generation's job, of each Tune.
 int print_tune_scripts(const application::StudyArguments& arguments,
-                       const std::vector<studies::TunePlan>& plans) {
+                       const std::vector<studies::TunePlan>& plans, bool several) {
   for (const studies::TunePlan& plan : plans)
-    print_slurm_script(arguments, plan.label, folder_for(arguments, plan, plans.size() > 1),
+    print_slurm_script(arguments, plan.label, folder_for(arguments, plan, several),
                        plan.runs_of_a_generation());
   return fine;
+}
+
+/// Says how to go on; the exit status.
+int interrupted_in(const application::StudyArguments& arguments,
+                   const std::filesystem::path& folder, const std::string& command,
+                   const InterruptGuard& guard) {
+  const std::string out =
+      arguments.out ? " --out " + application::shell_word(arguments.out->string()) : "";
+  application::print_error("interrupted; what is finished is kept in " + folder.string() + ": `" +
+                           command + out + " --resume` goes on from there");
+  return guard.status();
 }
 
 int tune_one(const application::Application& application,
@@ -72,14 +85,33 @@ int tune_one(const application::Application& application,
   for (const std::string& message : undrawn) application::print_error(message);
   std::cout << studies::tune_terminal_text(plan, run->result)
             << "report: " << (folder / "report.html").string() << '\n';
-  if (run->result.interrupted) {
-    const std::string out =
-        arguments.out ? " --out " + application::shell_word(arguments.out->string()) : "";
-    application::print_error("interrupted; what is finished is kept in " + folder.string() + ": `" +
-                             command + out + " --resume` goes on from there");
-    return guard.status();
-  }
+  if (run->result.interrupted) return interrupted_in(arguments, folder, command, guard);
   if (!run->result.holds(plan)) return truth_failed;
+  return undrawn.empty() ? fine : missing;
+}
+
+int calibrate_one(const application::Application& application,
+                  const application::StudyArguments& arguments,
+                  const studies::CalibrationPlan& plan, bool several, const InterruptGuard& guard) {
+  std::filesystem::path folder = plan.folder();
+  if (arguments.out) folder = several ? *arguments.out / plan.runs.name : *arguments.out;
+  const std::string command = application::tune_command(arguments);
+  std::optional<studies::CalibrationRun> run;
+  {
+    RunBar bar(plan.runs.name);
+    studies::CalibrationOptions options{
+        bar.watch(application::run_options(arguments, folder)),
+        [&bar](const std::string& message) { bar.message(message); }};
+    options.run.tell = [](const std::string& notice) {
+      std::cerr << "hookpoint: note: " << notice << '\n';
+    };
+    run = studies::run_calibration(plan, application.engines(), options, guard.stop());
+  }
+  const std::vector<std::string> undrawn = application::write_calibration(*run, plan, command);
+  for (const std::string& message : undrawn) application::print_error(message);
+  std::cout << studies::calibration_terminal_text(plan, run->result)
+            << "report: " << (folder / "report.html").string() << '\n';
+  if (run->result.interrupted) return interrupted_in(arguments, folder, command, guard);
   return undrawn.empty() ? fine : missing;
 }
 
@@ -94,18 +126,26 @@ int tune(const application::StudyArguments& asked) {
   if (!root) return wrong_input;
   if (!application::holds_tune(*root)) {
     application::print_error(arguments.file.string() +
-                             " holds no Tune; `hookpoint study` runs studies");
+                             " holds no Tune and no Calibrate; `hookpoint study` runs studies");
     return wrong_input;
   }
   const auto plans = application::plan_tune_file(application, *root, arguments);
-  if (!plans) return wrong_input;
-  if (arguments.dry_run) return print_tune_scripts(arguments, *plans);
+  const auto calibrations = application::plan_calibrate_file(application, *root, arguments);
+  if (!plans || !calibrations) return wrong_input;
+  const bool several = plans->size() + calibrations->size() > 1;
+  if (arguments.slurm && !calibrations->empty())
+    tell("the fits of a Calibrate are made here, not by the cluster");
+  if (arguments.dry_run) return print_tune_scripts(arguments, *plans, several);
   const InterruptGuard guard;
   return making_runs_away([&] {
     return keeping_runs([&] {
       int status = fine;
       for (const studies::TunePlan& plan : *plans) {
-        status = std::max(status, tune_one(application, arguments, plan, plans->size() > 1, guard));
+        status = std::max(status, tune_one(application, arguments, plan, several, guard));
+        if (guard.stop()) return status;
+      }
+      for (const studies::CalibrationPlan& plan : *calibrations) {
+        status = std::max(status, calibrate_one(application, arguments, plan, several, guard));
         if (guard.stop()) break;
       }
       return status;

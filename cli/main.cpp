@@ -337,11 +337,12 @@ void add_run_and_study(CLI::App& app, Request& request) {
 }
 
 void add_tune(CLI::App& app, Request& request) {
-  CLI::App* tune_app =
-      add_command(app, request, "tune", "search constants for what a file's Tune blocks ask",
-                  [&] { return tune(request.study); });
+  CLI::App* tune_app = add_command(
+      app, request, "tune",
+      "search constants for what a file's Tune blocks ask, or fit them to its Calibrate blocks",
+      [&] { return tune(request.study); });
   add_many_runs(tune_app, request.study,
-                {"a Tune", "TUNE",
+                {"a Tune or a Calibrate", "TUNE",
                  "8 candidates a generation, 3 generations, 2 seeds, a fifth of the duration, no "
                  "Sobol indices",
                  "go on with what an interrupted tuning has finished"});

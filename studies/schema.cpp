@@ -107,7 +107,8 @@ ClassSchema named(std::string name, std::string doc, std::vector<FieldSchema> fi
   schema.children = std::move(children);
   schema.naming = Naming::required;
   schema.names_a_subject = schema.name != "Study" && schema.name != "Wall" &&
-                           schema.name != "Matrix" && schema.name != "Tune";
+                           schema.name != "Matrix" && schema.name != "Tune" &&
+                           schema.name != "Calibrate";
   return schema;
 }
 
@@ -242,8 +243,58 @@ ClassSchema direction_class(std::string name, std::string doc) {
   return direction;
 }
 
+ClassSchema calibrate_class() {
+  ClassSchema calibrate = named(
+      "Calibrate", "Constants of a scene's ground, or any Params of it, fitted to measured traces.",
+      {text("title", "heading of the report"),
+       text("question", "what is fitted and why, first thing in the report"),
+       required(text("scene", "file of the world, whose Params may be varied")),
+       text("terrain",
+            "file of a Terrain and its Material, in the place of the scene's; its Params may be "
+            "varied"),
+       words("material", 1,
+             "the Material whose fields are varied; default: that of the ground, where it has one "
+             "alone"),
+       words("subjects", 100,
+             "laws, and engines with their settings, each calibrated by itself: hunt_crossley, "
+             "mujoco_matched; default: the scene's own, unless there are Subjects"),
+       with_default(within(0, 1000,
+                           integer("folds",
+                                   "parts of a cross-validation over the traces; "
+                                   "below 2: none")),
+                    "5"),
+       with_default(within(0, 100000, integer("resamples", "samples of the bootstrap")), "200"),
+       choice("bootstrap", {"refits", "one_step"}, "refits",
+              "each sample is fitted anew, or solved with the model linearised at the optimum, "
+              "without a run"),
+       with_default(within(1, 10000,
+                           integer("starts",
+                                   "points all over the ranges that are looked "
+                                   "at; the best are refined")),
+                    "16"),
+       with_default(at_least_zero(integer("seed", "of starts, bootstrap and folds")), "1")},
+      {"Subject", "Vary", "Trace", "Fix"});
+  calibrate.top_level = true;
+  return calibrate;
+}
+
+ClassSchema measured_trace_class() {
+  ClassSchema trace =
+      named("Trace", "A curve that was measured: a column of a table over time.",
+            {required(text("file", "the table, comma-separated, with titles like `z [m]`")),
+             required(text("column", "title of what was measured, \"z [m]\"")),
+             text("time", "title of the column of times; default: the first column"),
+             required(words("of", 1, "trail of the port that was measured")),
+             required(number("weight", "?", "1 over what one takes for its error: 1 / (0.5 mm)"))},
+            {"Fix"});
+  trace.only_in = "Calibrate";
+  return trace;
+}
+
 void add_tune_classes(Schema& schema) {
   schema.add(tune_class());
+  schema.add(calibrate_class());
+  schema.add(measured_trace_class());
   schema.add(named(
       "Vary",
       "A constant to tune: a Param of the terrain's file or of the scene, a field of "

@@ -35,26 +35,8 @@ class TuneBuilder {
   TuneBuilder(TunePlan& plan, Diagnostics& diagnostics) : plan_(plan), diagnostics_(diagnostics) {}
 
   void add_constant(const Object& block) {
-    const auto place = plan_.scene->place_of(block.name);
-    if (!place) {
-      error(block.position,
-            fmt::format("neither the terrain nor the scene has a Param `{}`, nor "
-                        "their Material or World a number of that name{}",
-                        block.name, language::did_you_mean(block.name, plan_.scene->names())));
-      return;
-    }
-    VariedConstant constant{block.name, *place, written_unit(*block.find("from")), 0., 1., false};
-    if (!language::fits(block.find("to")->dimension, block.find("from")->dimension) ||
-        !language::fits(block.find("from")->dimension, block.find("to")->dimension))
-      error(block.find("to")->position, "`from` and `to` are of different units");
-    constant.from = tidy(constant.unit.from_si(block.number("from")));
-    constant.to = tidy(constant.unit.from_si(block.number("to")));
-    constant.logarithmic = block.word("scale") == "log";
-    if (!(constant.from < constant.to))
-      error(block.find("to")->position, "`to` must be greater than `from`");
-    else if (constant.logarithmic && !(constant.from > 0.))
-      error(block.find("from")->position, "a range on a log scale begins above 0");
-    plan_.varied.push_back(std::move(constant));
+    if (auto constant = varied_constant(block, *plan_.scene, diagnostics_))
+      plan_.varied.push_back(std::move(*constant));
   }
 
   void add_objective(const Object& block) {
@@ -331,6 +313,30 @@ std::optional<TunePlan> make_tune_plan(const Object& root, const Object& tune,
 }
 
 }  // namespace
+
+std::optional<VariedConstant> varied_constant(const Object& block, const TuneScene& scene,
+                                              Diagnostics& diagnostics) {
+  const auto place = scene.place_of(block.name);
+  if (!place) {
+    diagnostics.error(block.position,
+                      fmt::format("neither the terrain nor the scene has a Param `{}`, nor "
+                                  "their Material or World a number of that name{}",
+                                  block.name, language::did_you_mean(block.name, scene.names())));
+    return std::nullopt;
+  }
+  VariedConstant constant{block.name, *place, written_unit(*block.find("from")), 0., 1., false};
+  if (!language::fits(block.find("to")->dimension, block.find("from")->dimension) ||
+      !language::fits(block.find("from")->dimension, block.find("to")->dimension))
+    diagnostics.error(block.find("to")->position, "`from` and `to` are of different units");
+  constant.from = tidy(constant.unit.from_si(block.number("from")));
+  constant.to = tidy(constant.unit.from_si(block.number("to")));
+  constant.logarithmic = block.word("scale") == "log";
+  if (!(constant.from < constant.to))
+    diagnostics.error(block.find("to")->position, "`to` must be greater than `from`");
+  else if (constant.logarithmic && !(constant.from > 0.))
+    diagnostics.error(block.find("from")->position, "a range on a log scale begins above 0");
+  return constant;
+}
 
 double VariedConstant::at(double share) const {
   return to_six_digits(logarithmic ? from * std::pow(to / from, share)

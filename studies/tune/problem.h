@@ -32,6 +32,10 @@ struct VariedConstant {
   ConstantSetting setting(double value) const;
 };
 
+/// Of a Vary block; errors go to `diagnostics`, nothing where the scene has no such constant.
+std::optional<VariedConstant> varied_constant(const language::Object& block, const TuneScene& scene,
+                                              language::Diagnostics& diagnostics);
+
 /// An Objective block.
 struct ObjectivePlan {
   enum class Take { mean, worst };

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "output/text/number.h"
+#include "studies/report/page_parts.h"
 #include "studies/report/report_page.h"
 #include "studies/report/report_tables.h"
 #include "studies/summary.h"
@@ -14,33 +15,6 @@ namespace hookpoint::studies {
 namespace {
 
 using Verdict = ObjectiveComparison::Verdict;
-
-std::string text_block(const std::string& style, const std::string& content) {
-  return "<p class=\"" + style + "\">" + content + "</p>\n";
-}
-
-std::string section(const std::string& title) { return "<h2>" + html(title) + "</h2>\n"; }
-
-/// Cells of a table's row; the first `words` are text.
-std::string row_of(const std::vector<std::string>& cells, std::size_t words, const char* tag) {
-  std::string row = "<tr>";
-  for (std::size_t i = 0; i < cells.size(); ++i)
-    row += fmt::format("<{0}{1}>{2}</{0}>", tag, i < words ? " class=\"text\"" : "", cells[i]);
-  return row + "</tr>\n";
-}
-
-class HtmlTable {
- public:
-  HtmlTable(const std::vector<std::string>& head, std::size_t words) : words_(words) {
-    text_ = "<div class=\"scroll\"><table><thead>" + row_of(head, words, "th") + "</thead><tbody>";
-  }
-  void row(const std::vector<std::string>& cells) { text_ += row_of(cells, words_, "td"); }
-  std::string text() const { return text_ + "</tbody></table></div>\n"; }
-
- private:
-  std::size_t words_;
-  std::string text_;
-};
 
 std::string number_with(double value, const std::string& unit) {
   return output::rounded(value) + (unit.empty() ? "" : " " + unit);
@@ -256,21 +230,6 @@ std::string opening_of(const TunePlan& plan, const TuneResult& result,
     links +=
         (links.empty() ? "" : " · ") + ("<a href=\"" + html(file) + "\">" + html(file) + "</a>");
   return text + text_block("facts", links);
-}
-
-std::string figures_of(const std::vector<ReportFigure>& figures) {
-  std::string text = figures.empty() ? "" : section("Figures");
-  int number = 0;
-  for (const ReportFigure& figure : figures) {
-    const std::string name = html(figure.name);
-    text += "<figure id=\"figure-" + name + "\">\n";
-    text += figure.svg.empty() ? text_block("bad", html(figure.message)) : described_svg(figure);
-    text += fmt::format(
-        "<figcaption><b>Figure {}.</b> {} <a href=\"{}.csv\">{}.csv</a>"
-        "</figcaption>\n</figure>\n",
-        ++number, html(figure.caption), name, name);
-  }
-  return text;
 }
 
 std::string comparison_note(const TunePlan& plan, const TuneResult& result) {

@@ -14,12 +14,7 @@ namespace {
 /// Of a run whose scene cannot be loaded: every metric is there, without a value.
 RunRecord unloadable(const Measurement& measurement, const language::Diagnostics& found) {
   RunRecord record;
-  record.status = "cannot run";
-  for (const language::Diagnostic& diagnostic : found.all()) {
-    if (diagnostic.severity != language::Severity::error) continue;
-    record.status += ": " + diagnostic.message;
-    break;
-  }
+  record.status = "cannot run: " + first_error_of(found);
   for (const MetricDefinition* metric : measurement.metrics)
     record.values[std::string(metric->name)] = {};
   return record;

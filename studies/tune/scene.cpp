@@ -66,6 +66,12 @@ std::map<std::string, std::string> parameter_values(std::span<const ConstantSett
 
 }  // namespace
 
+std::string first_error_of(const Diagnostics& found) {
+  for (const language::Diagnostic& diagnostic : found.all())
+    if (diagnostic.severity == language::Severity::error) return diagnostic.message;
+  return "";
+}
+
 TuneScene::TuneScene(language::Library& library, SceneSource source,
                      const language::Position& place, Diagnostics& diagnostics)
     : library_(library), source_(std::move(source)) {
@@ -198,6 +204,10 @@ std::optional<TunedScene> TuneScene::load(std::span<const ConstantSetting> const
   if (!experiment || diagnostics.has_errors()) return std::nullopt;
   simulation::write_chosen_step(*experiment, *tree);
   return TunedScene{std::move(tree), std::move(*experiment)};
+}
+
+const language::ClassSchema& TuneScene::world_schema() const {
+  return *own_->children_of("World").front()->schema;
 }
 
 const Object& TuneScene::material_of(const Object& tree) const {

@@ -44,6 +44,9 @@ struct TunedScene {
   simulation::Experiment experiment;
 };
 
+/// The message of the first error; "" without one.
+std::string first_error_of(const language::Diagnostics& found);
+
 class TuneScene {
  public:
   /// Reads what the files declare; errors at `place` go to `diagnostics`. The library outlives it.
@@ -72,6 +75,8 @@ class TuneScene {
   /// The Material of a composed tree that is tuned.
   const language::Object& material_of(const language::Object& tree) const;
   const std::string& material() const { return source_.material; }
+  /// What a World may say.
+  const language::ClassSchema& world_schema() const;
   const std::filesystem::path& scene_file() const { return source_.scene; }
   const std::filesystem::path& terrain_file() const { return source_.terrain; }
 

@@ -1,0 +1,498 @@
+#include "studies/calibrate/calibrate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <random>
+#include <utility>
+
+#include "output/text/hash.h"
+#include "output/text/number.h"
+#include "studies/calibrate/fit_rows.h"
+#include "studies/calibrate/model.h"
+#include "studies/calibrate/outputs.h"
+#include "studies/calibrate/resampling.h"
+#include "studies/tune/guess.h"
+
+namespace hookpoint::studies {
+namespace {
+
+/// Of an engine. A run is a smooth function of its constants but for small jumps, where a point
+/// touches a step earlier or later: differences are taken wide of those.
+constexpr FitOptions fit_of_runs{5e-4, 60, 1e-8}, refit_of_runs{5e-4, 30, 1e-6};
+
+/// Outside of this part of its range a constant is at its bound.
+constexpr double bound = 2e-3;
+/// A constant whose interval is a greater part of its range is not told by the data.
+constexpr double widest_interval = 0.5;
+constexpr std::size_t least_resamples = 10;
+/// Of a constant with which every run is the same, bit for bit.
+constexpr const char* unread = "no trace changes with it";
+
+using Cases = std::vector<std::size_t>;
+
+Cases all_cases(const CalibrationPlan& plan) {
+  Cases cases(plan.cases.size());
+  std::iota(cases.begin(), cases.end(), std::size_t{0});
+  return cases;
+}
+
+FitOutcome look_without_value(const std::string& why) {
+  return {why, std::nullopt, std::nullopt, 1, Shares{}};
+}
+
+/// One subject's calibration, stage by stage; each needs those before it.
+class SubjectFit {
+ public:
+  SubjectFit(const CalibrationPlan& plan, const CalibrationSubject& subject,
+             const EngineTable& engines, FitRows& rows, const std::atomic<bool>& stop)
+      : plan_(plan),
+        subject_(subject),
+        rows_(rows),
+        model_(plan, subject_, engines, stop),
+        cases_(all_cases(plan)) {
+    result_.left_out = subject.left_out;
+  }
+
+  /// Rows that it will ask for at most.
+  static std::size_t rows_of(const CalibrationPlan& plan, const CalibrationSubject& subject) {
+    if (!subject.refusal.empty()) return 0;
+    return subject.constants.size() + 2 + plan.starts + refined_starts + refits(plan) +
+           fold_count(plan);
+  }
+
+  /// False when interrupted; then the result is what was known.
+  bool run() {
+    const std::size_t first = rows_.count(), total = rows_of(plan_, subject_);
+    bool whole = true;
+    try {
+      fit_all();
+    } catch (const CalibrationInterrupted&) {
+      whole = false;
+      if (result_.status == "ok") result_.status = "interrupted";
+    }
+    if (whole) rows_.skip(total - (rows_.count() - first));
+    return whole;
+  }
+  SubjectCalibration take() { return std::move(result_); }
+
+ private:
+  static std::size_t refits(const CalibrationPlan& plan) {
+    return plan.bootstrap == Bootstrap::refits ? plan.resamples : 0;
+  }
+  static std::size_t fold_count(const CalibrationPlan& plan) {
+    const std::size_t folds = std::min(plan.folds, plan.cases.size());
+    return folds < 2 ? 0 : folds;
+  }
+
+  void fit_all() {
+    if (!subject_.refusal.empty()) {
+      result_.status = subject_.refusal;
+      return;
+    }
+    look_at_own_constants();
+    leave_out_unread();
+    if (subject_.constants.empty()) {
+      result_.status = "none of the constants changes a trace";
+      result_.error = result_.own_error;
+      result_.residuals = result_.own_residuals;
+      return;
+    }
+    if (!search_box()) return;
+    find_intervals();
+    cross_validate();
+  }
+
+  void look_at_own_constants() {
+    if (auto residuals = model_.residuals({}, cases_)) {
+      result_.own_error = error_of(*residuals);
+      result_.own_residuals = std::move(*residuals);
+    }
+  }
+
+  Shares own_or_middle() const {
+    Shares place;
+    for (const std::size_t constant : subject_.constants) {
+      const auto& own = plan_.own[constant];
+      place.push_back(own ? plan_.varied[constant].share_of(*own) : 0.5);
+    }
+    return place;
+  }
+
+  void leave_out_unread() {
+    const Shares middle = own_or_middle();
+    const auto outcomes = rows_.run(
+        {middle.size(), [&](std::size_t i) { return identity("reads", i, middle); },
+         [&](std::size_t i) {
+           Shares less = middle, more = middle;
+           less[i] = 0.25;
+           more[i] = 0.75;
+           const auto one = model_.residuals(model_.settings_at(less), cases_);
+           const auto other = model_.residuals(model_.settings_at(more), cases_);
+           const bool same = one && other && *one == *other;
+           return FitOutcome{same ? unread : "ok", std::nullopt, std::nullopt, 2, Shares{}};
+         }});
+    stop_if_unfinished(outcomes);
+    std::vector<std::size_t> read;
+    for (std::size_t i = 0; i < middle.size(); ++i) {
+      const std::size_t constant = subject_.constants[i];
+      if (outcomes[i]->status == unread)
+        result_.left_out.push_back({constant, unread});
+      else
+        read.push_back(constant);
+    }
+    subject_.constants = std::move(read);
+  }
+
+  /// The scene's own constants, the analytic guess, then points all over the box.
+  std::vector<Shares> starts() const {
+    std::vector<Shares> first;
+    TunePlan guessed;
+    guessed.scene = subject_.scene;
+    bool known = true;
+    for (const std::size_t constant : subject_.constants) {
+      guessed.varied.push_back(plan_.varied[constant]);
+      guessed.own.push_back(plan_.own[constant]);
+      known = known && plan_.own[constant];
+    }
+    if (known) first.push_back(own_or_middle());
+    std::string untold;
+    if (const auto guess = analytic_guess(guessed, untold)) {
+      Shares& place = first.emplace_back();
+      for (std::size_t i = 0; i < guess->values.size(); ++i)
+        place.push_back(guessed.varied[i].share_of(guess->values[i]));
+    }
+    return spread_starts(subject_.constants.size(), std::move(first), plan_.starts, plan_.seed);
+  }
+
+  ResidualModel model_of(const Cases& cases) const {
+    return [this, &cases](const Shares& place) {
+      return model_.residuals(model_.settings_at(place), cases);
+    };
+  }
+
+  /// False when no start has a value.
+  bool search_box() {
+    const std::vector<Shares> all = starts();
+    const auto looked = rows_.run(
+        {all.size(), [&](std::size_t i) { return identity("start", i, all[i]); },
+         [&](std::size_t i) {
+           std::string why;
+           const auto residuals = model_.residuals(model_.settings_at(all[i]), cases_, &why);
+           return residuals ? FitOutcome{"ok", error_of(*residuals), std::nullopt, 1, all[i]}
+                            : look_without_value(why);
+         }});
+    record(FitStage::start, looked, all);
+    stop_if_unfinished(looked);
+    const std::vector<Shares> best = best_of(looked);
+    if (best.empty()) {
+      result_.status = "no run has a value: " + looked.front()->status;
+      return false;
+    }
+    const auto refined = rows_.run(
+        {best.size(), [&](std::size_t i) { return identity("refined", i, best[i]); },
+         [&](std::size_t i) {
+           const auto fit = refine(model_of(cases_), best[i], fit_of_runs);
+           return fit ? outcome_of(*fit, plan_.samples())
+                      : look_without_value("no run beside it has a value");
+         }});
+    record(FitStage::refined, refined, best);
+    stop_if_unfinished(refined);
+    linearise_at_optimum();
+    return true;
+  }
+
+  static FitOutcome outcome_of(const LeastSquaresFit& fit, std::size_t samples) {
+    return {"ok", std::sqrt(fit.sum / static_cast<double>(samples)), std::nullopt, fit.models,
+            fit.place};
+  }
+
+  /// The places with the least errors.
+  static std::vector<Shares> best_of(const std::vector<std::optional<FitOutcome>>& looked) {
+    std::vector<const FitOutcome*> valued;
+    for (const auto& outcome : looked)
+      if (outcome->error) valued.push_back(&*outcome);
+    std::ranges::stable_sort(valued, {}, [](const FitOutcome* one) { return *one->error; });
+    std::vector<Shares> best;
+    for (std::size_t i = 0; i < std::min(refined_starts, valued.size()); ++i)
+      best.push_back(valued[i]->place);
+    return best;
+  }
+
+  /// Keeps what was found, and takes the best for the answer so far.
+  void record(FitStage stage, const std::vector<std::optional<FitOutcome>>& outcomes,
+              const std::vector<Shares>& asked) {
+    for (std::size_t i = 0; i < outcomes.size(); ++i) {
+      if (!outcomes[i]) continue;
+      const FitOutcome& outcome = *outcomes[i];
+      const FitRecord& one = result_.records.emplace_back(
+          FitRecord{stage, i + 1, outcome.error ? outcome.place : asked[i], outcome.error,
+                    outcome.models, outcome.status});
+      if (!one.error || (result_.error && !(*one.error < *result_.error))) continue;
+      result_.error = one.error;
+      adopt(one.place);
+    }
+  }
+
+  void adopt(const Shares& place) {
+    result_.constants.clear();
+    for (std::size_t i = 0; i < place.size(); ++i)
+      result_.constants.push_back({subject_.constants[i], place[i], std::nullopt, std::nullopt,
+                                   false, "its interval is not known"});
+  }
+
+  void linearise_at_optimum() {
+    Shares place;
+    for (const FittedConstant& constant : result_.constants) place.push_back(constant.share);
+    auto found = linearise(model_of(cases_), place, fit_of_runs.difference);
+    if (!found) return;
+    optimum_ = std::move(*found);
+    result_.residuals = optimum_.residuals;
+  }
+
+  /// The part of the optimum's residuals and derivatives that is of these cases.
+  Linearisation optimum_over(const Cases& cases) const {
+    Linearisation part{optimum_.place, {}, std::vector<Residuals>(optimum_.derivative.size())};
+    std::vector<std::size_t> first{0};
+    for (const CalibrationCase& one : plan_.cases) first.push_back(first.back() + one.samples());
+    const auto take = [&](const Residuals& from, Residuals& into) {
+      for (const std::size_t one : cases)
+        into.insert(into.end(), from.begin() + static_cast<std::ptrdiff_t>(first[one]),
+                    from.begin() + static_cast<std::ptrdiff_t>(first[one + 1]));
+    };
+    take(optimum_.residuals, part.residuals);
+    for (std::size_t i = 0; i < part.derivative.size(); ++i)
+      take(optimum_.derivative[i], part.derivative[i]);
+    return part;
+  }
+
+  std::vector<std::size_t> trace_sizes() const {
+    std::vector<std::size_t> sizes;
+    for (const CalibrationCase& one : plan_.cases)
+      for (const TracePlan& trace : one.traces) sizes.push_back(trace.measured.time.size());
+    return sizes;
+  }
+
+  /// Each draws from a stream of its own: whichever thread comes first.
+  std::mt19937_64 random_of(std::size_t number) const {
+    std::seed_seq seeds{static_cast<std::uint32_t>(plan_.seed),
+                        static_cast<std::uint32_t>(plan_.seed >> 32),
+                        static_cast<std::uint32_t>(number)};
+    return std::mt19937_64(seeds);
+  }
+
+  LeastSquaresFit fit_sample(const ResidualModel& model, const Linearisation& start) const {
+    if (plan_.bootstrap == Bootstrap::refits) return refine(model, start, refit_of_runs);
+    Shares place = start.place;
+    if (const auto step = gauss_newton_step(start))
+      for (std::size_t i = 0; i < place.size(); ++i)
+        place[i] = std::clamp(place[i] + (*step)[i], 0., 1.);
+    return {std::move(place), sum_of_squares(start.residuals), 0};
+  }
+
+  /// Whole cases drawn anew; one that is drawn m times counts sqrt(m) in each residual.
+  LeastSquaresFit fit_drawn_cases(std::mt19937_64& random) const {
+    const std::vector<int> times = draw_with_replacement(plan_.cases.size(), random);
+    Cases drawn;
+    std::vector<double> factor;
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      if (times[i] == 0) continue;
+      drawn.push_back(i);
+      factor.insert(factor.end(), plan_.cases[i].samples(),
+                    std::sqrt(static_cast<double>(times[i])));
+    }
+    const auto weigh = [&](Residuals& residuals) {
+      for (std::size_t i = 0; i < residuals.size(); ++i) residuals[i] *= factor[i];
+    };
+    Linearisation start = optimum_over(drawn);
+    weigh(start.residuals);
+    for (Residuals& column : start.derivative) weigh(column);
+    const ResidualModel plain = model_of(drawn);
+    return fit_sample(
+        [&](const Shares& place) {
+          auto residuals = plain(place);
+          if (residuals) weigh(*residuals);
+          return residuals;
+        },
+        start);
+  }
+
+  /// The same runs with their residuals drawn anew.
+  LeastSquaresFit fit_drawn_blocks(std::mt19937_64& random) const {
+    const Residuals shift = shift_of_blocks(optimum_.residuals, trace_sizes(), result_.block,
+                                            subject_.constants.size(), random);
+    const auto move = [&](Residuals& residuals) {
+      for (std::size_t i = 0; i < residuals.size(); ++i) residuals[i] += shift[i];
+    };
+    Linearisation start = optimum_;
+    move(start.residuals);
+    const ResidualModel plain = model_of(cases_);
+    return fit_sample(
+        [&](const Shares& place) {
+          auto residuals = plain(place);
+          if (residuals) move(*residuals);
+          return residuals;
+        },
+        start);
+  }
+
+  void find_intervals() {
+    if (optimum_.residuals.empty()) return;
+    result_.block = plan_.resamples_cases() ? 0 : block_length(optimum_.residuals, trace_sizes());
+    const auto fit = [&](std::size_t i) {
+      std::mt19937_64 random = random_of(i);
+      const LeastSquaresFit found =
+          plan_.resamples_cases() ? fit_drawn_cases(random) : fit_drawn_blocks(random);
+      return outcome_of(found, plan_.samples());
+    };
+    std::vector<Shares> places;
+    if (plan_.bootstrap == Bootstrap::one_step) {
+      for (std::size_t i = 0; i < plan_.resamples; ++i) places.push_back(fit(i).place);
+    } else {
+      const auto outcomes =
+          rows_.run({plan_.resamples,
+                     [&](std::size_t i) { return identity("resample", i, optimum_.place); }, fit});
+      for (std::size_t i = 0; i < outcomes.size(); ++i) {
+        if (!outcomes[i]) continue;
+        const FitOutcome& outcome = *outcomes[i];
+        places.push_back(outcome.place);
+        result_.records.push_back(
+            {FitStage::resample, i + 1, outcome.place, outcome.error, outcome.models, "ok"});
+      }
+      stop_if_unfinished(outcomes);
+    }
+    judge(places);
+  }
+
+  void judge(const std::vector<Shares>& places) {
+    result_.resamples = places.size();
+    if (places.size() < least_resamples) return;
+    std::vector<std::vector<double>> columns(subject_.constants.size());
+    for (const Shares& place : places)
+      for (std::size_t i = 0; i < place.size(); ++i) columns[i].push_back(place[i]);
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      FittedConstant& constant = result_.constants[i];
+      constant.low = quantile(columns[i], 0.025);
+      constant.high = quantile(columns[i], 0.975);
+      constant.reason = why_untold(constant);
+      constant.told = constant.reason.empty();
+      std::vector<double>& row = result_.correlations.emplace_back();
+      for (const std::vector<double>& other : columns)
+        row.push_back(correlation(columns[i], other));
+    }
+  }
+
+  static std::string why_untold(const FittedConstant& constant) {
+    if (constant.share < bound || constant.share > 1. - bound)
+      return "the fit ends at a bound of its range";
+    const double width = *constant.high - *constant.low;
+    if (width > widest_interval)
+      return fmt::format("its interval spans {:.0f} % of its range", 100. * width);
+    if (*constant.low < bound || *constant.high > 1. - bound)
+      return "its interval reaches a bound of its range";
+    return "";
+  }
+
+  void cross_validate() {
+    const std::size_t folds = fold_count(plan_);
+    if (folds == 0 || optimum_.residuals.empty()) return;
+    const auto fold = fold_of_each(plan_.cases.size(), folds, plan_.seed);
+    std::vector<Cases> held(folds), training(folds);
+    for (const std::size_t one : cases_)
+      for (std::size_t part = 0; part < folds; ++part)
+        (fold[one] == part ? held : training)[part].push_back(one);
+    const auto outcomes = rows_.run(
+        {folds, [&](std::size_t i) { return identity("fold", i, optimum_.place); },
+         [&](std::size_t i) {
+           const Linearisation start = optimum_over(training[i]);
+           const LeastSquaresFit fit = refine(model_of(training[i]), start, refit_of_runs);
+           const auto out = model_.residuals(model_.settings_at(fit.place), held[i]);
+           FitOutcome outcome = outcome_of(fit, start.residuals.size());
+           if (out) outcome.held_out = error_of(*out);
+           return outcome;
+         }});
+    for (std::size_t i = 0; i < folds; ++i) {
+      if (!outcomes[i]) continue;
+      const FitOutcome& outcome = *outcomes[i];
+      result_.folds.push_back({held[i], outcome.error, outcome.held_out, outcome.place});
+      result_.records.push_back(
+          {FitStage::fold, i + 1, outcome.place, outcome.error, outcome.models, "ok"});
+    }
+    stop_if_unfinished(outcomes);
+  }
+
+  static void stop_if_unfinished(const std::vector<std::optional<FitOutcome>>& outcomes) {
+    if (!std::ranges::all_of(outcomes, [](const auto& one) { return one.has_value(); }))
+      throw CalibrationInterrupted{};
+  }
+
+  std::string identity(const char* stage, std::size_t number, const Shares& from) const {
+    output::Hash hash;
+    hash.add(plan_.runs.hash).add(subject_.runs_hash).add(stage).add(std::to_string(number));
+    for (const double share : from) hash.add(output::shortest(share));
+    return hash.text();
+  }
+
+  const CalibrationPlan& plan_;
+  CalibrationSubject subject_;  ///< with the constants that it reads
+  FitRows& rows_;
+  CalibrationModel model_;
+  Cases cases_;
+  Linearisation optimum_;
+  SubjectCalibration result_;
+};
+
+/// "hunt_crossley: error 1.02": what is told of a subject that is done.
+std::string told_of(const CalibrationSubject& subject, const SubjectCalibration& result) {
+  if (result.status != "ok") return subject.info.name + ": " + result.status;
+  return fmt::format("{}: error {}", subject.info.name,
+                     result.error ? output::rounded(*result.error) : "not known");
+}
+
+}  // namespace
+
+std::string_view name_of(FitStage stage) {
+  switch (stage) {
+    case FitStage::start:
+      return "start";
+    case FitStage::refined:
+      return "refined";
+    case FitStage::resample:
+      return "resample";
+    case FitStage::fold:
+      return "fold";
+  }
+  return "";
+}
+
+std::optional<double> error_of(const Residuals& residuals) {
+  if (residuals.empty()) return std::nullopt;
+  return std::sqrt(sum_of_squares(residuals) / static_cast<double>(residuals.size()));
+}
+
+CalibrationRun run_calibration(const CalibrationPlan& plan, const EngineTable& engines,
+                               const CalibrationOptions& options, const std::atomic<bool>& stop) {
+  CalibrationRun run;
+  run.folder = options.run.folder.empty() ? plan.folder() : options.run.folder;
+  run.files = std::make_unique<output::ResultFolder>(run.folder, manifest_of(plan.runs),
+                                                     calibration_files(plan));
+  std::size_t total = 0;
+  for (const CalibrationSubject& subject : plan.subjects)
+    total += SubjectFit::rows_of(plan, subject);
+  FitRows rows(plan.runs.name, options.run, run.folder, total, stop);
+  for (const CalibrationSubject& subject : plan.subjects) {
+    SubjectFit fit(plan, subject, engines, rows, stop);
+    const bool whole = fit.run();
+    run.result.subjects.push_back(fit.take());
+    if (options.tell) options.tell(told_of(subject, run.result.subjects.back()));
+    run.result.interrupted = !whole;
+    if (!whole) break;
+  }
+  run.provenance = make_provenance(plan.runs, engines);
+  run.provenance.seeds.push_back(plan.seed);
+  return run;
+}
+
+}  // namespace hookpoint::studies

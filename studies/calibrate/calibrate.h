@@ -1,0 +1,94 @@
+// Fits the constants of every subject to what was measured, by the same method and with the same
+// budget. Its files are outputs.h's.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "output/result_folder.h"
+#include "studies/calibrate/problem.h"
+#include "studies/run/provenance.h"
+#include "studies/run/run.h"
+
+namespace hookpoint::studies {
+
+/// What a row of evaluations.csv is of.
+enum class FitStage { start, refined, resample, fold };
+std::string_view name_of(FitStage stage);
+
+/// One place of a subject's box that was fitted or looked at.
+struct FitRecord {
+  FitStage stage = FitStage::start;
+  std::size_t number = 0;  ///< within its stage
+  Shares place;            ///< of the subject's constants; empty where there is none
+  std::optional<double> error;
+  std::size_t models = 0;  ///< places at which all cases were run for it
+  std::string status = "ok";
+};
+
+/// What is known of a constant that was fitted.
+struct FittedConstant {
+  std::size_t constant = 0;  ///< index into CalibrationPlan::varied
+  double share = 0.;
+  /// Of 95 %; nothing while it is not known.
+  std::optional<double> low, high;  ///< shares
+  bool told = false;                ///< whether the data tell it
+  std::string reason;               ///< why not, or what is missing
+};
+
+/// Root mean squares of weighted residuals.
+struct FoldResult {
+  std::vector<std::size_t> held_out;  ///< cases
+  std::optional<double> training, held;
+  Shares place;
+};
+
+struct SubjectCalibration {
+  std::vector<FitRecord> records;
+  std::vector<LeftOut> left_out;          ///< those of the plan, and what changes no trace
+  std::vector<FittedConstant> constants;  ///< those that were fitted
+  std::optional<double> own_error;        ///< with the scene's own constants
+  std::optional<double> error;            ///< root mean square of weighted residuals at the optimum
+  std::vector<std::vector<double>> correlations;  ///< of the constants; empty: not known
+  std::size_t resamples = 0;                      ///< that have a fit
+  std::size_t block = 0;                          ///< samples drawn together; 0: cases
+  std::vector<FoldResult> folds;
+  Residuals residuals;        ///< at the optimum, case after case; empty: none
+  Residuals own_residuals;    ///< with the scene's own constants
+  std::string status = "ok";  ///< or why it has no fit
+};
+
+struct CalibrationResult {
+  std::vector<SubjectCalibration> subjects;  ///< those of the plan, as far as it came
+  bool interrupted = false;
+};
+
+/// What is told while it runs.
+struct CalibrationOptions {
+  RunOptions run;
+  std::function<void(const std::string& message)> tell{};
+};
+
+struct CalibrationRun {
+  CalibrationResult result;
+  Provenance provenance;
+  std::filesystem::path folder;
+  std::unique_ptr<output::ResultFolder> files;  ///< locks the folder
+};
+
+/// Root mean square; nothing of none.
+std::optional<double> error_of(const Residuals& residuals);
+
+/// Runs until all is known or `stop` is set; then the result is what was known. Finished fits are
+/// in the folder's store. The same plan gives the same result for any number of threads,
+/// interrupted and resumed or not. Throws as run_study does.
+CalibrationRun run_calibration(const CalibrationPlan& plan, const EngineTable& engines,
+                               const CalibrationOptions& options, const std::atomic<bool>& stop);
+
+}  // namespace hookpoint::studies

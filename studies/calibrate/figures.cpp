@@ -1,0 +1,135 @@
+#include "studies/calibrate/figures.h"
+
+#include <algorithm>
+
+#include "output/figures/plot.h"
+
+namespace hookpoint::studies {
+namespace {
+
+using output::Plot;
+using output::Series;
+
+/// More points than a figure has room for are thinned.
+constexpr std::size_t most_points = 200;
+
+/// A trace with the index of its first sample among all.
+struct PlacedTrace {
+  const TracePlan* trace = nullptr;
+  std::size_t first = 0;
+};
+
+std::vector<PlacedTrace> drawn_traces(const CalibrationPlan& plan) {
+  std::vector<PlacedTrace> traces;
+  std::size_t first = 0;
+  for (const CalibrationCase& one : plan.cases) {
+    for (const TracePlan& trace : one.traces) {
+      if (traces.size() < most_trace_figures) traces.push_back({&trace, first});
+      first += trace.measured.time.size();
+    }
+  }
+  return traces;
+}
+
+std::string curve_name(const TracePlan& trace) { return "trace_" + trace.name; }
+std::string rest_name(const TracePlan& trace) { return "residuals_" + trace.name; }
+
+/// The value of a sample from its trace and its residual.
+using SampleValue = double (*)(const TracePlan&, std::size_t sample, double residual);
+
+double modelled(const TracePlan& trace, std::size_t sample, double residual) {
+  return (trace.measured.value[sample] + residual / trace.weight) / trace.unit_of_port;
+}
+double weighted(const TracePlan& /*trace*/, std::size_t /*sample*/, double residual) {
+  return residual;
+}
+
+output::Curve curve_of(const PlacedTrace& placed, const Residuals& residuals, SampleValue value) {
+  const TracePlan& trace = *placed.trace;
+  const std::size_t count = trace.measured.time.size();
+  const std::size_t stride = (count + most_points - 1) / most_points;
+  output::Curve curve;
+  for (std::size_t i = 0; i < count; i += stride) {
+    const double residual = residuals.empty() ? 0. : residuals[placed.first + i];
+    curve.x.push_back(trace.measured.time[i]);
+    curve.y.push_back(value(trace, i, residual));
+  }
+  return curve;
+}
+
+void add_subjects(Plot& plot, const CalibrationPlan& plan, const CalibrationResult& result,
+                  const PlacedTrace& placed, SampleValue value) {
+  for (std::size_t i = 0; i < result.subjects.size(); ++i) {
+    if (result.subjects[i].residuals.empty()) continue;
+    Series series{plan.subjects[i].info.name, static_cast<int>(i), {}, {}, {}};
+    // Their points are samples of one run: a line.
+    series.measured = curve_of(placed, result.subjects[i].residuals, value);
+    plot.series.push_back(std::move(series));
+  }
+}
+
+Plot curve_figure(const CalibrationPlan& plan, const CalibrationResult& result,
+                  const PlacedTrace& placed) {
+  Plot plot;
+  plot.name = curve_name(*placed.trace);
+  plot.title = placed.trace->name + ": measured and calibrated";
+  plot.x = {.label = "time", .unit = "s"};
+  plot.y = {.label = placed.trace->port, .unit = placed.trace->port_unit};
+  Series measured{"measured", output::style_colors - 1, {}, {}, {}};
+  measured.measured = curve_of(placed, {}, modelled);
+  measured.scattered = true;
+  plot.series.push_back(std::move(measured));
+  add_subjects(plot, plan, result, placed, modelled);
+  return plot;
+}
+
+Plot rest_figure(const CalibrationPlan& plan, const CalibrationResult& result,
+                 const PlacedTrace& placed) {
+  Plot plot;
+  plot.name = rest_name(*placed.trace);
+  plot.title = placed.trace->name + ": what the fits leave";
+  plot.x = {.label = "time", .unit = "s"};
+  plot.y = {.label = "model less measured, times weight", .unit = ""};
+  add_subjects(plot, plan, result, placed, weighted);
+  return plot;
+}
+
+ReportFigure drawn(const Plot& plot, std::string caption, const std::filesystem::path& folder) {
+  output::PlotOutcome outcome = output::draw(plot, folder);
+  return {plot.name, std::move(caption), std::move(outcome.svg), std::move(outcome.message)};
+}
+
+}  // namespace
+
+std::vector<std::string> calibration_figure_names(const CalibrationPlan& plan) {
+  std::vector<std::string> names;
+  for (const PlacedTrace& placed : drawn_traces(plan)) {
+    names.push_back(curve_name(*placed.trace));
+    names.push_back(rest_name(*placed.trace));
+  }
+  return names;
+}
+
+std::vector<ReportFigure> draw_calibration_figures(const CalibrationPlan& plan,
+                                                   const CalibrationResult& result,
+                                                   const std::filesystem::path& folder) {
+  std::vector<ReportFigure> figures;
+  const bool any = std::ranges::any_of(
+      result.subjects, [](const SubjectCalibration& found) { return !found.residuals.empty(); });
+  if (!any) return figures;
+  for (const PlacedTrace& placed : drawn_traces(plan)) {
+    const TracePlan& trace = *placed.trace;
+    figures.push_back(drawn(curve_figure(plan, result, placed),
+                            "The samples of " + trace.column +
+                                " and each subject's run with its own "
+                                "calibrated constants.",
+                            folder));
+    figures.push_back(drawn(rest_figure(plan, result, placed),
+                            "What is left: of a model that fits, noise of size 1 without a "
+                            "pattern, where the weight is 1 over the noise.",
+                            folder));
+  }
+  return figures;
+}
+
+}  // namespace hookpoint::studies

@@ -1,0 +1,217 @@
+#include "studies/calibrate/least_squares.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <unsupported/Eigen/NonLinearOptimization>
+#include <utility>
+
+#include "studies/tune/random_place.h"
+
+namespace hookpoint::studies {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// u of share = (1 + sin u)/2. One turn is added: MINPACK measures its first step by the size of u,
+/// which is 0 in the middle of a range otherwise.
+double angle_of(double share) { return std::asin(2. * share - 1.) + 2. * std::numbers::pi; }
+double share_at(double angle) { return 0.5 * (1. + std::sin(angle)); }
+
+/// At the very edge d share/d u is 0, and no step would leave it.
+constexpr double edge = 1e-3;
+
+MatrixXd matrix_of(const Linearisation& linearised) {
+  MatrixXd matrix(static_cast<Index>(linearised.residuals.size()),
+                  static_cast<Index>(linearised.derivative.size()));
+  for (Index column = 0; column < matrix.cols(); ++column) {
+    const Residuals& values = linearised.derivative[static_cast<std::size_t>(column)];
+    matrix.col(column) = VectorXd::Map(values.data(), matrix.rows());
+  }
+  return matrix;
+}
+
+/// What Eigen's solver asks of a problem.
+class BoundedProblem {
+ public:
+  BoundedProblem(const ResidualModel& model, const Linearisation& start, const FitOptions& options)
+      : model_(model), start_(start), options_(options) {
+    start_angles_ = angles_of(start.place);
+    // Longer than the residuals at the start, so never taken.
+    too_far_ =
+        10. * std::sqrt(sum_of_squares(start.residuals) /
+                        static_cast<double>(std::max<std::size_t>(1, start.residuals.size()))) +
+        1.;
+  }
+
+  int inputs() const { return static_cast<int>(start_.place.size()); }
+  int values() const { return static_cast<int>(start_.residuals.size()); }
+
+  int operator()(const VectorXd& angles, VectorXd& residuals) {
+    const auto found =
+        angles == start_angles_ ? std::optional(start_.residuals) : ask(shares_of(angles));
+    if (found)
+      residuals = VectorXd::Map(found->data(), values());
+    else
+      residuals.setConstant(too_far_);
+    return 0;
+  }
+
+  int df(const VectorXd& angles, MatrixXd& derivative) {
+    const auto found = angles == start_angles_
+                           ? std::optional(start_)
+                           : linearise([this](const Shares& place) { return ask(place); },
+                                       shares_of(angles), options_.difference);
+    if (!found) return -1;  // ends the search at this place
+    derivative = matrix_of(*found);
+    for (Index i = 0; i < derivative.cols(); ++i) derivative.col(i) *= 0.5 * std::cos(angles[i]);
+    return 0;
+  }
+
+  static VectorXd angles_of(const Shares& shares) {
+    VectorXd angles(static_cast<Index>(shares.size()));
+    for (Index i = 0; i < angles.size(); ++i)
+      angles[i] = angle_of(shares[static_cast<std::size_t>(i)]);
+    return angles;
+  }
+  static Shares shares_of(const VectorXd& angles) {
+    Shares shares;
+    for (const double angle : angles) shares.push_back(share_at(angle));
+    return shares;
+  }
+  std::size_t models() const { return models_; }
+
+ private:
+  std::optional<Residuals> ask(const Shares& place) {
+    ++models_;
+    return model_(place);
+  }
+
+  const ResidualModel& model_;
+  const Linearisation& start_;
+  const FitOptions& options_;
+  VectorXd start_angles_;
+  double too_far_ = 0.;
+  std::size_t models_ = 0;
+};
+
+/// Within the box, and off its edges.
+Shares off_the_edges(Shares place) {
+  for (double& share : place) share = std::clamp(share, edge, 1. - edge);
+  return place;
+}
+
+}  // namespace
+
+double sum_of_squares(const Residuals& residuals) {
+  double sum = 0.;
+  for (const double residual : residuals) sum += residual * residual;
+  return sum;
+}
+
+std::optional<Linearisation> linearise(const ResidualModel& model, const Shares& place,
+                                       double difference) {
+  Linearisation result{place, {}, {}};
+  auto here = model(place);
+  if (!here) return std::nullopt;
+  for (std::size_t i = 0; i < place.size(); ++i) {
+    const auto neighbour = [&](double share) -> std::optional<Residuals> {
+      Shares moved = place;
+      moved[i] = share;
+      return share < 0. || share > 1. ? std::nullopt : model(moved);
+    };
+    const double below = place[i] - difference, above = place[i] + difference;
+    const auto less = neighbour(below), more = neighbour(above);
+    const Residuals& left = less ? *less : *here;
+    const Residuals& right = more ? *more : *here;
+    const double width = (more ? above : place[i]) - (less ? below : place[i]);
+    Residuals& column = result.derivative.emplace_back(here->size(), 0.);
+    if (width > 0.)
+      for (std::size_t j = 0; j < column.size(); ++j) column[j] = (right[j] - left[j]) / width;
+  }
+  result.residuals = std::move(*here);
+  return result;
+}
+
+LeastSquaresFit refine(const ResidualModel& model, const Linearisation& start,
+                       const FitOptions& options) {
+  BoundedProblem problem(model, start, options);
+  Eigen::LevenbergMarquardt<BoundedProblem> solver(problem);
+  solver.parameters.factor = 0.1;  // a first step of at most a tenth of u, which is about 2 pi
+  solver.parameters.maxfev = options.most_steps;
+  solver.parameters.ftol = options.tolerance;
+  solver.parameters.xtol = options.tolerance;
+  VectorXd angles = BoundedProblem::angles_of(start.place);
+  solver.minimize(angles);
+  LeastSquaresFit fit{BoundedProblem::shares_of(angles), solver.fnorm * solver.fnorm,
+                      problem.models()};
+  if (fit.sum <= sum_of_squares(start.residuals)) return fit;
+  return {start.place, sum_of_squares(start.residuals), problem.models()};
+}
+
+std::optional<LeastSquaresFit> refine(const ResidualModel& model, const Shares& start,
+                                      const FitOptions& options) {
+  const auto linearised = linearise(model, off_the_edges(start), options.difference);
+  if (!linearised) return std::nullopt;
+  LeastSquaresFit fit = refine(model, *linearised, options);
+  fit.models += 1 + 2 * start.size();
+  return fit;
+}
+
+std::vector<Shares> spread_starts(std::size_t constants, std::vector<Shares> first,
+                                  std::size_t count, std::uint64_t seed) {
+  // The positive root g of g^(d+1) = g + 1: the golden ratio of d dimensions. Point n is frac(shift
+  // + n (1/g, 1/g^2, ...)) (M. Roberts, "The unreasonable effectiveness of quasirandom sequences",
+  // 2018).
+  double ratio = 2.;
+  for (int i = 0; i < 60; ++i)
+    ratio = std::pow(1. + ratio, 1. / (static_cast<double>(constants) + 1.));
+  std::mt19937_64 random(seed);
+  Shares shift(constants);
+  for (double& part : shift) part = random_place(random);
+  for (std::size_t n = 1; n <= count; ++n) {
+    Shares& point = first.emplace_back(constants);
+    for (std::size_t i = 0; i < constants; ++i) {
+      const double place =
+          shift[i] + static_cast<double>(n) * std::pow(ratio, -static_cast<double>(i + 1));
+      point[i] = place - std::floor(place);
+    }
+  }
+  return first;
+}
+
+std::optional<std::vector<std::vector<double>>> covariance(const Linearisation& fit) {
+  const MatrixXd derivative = matrix_of(fit);
+  const Eigen::ColPivHouseholderQR<MatrixXd> factors(derivative);
+  const Index constants = derivative.cols();
+  if (derivative.rows() <= constants || factors.rank() < constants) return std::nullopt;
+  // J P = Q R, so (J^T J)^-1 = P R^-1 R^-T P^T.
+  const MatrixXd inverse = factors.matrixR()
+                               .topLeftCorner(constants, constants)
+                               .triangularView<Eigen::Upper>()
+                               .solve(MatrixXd::Identity(constants, constants));
+  const MatrixXd turned = factors.colsPermutation() * inverse;
+  const double variance =
+      sum_of_squares(fit.residuals) / static_cast<double>(derivative.rows() - constants);
+  const MatrixXd product = variance * turned * turned.transpose();
+  std::vector<std::vector<double>> result;
+  for (Index row = 0; row < constants; ++row) {
+    std::vector<double>& values = result.emplace_back();
+    for (Index column = 0; column < constants; ++column) values.push_back(product(row, column));
+  }
+  return result;
+}
+
+std::optional<Shares> gauss_newton_step(const Linearisation& fit) {
+  const MatrixXd derivative = matrix_of(fit);
+  const Eigen::ColPivHouseholderQR<MatrixXd> factors(derivative);
+  if (factors.rank() < derivative.cols()) return std::nullopt;
+  const VectorXd step = factors.solve(-VectorXd::Map(fit.residuals.data(), derivative.rows()));
+  return Shares(step.begin(), step.end());
+}
+
+}  // namespace hookpoint::studies

@@ -1,0 +1,254 @@
+#include "studies/calibrate/outputs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "output/figures/plot.h"
+#include "output/file.h"
+#include "output/text/number.h"
+#include "studies/calibrate/figures.h"
+#include "studies/run/results_csv.h"
+
+namespace hookpoint::studies {
+namespace {
+
+using output::shortest;
+
+std::string number_or_empty(const std::optional<double>& value) {
+  return value ? shortest(*value) : std::string();
+}
+
+/// Calls `visit(subject of the plan, its result)` for each that was begun.
+template <class Visit>
+void for_each_subject(const CalibrationPlan& plan, const CalibrationResult& result, Visit visit) {
+  for (std::size_t i = 0; i < result.subjects.size(); ++i)
+    visit(plan.subjects[i], result.subjects[i]);
+}
+
+std::string constant_title(const VariedConstant& constant) {
+  return output::column_title(constant.name, constant.unit.text);
+}
+
+/// Values of all constants of the plan, empty where the subject has none; its places are of
+/// `fitted`.
+void add_values(std::vector<std::string>& row, const CalibrationPlan& plan,
+                const std::vector<FittedConstant>& fitted, const Shares& place) {
+  for (std::size_t constant = 0; constant < plan.varied.size(); ++constant) {
+    const auto found = std::ranges::find(fitted, constant, &FittedConstant::constant);
+    const auto index = static_cast<std::size_t>(found - fitted.begin());
+    row.push_back(index < place.size() ? shortest(plan.varied[constant].at(place[index])) : "");
+  }
+}
+
+std::string comment_line(const std::string& text) { return "// " + output::one_line(text) + "\n"; }
+
+std::string field_line(const language::Field& field) {
+  const std::string& unit = field.schema->unit;
+  return fmt::format("  {} = {}{};\n", field.schema->name, shortest(field.numbers.front()),
+                     unit.empty() ? "" : " " + unit);
+}
+
+/// The settings of all that was fitted, rounded as they are written.
+std::vector<ConstantSetting> fitted_settings(const CalibrationPlan& plan,
+                                             const SubjectCalibration& result) {
+  std::vector<ConstantSetting> settings;
+  for (const FittedConstant& constant : result.constants) {
+    const VariedConstant& varied = plan.varied[constant.constant];
+    settings.push_back(varied.setting(varied.at(constant.share)));
+  }
+  return settings;
+}
+
+}  // namespace
+
+std::string value_text(const CalibrationPlan& plan, const FittedConstant& constant, double share) {
+  return shortest(plan.varied[constant.constant].at(share));
+}
+
+std::string material_file(const CalibrationPlan& plan, const CalibrationSubject& subject) {
+  return "materials/" + plan.material + "_" + subject.info.name + ".hook";
+}
+
+std::vector<std::string> calibration_files(const CalibrationPlan& plan) {
+  std::vector<std::string> files{
+      store_folder, "calibration.csv", "correlations.csv", "evaluations.csv", "folds.csv",
+      "curves.csv", "experiment.hook", "scene.hook",       "provenance.json", "report.html"};
+  for (const CalibrationSubject& subject : plan.subjects)
+    files.push_back(material_file(plan, subject));
+  for (const std::string& figure : calibration_figure_names(plan))
+    for (const char* type : {".svg", ".csv", ".gp"}) files.push_back(figure + type);
+  return files;
+}
+
+output::CsvTable calibration_table(const CalibrationPlan& plan, const CalibrationResult& result) {
+  output::CsvTable table;
+  table.header = {"subject", "constant", "unit", "value", "low", "high", "told", "reason"};
+  for_each_subject(
+      plan, result, [&](const CalibrationSubject& subject, const SubjectCalibration& found) {
+        for (std::size_t constant = 0; constant < plan.varied.size(); ++constant) {
+          const VariedConstant& varied = plan.varied[constant];
+          std::vector<std::string> row{subject.info.name, varied.name, varied.unit.text};
+          const auto fitted =
+              std::ranges::find(found.constants, constant, &FittedConstant::constant);
+          const auto left = std::ranges::find(found.left_out, constant, &LeftOut::constant);
+          const auto share_text = [&](const std::optional<double>& share) {
+            return share ? value_text(plan, *fitted, *share) : std::string();
+          };
+          if (fitted != found.constants.end()) {
+            // An interval that is too wide is told, the number in it is not.
+            const bool known = fitted->told || !fitted->low;
+            row.insert(row.end(),
+                       {known ? share_text(fitted->share) : "", share_text(fitted->low),
+                        share_text(fitted->high), fitted->told ? "yes" : "no", fitted->reason});
+          } else {
+            row.insert(row.end(),
+                       {"", "", "", "no",
+                        left != found.left_out.end() ? "left out: " + left->reason : found.status});
+          }
+          table.rows.push_back(std::move(row));
+        }
+      });
+  return table;
+}
+
+output::CsvTable correlations_table(const CalibrationPlan& plan, const CalibrationResult& result) {
+  output::CsvTable table;
+  table.header = {"subject", "constant", "other", "correlation"};
+  for_each_subject(
+      plan, result, [&](const CalibrationSubject& subject, const SubjectCalibration& found) {
+        for (std::size_t i = 0; i < found.correlations.size(); ++i)
+          for (std::size_t j = 0; j < found.correlations.size(); ++j)
+            table.rows.push_back({subject.info.name, plan.varied[found.constants[i].constant].name,
+                                  plan.varied[found.constants[j].constant].name,
+                                  shortest(found.correlations[i][j])});
+      });
+  return table;
+}
+
+output::CsvTable fits_table(const CalibrationPlan& plan, const CalibrationResult& result) {
+  output::CsvTable table;
+  table.header = {"subject", "stage", "number"};
+  for (const VariedConstant& constant : plan.varied)
+    table.header.push_back(constant_title(constant));
+  table.header.insert(table.header.end(), {"error", "places", "status"});
+  for_each_subject(
+      plan, result, [&](const CalibrationSubject& subject, const SubjectCalibration& found) {
+        for (const FitRecord& record : found.records) {
+          std::vector<std::string>& row = table.rows.emplace_back();
+          row = {subject.info.name, std::string(name_of(record.stage)),
+                 std::to_string(record.number)};
+          add_values(row, plan, found.constants, record.place);
+          row.insert(row.end(),
+                     {number_or_empty(record.error), std::to_string(record.models), record.status});
+        }
+      });
+  return table;
+}
+
+output::CsvTable folds_table(const CalibrationPlan& plan, const CalibrationResult& result) {
+  output::CsvTable table;
+  table.header = {"subject", "fold", "held_out"};
+  for (const VariedConstant& constant : plan.varied)
+    table.header.push_back(constant_title(constant));
+  table.header.insert(table.header.end(), {"training_error", "held_out_error"});
+  for_each_subject(
+      plan, result, [&](const CalibrationSubject& subject, const SubjectCalibration& found) {
+        for (std::size_t i = 0; i < found.folds.size(); ++i) {
+          const FoldResult& fold = found.folds[i];
+          std::string held;
+          for (const std::size_t one : fold.held_out)
+            held += (held.empty() ? "" : " ") + plan.cases[one].name;
+          std::vector<std::string>& row = table.rows.emplace_back();
+          row = {subject.info.name, std::to_string(i + 1), held};
+          add_values(row, plan, found.constants, fold.place);
+          row.insert(row.end(), {number_or_empty(fold.training), number_or_empty(fold.held)});
+        }
+      });
+  return table;
+}
+
+output::CsvTable curves_table(const CalibrationPlan& plan, const CalibrationResult& result) {
+  output::CsvTable table;
+  table.header = {"trace", "port", "unit", "time [s]", "measured"};
+  for (std::size_t i = 0; i < result.subjects.size(); ++i)
+    table.header.push_back(plan.subjects[i].info.name);
+  std::size_t sample = 0;
+  for (const CalibrationCase& one : plan.cases) {
+    for (const TracePlan& trace : one.traces) {
+      for (std::size_t i = 0; i < trace.measured.time.size(); ++i, ++sample) {
+        std::vector<std::string>& row = table.rows.emplace_back();
+        const double measured = trace.measured.value[i];
+        row = {trace.name, trace.port, trace.port_unit, shortest(trace.measured.time[i]),
+               shortest(measured / trace.unit_of_port)};
+        for (const SubjectCalibration& found : result.subjects)
+          row.push_back(found.residuals.empty()
+                            ? ""
+                            : shortest((measured + found.residuals[sample] / trace.weight) /
+                                       trace.unit_of_port));
+      }
+    }
+  }
+  return table;
+}
+
+std::string material_text(const CalibrationPlan& plan, const CalibrationSubject& subject,
+                          const SubjectCalibration& result, const std::string& command) {
+  if (result.constants.empty()) return "";
+  language::Diagnostics untold;
+  const auto tree = subject.scene->compose(fitted_settings(plan, result), 1, untold);
+  if (tree == nullptr) return "";
+  std::string text = comment_line(
+      fmt::format("{} for {} as calibrated by `{}`{}", plan.material, subject.info.name, command,
+                  result.status == "interrupted" ? ", which was interrupted" : ""));
+  for (const FittedConstant& constant : result.constants) {
+    const VariedConstant& varied = plan.varied[constant.constant];
+    const std::string unit = varied.unit.text.empty() ? "" : " " + varied.unit.text;
+    text += comment_line(
+        constant.told ? fmt::format("{} = {}{}, 95 % from {} to {}", varied.name,
+                                    value_text(plan, constant, constant.share), unit,
+                                    value_text(plan, constant, *constant.low),
+                                    value_text(plan, constant, *constant.high))
+                      : fmt::format("{}: not told by the data, {}", varied.name, constant.reason));
+  }
+  for (const LeftOut& left : result.left_out)
+    text += comment_line(plan.varied[left.constant].name + ": left out, " + left.reason);
+  text += "\nMaterial " + plan.material + "_" + subject.info.name + " {\n";
+  for (const language::Field& field : subject.scene->material_of(*tree).fields)
+    if (!field.numbers.empty()) text += field_line(field);
+  return text + "}\n";
+}
+
+std::vector<std::string> write_calibration_files(const CalibrationPlan& plan,
+                                                 const CalibrationRun& run,
+                                                 const std::string& command) {
+  const std::filesystem::path& folder = run.folder;
+  const CalibrationResult& result = run.result;
+  std::vector<std::string> files;
+  const auto write = [&](const char* name, const output::CsvTable& table) {
+    if (table.rows.empty()) return;
+    output::write_csv(folder / name, table);
+    files.emplace_back(name);
+  };
+  write("calibration.csv", calibration_table(plan, result));
+  write("correlations.csv", correlations_table(plan, result));
+  write("evaluations.csv", fits_table(plan, result));
+  write("folds.csv", folds_table(plan, result));
+  write("curves.csv", curves_table(plan, result));
+  const auto write_text = [&](const std::string& name, const std::string& text) {
+    if (text.empty()) return;
+    output::make_folder_of(folder / name);
+    output::write_file(folder / name, text);
+    files.push_back(name);
+  };
+  for_each_subject(
+      plan, result, [&](const CalibrationSubject& subject, const SubjectCalibration& found) {
+        write_text(material_file(plan, subject), material_text(plan, subject, found, command));
+      });
+  write_text("experiment.hook", plan.runs.printed);
+  write_text("scene.hook", plan.runs.scene_printed);
+  write_text("provenance.json", provenance_json(run.provenance));
+  return files;
+}
+
+}  // namespace hookpoint::studies

@@ -1,0 +1,42 @@
+// The files of a calibration's folder beside its figures and report.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "output/text/csv.h"
+#include "studies/calibrate/calibrate.h"
+
+namespace hookpoint::studies {
+
+/// The names of all that a calibration may leave, its store too.
+std::vector<std::string> calibration_files(const CalibrationPlan& plan);
+
+/// A row a subject and constant: value and 95 % interval in the constant's unit, and whether the
+/// data tell it; of one that they do not, or that was left out, no value but the reason.
+output::CsvTable calibration_table(const CalibrationPlan& plan, const CalibrationResult& result);
+output::CsvTable correlations_table(const CalibrationPlan& plan, const CalibrationResult& result);
+/// Every place that was looked at or fitted, in order.
+output::CsvTable fits_table(const CalibrationPlan& plan, const CalibrationResult& result);
+output::CsvTable folds_table(const CalibrationPlan& plan, const CalibrationResult& result);
+/// Every sample: measured, and what each subject makes of it; in SI.
+output::CsvTable curves_table(const CalibrationPlan& plan, const CalibrationResult& result);
+
+/// The value of a fitted constant as it is written: six digits, in its unit.
+std::string value_text(const CalibrationPlan& plan, const FittedConstant& constant, double share);
+
+/// "materials/surface_hunt_crossley.hook".
+std::string material_file(const CalibrationPlan& plan, const CalibrationSubject& subject);
+/// Its Material with the fitted constants; those that the data do not tell are named as such. ""
+/// without a fit.
+std::string material_text(const CalibrationPlan& plan, const CalibrationSubject& subject,
+                          const SubjectCalibration& result, const std::string& command);
+
+/// Writes all of them that there are, experiment.hook, scene.hook and provenance.json; their names.
+/// Throws output::FileError.
+std::vector<std::string> write_calibration_files(const CalibrationPlan& plan,
+                                                 const CalibrationRun& run,
+                                                 const std::string& command);
+
+}  // namespace hookpoint::studies

@@ -1,0 +1,103 @@
+// A Calibrate block, checked: measured curves, constants and the subjects whose constants are
+// fitted.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "language/document.h"
+#include "studies/calibrate/least_squares.h"
+#include "studies/calibrate/trace_file.h"
+#include "studies/engine_table.h"
+#include "studies/plan/plan.h"
+#include "studies/tune/problem.h"
+#include "studies/tune/scene.h"
+
+namespace hookpoint::studies {
+
+/// A Trace block: one curve that was measured, and the port that it is held against.
+struct TracePlan {
+  std::string name;
+  std::filesystem::path file;
+  std::string column;  ///< as its file names it
+  std::string port;    ///< trail
+  std::string port_unit;
+  double unit_of_port = 1.;  ///< in SI
+  double weight = 1.;        ///< in one over the SI unit
+  MeasuredTrace measured;
+};
+
+/// What was measured in one run: what its scene is set to, and the curves. Traces with the same Fix
+/// blocks are of one case.
+struct CalibrationCase {
+  std::string name;  ///< of its traces, joined
+  std::vector<ConstantSetting> settings;
+  std::vector<TracePlan> traces;
+
+  double duration() const;  ///< up to the last sample [s]
+  std::size_t samples() const;
+};
+
+/// A constant that a subject's calibration does without.
+struct LeftOut {
+  std::size_t constant = 0;
+  std::string reason;
+};
+
+/// A law, or an engine with its settings, and which of the constants it reads.
+struct CalibrationSubject {
+  SubjectInfo info;
+  std::shared_ptr<const TuneScene> scene;
+  std::vector<std::size_t> constants;  ///< indices into CalibrationPlan::varied
+  std::vector<LeftOut> left_out;
+  std::string refusal;    ///< why it cannot run the scene; "" when it can
+  std::string runs_hash;  ///< of all that decides a run but constants and cases
+};
+
+/// How the spread of the constants is found.
+enum class Bootstrap {
+  refits,   ///< every sample is fitted from the optimum on
+  one_step  ///< every sample is solved with the model linearised at the optimum
+};
+
+struct CalibrationPlan {
+  StudyPlan runs;  ///< name, file, texts, hash and inputs, for what tells of the folder; no rows
+  std::string material;
+  std::vector<VariedConstant> varied;
+  std::vector<std::optional<double>> own;  ///< values of the scene itself, one a constant
+  std::vector<CalibrationCase> cases;
+  std::vector<CalibrationSubject> subjects;
+  std::size_t folds = 5;  ///< of the cases; fewer than 2: no cross-validation
+  std::size_t resamples = 200, starts = 16;
+  Bootstrap bootstrap = Bootstrap::refits;
+  std::uint64_t seed = 1;
+
+  std::size_t samples() const;
+  std::filesystem::path folder() const { return runs.folder(); }
+  /// Whether cases are resampled, not the samples of each.
+  bool resamples_cases() const;
+};
+
+/// Of how many cases on the bootstrap is over cases.
+inline constexpr std::size_t least_cases_to_resample = 5;
+/// The best of the starts, that are refined.
+inline constexpr std::size_t refined_starts = 3;
+
+/// The value of a constant at a share of its range, to all digits.
+double exact_value(const VariedConstant& constant, double share);
+
+/// Nothing when `diagnostics` got an error. The library outlives it. Reads every trace and loads
+/// the scene under every subject.
+std::optional<CalibrationPlan> make_calibration_plan(const language::Object& root,
+                                                     const language::Object& calibrate,
+                                                     const std::string& file,
+                                                     language::Library& library,
+                                                     const EngineTable& engines, bool quick,
+                                                     language::Diagnostics& diagnostics);
+
+}  // namespace hookpoint::studies

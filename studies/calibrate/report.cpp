@@ -1,0 +1,236 @@
+#include "studies/calibrate/report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "output/figures/plot.h"
+#include "output/text/number.h"
+#include "studies/calibrate/figures.h"
+#include "studies/calibrate/outputs.h"
+#include "studies/report/page_parts.h"
+#include "studies/report/report_page.h"
+#include "studies/report/report_tables.h"
+#include "studies/summary.h"
+
+namespace hookpoint::studies {
+namespace {
+
+std::string spaced_unit(const VariedConstant& constant) {
+  return constant.unit.text.empty() ? "" : " " + constant.unit.text;
+}
+
+/// A value and its interval rounded to what the interval tells.
+std::string value_words(const CalibrationPlan& plan, const FittedConstant& constant) {
+  const VariedConstant& varied = plan.varied[constant.constant];
+  const auto text = [&](double share) { return output::rounded(exact_value(varied, share), 5); };
+  if (!constant.low) return text(constant.share) + spaced_unit(varied);
+  if (!constant.told) return "not told";
+  return fmt::format("{} ({} to {}){}", text(constant.share), text(*constant.low),
+                     text(*constant.high), spaced_unit(varied));
+}
+
+std::string error_words(const std::optional<double>& error) {
+  return error ? output::rounded(*error) : "–";
+}
+
+/// What a subject's calibration says of a constant of the plan, and why when it says no number.
+std::string constant_words(const CalibrationPlan& plan, const SubjectCalibration& found,
+                           std::size_t constant) {
+  const auto fitted = std::ranges::find(found.constants, constant, &FittedConstant::constant);
+  if (fitted != found.constants.end())
+    return value_words(plan, *fitted) +
+           (fitted->told || fitted->reason.empty() ? "" : ": " + fitted->reason);
+  const auto left = std::ranges::find(found.left_out, constant, &LeftOut::constant);
+  return left == found.left_out.end() ? "–" : "left out: " + left->reason;
+}
+
+std::string subject_composition(const SubjectInfo& info) {
+  std::string text = "engine " + info.engine;
+  for (const std::string* part : {&info.law, &info.integrator, &info.settings})
+    if (!part->empty()) text += ", " + *part;
+  return text;
+}
+
+/// Means of the folds' errors, weighed alike.
+std::optional<double> mean_error(const std::vector<FoldResult>& folds,
+                                 std::optional<double> FoldResult::*error) {
+  if (folds.empty()) return std::nullopt;
+  double sum = 0.;
+  for (const FoldResult& fold : folds) {
+    if (!(fold.*error)) return std::nullopt;
+    sum += *(fold.*error) * *(fold.*error);
+  }
+  return std::sqrt(sum / static_cast<double>(folds.size()));
+}
+
+std::string subjects_table(const CalibrationPlan& plan, const CalibrationResult& result) {
+  HtmlTable table({"subject", "error", "with the scene's constants", "training, folds",
+                   "held out, folds", "what became of it"},
+                  1);
+  for (std::size_t i = 0; i < result.subjects.size(); ++i) {
+    const SubjectCalibration& found = result.subjects[i];
+    const SubjectInfo& info = plan.subjects[i].info;
+    table.row({html(info.name) + "<small> " + html(subject_composition(info)) + "</small>",
+               error_words(found.error), error_words(found.own_error),
+               error_words(mean_error(found.folds, &FoldResult::training)),
+               error_words(mean_error(found.folds, &FoldResult::held)), html(found.status)});
+  }
+  return table.text();
+}
+
+std::string constants_of_subjects(const CalibrationPlan& plan, const CalibrationResult& result) {
+  HtmlTable table({"subject", "constant", "value (95 % interval)", "range searched"}, 2);
+  for (std::size_t i = 0; i < result.subjects.size(); ++i) {
+    for (std::size_t constant = 0; constant < plan.varied.size(); ++constant) {
+      const VariedConstant& varied = plan.varied[constant];
+      table.row({html(plan.subjects[i].info.name), html(varied.name),
+                 html(constant_words(plan, result.subjects[i], constant)),
+                 html(fmt::format("{} to {}{}{}", output::rounded(varied.from, 6),
+                                  output::rounded(varied.to, 6), spaced_unit(varied),
+                                  varied.logarithmic ? ", log" : ""))});
+    }
+  }
+  return table.text();
+}
+
+std::string correlations_of_subjects(const CalibrationPlan& plan, const CalibrationResult& result) {
+  HtmlTable table({"subject", "constant", "with", "correlation"}, 3);
+  bool any = false;
+  for (std::size_t subject = 0; subject < result.subjects.size(); ++subject) {
+    const SubjectCalibration& found = result.subjects[subject];
+    for (std::size_t i = 0; i < found.correlations.size(); ++i) {
+      for (std::size_t j = i + 1; j < found.correlations.size(); ++j) {
+        any = true;
+        table.row({html(plan.subjects[subject].info.name),
+                   html(plan.varied[found.constants[i].constant].name),
+                   html(plan.varied[found.constants[j].constant].name),
+                   output::rounded(found.correlations[i][j], 3)});
+      }
+    }
+  }
+  if (!any) return "";
+  return section("Correlations") + table.text() +
+         text_block("note soft",
+                    "Over the samples of the bootstrap. Near 1 or -1 the data tell a combination "
+                    "of the two, not each.");
+}
+
+std::string method_words(const CalibrationPlan& plan, const CalibrationResult& result) {
+  const std::string refits = plan.bootstrap == Bootstrap::refits
+                                 ? "fitted anew from the optimum on"
+                                 : "solved with the model linearised at the optimum";
+  std::string drawn = "over whole cases";
+  if (!plan.resamples_cases()) {
+    std::size_t least = 0, most = 0;
+    for (const SubjectCalibration& found : result.subjects) {
+      if (found.block == 0) continue;
+      least = least == 0 ? found.block : std::min(least, found.block);
+      most = std::max(most, found.block);
+    }
+    drawn = least == 0 ? "over the samples of each trace"
+            : least == most
+                ? fmt::format("of blocks of {} residuals of a trace", least)
+                : fmt::format("of blocks of {} to {} residuals of a trace", least, most);
+  }
+  return fmt::format(
+      "The same for every subject: the scene's own constants, the analytic guess where there is "
+      "one, and {} points all over the ranges; the best {} of them refined by "
+      "Levenberg-Marquardt; {} bootstrap samples {}, each {}. The error is the root mean square "
+      "of weight (model - measured): 1 where the weight is 1 over the noise and the model is "
+      "right. A constant is told unless its interval spans more than half of its range or reaches "
+      "a bound.",
+      plan.starts, refined_starts, plan.resamples, drawn, refits);
+}
+
+std::string traces_table(const CalibrationPlan& plan) {
+  HtmlTable table({"trace", "file", "column", "port", "samples", "until [s]"}, 4);
+  std::size_t rows = 0;
+  for (const CalibrationCase& one : plan.cases) {
+    for (const TracePlan& trace : one.traces) {
+      if (++rows > most_trace_figures) continue;
+      table.row({html(trace.name), html(trace.file.filename().string()), html(trace.column),
+                 html(trace.port), std::to_string(trace.measured.time.size()),
+                 output::rounded(trace.measured.time.back())});
+    }
+  }
+  std::string text = section("What was measured") + table.text();
+  if (rows > most_trace_figures)
+    text += text_block("note soft", fmt::format("The first {} of {} traces, here and in the "
+                                                "figures; curves.csv has all.",
+                                                most_trace_figures, rows));
+  return text;
+}
+
+std::string verdict_words(const CalibrationPlan& plan, const CalibrationResult& result) {
+  if (result.interrupted)
+    return text_block("verdict bad", "Interrupted: this is what was known by then.");
+  const SubjectCalibration* best = nullptr;
+  std::size_t index = 0;
+  for (std::size_t i = 0; i < result.subjects.size(); ++i) {
+    const SubjectCalibration& found = result.subjects[i];
+    if (!found.error || (best != nullptr && !(*found.error < *best->error))) continue;
+    best = &found;
+    index = i;
+  }
+  if (best == nullptr) return text_block("verdict bad", "✗ No subject has a fit.");
+  return text_block("verdict good",
+                    html(fmt::format("Least error: {}, {}.", plan.subjects[index].info.name,
+                                     error_words(best->error))));
+}
+
+std::string calibration_title(const CalibrationPlan& plan) {
+  return plan.runs.title.empty() ? spoken(plan.runs.name) : plan.runs.title;
+}
+
+}  // namespace
+
+std::string calibration_html(const CalibrationPlan& plan, const CalibrationResult& result,
+                             const ReportContext& context,
+                             const std::vector<ReportFigure>& figures) {
+  std::string page = page_start(calibration_title(plan));
+  page += text_block("kicker", "Calibration · " + html(plan.runs.file));
+  page += "<h1>" + html(calibration_title(plan)) + "</h1>\n";
+  if (!plan.runs.question.empty()) page += text_block("question", html(plan.runs.question));
+  page += verdict_words(plan, result);
+  page += text_block("facts", html(fmt::format("{} subjects, {} cases, {} samples{}.",
+                                               plan.subjects.size(), plan.cases.size(),
+                                               plan.samples(), plan.runs.quick ? ", quick" : "")));
+  page += "<pre>" + html(context.command) + "</pre>\n";
+  std::string links;
+  for (const std::string& file : context.files)
+    links +=
+        (links.empty() ? "" : " · ") + ("<a href=\"" + html(file) + "\">" + html(file) + "</a>");
+  page += text_block("facts", links);
+  page += section("The constants") + constants_of_subjects(plan, result);
+  page += section("How well each fits") + subjects_table(plan, result) +
+          text_block("note soft", html(method_words(plan, result)));
+  page += figures_of(figures);
+  page += correlations_of_subjects(plan, result) + traces_table(plan);
+  page += provenance_table(context.provenance);
+  return page + page_end_with_script();
+}
+
+std::string calibration_terminal_text(const CalibrationPlan& plan,
+                                      const CalibrationResult& result) {
+  std::string text = plan.runs.name + "\n";
+  for (std::size_t i = 0; i < result.subjects.size(); ++i) {
+    const SubjectCalibration& found = result.subjects[i];
+    text += fmt::format("  {}: ", plan.subjects[i].info.name);
+    text += found.error ? fmt::format("error {}, with the scene's own constants {}",
+                                      error_words(found.error), error_words(found.own_error))
+                        : std::string("no fit");
+    text += (found.status == "ok" ? "" : "; " + found.status) + "\n";
+    for (std::size_t constant = 0; constant < plan.varied.size(); ++constant)
+      text += fmt::format("    {:<22} {}\n", plan.varied[constant].name,
+                          constant_words(plan, found, constant));
+    const auto held = mean_error(found.folds, &FoldResult::held);
+    if (held)
+      text += fmt::format("    {:<22} {}, training {}\n", "held-out error", error_words(held),
+                          error_words(mean_error(found.folds, &FoldResult::training)));
+  }
+  return text;
+}
+
+}  // namespace hookpoint::studies

@@ -1,0 +1,20 @@
+// A calibration for people: report.html and the terminal's text.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "studies/calibrate/calibrate.h"
+#include "studies/report/report.h"
+
+namespace hookpoint::studies {
+
+/// The page. Pure: the same arguments give the same bytes.
+std::string calibration_html(const CalibrationPlan& plan, const CalibrationResult& result,
+                             const ReportContext& context,
+                             const std::vector<ReportFigure>& figures);
+
+/// A few lines a subject.
+std::string calibration_terminal_text(const CalibrationPlan& plan, const CalibrationResult& result);
+
+}  // namespace hookpoint::studies

@@ -1,0 +1,105 @@
+#include "studies/calibrate/resampling.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "studies/tune/random_place.h"
+
+namespace hookpoint::studies {
+namespace {
+
+std::size_t draw(std::mt19937_64& random, std::size_t count) {
+  return static_cast<std::size_t>(random_place(random) * static_cast<double>(count));
+}
+
+double mean_of_part(std::span<const double> values) {
+  return std::accumulate(values.begin(), values.end(), 0.) / static_cast<double>(values.size());
+}
+
+/// The first lag at which the curve's residuals hang together no more than chance lets them
+/// (2/sqrt(n)).
+std::size_t decorrelation_lag(std::span<const double> curve) {
+  const std::size_t count = curve.size();
+  const double mean = mean_of_part(curve);
+  const auto product = [&](std::size_t lag) {
+    double sum = 0.;
+    for (std::size_t i = lag; i < count; ++i) sum += (curve[i] - mean) * (curve[i - lag] - mean);
+    return sum;
+  };
+  const double chance = 2. / std::sqrt(static_cast<double>(count)) * product(0);
+  std::size_t lag = 1;
+  while (lag < count && std::abs(product(lag)) > chance) ++lag;
+  return lag;
+}
+
+}  // namespace
+
+std::vector<int> draw_with_replacement(std::size_t count, std::mt19937_64& random) {
+  std::vector<int> drawn(count, 0);
+  for (std::size_t i = 0; i < count; ++i) ++drawn[draw(random, count)];
+  return drawn;
+}
+
+Residuals shift_of_blocks(const Residuals& at_optimum, std::span<const std::size_t> sizes,
+                          std::size_t block, std::size_t constants, std::mt19937_64& random) {
+  Residuals shift(at_optimum.size());
+  const auto all = static_cast<double>(at_optimum.size());
+  const auto taken = static_cast<double>(constants);
+  const double widened = all > taken ? std::sqrt(all / (all - taken)) : 1.;
+  std::size_t first = 0;
+  for (const std::size_t size : sizes) {
+    const std::span<const double> curve(at_optimum.data() + first, size);
+    const double mean = mean_of_part(curve);
+    std::size_t from = 0;
+    for (std::size_t i = 0; i < size; ++i, ++from) {
+      if (i % block == 0) from = draw(random, size);
+      shift[first + i] = widened * (curve[from % size] - mean) - curve[i];
+    }
+    first += size;
+  }
+  return shift;
+}
+
+std::size_t block_length(const Residuals& at_optimum, std::span<const std::size_t> sizes) {
+  std::size_t length = 1, first = 0;
+  for (const std::size_t size : sizes) {
+    const std::span<const double> curve(at_optimum.data() + first, size);
+    first += size;
+    if (size < 8) continue;
+    const auto root = static_cast<std::size_t>(std::cbrt(static_cast<double>(size)));
+    length = std::max(length, std::min(std::max(root, 2 * decorrelation_lag(curve)), size / 4));
+  }
+  return length;
+}
+
+std::vector<std::size_t> fold_of_each(std::size_t count, std::size_t folds, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::vector<std::size_t> fold(count);
+  for (std::size_t i = 0; i < count; ++i) fold[i] = i % folds;
+  for (std::size_t i = count; i > 1; --i) std::swap(fold[i - 1], fold[draw(random, i)]);
+  return fold;
+}
+
+double quantile(std::vector<double> values, double part) {
+  std::ranges::sort(values);
+  const double place = part * static_cast<double>(values.size() - 1);
+  const auto below = static_cast<std::size_t>(place);
+  const std::size_t above = std::min(below + 1, values.size() - 1);
+  return values[below] + (place - static_cast<double>(below)) * (values[above] - values[below]);
+}
+
+double correlation(std::span<const double> one, std::span<const double> other) {
+  const double mean_one = mean_of_part(one), mean_other = mean_of_part(other);
+  double both = 0., first = 0., second = 0.;
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    const double a = one[i] - mean_one, b = other[i] - mean_other;
+    both += a * b;
+    first += a * a;
+    second += b * b;
+  }
+  const double scale = std::sqrt(first * second);
+  return scale > 0. ? both / scale : 0.;
+}
+
+}  // namespace hookpoint::studies

@@ -1,0 +1,255 @@
+// Calibrations from their files: what a Calibrate says, which constants a subject has, cases and
+// folds, and the same answer however it is run.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "application/calibration_plans.h"
+#include "studies/calibrate/outputs.h"
+#include "studies/calibrate/subject_name.h"
+#include "tests/support/command.h"
+
+namespace hookpoint::studies {
+namespace {
+
+using testing::Workplace;
+
+constexpr double gravity = 9.81, stiffness = 8e3, damping = 18.;
+
+/// A unit mass on one point, at rest on the ground's surface.
+constexpr const char* point_scene = R"(
+Param height = 0 m;
+Param weight_factor = 1;
+World world {
+  gravity = 9.81 * weight_factor;
+  deltat = 1 ms;
+  integrator = rk4;
+  Material floor { normal_stiffness = 10 kN/m; normal_damping = 10 N.s/m; }
+  Terrain.Flat ground { material = floor; }
+  Robot point { Base.mobile { location = 0, 0, height; mass = 1; inertia = 1, 1, 1, 0, 0, 0; ContactPoint tip { location = 0, 0, 0; } } }
+}
+)";
+
+constexpr const char* two_constants = R"(
+  Vary normal_stiffness { from = 1 kN/m; to = 100 kN/m; scale = log; }
+  Vary normal_damping { from = 1 N.s/m; to = 100 N.s/m; scale = log; }
+)";
+
+/// z'' = -factor g - k z - c z' from rest, with a ripple in the place of noise.
+std::string oscillation(double factor, int samples = 60, double ripple = 0.) {
+  const double depth = factor * gravity / stiffness, rate = 0.5 * damping;
+  const double frequency = std::sqrt(stiffness - rate * rate);
+  std::string text = "time [s],z [mm],v [m/s]\n";
+  for (int i = 0; i <= samples; ++i) {
+    // Between two steps, too.
+    const double time = 2.5e-3 * i;
+    const double wave = std::cos(frequency * time) + rate / frequency * std::sin(frequency * time);
+    const double z = -depth + depth * std::exp(-rate * time) * wave;
+    const double wobble = ripple * std::sin(1.7 * i * i + factor);
+    text += std::to_string(time) + "," + std::to_string(1e3 * z + wobble) + ",0\n";
+  }
+  return text;
+}
+
+class CalibrateFile : public ::testing::Test {
+ protected:
+  CalibrateFile()
+      : application_(false, [this](const language::Diagnostics& found) { tell(found); }) {
+    place_.file("scene.hook", point_scene);
+    place_.file("drop.csv", oscillation(1., 60, 0.01));
+  }
+
+  static std::string trace(const std::string& more = "", const std::string& file = "drop.csv",
+                           const std::string& name = "drop") {
+    return "Trace " + name + " { file = \"" + file +
+           "\"; column = \"z\"; of = point.base.location.z; weight = 1 / (0.01 mm); " + more +
+           "}\n";
+  }
+  static std::string block(const std::string& inside) {
+    return "Calibrate floor {\n  scene = \"scene.hook\";\n  starts = 4;\n" + inside + "}\n";
+  }
+
+  std::optional<CalibrationPlan> plan(const std::string& text) {
+    told_.clear();
+    application::StudyArguments arguments;
+    const std::string name = "calibrate" + std::to_string(++files_) + ".hook";
+    arguments.file = place_.file(name, text);
+    const auto root = application_.evaluate(arguments.file, {});
+    if (!root) return std::nullopt;
+    auto found = application::plan_calibrate_file(application_, *root, arguments);
+    if (!found || found->size() != 1) return std::nullopt;
+    return std::move(found->front());
+  }
+
+  CalibrationResult run(const CalibrationPlan& plan, const std::string& folder, int jobs = 2,
+                        bool resume = false, std::size_t stop_after = 0) {
+    std::atomic<bool> stop = false;
+    CalibrationOptions options;
+    options.run.jobs = jobs;
+    options.run.resume = resume;
+    options.run.folder = place_.folder() / folder;
+    options.run.progress = [&](const Progress& progress) {
+      if (stop_after > 0 && progress.done >= stop_after) stop = true;
+    };
+    const CalibrationRun run = run_calibration(plan, application_.engines(), options, stop);
+    application::write_calibration(run, plan, "hookpoint tune calibrate.hook");
+    return run.result;
+  }
+
+  void tell(const language::Diagnostics& found) {
+    for (const language::Diagnostic& diagnostic : found.all())
+      if (diagnostic.severity == language::Severity::error) told_ += diagnostic.message + "\n";
+  }
+  bool refused(const std::string& inside, const std::string& why) {
+    return !plan(block(inside)) && told_.find(why) != std::string::npos;
+  }
+
+  Workplace place_;
+  std::string told_;
+  application::Application application_;
+  int files_ = 0;
+};
+
+TEST_F(CalibrateFile, TheSameForAnyNumberOfThreadsAndWhenItIsResumed) {
+  const auto found = plan(block(std::string("resamples = 40;\n") + trace() + two_constants));
+  ASSERT_TRUE(found) << told_;
+  const CalibrationResult one = run(*found, "one", 1);
+  ASSERT_EQ(one.subjects.size(), 1U);
+  ASSERT_EQ(one.subjects[0].constants.size(), 2U);
+  const auto value = [&](std::size_t i) {
+    return found->varied[i].at(one.subjects[0].constants[i].share);
+  };
+  EXPECT_NEAR(value(0), 8., 0.02);  // [kN/m]
+  EXPECT_NEAR(value(1), 18., 0.2);  // [N s/m]
+  EXPECT_LT(*one.subjects[0].error, 1.);
+  EXPECT_GT(*one.subjects[0].own_error, 10.);
+  EXPECT_TRUE(one.subjects[0].constants[0].told);
+  run(*found, "three", 3);
+  const CalibrationResult cut = run(*found, "cut", 2, false, 20);
+  EXPECT_TRUE(cut.interrupted);
+  EXPECT_FALSE(cut.subjects[0].constants.empty());
+  EXPECT_FALSE(cut.subjects[0].constants[0].told);
+  EXPECT_NE(place_.read("cut/report.html").find("Interrupted"), std::string::npos);
+  EXPECT_FALSE(run(*found, "cut", 2, true).interrupted);
+  for (const char* file : {"calibration.csv", "correlations.csv", "evaluations.csv", "curves.csv",
+                           "materials/floor_scene.hook", "trace_drop.svg"}) {
+    const std::string whole = place_.read(std::filesystem::path("one") / file);
+    EXPECT_FALSE(whole.empty()) << file;
+    EXPECT_EQ(whole, place_.read(std::filesystem::path("three") / file)) << file;
+    EXPECT_EQ(whole, place_.read(std::filesystem::path("cut") / file)) << file;
+  }
+}
+
+TEST_F(CalibrateFile, ConstantsThatASubjectDoesNotReadAreLeftOut) {
+  // An impulse law advances time itself.
+  std::string scene = point_scene;
+  scene.erase(scene.find("  integrator = rk4;\n"), 20);
+  place_.file("scene.hook", scene);
+  const auto found =
+      plan(block(std::string("subjects = hookpoint, hunt_crossley, impulse;\n"
+                             "resamples = 10;\n") +
+                 trace() + two_constants + "Vary static_friction { from = 0.8; to = 2; }\n"));
+  ASSERT_TRUE(found) << told_;
+  ASSERT_EQ(found->subjects.size(), 3U);
+  const CalibrationResult result = run(*found, "out");
+  const auto& hookpoint = result.subjects[0];
+  ASSERT_EQ(hookpoint.constants.size(), 2U);
+  ASSERT_EQ(hookpoint.left_out.size(), 1U);
+  EXPECT_EQ(hookpoint.left_out[0].reason, "no trace changes with it");
+  // Hunt and Crossley's damping is another constant.
+  const auto& crossley = result.subjects[1];
+  ASSERT_EQ(crossley.constants.size(), 1U);
+  EXPECT_EQ(crossley.left_out.front().reason, "the law hunt_crossley does not read it");
+  EXPECT_GT(*crossley.error, *hookpoint.error);
+  // An impulse law has neither.
+  EXPECT_EQ(result.subjects[2].status, "none of the constants changes a trace");
+  EXPECT_TRUE(result.subjects[2].constants.empty());
+  const std::string table = place_.read("out/calibration.csv");
+  EXPECT_NE(table.find("impulse,normal_stiffness,kN/m,,,,no,left out"), std::string::npos) << table;
+}
+
+TEST_F(CalibrateFile, TracesWithSettingsOfTheirOwnAreCasesThatFoldsHoldOut) {
+  std::string traces = "folds = 3;\nresamples = 30;\nbootstrap = one_step;\n";
+  for (int i = 0; i < 6; ++i) {
+    const double factor = 0.7 + 0.1 * i;
+    const std::string number = std::to_string(i);
+    place_.file("drop" + number + ".csv", oscillation(factor, 30, 0.01));
+    traces += trace("Fix weight_factor { value = " + std::to_string(factor) + "; } ",
+                    "drop" + number + ".csv", "drop" + number);
+  }
+  const auto found = plan(block(traces + two_constants));
+  ASSERT_TRUE(found) << told_;
+  EXPECT_EQ(found->cases.size(), 6U);
+  EXPECT_TRUE(found->resamples_cases());
+  const CalibrationResult result = run(*found, "out");
+  const SubjectCalibration& subject = result.subjects[0];
+  EXPECT_NEAR(found->varied[0].at(subject.constants[0].share), 8., 0.02);
+  ASSERT_EQ(subject.folds.size(), 3U);
+  std::size_t held = 0;
+  for (const FoldResult& fold : subject.folds) {
+    held += fold.held_out.size();
+    EXPECT_NEAR(*fold.held / *fold.training, 1., 0.3);
+  }
+  EXPECT_EQ(held, 6U);
+  EXPECT_EQ(subject.resamples, 30U);
+  EXPECT_NE(place_.read("out/folds.csv").find("drop3"), std::string::npos);
+}
+
+TEST_F(CalibrateFile, AConstantAtTheEndOfItsRangeIsNotToldAsANumber) {
+  const auto found = plan(block("resamples = 20;\n" + trace() +
+                                "Vary normal_stiffness { from = 20 kN/m; to = 100 kN/m; }\n"));
+  ASSERT_TRUE(found) << told_;
+  const CalibrationResult result = run(*found, "out");
+  EXPECT_FALSE(result.subjects[0].constants[0].told);
+  const std::string table = place_.read("out/calibration.csv");
+  EXPECT_NE(table.find("scene,normal_stiffness,kN/m,,"), std::string::npos) << table;
+  EXPECT_NE(table.find("the fit ends at a bound of its range"), std::string::npos) << table;
+}
+
+TEST_F(CalibrateFile, WhatCannotBeCalibratedIsToldBeforeAnythingRuns) {
+  const std::string good = trace();
+  EXPECT_TRUE(refused(good, "needs a Vary")) << told_;
+  EXPECT_TRUE(refused(two_constants, "needs a Trace")) << told_;
+  EXPECT_TRUE(refused(trace("", "none.csv") + two_constants, "no file \"none.csv\"")) << told_;
+  EXPECT_TRUE(refused("subjects = hookpoint, newton;\n" + good + two_constants, "`newton`"))
+      << told_;
+  EXPECT_TRUE(refused("subjects = hookpoint, hookpoint;\n" + good + two_constants, "there already"))
+      << told_;
+  EXPECT_TRUE(refused(good + "Vary gravitas { from = 1; to = 2; }\n", "`gravitas`")) << told_;
+  const auto with = [](const std::string& fields) {
+    return "Trace drop { file = \"drop.csv\"; " + fields + " }\n" + two_constants;
+  };
+  EXPECT_TRUE(refused(with("column = \"v\"; of = point.base.location.z; weight = 1 / (1 mm);"),
+                      "is in m/s"))
+      << told_;
+  EXPECT_TRUE(refused(with("column = \"z\"; of = point.base.location.z; weight = 2 mm;"),
+                      "1 over what one takes for an error"))
+      << told_;
+  EXPECT_TRUE(
+      refused(with("column = \"z\"; of = point.base.place.z; weight = 1 / (1 mm);"), "place"))
+      << told_;
+  EXPECT_TRUE(refused(trace("Fix normal_stiffness { value = 1 kN/m; }") + two_constants,
+                      "it cannot be fixed as well"))
+      << told_;
+}
+
+TEST_F(CalibrateFile, SubjectsByTheirNames) {
+  const auto found = plan(block(trace() + two_constants));
+  ASSERT_TRUE(found) << told_;
+  const language::ClassSchema& world = found->subjects[0].scene->world_schema();
+  const auto peer = subject_named(world, "mujoco_matched");
+  ASSERT_TRUE(peer);
+  EXPECT_EQ(peer->engine, "mujoco");
+  EXPECT_EQ(peer->settings, "matched");
+  const auto law = subject_named(world, "hunt_crossley_rk4");
+  ASSERT_TRUE(law);
+  EXPECT_EQ(law->engine, "dts");
+  EXPECT_EQ(law->contact, "hunt_crossley");
+  EXPECT_EQ(law->integrator, "rk4");
+  EXPECT_EQ(subject_named(world, "hookpoint_reset")->contact, "hookpoint_reset");
+  EXPECT_FALSE(subject_named(world, "hunt"));
+  EXPECT_FALSE(subject_named(world, "hookpoint_hunt_crossley"));
+}
+
+}  // namespace
+}  // namespace hookpoint::studies

@@ -1,0 +1,79 @@
+// The bootstrap's samples and the folds of a cross-validation.
+#include "studies/calibrate/resampling.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+namespace hookpoint::studies {
+namespace {
+
+TEST(Resampling, ThingsAreDrawnAsOftenAsThereAreOfThem) {
+  std::mt19937_64 random(3);
+  std::vector<double> never;
+  for (int trial = 0; trial < 200; ++trial) {
+    const std::vector<int> drawn = draw_with_replacement(50, random);
+    EXPECT_EQ(std::accumulate(drawn.begin(), drawn.end(), 0), 50);
+    never.push_back(static_cast<double>(std::ranges::count(drawn, 0)) / 50.);
+  }
+  // Each is missing with the chance (1 - 1/50)^50.
+  const double mean = std::accumulate(never.begin(), never.end(), 0.) / 200.;
+  EXPECT_NEAR(mean, std::pow(0.98, 50), 0.015);
+}
+
+TEST(Resampling, BlocksComeFromTheirOwnCurveWithTheVarianceOfTheNoise) {
+  // Residuals of a fit of 2 constants to 40 + 20 samples of noise of size 1 and 10.
+  const std::array<std::size_t, 2> sizes{40, 20};
+  std::mt19937_64 random(5);
+  Residuals residuals;
+  for (int i = 0; i < 60; ++i) residuals.push_back((i < 40 ? 1. : 10.) * (i % 2 == 0 ? 1. : -1.));
+  double first = 0., second = 0.;
+  for (int trial = 0; trial < 100; ++trial) {
+    const Residuals shift = shift_of_blocks(residuals, sizes, 3, 2, random);
+    for (std::size_t i = 0; i < 60; ++i) {
+      const double drawn = residuals[i] + shift[i];
+      (i < 40 ? first : second) += drawn * drawn;
+    }
+  }
+  // n/(n - constants), of either curve.
+  EXPECT_NEAR(first / 4000., 60. / 58., 1e-9);
+  EXPECT_NEAR(second / 2000., 100. * 60. / 58., 1e-9);
+}
+
+TEST(Resampling, BlocksGrowWithWhatHangsTogether) {
+  std::mt19937_64 random(9);
+  const std::array<std::size_t, 1> sizes{216};
+  Residuals white, slow;
+  for (int i = 0; i < 216; ++i) {
+    const double part = static_cast<double>(random() >> 11) * 0x1p-53 - 0.5;
+    white.push_back(part);
+    slow.push_back(std::sin(0.05 * i));
+  }
+  EXPECT_EQ(block_length(white, sizes), 6U);
+  EXPECT_GT(block_length(slow, sizes), 30U);
+  EXPECT_LE(block_length(slow, sizes), 54U);
+}
+
+TEST(Resampling, FoldsAreEquallyLargeAndDrawnBySeed) {
+  const auto folds = fold_of_each(23, 5, 1);
+  for (std::size_t fold = 0; fold < 5; ++fold) {
+    const auto size = std::ranges::count(folds, fold);
+    EXPECT_TRUE(size == 4 || size == 5) << size;
+  }
+  EXPECT_EQ(folds, fold_of_each(23, 5, 1));
+  EXPECT_NE(folds, fold_of_each(23, 5, 2));
+}
+
+TEST(Resampling, QuantilesAndCorrelations) {
+  EXPECT_DOUBLE_EQ(quantile({4., 1., 3., 2., 5.}, 0.5), 3.);
+  EXPECT_DOUBLE_EQ(quantile({4., 1., 3., 2., 5.}, 0.125), 1.5);
+  const std::array one{1., 2., 3.}, other{-2., -4., -6.}, same{7., 7., 7.};
+  EXPECT_NEAR(correlation(one, other), -1., 1e-12);
+  EXPECT_EQ(correlation(one, same), 0.);
+}
+
+}  // namespace
+}  // namespace hookpoint::studies
