@@ -102,9 +102,7 @@ int calibrate_one(const application::Application& application,
     studies::CalibrationOptions options{
         bar.watch(application::run_options(arguments, folder)),
         [&bar](const std::string& message) { bar.message(message); }};
-    options.run.tell = [](const std::string& notice) {
-      std::cerr << "hookpoint: note: " << notice << '\n';
-    };
+    options.run.tell = tell;
     run = studies::run_calibration(plan, application.engines(), options, guard.stop());
   }
   const std::vector<std::string> undrawn = application::write_calibration(*run, plan, command);
