@@ -23,11 +23,12 @@ namespace {
 /// touches a step earlier or later: differences are taken wide of those.
 constexpr FitOptions fit_of_runs{5e-4, 60, 1e-8}, refit_of_runs{5e-4, 30, 1e-6};
 
-/// Outside of this part of its range a constant is at its bound.
-constexpr double bound = 2e-3;
+/// A constant within this part of its range from an end is at it.
+constexpr double end_part = 2e-3;
 /// A constant whose interval is a greater part of its range is not told by the data.
 constexpr double widest_interval = 0.5;
-constexpr std::size_t least_resamples = 10;
+/// Of fewer samples 2.5 % are less than one.
+constexpr std::size_t least_resamples = 39;
 /// Of a constant with which every run is the same, bit for bit.
 constexpr const char* unread = "no trace changes with it";
 
@@ -191,13 +192,13 @@ class SubjectFit {
       result_.status = "no run has a value: " + looked.front()->status;
       return false;
     }
-    const auto refined = rows_.run(
-        {best.size(), [&](std::size_t i) { return identity("refined", i, best[i]); },
-         [&](std::size_t i) {
-           const auto fit = refine(model_of(cases_), best[i], fit_of_runs);
-           return fit ? outcome_of(*fit, plan_.samples())
-                      : look_without_value("no run beside it has a value");
-         }});
+    const auto refined =
+        rows_.run({best.size(), [&](std::size_t i) { return identity("refined", i, best[i]); },
+                   [&](std::size_t i) {
+                     const auto fit = refine(model_of(cases_), best[i], fit_of_runs);
+                     return fit ? outcome_of(*fit, plan_.samples())
+                                : look_without_value("no run beside it has a value");
+                   }});
     record(FitStage::refined, refined, best);
     stop_if_unfinished(refined);
     linearise_at_optimum();
@@ -368,14 +369,20 @@ class SubjectFit {
 
   void judge(const std::vector<Shares>& places) {
     result_.resamples = places.size();
-    if (places.size() < least_resamples) return;
+    if (places.size() < least_resamples) {
+      for (FittedConstant& constant : result_.constants)
+        constant.reason = fmt::format("an interval needs {} samples of the bootstrap, not {}",
+                                      least_resamples, places.size());
+      return;
+    }
     std::vector<std::vector<double>> columns(subject_.constants.size());
     for (const Shares& place : places)
       for (std::size_t i = 0; i < place.size(); ++i) columns[i].push_back(place[i]);
+    const double tail = interval_tail();
     for (std::size_t i = 0; i < columns.size(); ++i) {
       FittedConstant& constant = result_.constants[i];
-      constant.low = quantile(columns[i], 0.025);
-      constant.high = quantile(columns[i], 0.975);
+      constant.low = quantile(columns[i], tail);
+      constant.high = quantile(columns[i], 1. - tail);
       constant.reason = why_untold(constant);
       constant.told = constant.reason.empty();
       std::vector<double>& row = result_.correlations.emplace_back();
@@ -384,14 +391,22 @@ class SubjectFit {
     }
   }
 
+  /// Of the blocks the fit has taken one for each constant.
+  double interval_tail() const {
+    if (plan_.resamples_cases()) return tail_of_interval(static_cast<double>(plan_.cases.size()));
+    const double blocks = static_cast<double>(plan_.samples()) / static_cast<double>(result_.block);
+    return tail_of_interval(blocks - static_cast<double>(subject_.constants.size()));
+  }
+
   static std::string why_untold(const FittedConstant& constant) {
-    if (constant.share < bound || constant.share > 1. - bound)
-      return "the fit ends at a bound of its range";
+    if (const std::string_view end = range_end(constant.share); !end.empty())
+      return fmt::format("the fit ends at the {} end of its range", end);
     const double width = *constant.high - *constant.low;
     if (width > widest_interval)
       return fmt::format("its interval spans {:.0f} % of its range", 100. * width);
-    if (*constant.low < bound || *constant.high > 1. - bound)
-      return "its interval reaches a bound of its range";
+    for (const double reached : {*constant.low, *constant.high})
+      if (const std::string_view end = range_end(reached); !end.empty())
+        return fmt::format("its interval reaches the {} end of its range", end);
     return "";
   }
 
@@ -403,16 +418,17 @@ class SubjectFit {
     for (const std::size_t one : cases_)
       for (std::size_t part = 0; part < folds; ++part)
         (fold[one] == part ? held : training)[part].push_back(one);
-    const auto outcomes = rows_.run(
-        {folds, [&](std::size_t i) { return identity("fold", i, optimum_.place); },
-         [&](std::size_t i) {
-           const Linearisation start = optimum_over(training[i]);
-           const LeastSquaresFit fit = refine(model_of(training[i]), start, refit_of_runs);
-           const auto out = model_.residuals(model_.settings_at(fit.place), held[i]);
-           FitOutcome outcome = outcome_of(fit, start.residuals.size());
-           if (out) outcome.held_out = error_of(*out);
-           return outcome;
-         }});
+    const auto outcomes =
+        rows_.run({folds, [&](std::size_t i) { return identity("fold", i, optimum_.place); },
+                   [&](std::size_t i) {
+                     const Linearisation start = optimum_over(training[i]);
+                     const LeastSquaresFit fit =
+                         refine(model_of(training[i]), start, refit_of_runs);
+                     const auto out = model_.residuals(model_.settings_at(fit.place), held[i]);
+                     FitOutcome outcome = outcome_of(fit, start.residuals.size());
+                     if (out) outcome.held_out = error_of(*out);
+                     return outcome;
+                   }});
     for (std::size_t i = 0; i < folds; ++i) {
       if (!outcomes[i]) continue;
       const FitOutcome& outcome = *outcomes[i];
@@ -465,6 +481,10 @@ std::string_view name_of(FitStage stage) {
       return "fold";
   }
   return "";
+}
+
+std::string_view range_end(double share) {
+  return share < end_part ? "lower" : share > 1. - end_part ? "upper" : "";
 }
 
 std::optional<double> error_of(const Residuals& residuals) {

@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "output/result_folder.h"
@@ -21,6 +22,9 @@ namespace hookpoint::studies {
 /// What a row of evaluations.csv is of.
 enum class FitStage { start, refined, resample, fold };
 std::string_view name_of(FitStage stage);
+
+/// "lower" or "upper" where a share stands at that end of its range, else "".
+std::string_view range_end(double share);
 
 /// One place of a subject's box that was fitted or looked at.
 struct FitRecord {

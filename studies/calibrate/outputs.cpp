@@ -83,7 +83,8 @@ std::vector<std::string> calibration_files(const CalibrationPlan& plan) {
 
 output::CsvTable calibration_table(const CalibrationPlan& plan, const CalibrationResult& result) {
   output::CsvTable table;
-  table.header = {"subject", "constant", "unit", "value", "low", "high", "told", "reason"};
+  table.header = {"subject", "constant", "unit",   "value", "low",
+                  "high",    "told",     "at_end", "reason"};
   for_each_subject(
       plan, result, [&](const CalibrationSubject& subject, const SubjectCalibration& found) {
         for (std::size_t constant = 0; constant < plan.varied.size(); ++constant) {
@@ -98,12 +99,12 @@ output::CsvTable calibration_table(const CalibrationPlan& plan, const Calibratio
           if (fitted != found.constants.end()) {
             // An interval that is too wide is told, the number in it is not.
             const bool known = fitted->told || !fitted->low;
-            row.insert(row.end(),
-                       {known ? share_text(fitted->share) : "", share_text(fitted->low),
-                        share_text(fitted->high), fitted->told ? "yes" : "no", fitted->reason});
+            row.insert(row.end(), {known ? share_text(fitted->share) : "", share_text(fitted->low),
+                                   share_text(fitted->high), fitted->told ? "yes" : "no",
+                                   std::string(range_end(fitted->share)), fitted->reason});
           } else {
             row.insert(row.end(),
-                       {"", "", "", "no",
+                       {"", "", "", "no", "",
                         left != found.left_out.end() ? "left out: " + left->reason : found.status});
           }
           table.rows.push_back(std::move(row));

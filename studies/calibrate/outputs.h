@@ -13,8 +13,9 @@ namespace hookpoint::studies {
 /// The names of all that a calibration may leave, its store too.
 std::vector<std::string> calibration_files(const CalibrationPlan& plan);
 
-/// A row a subject and constant: value and 95 % interval in the constant's unit, and whether the
-/// data tell it; of one that they do not, or that was left out, no value but the reason.
+/// A row a subject and constant: value and 95 % interval in the constant's unit, whether the data
+/// tell it, and the end of its range where the fit ends there; of one that they do not tell, or
+/// that was left out, no value but the reason.
 output::CsvTable calibration_table(const CalibrationPlan& plan, const CalibrationResult& result);
 output::CsvTable correlations_table(const CalibrationPlan& plan, const CalibrationResult& result);
 /// Every place that was looked at or fitted, in order.

@@ -24,7 +24,7 @@ using language::Object;
 using language::Position;
 
 /// What --quick leaves of the work.
-constexpr std::size_t quick_resamples = 20, quick_starts = 4, quick_folds = 2;
+constexpr std::size_t quick_starts = 4, quick_folds = 2;
 
 /// What a plan is made from.
 struct PlanSource {
@@ -280,7 +280,7 @@ void set_work(CalibrationPlan& plan, const Object& calibrate, bool quick) {
       calibrate.word("bootstrap") == "one_step" ? Bootstrap::one_step : Bootstrap::refits;
   if (!quick) return;
   plan.folds = std::min(plan.folds, quick_folds);
-  plan.resamples = std::min(plan.resamples, quick_resamples);
+  plan.bootstrap = Bootstrap::one_step;
   plan.starts = std::min(plan.starts, quick_starts);
 }
 

@@ -95,6 +95,20 @@ std::string constants_of_subjects(const CalibrationPlan& plan, const Calibration
   return table.text();
 }
 
+/// What it means that a constant stands at the end of its range; "" where none does.
+std::string range_ends_note(const CalibrationResult& result) {
+  const auto at_end = [](const FittedConstant& one) { return !range_end(one.share).empty(); };
+  const bool any = std::ranges::any_of(result.subjects, [&](const SubjectCalibration& found) {
+    return std::ranges::any_of(found.constants, at_end);
+  });
+  if (!any) return "";
+  return text_block("note soft",
+                    "A fit that ends at the end of a range would go on beyond it. Either the range "
+                    "is too narrow, or the model lacks what the data show and the constant stands "
+                    "in for it: its value says where the range ends, not what the ground is, and "
+                    "the other constants of that subject are fitted around it.");
+}
+
 std::string correlations_of_subjects(const CalibrationPlan& plan, const CalibrationResult& result) {
   HtmlTable table({"subject", "constant", "with", "correlation"}, 3);
   bool any = false;
@@ -140,7 +154,7 @@ std::string method_words(const CalibrationPlan& plan, const CalibrationResult& r
       "Levenberg-Marquardt; {} bootstrap samples {}, each {}. The error is the root mean square "
       "of weight (model - measured): 1 where the weight is 1 over the noise and the model is "
       "right. A constant is told unless its interval spans more than half of its range or reaches "
-      "a bound.",
+      "an end of it.",
       plan.starts, refined_starts, plan.resamples, drawn, refits);
 }
 
@@ -203,7 +217,7 @@ std::string calibration_html(const CalibrationPlan& plan, const CalibrationResul
     links +=
         (links.empty() ? "" : " · ") + ("<a href=\"" + html(file) + "\">" + html(file) + "</a>");
   page += text_block("facts", links);
-  page += section("The constants") + constants_of_subjects(plan, result);
+  page += section("The constants") + constants_of_subjects(plan, result) + range_ends_note(result);
   page += section("How well each fits") + subjects_table(plan, result) +
           text_block("note soft", html(method_words(plan, result)));
   page += figures_of(figures);

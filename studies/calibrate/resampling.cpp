@@ -1,7 +1,9 @@
 #include "studies/calibrate/resampling.h"
 
 #include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "studies/tune/random_place.h"
@@ -83,10 +85,19 @@ std::vector<std::size_t> fold_of_each(std::size_t count, std::size_t folds, std:
 
 double quantile(std::vector<double> values, double part) {
   std::ranges::sort(values);
-  const double place = part * static_cast<double>(values.size() - 1);
+  const auto count = static_cast<double>(values.size());
+  const double place = std::clamp(part * (count + 1.) - 1., 0., count - 1.);
   const auto below = static_cast<std::size_t>(place);
   const std::size_t above = std::min(below + 1, values.size() - 1);
   return values[below] + (place - static_cast<double>(below)) * (values[above] - values[below]);
+}
+
+double tail_of_interval(double things) {
+  constexpr double upper = 0.975;
+  const double many = std::max(2., things);
+  const boost::math::students_t_distribution<double> student(many - 1.);
+  const double end = boost::math::quantile(student, upper) * std::sqrt(many / (many - 1.));
+  return 0.5 * std::erfc(end / std::numbers::sqrt2);
 }
 
 double correlation(std::span<const double> one, std::span<const double> other) {

@@ -30,8 +30,16 @@ std::size_t block_length(const Residuals& at_optimum, std::span<const std::size_
 /// be.
 std::vector<std::size_t> fold_of_each(std::size_t count, std::size_t folds, std::uint64_t seed);
 
-/// The value below which a share `part` of the values lies, by linear interpolation between them.
+/// The value below which a further draw falls with the chance `part`, by linear interpolation
+/// between the values: of n drawn, the k-th from below at k/(n + 1). At most the outermost ones.
 double quantile(std::vector<double> values, double part);
+
+/// The part of a bootstrap's samples that lies beyond either end of an interval of 95 %, where
+/// `things` independent ones were drawn from: 2.5 % of many. Of few less, as they spread about
+/// their own mean and Student's t is wider than the normal distribution: Phi(-t sqrt(m/(m - 1)))
+/// with m - 1 degrees of freedom (the expanded percentile interval: Hesterberg, "What teachers
+/// should know about the bootstrap", 2015).
+double tail_of_interval(double things);
 
 /// Correlation of two equally long rows; 0 where one of them never changes.
 double correlation(std::span<const double> one, std::span<const double> other);

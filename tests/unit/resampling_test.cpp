@@ -57,6 +57,50 @@ TEST(Resampling, BlocksGrowWithWhatHangsTogether) {
   EXPECT_LE(block_length(slow, sizes), 54U);
 }
 
+/// Close to normal, of variance 1, the same with every library (Irwin & Hall).
+double normal_number(std::mt19937_64& random) {
+  double sum = -6.;
+  for (int i = 0; i < 12; ++i) sum += static_cast<double>(random() >> 11) * 0x1p-53;
+  return sum;
+}
+
+TEST(Resampling, IntervalsHoldTheTruthInNineteenOfTwentyCases) {
+  // Slopes of straight lines through 60 samples of noise alone.
+  constexpr std::size_t samples = 60, resamples = 100;
+  constexpr int lines = 1000;
+  const std::array<std::size_t, 1> sizes{samples};
+  std::vector<double> x;
+  double squares = 0.;
+  for (std::size_t i = 0; i < samples; ++i) {
+    x.push_back(static_cast<double>(i) - 29.5);
+    squares += x.back() * x.back();
+  }
+  const auto slope_of = [&](const Residuals& y) {
+    return std::inner_product(x.begin(), x.end(), y.begin(), 0.) / squares;
+  };
+  std::mt19937_64 random(11);
+  int inside = 0;
+  for (int line = 0; line < lines; ++line) {
+    Residuals data(samples);
+    for (double& one : data) one = normal_number(random);
+    const double slope = slope_of(data);  // the true one is 0
+    const double mean = std::accumulate(data.begin(), data.end(), 0.) / samples;
+    Residuals rest(samples);
+    for (std::size_t i = 0; i < samples; ++i) rest[i] = data[i] - mean - slope * x[i];
+    const std::size_t block = block_length(rest, sizes);
+    std::vector<double> slopes;
+    for (std::size_t i = 0; i < resamples; ++i) {
+      Residuals drawn = shift_of_blocks(rest, sizes, block, 2, random);
+      for (std::size_t j = 0; j < samples; ++j) drawn[j] += rest[j];
+      slopes.push_back(slope + slope_of(drawn));
+    }
+    const double tail =
+        tail_of_interval(static_cast<double>(samples) / static_cast<double>(block) - 2.);
+    inside += quantile(slopes, tail) <= 0. && 0. <= quantile(slopes, 1. - tail) ? 1 : 0;
+  }
+  EXPECT_NEAR(static_cast<double>(inside) / lines, 0.95, 0.015);
+}
+
 TEST(Resampling, FoldsAreEquallyLargeAndDrawnBySeed) {
   const auto folds = fold_of_each(23, 5, 1);
   for (std::size_t fold = 0; fold < 5; ++fold) {
@@ -67,9 +111,19 @@ TEST(Resampling, FoldsAreEquallyLargeAndDrawnBySeed) {
   EXPECT_NE(folds, fold_of_each(23, 5, 2));
 }
 
+TEST(Resampling, AnIntervalOfFewThingsHasNarrowerTails) {
+  // Of ever more things the normal distribution's. Of 11 Student's t with 10 degrees of freedom,
+  // 2.228, and Phi(-2.228 sqrt(1.1)) = Phi(-2.3367) = 0.00972 (tables: Abramowitz & Stegun 26.10,
+  // 26.1).
+  EXPECT_NEAR(tail_of_interval(1e7), 0.025, 1e-6);
+  EXPECT_NEAR(tail_of_interval(11.), 0.00972, 1e-5);
+  EXPECT_LT(tail_of_interval(5.), tail_of_interval(6.));
+}
+
 TEST(Resampling, QuantilesAndCorrelations) {
   EXPECT_DOUBLE_EQ(quantile({4., 1., 3., 2., 5.}, 0.5), 3.);
-  EXPECT_DOUBLE_EQ(quantile({4., 1., 3., 2., 5.}, 0.125), 1.5);
+  EXPECT_DOUBLE_EQ(quantile({4., 1., 3., 2., 5.}, 0.25), 1.5);
+  EXPECT_DOUBLE_EQ(quantile({4., 1., 3., 2., 5.}, 0.01), 1.);
   const std::array one{1., 2., 3.}, other{-2., -4., -6.}, same{7., 7., 7.};
   EXPECT_NEAR(correlation(one, other), -1., 1e-12);
   EXPECT_EQ(correlation(one, same), 0.);
