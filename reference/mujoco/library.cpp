@@ -1,6 +1,8 @@
 #include "reference/mujoco/library.h"
 
 #include <array>
+#include <cstddef>
+#include <cstdlib>
 #include <cstring>
 #include <mutex>
 
@@ -15,8 +17,32 @@ namespace {
 /// itself the library prints them and writes MUJOCO_LOG.TXT into the current folder.
 void ignore(const char*) {}
 
+/// What MuJoCo aligns its memory to [bytes].
+constexpr std::size_t alignment = 64;
+
+/// The library's own aligned_alloc cuts up what glibc 2.36 has freed: a world leaves 2 MB behind
+/// that no later one fits into, a thousand worlds 2 GB. Here plain malloc's block begins before the
+/// memory that is handed out, and stands just ahead of it.
+void* allocate(std::size_t bytes) {
+  void* const block = std::malloc(bytes + alignment);
+  if (block == nullptr) return nullptr;
+  void* memory = static_cast<char*>(block) + sizeof(block);
+  std::size_t room = bytes + alignment - sizeof(block);
+  std::align(alignment, bytes, memory, room);
+  std::memcpy(static_cast<char*>(memory) - sizeof(block), &block, sizeof(block));
+  return memory;
+}
+
+void release(void* memory) {
+  void* block = nullptr;
+  std::memcpy(&block, static_cast<char*>(memory) - sizeof(block), sizeof(block));
+  std::free(block);
+}
+
 void prepare_mujoco() {
   static const bool prepared = [] {
+    mju_user_malloc = allocate;
+    mju_user_free = release;
     mju_user_error = report;
     mju_user_warning = ignore;
     return true;
