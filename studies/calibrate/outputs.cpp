@@ -4,11 +4,11 @@
 
 #include <algorithm>
 
-#include "output/figures/plot.h"
 #include "output/file.h"
 #include "output/text/number.h"
 #include "studies/calibrate/figures.h"
 #include "studies/run/results_csv.h"
+#include "studies/tune/material_text.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -39,14 +39,6 @@ void add_values(std::vector<std::string>& row, const CalibrationPlan& plan,
     const auto index = static_cast<std::size_t>(found - fitted.begin());
     row.push_back(index < place.size() ? shortest(plan.varied[constant].at(place[index])) : "");
   }
-}
-
-std::string comment_line(const std::string& text) { return "// " + output::one_line(text) + "\n"; }
-
-std::string field_line(const language::Field& field) {
-  const std::string& unit = field.schema->unit;
-  return fmt::format("  {} = {}{};\n", field.schema->name, shortest(field.numbers.front()),
-                     unit.empty() ? "" : " " + unit);
 }
 
 /// The settings of all that was fitted, rounded as they are written.
@@ -214,10 +206,8 @@ std::string material_text(const CalibrationPlan& plan, const CalibrationSubject&
   }
   for (const LeftOut& left : result.left_out)
     text += comment_line(plan.varied[left.constant].name + ": left out, " + left.reason);
-  text += "\nMaterial " + plan.material + "_" + subject.info.name + " {\n";
-  for (const language::Field& field : subject.scene->material_of(*tree).fields)
-    if (!field.numbers.empty()) text += field_line(field);
-  return text + "}\n";
+  return text + "\n" +
+         material_block(subject.scene->material_of(*tree), plan.material + "_" + subject.info.name);
 }
 
 std::vector<std::string> write_calibration_files(const CalibrationPlan& plan,

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 
-#include "output/figures/plot.h"
 #include "output/file.h"
 #include "output/text/json.h"
 #include "output/text/number.h"
 #include "studies/run/results_csv.h"
 #include "studies/tune/figures.h"
+#include "studies/tune/material_text.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -113,16 +113,6 @@ void write_objectives(output::JsonWriter& json, const TunePlan& plan, const Tune
   }
   json.end_object();
 }
-
-/// A field of a Material as the file writes it.
-std::string field_text(const language::Field& field) {
-  const std::string& unit = field.schema->unit;
-  return fmt::format("  {} = {}{};\n", field.schema->name, shortest(field.numbers.front()),
-                     unit.empty() ? "" : " " + unit);
-}
-
-/// A comment's line, whatever stands in it.
-std::string comment(const std::string& text) { return "// " + output::one_line(text) + "\n"; }
 
 }  // namespace
 
@@ -252,18 +242,15 @@ std::string material_text(const TunePlan& plan, const TuneResult& result,
   language::Diagnostics untold;
   const auto tree = plan.scene->compose(settings_of(plan, result.best()), 1, untold);
   if (tree == nullptr) return "";
-  std::string text = comment(plan.scene->material() + " as tuned by `" + command + "`" +
-                             (result.interrupted ? ", which was interrupted" : ""));
+  std::string text = comment_line(plan.scene->material() + " as tuned by `" + command + "`" +
+                                  (result.interrupted ? ", which was interrupted" : ""));
   std::string values;
   for (std::size_t i = 0; i < plan.varied.size(); ++i)
     if (const auto& value = result.best().values[i])
       values += (values.empty() ? "" : ", ") + plan.varied[i].name + " = " +
                 plan.varied[i].unit.with_unit(*value);
-  text += comment("with " + values + ": " + result.recommended->reason + ".") + "\n";
-  text += "Material " + plan.scene->material() + "_tuned {\n";
-  for (const language::Field& field : plan.scene->material_of(*tree).fields)
-    if (!field.numbers.empty()) text += field_text(field);
-  return text + "}\n";
+  text += comment_line("with " + values + ": " + result.recommended->reason + ".") + "\n";
+  return text + material_block(plan.scene->material_of(*tree), plan.scene->material() + "_tuned");
 }
 
 void write_tune_files(const TunePlan& plan, const TuneRun& run, const std::string& command) {

@@ -1,0 +1,16 @@
+// A Material with constants that were found, as a file that any scene can Include.
+#pragma once
+
+#include <string>
+
+#include "language/document.h"
+
+namespace hookpoint::studies {
+
+/// A comment's line, whatever stands in it.
+std::string comment_line(const std::string& text);
+
+/// The block of `material` under another name, its numbers to the last bit.
+std::string material_block(const language::Object& material, const std::string& name);
+
+}  // namespace hookpoint::studies
