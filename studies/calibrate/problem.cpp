@@ -120,17 +120,6 @@ std::vector<AskedSubject> asked_subjects(const PlanSource& from,
   return asked;
 }
 
-void complete(SubjectInfo& info, const simulation::Experiment& experiment,
-              const EngineTable& engines) {
-  info.engine = experiment.engine;
-  const auto entry = engines.find(info.engine);
-  info.available = entry != engines.end() && entry->second.description.found;
-  const bool ours = info.engine == "dts";
-  info.law = ours ? experiment.contact : "";
-  info.integrator = ours ? experiment.integrator : "";
-  info.settings = ours ? "" : experiment.settings;
-}
-
 bool reads(const contact::LawDescription& law, const std::string& constant) {
   return std::ranges::any_of(law.constants, [&](contact::Constant member) {
     return simulation::field_of(member).name == constant;
@@ -298,7 +287,7 @@ class SubjectMaker {
     const auto own = subject.scene->load({}, 1, found);
     const bool peer = !asked.plan.engine.empty() && asked.plan.engine != "dts";
     if (own) {
-      complete(subject.info, own->experiment, from_.engines);
+      complete_subject(subject.info, own->experiment, from_.engines);
     } else if (peer) {
       // What it lacks is told in the report, as a study tells it.
       subject.info.engine = asked.plan.engine;

@@ -154,7 +154,8 @@ std::string method_words(const CalibrationPlan& plan, const CalibrationResult& r
       "Levenberg-Marquardt; {} bootstrap samples {}, each {}. The error is the root mean square "
       "of weight (model - measured): 1 where the weight is 1 over the noise and the model is "
       "right. A constant is told unless its interval spans more than half of its range or reaches "
-      "an end of it.",
+      "an end of it. Its interval is of the data's noise alone: of a subject with an error well "
+      "above 1 it is about a constant of a model that does not make this curve.",
       plan.starts, refined_starts, plan.resamples, drawn, refits);
 }
 
@@ -194,6 +195,11 @@ std::string verdict_words(const CalibrationPlan& plan, const CalibrationResult& 
                                      error_words(best->error))));
 }
 
+/// "1 case", "2 cases".
+std::string counted(std::size_t count, const char* thing) {
+  return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
+}
+
 std::string calibration_title(const CalibrationPlan& plan) {
   return plan.runs.title.empty() ? spoken(plan.runs.name) : plan.runs.title;
 }
@@ -208,9 +214,10 @@ std::string calibration_html(const CalibrationPlan& plan, const CalibrationResul
   page += "<h1>" + html(calibration_title(plan)) + "</h1>\n";
   if (!plan.runs.question.empty()) page += text_block("question", html(plan.runs.question));
   page += verdict_words(plan, result);
-  page += text_block("facts", html(fmt::format("{} subjects, {} cases, {} samples{}.",
-                                               plan.subjects.size(), plan.cases.size(),
-                                               plan.samples(), plan.runs.quick ? ", quick" : "")));
+  page += text_block(
+      "facts", html(fmt::format("{}, {}, {} samples{}.", counted(plan.subjects.size(), "subject"),
+                                counted(plan.cases.size(), "case"), plan.samples(),
+                                plan.runs.quick ? ", quick" : "")));
   page += "<pre>" + html(context.command) + "</pre>\n";
   std::string links;
   for (const std::string& file : context.files)

@@ -257,17 +257,6 @@ void set_hashes(TunePlan& plan, const TunedScene& own, const EngineTable& engine
   runs.inputs = simulation::hashed(inputs);
 }
 
-void complete_subject(SubjectInfo& info, const simulation::Experiment& experiment,
-                      const EngineTable& engines) {
-  info.engine = experiment.engine;
-  const auto entry = engines.find(info.engine);
-  info.available = entry != engines.end() && entry->second.description.found;
-  const bool ours = info.engine == "dts";
-  info.law = ours ? experiment.contact : "";
-  info.integrator = ours ? experiment.integrator : "";
-  info.settings = ours ? "" : experiment.settings;
-}
-
 std::optional<TunePlan> make_tune_plan(const Object& root, const Object& tune,
                                        const Object* subject, bool several, const std::string& file,
                                        language::Library& library, const EngineTable& engines,
@@ -336,6 +325,17 @@ std::optional<VariedConstant> varied_constant(const Object& block, const TuneSce
   else if (constant.logarithmic && !(constant.from > 0.))
     diagnostics.error(block.find("from")->position, "a range on a log scale begins above 0");
   return constant;
+}
+
+void complete_subject(SubjectInfo& info, const simulation::Experiment& experiment,
+                      const EngineTable& engines) {
+  info.engine = experiment.engine;
+  const auto entry = engines.find(info.engine);
+  info.available = entry != engines.end() && entry->second.description.found;
+  const bool ours = info.engine == "dts";
+  info.law = ours ? experiment.contact : "";
+  info.integrator = ours ? experiment.integrator : "";
+  info.settings = ours ? "" : experiment.settings;
 }
 
 double VariedConstant::at(double share) const {

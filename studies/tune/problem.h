@@ -36,6 +36,11 @@ struct VariedConstant {
 std::optional<VariedConstant> varied_constant(const language::Object& block, const TuneScene& scene,
                                               language::Diagnostics& diagnostics);
 
+/// Engine, law, integrator and settings as the experiment has them, and whether the engine is
+/// there.
+void complete_subject(SubjectInfo& info, const simulation::Experiment& experiment,
+                      const EngineTable& engines);
+
 /// An Objective block.
 struct ObjectivePlan {
   enum class Take { mean, worst };
