@@ -2,9 +2,11 @@
 // folds, and the same answer however it is run.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "application/calibration_plans.h"
+#include "output/text/csv.h"
 #include "studies/calibrate/outputs.h"
 #include "studies/calibrate/subject_name.h"
 #include "tests/support/command.h"
@@ -36,17 +38,21 @@ constexpr const char* two_constants = R"(
 )";
 
 /// z'' = -factor g - k z - c z' from rest, with a ripple in the place of noise.
-std::string oscillation(double factor, int samples = 60, double ripple = 0.) {
-  const double depth = factor * gravity / stiffness, rate = 0.5 * damping;
-  const double frequency = std::sqrt(stiffness - rate * rate);
+double height_at(double time, double factor, double k) {  // [m]
+  const double depth = factor * gravity / k, rate = 0.5 * damping;
+  const double frequency = std::sqrt(k - rate * rate);
+  const double wave = std::cos(frequency * time) + rate / frequency * std::sin(frequency * time);
+  return -depth + depth * std::exp(-rate * time) * wave;
+}
+
+std::string oscillation(double factor, int samples = 60, double ripple = 0., double k = stiffness) {
   std::string text = "time [s],z [mm],v [m/s]\n";
   for (int i = 0; i <= samples; ++i) {
     // Between two steps, too.
     const double time = 2.5e-3 * i;
-    const double wave = std::cos(frequency * time) + rate / frequency * std::sin(frequency * time);
-    const double z = -depth + depth * std::exp(-rate * time) * wave;
     const double wobble = ripple * std::sin(1.7 * i * i + factor);
-    text += std::to_string(time) + "," + std::to_string(1e3 * z + wobble) + ",0\n";
+    text += std::to_string(time) + "," + std::to_string(1e3 * height_at(time, factor, k) + wobble) +
+            ",0\n";
   }
   return text;
 }
@@ -194,6 +200,57 @@ TEST_F(CalibrateFile, TracesWithSettingsOfTheirOwnAreCasesThatFoldsHoldOut) {
   EXPECT_EQ(held, 6U);
   EXPECT_EQ(subject.resamples, 40U);
   EXPECT_NE(place_.read("out/folds.csv").find("drop3"), std::string::npos);
+}
+
+// Least squares do not see the sign of a residual; the curves that are drawn do.
+TEST_F(CalibrateFile, TheModelledCurveIsTheModelsAndNotTheMeasuredOneMirroredInIt) {
+  const auto found = plan(block("resamples = 0;\n" + trace() + two_constants));
+  ASSERT_TRUE(found) << told_;
+  run(*found, "out");
+  const auto table = output::parse_csv(place_.read("out/curves.csv"));
+  ASSERT_TRUE(table);
+  const auto column = [&](const char* title) {
+    return static_cast<std::size_t>(std::ranges::find(table->header, title) -
+                                    table->header.begin());
+  };
+  const std::size_t time = column("time [s]"), measured = column("measured"),
+                    modelled = column("scene");
+  ASSERT_LT(std::max({time, measured, modelled}), table->header.size())
+      << place_.read("out/curves.csv");
+  ASSERT_EQ(table->rows.size(), 61U);
+  double farthest = 0., ripple = 0.;  // [m]
+  for (const auto& row : table->rows) {
+    const double truth = height_at(std::stod(row[time]), 1., stiffness);
+    farthest = std::max(farthest, std::abs(std::stod(row[modelled]) - truth));
+    ripple = std::max(ripple, std::abs(std::stod(row[measured]) - truth));
+  }
+  EXPECT_GT(ripple, 9e-6);
+  EXPECT_LT(farthest, 5e-6);
+}
+
+// One ground of the three is another: whoever holds it out must not have seen it.
+TEST_F(CalibrateFile, AFoldIsFittedWithoutWhatItHoldsOut) {
+  std::string traces = "folds = 3;\nresamples = 0;\n";
+  for (int i = 0; i < 3; ++i) {
+    const double factor = 0.8 + 0.2 * i;
+    const std::string number = std::to_string(i);
+    place_.file("drop" + number + ".csv",
+                oscillation(factor, 30, 0.01, i == 1 ? 1.5 * stiffness : stiffness));
+    traces += trace("Fix weight_factor { value = " + std::to_string(factor) + "; } ",
+                    "drop" + number + ".csv", "drop" + number);
+  }
+  const auto found = plan(block(traces + two_constants));
+  ASSERT_TRUE(found) << told_;
+  const CalibrationResult result = run(*found, "out");
+  ASSERT_EQ(result.subjects[0].folds.size(), 3U);
+  for (const FoldResult& fold : result.subjects[0].folds) {
+    if (fold.held_out != std::vector<std::size_t>{1}) continue;
+    EXPECT_NEAR(found->varied[0].at(fold.place[0]), 8., 0.03);  // [kN/m]
+    EXPECT_LT(*fold.training, 1.);
+    EXPECT_GT(*fold.held, 10.);
+    return;
+  }
+  FAIL() << "no fold holds out the second case alone";
 }
 
 TEST_F(CalibrateFile, AConstantAtTheEndOfItsRangeIsNotToldAsANumber) {
