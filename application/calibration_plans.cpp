@@ -6,6 +6,7 @@
 #include "studies/calibrate/figures.h"
 #include "studies/calibrate/outputs.h"
 #include "studies/calibrate/report.h"
+#include "studies/report/page_parts.h"
 
 namespace hookpoint::application {
 
@@ -35,10 +36,7 @@ std::vector<std::string> write_calibration(const studies::CalibrationRun& run,
   output::write_file(run.folder / "report.html",
                      studies::calibration_html(plan, run.result, context, figures));
   run.files->finish();
-  std::vector<std::string> undrawn;
-  for (const studies::ReportFigure& figure : figures)
-    if (figure.svg.empty()) undrawn.push_back(figure.message);
-  return undrawn;
+  return studies::undrawn(figures);
 }
 
 }  // namespace hookpoint::application

@@ -4,6 +4,7 @@
 
 #include "application/study_plans.h"
 #include "output/file.h"
+#include "studies/report/page_parts.h"
 #include "studies/tune/figures.h"
 #include "studies/tune/outputs.h"
 #include "studies/tune/report.h"
@@ -54,10 +55,7 @@ std::vector<std::string> write_tuning(const studies::TuneRun& run, const studies
   output::write_file(run.folder / "report.html",
                      studies::tune_html(plan, run.result, context, figures));
   run.files->finish();
-  std::vector<std::string> undrawn;
-  for (const studies::ReportFigure& figure : figures)
-    if (figure.svg.empty()) undrawn.push_back(figure.message);
-  return undrawn;
+  return studies::undrawn(figures);
 }
 
 }  // namespace hookpoint::application

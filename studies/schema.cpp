@@ -191,20 +191,26 @@ ClassSchema truth_class(std::vector<std::string> metrics) {
   return truth;
 }
 
+/// What blocks that vary a scene's constants have in common, before their own fields.
+void add_varied_scene(ClassSchema& block, std::string question) {
+  const std::vector<FieldSchema> common{
+      text("title", "heading of the report"), text("question", std::move(question)),
+      required(text("scene", "file of the world, whose Params may be varied")),
+      text("terrain",
+           "file of a Terrain and its Material, in the place of the scene's; its Params may be "
+           "varied"),
+      words("material", 1,
+            "the Material whose fields are varied; default: that of the ground, where it has one "
+            "alone")};
+  block.fields.insert(block.fields.begin(), common.begin(), common.end());
+  block.top_level = true;
+}
+
 ClassSchema tune_class() {
   ClassSchema tune = named(
       "Tune",
       "Constants of a scene's ground, or any Params of it, searched for what its objectives ask.",
-      {text("title", "heading of the report"),
-       text("question", "what is tuned for, first thing in the report"),
-       required(text("scene", "file of the world, whose Params may be varied")),
-       text("terrain",
-            "file of a Terrain and its Material, in the place of the scene's; its Params may be "
-            "varied"),
-       words("material", 1,
-             "the Material whose fields are varied; default: that of the ground, where it has one "
-             "alone"),
-       positive(number("duration", "s", "simulated time of every run; default: the scene's")),
+      {positive(number("duration", "s", "simulated time of every run; default: the scene's")),
        with_default(at_least_zero(number("settle", "s", "time from which metrics look")), "0"),
        positive(number("quick_duration", "s", "duration under --quick; default: a fifth")),
        at_least_zero(number("quick_settle", "s", "settle under --quick; default: a fifth")),
@@ -229,7 +235,7 @@ ClassSchema tune_class() {
                                    "candidates; 0: none")),
                     "32")},
       {"Subject", "Vary", "Objective", "Require", "Fix"});
-  tune.top_level = true;
+  add_varied_scene(tune, "what is tuned for, first thing in the report");
   return tune;
 }
 
@@ -246,16 +252,7 @@ ClassSchema direction_class(std::string name, std::string doc) {
 ClassSchema calibrate_class() {
   ClassSchema calibrate = named(
       "Calibrate", "Constants of a scene's ground, or any Params of it, fitted to measured traces.",
-      {text("title", "heading of the report"),
-       text("question", "what is fitted and why, first thing in the report"),
-       required(text("scene", "file of the world, whose Params may be varied")),
-       text("terrain",
-            "file of a Terrain and its Material, in the place of the scene's; its Params may be "
-            "varied"),
-       words("material", 1,
-             "the Material whose fields are varied; default: that of the ground, where it has one "
-             "alone"),
-       words("subjects", 100,
+      {words("subjects", 100,
              "laws, and engines with their settings, each calibrated by itself: hunt_crossley, "
              "mujoco_matched; default: the scene's own, unless there are Subjects"),
        with_default(within(0, 1000,
@@ -274,7 +271,7 @@ ClassSchema calibrate_class() {
                     "16"),
        with_default(at_least_zero(integer("seed", "of starts, bootstrap and folds")), "1")},
       {"Subject", "Vary", "Trace", "Fix"});
-  calibrate.top_level = true;
+  add_varied_scene(calibrate, "what is fitted and why, first thing in the report");
   return calibrate;
 }
 

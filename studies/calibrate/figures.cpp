@@ -34,6 +34,9 @@ std::vector<PlacedTrace> drawn_traces(const CalibrationPlan& plan) {
 std::string curve_name(const TracePlan& trace) { return "trace_" + trace.name; }
 std::string rest_name(const TracePlan& trace) { return "residuals_" + trace.name; }
 
+/// Grey, with a marker that none of the first four subjects has.
+constexpr int measured_style = 3 * output::style_colors - 1;
+
 /// The value of a sample from its trace and its residual.
 using SampleValue = double (*)(const TracePlan&, std::size_t sample, double residual);
 
@@ -75,7 +78,7 @@ Plot curve_figure(const CalibrationPlan& plan, const CalibrationResult& result,
   plot.title = placed.trace->name + ": measured and calibrated";
   plot.x = {.label = "time", .unit = "s"};
   plot.y = {.label = placed.trace->port, .unit = placed.trace->port_unit};
-  Series measured{"measured", output::style_colors - 1, {}, {}, {}};
+  Series measured{"measured", measured_style, {}, {}, {}};
   measured.measured = curve_of(placed, {}, modelled);
   measured.scattered = true;
   plot.series.push_back(std::move(measured));

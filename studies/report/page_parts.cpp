@@ -29,6 +29,13 @@ HtmlTable::HtmlTable(const std::vector<std::string>& head, std::size_t words) : 
 
 void HtmlTable::row(const std::vector<std::string>& cells) { text_ += row_of(cells, words_, "td"); }
 
+std::vector<std::string> undrawn(const std::vector<ReportFigure>& figures) {
+  std::vector<std::string> messages;
+  for (const ReportFigure& figure : figures)
+    if (figure.svg.empty()) messages.push_back(figure.message);
+  return messages;
+}
+
 std::string figures_of(const std::vector<ReportFigure>& figures) {
   std::string text = figures.empty() ? "" : section("Figures");
   int number = 0;

@@ -26,6 +26,9 @@ class HtmlTable {
   std::string text_;
 };
 
+/// Why figures could not be drawn, of each that was not.
+std::vector<std::string> undrawn(const std::vector<ReportFigure>& figures);
+
 /// Under their heading, numbered, with captions that link to their data; "" of none.
 std::string figures_of(const std::vector<ReportFigure>& figures);
 
