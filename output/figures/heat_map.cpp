@@ -14,12 +14,14 @@
 namespace hookpoint::output {
 namespace {
 
-constexpr double least_width = 46., cell_height = 40.;  // of a cell [px]
-constexpr double air = 10.;                             // between numbers side by side [px]
-constexpr double number_font = 11., tick_font = 13.;    // [px]
+constexpr double least_width = 46., numbered_height = 40.;  // of a cell [px]
+constexpr double air = 10.;                                 // between numbers side by side [px]
+constexpr double number_font = 11., tick_font = 13.;        // [px]
 constexpr double left_margin = 100., panel_gap = 40., right_margin = 120.;
 constexpr double top_margin = 92., bottom_margin = 84., band_gap = 108.;
-constexpr double widest = 1800.;  // of a drawing whose panels stand side by side
+constexpr double widest = 1800.;           // of a drawing whose panels stand side by side
+constexpr std::size_t most_numbered = 60;  // columns or rows of cells with numbers
+constexpr double crowded_panel = 720., tick_room = 64.;  // without numbers [px]
 
 std::string axis_title(const Axis& axis) { return typeset(column_title(axis.label, axis.unit)); }
 
@@ -42,6 +44,7 @@ const char* number_format(const HeatMap& map) { return map.color.logarithmic ? "
 
 /// Of all cells: so that each number and each tick has room.
 double cell_width(const HeatMap& map) {
+  if (crowded(map)) return crowded_panel / static_cast<double>(map.x_values.size());
   double width = least_width - air;
   for (const HeatMapPanel& panel : map.panels)
     for (const HeatMapCell& cell : panel.cells)
@@ -51,6 +54,10 @@ double cell_width(const HeatMap& map) {
   return std::ceil(width + air);
 }
 
+double cell_height(const HeatMap& map) {
+  return crowded(map) ? crowded_panel / static_cast<double>(map.y_values.size()) : numbered_height;
+}
+
 class Script {
  public:
   explicit Script(const HeatMap& map)
@@ -58,7 +65,7 @@ class Script {
         columns_(map.x_values.size()),
         rows_(map.y_values.size()),
         panel_width_(cell_width(map) * static_cast<double>(columns_)),
-        panel_height_(cell_height * static_cast<double>(rows_)) {
+        panel_height_(cell_height(map) * static_cast<double>(rows_)) {
     const std::size_t panels = std::max<std::size_t>(1, map.panels.size());
     const double room = widest - left_margin - right_margin + panel_gap;
     const double fit = std::max(1., std::floor(room / (panel_width_ + panel_gap)));
@@ -91,7 +98,9 @@ class Script {
     if (!map_.subtitle.empty())
       page_label(gnuplot_escaped(typeset(map_.subtitle)), height_ - 43., "12", " tc rgb '#777777'");
     std::string key;
-    if (has_cross()) key += "×: no value, the robot fell or the run stopped.  ";
+    if (has_cross())
+      key += std::string(crowded(map_) ? "White" : "×") +
+             ": no value, the robot fell or the run stopped.  ";
     if (has_line()) key += "Dashed: closed form.";
     if (!key.empty()) page_label(key, 16., "12", " tc rgb '#777777'");
   }
@@ -119,18 +128,24 @@ class Script {
     if (map_.color.logarithmic) least = std::max(least, map_.color.floor);
     if (greatest <= least) greatest = map_.color.logarithmic ? 10. * least : least + 1.;
     if (map_.color.logarithmic) out_ << "set logscale cb\nset format cb '10^{%T}'\n";
+    least_ = least;
+    greatest_ = greatest;
     out_ << "set palette defined (0 '#f6b26b', 0.5 '#f7f3e8', 1 '#7fb8e6')\nset cbrange ["
          << shortest(least) << ":" << shortest(greatest)
          << "]\nset border 0\nset xrange [-0.5:" << shortest(static_cast<double>(columns_) - 0.5)
          << "]\nset yrange [-0.5:" << shortest(static_cast<double>(rows_) - 0.5)
-         << "]\nset tics scale 0\nset xtics nomirror (" << ticks(map_.x_values) << ")\nset xlabel "
-         << gnuplot_quoted(axis_title(map_.x)) << " noenhanced\nset cblabel "
+         << "]\nset tics scale 0\nset xtics nomirror (" << ticks(map_.x_values, panel_width_)
+         << ")\nset xlabel " << gnuplot_quoted(axis_title(map_.x)) << " noenhanced\nset cblabel "
          << gnuplot_quoted(axis_title(map_.color)) << " noenhanced\n";
   }
 
-  static std::string ticks(const std::vector<double>& values) {
+  /// Of each value; along a crowded axis as many as have room.
+  std::string ticks(const std::vector<double>& values, double length) const {
+    const double room = std::floor(length / tick_room);
+    const auto each = static_cast<std::size_t>(
+        crowded(map_) ? std::ceil(static_cast<double>(values.size()) / room) : 1.);
     std::string text;
-    for (std::size_t i = 0; i < values.size(); ++i)
+    for (std::size_t i = 0; i < values.size(); i += each)
       text += (i > 0 ? ", " : "") + gnuplot_quoted(rounded(values[i], 4)) + " " + std::to_string(i);
     return text;
   }
@@ -150,24 +165,47 @@ class Script {
          << screen(bottom + panel_height_, height_) << "\nset title " << gnuplot_quoted(panel.title)
          << " noenhanced offset 0,-0.4\n";
     if (column == 0)
-      out_ << "set ytics scale 0 nomirror (" << ticks(map_.y_values) << ")\nset ylabel "
-           << gnuplot_quoted(axis_title(map_.y)) << " noenhanced\n";
+      out_ << "set ytics scale 0 nomirror (" << ticks(map_.y_values, panel_height_)
+           << ")\nset ylabel " << gnuplot_quoted(axis_title(map_.y)) << " noenhanced\n";
     else
       out_ << "unset ylabel\nunset ytics\n";
     out_ << (index + 1 == map_.panels.size() ? "set colorbox\n" : "unset colorbox\n");
     set_line(panel);
-    const std::size_t count = static_cast<std::size_t>(std::count_if(
-        panel.cells.begin(), panel.cells.end(), [](const HeatMapCell& cell) { return cell.run; }));
-    plot_cells(first, count);
+    const std::size_t count = static_cast<std::size_t>(
+        std::count_if(panel.cells.begin(), panel.cells.end(),
+                      [&](const HeatMapCell& cell) { return cell.run || crowded(map_); }));
+    if (crowded(map_))
+      plot_picture(first, count);
+    else
+      plot_cells(first, count);
     out_ << "unset label\nunset arrow\n";
     return first + count;
   }
 
+  std::string data_from(std::size_t first, std::size_t count) const {
+    return gnuplot_quoted(map_.name + ".csv") + " skip 1 every ::" + std::to_string(first) +
+           "::" + std::to_string(first + count - 1);
+  }
+
+  /// One picture of coloured points in the palette's colours: a rectangle each of ten thousand
+  /// cells would make a drawing that no reader opens.
+  void plot_picture(std::size_t first, std::size_t count) {
+    const std::string least = shortest(least_), greatest = shortest(greatest_);
+    out_ << "given(v) = strlen(v) > 0\nshare(v) = "
+         << (map_.color.logarithmic ? "log(v < " + least + " ? 1. : v/" + least + ")/log(" +
+                                          greatest + "/" + least + ")"
+                                    : "(v - (" + least + "))/(" + greatest + " - (" + least + "))")
+         << "\nmix(s, low, middle, high) = s < 0.5 ? low + 2*s*(middle - low) : middle + (2*s - "
+            "1)*(high - middle)\nof(v) = given(v) ? share(real(v)) : 0.\nplot "
+         << data_from(first, count)
+         << " using 5:6:(mix(of(strcol(4)), 246, 247, 127)):(mix(of(strcol(4)), 178, 243, "
+            "184)):(mix(of(strcol(4)), 107, 232, 230)):(given(strcol(4)) ? 255 : 0) with "
+            "rgbalpha, NaN with points lc palette\n";
+  }
+
   void plot_cells(std::size_t first, std::size_t count) {
     if (count == 0) return;
-    const std::string from = gnuplot_quoted(map_.name + ".csv") +
-                             " skip 1 every ::" + std::to_string(first) +
-                             "::" + std::to_string(first + count - 1);
+    const std::string from = data_from(first, count);
     const bool logarithmic = map_.color.logarithmic;
     out_ << "given(v) = strlen(v) > 0\nshade(v) = "
          << (logarithmic
@@ -221,10 +259,15 @@ class Script {
   double panel_width_, panel_height_;   // [px]
   std::size_t across_ = 1, bands_ = 1;  // panels in a row, rows of panels
   double width_ = 0., height_ = 0.;     // of the drawing [px]
+  double least_ = 0., greatest_ = 0.;   // of the colours
   std::ostringstream out_;
 };
 
 }  // namespace
+
+bool crowded(const HeatMap& map) {
+  return map.x_values.size() > most_numbered || map.y_values.size() > most_numbered;
+}
 
 std::string heat_map_data(const HeatMap& map) {
   CsvTable table;
@@ -233,7 +276,7 @@ std::string heat_map_data(const HeatMap& map) {
   for (const HeatMapPanel& panel : map.panels) {
     for (std::size_t i = 0; i < panel.cells.size(); ++i) {
       const HeatMapCell& cell = panel.cells[i];
-      if (!cell.run) continue;
+      if (!cell.run && !crowded(map)) continue;
       const std::size_t column = i % map.x_values.size(), row = i / map.x_values.size();
       table.rows.push_back({panel.title, shortest(map.x_values[column]),
                             shortest(map.y_values[row]), cell.value ? shortest(*cell.value) : "",

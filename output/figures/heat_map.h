@@ -1,7 +1,7 @@
 // Maps for papers: a value over two things that were varied, a coloured and labelled cell for each
 // pair. Cells are of one size whatever the steps between their values. A run that gave no value is
-// a cross; where the closed form changes between neighbours, a line goes between them. Files as in
-// plot.h: data (.csv), gnuplot script (.gp), drawing (.svg).
+// a cross, or white among very many; where the closed form changes between neighbours, a line goes
+// between them. Files as in plot.h: data (.csv), gnuplot script (.gp), drawing (.svg).
 #pragma once
 
 #include <filesystem>
@@ -34,7 +34,11 @@ struct HeatMap {
   std::vector<HeatMapPanel> panels;  ///< side by side, of one scale of colours
 };
 
-/// Rows `panel, x, y, value, column, row`; of a run without a value the value is empty.
+/// Whether cells are so many that their numbers could not be read: they are colours alone then.
+bool crowded(const HeatMap& map);
+
+/// Rows `panel, x, y, value, column, row`; of a run without a value the value is empty, and in a
+/// crowded map that of a cell without a run.
 std::string heat_map_data(const HeatMap& map);
 /// The script that draws `<name>.svg` from `<name>.csv` in the folder where it is run.
 std::string heat_map_script(const HeatMap& map);

@@ -59,8 +59,10 @@ void prefix_unit(output::HeatMap& map) {
 
 std::string caption_of(const PlotSpec& spec, const output::HeatMap& map) {
   std::string caption = map.title + (map.subtitle.empty() ? "." : " (" + map.subtitle + ").");
-  caption += " Number and colour of a cell: " + map.color.label +
-             (map.color.unit.empty() ? "" : " in " + map.color.unit) + ". Crosses: no value.";
+  const bool colors_alone = output::crowded(map);
+  caption += (colors_alone ? " Colour of a cell: " : " Number and colour of a cell: ") +
+             map.color.label + (map.color.unit.empty() ? "" : " in " + map.color.unit) +
+             (colors_alone ? ". White: no value." : ". Crosses: no value.");
   if (!spec.outline.empty())
     caption += " Dashed: where the closed form of " + spoken(spec.outline) + " changes.";
   return caption;

@@ -34,9 +34,13 @@ test("sliders, a pull, an edit and a way back are repeated byte for byte", async
   await page.keyboard.up("Control");
   await eventually("it is let go", async () => (await read(page, "Simulator.pull.body")) === -1);
 
-  // Back to before the last changes, and on: what lies after that moment is given up, in the files too.
+  // Back to between the pull and one more change, and on: what lies after that moment is given up, in the files too.
+  const pulled = await time(page);
+  await eventually("a while after", async () => (await time(page)) > pulled + 0.2);
+  await across.fill("1");
+  await eventually("it is pushed once more", async () => (await read(page, "lab.push.force.y")) === 1);
   await pause(page);
-  const back = Number(((await time(page)) - 0.2).toFixed(3));
+  const back = Number((pulled + 0.1).toFixed(3));
   await page.getByRole("slider", { name: "history" }).fill(String(back));
   await eventually("the past", async () => Math.abs((await time(page)) - back) < 2e-3);
   await resume(page);
@@ -51,6 +55,7 @@ test("sliders, a pull, an edit and a way back are repeated byte for byte", async
   const changes = readFileSync(`${folder}/watched/changes.csv`, "utf8");
   assert.match(changes, /lab\.push\.force\.y|across/);
   assert.match(changes, /Simulator\.pull\.body/);
+  assert.doesNotMatch(changes, /across\.value,1\n/);
   const reached = lastTime(`${folder}/watched/trace.csv`);
   const again = await run(["run", file, "--changes", "watched/changes.csv", "--record", trails, "--movie", "--out", "again", "--for", `${reached} s`], folder);
   assert.equal(again.status, 0, again.complaints);

@@ -62,6 +62,33 @@ TEST(HeatMapScript, ExplainsOnlyWhatIsThere) {
   EXPECT_EQ(heat_map_script(map).find("no value"), std::string::npos);
 }
 
+/// 200 x 100 cells, one without a run and one without a value.
+HeatMap large() {
+  HeatMap map = sample();
+  map.x_values.resize(200);
+  map.y_values.resize(100);
+  map.panels[0].cells.assign(std::size_t{200} * 100, {true, 1., {}});
+  for (std::size_t i = 0; i < map.panels[0].cells.size(); ++i)
+    map.panels[0].cells[i].value = static_cast<double>(i % 200);
+  map.panels[0].cells[17] = {};
+  map.panels[0].cells[42] = {true, {}, {}};
+  return map;
+}
+
+TEST(HeatMapScript, VeryManyCellsAreOnePictureWithFewTicks) {
+  const HeatMap map = large();
+  EXPECT_TRUE(crowded(map));
+  EXPECT_FALSE(crowded(sample()));
+  EXPECT_EQ(count(heat_map_data(map), "\n"), 200U * 100U + 1U);  // a picture has no holes
+  const std::string script = heat_map_script(map);
+  EXPECT_EQ(script.find("boxxyerror"), std::string::npos);
+  EXPECT_EQ(script.find("labels"), std::string::npos);
+  EXPECT_NE(script.find("White: no value"), std::string::npos);
+  EXPECT_EQ(script.find("×"), std::string::npos);
+  const std::size_t ticks = script.find("xtics nomirror");
+  EXPECT_LT(count(script.substr(ticks, script.find('\n', ticks) - ticks), "'"), 2U * 13U);
+}
+
 TEST(HeatMapScript, ALogarithmicColourBeginsAtItsFloor) {
   HeatMap map = sample();
   map.panels[0].cells[0].value = 1e-16;
@@ -114,6 +141,15 @@ TEST(HeatMap, IsDrawnWithItsNumbersAndItsCross) {
   EXPECT_EQ(outcome.svg.find(">0.6<"), std::string::npos);
   // A run without a value has no coloured cell.
   EXPECT_EQ(count(other.svg, "<polygon"), count(outcome.svg, "<polygon") + 1);
+  HeatMap many = large();
+  for (const bool logarithmic : {false, true}) {
+    many.color.logarithmic = logarithmic;
+    many.color.floor = 1e-3;
+    const PlotOutcome picture = draw(many, folder);
+    ASSERT_TRUE(picture.drawn) << picture.message;
+    EXPECT_EQ(count(picture.svg, "<image"), 1U);
+    EXPECT_LT(picture.svg.size(), 200'000U);
+  }
   std::filesystem::remove_all(folder);
 }
 
