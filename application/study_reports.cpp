@@ -39,6 +39,7 @@ std::vector<std::string> result_files(const studies::StudyRun& run) {
   std::vector<std::string> files{"results.csv"};
   if (std::filesystem::exists(run.folder / "timing.csv")) files.emplace_back("timing.csv");
   if (!run.result.peer_distances.empty()) files.emplace_back("peer_distance.csv");
+  for (const studies::TableSpec& table : run.result.tables) files.push_back(table.name + ".csv");
   files.insert(files.end(), {"experiment.hook", "scene.hook", "provenance.json"});
   return files;
 }

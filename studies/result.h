@@ -111,6 +111,16 @@ struct PlotSpec {
   SweepValues where;           ///< other rows are left out
 };
 
+/// A Table block: a metric over two of what the study varied.
+struct TableSpec {
+  std::string name;  ///< file name of its CSV
+  std::string title;
+  std::string rows, columns;  ///< a sweep or "subject"
+  std::string value;          ///< a metric
+  std::vector<int> subjects;  ///< that enter, indices; empty: all
+  SweepValues where;          ///< other rows are left out
+};
+
 /// A Truth and how many of the values that it covers agree.
 struct TruthResult {
   std::string name;
@@ -133,6 +143,7 @@ struct StudyResult {
   std::vector<MetricColumn> metrics;
   std::vector<RunResult> rows;  ///< sweep values outermost first, subjects innermost
   std::vector<PlotSpec> plots;
+  std::vector<TableSpec> tables;
   std::vector<TruthResult> truths;
   std::vector<PeerDistances> peer_distances;  ///< where `peer_distance` is measured
   std::vector<std::string> warnings;          ///< the plan's

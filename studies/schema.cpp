@@ -125,7 +125,7 @@ ClassSchema study_class() {
            "0"),
        positive(number("quick_duration", "s", "duration under --quick; default: a fifth")),
        at_least_zero(number("quick_settle", "s", "settle under --quick; default: a fifth"))},
-      {"Subject", "Sweep", "Measure", "Truth", "Plot", "Fix"});
+      {"Subject", "Sweep", "Measure", "Truth", "Plot", "Table", "Fix"});
   study.top_level = true;
   return study;
 }
@@ -171,6 +171,19 @@ ClassSchema scene_class() {
       "Scene", "A scene of a Wall, by the name of its file in scenes/.",
       {text("title", "what it shows"), text("file", "if not scenes/NAME.hook"), runs_under_quick()},
       {"Fix"});
+}
+
+ClassSchema table_class() {
+  ClassSchema table =
+      named("Table", "A metric over two of what the study varied, each cell the mean of its runs.",
+            {text("title", "heading; default: the metric"),
+             required(words("rows", 1, "what runs down: subject, or a sweep")),
+             required(words("columns", 1, "what runs across: subject, or a sweep")),
+             required(words("value", 1, "the metric in the cells")),
+             words("subjects", 100, "subjects that enter; default: all")},
+            {"Only"});
+  table.only_in = "Study";
+  return table;
 }
 
 ClassSchema truth_class(std::vector<std::string> metrics) {
@@ -363,6 +376,7 @@ void add_study_classes(Schema& schema) {
       {"Only", "Reference"});
   plot.only_in = "Study";
   schema.add(std::move(plot));
+  schema.add(table_class());
   schema.add(named("Reference",
                    "A line across a Plot at a value to hold the measured ones against.",
                    {text("title", "in the legend; default: the name"),

@@ -1,5 +1,5 @@
 // The classes of the language that a study is written with: Study, Subject, Sweep, Measure, Truth,
-// Plot, Fix, Only, Tune with Vary, Objective and Require, and Calibrate with Trace.
+// Plot, Table, Fix, Only, Tune with Vary, Objective and Require, and Calibrate with Trace.
 #pragma once
 
 #include "language/schema/schema.h"

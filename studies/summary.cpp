@@ -135,7 +135,7 @@ std::vector<RegimeTable> regime_tables(const StudyResult& study) {
       continue;
     RegimeTable table;
     table.regime = regime;
-    if (regime != Regime::none || !tables.empty()) table.heading = heading(regime);
+    table.heading = heading(regime);
     table.summary = summarise(study, regime);
     for (std::size_t i = 0; i < study.subjects.size(); ++i)
       if (table.summary.subjects[i].rows() > 0) table.subjects.push_back(i);
@@ -148,6 +148,8 @@ std::vector<RegimeTable> regime_tables(const StudyResult& study) {
     }
     tables.push_back(std::move(table));
   }
+  // Where all runs are of one regime it tells none of them apart.
+  if (tables.size() == 1) tables.front().heading.clear();
   return tables;
 }
 

@@ -50,7 +50,7 @@ StudySummary summarise(const StudyResult& study, std::optional<Regime> regime = 
 /// One table: the runs of a regime.
 struct RegimeTable {
   Regime regime = Regime::none;
-  std::string heading;                ///< "" when it is the study's only one and has no name
+  std::string heading;                ///< "" when it is the study's only one
   StudySummary summary;               ///< of its rows
   std::vector<std::size_t> subjects;  ///< those with a row in it
   std::vector<std::size_t> metrics;   ///< those that say something in it, or that a Truth judges

@@ -107,6 +107,7 @@ struct StudyPlan {
   std::vector<int> metric_sweeps;  ///< one a metric: index of the sweep that it is over, else -1
   std::vector<TruthPlan> truths;
   std::vector<PlotPlan> plots;
+  std::vector<TableSpec> tables;
   std::vector<RowPlan> rows;  ///< sweeps outermost first, subjects innermost
   std::string printed;        ///< the study as a file
   std::string scene_printed;  ///< the scene of the first row

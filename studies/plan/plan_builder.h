@@ -28,6 +28,7 @@ class PlanBuilder {
   void add_metric(const language::Object& block);
   void add_truth(const language::Object& block);
   void add_plot(const language::Object& block);
+  void add_table(const language::Object& block);
   void check_only_option(const language::Object& study);
   void check_size(const language::Object& study);
   std::vector<Assignment> fixes(const language::Object& owner);
@@ -53,6 +54,8 @@ class PlanBuilder {
   double number_in(const language::Object& block, const char* field, std::string_view unit);
   /// For figures: the values of the sweeps that the conditions let in, in the sweeps' units.
   SweepValues admitted(const std::vector<Condition>& conditions) const;
+  /// Whether `field` names a sweep or is `subject`; if not, an error.
+  bool is_table_side(const language::Object& block, const char* field);
   void set_panels(PlotSpec& spec, const language::Object& block);
   void set_references(PlotSpec& spec, const language::Object& block);
   void set_time_axes(PlotPlan& plot, const language::Object& block);

@@ -313,6 +313,7 @@ std::vector<Assignment> plan_parts(StudyPlan& plan, const Object& study,
   for (const Object* block : study.children_of("Subject")) parts.add_subject(*block);
   for (const Object* block : study.children_of("Truth")) parts.add_truth(*block);
   for (const Object* block : study.children_of("Plot")) parts.add_plot(*block);
+  for (const Object* block : study.children_of("Table")) parts.add_table(*block);
   parts.check_only_option(study);
   parts.check_size(study);
   return parts.fixes(study);

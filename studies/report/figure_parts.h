@@ -2,20 +2,13 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <string>
 
 #include "studies/report/figures.h"
+#include "studies/selection.h"
 
 namespace hookpoint::studies {
 
-std::optional<std::size_t> sweep_index(const StudyResult& study, const std::string& name);
-std::optional<std::size_t> metric_index(const StudyResult& study, const std::string& name);
-
-/// Whether two values of a sweep are the same but for rounding: 1e-9 of the greater.
-bool same_value(double a, double b);
-/// Whether the row has, of each sweep that `where` names, one of the values given there.
-bool admits(const StudyResult& study, const SweepValues& where, const RunResult& row);
 /// Whether the row's subject is among the block's `subjects` (all of none are given) and its values
 /// among those of `where`.
 bool selected(const StudyResult& study, const PlotSpec& spec, const RunResult& row);

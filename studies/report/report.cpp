@@ -7,6 +7,7 @@
 #include "studies/report/figures.h"
 #include "studies/report/report_distances.h"
 #include "studies/report/report_page.h"
+#include "studies/report/report_pivots.h"
 #include "studies/report/report_tables.h"
 #include "studies/summary.h"
 
@@ -156,7 +157,7 @@ std::string report_html(const StudyResult& study, const ReportContext& context,
   const StudySummary summary = summarise(study);
   std::string page = page_start(title_of(study));
   page += opening(study, context, summary);
-  page += results(study, figures);
+  page += pivot_tables(study) + results(study, figures);
   page += truths_table(study) + failure_table(study) + stopped_table(study);
   page += warning_list(study.warnings) + distance_table(study);
   page += heading("Every run") + runs_table(study);

@@ -6,6 +6,7 @@
 #include "output/text/csv.h"
 #include "output/text/number.h"
 #include "studies/report/terminal_blocks.h"
+#include "studies/report/terminal_pivot.h"
 #include "studies/summary.h"
 
 namespace hookpoint::studies {
@@ -221,6 +222,8 @@ std::string counts(const StudySummary& summary, const TableStyle& style) {
 std::string terminal_table(const StudyResult& study, const TableStyle& style) {
   std::string text;
   if (!study.question.empty()) text += wrapped(study.question, style.width) + "\n";
+  for (const TableSpec& table : study.tables)
+    text += terminal_pivot(pivot_of(study, table), style) + "\n";
   for (const RegimeTable& table : regime_tables(study)) text += print_table(study, table, style);
   return text + truth_list(study, style) + failure_list(study, style) + stopped_list(study, style) +
          counts(summarise(study), style);

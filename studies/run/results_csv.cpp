@@ -6,6 +6,7 @@
 
 #include "output/file.h"
 #include "output/text/number.h"
+#include "studies/pivot.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -95,6 +96,29 @@ void write_distances(const std::filesystem::path& folder, const StudyResult& res
   output::write_csv(folder / "peer_distance.csv", table);
 }
 
+/// <table>.csv: a row a cell of the Table, down and then across.
+void write_pivot(const std::filesystem::path& folder, const StudyResult& result,
+                 const TableSpec& spec) {
+  const Pivot pivot = pivot_of(result, spec);
+  output::CsvTable table;
+  table.header = {pivot.down, pivot.across, pivot.metric};
+  for (const char* name : {"least", "largest", "predicted"})
+    table.header.push_back(output::column_title(name, pivot.unit));
+  for (const char* name : {"runs", "values", "passed", "failed"}) table.header.emplace_back(name);
+  for (std::size_t row = 0; row < pivot.rows.size(); ++row)
+    for (std::size_t column = 0; column < pivot.columns.size(); ++column) {
+      const PivotCell& cell = pivot.at(row, column);
+      if (cell.rows == 0) continue;
+      const bool told = cell.values > 0;
+      table.rows.push_back({pivot.rows[row], pivot.columns[column], field(cell.mean),
+                            told ? output::shortest(cell.least) : "",
+                            told ? output::shortest(cell.largest) : "", field(cell.predicted)});
+      for (const int count : {cell.rows, cell.values, cell.passed, cell.failed})
+        table.rows.back().push_back(std::to_string(count));
+    }
+  output::write_csv(folder / (spec.name + ".csv"), table);
+}
+
 }  // namespace
 
 output::CsvTable results_table(const StudyResult& result, bool timing) {
@@ -108,6 +132,7 @@ std::vector<std::string> study_files(const StudyPlan& plan) {
   std::vector<std::string> files{store_folder, cluster_folder,    "experiment.hook",
                                  "scene.hook", "provenance.json", "report.html"};
   for (const std::string_view table : table_names) files.push_back(std::string(table) + ".csv");
+  for (const TableSpec& table : plan.tables) files.push_back(table.name + ".csv");
   for (const PlotPlan& plot : plan.plots) {
     for (const char* type : {".svg", ".csv", ".gp"}) files.push_back(plot.spec.name + type);
     for (std::size_t row = 0; row < plan.rows.size() && plot.signal != nullptr; ++row)
@@ -127,6 +152,7 @@ void write_study_files(const std::filesystem::path& folder, const StudyPlan& pla
   output::write_file(folder / "provenance.json", provenance_json(provenance));
   write_traces(folder, result);
   write_distances(folder, result);
+  for (const TableSpec& table : result.tables) write_pivot(folder, result, table);
 }
 
 }  // namespace hookpoint::studies

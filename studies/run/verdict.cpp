@@ -123,6 +123,7 @@ StudyResult empty_table(const StudyPlan& plan) {
     result.metrics.push_back(
         {std::string(metric->name), std::string(metric->unit), metric->timing(), metric->regime});
   for (const PlotPlan& plot : plan.plots) result.plots.push_back(plot.spec);
+  result.tables = plan.tables;
   for (const TruthPlan& truth : plan.truths)
     result.truths.push_back({truth.name, truth.words, static_cast<int>(truth.metric)});
   for (const RowPlan& row : plan.rows) {

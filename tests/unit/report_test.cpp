@@ -91,6 +91,14 @@ TEST(Summary, AStudyOutsideTheRegimesIsOneTableWithoutAName) {
   EXPECT_EQ(tables[0].subjects.size(), 6u);
 }
 
+TEST(Summary, WhereEveryRunHoldsTheTableIsNotCalledSo) {
+  StudyResult study = synthetic_study();
+  for (RunResult& row : study.rows) row.regime = Regime::holds;
+  const std::vector<RegimeTable> tables = regime_tables(study);
+  ASSERT_EQ(tables.size(), 1u);
+  EXPECT_EQ(tables[0].heading, "");
+}
+
 TEST(Summary, TheWorstRunFailsRatherThanLiesFar) {
   const StudyResult study = synthetic_study();
   const MetricSummary creep = summarise(study).subjects[2].metrics[0];

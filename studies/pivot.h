@@ -1,0 +1,45 @@
+// A Table block as numbers: a metric over two of what the study varied, each cell the mean of its
+// rows. The report, the terminal and the Table's CSV print the same one.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "studies/result.h"
+
+namespace hookpoint::studies {
+
+struct PivotCell {
+  int rows = 0;                     ///< of the study that fall into it
+  int values = 0;                   ///< of these, those with a finite measurement
+  std::optional<double> mean;       ///< of these values
+  double least = 0., largest = 0.;  ///< of the same
+  std::optional<double> predicted;  ///< mean closed form, where every one of them has one
+  int passed = 0, failed = 0;       ///< verdicts of the metric
+};
+
+struct Pivot {
+  std::string title;         ///< with the metric's unit
+  std::string note;          ///< "mean over mu and dt; slope = 15 deg", "" for nothing to say
+  std::string down, across;  ///< "subject", "slope [deg]"
+  std::string metric, unit;  ///< "creep_speed [m/s]", "m/s"
+  std::vector<std::string> rows, columns;  ///< labels
+  std::vector<PivotCell> cells;            ///< row by row
+  bool predicted = false;                  ///< some cell has a closed form
+  bool several = false;                    ///< some cell has several values
+
+  const PivotCell& at(std::size_t row, std::size_t column) const {
+    return cells[row * columns.size() + column];
+  }
+};
+
+/// Least and largest of the cell's values as text, to three digits; nothing where these are the
+/// same.
+std::optional<std::pair<std::string, std::string>> spread_of(const PivotCell& cell);
+
+/// Rows and columns that no run of the Table falls into are left out.
+Pivot pivot_of(const StudyResult& study, const TableSpec& table);
+
+}  // namespace hookpoint::studies

@@ -1,0 +1,15 @@
+// A Table block on the terminal.
+#pragma once
+
+#include <string>
+
+#include "studies/pivot.h"
+#include "studies/report/terminal_table.h"
+
+namespace hookpoint::studies {
+
+/// Its title, what it is the mean over, and its cells: "mean (least .. largest) / closed form".
+/// Columns that are wider than the terminal go on below.
+std::string terminal_pivot(const Pivot& pivot, const TableStyle& style);
+
+}  // namespace hookpoint::studies

@@ -1,0 +1,20 @@
+// Rows, sweeps and metrics of a study by name and value.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "studies/result.h"
+
+namespace hookpoint::studies {
+
+std::optional<std::size_t> sweep_index(const StudyResult& study, const std::string& name);
+std::optional<std::size_t> metric_index(const StudyResult& study, const std::string& name);
+
+/// Whether two values of a sweep are the same but for rounding: 1e-9 of the greater.
+bool same_value(double a, double b);
+/// Whether the row has, of each sweep that `where` names, one of the values given there.
+bool admits(const StudyResult& study, const SweepValues& where, const RunResult& row);
+
+}  // namespace hookpoint::studies

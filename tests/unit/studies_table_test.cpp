@@ -1,0 +1,132 @@
+// Table blocks: cells against means worked out by hand, and what is wrong with a block.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "output/text/csv.h"
+#include "studies/pivot.h"
+#include "studies/report/report_pivots.h"
+#include "studies/report/terminal_pivot.h"
+#include "tests/support/study_runner.h"
+#include "tests/support/synthetic_study.h"
+
+namespace hookpoint::studies {
+namespace {
+
+using testing::synthetic_creep;
+using testing::synthetic_study;
+
+bool says(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+TableSpec by_slope() {
+  return {.name = "creep",
+          .title = "",
+          .rows = "subject",
+          .columns = "slope",
+          .value = "creep_speed",
+          .subjects = {},
+          .where = {}};
+}
+
+TEST(Pivot, ACellIsTheMeanOfItsRunsBesideTheirClosedForm) {
+  const StudyResult study = synthetic_study();
+  const Pivot pivot = pivot_of(study, by_slope());
+  EXPECT_EQ(pivot.title, "creep speed [m/s]");
+  EXPECT_EQ(pivot.across, "slope [deg]");
+  EXPECT_EQ(pivot.columns, (std::vector<std::string>{"5", "10", "15", "20", "25", "30"}));
+  ASSERT_EQ(pivot.rows.size(), 6u);
+  // Three steps that all creep alike: their mean is each.
+  const PivotCell& creeps = pivot.at(1, 2);
+  EXPECT_EQ(creeps.rows, 3);
+  EXPECT_NEAR(*creeps.mean, 1.002 * synthetic_creep(15.), 1e-15);
+  EXPECT_NEAR(*creeps.predicted, synthetic_creep(15.), 1e-15);
+  EXPECT_EQ(creeps.passed, 3);
+  EXPECT_EQ(pivot.at(2, 5).failed, 3);
+  // Uphill by -3.1e-7 times the step of 0.1, 1 and 10 ms.
+  const PivotCell& uphill = pivot.at(3, 0);
+  EXPECT_NEAR(*uphill.mean, -3.1e-7 * (0.1 + 1. + 10.) / 3., 1e-18);
+  EXPECT_DOUBLE_EQ(uphill.least, -3.1e-6);
+  EXPECT_DOUBLE_EQ(uphill.largest, -3.1e-8);
+  EXPECT_FALSE(uphill.predicted);
+  // One of three runs stopped: the mean is of the other two.
+  EXPECT_EQ(pivot.at(4, 0).rows, 3);
+  EXPECT_EQ(pivot.at(4, 0).values, 2);
+  EXPECT_NEAR(*pivot.at(4, 0).mean, 6e-11 * std::sqrt(5.), 1e-24);
+  EXPECT_FALSE(pivot.at(5, 0).mean);
+  EXPECT_EQ(pivot.note, "mean over dt");
+}
+
+TEST(Pivot, SubjectsAndConditionsLeaveOtherRowsOutAndAreTold) {
+  const StudyResult study = synthetic_study();
+  TableSpec spec = by_slope();
+  spec.rows = "slope";
+  spec.columns = "dt";
+  spec.subjects = {1, 3};
+  spec.where = {{"slope", {10., 20.}}};
+  const Pivot pivot = pivot_of(study, spec);
+  EXPECT_EQ(pivot.rows, (std::vector<std::string>{"10", "20"}));
+  EXPECT_EQ(pivot.note, "mean over subjects");
+  EXPECT_NEAR(*pivot.at(1, 2).mean, (1.002 * synthetic_creep(20.) - 3.1e-6) / 2., 1e-15);
+  // One of the two has no closed form, so the mean has none.
+  EXPECT_FALSE(pivot.at(1, 2).predicted);
+  spec = by_slope();
+  spec.where = {{"dt", {1.}}};
+  EXPECT_EQ(pivot_of(study, spec).note, "dt = 1 ms");
+}
+
+TEST(Pivot, PageAndTerminalShowMeanSpreadAndVerdict) {
+  StudyResult study = synthetic_study();
+  study.tables = {by_slope()};
+  study.tables[0].title = "<who creeps?>";
+  const std::string page = pivot_tables(study);
+  EXPECT_TRUE(says(page, "&lt;who creeps?&gt; [m/s]"));
+  EXPECT_FALSE(says(page, "<who"));
+  EXPECT_TRUE(says(page, "✗ 0/3"));
+  EXPECT_TRUE(says(page, "2 of 3 runs have a value"));
+  const std::string shown = terminal_pivot(pivot_of(study, study.tables[0]), {true, 80});
+  EXPECT_TRUE(says(shown, "-1.147e-06 (-3.1e-06 .. -3.1e-08)"));
+  EXPECT_TRUE(says(shown, "\033[1;31m7.506e-05 / 5.774e-05\033[0m"));
+}
+
+std::string with_table(const std::string& table) {
+  return "Study s { scene = \"scene.hook\"; duration = 1 s; settle = 0.2 s;\n"
+         "  Subject ours { engine = dts; contact = hookpoint; }\n"
+         "  Sweep slope { values = 10 deg, 20 deg; } Sweep mu { values = 0.8, 1; }\n"
+         "  Measure creep_speed; Plot fig { x = slope; y = creep_speed; }\n" +
+         table + "}";
+}
+
+TEST_F(StudyRunner, ATableLeavesItsCells) {
+  const auto plan = this->plan(
+      with_table("Table creep { rows = slope; columns = subject; value = creep_speed; }"));
+  ASSERT_TRUE(plan) << first_error();
+  const StudyRun run = this->run(*plan, "out");
+  const auto table = output::parse_csv(read(run.folder / "creep.csv"));
+  ASSERT_TRUE(table);
+  EXPECT_EQ(table->header,
+            (std::vector<std::string>{"slope [deg]", "subject", "creep_speed [m/s]", "least [m/s]",
+                                      "largest [m/s]", "predicted [m/s]", "runs", "values",
+                                      "passed", "failed"}));
+  ASSERT_EQ(table->rows.size(), 2u);
+  EXPECT_EQ(table->rows[1][0], "20");
+  EXPECT_NEAR(std::stod(table->rows[1][2]), 2e-3 + 1e-3 * 0.3490658503988659, 1e-12);
+  EXPECT_EQ(table->rows[1][6], "2");
+}
+
+TEST_F(StudyRunner, ATableOfWhatIsNotThereIsRefused) {
+  const std::vector<std::pair<std::string, std::string>> wrong{
+      {"Table t { rows = slop; columns = subject; value = creep_speed; }", "did you mean `slope`"},
+      {"Table t { rows = slope; columns = slope; value = creep_speed; }", "runs down the rows"},
+      {"Table t { rows = slope; columns = mu; value = penetration_max; }", "Measure of this study"},
+      {"Table fig { rows = slope; columns = mu; value = creep_speed; }", "give the Table another"},
+      {"Table results { rows = slope; columns = mu; value = creep_speed; }", "another name"}};
+  for (const auto& [table, message] : wrong) {
+    EXPECT_FALSE(plan(with_table(table))) << table;
+    EXPECT_TRUE(says(first_error(), message)) << first_error();
+  }
+}
+
+}  // namespace
+}  // namespace hookpoint::studies
