@@ -1,4 +1,4 @@
-# The presets ci and tidy read many files as one. These have names in their unnamed namespaces that others of their folder have too.
+# The presets release, ci and tidy read many files as one. These have names in their unnamed namespaces that others of their folder have too.
 if(CMAKE_UNITY_BUILD)
   function(hookpoint_read_apart folder)
     list(TRANSFORM ARGN PREPEND ${PROJECT_SOURCE_DIR}/${folder}/)
