@@ -106,19 +106,21 @@ class UrdfInclude {
     const auto tree = assemble_urdf(*robot, report_);
     if (!tree) return {};
     check_arguments(*robot);
+    tell_left_out(*robot);
     ForeignObject object{"Robot", robot_name(*robot), robot->place, {}, {}};
-    object.children.push_back(base_object(*robot, tree->base));
+    object.children.push_back(base_object(*robot, *tree));
     for (const std::vector<UrdfBody>& chain : tree->chains)
       object.children.push_back(chain_object(*robot, chain));
     return {std::move(object)};
   }
 
  private:
-  ForeignObject base_object(const UrdfRobot& robot, const UrdfBody& body) {
+  ForeignObject base_object(const UrdfRobot& robot, const UrdfTree& tree) {
+    const UrdfBody& body = tree.base;
     const UrdfLink& link = robot.links[body.link];
     std::string kind = word_argument("base", {"mobile", "fixed"});
     // A root that is the world itself, as other readers take it.
-    if (kind.empty()) kind = link.name == "world" ? "fixed" : "mobile";
+    if (kind.empty()) kind = link.name == "world" && !tree.floats ? "fixed" : "mobile";
     ForeignObject object{"Base." + kind, "", link.place, {}, {}};
     if (kind == "mobile") require_mass(link, body);
     for (const char* name : base_fields) {
@@ -159,8 +161,29 @@ class UrdfInclude {
     if (joint.damping != 0.) add("damping", joint.damping, joint.damping_place);
     if (joint.friction != 0.) add("friction", joint.friction, joint.friction_place);
     const auto angle = arguments_.find(identifier(joint.name));
-    if (angle != arguments_.end() && !angle->second.values.empty())
-      object.fields.push_back({"angle", angle->second.values, angle->second.position});
+    if (angle != arguments_.end()) {
+      if (!angle->second.values.empty())
+        object.fields.push_back({"angle", angle->second.values, angle->second.position});
+      return;
+    }
+    // Where 0 is out of reach, as near to it as the joint goes.
+    if (!joint.lower_limit) return;
+    const double nearest = std::clamp(0., *joint.lower_limit, *joint.upper_limit);
+    if (nearest == 0.) return;
+    add("angle", nearest, joint.limit_place);
+    report_.remark(joint.limit_place,
+                   fmt::format("joint `{}` starts at its limit, {:g}: 0 is beyond it (the "
+                               "argument `{}` says where else)",
+                               joint.name, nearest, identifier(joint.name)));
+  }
+
+  /// One line about all that is in the file and not in the robot.
+  void tell_left_out(const UrdfRobot& robot) {
+    if (robot.left_out.empty()) return;
+    std::string list;
+    for (const auto& [what, times] : robot.left_out)
+      list += fmt::format("{}{} ({})", list.empty() ? "" : ", ", what, times);
+    report_.remark(robot.place, "left out: " + list);
   }
 
   void require_mass(const UrdfLink& link, const UrdfBody& body) {

@@ -2,6 +2,7 @@
 // together made one (tree.cpp), and the objects of the language that it comes to (urdf.cpp).
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,11 +23,11 @@ struct UrdfLink {
   std::vector<language::Position> shape_places;
 };
 
-enum class UrdfJointType { fixed, revolute, continuous, prismatic };
+enum class UrdfJointType { fixed, revolute, continuous, prismatic, floating };
 
 struct UrdfJoint {
   std::string name;
-  language::Position place, limit_place, damping_place, friction_place;
+  language::Position place, type_place, limit_place, damping_place, friction_place;
   UrdfJointType type = UrdfJointType::fixed;
   std::size_t parent = 0, child = 0;  ///< indices of links
   Pose origin;                        ///< X_PC at angle 0: of the child's frame in its parent's
@@ -40,6 +41,7 @@ struct UrdfRobot {
   language::Position place;
   std::vector<UrdfLink> links;
   std::vector<UrdfJoint> joints;
+  std::map<std::string, std::size_t> left_out;  ///< what was not read, and how often
 };
 
 enum class UrdfShapes { collision, visual };
@@ -60,11 +62,13 @@ struct UrdfBody {
   std::vector<language::Position> shape_places;
 };
 
-/// The base, and the chains of bodies that it carries. A body's frame has its origin where URDF has
-/// that of its link; its axes are the link's, turned by the least rotation that takes z to the
-/// joint's axis.
+/// The base, and the chains of bodies that it carries. A root without mass and shapes that carries
+/// but a floating joint stands for the world: the joint's child is the base. A body's frame has its
+/// origin where URDF has that of its link; its axes are the link's, turned by the least rotation
+/// that takes z to the joint's axis.
 struct UrdfTree {
   UrdfBody base;
+  bool floats = false;  ///< by a joint that says so
   std::vector<std::vector<UrdfBody>> chains;
 };
 
