@@ -151,7 +151,7 @@ TEST(Urdf, LimitsDampingAndFrictionComeAlong) {
   EXPECT_EQ(loaded.diagnostics,
             "note 1:2 left out: limit of effort (1), limit of velocity (1)\n"
             "error 1:77 the robot takes no argument `yaw_is_none`; it takes name, base, shapes, "
-            "fields of its base, and the names of its moving joints\n");
+            "hold, fields of its base, and the names of its moving joints\n");
   const Loaded good = load_urdf(
       robot(link_l + joint("knee", "revolute",
                            "<limit lower=\"-0.5\" upper=\"1.25\" effort=\"9\" velocity=\"9\"/>"
@@ -270,6 +270,27 @@ TEST(Urdf, AJointWhoseLimitsAreEqualIsFixedThere) {
   EXPECT_NEAR(read.base.mass.inertia.xx, 2., 1e-15);
   EXPECT_NEAR(read.base.mass.inertia.yy, 1., 1e-15);
   EXPECT_NEAR(read.base.mass.inertia.zz, 2.5, 1e-15);
+}
+
+/// A fixed base, a turning l of mass m whose centre of mass stands 0.4 m beside the axis: the
+/// closed forms k = m g 0.4/hold and c = 2 sqrt(k (I_zz + m 0.4^2)).
+TEST(Urdf, HoldGivesEachJointASpringAndDamperByItsWeight) {
+  const std::string arm =
+      "<robot name=\"r\"><link name=\"world\"/><link name=\"l\"><inertial><origin xyz=\"0.4 0 0\"/>"
+      "<mass value=\"2\"/><inertia ixx=\"0.1\" iyy=\"0.1\" izz=\"0.08\" ixy=\"0\" ixz=\"0\" "
+      "iyz=\"0\"/></inertial></link>\n" +
+      joint("j", "continuous", "<axis xyz=\"0 0 1\"/><dynamics damping=\"0.5\"/>", "world", "l") +
+      "</robot>";
+  const Loaded loaded = load_urdf(arm, ", hold = 0.02 rad, j = 0.3 rad");
+  ASSERT_TRUE(loaded.experiment) << loaded.diagnostics;
+  const simulation::LinkSpec& link = loaded.experiment->robots.at(0).chains.at(0).links.at(0);
+  const double k = 2. * 9.80665 * 0.4 / 0.02;
+  EXPECT_NEAR(link.stiffness, k, 1e-12 * k);
+  EXPECT_NEAR(link.damping, 0.5 + 2. * std::sqrt(k * (0.08 + 2. * 0.16)), 1e-12 * k);
+  EXPECT_EQ(link.rest_angle, 0.3);
+  EXPECT_EQ(link.angle, 0.3);
+  for (const char* wrong : {", hold = 0", ", hold = 1 m", ", hold = 2 rad", ", hold = strongly"})
+    EXPECT_FALSE(load_urdf(arm, wrong).experiment) << wrong;
 }
 
 /// Of a real maker's twelve robots, which stand beside the repository where they are at hand: those

@@ -1,5 +1,6 @@
 // Robots written as URDF: the file as it stands (read.cpp), its tree with what is fixed
-// together made one (tree.cpp), and the objects of the language that it comes to (urdf.cpp).
+// together made one (tree.cpp), and the objects of the language that it comes to (urdf.cpp),
+// held in its pose if asked to (hold.cpp).
 #pragma once
 
 #include <map>
@@ -75,6 +76,16 @@ struct UrdfTree {
 /// Nothing after an error: a second root, a loop, a chain that branches. Cost: n log n in the
 /// links.
 std::optional<UrdfTree> assemble_urdf(const UrdfRobot& robot, language::Report& report);
+
+/// Constants of the spring and damper of a joint [N m/rad, N m s/rad; N/m, N s/m].
+struct UrdfHold {
+  double stiffness = 0., damping = 0.;
+};
+
+/// So that the joint of a chain's link gives way by less than `sag` [rad] under the weight that it
+/// may carry: the whole robot's if that is mobile, else that of the bodies beyond it. O(bodies).
+UrdfHold hold_joint(const UrdfTree& tree, std::size_t chain, std::size_t link, bool mobile,
+                    double sag);
 
 /// The reader of an Include: the robot as an object of the language.
 std::vector<language::ForeignObject> include_urdf(const language::SourceFile& file,
