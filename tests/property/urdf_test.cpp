@@ -473,6 +473,31 @@ TEST(Urdf, AMistakeEndsTheCommandWithStatus2AndItsPlace) {
       << checked.err;
 }
 
+TEST(Urdf, HoldMakesAQuadrupedStandWithJointsThatSagLessThanSaid) {
+  const testing::Workplace place;
+  place.file("scene.hook",
+             "World w { deltat = auto; Include \"materials/rigid_floor.hook\" (load = 30 N, "
+             "allowance = 2 mm); Terrain.Flat ground { material = rigid_floor; } Include "
+             "\"robots/quadruped.urdf\" (name = r, rest_on = ground, hold = 0.05 rad, "
+             "front_left_thigh_joint = 0.7, front_left_knee = -1.4, front_right_thigh_joint = 0.7, "
+             "front_right_knee = -1.4, rear_left_thigh_joint = 0.7, rear_left_knee = -1.4, "
+             "rear_right_thigh_joint = 0.7, rear_right_knee = -1.4); }");
+  const testing::CommandResult ran = place.hookpoint(
+      "run scene.hook --for 3s --out run --record w.r.front_left.front_left_shank.angle,"
+      "w.r.rear_right.rear_right_shank.angle");
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  std::istringstream trace(place.read("run/trace.csv"));
+  std::string row, cell;
+  for (std::string line; std::getline(trace, line);) row = line;
+  std::istringstream last(row);
+  std::getline(last, cell, ',');  // the time
+  for (int leg = 0; leg < 2; ++leg) {
+    std::getline(last, cell, ',');
+    EXPECT_NEAR(std::stod(cell), -1.4, 0.05);
+    EXPECT_GT(std::abs(std::stod(cell) + 1.4), 0.001);  // it does carry weight
+  }
+}
+
 TEST(Urdf, TheQuadrupedStandsOnItsFourFeet) {
   const testing::Workplace place;
   place.file("scene.hook", "Include \"scenes/standing_quadruped_urdf.hook\";");
