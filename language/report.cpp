@@ -35,6 +35,12 @@ void Report::note(const Position& position, std::string message) {
     findings_.back().notes.push_back({Severity::note, position, clipped(std::move(message))});
 }
 
+void Report::remark(const Position& position, std::string message) {
+  message = clipped(std::move(message));
+  if (seen_.emplace(position.file, position.offset, message).second)
+    remarks_.push_back({Severity::note, position, std::move(message)});
+}
+
 void Report::append(const Report& syntax_errors) {
   for (const Finding& finding : syntax_errors.findings_) {
     broken_.insert(finding.diagnostic.position.file);
@@ -54,6 +60,7 @@ void Report::deliver(Diagnostics& diagnostics) const {
     return std::pair(found == file_order_.end() ? file_order_.size() : found->second,
                      position.offset);
   };
+  for (const Diagnostic& remark : remarks_) diagnostics.note(remark.position, remark.message);
   std::vector<Finding> sorted = findings_;
   std::ranges::stable_sort(sorted, {}, key);
   for (const Finding& finding : sorted) {

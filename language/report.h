@@ -30,6 +30,8 @@ class Report {
   void error(const Position& position, std::string message);
   /// A place that belongs to the error before it.
   void note(const Position& position, std::string message);
+  /// What is no mistake and to be known all the same; told before the errors.
+  void remark(const Position& position, std::string message);
   /// Adds the syntax errors of a file.
   void append(const Report& syntax_errors);
   /// Whether the place is in a file with syntax errors: what it lacks may have been lost to one.
@@ -59,6 +61,7 @@ class Report {
   };
 
   std::vector<Finding> findings_;
+  std::vector<Diagnostic> remarks_;
   std::vector<Include> includes_;
   std::map<const SourceFile*, std::size_t> file_order_;
   std::set<std::tuple<const SourceFile*, std::size_t, std::string>> seen_;

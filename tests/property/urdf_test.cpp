@@ -2,6 +2,9 @@
 // definitions; what is refused, in which words and at which line; files that are no URDF at all.
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <map>
+
 #include "dts/configuration.h"
 #include "dts/energy.h"
 #include "dts/forward_dynamics.h"
@@ -146,8 +149,9 @@ TEST(Urdf, LimitsDampingAndFrictionComeAlong) {
                            "<dynamics damping=\"0.3\" friction=\"0.2\"/>")),
       ", knee = -10 deg, location = 1,2,3, yaw_is_none = 1");
   EXPECT_EQ(loaded.diagnostics,
+            "note 1:2 left out: limit of effort (1), limit of velocity (1)\n"
             "error 1:77 the robot takes no argument `yaw_is_none`; it takes name, base, shapes, "
-            "fields of its base, and the names of its moving joints\n");
+            "hold, fields of its base, and the names of its moving joints\n");
   const Loaded good = load_urdf(
       robot(link_l + joint("knee", "revolute",
                            "<limit lower=\"-0.5\" upper=\"1.25\" effort=\"9\" velocity=\"9\"/>"
@@ -198,6 +202,123 @@ TEST(Urdf, CollisionGeometryBecomesShapesOfTheBodyThatItIsFixedTo) {
   EXPECT_EQ(std::get<simulation::Sphere>(shapes[0].geometry).radius, 0.3);
 }
 
+TEST(Urdf, TellsInOneLineWhatItLeftOut) {
+  const Loaded loaded = load_urdf(
+      robot("<!-- meant --><material name=\"m\"/><gazebo/><gazebo/>" + link_l +
+            "<link name=\"m\"><visual><geometry><sphere radius=\"1\"/></geometry></visual>"
+            "<collision><geometry><!-- far --><mesh filename=\"package://r/x.stl\"/></geometry>"
+            "</collision><collision><geometry><!-- near --><sphere radius=\"2\"/></geometry>"
+            "</collision></link>\n" +
+            joint("j", "continuous", "<limit effort=\"1\" velocity=\"2\"/><safety_controller/>") +
+            joint("k", "fixed", "", "l", "m")));
+  ASSERT_TRUE(loaded.experiment) << loaded.diagnostics;
+  EXPECT_EQ(loaded.diagnostics,
+            "note 1:2 left out: <gazebo> (2), <material> (1), <safety_controller> (1), <visual> "
+            "(1), limit of effort (1), limit of velocity (1), mesh of <collision> (1)\n");
+  const auto& shapes = loaded.experiment->robots.at(0).chains.at(0).links.at(0).body.shapes;
+  ASSERT_EQ(shapes.size(), 1u);
+  EXPECT_EQ(std::get<simulation::Sphere>(shapes[0].geometry).radius, 2.);
+}
+
+TEST(Urdf, ARootThatOnlyFloatsIsTheWorldAndItsChildTheBase) {
+  const Loaded loaded = load_urdf("<robot name=\"r\"><link name=\"world\"/>" + base + link_l +
+                                  joint("free", "floating", "<axis xyz=\"0 0 0\"/>", "world", "b") +
+                                  joint("j", "continuous", "") + "</robot>");
+  ASSERT_TRUE(loaded.experiment) << loaded.diagnostics;
+  EXPECT_EQ(loaded.diagnostics, "");
+  const simulation::RobotSpec& read = loaded.experiment->robots.at(0);
+  EXPECT_TRUE(read.mobile);
+  EXPECT_GT(read.base.mass.mass, 0.);
+  ASSERT_EQ(read.chains.size(), 1u);
+  EXPECT_EQ(read.chains[0].links.at(0).body.name, "l");
+}
+
+TEST(Urdf, AJointThatCannotReach0StartsAtItsNearerLimit) {
+  const std::string knee =
+      robot(link_l + joint("knee", "revolute", "<limit lower=\"-2.5\" upper=\"-0.75\"/>"));
+  const Loaded loaded = load_urdf(knee);
+  ASSERT_TRUE(loaded.experiment) << loaded.diagnostics;
+  EXPECT_EQ(loaded.experiment->robots.at(0).chains.at(0).links.at(0).angle, -0.75);
+  EXPECT_EQ(loaded.diagnostics,
+            "note 5:37 joint `knee` starts at its limit, -0.75: 0 is beyond it (the argument "
+            "`knee` says where else)\n");
+  const Loaded bent = load_urdf(knee, ", knee = -1 rad");
+  ASSERT_TRUE(bent.experiment) << bent.diagnostics;
+  EXPECT_EQ(bent.experiment->robots.at(0).chains.at(0).links.at(0).angle, -1.);
+  EXPECT_EQ(bent.diagnostics, "");
+}
+
+/// The closed form: 3 kg at (0.2, 0, 0) of link m, which stands at x = 1 turned by 90 deg about z.
+TEST(Urdf, AJointWhoseLimitsAreEqualIsFixedThere) {
+  const std::string mass =
+      "<link name=\"m\"><inertial><origin xyz=\"0.2 0 0\"/><mass value=\"3\"/><inertia ixx=\"1\" "
+      "iyy=\"2\" izz=\"2.5\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial></link>\n";
+  const Loaded loaded = load_urdf(
+      "<robot name=\"r\"><link name=\"b\"/>" + mass +
+      joint("j", "revolute",
+            "<origin xyz=\"1 0 0\"/><axis xyz=\"0 0 1\"/><limit lower=\"1.5707963267948966\" "
+            "upper=\"1.5707963267948966\"/>",
+            "b", "m") +
+      "</robot>");
+  ASSERT_TRUE(loaded.experiment) << loaded.diagnostics;
+  EXPECT_EQ(loaded.diagnostics, "note 1:2 left out: joint whose limits are equal: fixed (1)\n");
+  const simulation::RobotSpec& read = loaded.experiment->robots.at(0);
+  EXPECT_TRUE(read.chains.empty());
+  EXPECT_EQ(read.base.mass.mass, 3.);
+  EXPECT_NEAR(read.base.mass.center_of_mass.x, 1., 1e-15);
+  EXPECT_NEAR(read.base.mass.center_of_mass.y, 0.2, 1e-15);
+  EXPECT_NEAR(read.base.mass.inertia.xx, 2., 1e-15);
+  EXPECT_NEAR(read.base.mass.inertia.yy, 1., 1e-15);
+  EXPECT_NEAR(read.base.mass.inertia.zz, 2.5, 1e-15);
+}
+
+/// A fixed base, a turning l of mass m whose centre of mass stands 0.4 m beside the axis: the
+/// closed forms k = m g 0.4/hold and c = 2 sqrt(k (I_zz + m 0.4^2)).
+TEST(Urdf, HoldGivesEachJointASpringAndDamperByItsWeight) {
+  const std::string arm =
+      "<robot name=\"r\"><link name=\"world\"/><link name=\"l\"><inertial><origin xyz=\"0.4 0 0\"/>"
+      "<mass value=\"2\"/><inertia ixx=\"0.1\" iyy=\"0.1\" izz=\"0.08\" ixy=\"0\" ixz=\"0\" "
+      "iyz=\"0\"/></inertial></link>\n" +
+      joint("j", "continuous", "<axis xyz=\"0 0 1\"/><dynamics damping=\"0.5\"/>", "world", "l") +
+      "</robot>";
+  const Loaded loaded = load_urdf(arm, ", hold = 0.02 rad, j = 0.3 rad");
+  ASSERT_TRUE(loaded.experiment) << loaded.diagnostics;
+  const simulation::LinkSpec& link = loaded.experiment->robots.at(0).chains.at(0).links.at(0);
+  const double k = 2. * 9.80665 * 0.4 / 0.02;
+  EXPECT_NEAR(link.stiffness, k, 1e-12 * k);
+  EXPECT_NEAR(link.damping, 0.5 + 2. * std::sqrt(k * (0.08 + 2. * 0.16)), 1e-12 * k);
+  EXPECT_EQ(link.rest_angle, 0.3);
+  EXPECT_EQ(link.angle, 0.3);
+  for (const char* wrong : {", hold = 0", ", hold = 1 m", ", hold = 2 rad", ", hold = strongly"})
+    EXPECT_FALSE(load_urdf(arm, wrong).experiment) << wrong;
+}
+
+/// Of a real maker's twelve robots, which stand beside the repository where they are at hand: those
+/// whose links branch at the base only.
+TEST(Urdf, AMakersRobotsLoad) {
+  const std::filesystem::path source = HOOKPOINT_SOURCE_DIR;
+  std::filesystem::path folder = source / "../shared/data/urdf";
+  if (!std::filesystem::exists(folder)) folder = source / "../../shared/data/urdf";  // a worktree
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no ../shared/data/urdf";
+  const std::map<std::string, double> masses{{"a1", 13.741},
+                                             {"as2", 17.64},
+                                             {"b2_description", 180.49829252380016},
+                                             {"go2w_description", 19.523},
+                                             {"laikago", 25.433},
+                                             {"z1", 4.41872026}};
+  for (const auto& [name, total] : masses) {
+    const Loaded loaded = load_urdf(testing::read_file((folder / (name + ".urdf")).string()));
+    ASSERT_TRUE(loaded.experiment) << name << loaded.diagnostics;
+    const simulation::RobotSpec& read = loaded.experiment->robots.at(0);
+    EXPECT_EQ(read.mobile, name != "z1") << name;
+    double sum = read.base.mass.mass;
+    for (const simulation::ChainSpec& chain : read.chains) {
+      for (const simulation::LinkSpec& link : chain.links) sum += link.body.mass.mass;
+    }
+    EXPECT_NEAR(sum, total, 1e-9) << name;
+  }
+}
+
 struct Case {
   const char* name;
   std::string text, diagnostics;
@@ -217,8 +338,8 @@ TEST_P(WrongUrdf, IsRefusedInTheseWordsAtThisLine) {
 
 const Case cases[] = {
     {"floating", robot(link_l + joint("j", "floating", "")),
-     "error 4:17 a floating joint is not supported: only the base moves freely (argument base = "
-     "mobile), links turn or slide about one axis\n"},
+     "error 4:17 a floating joint is not supported but as the only joint of a root without mass "
+     "and shapes: only the base moves freely, links turn or slide about one axis\n"},
     {"planar", robot(link_l + joint("j", "planar", "")),
      "error 4:17 a planar joint is not supported: only the base moves freely (argument base = "
      "mobile), links turn or slide about one axis\n"},
@@ -235,12 +356,13 @@ const Case cases[] = {
     {"no_inertial", robot("<link name=\"l\"/>\n" + joint("j", "continuous", "")),
      "error 3:2 link `l` moves but has no <inertial>: give it, or a link that is fixed to it, a "
      "mass and an inertia\n"},
-    {"mesh",
+    {"capsule",
      robot("<link name=\"l\">" + inertial +
-           "<collision><geometry>\n<mesh filename=\"x.stl\"/></geometry></collision></link>" +
+           "<collision><geometry>\n<capsule radius=\"1\"/></geometry></collision></link>" +
            joint("j", "continuous", "")),
-     "error 4:2 a mesh cannot touch the ground here: put boxes, cylinders or spheres in its place, "
-     "or take those of <visual> with the argument shapes = visual\n"},
+     "error 4:2 <geometry> takes a box, a cylinder, a sphere or a mesh\n"},
+    {"never_moves_by_default", robot(link_l + joint("j", "revolute", "\n<limit effort=\"1\"/>")),
+     "error 6:2 lower = 0 is not below upper = 0 (each is 0 where it is not given)\n"},
     {"two_roots", robot(link_l),
      "error 3:2 no joint carries link `l`, and none `b`: a robot has one root\n"},
     {"two_parents", robot(link_l + joint("j", "continuous", "") + joint("k", "fixed", "")),
@@ -305,7 +427,8 @@ TEST(Urdf, HostileFilesAreRefusedOrRead) {
     std::string text = whole;
     for (int k = 0; k < 4; ++k) text[random() % text.size()] = char(random());
     const Loaded loaded = load_urdf(text);
-    EXPECT_NE(loaded.experiment.has_value(), !loaded.diagnostics.empty()) << i;
+    EXPECT_NE(loaded.experiment.has_value(), loaded.diagnostics.find("error ") != std::string::npos)
+        << i;
   }
   std::string deep = "<robot>", noise(20000, ' ');
   for (int i = 0; i < 100000; ++i) deep += "<a>";
@@ -348,6 +471,31 @@ TEST(Urdf, AMistakeEndsTheCommandWithStatus2AndItsPlace) {
   EXPECT_EQ(checked.status, 2);
   EXPECT_NE(checked.err.find("robot.urdf:4:17: error: a planar joint"), std::string::npos)
       << checked.err;
+}
+
+TEST(Urdf, HoldMakesAQuadrupedStandWithJointsThatSagLessThanSaid) {
+  const testing::Workplace place;
+  place.file("scene.hook",
+             "World w { deltat = auto; Include \"materials/rigid_floor.hook\" (load = 30 N, "
+             "allowance = 2 mm); Terrain.Flat ground { material = rigid_floor; } Include "
+             "\"robots/quadruped.urdf\" (name = r, rest_on = ground, hold = 0.05 rad, "
+             "front_left_thigh_joint = 0.7, front_left_knee = -1.4, front_right_thigh_joint = 0.7, "
+             "front_right_knee = -1.4, rear_left_thigh_joint = 0.7, rear_left_knee = -1.4, "
+             "rear_right_thigh_joint = 0.7, rear_right_knee = -1.4); }");
+  const testing::CommandResult ran = place.hookpoint(
+      "run scene.hook --for 3s --out run --record w.r.front_left.front_left_shank.angle,"
+      "w.r.rear_right.rear_right_shank.angle");
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  std::istringstream trace(place.read("run/trace.csv"));
+  std::string row, cell;
+  for (std::string line; std::getline(trace, line);) row = line;
+  std::istringstream last(row);
+  std::getline(last, cell, ',');  // the time
+  for (int leg = 0; leg < 2; ++leg) {
+    std::getline(last, cell, ',');
+    EXPECT_NEAR(std::stod(cell), -1.4, 0.05);
+    EXPECT_GT(std::abs(std::stod(cell) + 1.4), 0.001);  // it does carry weight
+  }
 }
 
 TEST(Urdf, TheQuadrupedStandsOnItsFourFeet) {

@@ -25,6 +25,7 @@ class UrdfReader : private UrdfXml {
   void read_link(const pugi::xml_node& node);
   void read_inertial(const pugi::xml_node& node, UrdfLink& link);
   void read_shape(const pugi::xml_node& node, UrdfLink& link);
+  void leave_out(const std::string& what) { ++robot_.left_out[what]; }
   std::optional<ShapeGeometry> read_geometry(const pugi::xml_node& node);
   void read_joint(const pugi::xml_node& node);
   bool read_type(const pugi::xml_node& node, UrdfJoint& joint);
@@ -32,6 +33,8 @@ class UrdfReader : private UrdfXml {
   bool read_end(const pugi::xml_node& node, const char* role, std::size_t& link);
   void read_axis(const pugi::xml_node& node, UrdfJoint& joint);
   void read_limit(const pugi::xml_node& node, UrdfJoint& joint);
+  /// A joint whose limits are one place is fixed there.
+  void hold_still(UrdfJoint& joint);
   void read_dynamics(const pugi::xml_node& node, UrdfJoint& joint);
 
   Pose read_origin(const pugi::xml_node& parent);
@@ -55,6 +58,11 @@ std::optional<UrdfRobot> UrdfReader::run() {
   for (const pugi::xml_node& node : root.children("link")) {
     if (!full()) read_link(node);
   }
+  for (const pugi::xml_node& node : root.children()) {
+    const std::string_view name = node.name();
+    if (node.type() == pugi::node_element && name != "link" && name != "joint")
+      leave_out(fmt::format("<{}>", name));
+  }
   if (robot_.links.empty()) fail(robot_.place, "the robot has no <link>");
   for (const pugi::xml_node& node : root.children("joint")) {
     if (!full()) read_joint(node);
@@ -72,8 +80,12 @@ void UrdfReader::read_link(const pugi::xml_node& node) {
     return note(robot_.links[same->second].place, "the first is here");
   }
   if (const pugi::xml_node inertial = only(node, "inertial")) read_inertial(inertial, link);
-  const char* kind = shapes_ == UrdfShapes::collision ? "collision" : "visual";
+  const bool visual = shapes_ == UrdfShapes::visual;
+  const char* kind = visual ? "visual" : "collision";
+  const char* other = visual ? "collision" : "visual";
   for (const pugi::xml_node& shape : node.children(kind)) read_shape(shape, link);
+  for (pugi::xml_node shape = node.child(other); shape; shape = shape.next_sibling(other))
+    leave_out(fmt::format("<{}>", other));
   robot_.links.push_back(std::move(link));
 }
 
@@ -103,6 +115,7 @@ void UrdfReader::read_shape(const pugi::xml_node& node, UrdfLink& link) {
     fail(place(node), fmt::format("<{}> lacks <geometry>", node.name()));
     return;
   }
+  if (geometry.child("mesh")) return leave_out(fmt::format("mesh of <{}>", node.name()));
   const std::optional<ShapeGeometry> read = read_geometry(geometry);
   if (!read) return;
   link.shapes.push_back({*read, X_LS.position, X_LS.orientation, 0});
@@ -110,7 +123,8 @@ void UrdfReader::read_shape(const pugi::xml_node& node, UrdfLink& link) {
 }
 
 std::optional<ShapeGeometry> UrdfReader::read_geometry(const pugi::xml_node& node) {
-  const pugi::xml_node shape = node.first_child();
+  const pugi::xml_node shape = node.find_child(
+      [](const pugi::xml_node& child) { return child.type() == pugi::node_element; });
   const std::string_view kind = shape.name();
   if (kind == "box") {
     const Vector3d size = vector(shape, "size", {});
@@ -120,16 +134,8 @@ std::optional<ShapeGeometry> UrdfReader::read_geometry(const pugi::xml_node& nod
   }
   if (kind == "sphere") return Sphere{positive(shape, "radius")};
   if (kind == "cylinder") return Cylinder{positive(shape, "radius"), positive(shape, "length")};
-  if (kind == "mesh") {
-    const bool collision = shapes_ == UrdfShapes::collision;
-    fail(place(shape),
-         fmt::format(
-             "a mesh cannot touch the ground here: put boxes, cylinders or spheres in its "
-             "place{}",
-             collision ? ", or take those of <visual> with the argument shapes = visual" : ""));
-  } else {
-    fail(shape ? place(shape) : place(node), "<geometry> takes a box, a cylinder or a sphere");
-  }
+  fail(shape ? place(shape) : place(node),
+       "<geometry> takes a box, a cylinder, a sphere or a mesh");
   return std::nullopt;
 }
 
@@ -149,26 +155,31 @@ void UrdfReader::read_joint(const pugi::xml_node& node) {
                                    "not supported",
                                    joint.name));
   }
-  if (joint.type != UrdfJointType::fixed) {
+  for (const char* aside : {"calibration", "safety_controller"}) {
+    if (node.child(aside)) leave_out(fmt::format("<{}>", aside));
+  }
+  if (joint.type != UrdfJointType::fixed && joint.type != UrdfJointType::floating) {
     read_axis(node, joint);
     read_limit(node, joint);
-    read_dynamics(node, joint);
+    if (joint.type != UrdfJointType::fixed) read_dynamics(node, joint);
   }
   robot_.joints.push_back(std::move(joint));
 }
 
 bool UrdfReader::read_type(const pugi::xml_node& node, UrdfJoint& joint) {
   const std::string_view type = node.attribute("type").value();
+  joint.type_place = place(node, "type");
   if (type == "fixed") joint.type = UrdfJointType::fixed;
   if (type == "revolute") joint.type = UrdfJointType::revolute;
   if (type == "continuous") joint.type = UrdfJointType::continuous;
   if (type == "prismatic") joint.type = UrdfJointType::prismatic;
+  if (type == "floating") joint.type = UrdfJointType::floating;
   if (joint.type != UrdfJointType::fixed || type == "fixed") return true;
   const Position at = place(node, "type");
-  if (type == "floating" || type == "planar") {
-    return fail(at, fmt::format("a {} joint is not supported: only the base moves freely (argument "
-                                "base = mobile), links turn or slide about one axis",
-                                type));
+  if (type == "planar") {
+    return fail(at,
+                "a planar joint is not supported: only the base moves freely (argument base = "
+                "mobile), links turn or slide about one axis");
   }
   const std::string known = "revolute, continuous, prismatic or fixed";
   if (type.empty()) return fail(at, fmt::format("joint `{}` has no type: {}", joint.name, known));
@@ -216,8 +227,11 @@ void UrdfReader::read_axis(const pugi::xml_node& node, UrdfJoint& joint) {
 }
 
 void UrdfReader::read_limit(const pugi::xml_node& node, UrdfJoint& joint) {
-  if (joint.type == UrdfJointType::continuous) return;
   const pugi::xml_node limit = only(node, "limit");
+  for (const char* aside : {"effort", "velocity"}) {
+    if (limit.attribute(aside)) leave_out(fmt::format("limit of {}", aside));
+  }
+  if (joint.type == UrdfJointType::continuous) return;
   if (!limit) {
     fail(joint.place,
          fmt::format("joint `{}` lacks <limit lower=\"...\" upper=\"...\"/>{}", joint.name,
@@ -230,9 +244,27 @@ void UrdfReader::read_limit(const pugi::xml_node& node, UrdfJoint& joint) {
   joint.lower_limit = number(limit, "lower", 0.);
   joint.upper_limit = number(limit, "upper", 0.);
   if (*joint.lower_limit < *joint.upper_limit) return;
+  if (*joint.lower_limit == *joint.upper_limit && limit.attribute("lower") &&
+      limit.attribute("upper")) {
+    hold_still(joint);
+    return;
+  }
   fail(place(limit, "lower"),
        fmt::format("lower = {:g} is not below upper = {:g} (each is 0 where it is not given)",
                    *joint.lower_limit, *joint.upper_limit));
+}
+
+void UrdfReader::hold_still(UrdfJoint& joint) {
+  const double q = *joint.lower_limit;
+  const double half = 0.5 * q;
+  const Pose moved = joint.type == UrdfJointType::prismatic
+                         ? Pose{q * joint.axis, {}}
+                         : Pose{{},
+                                {std::cos(half), std::sin(half) * joint.axis.x,
+                                 std::sin(half) * joint.axis.y, std::sin(half) * joint.axis.z}};
+  joint.origin = joint.origin * moved;
+  joint.type = UrdfJointType::fixed;
+  leave_out("joint whose limits are equal: fixed");
 }
 
 void UrdfReader::read_dynamics(const pugi::xml_node& node, UrdfJoint& joint) {

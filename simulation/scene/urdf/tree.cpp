@@ -32,8 +32,12 @@ class UrdfAssembly {
     const std::optional<std::size_t> root = find_root();
     if (!root) return std::nullopt;
     UrdfTree tree;
+    const UrdfJoint* free = free_joint(*root);
+    if (!all_others_guided(free)) return std::nullopt;
+    tree.floats = free != nullptr;
+    if (tree.floats) ++reached_;
     std::vector<Next> hips;
-    tree.base = body_of(*root, nullptr, {}, hips);
+    tree.base = body_of(tree.floats ? free->child : *root, nullptr, {}, hips);
     for (Next next : hips) {
       std::vector<UrdfBody>& chain = tree.chains.emplace_back();
       for (std::vector<Next> outer{next}; !outer.empty();) {
@@ -88,6 +92,29 @@ class UrdfAssembly {
     }
     if (!root) report_.error(robot_.place, "the joints form a loop: no link is the root");
     return root;
+  }
+
+  /// The floating joint by which the root, the world, carries the base; null where there is none.
+  const UrdfJoint* free_joint(std::size_t root) const {
+    const UrdfLink& link = robot_.links[root];
+    const std::vector<const UrdfJoint*>& carried = outward_[root];
+    const bool is_world = !link.has_inertial && link.shapes.empty() && carried.size() == 1 &&
+                          carried[0]->type == UrdfJointType::floating;
+    return is_world ? carried[0] : nullptr;
+  }
+
+  /// No other joint floats.
+  bool all_others_guided(const UrdfJoint* free) {
+    bool good = true;
+    for (const UrdfJoint& joint : robot_.joints) {
+      if (joint.type != UrdfJointType::floating || &joint == free) continue;
+      report_.error(joint.type_place,
+                    "a floating joint is not supported but as the only joint of a root without "
+                    "mass and shapes: only the base moves freely, links turn or slide about one "
+                    "axis");
+      good = false;
+    }
+    return good;
   }
 
   /// Link `first` with all that is fixed to it. `X_PJ`: of its joint in the frame before; `moving`

@@ -23,7 +23,7 @@ using language::ValueKind;
 constexpr std::array base_fields{"location", "orientation", "velocity", "angular_velocity",
                                  "rest_on",  "at",          "yaw"};
 /// Arguments with a meaning of their own.
-constexpr std::array own_arguments{"name", "base", "shapes"};
+constexpr std::array own_arguments{"name", "base", "shapes", "hold"};
 
 /// `text` as a name of the language: letters, digits and _, no digit first.
 std::string identifier(std::string text) {
@@ -106,19 +106,27 @@ class UrdfInclude {
     const auto tree = assemble_urdf(*robot, report_);
     if (!tree) return {};
     check_arguments(*robot);
+    tell_left_out(*robot);
     ForeignObject object{"Robot", robot_name(*robot), robot->place, {}, {}};
-    object.children.push_back(base_object(*robot, tree->base));
-    for (const std::vector<UrdfBody>& chain : tree->chains)
-      object.children.push_back(chain_object(*robot, chain));
+    object.children.push_back(base_object(*robot, *tree));
+    const bool mobile = object.children.front().type == "Base.mobile";
+    const double sag = hold_argument();
+    for (std::size_t i = 0; i < tree->chains.size(); ++i) {
+      std::vector<UrdfHold> held(tree->chains[i].size());
+      for (std::size_t k = 0; sag > 0. && k < held.size(); ++k)
+        held[k] = hold_joint(*tree, i, k, mobile, sag);
+      object.children.push_back(chain_object(*robot, tree->chains[i], held));
+    }
     return {std::move(object)};
   }
 
  private:
-  ForeignObject base_object(const UrdfRobot& robot, const UrdfBody& body) {
+  ForeignObject base_object(const UrdfRobot& robot, const UrdfTree& tree) {
+    const UrdfBody& body = tree.base;
     const UrdfLink& link = robot.links[body.link];
     std::string kind = word_argument("base", {"mobile", "fixed"});
     // A root that is the world itself, as other readers take it.
-    if (kind.empty()) kind = link.name == "world" ? "fixed" : "mobile";
+    if (kind.empty()) kind = link.name == "world" && !tree.floats ? "fixed" : "mobile";
     ForeignObject object{"Base." + kind, "", link.place, {}, {}};
     if (kind == "mobile") require_mass(link, body);
     for (const char* name : base_fields) {
@@ -130,7 +138,8 @@ class UrdfInclude {
     return object;
   }
 
-  ForeignObject chain_object(const UrdfRobot& robot, const std::vector<UrdfBody>& bodies) {
+  ForeignObject chain_object(const UrdfRobot& robot, const std::vector<UrdfBody>& bodies,
+                             const std::vector<UrdfHold>& held) {
     const UrdfJoint& hip = *bodies.front().joint;
     ForeignObject chain{"Chain", identifier(hip.name), hip.place, {}, {}};
     add_pose(bodies.front().joint_pose, "hip_distance", "hip_orientation", hip.place, chain);
@@ -143,24 +152,51 @@ class UrdfInclude {
         object.fields.push_back(word("joint", "prismatic", joint.place));
       if (&body != &bodies.front())
         add_pose(body.joint_pose, "joint_location", "joint_orientation", joint.place, object);
-      add_joint(joint, object);
+      add_joint(joint, held[chain.children.size()], object);
       add_body(body, object);
       chain.children.push_back(std::move(object));
     }
     return chain;
   }
 
-  void add_joint(const UrdfJoint& joint, ForeignObject& object) {
+  void add_joint(const UrdfJoint& joint, const UrdfHold& held, ForeignObject& object) {
     const auto add = [&](const char* field, double value, const Position& place) {
       object.fields.push_back(numbers(field, {value}, place));
     };
     if (joint.lower_limit) add("lower_limit", *joint.lower_limit, joint.limit_place);
     if (joint.upper_limit) add("upper_limit", *joint.upper_limit, joint.limit_place);
-    if (joint.damping != 0.) add("damping", joint.damping, joint.damping_place);
+    const double damping = joint.damping + held.damping;
+    const bool has_own = joint.damping != 0.;
+    if (damping != 0.) add("damping", damping, has_own ? joint.damping_place : joint.place);
     if (joint.friction != 0.) add("friction", joint.friction, joint.friction_place);
+    if (held.stiffness != 0.) add("stiffness", held.stiffness, joint.place);
     const auto angle = arguments_.find(identifier(joint.name));
-    if (angle != arguments_.end() && !angle->second.values.empty())
+    if (angle != arguments_.end()) {
+      if (angle->second.values.empty()) return;
       object.fields.push_back({"angle", angle->second.values, angle->second.position});
+      if (held.stiffness != 0.)
+        object.fields.push_back({"rest_angle", angle->second.values, angle->second.position});
+      return;
+    }
+    // Where 0 is out of reach, as near to it as the joint goes.
+    if (!joint.lower_limit) return;
+    const double nearest = std::clamp(0., *joint.lower_limit, *joint.upper_limit);
+    if (nearest == 0.) return;
+    add("angle", nearest, joint.limit_place);
+    if (held.stiffness != 0.) add("rest_angle", nearest, joint.limit_place);
+    report_.remark(joint.limit_place,
+                   fmt::format("joint `{}` starts at its limit, {:g}: 0 is beyond it (the "
+                               "argument `{}` says where else)",
+                               joint.name, nearest, identifier(joint.name)));
+  }
+
+  /// One line about all that is in the file and not in the robot.
+  void tell_left_out(const UrdfRobot& robot) {
+    if (robot.left_out.empty()) return;
+    std::string list;
+    for (const auto& [what, times] : robot.left_out)
+      list += fmt::format("{}{} ({})", list.empty() ? "" : ", ", what, times);
+    report_.remark(robot.place, "left out: " + list);
   }
 
   void require_mass(const UrdfLink& link, const UrdfBody& body) {
@@ -192,6 +228,24 @@ class UrdfInclude {
     return "";
   }
 
+  /// The angle [rad] of the argument `hold`; 0 if it is not given or after an error.
+  double hold_argument() {
+    const auto given = arguments_.find("hold");
+    if (given == arguments_.end() || given->second.values.empty()) return 0.;
+    const Value& value = given->second.values[0];
+    constexpr double least = 1e-6, most = 1.;
+    constexpr language::Dimension angle{0, 0, 0, 1};
+    const bool plain =
+        given->second.values.size() == 1 && value.kind == ValueKind::number &&
+        (value.quantity.dimension.dimensionless() || value.quantity.dimension == angle);
+    if (plain && value.quantity.value >= least && value.quantity.value <= most)
+      return value.quantity.value;
+    report_.error(given->second.position,
+                  "the argument `hold` is the angle by which a joint may give way under the "
+                  "robot's weight, from 1e-6 to 1 rad");
+    return 0.;
+  }
+
   void check_arguments(const UrdfRobot& robot) {
     std::vector<std::string> known(own_arguments.begin(), own_arguments.end());
     known.insert(known.end(), base_fields.begin(), base_fields.end());
@@ -203,8 +257,8 @@ class UrdfInclude {
       const std::string nearest = language::nearest_name(name, known);
       report_.error(given.position,
                     fmt::format("the robot takes no argument `{}`; {}", name,
-                                nearest.empty() ? "it takes name, base, shapes, fields of its "
-                                                  "base, and the names of its moving joints"
+                                nearest.empty() ? "it takes name, base, shapes, hold, fields of "
+                                                  "its base, and the names of its moving joints"
                                                 : "did you mean `" + nearest + "`?"));
     }
   }

@@ -1,7 +1,9 @@
 // Robots written as URDF: the file as it stands (read.cpp), its tree with what is fixed
-// together made one (tree.cpp), and the objects of the language that it comes to (urdf.cpp).
+// together made one (tree.cpp), and the objects of the language that it comes to (urdf.cpp),
+// held in its pose if asked to (hold.cpp).
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,11 +24,11 @@ struct UrdfLink {
   std::vector<language::Position> shape_places;
 };
 
-enum class UrdfJointType { fixed, revolute, continuous, prismatic };
+enum class UrdfJointType { fixed, revolute, continuous, prismatic, floating };
 
 struct UrdfJoint {
   std::string name;
-  language::Position place, limit_place, damping_place, friction_place;
+  language::Position place, type_place, limit_place, damping_place, friction_place;
   UrdfJointType type = UrdfJointType::fixed;
   std::size_t parent = 0, child = 0;  ///< indices of links
   Pose origin;                        ///< X_PC at angle 0: of the child's frame in its parent's
@@ -40,6 +42,7 @@ struct UrdfRobot {
   language::Position place;
   std::vector<UrdfLink> links;
   std::vector<UrdfJoint> joints;
+  std::map<std::string, std::size_t> left_out;  ///< what was not read, and how often
 };
 
 enum class UrdfShapes { collision, visual };
@@ -60,17 +63,29 @@ struct UrdfBody {
   std::vector<language::Position> shape_places;
 };
 
-/// The base, and the chains of bodies that it carries. A body's frame has its origin where URDF has
-/// that of its link; its axes are the link's, turned by the least rotation that takes z to the
-/// joint's axis.
+/// The base, and the chains of bodies that it carries. A root without mass and shapes that carries
+/// but a floating joint stands for the world: the joint's child is the base. A body's frame has its
+/// origin where URDF has that of its link; its axes are the link's, turned by the least rotation
+/// that takes z to the joint's axis.
 struct UrdfTree {
   UrdfBody base;
+  bool floats = false;  ///< by a joint that says so
   std::vector<std::vector<UrdfBody>> chains;
 };
 
 /// Nothing after an error: a second root, a loop, a chain that branches. Cost: n log n in the
 /// links.
 std::optional<UrdfTree> assemble_urdf(const UrdfRobot& robot, language::Report& report);
+
+/// Constants of the spring and damper of a joint [N m/rad, N m s/rad; N/m, N s/m].
+struct UrdfHold {
+  double stiffness = 0., damping = 0.;
+};
+
+/// So that the joint of a chain's link gives way by less than `sag` [rad] under the weight that it
+/// may carry: the whole robot's if that is mobile, else that of the bodies beyond it. O(bodies).
+UrdfHold hold_joint(const UrdfTree& tree, std::size_t chain, std::size_t link, bool mobile,
+                    double sag);
 
 /// The reader of an Include: the robot as an object of the language.
 std::vector<language::ForeignObject> include_urdf(const language::SourceFile& file,
