@@ -76,9 +76,9 @@ std::string problem(const std::string& input = "", const std::string& output = "
 }
 
 TEST(Registry, HoldsTheClassesThatComeWithIt) {
-  for (const char* name :
-       {"Controller.PD", "Controller.PID", "Controller.Trajectory", "Signal.Step", "Signal.Ramp",
-        "Signal.Sine", "Signal.Noise", "Gain", "Sum", "Probe", "Data"}) {
+  for (const char* name : {"Controller.PD", "Controller.PID", "Controller.Trajectory",
+                           "Signal.Step", "Signal.Ramp", "Signal.Sine", "Signal.Noise", "Gain",
+                           "Sum", "Probe", "Data", "Filter", "Switch", "Sample", "Delay"}) {
     const ComponentClass* type = Registry::instance().find(name);
     ASSERT_NE(type, nullptr) << name;
     EXPECT_EQ(type->name, name);
