@@ -5,6 +5,7 @@
 #include <cassert>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <locale>
 #include <sstream>
 
@@ -22,6 +23,29 @@ constexpr double top_margin = 92., bottom_margin = 84., band_gap = 108.;
 constexpr double widest = 1800.;           // of a drawing whose panels stand side by side
 constexpr std::size_t most_numbered = 60;  // columns or rows of cells with numbers
 constexpr double crowded_panel = 720., tick_room = 64.;  // without numbers [px]
+
+struct Color {
+  int red, green, blue;
+};
+/// Light everywhere, so that a cell's number can be read: from an orange for the least to a blue
+/// for the greatest, told apart by colour-blind readers too.
+constexpr Color least_color{246, 178, 107}, middle_color{247, 243, 232},
+    greatest_color{127, 184, 230};
+
+std::string hexadecimal(const Color& color) {
+  std::array<char, 8> text{};
+  std::snprintf(text.data(), text.size(), "#%02x%02x%02x", static_cast<unsigned>(color.red) & 0xff,
+                static_cast<unsigned>(color.green) & 0xff,
+                static_cast<unsigned>(color.blue) & 0xff);
+  return text.data();
+}
+
+/// gnuplot's expression for one channel of a cell's colour, its value in column 4.
+std::string mixed(int Color::*channel) {
+  return "(mix(of(strcol(4)), " + std::to_string(least_color.*channel) + ", " +
+         std::to_string(middle_color.*channel) + ", " + std::to_string(greatest_color.*channel) +
+         "))";
+}
 
 std::string axis_title(const Axis& axis) { return typeset(column_title(axis.label, axis.unit)); }
 
@@ -112,8 +136,6 @@ class Script {
          << " left font 'Helvetica," << size << "'" << color << "\n";
   }
 
-  /// Light everywhere, so that a cell's number can be read: from an orange for the least to a blue
-  /// for the greatest, told apart by colour-blind readers too.
   void set_colors() {
     double least = 0., greatest = 0.;
     bool first = true;
@@ -130,8 +152,9 @@ class Script {
     if (map_.color.logarithmic) out_ << "set logscale cb\nset format cb '10^{%T}'\n";
     least_ = least;
     greatest_ = greatest;
-    out_ << "set palette defined (0 '#f6b26b', 0.5 '#f7f3e8', 1 '#7fb8e6')\nset cbrange ["
-         << shortest(least) << ":" << shortest(greatest)
+    out_ << "set palette defined (0 '" << hexadecimal(least_color) << "', 0.5 '"
+         << hexadecimal(middle_color) << "', 1 '" << hexadecimal(greatest_color)
+         << "')\nset cbrange [" << shortest(least) << ":" << shortest(greatest)
          << "]\nset border 0\nset xrange [-0.5:" << shortest(static_cast<double>(columns_) - 0.5)
          << "]\nset yrange [-0.5:" << shortest(static_cast<double>(rows_) - 0.5)
          << "]\nset tics scale 0\nset xtics nomirror (" << ticks(map_.x_values, panel_width_)
@@ -197,10 +220,9 @@ class Script {
                                     : "(v - (" + least + "))/(" + greatest + " - (" + least + "))")
          << "\nmix(s, low, middle, high) = s < 0.5 ? low + 2*s*(middle - low) : middle + (2*s - "
             "1)*(high - middle)\nof(v) = given(v) ? share(real(v)) : 0.\nplot "
-         << data_from(first, count)
-         << " using 5:6:(mix(of(strcol(4)), 246, 247, 127)):(mix(of(strcol(4)), 178, 243, "
-            "184)):(mix(of(strcol(4)), 107, 232, 230)):(given(strcol(4)) ? 255 : 0) with "
-            "rgbalpha, NaN with points lc palette\n";
+         << data_from(first, count) << " using 5:6:" << mixed(&Color::red) << ":"
+         << mixed(&Color::green) << ":" << mixed(&Color::blue)
+         << ":(given(strcol(4)) ? 255 : 0) with rgbalpha, NaN with points lc palette\n";
   }
 
   void plot_cells(std::size_t first, std::size_t count) {

@@ -5,6 +5,7 @@ set -euo pipefail
 mkdir -p "$work/clone/scripts"
 cp "$root/scripts/build" "$work/clone/scripts/"
 clone="$work/clone"
+echo '{}' >"$clone/CMakePresets.json"
 
 # Packages that are installed, in $work/has.
 cat >"$clone/scripts/setup" <<'S'
@@ -63,6 +64,12 @@ expect "without their libraries no tests" "$(grep -c 'BUILD_TESTING=OFF --fresh'
 build release hookpoint
 build release hookpoint
 expect "without dpkg it configures once" "$said$configured" ""
+
+echo '{"version": 3}' >"$clone/CMakePresets.json"
+build release hookpoint
+expect "presets that changed are seen" "$(grep -c -- '--fresh' <<<"$configured")" 1
+build release hookpoint
+expect "once" "$said$configured" ""
 
 touch "$work/ninja_fails"
 status=0
