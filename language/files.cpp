@@ -1,6 +1,7 @@
 #include "language/files.h"
 
 #include <fstream>
+#include <utility>
 
 #include "language/names.h"
 #include "language/search.h"
@@ -85,15 +86,15 @@ void FileStore::give(const std::filesystem::path& path, std::string text) {
 
 const ParsedFile& FileStore::override_text(const std::string& trail, const std::string& value) {
   const std::lock_guard lock(mutex_);
-  std::unique_ptr<ParsedFile>& file = overrides_[trail + '=' + value];
-  if (file == nullptr) {
-    file = std::make_unique<ParsedFile>();
-    file->source.path = "<--set " + trail + ">";
-    file->source.text = trail + '=' + value;
-    index_lines(file->source);
-    parse_override(*file);
-  }
-  return *file;
+  std::string text = trail + '=' + value;
+  if (const auto found = overrides_.find(text); found != overrides_.end()) return *found->second;
+  auto file = std::make_unique<ParsedFile>();
+  file->source.path = "<--set " + trail + ">";
+  file->source.text = std::move(text);
+  index_lines(file->source);
+  parse_override(*file);
+  const std::string_view key = file->source.text;
+  return *overrides_.emplace(key, std::move(file)).first->second;
 }
 
 std::filesystem::path find_named(const FileStore& files, const ParsedFile& file, const Item& item,

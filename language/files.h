@@ -41,7 +41,8 @@ class FileStore {
   const Schema& schema_;
   std::vector<std::filesystem::path> search_path_;
   std::mutex mutex_;
-  std::map<std::string, std::unique_ptr<ParsedFile>> files_, overrides_;
+  std::map<std::string, std::unique_ptr<ParsedFile>> files_;
+  std::map<std::string_view, std::unique_ptr<ParsedFile>> overrides_;  ///< by their own texts
 };
 
 /// Where the file lies that an Include or a Plugin of `file` names. Empty, after an error in
