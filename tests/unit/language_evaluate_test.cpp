@@ -198,7 +198,7 @@ World w Robot r {
     Chain side { hip_distance = side == left ? 0.5 : -0.5, 0, 0; For j in 3, 7 { Link l[j] { mass = j; } } }
   }
 }
-For side in left, right { Record side = w.r.side.l[3].angle; }
+For side in left, right { Record side { what = w.r.side.l[3].angle; } }
 )");
   ASSERT_TRUE(result.root) << result.errors();
   EXPECT_EQ(result.at("w.r").children_of("Chain").size(), 2U);
