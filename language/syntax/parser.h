@@ -38,6 +38,7 @@ class Parser {
   bool parse_plugin(Item& item);
   bool parse_arguments(Detail& detail);
   bool parse_loop(Item& item);
+  bool parse_loop_values(Item& item);
   /// `{ items }`, or one item, or `;`.
   bool parse_body(Item& item);
   bool parse_block(Item& item);

@@ -199,15 +199,26 @@ bool Parser::parse_loop(Item& item) {
   if (!at(TokenKind::identifier)) return fail_here("the name of the loop's variable");
   item.name = span(token());
   ++at_;
-  if (!at_word("in")) return fail_here("`in` and a range");
+  if (!at_word("in")) return fail_here("`in` and a range or a list");
   ++at_;
+  if (!parse_loop_values(item)) return false;
+  if (!at(TokenKind::open_brace)) return fail_here("`{`");
+  return parse_block(item);
+}
+
+/// `first .. last`, or a list.
+bool Parser::parse_loop_values(Item& item) {
+  std::size_t ahead = 0;
+  while (!at(TokenKind::range, ahead) && !at(TokenKind::open_brace, ahead) &&
+         !at(TokenKind::semicolon, ahead) && !at(TokenKind::end, ahead))
+    ++ahead;
+  if (!at(TokenKind::range, ahead)) return parse_value(item.value);
   Detail detail;
   if (!parse_expression(detail.first) || !expect(TokenKind::range, "`..`") ||
       !parse_expression(detail.last))
     return false;
   detail_of(item) = detail;
-  if (!at(TokenKind::open_brace)) return fail_here("`{`");
-  return parse_block(item);
+  return true;
 }
 
 Range Parser::store(std::vector<Item>& items) {

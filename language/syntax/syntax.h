@@ -99,7 +99,7 @@ struct Item {
   bool indexed = false;      ///< the name has an [index]
   Span place;                ///< type, field name or keyword
   Span name;                 ///< object, variable, include; length 0 without
-  Range value;               ///< of Syntax::expressions
+  Range value;               ///< of Syntax::expressions; of a loop over a list its values
   Range items;               ///< of Syntax::items: what stands inside
   std::uint32_t detail = 0;  ///< of Syntax::details, where there is more to say
 };

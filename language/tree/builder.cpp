@@ -273,6 +273,7 @@ void Builder::lay_let(FileScope& scope, const Item& item) {
 }
 
 void Builder::lay_loop(FileScope& scope, const Item& item) {
+  if (!item.value.empty()) return lay_loop_over_list(scope, item);
   const ExpressionEvaluator evaluate = evaluator(scope);
   const Detail& detail = scope.file.syntax.details[item.detail];
   const std::optional<long> first = evaluate.evaluate_integer(detail.first, "the range of For");
@@ -283,18 +284,40 @@ void Builder::lay_loop(FileScope& scope, const Item& item) {
     return report_.error(position(scope, detail.last.span),
                          "For goes through more than " + std::to_string(longest) + " values");
   }
-  const std::string_view name = evaluate.text(item.name);
   const Position place = position(scope, item.name);
   for (long i = *first; i <= *last && !stopped(); ++i) {
-    constexpr std::size_t steps_of_a_round = 10;
-    if (!take(Resource::steps, steps_of_a_round, place)) return;
     Value value;
     value.quantity.value = static_cast<double>(i);
     value.position = place;
-    if (!define(scope, name, {value}, place)) return;
-    lay_items(scope, item.items, false);
-    scope.variables.erase(name);
+    if (!lay_round(scope, item, std::move(value))) return;
   }
+}
+
+void Builder::lay_loop_over_list(FileScope& scope, const Item& item) {
+  std::optional<std::vector<Value>> values = evaluator(scope).evaluate_list(item.value);
+  if (!values) return;
+  for (Value& value : *values) {
+    if (value.kind == ValueKind::word && value.text.find('.') != std::string::npos) {
+      return report_.error(value.position, "For goes through single words: `" + value.text +
+                                               "` is a trail; name its last part, and write the "
+                                               "rest inside the loop");
+    }
+  }
+  for (Value& value : *values)
+    if (stopped() || !lay_round(scope, item, std::move(value))) return;
+}
+
+bool Builder::lay_round(FileScope& scope, const Item& item, Value value) {
+  const std::string_view name = evaluator(scope).text(item.name);
+  const Position place = position(scope, item.name);
+  constexpr std::size_t steps_of_a_round = 10;
+  if (!take(Resource::steps, steps_of_a_round, place)) return false;
+  const bool word = value.kind == ValueKind::word;
+  if (!define(scope, name, {std::move(value)}, place)) return false;
+  scope.variables[name].stands_for_word = word;
+  lay_items(scope, item.items, false);
+  scope.variables.erase(name);
+  return true;
 }
 
 }  // namespace hookpoint::language

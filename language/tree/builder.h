@@ -56,6 +56,9 @@ class Builder {
   void lay_wire(FileScope& scope, const Item& item);
   void lay_let(FileScope& scope, const Item& item);
   void lay_loop(FileScope& scope, const Item& item);
+  void lay_loop_over_list(FileScope& scope, const Item& item);
+  /// The loop's items once, its variable being `value`; false to go no further.
+  bool lay_round(FileScope& scope, const Item& item, Value value);
   void lay_implicit_objects();
   /// The class, if it is known and may stand here; else an error.
   const ClassSchema* class_of(const FileScope& scope, const Item& item);

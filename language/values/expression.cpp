@@ -91,7 +91,9 @@ std::optional<long> ExpressionEvaluator::evaluate_integer(const Expression& expr
 
 std::optional<std::string> ExpressionEvaluator::name_text(Span name, bool indexed,
                                                           const Expression& index) const {
-  std::string result(text(name));
+  const auto variable = variables_.find(text(name));
+  const bool word = variable != variables_.end() && variable->second.stands_for_word;
+  std::string result(word ? variable->second.values[0].text : text(name));
   if (!indexed) return result;
   const std::optional<long> number = evaluate_integer(index, "the index");
   if (!number) return std::nullopt;

@@ -19,6 +19,8 @@ namespace hookpoint::language {
 struct Variable {
   std::vector<Value> values;
   Position position;  ///< of its definition
+  /// A loop's over words: wherever its name stands as an object's or in a trail, the word is meant.
+  bool stands_for_word = false;
 };
 
 /// The variables of one file, by names that lie in its text. A name is defined once wherever it can
@@ -45,7 +47,8 @@ class ExpressionEvaluator {
   /// The trail's text, indices evaluated: "leg[2].femur". A first name that is a variable holding a
   /// word stands for the word.
   std::optional<std::string> trail_text(const Trail& trail) const;
-  /// `name` or `name[index]`.
+  /// `name` or `name[index]`; the word in place of the name of a loop's variable that stands for
+  /// one.
   std::optional<std::string> name_text(Span name, bool indexed, const Expression& index) const;
   /// The trail, if the expression is nothing else; else null.
   const Trail* lone_trail(const Expression& expression) const;

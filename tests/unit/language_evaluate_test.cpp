@@ -190,6 +190,35 @@ Record what = w.r.leg[n - 1].l[2].angle;
   EXPECT_TRUE(evaluate_text("World w; For i in 1..0 { World v[i]; }").root);
 }
 
+TEST(LanguageLoops, GoThroughListsAndNames) {
+  Evaluated result = evaluate_text(R"(
+Let sides = left, right;
+World w Robot r {
+  For side in sides {
+    Chain side { hip_distance = side == left ? 0.5 : -0.5, 0, 0; For j in 3, 7 { Link l[j] { mass = j; } } }
+  }
+}
+For side in left, right { Record side { what = w.r.side.l[3].angle; } }
+)");
+  ASSERT_TRUE(result.root) << result.errors();
+  EXPECT_EQ(result.at("w.r").children_of("Chain").size(), 2U);
+  EXPECT_EQ(result.at("w.r.left").numbers("hip_distance")[0], 0.5);
+  EXPECT_EQ(result.at("w.r.right").numbers("hip_distance")[0], -0.5);
+  EXPECT_EQ(result.at("w.r.right.l[7]").number("mass"), 7.);
+  EXPECT_NO_THROW(result.at("left"));
+  EXPECT_NO_THROW(result.at("right"));
+}
+
+TEST(LanguageLoops, NamesAreSingleWordsAndEachOfItsOwn) {
+  EXPECT_NE(evaluate_text("World w; For side in w.a, w.b { World side; }")
+                .messages()
+                .find("single words"),
+            std::string::npos);
+  EXPECT_NE(evaluate_text("For side in left, left { World side; }").messages().find("left"),
+            std::string::npos);
+  EXPECT_NE(evaluate_text("For side in left, right World side;").messages(), "");
+}
+
 TEST(LanguageLoops, AreBounded) {
   EXPECT_NE(
       evaluate_text("For i in 0..1e8 { World w[i]; }").messages().find("more than 1000000 values"),
