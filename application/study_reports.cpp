@@ -16,7 +16,7 @@ namespace {
 /// Every constant of the peers that the study runs, at the settings that it runs them.
 std::vector<studies::PeerSetting> peer_settings(const studies::StudyResult& result) {
   std::vector<std::pair<std::string, std::string>> used;
-  for (const studies::SubjectInfo& subject : result.subjects) {
+  for (const studies::SubjectInfo& subject : result.compositions) {
     const std::pair<std::string, std::string> peer{subject.engine, subject.settings};
     if (subject.available && subject.engine != "dts" &&
         std::find(used.begin(), used.end(), peer) == used.end())

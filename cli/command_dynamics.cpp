@@ -6,6 +6,7 @@
 #include "cli/commands.h"
 #include "cli/exit_status.h"
 #include "output/text/json.h"
+#include "simulation/analysis/controller_terms.h"
 #include "simulation/analysis/dynamics_report.h"
 
 namespace hookpoint::cli {
@@ -18,7 +19,39 @@ void member(output::JsonWriter& json, const char* name, const Vector3d& v) {
   json.key(name).numbers({v.x, v.y, v.z});
 }
 
-void write_robot(output::JsonWriter& json, const RobotDynamics& robot) {
+/// A matrix as a list of its rows.
+void member(output::JsonWriter& json, const std::string& name, std::span<const double> numbers,
+            std::size_t columns) {
+  json.key(name).begin_array();
+  for (; columns > 0 && !numbers.empty(); numbers = numbers.subspan(columns))
+    json.numbers(numbers.first(columns));
+  json.end_array();
+}
+
+void write_terms(output::JsonWriter& json, const simulation::ControllerTerms& terms) {
+  const std::size_t n = terms.coordinates().size(), joints = terms.bodies().size() - 1;
+  json.key("coordinates").begin_array();
+  for (const auto& [trail, unit] : terms.coordinates())
+    json.begin_object().member("trail", trail).member("unit", unit).end_object();
+  json.end_array();
+  member(json, "mass_matrix", terms.mass_matrix(), n);
+  json.key("bias_forces").numbers(terms.bias_forces());
+  json.key("gravity_forces").numbers(terms.gravity_forces());
+  json.member("mass", terms.center_of_mass().mass);
+  member(json, "center_of_mass", terms.center_of_mass().position);
+  member(json, "center_of_mass_jacobian", terms.center_of_mass().jacobian, n);
+  json.key("jacobians").begin_object();
+  for (std::size_t body = 0; body <= joints; ++body)
+    member(json, terms.bodies()[body], terms.jacobian(body, {}), n);
+  json.end_object().key("linearisation").begin_object();
+  const simulation::LinearisedRobot linear = terms.linearised(std::vector<double>(joints));
+  member(json, "A", linear.A, 2 * n);
+  member(json, "B", linear.B, joints);
+  json.end_object();
+}
+
+void write_robot(output::JsonWriter& json, const RobotDynamics& robot,
+                 const simulation::ControllerTerms& terms) {
   json.key(robot.name).begin_object().key("base").begin_object();
   member(json, "linear_acceleration", robot.base_acceleration);
   member(json, "angular_acceleration", robot.base_angular_acceleration);
@@ -45,14 +78,17 @@ void write_robot(output::JsonWriter& json, const RobotDynamics& robot) {
     member(json, "force", contact.force);
     json.end_object();
   }
-  json.end_array().end_object();
+  json.end_array();
+  write_terms(json, terms);
+  json.end_object();
 }
 
-void print_json(const DynamicsReport& report) {
+void print_json(const simulation::Experiment& experiment, const DynamicsReport& report) {
   output::JsonWriter json;
   json.begin_object().member("world", report.world).member("time", 0.);
   json.key("robots").begin_object();
-  for (const RobotDynamics& robot : report.robots) write_robot(json, robot);
+  for (std::size_t i = 0; i < report.robots.size(); ++i)
+    write_robot(json, report.robots[i], simulation::ControllerTerms(experiment, i));
   json.end_object().key("largest_stable_step");
   if (report.largest_stable_step) {
     json.value(*report.largest_stable_step);
@@ -100,7 +136,7 @@ int dynamics(const std::filesystem::path& file, const application::Settings& set
   if (!experiment) return wrong_input;
   const DynamicsReport report = simulation::evaluate_dynamics(*experiment);
   if (json) {
-    print_json(report);
+    print_json(*experiment, report);
     return fine;
   }
   fmt::print("world {}, at its initial state (world axes)\n", report.world);

@@ -51,7 +51,7 @@ view::BoardStudy board_of(const studies::StudyPlan& plan) {
   const studies::StudyResult table = studies::empty_table(plan);
   view::BoardStudy board = without_columns(table);
   for (const studies::SweepColumn& sweep : table.sweeps)
-    board.columns.push_back({sweep.name, sweep.unit, true});
+    board.columns.push_back({sweep.name, sweep.unit, true, sweep.words});
   for (const studies::MetricColumn& metric : table.metrics)
     board.columns.push_back({metric.name, metric.unit});
   add_rows(board, table.rows);

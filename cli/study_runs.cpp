@@ -17,6 +17,7 @@
 #include "studies/compare/wall_report.h"
 #include "studies/report/terminal_table.h"
 #include "studies/run/results_csv.h"
+#include "studies/run/scene_file.h"
 #include "studies/run/verdict.h"
 
 namespace hookpoint::cli {
@@ -100,10 +101,10 @@ constexpr const char* picture_of_scene = "pictures/scene.png";
 void draw_picture(const StudyCommand& command, const studies::StudyPlan& plan,
                   const studies::StudyRun& run, const studies::ReportOutcome& report) {
   const studies::RowPlan& row = plan.rows.front();
-  const std::string problem =
-      draw_scene_picture({row.scene->file, plan.settings_of(row), command.arguments.allow_plugins,
-                          run.folder / picture_of_scene},
-                         command.guard.stop());
+  const studies::SceneFile scene = studies::scene_file_of(plan, row, run.folder / "pictures");
+  const std::string problem = draw_scene_picture(
+      {scene.file, scene.settings, command.arguments.allow_plugins, run.folder / picture_of_scene},
+      command.guard.stop());
   if (problem.empty())
     application::link_pictures(run, command.command, report, {picture_of_scene});
   else if (!command.guard.stop())

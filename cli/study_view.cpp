@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "cli/study_boards.h"
+#include "studies/run/scene_file.h"
 #include "studies/run/verdict.h"
 #include "view/page_bundle.h"
 
@@ -188,10 +189,10 @@ void StudyView::open(const view::OpenRow& row, view::Server::ClientId client, st
   // A folder of its own: two rows of one scene would write over each other's changes.
   const std::filesystem::path folder =
       shown_[row.study].folder / fmt::format("windows/{:05}", row.row);
-  std::vector<std::string> words{
-      "view",         planned.scene->file.string(), "--no-open", "--bind", address_, "--out",
-      folder.string()};
-  for (const std::string& setting : plan.settings_of(planned)) {
+  const studies::SceneFile scene = studies::scene_file_of(plan, planned, folder);
+  std::vector<std::string> words{"view",  scene.file.string(), "--no-open", "--bind", address_,
+                                 "--out", folder.string()};
+  for (const std::string& setting : scene.settings) {
     words.emplace_back("--set");
     words.push_back(setting);
   }

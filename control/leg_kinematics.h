@@ -29,6 +29,16 @@ struct LegSolution {
                    ///< femur joint
 };
 
+/// Femur and tibia in their plane.
+struct ShankAngles {
+  double femur, tibia;
+  bool reachable;  ///< as of a LegSolution
+};
+
+/// Angles [rad] of femur and tibia that put the foot `outwards` and `up` from the femur's axis [m]:
+/// the two-link triangle of `leg_angles`.
+ShankAngles shank_angles(double femur, double tibia, double outwards, double up, Knee knee);
+
 /// Foot position p_HF, hip axes [m], of joint angles [rad].
 Vector3d foot_position(const LegLengths& lengths, const LegAngles& angles);
 

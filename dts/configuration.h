@@ -31,7 +31,7 @@ State<Real> zero_state(const Model<Real>& model) {
   return state;
 }
 
-/// Writes the base's part of a generalised velocity or acceleration.
+/// Writes the base's part of a generalised velocity, acceleration or force.
 template <class Real>
 void write_base_velocity(const Vector3<Real>& angular, const Vector3<Real>& linear,
                          std::span<Real> velocity) {

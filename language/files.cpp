@@ -97,20 +97,25 @@ const ParsedFile& FileStore::override_text(const std::string& trail, const std::
   return *overrides_.emplace(key, std::move(file)).first->second;
 }
 
-std::filesystem::path find_named(const FileStore& files, const ParsedFile& file, const Item& item,
-                                 Report& report) {
-  const Span span = file.syntax.details[item.detail].path;
+std::filesystem::path find_named(const FileStore& files, const ParsedFile& file,
+                                 const std::string& path, const Position& place, Report& report) {
   const std::string& from = file.source.path;
-  const std::string path =
-      unquote(std::string_view(file.source.text).substr(span.offset, span.length));
   std::filesystem::path found;
   if (!path.empty()) found = files.find(path, from);
   if (found.empty()) {
-    report.error(
-        {&file.source, span.offset, span.length},
-        "there is no file `" + path + "`; looked in " + join(files.searched(path, from), ", "));
+    report.error(place, "there is no file `" + path + "`; looked in " +
+                            join(files.searched(path, from), ", "));
   }
   return found;
+}
+
+std::filesystem::path find_named(const FileStore& files, const ParsedFile& file, const Item& item,
+                                 Report& report) {
+  const Span span = file.syntax.details[item.detail].path;
+  const std::string_view written =
+      std::string_view(file.source.text).substr(span.offset, span.length);
+  return find_named(files, file, unquote(written), {&file.source, span.offset, span.length},
+                    report);
 }
 
 const Item* find_param(const ParsedFile& file, std::string_view name) {

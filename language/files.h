@@ -45,8 +45,11 @@ class FileStore {
   std::map<std::string_view, std::unique_ptr<ParsedFile>> overrides_;  ///< by their own texts
 };
 
-/// Where the file lies that an Include or a Plugin of `file` names. Empty, after an error in
-/// `report`, if nowhere.
+/// Where the file `path` lies that an Include or a Plugin of `file` names at `place`. Empty, after
+/// an error in `report`, if nowhere.
+std::filesystem::path find_named(const FileStore& files, const ParsedFile& file,
+                                 const std::string& path, const Position& place, Report& report);
+/// The same of an item that has its path in quotes.
 std::filesystem::path find_named(const FileStore& files, const ParsedFile& file, const Item& item,
                                  Report& report);
 

@@ -30,7 +30,8 @@ void PluginSearch::visit(const ParsedFile& file) {
 }
 
 void PluginSearch::include(const ParsedFile& file, const Item& item) {
-  Report untold;  // the evaluation says which files are missing
+  if (!item.value.empty()) return;  // its path is a value: no Plugin may stand there
+  Report untold;                    // the evaluation says which files are missing
   const std::filesystem::path found = find_named(files_, file, item, untold);
   if (found.empty()) return;
   const ParsedFile& included = files_.load(found);

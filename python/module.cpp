@@ -6,7 +6,11 @@
 
 #include "application/engines_json.h"
 #include "python/errors.h"
+#include "python/frames.h"
+#include "python/python_batch.h"
+#include "python/python_dynamics.h"
 #include "python/python_study.h"
+#include "python/python_tune.h"
 #include "python/python_world.h"
 
 namespace hookpoint::python {
@@ -33,6 +37,10 @@ std::vector<std::string> settings_of(const py::dict& values) {
   return settings;
 }
 
+std::unique_ptr<PythonWorld> world_of(const Source& source) {
+  return std::make_unique<PythonWorld>(std::make_shared<LoadedFile>(source));
+}
+
 py::dict run_world(PythonWorld& world, std::optional<double> duration,
                    const std::vector<std::string>& record, std::int64_t every,
                    std::optional<std::filesystem::path> output, const py::object& movie) {
@@ -47,8 +55,34 @@ py::dict run_world(PythonWorld& world, std::optional<double> duration,
 
 void add_world(py::module_& module) {
   py::class_<PythonWorld>(module, "World", "An experiment that runs, from time 0 on.")
-      .def("step", &PythonWorld::step, py::arg("count") = 1,
-           "Takes `count` steps, fewer when the run ends. Raises RunError.")
+      .def(
+          "step",
+          [](const py::object& self, std::int64_t count, const py::object& callback,
+             std::int64_t every) { self.cast<PythonWorld&>().step(self, count, callback, every); },
+          py::arg("count") = 1, py::kw_only(), py::arg("callback") = py::none(),
+          py::arg("every") = 1,
+          "Takes `count` steps, fewer when the run ends. `callback(world)` is called after every "
+          "`every` steps and after the last; the steps end when it returns something false but "
+          "None. Raises RunError.")
+      .def("reset", &PythonWorld::reset,
+           "Back to time 0: what follows is bit for bit what a World that was just loaded does. "
+           "Views "
+           "stay. What only a step computes (a joint's acceleration) is right after the next step.")
+      .def("state", &PythonWorld::state,
+           "Everything that evolves, as bytes with the experiment's hash and a checksum.")
+      .def("set_state", &PythonWorld::set_state, py::arg("state"),
+           "Goes on bit for bit from such bytes, of this experiment. Raises Error for any others "
+           "and changes nothing then.")
+      .def("copy", &PythonWorld::copy,
+           "Another World of the same file that goes on from here bit for bit as this one does.")
+      .def(
+          "view",
+          [](const py::object& self, const std::string& trail) {
+            return self.cast<PythonWorld&>().view(self, trail);
+          },
+          py::arg("trail"),
+          "The port, vector or list as a numpy array on the world's own memory, SI: always the "
+          "present value, and written in place where it is an input. A lone number has shape ().")
       .def("run", run_world, py::arg("duration") = py::none(), py::kw_only(),
            py::arg("record") = std::vector<std::string>{}, py::arg("every") = 1,
            py::arg("output") = py::none(), py::arg("movie") = false,
@@ -86,13 +120,94 @@ void add_world(py::module_& module) {
       .def_property_readonly("recorded", &PythonWorld::recorded, "By the last `run`.");
 }
 
+std::unique_ptr<PythonBatch> batch_of(const py::object& file, std::size_t worlds, int threads,
+                                      const std::optional<std::vector<std::uint64_t>>& seeds,
+                                      const std::vector<std::string>& observations,
+                                      const std::vector<std::string>& actions,
+                                      const std::optional<std::string>& done, const py::dict& set,
+                                      std::optional<std::string> engine, bool allow_plugins) {
+  Source source{{}, {}, settings_of(set), std::move(engine), allow_plugins};
+  const bool is_text = py::isinstance<py::str>(file) &&
+                       file.cast<std::string>().find_first_of("{\n") != std::string::npos;
+  if (is_text) {
+    source.file = "<text>";
+    source.text = file.cast<std::string>();
+  } else {
+    source.file = file.cast<std::filesystem::path>();
+  }
+  return std::make_unique<PythonBatch>(
+      std::make_shared<LoadedFile>(source),
+      BatchOptions{worlds, threads, seeds.value_or(std::vector<std::uint64_t>{}), observations,
+                   actions, done});
+}
+
+void add_batch(py::module_& module) {
+  py::class_<PythonBatch>(module, "Batch",
+                          "Worlds of one file, stepped by threads, with arrays in and out. Each is "
+                          "bit for bit a World by itself, for any number of threads.")
+      .def(py::init(&batch_of), py::arg("file"), py::arg("worlds"), py::kw_only(),
+           py::arg("threads") = 0, py::arg("seeds") = py::none(),
+           py::arg("observations") = std::vector<std::string>{},
+           py::arg("actions") = std::vector<std::string>{}, py::arg("done") = py::none(),
+           py::arg("set") = py::dict(), py::arg("engine") = py::none(),
+           py::arg("allow_plugins") = false,
+           "`file`: a .hook file, or the text of one. `threads`: 0 is one a core. `seeds`: one a "
+           "world, by default the file's. `observations`, `actions`: trails of ports, vectors or "
+           "lists, a column a number. `done`: a port that is not 0 once a world is done. Raises "
+           "FileError.")
+      .def(
+          "step",
+          [](PythonBatch& batch, const py::object& actions, std::int64_t count) {
+            batch.step(actions, count);
+            return py::make_tuple(batch.observations(), batch.done());
+          },
+          py::arg("actions") = py::none(), py::arg("count") = 1,
+          "Writes `actions` (worlds x columns, SI; None: as `Batch.actions` holds them) and takes "
+          "`count` steps in each world that is not done. Returns (observations, done), the Batch's "
+          "own arrays. A step that cannot be taken makes its world done: see `failures`. Ctrl-C "
+          "leaves worlds at different instants.")
+      .def(
+          "reset",
+          [](PythonBatch& batch, const py::object& mask) {
+            batch.reset(mask);
+            return batch.observations();
+          },
+          py::arg("mask") = py::none(),
+          "Back to time 0: the worlds where `mask` is true, or all. Returns the observations.")
+      .def("state", &PythonBatch::state, py::arg("world"),
+           "World.state of that world; a World with the same seed takes it.")
+      .def("set_state", &PythonBatch::set_state, py::arg("world"), py::arg("state"),
+           "World.set_state of that world.")
+      .def("__len__", &PythonBatch::size)
+      .def_property_readonly("observations", &PythonBatch::observations,
+                             "worlds x columns, SI; every step writes the same memory.")
+      .def_property_readonly("actions", &PythonBatch::actions,
+                             "worlds x columns, SI: what the next step writes; may be filled.")
+      .def_property_readonly("done", &PythonBatch::done,
+                             "Of each world: `done` is not 0, its run has ended, or failed.")
+      .def_property_readonly("failures", &PythonBatch::failures,
+                             "Why steps could not be taken: a dict by the world's index.")
+      .def_property_readonly("time", &PythonBatch::time, "Of each world [s].")
+      .def_property_readonly("seeds", &PythonBatch::seeds, "Of each world.")
+      .def_property_readonly("observation_trails", &PythonBatch::observation_trails,
+                             "Of the columns of `observations`.")
+      .def_property_readonly("action_trails", &PythonBatch::action_trails,
+                             "Of the columns of `actions`.")
+      .def_property_readonly("threads", &PythonBatch::threads, "That step it.")
+      .def_property_readonly(
+          "deltat", [](const PythonBatch& batch) { return batch.file().experiment().deltat; },
+          "Time step [s].")
+      .def_property_readonly(
+          "text", [](const PythonBatch& batch) { return batch.file().text(); },
+          "The experiment after includes, loops, expressions and settings.");
+}
+
 void add_functions(py::module_& module) {
   module.def(
       "load",
       [](const std::filesystem::path& file, const py::dict& set, std::optional<std::string> engine,
          bool allow_plugins) {
-        return std::make_unique<PythonWorld>(
-            Source{file, {}, settings_of(set), std::move(engine), allow_plugins});
+        return world_of({file, {}, settings_of(set), std::move(engine), allow_plugins});
       },
       py::arg("file"), py::kw_only(), py::arg("set") = py::dict(), py::arg("engine") = py::none(),
       py::arg("allow_plugins") = false,
@@ -102,8 +217,7 @@ void add_functions(py::module_& module) {
       "loads",
       [](const std::string& text, const py::dict& set, std::optional<std::string> engine,
          const std::filesystem::path& name) {
-        return std::make_unique<PythonWorld>(
-            Source{name, text, settings_of(set), std::move(engine), false});
+        return world_of({name, text, settings_of(set), std::move(engine), false});
       },
       py::arg("text"), py::kw_only(), py::arg("set") = py::dict(), py::arg("engine") = py::none(),
       py::arg("name") = "<text>",
@@ -111,15 +225,36 @@ void add_functions(py::module_& module) {
   module.def(
       "study",
       [](const std::filesystem::path& file, bool quick, const std::vector<std::string>& only,
-         int jobs, std::optional<std::filesystem::path> out, bool resume, bool allow_plugins) {
-        return run_studies({file, std::move(out), jobs, quick, resume, only, allow_plugins});
+         int jobs, std::optional<std::filesystem::path> out, bool resume, bool allow_plugins,
+         bool frames) {
+        const Frames made(frames);
+        return made.of(
+            run_studies({file, std::move(out), jobs, quick, resume, only, allow_plugins}));
       },
       py::arg("file"), py::kw_only(), py::arg("quick") = false,
       py::arg("only") = std::vector<std::string>{}, py::arg("jobs") = 0,
       py::arg("out") = py::none(), py::arg("resume") = false, py::arg("allow_plugins") = false,
+      py::arg("frames") = false,
       "Runs the Studies, Walls and Matrices of a .hook file: a dict of results by their names, "
-      "each with \"table\", a dict of numpy arrays by the titles of results.csv (\"slope [deg]\"). "
-      "`out`: where the files of `hookpoint study` go, else none are kept.");
+      "each with \"table\", a dict of numpy arrays by the titles of results.csv (\"slope [deg]\"), "
+      "a "
+      "Study also with \"tables\", its Table blocks. `out`: where the files of `hookpoint study` "
+      "go, "
+      "else none are kept. `frames`: every table is a pandas.DataFrame.");
+  module.def(
+      "tune",
+      [](const std::filesystem::path& file, bool quick, int jobs,
+         std::optional<std::filesystem::path> out, bool resume, bool allow_plugins, bool frames) {
+        const Frames made(frames);
+        return made.of(run_tunings({file, std::move(out), jobs, quick, resume, {}, allow_plugins}));
+      },
+      py::arg("file"), py::kw_only(), py::arg("quick") = false, py::arg("jobs") = 0,
+      py::arg("out") = py::none(), py::arg("resume") = false, py::arg("allow_plugins") = false,
+      py::arg("frames") = false,
+      "Runs the Tunes and Calibrates of a .hook file: a dict of results by their names, each with "
+      "\"table\", a dict of numpy arrays: every evaluation of a Tune, the fitted constants of a "
+      "Calibrate. `out`: where the files of `hookpoint tune` go, else none are kept. `frames`: "
+      "every table is a pandas.DataFrame.");
   module.def(
       "engines",
       [] {
@@ -148,5 +283,7 @@ PYBIND11_MODULE(hookpoint, module) {
   hookpoint::python::share_names();
   hookpoint::python::add_errors(module);
   hookpoint::python::add_world(module);
+  hookpoint::python::add_batch(module);
+  hookpoint::python::add_dynamics(module);
   hookpoint::python::add_functions(module);
 }

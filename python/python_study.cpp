@@ -1,87 +1,22 @@
 #include "python/python_study.h"
 
-#include <pybind11/numpy.h>
-#include <stdlib.h>
-
-#include <algorithm>
-#include <array>
-#include <charconv>
-#include <cmath>
-#include <future>
 #include <memory>
 #include <utility>
 
 #include "application/study_plans.h"
 #include "application/study_reports.h"
 #include "python/errors.h"
-#include "python/python_world.h"
+#include "python/loaded_file.h"
+#include "python/run_beside.h"
+#include "python/tables.h"
+#include "python/temporary_folder.h"
+#include "studies/pivot.h"
 #include "studies/run/results_csv.h"
 
 namespace hookpoint::python {
 namespace {
 
 namespace py = pybind11;
-
-/// A folder that is gone with everything in it when this is.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "hookpoint-XXXXXX").string();
-    if (mkdtemp(pattern.data()) == nullptr) throw_error("there is no room for temporary files");
-    path_ = pattern;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
-
-/// The number that a cell holds: NaN when it is empty, nothing when it is a word.
-std::optional<double> number_of(const std::string& cell) {
-  if (cell.empty()) return std::nan("");
-  double value = 0.;
-  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  return error == std::errc() && end == cell.data() + cell.size() ? std::optional(value)
-                                                                  : std::nullopt;
-}
-
-/// Columns of words, should one be empty throughout or hold names that read as numbers.
-bool holds_words(const std::string& title) {
-  constexpr std::array words{"subject", "engine",  "law",    "integrator", "settings",
-                             "study",   "regime",  "metric", "scene",      "truth",
-                             "unit",    "allowed", "ok",     "status"};
-  return title.ends_with("_ok") || std::ranges::find(words, title) != words.end();
-}
-
-/// A column of the table: numbers where all cells are, else words.
-py::object column_of(const output::CsvTable& table, std::size_t column) {
-  const auto rows = static_cast<py::ssize_t>(table.rows.size());
-  py::array_t<double> numbers(rows);
-  py::list words;
-  bool all_numbers = !holds_words(table.header[column]);
-  for (py::ssize_t row = 0; row < rows; ++row) {
-    const std::string& cell = table.rows[static_cast<std::size_t>(row)][column];
-    const std::optional<double> number = number_of(cell);
-    if (number) numbers.mutable_at(row) = *number;
-    all_numbers = all_numbers && number.has_value();
-    words.append(cell);
-  }
-  if (all_numbers) return numbers;
-  return py::array(words);
-}
-
-py::dict columns_of(const output::CsvTable& table) {
-  py::dict columns;
-  for (std::size_t i = 0; i < table.header.size(); ++i)
-    columns[py::str(table.header[i])] = column_of(table, i);
-  return columns;
-}
 
 py::list list_of(const std::vector<std::string>& words) {
   py::list list;
@@ -93,6 +28,10 @@ py::dict result_of(const studies::StudyRun& run) {
   py::dict made;
   made["table"] = columns_of(studies::results_table(run.result, false));
   made["timing"] = columns_of(studies::results_table(run.result, true));
+  py::dict grids;
+  for (const studies::TableSpec& table : run.result.tables)
+    grids[py::str(table.name)] = grid_of(studies::pivot_of(run.result, table));
+  made["tables"] = grids;
   py::list truths;
   for (const studies::TruthResult& truth : run.result.truths) {
     py::dict entry;
@@ -105,25 +44,6 @@ py::dict result_of(const studies::StudyRun& run) {
   made["truths"] = truths;
   made["notices"] = list_of(run.notices);
   return made;
-}
-
-/// Does `work` in a thread of its own (it starts others), while this one looks for signals: one
-/// sets the `stop` that `work` gets.
-template <class Work>
-auto run_beside(const Work& work) {
-  std::atomic<bool> stop{false};
-  std::optional<py::error_already_set> interrupt;
-  const py::gil_scoped_release others_run;
-  auto running = std::async(std::launch::async, [&] { return work(stop); });
-  while (running.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready) {
-    const py::gil_scoped_acquire ours;
-    if (interrupt || PyErr_CheckSignals() == 0) continue;
-    interrupt.emplace();
-    stop = true;
-  }
-  auto result = running.get();
-  if (interrupt) throw std::move(*interrupt);
-  return result;
 }
 
 /// The blocks of one file, run one by one. Reports are drawn only for a folder that is kept.

@@ -2,34 +2,19 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <utility>
 
 #include "output/text/number.h"
 #include "python/errors.h"
-#include "simulation/scene/load.h"
+#include "python/trails.h"
 
 namespace hookpoint::python {
 namespace {
 
 namespace py = pybind11;
-
-/// "file.hook:3:5: message".
-std::string placed(const language::Diagnostic& diagnostic) {
-  if (diagnostic.position.file == nullptr) return diagnostic.message;
-  const language::LineColumn place = language::line_and_column(diagnostic.position);
-  return fmt::format("{}:{}:{}: {}", diagnostic.position.file->path, place.line, place.column,
-                     diagnostic.message);
-}
-
-/// Whether the ends of a wire named by these trails are one port, or one is a part of the other.
-bool same_port(const std::string& a, const std::string& b) {
-  const std::string& shorter = a.size() < b.size() ? a : b;
-  const std::string& longer = a.size() < b.size() ? b : a;
-  return longer.starts_with(shorter) &&
-         (longer.size() == shorter.size() || longer[shorter.size()] == '.');
-}
 
 py::array_t<double> array_of(const std::vector<double>& numbers) {
   return py::array_t<double>(static_cast<py::ssize_t>(numbers.size()), numbers.data());
@@ -37,47 +22,12 @@ py::array_t<double> array_of(const std::vector<double>& numbers) {
 
 }  // namespace
 
-QuietApplication::QuietApplication(bool allow_plugins)
-    : told_(std::make_shared<Told>()),
-      application_(std::make_unique<application::Application>(
-          allow_plugins, [told = told_](const language::Diagnostics& diagnostics) {
-            told->last = diagnostics;
-            for (const language::Diagnostic& diagnostic : diagnostics.all()) {
-              if (diagnostic.severity == language::Severity::warning)
-                told->warnings.push_back(placed(diagnostic));
-            }
-          })) {}
-
-void QuietApplication::fail() const { throw_diagnostics(told_->last); }
-
-void QuietApplication::pass_on_warnings() {
-  for (const std::string& warning : std::exchange(told_->warnings, {})) warn(warning);
-}
-
-PythonWorld::PythonWorld(const Source& source)
-    : source_(source), application_(source.allow_plugins) {
-  if (source_.text) application_->give(source_.file, *source_.text);
-  if (!application_->load_plugins(source_.file)) application_.fail();
-  if (source_.engine) source_.settings = settings_with("engine", *source_.engine);
-  const auto root = application_->evaluate(source_.file, source_.settings);
-  if (!root) application_.fail();
-  experiment_ = application_->load(*root);
-  if (!experiment_) application_.fail();
-  application_.pass_on_warnings();
-  simulation::write_chosen_step(*experiment_, *root);
-  text_ = language::print(*root);
-  sources_ = language::sources_of(*root);
-  world_ =
-      std::make_unique<simulation::World>(*experiment_, application_->make_engine(*experiment_));
-  ports_ = world_->ports();
-}
-
-std::vector<std::string> PythonWorld::settings_with(const std::string& field,
-                                                    const std::string& value) {
-  std::vector<std::string> settings = source_.settings;
-  for (std::string& setting : application_->world_settings(source_.file, field, value))
-    settings.push_back(std::move(setting));
-  return settings;
+PythonWorld::PythonWorld(std::shared_ptr<LoadedFile> file)
+    : file_(std::move(file)), world_(file_->make_world(experiment())), ports_(world_->ports()) {
+  first_notices_ = next_notice_ = world_->state().notices.size();
+  if (!world_->can_be_saved()) return;
+  start_.resize(world_->state_size());
+  world_->save(start_);
 }
 
 /// The rows of a run as they come.
@@ -110,6 +60,7 @@ simulation::StepStatus PythonWorld::advance(std::int64_t count, Recording& recor
   const py::gil_scoped_release others_run;
   Clock::time_point looked = Clock::now();
   for (std::int64_t i = 0; i < count && world_->ended().empty(); ++i) {
+    if (viewed_input_) world_->follow();
     const simulation::StepStatus status = world_->step();
     if (!status.ok()) return status;
     recording.next(world_->state());
@@ -121,21 +72,84 @@ simulation::StepStatus PythonWorld::advance(std::int64_t count, Recording& recor
   return {};
 }
 
-void PythonWorld::step(std::int64_t count) {
+void PythonWorld::step(const py::object& self, std::int64_t count, const py::object& callback,
+                       std::int64_t every) {
   if (count < 0) throw_error("step takes a number of steps that is not negative");
-  Recording none;
-  none.every = count + 1;
-  const simulation::StepStatus status = advance(count, none);
-  if (!status.ok()) throw_failure(status);
+  if (every < 1) throw_error("`every` is a number of steps, 1 or more");
+  const std::int64_t stretch = callback.is_none() ? count : every;
+  for (std::int64_t left = count; left > 0 && world_->ended().empty(); left -= stretch) {
+    Recording none;
+    none.every = count + 1;
+    const simulation::StepStatus status = advance(std::min(left, stretch), none);
+    if (!status.ok()) throw_failure(status);
+    if (callback.is_none()) continue;
+    const py::object told = callback(self);
+    const int goes_on = told.is_none() ? 1 : PyObject_IsTrue(told.ptr());
+    if (goes_on < 0) throw py::error_already_set();
+    if (goes_on == 0) return;
+  }
+}
+
+void PythonWorld::reset() {
+  if (start_.empty()) state_bytes();  // says why
+  world_->restore(start_);
+  next_notice_ = world_->state().notices.size();
+}
+
+const simulation::StateBytes& PythonWorld::state_bytes() {
+  if (!state_bytes_)
+    state_bytes_.emplace(file_->text_with_seed(experiment().seed), experiment(), *world_);
+  return *state_bytes_;
+}
+
+py::bytes PythonWorld::state() { return state_bytes().of(*world_); }
+
+void PythonWorld::set_state(const py::bytes& state) {
+  state_bytes().restore(std::string_view(state), *world_);
+}
+
+std::unique_ptr<PythonWorld> PythonWorld::copy() {
+  if (start_.empty()) state_bytes();
+  auto made = std::make_unique<PythonWorld>(file_);
+  std::vector<double> numbers(world_->state_size());
+  world_->save(numbers);
+  made->world_->restore(numbers);
+  return made;
+}
+
+py::array PythonWorld::view(const py::object& self, const std::string& trail) {
+  const std::vector<simulation::Port> elements = ports_of(experiment(), ports_, trail);
+  const double* first = elements.front().value;
+  const auto stride = elements.size() > 1 ? elements[1].value - first : 1;
+  bool writable = true;
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    if (elements[i].value - first != static_cast<std::ptrdiff_t>(i) * stride)
+      throw_error(fmt::format("the elements of `{}` do not lie side by side: view each", trail));
+    writable = writable && elements[i].writable != nullptr &&
+               wire_to(experiment(), elements[i]) == nullptr;
+  }
+  std::vector<py::ssize_t> shape, strides;
+  if (elements.size() > 1) {
+    shape.push_back(static_cast<py::ssize_t>(elements.size()));
+    strides.push_back(static_cast<py::ssize_t>(stride * sizeof(double)));
+  }
+  py::array_t<double> viewed(shape, strides, first, self);
+  if (!writable) viewed.attr("setflags")(py::arg("write") = false);
+  viewed_input_ = viewed_input_ || writable;
+  return viewed;
+}
+
+std::vector<std::string> PythonWorld::notices() const {
+  const std::vector<std::string>& all = world_->state().notices;
+  std::vector<std::string> since(all.begin(),
+                                 all.begin() + static_cast<std::ptrdiff_t>(first_notices_));
+  since.insert(since.end(), all.begin() + static_cast<std::ptrdiff_t>(next_notice_), all.end());
+  return since;
 }
 
 std::string PythonWorld::text_of_run(const RunOptions& options) {
-  if (!options.duration || steps() > 0) return text_;
-  const auto root = application_->evaluate(
-      source_.file, settings_with("duration", output::shortest(*options.duration)));
-  if (!root) application_.fail();
-  simulation::write_chosen_step(*experiment_, *root);
-  return language::print(*root);
+  if (!options.duration || steps() > 0) return text();
+  return file_->text_with("duration", output::shortest(*options.duration));
 }
 
 std::unique_ptr<simulation::RunFiles> PythonWorld::open_files(const RunOptions& options) {
@@ -143,19 +157,19 @@ std::unique_ptr<simulation::RunFiles> PythonWorld::open_files(const RunOptions& 
     if (options.movie) throw_error("`movie` goes with `output`, the folder of what the run leaves");
     return nullptr;
   }
-  simulation::Experiment written = *experiment_;
+  simulation::Experiment written = experiment();
   if (options.movie) simulation::add_movie(*options.movie, written);
   return std::make_unique<simulation::RunFiles>(
       written, *world_, ports_,
       simulation::RunRequest{*options.output, options.trails, text_of_run(options), true,
-                             application_->describe_engine(*experiment_), sources_},
+                             file_->describe_engine(), file_->sources()},
       steps());
 }
 
 py::dict PythonWorld::run(const RunOptions& options) {
   if (options.every < 1) throw_error("`every` is a number of steps, 1 or more");
-  const double left = options.duration ? *options.duration : experiment_->duration - time();
-  const double steps = std::round(left / experiment_->deltat);
+  const double left = options.duration ? *options.duration : experiment().duration - time();
+  const double steps = std::round(left / experiment().deltat);
   if (!(steps >= 0. && steps < 1e15))
     throw_error("`duration` is a time in seconds that is not negative");
   Recording recording;
@@ -193,27 +207,16 @@ py::dict PythonWorld::run(const RunOptions& options) {
 const simulation::Port& PythonWorld::port(const std::string& trail) {
   const auto known = found_.find(trail);
   if (known != found_.end()) return known->second;
-  return found_.emplace(trail, simulation::find_port(*experiment_, ports_, trail)).first->second;
+  return found_.emplace(trail, simulation::find_port(experiment(), ports_, trail)).first->second;
 }
 
 double PythonWorld::read(const std::string& trail) { return *port(trail).value; }
 
 void PythonWorld::write(const std::string& trail, double value) {
   const simulation::Port& to = port(trail);
-  if (to.writable == nullptr) {
-    throw_error(fmt::format("`{}` can be read, not written: inputs can, such as a joint's torque",
-                            to.trail));
-  }
+  require_writable(experiment(), to);
   if (!std::isfinite(value)) throw_error(fmt::format("`{}` takes a finite number", to.trail));
-  for (const simulation::WireSpec& wire : experiment_->wires) {
-    if (same_port(wire.to, to.trail)) {
-      throw_error(
-          fmt::format("`{}` is driven by a wire from `{}`: write that, or leave the wire "
-                      "out of the file",
-                      to.trail, wire.from));
-    }
-  }
-  *to.writable = value;
+  world_->set(to, value);
 }
 
 py::list PythonWorld::ports() {

@@ -11,31 +11,12 @@
 #include <unordered_map>
 #include <vector>
 
-#include "application/application.h"
+#include "python/loaded_file.h"
 #include "simulation/run/run_files.h"
+#include "simulation/run/saved_state.h"
 #include "simulation/run/world.h"
 
 namespace hookpoint::python {
-
-/// An Application that keeps what it has to tell, for an exception.
-class QuietApplication {
- public:
-  explicit QuietApplication(bool allow_plugins);
-  application::Application& operator*() { return *application_; }
-  application::Application* operator->() { return application_.get(); }
-  /// Throws hookpoint.FileError with what was told last.
-  [[noreturn]] void fail() const;
-  /// Warnings told since the last call become warnings of Python, each with its place.
-  void pass_on_warnings();
-
- private:
-  struct Told {
-    language::Diagnostics last;
-    std::vector<std::string> warnings;
-  };
-  std::shared_ptr<Told> told_;
-  std::unique_ptr<application::Application> application_;
-};
 
 /// What a run records and writes.
 struct RunOptions {
@@ -46,22 +27,27 @@ struct RunOptions {
   std::optional<std::filesystem::path> movie;   ///< beside those of the file; empty: movie.h5
 };
 
-/// What a .hook file is, and what is changed in it before it is evaluated.
-struct Source {
-  std::filesystem::path file;
-  std::optional<std::string> text;    ///< the file's, if it is none on disk
-  std::vector<std::string> settings;  ///< trail=value
-  std::optional<std::string> engine;
-  bool allow_plugins = false;
-};
-
 class PythonWorld {
  public:
   /// At time 0. Throws hookpoint.FileError, or hookpoint.Error when the engine cannot run it.
-  explicit PythonWorld(const Source& source);
+  explicit PythonWorld(std::shared_ptr<LoadedFile> file);
+  PythonWorld(const PythonWorld&) = delete;
+  PythonWorld& operator=(const PythonWorld&) = delete;
 
-  /// Takes `count` steps, fewer when the run ends. Lets other threads run.
-  void step(std::int64_t count);
+  /// Takes `count` steps, fewer when the run ends. Lets other threads run. After every `every`
+  /// steps and after the last `callback` gets `self`, unless it is None; the steps
+  /// end when it returns something false but None.
+  void step(const pybind11::object& self, std::int64_t count, const pybind11::object& callback,
+            std::int64_t every);
+  /// Back to time 0, as the file says. Throws hookpoint.Error for an engine that cannot be saved.
+  void reset();
+  /// StateBytes of it.
+  pybind11::bytes state();
+  void set_state(const pybind11::bytes& state);
+  /// A world of its own that goes on as this one does.
+  std::unique_ptr<PythonWorld> copy();
+  /// The memory of a port, of a vector's or of a list's, as an array that keeps `self` alive.
+  pybind11::array view(const pybind11::object& self, const std::string& trail);
   /// Returns the values of the trails at the present instant and after every `every` steps, and
   /// "time". With `output` that folder gets what `hookpoint run` would leave in it. Throws
   /// output::FileError.
@@ -73,10 +59,13 @@ class PythonWorld {
 
   double time() const { return world_->state().time; }
   std::int64_t steps() const { return world_->state().step; }
-  const simulation::Experiment& experiment() const { return *experiment_; }
-  const std::string& text() const { return text_; }
+  const simulation::Experiment& experiment() const { return file_->experiment(); }
+  const std::string& text() const { return file_->text(); }
+  /// What the engine published last.
+  const simulation::WorldState& motion() const { return world_->state(); }
   std::string ended() const { return world_->ended(); }
-  const std::vector<std::string>& notices() const { return world_->state().notices; }
+  /// Of what ran since time 0.
+  std::vector<std::string> notices() const;
   const pybind11::dict& recorded() const { return recorded_; }
 
  private:
@@ -84,21 +73,22 @@ class PythonWorld {
   const simulation::Port& port(const std::string& trail);
   /// Steps without the GIL, looking for signals now and then. The status of the last.
   simulation::StepStatus advance(std::int64_t count, Recording& recording);
-  /// The settings with one more: a field of the file's World.
-  std::vector<std::string> settings_with(const std::string& field, const std::string& value);
   /// The experiment as it lies beside the files of a run: one that begins at time 0 with the run's
   /// duration as the World's.
   std::string text_of_run(const RunOptions& options);
   std::unique_ptr<simulation::RunFiles> open_files(const RunOptions& options);
 
-  Source source_;
-  QuietApplication application_;
-  std::optional<simulation::Experiment> experiment_;
-  std::string text_;
-  std::vector<std::string> sources_;  ///< files that it was made from
+  const simulation::StateBytes& state_bytes();
+
+  std::shared_ptr<LoadedFile> file_;
   std::unique_ptr<simulation::World> world_;
   std::vector<simulation::Port> ports_;
   std::unordered_map<std::string, simulation::Port> found_;
+  std::optional<simulation::StateBytes> state_bytes_;  ///< once asked for
+  std::vector<double> start_;                          ///< at time 0; empty: cannot be saved
+  std::size_t first_notices_ = 0;                      ///< said at time 0
+  std::size_t next_notice_ = 0;                        ///< the first after the last reset
+  bool viewed_input_ = false;                          ///< may be written without a call
   pybind11::dict recorded_;
 };
 

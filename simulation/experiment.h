@@ -199,8 +199,34 @@ struct FileSpec {
   std::string path;  ///< absolute
 };
 
-/// What becomes of a port's values over a time.
-enum class Reduction { final, maximum, minimum, mean, rms, range, change, slope, time_at };
+/// What becomes of a port's values over a time (docs/studies.md defines each).
+enum class Reduction {
+  final,
+  maximum,
+  minimum,
+  mean,
+  rms,
+  range,
+  change,
+  slope,
+  time_at,
+  last,  ///< as `final`
+  time_of_maximum,
+  time_of_minimum,
+  integral,
+  settle_time,
+  count_above,
+  time_above
+};
+
+/// One number of a quantity's values over a time.
+struct ReductionSpec {
+  Reduction take = Reduction::final;
+  double from = 0.;             ///< [s]
+  std::optional<double> to;     ///< [s]; none: the run's end
+  std::optional<double> level;  ///< SI
+  std::optional<double> band;   ///< of `settle_time`, SI
+};
 
 struct Experiment;
 
@@ -211,7 +237,8 @@ struct ExpectationSpec {
   Reduction take = Reduction::final;
   double from = 0.;                            ///< [s]
   std::optional<double> to;                    ///< [s]; none: the run's end
-  double level = 0.;                           ///< of `time_at`
+  std::optional<double> level;                 ///< SI
+  std::optional<double> band;                  ///< of `settle_time`, SI
   double expected = 0.;                        ///< SI
   double tolerance = 0.;                       ///< relative
   double within = 0.;                          ///< absolute
@@ -221,6 +248,7 @@ struct ExpectationSpec {
   std::vector<std::string> laws, except_laws;  ///< no law: all
   std::vector<std::string> integrators;        ///< none: all
 
+  ReductionSpec reduction() const { return {take, from, to, level, band}; }
   /// Whether it says something of a run under that law and integrator of our engine.
   bool covers(std::string_view law, std::string_view integrator) const;
   /// Whether it says something of a run of `experiment`. A peer has neither our laws nor our

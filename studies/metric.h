@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -131,6 +132,8 @@ class Metric {
   virtual std::optional<double> value() const = 0;
   /// Of a run that the engine broke off; nothing but for a metric of just that.
   virtual std::optional<double> value_of_broken_run() const { return std::nullopt; }
+  /// Why a run that finished has none, where there is more to say than that it does not apply.
+  virtual std::string why_not() const { return ""; }
 };
 
 /// Which runs a metric's value is of.
@@ -140,6 +143,8 @@ enum class MetricScope {
   subjects,  ///< those of all subjects at equal swept values; made of their paths
   timing     ///< one, that is run again alone
 };
+
+struct UserMetric;
 
 struct MetricDefinition {
   std::string_view name;
@@ -154,6 +159,7 @@ struct MetricDefinition {
   bool needs_contact_force = false;  ///< that of bodies
   bool needs_feet = false;           ///< Observation::feet
   bool needs_stance = false;         ///< of the gait
+  const UserMetric* user = nullptr;  ///< whose definition it is; null of the table's
   bool timing() const { return scope == MetricScope::timing; }
 };
 

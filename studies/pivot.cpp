@@ -1,7 +1,9 @@
 #include "studies/pivot.h"
 
 #include <algorithm>
+#include <climits>
 #include <cmath>
+#include <map>
 
 #include "output/text/csv.h"
 #include "output/text/number.h"
@@ -23,7 +25,7 @@ class PivotSide {
     const SweepColumn& column = study.sweeps[*sweep_];
     title = output::column_title(spoken(column.name), column.unit);
     values_ = column.values;
-    for (const double value : values_) labels.push_back(output::rounded(value, 6));
+    for (const double value : values_) labels.push_back(label_of(column, value));
   }
   std::size_t place_of(const RunResult& row) const {
     if (!sweep_) return static_cast<std::size_t>(row.subject);
@@ -60,6 +62,69 @@ void add_value(PivotCell& cell, CellSums& sums, const MetricValue& value) {
   ++sums.predictions;
 }
 
+/// The values of a cell by their seeds; each seed's value is their mean.
+class SeedMeans {
+ public:
+  void add(double seed, const std::optional<double>& value) {
+    Sum& sum = sums_[seed];
+    ++sum.runs;
+    if (value && std::isfinite(*value)) {
+      sum.value += *value;
+    } else {
+      whole_ = false;
+    }
+  }
+  /// Nothing where a run has no value, or a seed has fewer runs than another.
+  std::optional<MeanInterval> interval() const {
+    std::vector<double> means;
+    for (const auto& [seed, sum] : sums_) {
+      if (!whole_ || sum.runs != sums_.begin()->second.runs) return std::nullopt;
+      means.push_back(sum.value / sum.runs);
+    }
+    return mean_interval(means);
+  }
+
+ private:
+  struct Sum {
+    double value = 0.;
+    int runs = 0;
+  };
+  std::map<double, Sum> sums_;
+  bool whole_ = true;
+};
+
+/// Intervals over the seeds, and of the differences to the first subject.
+class SeedIntervals {
+ public:
+  SeedIntervals(const StudyResult& study, std::size_t metric, std::size_t cells)
+      : seed_(*study.seed_sweep), metric_(metric), values_(cells), differences_(cells) {}
+
+  /// A run of the subject that others differ from.
+  void add_first(const RunResult& row) { first_[row.parameters] = row.metrics[metric_].measured; }
+  void add(std::size_t cell, const RunResult& row) {
+    values_[cell].add(row.parameters[seed_], row.metrics[metric_].measured);
+  }
+  void add_difference(std::size_t cell, const RunResult& row) {
+    const auto first = first_.find(row.parameters);
+    if (first == first_.end()) return;
+    const auto& value = row.metrics[metric_].measured;
+    differences_[cell].add(row.parameters[seed_], value && first->second
+                                                      ? std::optional(*value - *first->second)
+                                                      : std::nullopt);
+  }
+  void put(std::vector<PivotCell>& cells) const {
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      cells[i].interval = values_[i].interval();
+      cells[i].difference = differences_[i].interval();
+    }
+  }
+
+ private:
+  std::size_t seed_, metric_;
+  std::vector<SeedMeans> values_, differences_;
+  std::map<std::vector<double>, std::optional<double>> first_;
+};
+
 /// Leaves out the lines that no run falls into.
 void drop_empty_lines(Pivot& pivot) {
   std::vector<std::size_t> rows, columns;
@@ -90,6 +155,7 @@ std::string note_of(const StudyResult& study, const TableSpec& table, bool sever
   std::vector<std::string> over;
   std::string fixed;
   for (const SweepColumn& sweep : study.sweeps) {
+    if (study.seed_sweep && &sweep == &study.sweeps[*study.seed_sweep]) continue;
     const auto admitted = std::ranges::find_if(
         table.where, [&](const auto& where) { return where.first == sweep.name; });
     const std::vector<double>& values =
@@ -97,7 +163,7 @@ std::string note_of(const StudyResult& study, const TableSpec& table, bool sever
     if (sweep.name == table.rows || sweep.name == table.columns) continue;
     if (values.size() > 1) over.push_back(spoken(sweep.name));
     if (values.size() == 1 && sweep.values.size() > 1)
-      fixed += "; " + spoken(sweep.name) + " = " + output::rounded(values.front(), 6) +
+      fixed += "; " + spoken(sweep.name) + " = " + label_of(sweep, values.front()) +
                (sweep.unit.empty() ? "" : " " + sweep.unit);
   }
   const std::size_t subjects =
@@ -113,6 +179,33 @@ std::string note_of(const StudyResult& study, const TableSpec& table, bool sever
 
 }  // namespace
 
+namespace {
+
+using Entering = std::vector<std::pair<std::size_t, const RunResult*>>;
+
+void add_intervals(Pivot& pivot, const StudyResult& study, const TableSpec& table,
+                   std::size_t metric, const Entering& entering) {
+  pivot.seeds = study.sweeps[*study.seed_sweep].values.size();
+  SeedIntervals intervals(study, metric, pivot.cells.size());
+  const bool by_subject = table.rows == "subject" || table.columns == "subject";
+  int first = INT_MAX, last = -1;
+  for (const auto& [cell, row] : entering) {
+    first = std::min(first, row->subject);
+    last = std::max(last, row->subject);
+  }
+  const bool paired = by_subject && first < last;
+  if (paired) pivot.first = study.subjects[static_cast<std::size_t>(first)].name;
+  for (const auto& [cell, row] : entering)
+    if (row->subject == first) intervals.add_first(*row);
+  for (const auto& [cell, row] : entering) {
+    intervals.add(cell, *row);
+    if (paired && row->subject != first) intervals.add_difference(cell, *row);
+  }
+  intervals.put(pivot.cells);
+}
+
+}  // namespace
+
 std::optional<std::pair<std::string, std::string>> spread_of(const PivotCell& cell) {
   if (cell.values < 2) return std::nullopt;
   std::pair spread{output::rounded(cell.least, 3), output::rounded(cell.largest, 3)};
@@ -120,7 +213,19 @@ std::optional<std::pair<std::string, std::string>> spread_of(const PivotCell& ce
   return spread;
 }
 
-Pivot pivot_of(const StudyResult& study, const TableSpec& table) {
+std::string text_of(const MeanInterval& interval) {
+  return output::rounded(interval.mean) + " ± " + output::rounded(interval.half_width, 2);
+}
+
+std::string interval_note(const Pivot& pivot) {
+  if (pivot.seeds == 0) return "";
+  const std::string over = "over " + std::to_string(pivot.seeds) + " seeds";
+  return "± half the 95 % interval (Student's t) " + over +
+         (pivot.first.empty() ? "" : "; difference to " + pivot.first + ", paired by seed");
+}
+
+Pivot pivot_of(const StudyResult& table_study, const TableSpec& table) {
+  const StudyResult& study = table_study.runs != nullptr ? *table_study.runs : table_study;
   const std::size_t metric = metric_index(study, table.value).value();
   const PivotSide down(study, table.rows), across(study, table.columns);
   Pivot pivot;
@@ -134,6 +239,7 @@ Pivot pivot_of(const StudyResult& study, const TableSpec& table) {
   pivot.columns = across.labels;
   pivot.cells.resize(pivot.rows.size() * pivot.columns.size());
   std::vector<CellSums> sums(pivot.cells.size());
+  std::vector<std::pair<std::size_t, const RunResult*>> entering;
   for (const RunResult& row : study.rows) {
     if (!table.subjects.empty() &&
         std::ranges::find(table.subjects, row.subject) == table.subjects.end())
@@ -141,7 +247,9 @@ Pivot pivot_of(const StudyResult& study, const TableSpec& table) {
     if (metric >= row.metrics.size() || !admits(study, table.where, row)) continue;
     const std::size_t cell = down.place_of(row) * pivot.columns.size() + across.place_of(row);
     add_value(pivot.cells[cell], sums[cell], row.metrics[metric]);
+    if (study.seed_sweep) entering.emplace_back(cell, &row);
   }
+  if (study.seed_sweep) add_intervals(pivot, study, table, metric, entering);
   for (std::size_t i = 0; i < pivot.cells.size(); ++i) {
     PivotCell& cell = pivot.cells[i];
     if (cell.values == 0) continue;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "studies/result.h"
+#include "studies/seed_means.h"
 
 namespace hookpoint::studies {
 
@@ -18,6 +19,11 @@ struct PivotCell {
   double least = 0., largest = 0.;  ///< of the same
   std::optional<double> predicted;  ///< mean closed form, where every one of them has one
   int passed = 0, failed = 0;       ///< verdicts of the metric
+  /// Of a study with seeds: the mean with its 95 % interval over the seeds, each seed's value the
+  /// mean of its runs in the cell; nothing where a run has no value.
+  std::optional<MeanInterval> interval;
+  /// The same of the differences to the first subject's runs of equal swept values and seed.
+  std::optional<MeanInterval> difference;
 };
 
 struct Pivot {
@@ -29,6 +35,8 @@ struct Pivot {
   std::vector<PivotCell> cells;            ///< row by row
   bool predicted = false;                  ///< some cell has a closed form
   bool several = false;                    ///< some cell has several values
+  std::size_t seeds = 0;                   ///< runs of each row; 0 for the scene's own seed
+  std::string first;  ///< subject that others differ from; "" where none is a row or column
 
   const PivotCell& at(std::size_t row, std::size_t column) const {
     return cells[row * columns.size() + column];
@@ -38,6 +46,11 @@ struct Pivot {
 /// Least and largest of the cell's values as text, to three digits; nothing where these are the
 /// same.
 std::optional<std::pair<std::string, std::string>> spread_of(const PivotCell& cell);
+
+/// "1.25 ± 0.1": the mean and half the width of its interval.
+std::string text_of(const MeanInterval& interval);
+/// What the intervals of a Table are; "" for a study without seeds.
+std::string interval_note(const Pivot& pivot);
 
 /// Rows and columns that no run of the Table falls into are left out.
 Pivot pivot_of(const StudyResult& study, const TableSpec& table);

@@ -18,7 +18,8 @@ namespace hookpoint::studies {
 struct SweepColumn {
   std::string name;            ///< the scene's Param: "slope"
   std::string unit;            ///< as in results.csv, SI or the unit the study wrote ("deg")
-  std::vector<double> values;  ///< in `unit`, in order
+  std::vector<double> values;  ///< in `unit`, in order; of words 0, 1, 2 ...
+  std::vector<std::string> words = {};  ///< the words or strings that were varied; empty: numbers
 };
 
 /// Sweeps and the values that are meant ("mu" = 0.8).
@@ -48,9 +49,10 @@ struct MetricColumn {
 };
 
 struct MetricValue {
-  std::optional<double> measured;   ///< empty: does not apply, or the run failed before
-  std::optional<double> predicted;  ///< the closed form, where there is one
-  std::optional<bool> ok;           ///< verdict of the Truth that covers it, if any
+  std::optional<double> measured;         ///< empty: does not apply, or the run failed before
+  std::optional<double> predicted;        ///< the closed form, where there is one
+  std::optional<bool> ok;                 ///< verdict of the Truth that covers it, if any
+  std::optional<double> half_width = {};  ///< of a mean over seeds: of its 95 % interval
 };
 
 /// A recorded curve of one run: displacement over time.
@@ -75,6 +77,7 @@ class RecordedTrace {
 struct RunResult {
   std::vector<double> parameters;  ///< one a sweep, in the sweep's unit
   int subject = 0;                 ///< index into StudyResult::subjects
+  int composition = -1;            ///< index into StudyResult::compositions; -1: the subject's own
   Regime regime = Regime::none;
   std::vector<MetricValue> metrics;  ///< one a metric
   std::string status = "ok";  ///< "ok", or what stopped the run, with its time: never a missing row
@@ -121,6 +124,39 @@ struct TableSpec {
   SweepValues where;          ///< other rows are left out
 };
 
+/// What a number in a Claim is of the runs that it speaks of; of the last two the name of a
+/// subject.
+enum class ClaimTake {
+  nothing,
+  mean,
+  least,
+  largest,
+  predicted,
+  subject_of_least,
+  subject_of_largest
+};
+
+struct ClaimValue {
+  ClaimTake take = ClaimTake::mean;
+  std::size_t metric = 0;  ///< index
+  int subject = -1;        ///< index; -1: all
+  SweepValues where = {};  ///< other rows are left out
+};
+
+/// Plain text, or a number, which may be a ratio.
+struct ClaimPart {
+  std::string text;
+  std::optional<ClaimValue> value = {}, divisor = {};
+};
+
+/// A Claim block: the sentence that answers the study's question.
+struct ClaimSpec {
+  std::string name;
+  std::vector<ClaimPart> parts;
+  std::vector<int> truths;  ///< that it stands and falls with, indices
+  SweepValues where;        ///< other rows are left out
+};
+
 /// A Truth and how many of the values that it covers agree.
 struct TruthResult {
   std::string name;
@@ -140,13 +176,17 @@ struct StudyResult {
   std::string file;      ///< the study's file as the user named it
   std::vector<SweepColumn> sweeps;
   std::vector<SubjectInfo> subjects;
+  std::vector<SubjectInfo> compositions;  ///< engine, law, integrator, settings that a row may have
   std::vector<MetricColumn> metrics;
   std::vector<RunResult> rows;  ///< sweep values outermost first, subjects innermost
   std::vector<PlotSpec> plots;
   std::vector<TableSpec> tables;
+  std::vector<ClaimSpec> claims;
   std::vector<TruthResult> truths;
-  std::vector<PeerDistances> peer_distances;  ///< where `peer_distance` is measured
-  std::vector<std::string> warnings;          ///< the plan's
+  std::vector<PeerDistances> peer_distances;   ///< where `peer_distance` is measured
+  std::vector<std::string> warnings;           ///< the plan's
+  std::optional<std::size_t> seed_sweep = {};  ///< of `seeds`: index into `sweeps`
+  const StudyResult* runs = nullptr;  ///< of rows that are means over seeds: the runs themselves
 };
 
 }  // namespace hookpoint::studies

@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include "studies/metric.h"
+#include "simulation/run/expectation.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -27,6 +27,19 @@ FieldSchema number(std::string name, std::string unit, std::string doc) {
   field.name = std::move(name);
   field.unit = std::move(unit);
   field.doc = std::move(doc);
+  return field;
+}
+
+FieldSchema formula(std::string name, std::string doc) {
+  FieldSchema field = text(std::move(name), std::move(doc));
+  field.type = FieldType::formula;
+  return field;
+}
+
+FieldSchema boolean(std::string name, bool value, std::string doc) {
+  FieldSchema field = text(std::move(name), std::move(doc));
+  field.type = FieldType::boolean;
+  field.default_text = value ? "true" : "false";
   return field;
 }
 
@@ -57,6 +70,11 @@ FieldSchema values(std::string name, std::string doc) {
   FieldSchema field = number(std::move(name), "?", std::move(doc));
   field.type = FieldType::numbers;
   field.max_count = 1000;
+  return field;
+}
+
+FieldSchema or_words(FieldSchema field) {
+  field.or_words = true;
   return field;
 }
 
@@ -124,8 +142,15 @@ ClassSchema study_class() {
            at_least_zero(number("settle", "s", "time from which metrics look: the start may ring")),
            "0"),
        positive(number("quick_duration", "s", "duration under --quick; default: a fifth")),
-       at_least_zero(number("quick_settle", "s", "settle under --quick; default: a fifth"))},
-      {"Subject", "Sweep", "Measure", "Truth", "Plot", "Table", "Fix"});
+       at_least_zero(number("quick_settle", "s", "settle under --quick; default: a fifth")),
+       within(1, 10000,
+              integer("seeds",
+                      "runs of each row, with the seeds 1, 2, 3 ...; default: one, with the "
+                      "scene's own")),
+       boolean("expects", true,
+               "whether the Expects of the scene are measured and judged too, where the study runs "
+               "as long as the scene")},
+      {"Subject", "Sweep", "Measure", "Truth", "Plot", "Table", "Claim", "Fix"});
   study.top_level = true;
   return study;
 }
@@ -153,12 +178,7 @@ ClassSchema matrix_class() {
 }
 
 FieldSchema runs_under_quick() {
-  FieldSchema quick;
-  quick.name = "quick";
-  quick.type = FieldType::boolean;
-  quick.default_text = "true";
-  quick.doc = "whether it runs under --quick too";
-  return quick;
+  return boolean("quick", true, "whether it runs under --quick too");
 }
 
 ClassSchema part_class() {
@@ -186,10 +206,30 @@ ClassSchema table_class() {
   return table;
 }
 
-ClassSchema truth_class(std::vector<std::string> metrics) {
+ClassSchema measure_class() {
+  return named(
+      "Measure",
+      "A metric to measure: by its name one that there is, or one of your own, `of` what ports "
+      "say.",
+      {words("over", 1, "of `anisotropy`: the Sweep of directions; default azimuth"),
+       formula("of", "a port or an expression of ports, of every step"),
+       choice("take", simulation::reduction_names(), "last",
+              "what becomes of its values; the manual defines each"),
+       at_least_zero(number("from", "s", "values before do not count; default: settle")),
+       positive(number("to", "s", "values after do not count; default: the run's end")),
+       words("unit", 1, "of its values: mm, \"m/s\"; default: the SI unit of `of`"),
+       number("level", "?",
+              "of `time_at`, `count_above`, `time_above`; of `settle_time` what it settles about, "
+              "if not where it ends"),
+       positive(number("band", "?", "of `settle_time`: how far off counts as settled")),
+       formula("predicted",
+               "the closed form, of Params of the scene and of fields that hold a number there")});
+}
+
+ClassSchema truth_class() {
   ClassSchema truth = named(
       "Truth", "What a metric must be; its name is the metric's unless `metric` says otherwise.",
-      {choice("metric", std::move(metrics), "", "the metric, where the name is a label"),
+      {words("metric", 1, "the metric, where the name is a label"),
        choice("equals", {"predicted", "value"}, "", "the closed form, or the number in `value`"),
        number("value", "?", "the number that the metric must equal"),
        with_default(at_least_zero(number("tolerance", "",
@@ -202,6 +242,19 @@ ClassSchema truth_class(std::vector<std::string> metrics) {
        words("subjects", 100, "subjects that it covers; default: all")},
       {"Only"});
   return truth;
+}
+
+ClassSchema claim_class() {
+  ClassSchema claim = named(
+      "Claim", "The sentence that answers the study's question, with numbers of its runs.",
+      {required(text("text",
+                     "the sentence; in braces [least, largest or predicted] METRIC [of SUBJECT] "
+                     "[at SWEEP = VALUE], two with / between them, or subject of least METRIC")),
+       words("truth", 100,
+             "Truths that it stands and falls with; default: those of the metrics that it names")},
+      {"Only"});
+  claim.only_in = "Study";
+  return claim;
 }
 
 /// What blocks that vary a scene's constants have in common, before their own fields.
@@ -327,8 +380,6 @@ void add_tune_classes(Schema& schema) {
 }  // namespace
 
 void add_study_classes(Schema& schema) {
-  std::vector<std::string> metrics;
-  for (const MetricDefinition& metric : metric_table()) metrics.emplace_back(metric.name);
   schema.add(study_class());
   schema.add(wall_class());
   schema.add(scene_class());
@@ -343,16 +394,17 @@ void add_study_classes(Schema& schema) {
                       "a peer's settings: default, recommended, matched, and noslip of mujoco")},
             {"Fix", "Only"}));
   schema.add(named(
-      "Sweep", "A Param of the scene to vary: `values`, or `from`, `to` and `step` (or `count`).",
-      {values("values", "the values, in order"), number("from", "?", "first value"),
-       number("to", "?", "last value"), number("step", "?", "distance between values"),
+      "Sweep",
+      "A Param of the scene to vary, or engine, contact, integrator, settings or terrain: "
+      "`values`, or `from`, `to` and `step` (or `count`).",
+      {or_words(values("values", "the values, in order: numbers, or words or strings")),
+       number("from", "?", "first value"), number("to", "?", "last value"),
+       number("step", "?", "distance between values"),
        at_least_zero(integer("count", "how many values from `from` to `to`")),
        choice("scale", {"linear", "log"}, "linear", "how `count` values are spaced"),
-       values("quick_values", "the values under --quick; default: first and last")}));
-  schema.add(
-      named("Measure", "A metric to measure, by its name.",
-            {words("over", 1, "of `anisotropy`: the Sweep of directions; default azimuth")}));
-  schema.add(truth_class(std::move(metrics)));
+       or_words(values("quick_values", "the values under --quick; default: first and last"))}));
+  schema.add(measure_class());
+  schema.add(truth_class());
   ClassSchema plot = named(
       "Plot",
       "A figure: a metric over a sweep, two sweeps or another metric, or a signal over time.",
@@ -377,16 +429,17 @@ void add_study_classes(Schema& schema) {
   plot.only_in = "Study";
   schema.add(std::move(plot));
   schema.add(table_class());
+  schema.add(claim_class());
   schema.add(named("Reference",
                    "A line across a Plot at a value to hold the measured ones against.",
                    {text("title", "in the legend; default: the name"),
                     required(number("value", "?", "where it stands, in y"))},
                    {"Only"}));
   schema.add(named("Fix", "A value of a Param of the scene.",
-                   {required(number("value", "?", "the value"))}));
+                   {required(or_words(number("value", "?", "the value")))}));
   schema.add(named("Only", "Restricts its owner to some values of a swept Param.",
-                   {values("values", "exactly these values"), number("from", "?", "least value"),
-                    number("to", "?", "greatest value")}));
+                   {or_words(values("values", "exactly these values")),
+                    number("from", "?", "least value"), number("to", "?", "greatest value")}));
   add_tune_classes(schema);
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "output/text/number.h"
+
 namespace hookpoint::studies {
 
 std::optional<std::size_t> sweep_index(const StudyResult& study, const std::string& name) {
@@ -15,6 +17,27 @@ std::optional<std::size_t> metric_index(const StudyResult& study, const std::str
   for (std::size_t i = 0; i < study.metrics.size(); ++i)
     if (study.metrics[i].name == name) return i;
   return {};
+}
+
+namespace {
+
+const std::string& word_of(const SweepColumn& sweep, double value) {
+  return sweep.words.at(static_cast<std::size_t>(std::lround(value)));
+}
+
+}  // namespace
+
+std::string label_of(const SweepColumn& sweep, double value, int digits) {
+  return sweep.words.empty() ? output::rounded(value, digits) : word_of(sweep, value);
+}
+
+std::string exact_label_of(const SweepColumn& sweep, double value) {
+  return sweep.words.empty() ? output::shortest(value) : word_of(sweep, value);
+}
+
+const SubjectInfo& composition_of(const StudyResult& study, const RunResult& row) {
+  return row.composition < 0 ? study.subjects[static_cast<std::size_t>(row.subject)]
+                             : study.compositions[static_cast<std::size_t>(row.composition)];
 }
 
 bool same_value(double a, double b) {

@@ -12,6 +12,13 @@ namespace hookpoint::studies {
 std::optional<std::size_t> sweep_index(const StudyResult& study, const std::string& name);
 std::optional<std::size_t> metric_index(const StudyResult& study, const std::string& name);
 
+/// A value of the sweep as text: its word, or `digits` significant digits.
+std::string label_of(const SweepColumn& sweep, double value, int digits = 6);
+/// The same exactly: a word, or the shortest text that reads back.
+std::string exact_label_of(const SweepColumn& sweep, double value);
+/// What runs the row: its subject, as a sweep may have composed it.
+const SubjectInfo& composition_of(const StudyResult& study, const RunResult& row);
+
 /// Whether two values of a sweep are the same but for rounding: 1e-9 of the greater.
 bool same_value(double a, double b);
 /// Whether the row has, of each sweep that `where` names, one of the values given there.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "output/text/number.h"
+#include "studies/selection.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -81,7 +82,7 @@ std::string row_text(const StudyResult& study, const RunResult& row, bool named)
   for (std::size_t i = 0; i < study.sweeps.size() && i < row.parameters.size(); ++i) {
     text += text.empty() ? "" : ", ";
     if (named) text += study.sweeps[i].name + " = ";
-    text += output::rounded(row.parameters[i], 6);
+    text += label_of(study.sweeps[i], row.parameters[i]);
     if (!study.sweeps[i].unit.empty()) text += " " + study.sweeps[i].unit;
   }
   return text;

@@ -10,7 +10,7 @@ using language::FieldType;
 
 bool can_be_edited(const language::FieldSchema& field) {
   return field.type != FieldType::object && field.type != FieldType::port &&
-         field.type != FieldType::words;
+         field.type != FieldType::words && field.type != FieldType::formula;
 }
 
 void collect(const language::Object& root, const language::Object& object,

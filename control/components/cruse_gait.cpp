@@ -19,8 +19,10 @@ constexpr std::size_t behind(std::size_t leg) { return leg % rows > 0 ? leg - 1 
 constexpr std::size_t before(std::size_t leg) { return leg % rows + 1 < rows ? leg + 1 : none; }
 constexpr std::size_t across(std::size_t leg) { return (leg + rows) % leg_count; }
 
-class CruseGait final : public HexapodGait {
+class CruseGait final : public LeggedGait {
  public:
+  CruseGait() : LeggedGait(leg_count) {}
+
   Parameter stride =
       Parameter{*this, "stride", "m", 0.05, "from the anterior to the posterior extreme position"}
           .range(1e-6, 1e3);

@@ -22,7 +22,8 @@ std::string type_text(const FieldSchema& field) {
     count += (field.one_or_all ? " or " : " to ") + std::to_string(field.max_count);
   switch (field.type) {
     case FieldType::number:
-      return "number" + unit + (field.choices.empty() ? "" : ", or " + join(field.choices, ", "));
+      return "number" + unit + (field.choices.empty() ? "" : ", or " + join(field.choices, ", ")) +
+             (field.or_words ? ", or a word or string" : "");
     case FieldType::integer:
       return "whole number" + unit;
     case FieldType::boolean:
@@ -32,7 +33,8 @@ std::string type_text(const FieldSchema& field) {
     case FieldType::choice:
       return "one of " + join(field.choices, ", ");
     case FieldType::numbers:
-      return count + (count == "1" ? " number" : " numbers") + unit;
+      return count + (count == "1" ? " number" : " numbers") + unit +
+             (field.or_words ? ", or words or strings" : "");
     case FieldType::orientation:
       return "quaternion w, x, y, z, or roll, pitch, yaw [rad]";
     case FieldType::object: {
@@ -44,6 +46,8 @@ std::string type_text(const FieldSchema& field) {
       return "trail of a port";
     case FieldType::words:
       return count + (count == "1" ? " word" : " words");
+    case FieldType::formula:
+      return "expression";
   }
   return "";
 }

@@ -24,6 +24,7 @@ enum class FieldType {
   object,       ///< a reference to an object whose class starts with `refers_to`
   port,         ///< a reference to a port's trail: block.base.location.x
   words,        ///< one or more bare words or strings
+  formula,      ///< an expression of names that get their values later: kept, not evaluated
 };
 
 /// Another unit of a field where another field of the object says so: metres instead of radians
@@ -50,6 +51,7 @@ struct FieldSchema {
   bool exclusive_minimum = false;  ///< value > minimum instead of >=
   bool exclusive_maximum = false;
   int min_count = 1, max_count = 1;  ///< of `numbers` and `words`
+  bool or_words = false;  ///< of `number` and `numbers`: words or strings may stand in their place
   bool one_or_all = false;  ///< of `numbers`: `max_count`, or one that stands for all; none between
   std::vector<std::string> choices;  ///< of a choice; of a number, words that may stand for it
   std::string refers_to;  ///< class name or prefix ("Terrain") of `object`; several: "Base|Link";

@@ -35,6 +35,8 @@ class Parser {
   bool parse_param(Item& item);
   bool parse_let(Item& item);
   bool parse_include(Item& item);
+  /// The path in quotes, the name of what holds it, or an expression in parentheses.
+  bool parse_path(Item& item, Detail& detail);
   bool parse_plugin(Item& item);
   bool parse_arguments(Detail& detail);
   bool parse_loop(Item& item);
@@ -64,6 +66,8 @@ class Parser {
   /// The error that the unit which comes now does not belong to the number before it.
   bool fail_unit(const Token& number, bool has_unit);
   bool parse_trail(Trail& trail);
+  /// The same as a value.
+  bool parse_trail_value();
   bool parse_index(Expression& index);
 
   // parser.cpp

@@ -155,6 +155,10 @@ bool Parser::parse_primary() {
     ++at_;
     return true;
   }
+  return parse_trail_value();
+}
+
+bool Parser::parse_trail_value() {
   Trail trail;
   if (!parse_trail(trail)) return false;
   syntax_.code.push_back(

@@ -149,14 +149,32 @@ bool Parser::parse_include(Item& item) {
   item.kind = ItemKind::include;
   item.place = span(token());
   ++at_;
-  if (!at(TokenKind::text)) return fail_here("the path of a file in quotes");
   Detail detail;
-  detail.path = span(token());
-  ++at_;
+  if (!parse_path(item, detail)) return false;
   if (at(TokenKind::open_parenthesis) && !parse_arguments(detail)) return false;
   if (at(TokenKind::identifier) && !at_keyword() && !parse_name(item, detail)) return false;
   detail_of(item) = detail;
   return expect_semicolon("the Include");
+}
+
+bool Parser::parse_path(Item& item, Detail& detail) {
+  const Token first = token();
+  if (accept(TokenKind::text)) {
+    detail.path = span(first);
+    return true;
+  }
+  const bool name = at(TokenKind::identifier) && !at_keyword();
+  if (!name && !at(TokenKind::open_parenthesis)) return fail_here("the path of a file in quotes");
+  Expression expression;
+  expression.code.begin = static_cast<std::uint32_t>(syntax_.code.size());
+  // Arguments may follow a name: it is no function.
+  if (name ? !parse_trail_value() : !parse_primary()) return false;
+  expression.code.end = static_cast<std::uint32_t>(syntax_.code.size());
+  detail.path = expression.span = span_from(first);
+  item.value.begin = static_cast<std::uint32_t>(syntax_.expressions.size());
+  syntax_.expressions.push_back(expression);
+  item.value.end = static_cast<std::uint32_t>(syntax_.expressions.size());
+  return true;
 }
 
 bool Parser::parse_plugin(Item& item) {

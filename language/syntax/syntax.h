@@ -99,7 +99,8 @@ struct Item {
   bool indexed = false;      ///< the name has an [index]
   Span place;                ///< type, field name or keyword
   Span name;                 ///< object, variable, include; length 0 without
-  Range value;               ///< of Syntax::expressions; of a loop over a list its values
+  Range value;               ///< of Syntax::expressions; of a loop over a list its values; of an
+                             ///< Include its path, where that is not just written in quotes
   Range items;               ///< of Syntax::items: what stands inside
   std::uint32_t detail = 0;  ///< of Syntax::details, where there is more to say
 };
@@ -116,7 +117,7 @@ struct Detail {
   bool has_from = false, has_to = false;
   Trail from, to;          ///< a wire's ends
   Expression first, last;  ///< a loop's range
-  Span path;               ///< an include's or a plugin's, with its quotes
+  Span path;               ///< an include's or a plugin's, with its quotes where it has any
   Range arguments;         ///< of Syntax::arguments
 };
 

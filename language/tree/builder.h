@@ -40,6 +40,7 @@ class Builder {
     Position place;  ///< of the Include; no file for the first one
     std::map<std::string, Given> given;
     Variables variables;
+    bool chosen = false;  ///< by a value: what is not evaluated does not know of it
   };
   using Names = std::unordered_map<std::string, const Object*>;
   /// An object that is being filled.
@@ -86,6 +87,8 @@ class Builder {
   /// Lays the included file down under the Include's name.
   void lay_group(const FileScope& scope, const Item& item, FileScope& inner);
   const ParsedFile* find_include(const FileScope& scope, const Item& item);
+  /// Where the Include's file lies; empty after an error.
+  std::filesystem::path include_path(const FileScope& scope, const Item& item);
   /// Remembers the library at the root; whoever evaluates has loaded it (Library::load_plugins).
   void lay_plugin(const FileScope& scope, const Item& item, bool top_of_file);
   void take_arguments(const FileScope& scope, const Item& item, FileScope& inner);

@@ -91,7 +91,8 @@ void Builder::lay_param(FileScope& scope, const Item& item, bool top_of_file) {
   const bool one_number =
       values && values->size() == 1 && values->front().kind == ValueKind::number;
   if (scope.includer == nullptr && one_number)
-    open_.front().object->parameters.emplace_back(name, values->front().quantity.value);
+    open_.front().object->parameters.push_back(
+        {std::string(name), values->front().quantity.value, values->front().quantity.dimension});
   define(scope, name, std::move(values).value_or(std::vector<Value>{}), place);
 }
 
@@ -126,7 +127,7 @@ void Builder::lay_include(FileScope& scope, const Item& item) {
   if (!take(Resource::steps, steps_of_a_search, position(scope, item.place))) return;
   const ParsedFile* file = find_include(scope, item);
   if (file == nullptr) return;
-  FileScope inner{*file, &scope, position(scope, item.place), {}, {}};
+  FileScope inner{*file, &scope, position(scope, item.place), {}, {}, !item.value.empty()};
   take_arguments(scope, item, inner);
   report_.enter_include(file->source, inner.place);
   if (item.name.length == 0) {
@@ -150,7 +151,7 @@ void Builder::lay_group(const FileScope& scope, const Item& item, FileScope& inn
 }
 
 const ParsedFile* Builder::find_include(const FileScope& scope, const Item& item) {
-  const std::filesystem::path found = find_named(files_, scope.file, item, report_);
+  const std::filesystem::path found = include_path(scope, item);
   if (found.empty()) return nullptr;
   const Position place = position(scope, scope.file.syntax.details[item.detail].path);
   const ParsedFile& file = files_.load(found);
@@ -162,11 +163,32 @@ const ParsedFile* Builder::find_include(const FileScope& scope, const Item& item
   return &file;
 }
 
+std::filesystem::path Builder::include_path(const FileScope& scope, const Item& item) {
+  if (item.value.empty()) return find_named(files_, scope.file, item, report_);
+  const Expression& path = scope.file.syntax.expressions[item.value.begin];
+  const std::optional<Value> value = evaluator(scope).evaluate(path);
+  if (!value) return {};
+  const Position place = position(scope, path.span);
+  if (value->kind == ValueKind::text)
+    return find_named(files_, scope.file, value->text, place, report_);
+  report_.error(place,
+                "an Include takes the path of a file, a string in quotes or a Param that "
+                "holds one, not " +
+                    describe_value(*value));
+  return {};
+}
+
 void Builder::lay_plugin(const FileScope& scope, const Item& item, bool top_of_file) {
   const Position place = position(scope, item.place);
   if (!top_of_file)
     return report_.error(place,
                          "a Plugin stands at the top of its file, not inside an object or a loop");
+  for (const FileScope* open = &scope; open != nullptr; open = open->includer) {
+    if (open->chosen)
+      return report_.error(place,
+                           "a Plugin stands in no file whose Include has its path from a value: "
+                           "name the plugin in the file that has the Include");
+  }
   const std::filesystem::path found = find_named(files_, scope.file, item, report_);
   if (found.empty()) return;
   std::vector<std::string>& plugins = open_.front().object->plugins;

@@ -6,12 +6,17 @@
 #include "language/names.h"
 #include "language/schema/describe.h"
 #include "language/units.h"
+#include "language/values/formula.h"
 #include "unicode/display.h"
 
 namespace hookpoint::language {
 namespace {
 
 std::string quoted(const std::string& name) { return "`" + name + "`"; }
+
+bool is_word(const Value& value) {
+  return value.kind == ValueKind::word || value.kind == ValueKind::text;
+}
 
 std::string other_unit_text(const OtherUnit& other) {
   return " (in " + other.unit + " where " + quoted(other.field) + " is " + other.word + ")";
@@ -39,6 +44,8 @@ class FieldMaker {
  private:
   /// A number's word in its place, such as `auto`.
   bool stands_for_number(std::string_view word);
+  /// Words and strings in the place of numbers.
+  bool make_words_for_numbers();
   bool make_numbers();
   bool make_orientation();
   bool make_boolean();
@@ -46,6 +53,7 @@ class FieldMaker {
   bool make_choice();
   bool make_words();
   bool make_reference();
+  bool make_formula();
   bool check_number(const Value& value);
   bool check_range(const Value& value);
   bool check_text(const Value& value);
@@ -99,6 +107,9 @@ std::optional<Field> FieldMaker::run() {
     case FieldType::object:
     case FieldType::port:
       good = make_reference();
+      break;
+    case FieldType::formula:
+      good = make_formula();
       break;
   }
   return good ? std::optional(std::move(field_)) : std::nullopt;
@@ -200,6 +211,7 @@ bool FieldMaker::make_numbers() {
   if (values_.size() == 1 && values_[0].kind == ValueKind::word &&
       stands_for_number(values_[0].text))
     return true;
+  if (schema_.or_words && !values_.empty() && is_word(values_[0])) return make_words_for_numbers();
   const bool list = schema_.type == FieldType::numbers;
   if (!check_count(values_.size(), list ? schema_.min_count : 1, list ? schema_.max_count : 1,
                    "number"))
@@ -216,6 +228,25 @@ bool FieldMaker::make_numbers() {
     field_.numbers.push_back(value.quantity.value);
   }
   if (schema_.unit == "?") field_.unit = written_unit();
+  return true;
+}
+
+bool FieldMaker::make_words_for_numbers() {
+  const bool list = schema_.type == FieldType::numbers;
+  if (!check_count(values_.size(), list ? schema_.min_count : 1, list ? schema_.max_count : 1,
+                   "word"))
+    return false;
+  for (const Value& value : values_) {
+    if (!is_word(value)) {
+      return fail(value.position,
+                  "the values of " + quoted(schema_.name) + " are all numbers or all words, not " +
+                      describe_value(value) + " behind " + describe_value(values_[0]));
+    }
+    if (!check_text(value)) return false;
+    field_.words.push_back(value.text);
+    field_.quoted.push_back(value.kind == ValueKind::text);
+    field_.places.push_back(value.position);
+  }
   return true;
 }
 
@@ -319,7 +350,7 @@ bool FieldMaker::make_words() {
   if (!evaluate() || !check_count(values_.size(), schema_.min_count, schema_.max_count, "word"))
     return false;
   for (const Value& value : values_) {
-    if (value.kind != ValueKind::word && value.kind != ValueKind::text) {
+    if (!is_word(value)) {
       return fail(value.position,
                   quoted(schema_.name) + " takes words or strings, not " + describe_value(value));
     }
@@ -350,6 +381,16 @@ bool FieldMaker::make_reference() {
     }
   }
   return fail(field_.position, quoted(schema_.name) + " takes " + wanted);
+}
+
+bool FieldMaker::make_formula() {
+  if (value_.size() != 1)
+    return fail(field_.position, quoted(schema_.name) + " takes one expression");
+  const Expression& expression = context_.evaluator.syntax().expressions[value_.begin];
+  std::optional<Formula> formula = make_formula_of(context_.evaluator, expression, report_);
+  if (!formula) return false;
+  field_.formula = std::make_shared<const Formula>(std::move(*formula));
+  return true;
 }
 
 }  // namespace

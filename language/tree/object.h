@@ -6,7 +6,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "language/dimension.h"
@@ -16,6 +15,7 @@
 namespace hookpoint::language {
 
 class Object;
+struct Formula;
 
 /// A reference to a port or object by its trail, resolved where possible.
 struct Reference {
@@ -31,14 +31,23 @@ struct Field {
   bool given = false;              ///< written in the file (or set from outside), not a default
   std::vector<double> numbers;     ///< number, integer, numbers (SI); orientation: w, x, y, z,
                                    ///< normalised; boolean: 0 or 1
-  std::vector<std::string> words;  ///< text, choice, words; of a number the word in its place
+  std::vector<std::string> words;  ///< text, choice, words; of numbers the words in their place
+  std::vector<bool> quoted;        ///< of numbers: which of the words in their place are strings
   std::vector<Position> places;    ///< of each of several `words`
   Reference reference;             ///< object, port
+  std::shared_ptr<const Formula> formula;  ///< formula
   Dimension dimension;  ///< of `numbers` where the schema's unit is "?" (else the schema's)
   /// Of the first number in that dimension, as it is written ("deg"), where the schema's unit is
   /// "?"; "" when none is written.
   std::string unit;
   Position position;  ///< of the value
+};
+
+/// A Param that is one number.
+struct ParameterValue {
+  std::string name;
+  double value = 0.;  ///< SI
+  Dimension dimension;
 };
 
 struct Wire {
@@ -64,8 +73,8 @@ class Object {
   std::vector<Wire> wires;
   /// Of the root: the libraries that its files name, as absolute paths, each once.
   std::vector<std::string> plugins;
-  /// Of the root: the Params of its file that are one number, with their values in SI.
-  std::vector<std::pair<std::string, double>> parameters;
+  /// Of the root: the Params of its file that are one number.
+  std::vector<ParameterValue> parameters;
 
   /// The field if it is given or has a default, else null.
   const Field* find(std::string_view field) const;

@@ -4,6 +4,7 @@
 #include "language/tree/field.h"
 #include "language/tree/references.h"
 #include "language/units.h"
+#include "language/values/formula.h"
 
 namespace hookpoint::language {
 namespace {
@@ -39,10 +40,14 @@ class Printer {
       case FieldType::words:
         for (const std::string& word : field.words) add(quote(word));
         return text;
+      case FieldType::formula:
+        return field.formula->text;
       default:
         break;
     }
-    if (!field.words.empty()) return field.words[0];  // it stands for the number
+    for (std::size_t i = 0; i < field.words.size(); ++i)  // they stand for the numbers
+      add(i < field.quoted.size() && field.quoted[i] ? quote(field.words[i]) : field.words[i]);
+    if (!field.words.empty()) return text;
     const std::string unit = unit_text(field.dimension);
     for (const double number : field.numbers)
       add(number_text(number) + (unit.empty() ? "" : " " + unit));
@@ -100,21 +105,21 @@ class Printer {
     return same ? trail : reference.trail;
   }
 
-  static std::string quote(const std::string& text) {
-    std::string quoted = "\"";
-    for (const char c : text) {
-      if (c == '"' || c == '\\') quoted += '\\';
-      quoted += c == '\n' ? "\\n" : c == '\t' ? "\\t" : std::string(1, c);
-    }
-    return quoted + '"';
-  }
-
   const Object& root_;
   std::string text_;
   Names names_;
 };
 
 }  // namespace
+
+std::string quote(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') quoted += '\\';
+    quoted += c == '\n' ? "\\n" : c == '\t' ? "\\t" : std::string(1, c);
+  }
+  return quoted + '"';
+}
 
 std::string print(const Object& root) { return Printer(root).run(); }
 

@@ -12,5 +12,7 @@ namespace hookpoint::language {
 std::string print(const Object& root);
 /// The value of one of `object`'s fields, as that file has it.
 std::string print_value(const Object& root, const Object& object, const Field& field);
+/// The text in quotes, as the language reads it back.
+std::string quote(const std::string& text);
 
 }  // namespace hookpoint::language

@@ -220,8 +220,22 @@ bool ExpressionEvaluator::binary(const Instruction& instruction, std::vector<Val
   Value& left = stack.back();
   if (instruction.operation >= Operation::less) return compare(instruction, left, right);
   const Position place = position(instruction.span);
+  const bool text = left.kind == ValueKind::text || right.kind == ValueKind::text;
+  if (text && instruction.operation == Operation::add) return join_texts(left, right, place);
   if (!check_number(left, place) || !check_number(right, place)) return false;
   return arithmetic(instruction, left, right);
+}
+
+bool ExpressionEvaluator::join_texts(Value& left, const Value& right, Position place) const {
+  constexpr std::size_t most_bytes = 4096;
+  for (const Value* value : {static_cast<const Value*>(&left), &right}) {
+    if (value->kind != ValueKind::text && value->kind != ValueKind::word)
+      return fail(place, "a string and " + describe_value(*value) + " cannot be put together");
+  }
+  if (left.text.size() + right.text.size() > most_bytes)
+    return fail(place, "the string would be longer than " + std::to_string(most_bytes) + " bytes");
+  left = {ValueKind::text, {}, left.text + right.text, place};
+  return take(Resource::steps, steps_of(left.text.size()), place);
 }
 
 bool ExpressionEvaluator::arithmetic(const Instruction& instruction, Value& left,

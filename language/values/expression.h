@@ -53,6 +53,12 @@ class ExpressionEvaluator {
   /// The trail, if the expression is nothing else; else null.
   const Trail* lone_trail(const Expression& expression) const;
 
+  /// The variable of that name, or null.
+  const Variable* variable(std::string_view name) const {
+    const auto found = variables_.find(name);
+    return found == variables_.end() ? nullptr : &found->second;
+  }
+
   /// The error that a word is no variable; false. In a file with syntax errors the variable may
   /// have been lost to one: no error then.
   bool unknown_word(const Value& value) const;
@@ -67,6 +73,8 @@ class ExpressionEvaluator {
   bool step(const Instruction& instruction, std::vector<Value>& stack, std::uint32_t& next) const;
   bool push_trail(const Instruction& instruction, std::vector<Value>& stack) const;
   bool binary(const Instruction& instruction, std::vector<Value>& stack) const;
+  /// Strings, and words behind or before one, put together.
+  bool join_texts(Value& left, const Value& right, Position place) const;
   bool arithmetic(const Instruction& instruction, Value& left, const Value& right) const;
   bool compare(const Instruction& instruction, Value& left, const Value& right) const;
   bool call(const Instruction& instruction, std::vector<Value>& stack) const;
@@ -95,6 +103,14 @@ struct FunctionResult {
 /// `name` applied to `arguments` (functions.cpp). Nothing when there is no such function.
 std::optional<FunctionResult> call_function(std::string_view name,
                                             std::span<const Quantity> arguments);
+/// The same of the arguments' units alone, whatever their values (but for an exponent's): the
+/// result is 0 in its unit.
+std::optional<FunctionResult> unit_of_call(std::string_view name,
+                                           std::span<const Quantity> arguments);
+/// What computes the function of that name, which there is, from numbers in SI: NaN or infinite
+/// where it has no value. Allocates nothing.
+using NumberFunction = double (*)(std::span<const double>);
+NumberFunction number_function(std::string_view name);
 const std::vector<std::string>& function_names();
 /// base ^ exponent: a value with a unit to whole powers only.
 FunctionResult raise_quantity(const Quantity& base, const Quantity& exponent);

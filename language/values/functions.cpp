@@ -82,31 +82,35 @@ FunctionResult apply_power(const Function& function, std::span<const Quantity> a
   return raise_quantity(arguments[0], arguments[1]);
 }
 
-FunctionResult apply(const Function& function, std::span<const Quantity> arguments) {
-  std::vector<double> numbers;
-  Dimension common = arguments[0].dimension;
+/// What is wrong with the units of the arguments; "" when nothing. `common`: the unit that they
+/// share, where they do.
+std::string problem_of(const Function& function, std::span<const Quantity> arguments,
+                       Dimension& common) {
+  common = arguments[0].dimension;
   const bool pure =
       function.signature == Signature::of_number || function.signature == Signature::to_angle;
   for (const Quantity& argument : arguments) {
     const Dimension& dimension = argument.dimension;
-    numbers.push_back(argument.value);
     if (pure && !dimension.dimensionless()) {
-      return wrong(std::string(function.name) + " takes a pure number, not one in " +
-                   unit_text(dimension));
+      return std::string(function.name) + " takes a pure number, not one in " +
+             unit_text(dimension);
     }
     if (function.signature == Signature::of_angle && !dimension.dimensionless() &&
         dimension != angle_dimension) {
-      return wrong(std::string(function.name) + " takes an angle, not a value in " +
-                   unit_text(dimension));
+      return std::string(function.name) + " takes an angle, not a value in " + unit_text(dimension);
     }
     if (function.signature != Signature::special && !comparable(common, dimension)) {
-      return wrong(std::string(function.name) + " takes values of one unit, not " +
-                   describe_dimension(common) + " and " + describe_dimension(dimension));
+      return std::string(function.name) + " takes values of one unit, not " +
+             describe_dimension(common) + " and " + describe_dimension(dimension);
     }
     if (common.angle == 0) common = comparable(common, dimension) ? dimension : common;
   }
-  const double result = function.apply(numbers);
-  if (std::isnan(result)) return wrong(std::string(function.name) + " has no value there");
+  return "";
+}
+
+/// `result` with the unit that follows from the arguments'.
+FunctionResult with_unit(const Function& function, std::span<const Quantity> arguments,
+                         const Dimension& common, double result) {
   switch (function.signature) {
     case Signature::same:
       return {{result, common}, ""};
@@ -118,6 +122,29 @@ FunctionResult apply(const Function& function, std::span<const Quantity> argumen
     default:
       return {{result, {}}, ""};
   }
+}
+
+FunctionResult apply(const Function& function, std::span<const Quantity> arguments) {
+  Dimension common;
+  if (std::string problem = problem_of(function, arguments, common); !problem.empty())
+    return wrong(std::move(problem));
+  std::vector<double> numbers;
+  for (const Quantity& argument : arguments) numbers.push_back(argument.value);
+  const double result = function.apply(numbers);
+  if (std::isnan(result)) return wrong(std::string(function.name) + " has no value there");
+  return with_unit(function, arguments, common, result);
+}
+
+/// The function, with the right number of arguments; null with what is wrong, or with "" where
+/// there is none of that name.
+const Function* find_function(std::string_view name, std::size_t count, std::string& problem) {
+  const auto function = std::ranges::find(functions, name, &Function::name);
+  if (function == functions.end()) return nullptr;
+  if (count >= function->least && count <= function->most) return &*function;
+  const std::string wanted =
+      count_of(function->least, "argument") + (function->most == many ? " or more" : "");
+  problem = std::string(name) + " takes " + wanted + ", not " + std::to_string(count);
+  return nullptr;
 }
 
 }  // namespace
@@ -139,15 +166,25 @@ FunctionResult raise_quantity(const Quantity& base, const Quantity& exponent) {
 
 std::optional<FunctionResult> call_function(std::string_view name,
                                             std::span<const Quantity> arguments) {
-  const auto function = std::ranges::find(functions, name, &Function::name);
-  if (function == functions.end()) return std::nullopt;
-  if (arguments.size() < function->least || arguments.size() > function->most) {
-    const std::string wanted =
-        count_of(function->least, "argument") + (function->most == many ? " or more" : "");
-    return wrong(std::string(name) + " takes " + wanted + ", not " +
-                 std::to_string(arguments.size()));
-  }
-  return apply(*function, arguments);
+  std::string problem;
+  const Function* function = find_function(name, arguments.size(), problem);
+  if (function != nullptr) return apply(*function, arguments);
+  return problem.empty() ? std::nullopt : std::optional(wrong(std::move(problem)));
+}
+
+std::optional<FunctionResult> unit_of_call(std::string_view name,
+                                           std::span<const Quantity> arguments) {
+  std::string problem;
+  const Function* function = find_function(name, arguments.size(), problem);
+  if (function == nullptr && problem.empty()) return std::nullopt;
+  Dimension common;
+  if (function != nullptr) problem = problem_of(*function, arguments, common);
+  if (!problem.empty()) return wrong(std::move(problem));
+  return with_unit(*function, arguments, common, 0.);
+}
+
+NumberFunction number_function(std::string_view name) {
+  return std::ranges::find(functions, name, &Function::name)->apply;
 }
 
 const std::vector<std::string>& function_names() {

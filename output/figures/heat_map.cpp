@@ -66,6 +66,12 @@ std::string number_text(const HeatMap& map, double value) {
 }
 const char* number_format(const HeatMap& map) { return map.color.logarithmic ? "%.0e" : "%.3g"; }
 
+/// What stands under a value of an axis: its name, or its first digits.
+std::string tick_text(const Axis& axis, double value) {
+  return axis.names.empty() ? rounded(value, 4)
+                            : axis.names.at(static_cast<std::size_t>(std::lround(value)));
+}
+
 /// Of all cells: so that each number and each tick has room.
 double cell_width(const HeatMap& map) {
   if (crowded(map)) return crowded_panel / static_cast<double>(map.x_values.size());
@@ -74,7 +80,7 @@ double cell_width(const HeatMap& map) {
     for (const HeatMapCell& cell : panel.cells)
       if (cell.value) width = std::max(width, width_of(number_text(map, *cell.value), number_font));
   for (const double tick : map.x_values)
-    width = std::max(width, width_of(rounded(tick, 4), tick_font));
+    width = std::max(width, width_of(tick_text(map.x, tick), tick_font));
   return std::ceil(width + air);
 }
 
@@ -157,19 +163,23 @@ class Script {
          << "')\nset cbrange [" << shortest(least) << ":" << shortest(greatest)
          << "]\nset border 0\nset xrange [-0.5:" << shortest(static_cast<double>(columns_) - 0.5)
          << "]\nset yrange [-0.5:" << shortest(static_cast<double>(rows_) - 0.5)
-         << "]\nset tics scale 0\nset xtics nomirror (" << ticks(map_.x_values, panel_width_)
-         << ")\nset xlabel " << gnuplot_quoted(axis_title(map_.x)) << " noenhanced\nset cblabel "
+         << "]\nset tics scale 0\nset xtics nomirror ("
+         << ticks(map_.x, map_.x_values, panel_width_) << ")\nset xlabel "
+         << gnuplot_quoted(axis_title(map_.x)) << " noenhanced\nset cblabel "
          << gnuplot_quoted(axis_title(map_.color)) << " noenhanced\n";
   }
 
   /// Of each value; along a crowded axis as many as have room.
-  std::string ticks(const std::vector<double>& values, double length) const {
+  std::string ticks(const Axis& axis, const std::vector<double>& values, double length) const {
     const double room = std::floor(length / tick_room);
     const auto each = static_cast<std::size_t>(
         crowded(map_) ? std::ceil(static_cast<double>(values.size()) / room) : 1.);
     std::string text;
     for (std::size_t i = 0; i < values.size(); i += each)
-      text += (i > 0 ? ", " : "") + gnuplot_quoted(rounded(values[i], 4)) + " " + std::to_string(i);
+      text += (i > 0 ? ", " : "") +
+              gnuplot_quoted(axis.names.empty() ? tick_text(axis, values[i])
+                                                : gnuplot_escaped(tick_text(axis, values[i]))) +
+              " " + std::to_string(i);
     return text;
   }
 
@@ -188,7 +198,7 @@ class Script {
          << screen(bottom + panel_height_, height_) << "\nset title " << gnuplot_quoted(panel.title)
          << " noenhanced offset 0,-0.4\n";
     if (column == 0)
-      out_ << "set ytics scale 0 nomirror (" << ticks(map_.y_values, panel_height_)
+      out_ << "set ytics scale 0 nomirror (" << ticks(map_.y, map_.y_values, panel_height_)
            << ")\nset ylabel " << gnuplot_quoted(axis_title(map_.y)) << " noenhanced\n";
     else
       out_ << "unset ylabel\nunset ytics\n";
@@ -294,15 +304,18 @@ bool crowded(const HeatMap& map) {
 std::string heat_map_data(const HeatMap& map) {
   CsvTable table;
   const auto title = [](const Axis& axis) { return column_title(axis.label, axis.unit); };
+  const auto place = [](const Axis& axis, double value) {
+    return axis.names.empty() ? shortest(value) : tick_text(axis, value);
+  };
   table.header = {"panel", title(map.x), title(map.y), title(map.color), "column", "row"};
   for (const HeatMapPanel& panel : map.panels) {
     for (std::size_t i = 0; i < panel.cells.size(); ++i) {
       const HeatMapCell& cell = panel.cells[i];
       if (!cell.run && !crowded(map)) continue;
       const std::size_t column = i % map.x_values.size(), row = i / map.x_values.size();
-      table.rows.push_back({panel.title, shortest(map.x_values[column]),
-                            shortest(map.y_values[row]), cell.value ? shortest(*cell.value) : "",
-                            std::to_string(column), std::to_string(row)});
+      table.rows.push_back(
+          {panel.title, place(map.x, map.x_values[column]), place(map.y, map.y_values[row]),
+           cell.value ? shortest(*cell.value) : "", std::to_string(column), std::to_string(row)});
     }
   }
   return table.text();

@@ -37,8 +37,8 @@ struct HeatMap {
 /// Whether cells are so many that their numbers could not be read: they are colours alone then.
 bool crowded(const HeatMap& map);
 
-/// Rows `panel, x, y, value, column, row`; of a run without a value the value is empty, and in a
-/// crowded map that of a cell without a run.
+/// Rows `panel, x, y, value, column, row`, x and y as numbers or names; of a run without a value
+/// the value is empty, and in a crowded map that of a cell without a run.
 std::string heat_map_data(const HeatMap& map);
 /// The script that draws `<name>.svg` from `<name>.csv` in the folder where it is run.
 std::string heat_map_script(const HeatMap& map);

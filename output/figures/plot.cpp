@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <utility>
 
 #include "output/child.h"
@@ -17,25 +18,43 @@ bool names_a_file(const std::string& name) {
   return !name.empty() && name.find_first_of("/<|") == std::string::npos && one_line(name) == name;
 }
 
-void add_rows(CsvTable& table, const std::string& series, const char* kind,
-              const std::vector<double>& x, const std::vector<double>* y) {
-  for (std::size_t i = 0; i < x.size(); ++i)
+/// Whether some points have bars: every row has a column for them then.
+bool has_bars(const Plot& plot) {
+  return std::ranges::any_of(plot.series,
+                             [](const Series& series) { return !series.half_widths.empty(); });
+}
+
+void add_rows(CsvTable& table, const std::string& series, const char* kind, const Axis& axis,
+              const std::vector<double>& x, const std::vector<double>* y,
+              const std::vector<double>* half_widths) {
+  for (std::size_t i = 0; i < x.size(); ++i) {
     table.rows.push_back({series, kind, shortest(x[i]), y == nullptr ? "" : shortest((*y)[i])});
+    if (half_widths != nullptr)
+      table.rows.back().push_back(half_widths->empty() ? "" : shortest((*half_widths)[i]));
+    if (!axis.names.empty())
+      table.rows.back().push_back(axis.names.at(static_cast<std::size_t>(std::lround(x[i]))));
+  }
 }
 
-std::vector<std::string> header_of(const Plot& plot) {
-  return {"series", "kind", column_title(plot.x.label, plot.x.unit),
-          column_title(plot.y.label, plot.y.unit)};
+std::vector<std::string> header_of(const Plot& plot, bool bars) {
+  std::vector<std::string> header{"series", "kind", column_title(plot.x.label, plot.x.unit),
+                                  column_title(plot.y.label, plot.y.unit)};
+  if (bars) header.push_back(column_title("half_width", plot.y.unit));
+  if (!plot.x.names.empty()) header.push_back(plot.x.label + " name");
+  return header;
 }
 
-void add_curves(CsvTable& table, const Plot& plot) {
+void add_curves(CsvTable& table, const Plot& plot, bool bars) {
+  static const std::vector<double> none;
+  const std::vector<double>* no_bars = bars ? &none : nullptr;
   for (const Series& series : plot.series) {
     assert(series.measured.x.size() == series.measured.y.size());
     assert(series.predicted.x.size() == series.predicted.y.size());
     const char* line = series.reference ? "reference" : "predicted";
-    add_rows(table, series.label, "measured", series.measured.x, &series.measured.y);
-    add_rows(table, series.label, line, series.predicted.x, &series.predicted.y);
-    add_rows(table, series.label, "unfinished", series.unfinished, nullptr);
+    add_rows(table, series.label, "measured", plot.x, series.measured.x, &series.measured.y,
+             bars ? &series.half_widths : nullptr);
+    add_rows(table, series.label, line, plot.x, series.predicted.x, &series.predicted.y, no_bars);
+    add_rows(table, series.label, "unfinished", plot.x, series.unfinished, nullptr, no_bars);
   }
 }
 
@@ -43,18 +62,19 @@ void add_curves(CsvTable& table, const Plot& plot) {
 
 std::string plot_data(const Plot& plot) {
   CsvTable table;
-  table.header = header_of(plot);
-  add_curves(table, plot);
+  table.header = header_of(plot, has_bars(plot));
+  add_curves(table, plot, has_bars(plot));
   return table.text();
 }
 
 std::string panel_data(const PanelPlot& plot) {
   CsvTable table;
-  table.header = header_of(plot.panels.front());
+  const bool bars = std::ranges::any_of(plot.panels, has_bars);
+  table.header = header_of(plot.panels.front(), bars);
   table.header.emplace_back("panel");
   for (const Plot& panel : plot.panels) {
     const std::size_t first = table.rows.size();
-    add_curves(table, panel);
+    add_curves(table, panel, bars);
     for (std::size_t i = first; i < table.rows.size(); ++i) table.rows[i].push_back(panel.title);
   }
   return table.text();

@@ -20,6 +20,7 @@ struct Axis {
   std::string unit;   ///< "m/s"; "" for none
   bool logarithmic = false;
   double floor = 1e-16;  ///< magnitude that counts as zero on a logarithmic axis, in `unit`
+  std::vector<std::string> names = {};  ///< of what stands at 0, 1, 2 ...; empty: numbers
 };
 
 /// Points in the units of the axes. Values that are not finite belong in Series::unfinished.
@@ -37,6 +38,7 @@ struct Series {
   bool reference = false;
   /// Every point by itself, no line from one to the next.
   bool scattered = false;
+  std::vector<double> half_widths = {};  ///< of bars about each measured y; empty for none
 };
 
 struct Plot {
@@ -58,7 +60,8 @@ struct SeriesStyle {
 };
 SeriesStyle series_style(int style);
 
-/// Rows `series, kind (measured, predicted, reference, unfinished), x, y`, a series' rows together.
+/// Rows `series, kind (measured, predicted, reference, unfinished), x, y`, a series' rows together;
+/// where measured points have bars, half the width of each besides; where x has names, the name.
 std::string plot_data(const Plot& plot);
 
 /// The script that draws `<name>.svg` from `<name>.csv` in the folder where it is run.

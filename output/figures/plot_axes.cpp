@@ -152,11 +152,28 @@ class AxesScript {
   void plot_predicted_of(std::size_t i) {
     const Rows& rows = rows_[i].predicted;
     if (rows.count == 0) return;
-    const std::string pen =
-        "lines lw 1.3" + std::string(dashes) + " lc rgb '" + line_color(plot_.series[i]) + "'";
+    const std::string color = " lc rgb '" + line_color(plot_.series[i]) + "'";
+    if (!plot_.x.names.empty() && !plot_.series[i].reference) return add_bars(rows, color);
+    const std::string pen = "lines lw 1.3" + std::string(dashes) + color;
     add_rows(rows.all(), "shown($4)", pen);
     if (!vanishes(plot_.series[i].predicted)) return;
     add_rows(rows.all(), "vanishing($4, " + lane(i) + ")", pen);
+  }
+
+  /// A bar about each point, cut off where a logarithmic axis has no place for its lower end.
+  void add_intervals(const Rows& rows, const std::string& color) {
+    const std::string low =
+        layout_.y.logarithmic ? "($4 - $5 > floor ? $4 - $5 : floor)" : "($4 - $5)";
+    add(gnuplot_quoted(file_) + " skip 1 " + rows.all() + " using (at($3)):(positive($4)):" + low +
+        ":($4 + $5) with yerrorbars pt -1 lw 1.2 lt 1" + color);
+  }
+
+  /// Of the closed form over names: a dashed bar across each.
+  void add_bars(const Rows& rows, const std::string& color) {
+    constexpr const char* half_width = "0.3";
+    add(gnuplot_quoted(file_) + " skip 1 " + rows.all() + " using ($3 - " + half_width +
+        "):(shown($4)):(2*" + half_width + "):(0) with vectors nohead lw 1.3" +
+        std::string(dashes) + color);
   }
 
   void plot_measured(std::size_t i) {
@@ -174,6 +191,8 @@ class AxesScript {
     const bool is_joined = joined(series);
     const std::string faint = "lines lw 0.8 lc rgb '#80" + style.color.substr(1) + "'";
     if (!series.scattered) add_rows(rows.all(), "shown($4)", is_joined ? pen : faint);
+    // The bars first: gnuplot clears the place of their points.
+    if (!series.half_widths.empty()) add_intervals(rows, color);
     add_rows(points, "positive($4)", filled);
     if (layout_.y.logarithmic && negative(series.measured))
       add_rows(points, "negative($4)", hollow);

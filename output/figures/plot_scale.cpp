@@ -60,6 +60,18 @@ std::string linear_ticks(const Scale& scale) {
   return "(" + list + ")";
 }
 
+/// A tick under the middle of each name that is drawn.
+std::string name_ticks(const Scale& scale, const std::vector<std::string>& names) {
+  std::string list;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto place = static_cast<double>(i);
+    if (place < scale.low || place > scale.high) continue;
+    list += (list.empty() ? "" : ", ") + gnuplot_quoted(gnuplot_escaped(names[i])) + " " +
+            std::to_string(i);
+  }
+  return "(" + list + ")";
+}
+
 std::string decade_label(int decade, bool plain) {
   if (plain) return rounded(std::pow(10., decade), 6);
   return "10^{" + minus_sign(std::to_string(decade)) + "}";
@@ -182,17 +194,28 @@ Layout lay_out(const Plot& plot) {
       include_all(x, curve->x, plot.x);
       include_all(y, curve->y, plot.y);
     }
+    for (std::size_t k = 0; k < series.half_widths.size(); ++k)
+      include_all(y,
+                  {series.measured.y[k] - series.half_widths[k],
+                   series.measured.y[k] + series.half_widths[k]},
+                  plot.y);
     include_all(x, series.unfinished, plot.x);
     if (any_below_floor(series.measured, plot.y) || any_below_floor(series.predicted, plot.y))
       layout.strips.below_floor.push_back(static_cast<int>(i));
     if (!series.unfinished.empty()) layout.strips.unfinished.push_back(static_cast<int>(i));
   }
   layout.x = resolve(plot.x, x, false);
+  if (!plot.x.names.empty() && !x.empty()) {
+    layout.x.low = x.low - 0.5;
+    layout.x.high = x.high + 0.5;
+  }
   layout.y = resolve(plot.y, y, true);
   open_strips(layout.x, 0., 0.);
   open_strips(layout.y, strip_height(layout.strips.below_floor.size()),
               strip_height(layout.strips.unfinished.size()));
-  layout.x.ticks = layout.x.logarithmic ? logarithmic_ticks(layout.x, 8) : linear_ticks(layout.x);
+  layout.x.ticks = !plot.x.names.empty()  ? name_ticks(layout.x, plot.x.names)
+                   : layout.x.logarithmic ? logarithmic_ticks(layout.x, 8)
+                                          : linear_ticks(layout.x);
   layout.y.ticks = layout.y.logarithmic ? logarithmic_ticks(layout.y, 9) : linear_ticks(layout.y);
   return layout;
 }

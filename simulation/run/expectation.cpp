@@ -2,14 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
+#include "language/units.h"
 #include "simulation/engine.h"
 
 namespace hookpoint::simulation {
 
 const std::vector<std::string>& reduction_names() {
-  static const std::vector<std::string> names{"final", "maximum", "minimum", "mean",   "rms",
-                                              "range", "change",  "slope",   "time_at"};
+  static const std::vector<std::string> names{
+      "final",    "maximum",     "minimum",         "mean",
+      "rms",      "range",       "change",          "slope",
+      "time_at",  "last",        "time_of_maximum", "time_of_minimum",
+      "integral", "settle_time", "count_above",     "time_above"};
   return names;
 }
 
@@ -18,6 +23,65 @@ std::optional<Reduction> find_reduction(std::string_view name) {
   const auto found = std::ranges::find(names, name);
   if (found == names.end()) return std::nullopt;
   return static_cast<Reduction>(found - names.begin());
+}
+
+std::string missing_of(const ReductionSpec& spec) {
+  const bool level = spec.take == Reduction::time_at || spec.take == Reduction::count_above ||
+                     spec.take == Reduction::time_above;
+  if (level && !spec.level)
+    return "`" + reduction_names()[static_cast<std::size_t>(spec.take)] +
+           "` needs the `level` that is meant";
+  if (spec.take == Reduction::settle_time && !(spec.band.value_or(0.) > 0.))
+    return "`settle_time` needs the `band` that counts as settled";
+  return "";
+}
+
+language::Dimension dimension_of(Reduction take, const language::Dimension& quantity) {
+  constexpr language::Dimension second{0, 0, 1, 0};
+  switch (take) {
+    case Reduction::slope:
+      return quantity / second;
+    case Reduction::integral:
+      return quantity * second;
+    case Reduction::time_at:
+    case Reduction::time_of_maximum:
+    case Reduction::time_of_minimum:
+    case Reduction::settle_time:
+    case Reduction::time_above:
+      return second;
+    case Reduction::count_above:
+      return {};
+    default:
+      return quantity;
+  }
+}
+
+void SettleWatch::climb(Staircase& stairs, double time, double value) const {
+  constexpr double stairs_of_a_band = 100.;
+  if (!stairs.empty()) stairs.back().left = time;
+  while (!stairs.empty() && stairs.back().value <= value) stairs.pop_back();
+  const bool low =
+      stairs.size() > 1 && stairs[stairs.size() - 2].value - value < band_ / stairs_of_a_band;
+  if (low) stairs.pop_back();
+  stairs.push_back({value, time});
+}
+
+void SettleWatch::observe(double time, double value) {
+  if (greatest_.empty()) first_time_ = time;
+  climb(greatest_, time, value);
+  climb(least_, time, -value);
+}
+
+double SettleWatch::since(double end) const {
+  double since = first_time_;
+  const auto look = [&](const Staircase& stairs, double bound) {
+    const auto low = std::ranges::partition_point(
+        stairs, [bound](const Stair& stair) { return stair.value > bound; });
+    if (low != stairs.begin()) since = std::max(since, std::prev(low)->left);
+  };
+  look(greatest_, end + band_);
+  look(least_, band_ - end);
+  return since;
 }
 
 bool ExpectationSpec::covers(std::string_view law, std::string_view integrator) const {
@@ -41,14 +105,40 @@ void Reducer::find_crossing(double time, double value) {
   crossing_ = last_time_ + (time - last_time_) * (level_ - last_) / (value - last_);
 }
 
+/// From the sample before to this one, along the straight line between them.
+void Reducer::observe_interval(double time, double value) {
+  const double step = time - last_time_;
+  integral_ += 0.5 * step * (last_ + value);
+  const double before = last_ - level_, now = value - level_;
+  if (before <= 0. && now > 0.) ++rises_;
+  if (before > 0. && now > 0.)
+    above_ += step;
+  else if (before > 0. || now > 0.)
+    above_ += step * std::max(before, now) / std::abs(now - before);
+}
+
+void Reducer::observe_settling(double time, double value) {
+  if (!about_level_) return settling_.observe(time, value);
+  if (std::abs(value - level_) > band_)
+    inside_since_.reset();
+  else if (!inside_since_)
+    inside_since_ = time;
+}
+
 void Reducer::observe(double time, double value) {
   if (time < from_ || (to_ && time > *to_)) return;
   find_crossing(time, value);
+  if (take_ == Reduction::settle_time) observe_settling(time, value);
   ++count_;
   if (count_ == 1) {
-    first_time_ = time;
+    first_time_ = greatest_time_ = least_time_ = time;
     first_ = least_ = greatest_ = value;
+    if (value > level_) ++rises_;
+  } else {
+    observe_interval(time, value);
   }
+  if (value < least_) least_time_ = time;
+  if (value > greatest_) greatest_time_ = time;
   least_ = std::min(least_, value);
   greatest_ = std::max(greatest_, value);
   const double n = static_cast<double>(count_);
@@ -66,6 +156,7 @@ std::optional<double> Reducer::value() const {
   if (count_ == 0) return std::nullopt;
   switch (take_) {
     case Reduction::final:
+    case Reduction::last:
       return last_;
     case Reduction::maximum:
       return greatest_;
@@ -83,6 +174,18 @@ std::optional<double> Reducer::value() const {
       return time_square_ > 0. ? std::optional(product_ / time_square_) : std::nullopt;
     case Reduction::time_at:
       return crossing_;
+    case Reduction::time_of_maximum:
+      return greatest_time_;
+    case Reduction::time_of_minimum:
+      return least_time_;
+    case Reduction::integral:
+      return integral_;
+    case Reduction::settle_time:
+      return about_level_ ? inside_since_ : std::optional(settling_.since(last_));
+    case Reduction::count_above:
+      return static_cast<double>(rises_);
+    case Reduction::time_above:
+      return above_;
   }
   return std::nullopt;
 }
@@ -103,7 +206,8 @@ bool ExpectationResult::ok() const {
 Expectations::Expectations(const Experiment& experiment, const std::vector<Port>& ports) {
   for (const ExpectationSpec& spec : experiment.expectations) {
     if (!spec.covers(experiment)) continue;
-    watched_.push_back({&spec, find_port(experiment, ports, spec.trail).value, Reducer(spec)});
+    watched_.push_back(
+        {&spec, find_port(experiment, ports, spec.trail).value, Reducer(spec.reduction())});
   }
 }
 

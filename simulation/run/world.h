@@ -44,6 +44,9 @@ class World {
   /// Sets one of those between two steps. What only copies it has it at once, while `World.running`
   /// is false too; a wire with a rate, a delay or noise takes it at its next sample.
   void set(const Port& port, double value);
+  /// The same for numbers that were written to their ports: to be called before the next step.
+  /// Allocates nothing.
+  void follow() { signals_.follow(); }
   /// Whether each wire that starts there has sampled the port's value in a step after `step`.
   bool sampled_after(std::int64_t step, const Port& port) const {
     return signals_.sampled_after(step, port.value);
@@ -60,6 +63,7 @@ class World {
   /// acceleration and total_torque, bodies' accelerations, hip forces) are right again after the
   /// next step. Throws ExperimentError when the engine cannot be saved.
   std::vector<StateSection> state_layout() const;
+  bool can_be_saved() const { return engine_->resumable() != nullptr; }
   std::size_t state_size() const;
   /// `numbers`: state_size() of them. Allocates nothing.
   void save(std::span<double> numbers) const;

@@ -8,6 +8,7 @@
 
 #include "control/registry.h"
 #include "simulation/scene/fields.h"
+#include "simulation/scene/formula_signals.h"
 #include "simulation/scene/load_parts.h"
 #include "simulation/scene/schema.h"
 
@@ -121,6 +122,7 @@ void load_component(const language::Object& object, const control::ComponentClas
     if (port.kind == PortKind::input || port.kind == PortKind::parameter)
       load_numbers(object, port, spec, loading);
   }
+  load_formulas(object, type, loading.components.size(), spec, loading);
   loading.components.push_back(&object);
   loading.experiment.components.push_back(std::move(spec));
 }
@@ -145,12 +147,14 @@ language::ClassSchema component_schema(const control::ComponentClass& type) {
   }
   append(schema.fields, attachment_fields(type.attachment));
   append(schema.fields, schemas(stub_fields()));
+  describe_formula_class(schema);
   return schema;
 }
 
 void add_component_classes(language::Schema& schema) {
   for (const auto& [name, type] : control::Registry::instance().classes())
     schema.add(component_schema(type));
+  add_state_machine_parts(schema);
 }
 
 std::string component_class_problem(const language::Schema& schema,
@@ -173,6 +177,7 @@ std::string component_class_problem(const language::Schema& schema,
 std::vector<std::string> component_families() {
   std::vector<std::string> families;
   for (const auto& [name, type] : control::Registry::instance().classes()) {
+    if (!component_schema(type).top_level) continue;  // stands inside of another
     const std::size_t dot = name.find('.');
     std::string family = dot == std::string::npos ? name : name.substr(0, dot + 1);
     if (std::ranges::find(families, family) == families.end())

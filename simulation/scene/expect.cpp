@@ -19,8 +19,8 @@ namespace {
 
 namespace expect_field {
 constexpr const char *of = "of", *take = "take", *equals = "equals", *within = "within",
-                     *level = "level", *to = "to", *laws = "laws", *except_laws = "except_laws",
-                     *integrators = "integrators";
+                     *level = "level", *band = "band", *to = "to", *laws = "laws",
+                     *except_laws = "except_laws", *integrators = "integrators";
 }
 
 const Fields<ExpectationSpec>& expect_fields() {
@@ -29,14 +29,19 @@ const Fields<ExpectationSpec>& expect_fields() {
       required(words_field(expect_field::of, 1, "the port")),
       choice_field(expect_field::take, reduction_names(), &Spec::take,
                    "what becomes of its values: the last, the largest, ..., `slope` by least "
-                   "squares, `time_at` when it first crosses `level`"),
+                   "squares, `time_at` when it first crosses `level`; the manual's page of studies "
+                   "defines each"),
       required(number_field(expect_field::equals, "?", &Spec::expected,
                             "the closed form, of the scene's Params")),
       not_negative(number_field("tolerance", "", &Spec::tolerance,
                                 "allowed difference relative to `equals`")),
       not_negative(without_default(
           number_field(expect_field::within, "?", &Spec::within, "allowed absolute difference"))),
-      without_default(number_field(expect_field::level, "?", &Spec::level, "of `time_at`")),
+      number_field(expect_field::level, "?", &Spec::level,
+                   "of `time_at`, `count_above`, `time_above`; of `settle_time` what it settles "
+                   "about, if not where it ends"),
+      not_negative(number_field(expect_field::band, "?", &Spec::band,
+                                "of `settle_time`: how far off counts as settled")),
       not_negative(number_field("from", "s", &Spec::from, "values before do not count")),
       positive(number_field(expect_field::to, "s", &Spec::to,
                             "values after do not count; default: the run's end")),
@@ -108,33 +113,36 @@ class ExpectationLoader {
   void check_times() {
     if (spec_.to && *spec_.to <= spec_.from)
       loading_.error(place_of(object_, expect_field::to), "`to` must be later than `from`");
-    if (spec_.take == Reduction::time_at && !object_.given(expect_field::level))
-      loading_.error(place_of(object_, expect_field::take),
-                     "`time_at` needs the `level` whose first crossing is meant");
+    if (const std::string missing = missing_of(spec_.reduction()); !missing.empty())
+      loading_.error(place_of(object_, expect_field::take), missing);
     if (spec_.tolerance == 0. && spec_.within == 0.)
       loading_.error(object_.position,
                      "no difference is allowed: give a `tolerance` (relative) or `within`");
   }
 
-  /// The port's unit; a slope's is per second, a time's is the second.
+  /// `equals` and `within` are in the unit of the reduction, level and band in the port's own.
   void check_unit(const language::Target& target) {
     const std::string& unit = target.object->unit_of(*target.field);
     const auto parsed = language::parse_unit(unit == "?" ? "" : unit);
     if (!parsed) return;
-    const language::Dimension second = language::parse_unit("s")->dimension;
-    language::Dimension wanted = parsed->dimension;
-    if (spec_.take == Reduction::slope) wanted = wanted / second;
-    if (spec_.take == Reduction::time_at) wanted = second;
-    spec_.unit = unit == "?" && spec_.take != Reduction::time_at ? "" : language::unit_text(wanted);
+    const language::Dimension wanted = dimension_of(spec_.take, parsed->dimension);
+    constexpr language::Dimension some{0, 1, 0, 0};
+    const bool follows = dimension_of(spec_.take, some) != dimension_of(spec_.take, {});
+    spec_.unit = unit == "?" && follows ? "" : language::unit_text(wanted);
     if (unit == "?") return;
-    for (const char* field : {expect_field::equals, expect_field::within}) {
-      if (!object_.given(field)) continue;
-      const language::Field& given = *object_.find(field);
-      if (!language::fits(given.dimension, wanted))
-        loading_.error(given.position, fmt::format("`{}` is to be in {}, not in {}", field,
-                                                   language::describe_dimension(wanted),
-                                                   language::describe_dimension(given.dimension)));
-    }
+    for (const char* field : {expect_field::equals, expect_field::within})
+      check_dimension(field, wanted);
+    for (const char* field : {expect_field::level, expect_field::band})
+      check_dimension(field, parsed->dimension);
+  }
+
+  void check_dimension(const char* field, const language::Dimension& wanted) {
+    if (!object_.given(field)) return;
+    const language::Field& given = *object_.find(field);
+    if (!language::fits(given.dimension, wanted))
+      loading_.error(given.position, fmt::format("`{}` is to be in {}, not in {}", field,
+                                                 language::describe_dimension(wanted),
+                                                 language::describe_dimension(given.dimension)));
   }
 
   const language::Object& object_;

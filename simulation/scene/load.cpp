@@ -62,7 +62,7 @@ std::optional<Experiment> load_with_step(const language::Object& root,
                                          const std::vector<std::filesystem::path>& search_path,
                                          const std::vector<FileSpec>& given,
                                          const ChosenStep& chosen) {
-  Loading loading{diagnostics, search_path, given, {}, {}, {}, {}, {}, {}};
+  Loading loading{diagnostics, search_path, given, {}, {}, {}, {}, {}, {}, {}};
   const std::size_t errors_before = diagnostics.error_count();
   const language::Object* world = find_world(root, loading);
   check_strays(root, loading);

@@ -22,6 +22,13 @@ struct BodyIndex {
   int robot = 0, body = 0;
 };
 
+/// What a name in a formula of a component reads.
+struct FormulaInput {
+  std::size_t component = 0;  ///< index
+  std::size_t element = 0;    ///< of its input `in`
+  language::Reference from;
+};
+
 /// The experiment as it grows, and which object each part came from.
 struct Loading {
   language::Diagnostics& diagnostics;
@@ -33,7 +40,8 @@ struct Loading {
   std::vector<const language::Object*> bases;  ///< one a robot
   ObjectTrails trails;
   std::vector<const language::Object*> components;  ///< one a ComponentSpec
-  std::size_t boundary_points = 0;                  ///< asked for, of all bodies
+  std::vector<FormulaInput> formula_inputs;
+  std::size_t boundary_points = 0;  ///< asked for, of all bodies
 
   void error(const language::Position& position, std::string message) {
     diagnostics.error(position, std::move(message));

@@ -45,6 +45,7 @@ class Wires {
   void run(const language::Object& root) {
     collect(root);
     for (std::size_t i = 0; i < loading_.components.size(); ++i) attach(i);
+    for (const FormulaInput& input : loading_.formula_inputs) feed(input);
     if (loading_.diagnostics.error_count() != errors_before_) return;
     const Components components(experiment_);
     check_lines();
@@ -88,6 +89,21 @@ class Wires {
       add({from.object, to.object, &wire, from.field, to.field, wire.position}, from.trails[i],
           to.trails[i]);
     }
+  }
+
+  /// A wire from what a formula names to its component.
+  void feed(const FormulaInput& input) {
+    const language::Object& object = *loading_.components[input.component];
+    const End from = end_of(input.from);
+    if (!has_value(from)) {
+      return loading_.error(input.from.position,
+                            fmt::format("`{}` of this {} is not given, so there is nothing to read",
+                                        from.field->name, from.object->type));
+    }
+    const FieldSchema* in = object.schema->find("in");
+    add({from.object, &object, nullptr, from.field, in, input.from.position}, from.trails[0],
+        loading_.trails.at(&object) + "." + in->name +
+            language::part_name(*in, static_cast<int>(input.element)));
   }
 
   /// A setting that the file leaves open and nothing works out cannot be read.

@@ -60,7 +60,7 @@ std::string missing_port(const Experiment& experiment, const language::Object& o
 bool is_number(const language::FieldSchema& field) {
   return field.type != FieldType::text && field.type != FieldType::choice &&
          field.type != FieldType::object && field.type != FieldType::port &&
-         field.type != FieldType::words;
+         field.type != FieldType::words && field.type != FieldType::formula;
 }
 
 int components_of(const language::FieldSchema& field) {

@@ -7,6 +7,8 @@
 #include "output/file.h"
 #include "output/text/json.h"
 #include "output/text/json_reader.h"
+#include "output/text/number.h"
+#include "simulation/run/expectation.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -24,6 +26,35 @@ void write_parameters(output::JsonWriter& json, const char* key,
   json.end_array();
 }
 
+/// What a UserMetric is told by, in this order, its trails last.
+enum OwnPart {
+  own_name,
+  own_expectation,
+  own_scale,
+  own_formula,
+  own_take,
+  own_from,
+  own_to,
+  own_level,
+  own_band,
+  own_trails
+};
+
+std::string optional_text(const std::optional<double>& value) {
+  return value ? output::shortest(*value) : "";
+}
+
+void write_own(output::JsonWriter& json, const UserMetric& metric) {
+  const simulation::ReductionSpec& spec = metric.reduction;
+  json.begin_array().value(metric.name).value(metric.expectation);
+  json.value(output::shortest(metric.scale)).value(metric.of == nullptr ? "" : metric.of->text);
+  json.value(simulation::reduction_names()[static_cast<std::size_t>(spec.take)]);
+  json.value(output::shortest(spec.from)).value(optional_text(spec.to));
+  json.value(optional_text(spec.level)).value(optional_text(spec.band));
+  for (const std::string& trail : metric.trails) json.value(trail);
+  json.end_array();
+}
+
 void write_run(output::JsonWriter& json, const RunRequest& run) {
   json.begin_object().member("name", run.name).member("identity", run.identity);
   json.member("scene", std::filesystem::absolute(run.scene.file).string());
@@ -38,7 +69,11 @@ void write_run(output::JsonWriter& json, const RunRequest& run) {
   json.end_array();
   json.member("settle", run.measurement.settle).member("duration", run.measurement.duration);
   json.key("metrics").begin_array();
-  for (const MetricDefinition* metric : run.measurement.metrics) json.value(metric->name);
+  for (const MetricDefinition* metric : run.measurement.metrics)
+    if (metric->user == nullptr) json.value(metric->name);
+  json.end_array().key("own").begin_array();
+  for (const MetricDefinition* metric : run.measurement.metrics)
+    if (metric->user != nullptr) write_own(json, *metric->user);
   json.end_array().key("signals").begin_array();
   for (const RecordedSignal& recorded : run.measurement.signals)
     write_pair(json, std::string(recorded.signal->name), recorded.logarithmic ? "log" : "linear");
@@ -74,6 +109,8 @@ class RunReader {
       return read_time(value, run_.measurement.duration);
     else if (kind == "metrics")
       return read_metric(value);
+    else if (kind == "own")
+      return read_own(key, value);
     else if (kind == "signals")
       return read_signal(second, value);
     else if (kind == "path")
@@ -83,7 +120,49 @@ class RunReader {
     return true;
   }
 
+  /// Once all has been read: false where a metric of the user's own is not whole.
+  bool finish() {
+    for (const std::vector<std::string>& parts : own_)
+      if (!add_own(parts)) return false;
+    return true;
+  }
+
  private:
+  bool read_own(std::string_view key, const std::string& value) {
+    if (key.ends_with("[0]")) own_.emplace_back();
+    if (own_.empty()) return false;
+    own_.back().push_back(value);
+    return true;
+  }
+  static bool read_optional(const std::string& text, std::optional<double>& number) {
+    return text.empty() || read_time(text, number.emplace());
+  }
+  bool add_own(const std::vector<std::string>& parts) {
+    if (parts.size() < own_trails) return false;
+    UserMetric metric;
+    metric.name = parts[own_name];
+    metric.expectation = parts[own_expectation];
+    metric.trails.assign(parts.begin() + own_trails, parts.end());
+    const auto take = simulation::find_reduction(parts[own_take]);
+    if (!take) return false;
+    metric.reduction.take = *take;
+    const bool numbers = read_time(parts[own_scale], metric.scale) &&
+                         read_time(parts[own_from], metric.reduction.from) &&
+                         read_optional(parts[own_to], metric.reduction.to) &&
+                         read_optional(parts[own_level], metric.reduction.level) &&
+                         read_optional(parts[own_band], metric.reduction.band);
+    if (!numbers) return false;
+    if (metric.expectation.empty()) {
+      auto formula = language::read_formula(parts[own_formula]);
+      if (!formula || formula->names.size() != metric.trails.size()) return false;
+      metric.of = std::make_shared<const language::Formula>(std::move(*formula));
+    }
+    auto kept = std::make_shared<UserMetric>(std::move(metric));
+    complete(*kept);
+    run_.measurement.metrics.push_back(&kept->definition);
+    run_.measurement.owned.push_back(std::move(kept));
+    return true;
+  }
   bool read_parameter(std::map<std::string, std::string>& parameters, bool second,
                       const std::string& value) {
     if (second)
@@ -119,6 +198,7 @@ class RunReader {
 
   RunRequest& run_;
   std::string parameter_;
+  std::vector<std::vector<std::string>> own_;
 };
 
 }  // namespace
@@ -150,12 +230,14 @@ RunList read_run_list(const std::filesystem::path& file) {
     const std::size_t dot = key.find('.');
     if (!key.starts_with(runs_key) || dot == std::string::npos) refuse("`" + key + "`");
     if (place != key.substr(0, dot)) {
+      if (reader && !reader->finish()) refuse("a metric of " + list.runs.back().name);
       place = key.substr(0, dot);
       reader = std::make_unique<RunReader>(list.runs.emplace_back());
     }
     if (!reader->read(std::string_view(key).substr(dot + 1), value))
       refuse("`" + key + "` is " + value);
   }
+  if (reader && !reader->finish()) refuse("a metric of " + list.runs.back().name);
   return list;
 }
 

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <map>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "contact/force_law.h"
@@ -15,6 +16,7 @@
 #include "output/text/hash.h"
 #include "simulation/identity.h"
 #include "studies/plan/plan_parts.h"
+#include "studies/plan/row_forms.h"
 #include "studies/plan/scene_settings.h"
 #include "studies/plan/step_warning.h"
 #include "studies/workers.h"
@@ -67,12 +69,85 @@ std::string StudyPlan::name_of(const RowPlan& row) const {
   return text + ")";
 }
 
+namespace {
+
+bool names_it(const std::vector<std::string>& names, const std::string& name) {
+  return std::ranges::find(names, name) != names.end();
+}
+
+/// Gives Params to a scene and to the ground that is laid into it, as far as they declare them.
+class ParameterGiver {
+ public:
+  ParameterGiver(RowScene& scene, const std::vector<std::string>& declared,
+                 const SweptGround* ground)
+      : scene_(scene), declared_(declared), ground_(ground) {
+    if (ground_ != nullptr) scene_.ground = RowGround{ground_->file, {}};
+  }
+  void give(const std::string& name, const std::string& text) {
+    if (names_it(declared_, name)) scene_.options.parameters[name] = text;
+    if (ground_ != nullptr && names_it(ground_->parameters, name))
+      scene_.ground->parameters[name] = text;
+  }
+
+ private:
+  RowScene& scene_;
+  const std::vector<std::string>& declared_;
+  const SweptGround* ground_;
+};
+
+}  // namespace
+
 RowScene StudyPlan::scene_of(const RowPlan& row) const {
   RowScene scene = *row.scene;
+  const SweptGround* ground = nullptr;
   for (std::size_t i = 0; i < sweeps.size(); ++i)
-    scene.options.parameters[sweeps[i].column.name] =
-        sweeps[i].texts[static_cast<std::size_t>(row.values[i])];
+    if (sweeps[i].role == SweepRole::ground)
+      ground = &sweeps[i].grounds[static_cast<std::size_t>(row.values[i])];
+  ParameterGiver parameters(scene, scene_parameters, ground);
+  for (const auto* some : {&fixes, &subjects[static_cast<std::size_t>(row.subject)].fixes})
+    for (const Assignment& fix : *some) parameters.give(fix.parameter, fix.text);
+  const std::string engine = world_word(row, "engine");
+  const bool ours = row.under_ours || engine.empty() || engine == "dts";
+  for (std::size_t i = 0; i < sweeps.size(); ++i) {
+    const SweepPlan& sweep = sweeps[i];
+    const std::string& name = sweep.column.name;
+    const std::string& text = sweep.texts[static_cast<std::size_t>(row.values[i])];
+    if (sweep.role == SweepRole::parameter || sweep.role == SweepRole::seeds)
+      parameters.give(name, text);
+    if (sweep.role == SweepRole::seeds)
+      scene.options.overrides.push_back({scene.timed_world + "." + name, text});
+  }
+  for (const std::string field : {"engine", "contact", "integrator", "settings"}) {
+    // A peer has a contact and an integrator of its own, and we have no settings.
+    const bool meant = field == "engine" ? !row.under_ours : ours != (field == "settings");
+    const std::string word = world_word(row, field);
+    if (meant && varies(field) && !word.empty())
+      scene.options.overrides.push_back({scene.timed_world + "." + field, word});
+  }
   return scene;
+}
+
+int StudyPlan::seed_sweep() const {
+  const bool seeds = !sweeps.empty() && sweeps.back().role == SweepRole::seeds;
+  return seeds ? static_cast<int>(sweeps.size()) - 1 : -1;
+}
+
+bool StudyPlan::varies(const std::string& world_field) const {
+  return std::ranges::any_of(sweeps, [&](const SweepPlan& sweep) {
+    return sweep.role == SweepRole::world_field &&
+           (sweep.column.name == world_field || sweep.column.name == "engine");
+  });
+}
+
+std::string StudyPlan::world_word(const RowPlan& row, const std::string& field) const {
+  for (std::size_t i = 0; i < sweeps.size(); ++i)
+    if (sweeps[i].role == SweepRole::world_field && sweeps[i].column.name == field)
+      return sweeps[i].column.words[static_cast<std::size_t>(row.values[i])];
+  const SubjectPlan& subject = subjects[static_cast<std::size_t>(row.subject)];
+  return field == "engine"       ? subject.engine
+         : field == "contact"    ? subject.contact
+         : field == "integrator" ? subject.integrator
+                                 : subject.settings;
 }
 
 std::vector<std::string> StudyPlan::settings_of(const RowPlan& row) const {
@@ -108,7 +183,8 @@ namespace {
 struct LoadedRow {
   std::optional<LoadedScene> scene;
   Diagnostics found;
-  std::string refusal;                 ///< why its engine cannot run it; "": it can
+  std::string refusal;  ///< why its engine cannot run it; "": it can
+  std::vector<RowForm> forms;
   std::optional<std::string> warning;  ///< of its step
 };
 
@@ -122,14 +198,10 @@ class SceneLoader {
   /// Sets the scene of `row`; false after an error.
   bool prepare(const StudyPlan& plan, const Object& study, RowPlan& row) {
     const SubjectPlan& subject = plan.subjects[static_cast<std::size_t>(row.subject)];
-    language::EvaluateOptions options;
-    for (const Assignment& fix : fixes) options.parameters[fix.parameter] = fix.text;
-    for (const Assignment& fix : subject.fixes) options.parameters[fix.parameter] = fix.text;
-    for (std::size_t i = 0; i < plan.sweeps.size(); ++i) {
-      const SweepPlan& sweep = plan.sweeps[i];
-      options.parameters[sweep.column.name] = sweep.texts[static_cast<std::size_t>(row.values[i])];
-    }
-    if (!find_world(options)) return false;
+    static const auto bare = std::make_shared<const RowScene>();
+    row.scene = bare;
+    language::EvaluateOptions options{plan.scene_of(row).options.parameters, {}};
+    if (!find_world(plan, study, row, options)) return false;
     for (const language::Override& setting : taken_) {
       if (const auto problem = problem_of(setting, plan, subject)) {
         diagnostics_.error(study.position, *problem);
@@ -140,7 +212,7 @@ class SceneLoader {
       diagnostics_.error(study.position, decided_already(*decided));
       return false;
     }
-    row.scene = scenes_of(row.subject, subject).whole;
+    row.scene = scenes_of(plan, row.subject).whole;
     return true;
   }
 
@@ -151,37 +223,42 @@ class SceneLoader {
     if (loaded.scene) {
       simulation::Experiment& experiment = loaded.scene->experiment;
       experiment.duration = plan.duration;
-      if (!stepped_.contains({subject.info.name, experiment.deltat}))
+      if (!stepped_.contains(step_of(subject, experiment)))
         loaded.warning = step_warning(experiment);
+      loaded.forms = row_forms(plan, *loaded.scene->tree, experiment);
       return loaded;
     }
-    if (subject.engine.empty() || subject.engine == "dts") return loaded;
+    const std::string engine = plan.world_word(row, "engine");
+    if (engine.empty() || engine == "dts") return loaded;
     RowPlan ours = row;
+    ours.under_ours = true;
     ours.scene = scenes_.at(row.subject).under_ours;
     Diagnostics untold;
     loaded.scene = load_scene(library_, plan.scene_of(ours), untold);
     if (!loaded.scene) return loaded;
     loaded.refusal = first_error(loaded.found);
     loaded.scene->experiment.duration = plan.duration;
-    loaded.scene->experiment.engine = subject.engine;
-    loaded.scene->experiment.settings = subject.settings;
-    loaded.scene->printed += subject.engine + loaded.refusal;
+    loaded.scene->experiment.engine = engine;
+    loaded.scene->experiment.settings = plan.world_word(row, "settings");
+    loaded.scene->printed += engine + loaded.refusal;
     return loaded;
   }
 
   /// Tells what there is to say and completes the row; false after an error.
   bool accept(StudyPlan& plan, const Object& study, const LoadedRow& loaded, RowPlan& row) {
-    if (!loaded.scene || loaded.refusal.empty()) forward(loaded.found, study, place_of(plan, row));
+    if (!loaded.scene || loaded.refusal.empty()) forward(loaded.found, plan, study, row);
     if (!loaded.scene) return false;
-    if (!loaded.refusal.empty()) row.scene = scenes_.at(row.subject).under_ours;
+    row.under_ours = !loaded.refusal.empty();
+    if (row.under_ours) row.scene = scenes_.at(row.subject).under_ours;
     row.refusal = loaded.refusal;
     row.engine = loaded.scene->experiment.engine;
     row.deltat = loaded.scene->experiment.deltat;
-    if (loaded.warning) warn_of_step(plan, study, row, *loaded.warning);
+    row.forms = loaded.forms;
+    row.forms.resize(plan.user_metrics.size());
+    if (loaded.warning) warn_of_step(plan, study, row, loaded.scene->experiment, *loaded.warning);
     return true;
   }
 
-  std::vector<Assignment> fixes;        ///< the study's own
   SceneSettings settings;               ///< from outside
   std::vector<std::string> parameters;  ///< the scene's
   std::vector<std::string> settable;    ///< names at the scene's top
@@ -189,12 +266,19 @@ class SceneLoader {
  private:
   /// Warns of a step above the stability bound, once for each subject and step.
   void warn_of_step(StudyPlan& plan, const Object& study, const RowPlan& row,
-                    const std::string& what) {
-    const std::string& subject = plan.subjects[static_cast<std::size_t>(row.subject)].info.name;
-    if (!stepped_.insert({subject, row.deltat}).second) return;
+                    const simulation::Experiment& experiment, const std::string& what) {
+    const SubjectPlan& planned = plan.subjects[static_cast<std::size_t>(row.subject)];
+    const std::string& subject = planned.info.name;
+    if (!stepped_.insert(step_of(planned, experiment)).second) return;
     diagnostics_.warning(study.position, what);
     diagnostics_.note(study.position, "with subject = " + subject);
     plan.warnings.push_back(subject + ": " + what);
+  }
+
+  /// What is warned of once: a subject's law and step.
+  using Step = std::tuple<std::string, std::string, double>;
+  static Step step_of(const SubjectPlan& subject, const simulation::Experiment& experiment) {
+    return {subject.info.name, experiment.contact, experiment.deltat};
   }
 
   /// "with subject = ours, slope = 10 deg"
@@ -211,15 +295,15 @@ class SceneLoader {
   struct SubjectScenes {
     std::shared_ptr<const RowScene> whole, under_ours;
   };
-  const SubjectScenes& scenes_of(int index, const SubjectPlan& subject) {
+  const SubjectScenes& scenes_of(const StudyPlan& plan, int index) {
+    const SubjectPlan& subject = plan.subjects[static_cast<std::size_t>(index)];
     SubjectScenes& scenes = scenes_[index];
     if (scenes.whole) return scenes;
     RowScene scene{scene_, {}, world_};
-    for (const Assignment& fix : fixes) scene.options.parameters[fix.parameter] = fix.text;
-    for (const Assignment& fix : subject.fixes) scene.options.parameters[fix.parameter] = fix.text;
     scene.options.overrides = taken_;
     const auto set = [&](const char* field, const std::string& value) {
-      if (!value.empty()) scene.options.overrides.push_back({world_ + "." + field, value});
+      if (!value.empty() && !plan.varies(field))
+        scene.options.overrides.push_back({world_ + "." + field, value});
     };
     set("contact", subject.contact);
     set("integrator", subject.integrator);
@@ -228,6 +312,10 @@ class SceneLoader {
     set("settings", subject.settings);
     scenes.whole = std::make_shared<const RowScene>(std::move(scene));
     return scenes;
+  }
+
+  static bool of_world(const SweepPlan& sweep) {
+    return sweep.role == SweepRole::world_field || sweep.role == SweepRole::seeds;
   }
 
   static std::string first_error(const Diagnostics& found) {
@@ -239,7 +327,8 @@ class SceneLoader {
   std::optional<std::string> problem_of(const language::Override& setting, const StudyPlan& plan,
                                         const SubjectPlan& subject) const {
     for (const SweepPlan& sweep : plan.sweeps)
-      if (sweep.column.name == setting.trail)
+      if (setting.trail == sweep.column.name ||
+          (of_world(sweep) && setting.trail == world_ + "." + sweep.column.name))
         return fmt::format("`{}` is swept: it cannot be set as well", setting.trail);
     if (setting.trail == world_ + ".duration")
       return fmt::format("a run lasts as long as its study says: set `{}.duration`", plan.name);
@@ -279,10 +368,15 @@ class SceneLoader {
   }
 
   /// The trail of the scene's World, once.
-  bool find_world(const language::EvaluateOptions& options) {
+  bool find_world(const StudyPlan& plan, const Object& study, const RowPlan& row,
+                  const language::EvaluateOptions& options) {
     if (!world_.empty()) return true;
-    const auto tree = library_.evaluate(scene_, options, diagnostics_);
-    if (!tree) return false;
+    Diagnostics found;
+    const auto tree = library_.evaluate(scene_, options, found);
+    if (!tree) {
+      forward(found, plan, study, row);
+      return false;
+    }
     const auto worlds = tree->children_of("World");
     if (worlds.empty()) {
       diagnostics_.error(tree->position, "the study's scene has no World");
@@ -295,17 +389,33 @@ class SceneLoader {
     return true;
   }
 
-  void forward(const Diagnostics& found, const Object& study, const std::string& where) {
+  /// Where the study has what the diagnostic is about: what it sets in the scene has a place there.
+  language::Position place_in_study(const language::Position& position, const StudyPlan& plan,
+                                    const RowPlan& row) const {
+    if (position.file == nullptr) return position;
+    for (std::size_t i = 0; i < plan.sweeps.size(); ++i) {
+      const SweepPlan& sweep = plan.sweeps[i];
+      const std::string trail =
+          (sweep.role == SweepRole::world_field ? world_ + "." : "") + sweep.column.name;
+      if (position.file->path == "<--set " + trail + ">")
+        return sweep.places[static_cast<std::size_t>(row.values[i])];
+    }
+    return position;
+  }
+
+  void forward(const Diagnostics& found, const StudyPlan& plan, const Object& study,
+               const RowPlan& row) {
     for (const language::Diagnostic& diagnostic : found.all()) {
       if (!told_.insert(diagnostic.message).second) continue;
+      const language::Position position = place_in_study(diagnostic.position, plan, row);
       if (diagnostic.severity == language::Severity::error)
-        diagnostics_.error(diagnostic.position, diagnostic.message);
+        diagnostics_.error(position, diagnostic.message);
       else if (diagnostic.severity == language::Severity::warning)
-        diagnostics_.warning(diagnostic.position, diagnostic.message);
+        diagnostics_.warning(position, diagnostic.message);
       else
-        diagnostics_.note(diagnostic.position, diagnostic.message);
+        diagnostics_.note(position, diagnostic.message);
       if (diagnostic.severity != language::Severity::note)
-        diagnostics_.note(study.position, "in study " + study.name + " " + where);
+        diagnostics_.note(study.position, "in study " + study.name + " " + place_of(plan, row));
     }
   }
 
@@ -318,7 +428,7 @@ class SceneLoader {
   std::unique_ptr<Object> plain_;                          ///< the scene without them
   std::set<std::map<std::string, std::string>> compared_;  ///< Params of rows compared with it
   std::set<std::string> told_;
-  std::set<std::pair<std::string, double>> stepped_;  ///< subjects and steps that were warned of
+  std::set<Step> stepped_;
 };
 
 /// Advances the innermost sweep first; false after the last combination.
@@ -330,8 +440,17 @@ bool next_combination(const std::vector<SweepPlan>& sweeps, std::vector<int>& va
   return false;
 }
 
-/// What the first row of each subject runs under, by the subject's index.
-using FirstRows = std::map<int, simulation::Experiment>;
+/// Engine, law, integrator and settings that an experiment has.
+SubjectInfo composed(const simulation::Experiment& experiment) {
+  SubjectInfo info;
+  info.engine = experiment.engine;
+  const bool ours = info.engine == "dts";
+  info.law = ours ? experiment.contact : "";
+  const bool integrated = ours && contact::find_force_law(experiment.contact).has_value();
+  info.integrator = integrated ? experiment.integrator : "";
+  info.settings = ours ? "" : experiment.settings;
+  return info;
+}
 
 /// The rows of a plan as they are made, some at a time: so many scenes have room, and so many are
 /// worth several threads.
@@ -360,7 +479,6 @@ class RowPlanner {
     return true;
   }
 
-  FirstRows first_rows;
   std::set<std::string> inputs;
 
  private:
@@ -374,9 +492,17 @@ class RowPlanner {
     inputs.merge(scene.sources);
     plan_.seeds.insert(scene.experiment.seed);
     if (plan_.rows.empty()) plan_.scene_printed = scene.printed;
-    first_rows.try_emplace(row.subject, std::move(scene.experiment));
+    row.composition = composition_index(composed(scene.experiment));
     plan_.rows.push_back(std::move(row));
     return true;
+  }
+
+  int composition_index(SubjectInfo made) {
+    const auto key = std::make_tuple(made.engine, made.law, made.integrator, made.settings);
+    const auto [place, fresh] =
+        compositions_.try_emplace(key, static_cast<int>(plan_.compositions.size()));
+    if (fresh) plan_.compositions.push_back(std::move(made));
+    return place->second;
   }
 
   StudyPlan& plan_;
@@ -385,6 +511,7 @@ class RowPlanner {
   int jobs_;
   output::Hash& hash_;
   std::vector<RowPlan> waiting_;
+  std::map<std::tuple<std::string, std::string, std::string, std::string>, int> compositions_;
 };
 
 bool plan_rows(const StudyPlan& plan, const PlanOptions& options, RowPlanner& planner) {
@@ -405,21 +532,31 @@ bool plan_rows(const StudyPlan& plan, const PlanOptions& options, RowPlanner& pl
   return planner.finish();
 }
 
-/// A scene may set engine, law and integrator itself: the table names those in force.
-void complete_subjects(StudyPlan& plan, const EngineTable& engines, const FirstRows& first_rows) {
-  for (std::size_t i = 0; i < plan.subjects.size(); ++i) {
-    SubjectInfo& info = plan.subjects[i].info;
-    const auto row = first_rows.find(static_cast<int>(i));
-    const simulation::Experiment* experiment = row == first_rows.end() ? nullptr : &row->second;
-    info.engine = experiment != nullptr ? experiment->engine : plan.subjects[i].engine;
-    const auto entry = engines.find(info.engine);
-    info.available = entry != engines.end() && entry->second.description.found;
-    if (experiment == nullptr) continue;
-    const bool ours = info.engine == "dts";
-    info.law = ours ? experiment->contact : "";
-    const bool integrated = ours && contact::find_force_law(experiment->contact).has_value();
-    info.integrator = integrated ? experiment->integrator : "";
-    info.settings = ours ? "" : experiment->settings;
+/// Distinct words in their order: "hookpoint or bristle".
+void add_word(std::string& words, const std::string& word) {
+  if (word.empty() || (" or " + words + " or ").find(" or " + word + " or ") != std::string::npos)
+    return;
+  words += (words.empty() ? "" : " or ") + word;
+}
+
+/// A scene may set engine, law and integrator itself, and so may a Sweep: the table names all that
+/// are in force.
+void complete_subjects(StudyPlan& plan, const EngineTable& engines) {
+  for (SubjectPlan& subject : plan.subjects) {
+    subject.info.engine.clear();
+    subject.info.available = false;
+  }
+  for (SubjectInfo& composed : plan.compositions) {
+    const auto entry = engines.find(composed.engine);
+    composed.available = entry != engines.end() && entry->second.description.found;
+  }
+  for (const RowPlan& row : plan.rows) {
+    const SubjectInfo& composed = plan.compositions[static_cast<std::size_t>(row.composition)];
+    SubjectInfo& info = plan.subjects[static_cast<std::size_t>(row.subject)].info;
+    for (const auto word : {&SubjectInfo::engine, &SubjectInfo::law, &SubjectInfo::integrator,
+                            &SubjectInfo::settings})
+      add_word(info.*word, composed.*word);
+    info.available |= composed.available;
   }
 }
 
@@ -459,11 +596,11 @@ std::optional<StudyPlan> make_plan(const Object& root, const Object& study, cons
     return std::nullopt;
   }
   SceneLoader loader(library, scene, diagnostics);
-  const auto parameters = library.parameters(scene, diagnostics);
-  for (const language::ParameterDeclaration& parameter : parameters)
-    loader.parameters.push_back(parameter.name);
+  for (const language::ParameterDeclaration& parameter : library.parameters(scene, diagnostics))
+    plan.scene_parameters.push_back(parameter.name);
+  loader.parameters = plan.scene_parameters;
   loader.settings = options.settings;
-  loader.fixes = plan_parts(plan, study, parameters, options, diagnostics);
+  plan_parts(plan, study, scene, options, diagnostics);
   if (diagnostics.has_errors()) return std::nullopt;
   plan.printed = language::print(root);
   output::Hash hash;
@@ -481,7 +618,7 @@ std::optional<StudyPlan> make_plan(const Object& root, const Object& study, cons
                       "the study has no run: no Subject, or none that its Only blocks allow");
     return std::nullopt;
   }
-  complete_subjects(plan, engines, planner.first_rows);
+  complete_subjects(plan, engines);
   return plan;
 }
 

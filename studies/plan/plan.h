@@ -16,6 +16,7 @@
 #include "simulation/experiment.h"
 #include "studies/engine_table.h"
 #include "studies/metric.h"
+#include "studies/metrics/user_metric.h"
 #include "studies/plan/row_scene.h"
 #include "studies/result.h"
 
@@ -42,10 +43,23 @@ struct Condition {
   bool holds(double value) const;
 };
 
+/// What a Sweep sets: a Param, a field of the World, or the ground.
+/// `seeds`: the seed of the World's random streams, and a Param `seed` of scene and ground.
+enum class SweepRole { parameter, world_field, ground, seeds };
+
+/// A terrain's file, in the place of the scene's ground.
+struct SweptGround {
+  std::filesystem::path file;
+  std::vector<std::string> parameters;  ///< Params that it declares
+};
+
 struct SweepPlan {
   SweepColumn column;
-  std::vector<double> si;          ///< the same values in SI
-  std::vector<std::string> texts;  ///< as the language writes them: "5 deg"
+  std::vector<double> si;          ///< the same values in SI; of words 0, 1, 2 ...
+  std::vector<std::string> texts;  ///< as the language writes them: "5 deg", "clay"
+  SweepRole role = SweepRole::parameter;
+  std::vector<language::Position> places;  ///< where each value is written
+  std::vector<SweptGround> grounds;        ///< one a value of a ground
 };
 
 /// A Param and the text of its value.
@@ -68,6 +82,7 @@ struct TruthPlan {
   std::optional<double> value, above, below;
   double tolerance = 0., within = 0.;
   int same_over = -1;         ///< index of a sweep
+  bool of_scene = false;      ///< an Expect's: each run says what is allowed
   std::vector<int> subjects;  ///< empty: all
   std::vector<Condition> only;
   std::string name, words;
@@ -79,6 +94,13 @@ struct PlotPlan {
   std::vector<Condition> only;
 };
 
+/// What the user's own definition says of a metric of one run.
+struct RowForm {
+  std::optional<double> predicted = {};  ///< in the metric's unit
+  double allowed = 0.;                   ///< by the scene's own Truth: greatest difference from it
+  std::string missing = {};              ///< why the run cannot have the metric; "": it can
+};
+
 struct RowPlan {
   std::vector<int> values;  ///< one index a sweep
   int subject = 0;
@@ -88,8 +110,12 @@ struct RowPlan {
   std::string engine;                 ///< that runs it
   std::string hash;                   ///< of its experiment and the files that this reads
                                       ///< (simulation/identity.h)
+  /// Its engine cannot run it: the scene is kept as ours would run it.
+  bool under_ours = false;
+  int composition = 0;  ///< index into StudyPlan::compositions
   std::string
       refusal;  ///< why the row's engine cannot run the scene, which others can; "" if it can
+  std::vector<RowForm> forms = {};  ///< one a StudyPlan::user_metrics
 };
 
 /// A row's inputs are not what they were when it was planned. The message says what to do.
@@ -103,11 +129,16 @@ struct StudyPlan {
   bool quick = false;
   std::vector<SweepPlan> sweeps;
   std::vector<SubjectPlan> subjects;
+  std::vector<Assignment> fixes;              ///< the study's own
+  std::vector<std::string> scene_parameters;  ///< Params of the scene's file
+  std::vector<SubjectInfo> compositions;      ///< engine, law, integrator, settings of rows
   std::vector<const MetricDefinition*> metrics;
+  std::vector<std::shared_ptr<const UserMetric>> user_metrics;  ///< of those
   std::vector<int> metric_sweeps;  ///< one a metric: index of the sweep that it is over, else -1
   std::vector<TruthPlan> truths;
   std::vector<PlotPlan> plots;
   std::vector<TableSpec> tables;
+  std::vector<ClaimSpec> claims;
   std::vector<RowPlan> rows;  ///< sweeps outermost first, subjects innermost
   std::string printed;        ///< the study as a file
   std::string scene_printed;  ///< the scene of the first row
@@ -130,7 +161,13 @@ struct StudyPlan {
   std::string name_of(const RowPlan& row) const;
   /// What a row's experiment is made of.
   RowScene scene_of(const RowPlan& row) const;
-  /// The same as `--set` takes it: "slope=5 deg", "world.engine=ode".
+  /// The word of a World's field that the row's subject or a Sweep says; "": the scene's own.
+  std::string world_word(const RowPlan& row, const std::string& field) const;
+  /// The sweep of `seeds`; -1 without.
+  int seed_sweep() const;
+  /// Whether the field is another from row to row of one subject.
+  bool varies(const std::string& world_field) const;
+  /// The same as `--set` takes it: "slope=5 deg", "world.engine=ode". Without the row's ground.
   std::vector<std::string> settings_of(const RowPlan& row) const;
   /// A row's experiment, as it is run; of one that is refused, as it would be under our engine.
   /// Thread-safe. Throws ChangedInput.

@@ -2,6 +2,7 @@
 // planned so far, with the nearest one in the error.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -11,24 +12,36 @@
 #include "language/tree/object.h"
 #include "studies/plan/plan.h"
 #include "studies/plan/plan_values.h"
+#include "studies/plan/scene_probe.h"
 
 namespace hookpoint::studies {
 
 class PlanBuilder {
  public:
-  PlanBuilder(StudyPlan& plan, std::vector<std::string> parameters, const PlanOptions& options,
-              language::Diagnostics& diagnostics)
+  PlanBuilder(StudyPlan& plan, const PlanOptions& options, language::Diagnostics& diagnostics)
       : plan_(plan),
-        parameters_(std::move(parameters)),
+        parameters_(plan.scene_parameters),
         options_(options),
         diagnostics_(diagnostics) {}
+
+  /// Reads which Params the grounds have that a Sweep `terrain` names, before the blocks that may
+  /// speak of them.
+  void find_grounds(const language::Object& block);
+
+  /// What names mean in the scene, for what follows; null where it cannot be laid down.
+  void know(SceneNames* scene) { scene_ = scene; }
 
   void add_sweep(const language::Object& block);
   void add_subject(const language::Object& block);
   void add_metric(const language::Object& block);
+  /// Those Expects of the scene that say something of a run as long as the study's.
+  void add_expectations();
   void add_truth(const language::Object& block);
   void add_plot(const language::Object& block);
   void add_table(const language::Object& block);
+  void add_claim(const language::Object& block);
+  /// The runs of each row, after all that may speak of other sweeps.
+  void add_seeds(const language::Object& study);
   void check_only_option(const language::Object& study);
   void check_size(const language::Object& study);
   std::vector<Assignment> fixes(const language::Object& owner);
@@ -42,6 +55,16 @@ class PlanBuilder {
   /// Whether a Sweep may have so many; if not, an error at its `field`.
   bool may_have_values(const language::Object& block, const char* field, double count);
   std::vector<double> sweep_values(const language::Object& block, const WrittenUnit& unit);
+  /// What a Sweep of this name sets; nothing, after an error, where no such thing is.
+  std::optional<SweepRole> role_of(const language::Object& block);
+  /// Whether the words are what a Subject may say there; else errors.
+  bool may_say(const language::Object& block, const language::Field& words);
+  void add_word_sweep(const language::Object& block, SweepRole role);
+  /// Whether no field of the block is swept; else an error.
+  void check_not_swept(const language::Object& subject);
+  /// The places of the words in the sweep.
+  std::vector<double> word_values(const SweepPlan& sweep, const language::Field& field);
+  Condition condition(const language::Object& block, int sweep);
   std::vector<Condition> conditions(const language::Object& owner);
   std::string conditions_words(const std::vector<Condition>& conditions) const;
   std::string truth_words(const language::Object& block, const TruthPlan& truth);
@@ -49,11 +72,40 @@ class PlanBuilder {
   std::string sweep_unit(const language::Object& block, const char* field);
   std::string metric_unit(const language::Object& block, const char* field);
   static std::vector<std::string> metric_names();
+  std::vector<std::string> measured_names() const;
+  std::ptrdiff_t measured_index(std::string_view name) const;  ///< of StudyPlan::metrics; -1: none
+  /// A metric that the block itself defines.
+  void add_own_metric(const language::Object& block);
+  /// Errors where a built-in metric's block has fields of the user's own.
+  void check_own_fields(const language::Object& block);
+  /// Of the names of a formula of ports, or of the scene's constants; the ports' trails go to
+  /// `trails`. Nothing after an error.
+  std::optional<std::vector<std::optional<language::Dimension>>> dimensions_of(
+      const language::Formula& formula, bool ports, std::vector<std::string>& trails);
+  std::optional<language::FormulaUnit> formula_unit(const language::Formula& formula, bool ports,
+                                                    std::vector<std::string>& trails);
+  void check_fits(const language::Field& field, const std::optional<language::Dimension>& found,
+                  const language::Dimension& wanted);
+  simulation::ReductionSpec reduction_of(const language::Object& block);
+  void set_unit(UserMetric& metric, const language::Object& block,
+                const std::optional<language::Dimension>& dimension);
+  void add_expectation(const language::Object& block, const simulation::ExpectationSpec& spec);
+  void keep(UserMetric metric);
+  /// " within 1 % or 2 mm"; `unit` with a blank before it.
+  static std::string allowed_words(const TruthPlan& truth, const std::string& unit);
   /// The number that the block has in `field`, with an error where its unit is not of the kind of
   /// `unit`.
   double number_in(const language::Object& block, const char* field, std::string_view unit);
   /// For figures: the values of the sweeps that the conditions let in, in the sweeps' units.
   SweepValues admitted(const std::vector<Condition>& conditions) const;
+  /// Adds the value of the sweep `name` that `value` is to `where`; false after an error.
+  bool is_claim_place(const language::Object& block, const std::string& name,
+                      const std::string& value, SweepValues& where);
+  /// What stands between two braces of a Claim's text; nothing after an error.
+  std::optional<ClaimPart> claim_number(const language::Object& block, const std::string& text);
+  std::optional<ClaimValue> claim_value(const language::Object& block, const std::string& text);
+  bool claim_parts(const language::Object& block, std::vector<ClaimPart>& parts);
+  std::vector<int> claim_truths(const language::Object& block, const std::vector<ClaimPart>& parts);
   /// Whether `field` names a sweep or is `subject`; if not, an error.
   bool is_table_side(const language::Object& block, const char* field);
   void set_panels(PlotSpec& spec, const language::Object& block);
@@ -62,9 +114,11 @@ class PlanBuilder {
   void set_map(PlotSpec& spec, const language::Object& block);
 
   StudyPlan& plan_;
-  std::vector<std::string> parameters_;
+  std::vector<std::string> parameters_;  ///< of the scene and of its grounds
+  std::vector<SweptGround> grounds_;
   const PlanOptions& options_;
   language::Diagnostics& diagnostics_;
+  SceneNames* scene_ = nullptr;
 };
 
 }  // namespace hookpoint::studies

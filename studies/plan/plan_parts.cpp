@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "language/names.h"
 #include "language/values/budget.h"
@@ -17,11 +18,30 @@ using language::Diagnostics;
 using language::Field;
 using language::Object;
 
+/// Sweeps of no Param: fields of the World, and its ground.
+constexpr std::array<const char*, 4> world_sweeps{"engine", "contact", "integrator", "settings"};
+constexpr const char* ground_sweep = "terrain";
+
 std::vector<double> in_unit(const std::vector<double>& si, const WrittenUnit& unit) {
   std::vector<double> values;
   for (const double value : si) values.push_back(tidy(unit.from_si(value)));
   return values;
 }
+
+/// The scene as the study's first run has it, but for fields of its World. Null where it cannot be
+/// laid down; what is wrong goes to `diagnostics`.
+std::unique_ptr<Object> lay_first(const StudyPlan& plan, const std::filesystem::path& file,
+                                  Diagnostics& diagnostics) {
+  if (plan.subjects.empty()) return nullptr;
+  RowPlan first;
+  first.values.assign(plan.sweeps.size(), 0);
+  first.scene = std::make_shared<const RowScene>(RowScene{.file = file, .options = {}});
+  RowScene scene = plan.scene_of(first);
+  scene.options.overrides.clear();
+  return lay_down(*plan.library, scene, diagnostics);
+}
+
+bool is_own_metric(const Object* block) { return block->given("of"); }
 
 }  // namespace
 
@@ -41,6 +61,18 @@ int PlanBuilder::sweep_index(const std::string& name) const {
   const auto names = sweep_names();
   const auto found = std::find(names.begin(), names.end(), name);
   return found == names.end() ? -1 : static_cast<int>(found - names.begin());
+}
+
+std::optional<SweepRole> PlanBuilder::role_of(const Object& block) {
+  if (std::ranges::find(parameters_, block.name) != parameters_.end()) return SweepRole::parameter;
+  if (block.name == ground_sweep) return SweepRole::ground;
+  if (std::ranges::find(world_sweeps, block.name) != world_sweeps.end())
+    return SweepRole::world_field;
+  std::vector<std::string> known = parameters_;
+  known.insert(known.end(), world_sweeps.begin(), world_sweeps.end());
+  known.emplace_back(ground_sweep);
+  unknown(block.position, "Param of the scene", block.name, known);
+  return std::nullopt;
 }
 
 bool PlanBuilder::parameter_exists(const Object& block) {
@@ -93,15 +125,105 @@ std::vector<double> PlanBuilder::sweep_values(const Object& block, const Written
   return values;
 }
 
+void PlanBuilder::find_grounds(const Object& block) {
+  if (std::ranges::find(parameters_, block.name) != parameters_.end()) return;
+  const Field* values = block.find("values");
+  for (std::size_t i = 0; values != nullptr && i < values->words.size(); ++i) {
+    SweptGround& ground = grounds_.emplace_back();
+    ground.file = plan_.library->find(values->words[i], plan_.file);
+    if (ground.file.empty()) {
+      diagnostics_.error(
+          values->places[i],
+          fmt::format("no file \"{}\" beside the study or in configs/", values->words[i]));
+      continue;
+    }
+    for (const auto& declared : plan_.library->parameters(ground.file, diagnostics_))
+      ground.parameters.push_back(declared.name);
+  }
+  for (const SweptGround& ground : grounds_)
+    parameters_.insert(parameters_.end(), ground.parameters.begin(), ground.parameters.end());
+}
+
+std::vector<double> PlanBuilder::word_values(const SweepPlan& sweep, const Field& field) {
+  std::vector<double> values;
+  for (std::size_t i = 0; i < field.words.size(); ++i) {
+    const auto& words = sweep.column.words;
+    const auto found = std::ranges::find(words, field.words[i]);
+    if (found == words.end())
+      unknown(field.places[i], "value of the Sweep " + sweep.column.name, field.words[i], words);
+    else
+      values.push_back(static_cast<double>(found - words.begin()));
+  }
+  return values;
+}
+
+bool PlanBuilder::may_say(const Object& block, const Field& words) {
+  const auto subjects = block.parent->children_of("Subject");
+  const language::FieldSchema* field =
+      subjects.empty() ? nullptr : subjects.front()->schema->find(block.name);
+  if (field == nullptr || field->choices.empty()) return true;
+  bool good = true;
+  for (std::size_t i = 0; i < words.words.size(); ++i) {
+    if (std::ranges::find(field->choices, words.words[i]) != field->choices.end()) continue;
+    unknown(words.places[i], block.name, words.words[i], field->choices);
+    good = false;
+  }
+  return good;
+}
+
+void PlanBuilder::add_word_sweep(const Object& block, SweepRole role) {
+  const Field& field = *block.find("values");
+  if (role == SweepRole::world_field && !may_say(block, field)) return;
+  const std::vector<std::string> texts = word_texts(field);
+  SweepPlan all;
+  all.column = {block.name, "", {}, field.words};
+  std::vector<double> taken;
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    taken.push_back(static_cast<double>(i));
+    if (std::ranges::count(field.words, field.words[i]) > 1)
+      return diagnostics_.error(field.places[i],
+                                fmt::format("`{}` stands there twice", field.words[i]));
+  }
+  const Field* quick = block.find("quick_values");
+  if (options_.quick && quick != nullptr && quick->words.empty())
+    diagnostics_.error(quick->position, "`quick_values` takes some of the words of `values`");
+  if (options_.quick && quick != nullptr)
+    taken = word_values(all, *quick);
+  else if (options_.quick && taken.size() > 2)
+    taken = {taken.front(), taken.back()};
+  SweepPlan sweep;
+  sweep.column = {block.name, "", {}, {}};
+  sweep.role = role;
+  for (const double value : taken) {
+    const auto i = static_cast<std::size_t>(value);
+    sweep.si.push_back(static_cast<double>(sweep.si.size()));
+    sweep.column.words.push_back(field.words[i]);
+    sweep.texts.push_back(texts[i]);
+    sweep.places.push_back(field.places[i]);
+    if (role == SweepRole::ground) sweep.grounds.push_back(grounds_[i]);
+  }
+  sweep.column.values = sweep.si;
+  plan_.sweeps.push_back(std::move(sweep));
+}
+
 void PlanBuilder::add_sweep(const Object& block) {
-  if (!parameter_exists(block)) return;
+  const auto role = role_of(block);
+  if (!role) return;
+  const Field* values = block.find("values");
+  if (values != nullptr && !values->words.empty()) return add_word_sweep(block, *role);
+  if (*role != SweepRole::parameter)
+    return diagnostics_.error(block.position,
+                              fmt::format("a Sweep of `{}` needs `values`, words or strings: the "
+                                          "scene has no Param of that name",
+                                          block.name));
   const Field* first = block.find("values") != nullptr ? block.find("values") : block.find("from");
   const WrittenUnit unit = first == nullptr ? WrittenUnit{} : written_unit(*first);
   SweepPlan sweep;
-  sweep.column = {block.name, unit.text, sweep_values(block, unit)};
+  sweep.column = {block.name, unit.text, sweep_values(block, unit), {}};
   for (const double value : sweep.column.values) {
     sweep.si.push_back(unit.to_si(value));
     sweep.texts.push_back(unit.with_unit(value));
+    sweep.places.push_back(first == nullptr ? block.position : first->position);
   }
   plan_.sweeps.push_back(std::move(sweep));
 }
@@ -120,21 +242,49 @@ std::vector<Assignment> PlanBuilder::fixes(const Object& owner) {
   return result;
 }
 
+Condition PlanBuilder::condition(const Object& block, int sweep) {
+  const SweepPlan& swept = plan_.sweeps[static_cast<std::size_t>(sweep)];
+  const bool words = !swept.column.words.empty();
+  Condition condition;
+  condition.sweep = sweep;
+  if (const Field* values = block.find("values")) {
+    if (values->words.empty() == words)
+      diagnostics_.error(
+          values->position,
+          fmt::format("the values of `{}` are {}", swept.column.name,
+                      words ? "words: " + language::join(swept.texts, ", ") : "numbers"));
+    condition.values = words ? word_values(swept, *values) : values->numbers;
+  }
+  for (const char* end : {"from", "to"})
+    if (words && block.find(end) != nullptr)
+      diagnostics_.error(
+          block.find(end)->position,
+          fmt::format("`{}` has words, which have no order: give `values`", swept.column.name));
+  if (block.find("from") != nullptr) condition.from = block.number("from");
+  if (block.find("to") != nullptr) condition.to = block.number("to");
+  return condition;
+}
+
 std::vector<Condition> PlanBuilder::conditions(const Object& owner) {
   std::vector<Condition> result;
   for (const Object* block : owner.children_of("Only")) {
-    Condition condition;
-    condition.sweep = sweep_index(block->name);
-    if (condition.sweep < 0) {
+    const int sweep = sweep_index(block->name);
+    if (sweep < 0)
       unknown(block->position, "Sweep", block->name, sweep_names());
-      continue;
-    }
-    if (block->find("values") != nullptr) condition.values = block->numbers("values");
-    if (block->find("from") != nullptr) condition.from = block->number("from");
-    if (block->find("to") != nullptr) condition.to = block->number("to");
-    result.push_back(std::move(condition));
+    else
+      result.push_back(condition(*block, sweep));
   }
   return result;
+}
+
+void PlanBuilder::check_not_swept(const Object& subject) {
+  for (const SweepPlan& sweep : plan_.sweeps) {
+    const Field* field = subject.find(sweep.column.name);
+    if (sweep.role == SweepRole::world_field && field != nullptr)
+      diagnostics_.error(
+          field->position,
+          fmt::format("`{}` is swept: a Subject cannot say it as well", sweep.column.name));
+  }
 }
 
 void PlanBuilder::add_subject(const Object& block) {
@@ -143,6 +293,7 @@ void PlanBuilder::add_subject(const Object& block) {
     diagnostics_.error(
         block.find("contact")->position,
         fmt::format("engine {} has a contact of its own: leave `contact` out", subject.engine));
+  check_not_swept(block);
   subject.fixes = fixes(block);
   subject.only = conditions(block);
   plan_.subjects.push_back(std::move(subject));
@@ -162,12 +313,18 @@ double PlanBuilder::number_in(const Object& block, const char* field, std::strin
                        fmt::format("`{}` is in {}, not {}", field,
                                    language::describe_dimension(expected->dimension),
                                    language::describe_dimension(given.dimension)));
-  return block.number(field);
+  return block.number(field) * (expected ? expected->denominator / expected->numerator : 1.);
 }
 
 void PlanBuilder::add_metric(const Object& block) {
+  if (block.given("of")) return add_own_metric(block);
   const MetricDefinition* metric = find_metric(block.name);
-  if (metric == nullptr) return unknown(block.position, "metric", block.name, metric_names());
+  if (metric == nullptr)
+    return diagnostics_.error(
+        block.position,
+        fmt::format("no metric is called `{}` (one of your own says what it is `of`){}", block.name,
+                    language::did_you_mean(block.name, metric_names())));
+  check_own_fields(block);
   const Field* over = block.find("over");
   int sweep = -1;
   if (metric->scope == MetricScope::sweep) {
@@ -203,6 +360,16 @@ std::string PlanBuilder::conditions_words(const std::vector<Condition>& conditio
   return words;
 }
 
+std::string PlanBuilder::allowed_words(const TruthPlan& truth, const std::string& unit) {
+  std::string words;
+  if (truth.tolerance > 0.)
+    words += " within " + output::shortest(tidy(100. * truth.tolerance)) + " %";
+  if (truth.within > 0.)
+    words +=
+        (truth.tolerance > 0. ? " or " : " within ") + output::shortest(tidy(truth.within)) + unit;
+  return words;
+}
+
 std::string PlanBuilder::truth_words(const Object& block, const TruthPlan& truth) {
   const MetricDefinition& metric = *plan_.metrics[truth.metric];
   const std::string unit = metric.unit.empty() ? "" : " " + std::string(metric.unit);
@@ -213,10 +380,7 @@ std::string PlanBuilder::truth_words(const Object& block, const TruthPlan& truth
   if (truth.same_over >= 0)
     words +=
         " is the same over " + plan_.sweeps[static_cast<std::size_t>(truth.same_over)].column.name;
-  if (truth.tolerance > 0.)
-    words += " within " + output::shortest(tidy(100. * truth.tolerance)) + " %";
-  if (truth.within > 0.)
-    words += (truth.tolerance > 0. ? " or " : " within ") + number(truth.within);
+  words += allowed_words(truth, unit);
   if (truth.above) words += " is above " + number(*truth.above);
   if (truth.below) words += " is below " + number(*truth.below);
   words += conditions_words(truth.only);
@@ -228,14 +392,9 @@ std::string PlanBuilder::truth_words(const Object& block, const TruthPlan& truth
 void PlanBuilder::add_truth(const Object& block) {
   TruthPlan truth;
   const std::string metric = block.find("metric") != nullptr ? block.word("metric") : block.name;
-  std::vector<std::string> measured;
-  for (const MetricDefinition* definition : plan_.metrics) measured.emplace_back(definition->name);
-  const auto found = std::find(measured.begin(), measured.end(), metric);
-  if (found == measured.end()) {
-    unknown(block.position, "Measure of this study", metric, measured);
-    return;
-  }
-  truth.metric = static_cast<std::size_t>(found - measured.begin());
+  const std::ptrdiff_t found = measured_index(metric);
+  if (found < 0) return unknown(block.position, "Measure of this study", metric, measured_names());
+  truth.metric = static_cast<std::size_t>(found);
   const std::string_view unit = plan_.metrics[truth.metric]->unit;
   const auto number = [&](const char* field) {
     return block.find(field) == nullptr ? std::nullopt
@@ -280,6 +439,29 @@ std::vector<int> PlanBuilder::named_subjects(const Object& block) {
   return subjects;
 }
 
+void PlanBuilder::add_seeds(const Object& study) {
+  const Field* field = study.find("seeds");
+  if (field == nullptr) return;
+  constexpr const char* seed = "seed";
+  const auto is_seed = [&](const Assignment& fix) { return fix.parameter == seed; };
+  bool taken = sweep_index(seed) >= 0 || std::ranges::any_of(plan_.fixes, is_seed);
+  for (const SubjectPlan& subject : plan_.subjects)
+    taken = taken || std::ranges::any_of(subject.fixes, is_seed);
+  if (taken)
+    return diagnostics_.error(field->position,
+                              "`seeds` varies the Param `seed`: it cannot be swept or fixed");
+  SweepPlan sweep;
+  sweep.column.name = seed;
+  sweep.role = SweepRole::seeds;
+  for (int i = 1; i <= static_cast<int>(study.number("seeds")); ++i) {
+    sweep.si.push_back(i);
+    sweep.texts.push_back(std::to_string(i));
+    sweep.places.push_back(field->position);
+  }
+  sweep.column.values = sweep.si;
+  plan_.sweeps.push_back(std::move(sweep));
+}
+
 void PlanBuilder::check_only_option(const Object& study) {
   std::vector<std::string> names;
   for (const SubjectPlan& subject : plan_.subjects) names.push_back(subject.info.name);
@@ -301,22 +483,31 @@ SubjectPlan subject_of(const Object& block) {
   return subject;
 }
 
-std::vector<Assignment> plan_parts(StudyPlan& plan, const Object& study,
-                                   const std::vector<language::ParameterDeclaration>& parameters,
-                                   const PlanOptions& options, Diagnostics& diagnostics) {
-  std::vector<std::string> names;
-  for (const language::ParameterDeclaration& parameter : parameters)
-    names.push_back(parameter.name);
-  PlanBuilder parts(plan, std::move(names), options, diagnostics);
+void plan_parts(StudyPlan& plan, const Object& study, const std::filesystem::path& scene_file,
+                const PlanOptions& options, Diagnostics& diagnostics) {
+  PlanBuilder parts(plan, options, diagnostics);
+  for (const Object* block : study.children_of("Sweep"))
+    if (block->name == ground_sweep) parts.find_grounds(*block);
   for (const Object* block : study.children_of("Sweep")) parts.add_sweep(*block);
-  for (const Object* block : study.children_of("Measure")) parts.add_metric(*block);
   for (const Object* block : study.children_of("Subject")) parts.add_subject(*block);
+  plan.fixes = parts.fixes(study);
+  std::unique_ptr<Object> scene;
+  Diagnostics untold;
+  if (!diagnostics.has_errors()) {
+    const bool own = std::ranges::any_of(study.children_of("Measure"), is_own_metric);
+    scene = lay_first(plan, scene_file, own ? diagnostics : untold);
+  }
+  std::optional<SceneNames> known;
+  if (scene) parts.know(&known.emplace(*scene));
+  for (const Object* block : study.children_of("Measure")) parts.add_metric(*block);
+  if (scene && study.boolean("expects")) parts.add_expectations();
   for (const Object* block : study.children_of("Truth")) parts.add_truth(*block);
   for (const Object* block : study.children_of("Plot")) parts.add_plot(*block);
   for (const Object* block : study.children_of("Table")) parts.add_table(*block);
+  for (const Object* block : study.children_of("Claim")) parts.add_claim(*block);
+  parts.add_seeds(study);
   parts.check_only_option(study);
   parts.check_size(study);
-  return parts.fixes(study);
 }
 
 }  // namespace hookpoint::studies

@@ -2,7 +2,7 @@
 // Subject of a Wall besides.
 #pragma once
 
-#include <vector>
+#include <filesystem>
 
 #include "studies/plan/plan.h"
 
@@ -12,10 +12,9 @@ namespace hookpoint::studies {
 /// left to the caller.
 SubjectPlan subject_of(const language::Object& block);
 
-/// Fills sweeps, subjects, metrics, truths and plots of `plan`; returns the study's own Fix blocks.
-/// Errors go to `diagnostics`.
-std::vector<Assignment> plan_parts(StudyPlan& plan, const language::Object& study,
-                                   const std::vector<language::ParameterDeclaration>& parameters,
-                                   const PlanOptions& options, language::Diagnostics& diagnostics);
+/// Fills sweeps, subjects, metrics, truths, plots and fixes of `plan`, whose library, file and
+/// scene_parameters are set. `scene`: its file. Errors go to `diagnostics`.
+void plan_parts(StudyPlan& plan, const language::Object& study, const std::filesystem::path& scene,
+                const PlanOptions& options, language::Diagnostics& diagnostics);
 
 }  // namespace hookpoint::studies

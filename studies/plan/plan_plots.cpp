@@ -21,11 +21,11 @@ std::string PlanBuilder::sweep_unit(const Object& block, const char* field) {
 
 /// The unit of the metric that `field` names and the study measures.
 std::string PlanBuilder::metric_unit(const Object& block, const char* field) {
-  const MetricDefinition* metric = find_metric(block.word(field));
-  if (metric != nullptr &&
-      std::find(plan_.metrics.begin(), plan_.metrics.end(), metric) != plan_.metrics.end())
-    return std::string(metric->unit);
-  unknown(block.find(field)->position, "Measure of this study", block.word(field), metric_names());
+  const std::ptrdiff_t metric = measured_index(block.word(field));
+  if (metric >= 0) return std::string(plan_.metrics[static_cast<std::size_t>(metric)]->unit);
+  std::vector<std::string> known = metric_names();
+  for (std::string& name : measured_names()) known.push_back(std::move(name));
+  unknown(block.find(field)->position, "Measure of this study", block.word(field), known);
   return "";
 }
 
@@ -111,13 +111,19 @@ void PlanBuilder::add_plot(const Object& block) {
   if (over_time) {
     set_time_axes(plot, block);
   } else {
-    const bool metric = sweep_index(spec.x) < 0 && find_metric(spec.x) != nullptr;
+    const bool metric =
+        sweep_index(spec.x) < 0 && (measured_index(spec.x) >= 0 || find_metric(spec.x) != nullptr);
     spec.x_unit = metric && !map ? metric_unit(block, "x") : sweep_unit(block, "x");
     if (map)
       set_map(spec, block);
     else
       spec.y_unit = metric_unit(block, "y");
   }
+  const int x_sweep = sweep_index(spec.x);
+  if (spec.log_x && x_sweep >= 0 &&
+      !plan_.sweeps[static_cast<std::size_t>(x_sweep)].column.words.empty())
+    diagnostics_.error(block.find("scale")->position,
+                       fmt::format("`{}` has words: its axis cannot be logarithmic", spec.x));
   if (spec.series != "subject" && sweep_index(spec.series) < 0)
     unknown(block.find("series")->position, "Sweep", spec.series, sweep_names());
   spec.subjects = named_subjects(block);

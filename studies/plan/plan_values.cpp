@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "language/tree/print.h"
 #include "output/text/number.h"
 
 namespace hookpoint::studies {
@@ -14,7 +15,15 @@ WrittenUnit written_unit(const language::Field& field) {
   return {field.unit, language::parse_unit(field.unit).value_or(language::Unit{})};
 }
 
+std::vector<std::string> word_texts(const language::Field& field) {
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < field.words.size(); ++i)
+    texts.push_back(field.quoted[i] ? language::quote(field.words[i]) : field.words[i]);
+  return texts;
+}
+
 std::string text_of(const language::Field& field) {
+  if (!field.words.empty()) return word_texts(field).front();
   const std::string unit = language::unit_text(field.dimension);
   return output::shortest(field.numbers.at(0)) + (unit.empty() ? "" : " " + unit);
 }

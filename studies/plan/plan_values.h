@@ -23,9 +23,12 @@ struct WrittenUnit {
 /// The unit that the field's value is written in.
 WrittenUnit written_unit(const language::Field& field);
 
-/// The field's number as text that the language reads back to the same double, in SI with its unit:
-/// what stands for it elsewhere, where the names of its own file mean nothing.
+/// The field's number as text that the language reads back to the same double, in SI with its unit,
+/// or the word in its place: what stands for it elsewhere, where the names of its own file mean
+/// nothing.
 std::string text_of(const language::Field& field);
+/// Its words as text that the language reads back: "clay", "\"sand.hook\"".
+std::vector<std::string> word_texts(const language::Field& field);
 
 /// To 12 significant digits: 0.30000000000000004 is 0.3.
 double tidy(double value);

@@ -76,7 +76,7 @@ std::unique_ptr<Object> lay_down(language::Library& library, const RowScene& sce
 
 std::optional<LoadedScene> load_scene(language::Library& library, const RowScene& scene,
                                       language::Diagnostics& diagnostics) {
-  const auto tree = lay_down(library, scene, diagnostics);
+  auto tree = lay_down(library, scene, diagnostics);
   if (!tree) return std::nullopt;
   auto experiment = simulation::load_experiment(*tree, diagnostics, library.search_path());
   if (!experiment || diagnostics.has_errors()) return std::nullopt;
@@ -84,6 +84,7 @@ std::optional<LoadedScene> load_scene(language::Library& library, const RowScene
   LoadedScene loaded{std::move(*experiment), language::print(*tree), {}};
   loaded.sources = simulation::files_read(loaded.experiment);
   for (std::string& source : language::sources_of(*tree)) loaded.sources.insert(std::move(source));
+  loaded.tree = std::move(tree);
   return loaded;
 }
 

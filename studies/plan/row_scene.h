@@ -33,6 +33,7 @@ struct LoadedScene {
   simulation::Experiment experiment;
   std::string printed;            ///< what it was made of, after includes, loops and expressions
   std::set<std::string> sources;  ///< files that it was made from and that its run reads
+  std::unique_ptr<language::Object> tree = nullptr;  ///< what it was loaded from
 };
 
 /// What a ground's file lays down: a Terrain and Materials alone. Null when `diagnostics` got an

@@ -48,7 +48,7 @@ const language::Field* field_at(const language::Object& scene, const std::string
   return nullptr;
 }
 
-bool same_value(const language::Field* one, const language::Field* other) {
+bool same_in_both(const language::Field* one, const language::Field* other) {
   if (one == nullptr || other == nullptr) return one == other;
   return one->numbers == other->numbers && one->words == other->words &&
          one->reference.trail == other->reference.trail;
@@ -60,7 +60,7 @@ const language::Override* changed_setting(const std::vector<language::Override>&
                                           const language::Object& one,
                                           const language::Object& other) {
   const auto changed = std::ranges::find_if(settings, [&](const language::Override& setting) {
-    return !same_value(field_at(one, setting.trail), field_at(other, setting.trail));
+    return !same_in_both(field_at(one, setting.trail), field_at(other, setting.trail));
   });
   return changed == settings.end() ? nullptr : &*changed;
 }

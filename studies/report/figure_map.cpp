@@ -81,13 +81,15 @@ Figure make_map(const StudyResult& study, const PlotSpec& spec) {
         (map.subtitle.empty() ? "" : "; ") + ("largest over " + undecided_sweeps(study, spec));
   map.x = {.label = spoken(spec.x), .unit = spec.x_unit};
   map.y = {.label = spoken(spec.y), .unit = spec.y_unit};
+  const auto x = sweep_index(study, spec.x), y = sweep_index(study, spec.y);
+  map.x.names = study.sweeps[x.value()].words;
+  map.y.names = study.sweeps[y.value()].words;
   map.color = {.label = spoken(spec.color),
                .unit = spec.color_unit,
                .logarithmic = spec.log_y,
                .floor = least_drawn};
   map.x_values = drawn_values(study, spec, spec.x);
   map.y_values = drawn_values(study, spec, spec.y);
-  const auto x = sweep_index(study, spec.x), y = sweep_index(study, spec.y);
   const auto color = metric_index(study, spec.color), outline = metric_index(study, spec.outline);
   for (std::size_t subject = 0; subject < study.subjects.size(); ++subject) {
     output::HeatMapPanel panel;

@@ -37,7 +37,8 @@ std::string fixed_values_text(const StudyResult& study, const PlotSpec& spec) {
     if (name == spec.x || name == spec.y || panel) continue;
     text += (text.empty() ? "" : ", ") + spoken(name) + " = ";
     for (std::size_t i = 0; i < values.size(); ++i)
-      text += (i > 0 ? " or " : "") + output::rounded(values[i], 6);
+      text += (i > 0 ? " or " : "") +
+              (sweep ? label_of(study.sweeps[*sweep], values[i]) : output::rounded(values[i], 6));
     if (sweep && !study.sweeps[*sweep].unit.empty()) text += " " + study.sweeps[*sweep].unit;
   }
   return text;

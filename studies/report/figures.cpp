@@ -9,6 +9,7 @@
 #include "output/text/number.h"
 #include "studies/report/figure_notes.h"
 #include "studies/report/figure_parts.h"
+#include "studies/seed_means.h"
 #include "studies/summary.h"
 
 namespace hookpoint::studies {
@@ -38,7 +39,7 @@ std::string series_label(const StudyResult& study, const PlotSpec& spec, const S
   const auto sweep = sweep_index(study, spec.series);
   if (!sweep) return subject;
   const SweepColumn& column = study.sweeps[*sweep];
-  std::string value = output::rounded(column.values[static_cast<std::size_t>(key.value)], 6);
+  std::string value = label_of(column, column.values[static_cast<std::size_t>(key.value)]);
   if (!column.unit.empty()) value += " " + column.unit;
   return study.subjects.size() > 1 ? subject + ", " + value : value;
 }
@@ -143,11 +144,13 @@ void fill(output::Series& series, const Gathered& gathered, const PlotSpec& spec
   for (const auto& [x, value] : gathered.points) {
     series.measured.x.push_back(x);
     series.measured.y.push_back(*value.measured);
+    if (value.half_width) series.half_widths.push_back(*value.half_width);
     if (!spec.show_predicted || !value.predicted) continue;
     series.predicted.x.push_back(x);
     series.predicted.y.push_back(*value.predicted);
   }
   if (gathered.points.size() <= 2 * thinned_buckets) return;
+  series.half_widths.clear();
   series.measured = thin(series.measured, spec.log_x);
   series.predicted = thin(series.predicted, spec.log_x);
 }
@@ -177,6 +180,7 @@ SeriesTable series_of(const StudyResult& study, const PlotSpec& spec, std::size_
     output::Series series;
     series.label = series_label(study, spec, key);
     series.style = series_style(study, spec, key);
+    series.scattered = x && !study.sweeps[*x].words.empty();
     fill(series, points, spec);
     if (!series.measured.x.empty() || !series.unfinished.empty()) table.emplace(key, series);
   }
@@ -199,6 +203,7 @@ output::Plot axes_of(const StudyResult& study, const PlotSpec& spec) {
     return label.empty() ? spoken(name) : label;
   };
   plot.x = {.label = name_or(spec.x_label, spec.x), .unit = spec.x_unit, .logarithmic = spec.log_x};
+  if (const auto x = sweep_index(study, spec.x)) plot.x.names = study.sweeps[*x].words;
   plot.y = {.label = name_or(spec.y_label, spec.y),
             .unit = spec.y_unit,
             .logarithmic = spec.log_y,
@@ -250,6 +255,10 @@ std::string caption_of(const StudyResult& study, const PlotSpec& spec, const out
         return !series.reference && !series.predicted.x.empty();
       }))
     caption += " Markers: measured; dashed: closed form.";
+  if (any_series(plots, [](const output::Series& series) { return !series.half_widths.empty(); }))
+    caption += " Bars: the mean's 95 % interval over the seeds (Student's t).";
+  else if (study.runs != nullptr)
+    caption += " Means over the seeds.";
   std::vector<std::string> labels;
   for (const ReferenceLine& reference : spec.references)
     if (std::ranges::find(labels, reference.label) == labels.end())
@@ -329,6 +338,7 @@ std::vector<int> subject_styles(const StudyResult& study) {
 }
 
 Figure make_figure(const StudyResult& study, std::size_t plot) {
+  if (study.seed_sweep) return make_figure(over_seeds(study), plot);
   const PlotSpec& spec = study.plots[plot];
   if (!spec.color.empty()) return make_map(study, spec);
   Figure figure;

@@ -4,11 +4,14 @@
 #include "output/figures/plot.h"
 #include "output/file.h"
 #include "output/text/number.h"
+#include "studies/claims.h"
 #include "studies/report/figures.h"
 #include "studies/report/report_distances.h"
 #include "studies/report/report_page.h"
 #include "studies/report/report_pivots.h"
 #include "studies/report/report_tables.h"
+#include "studies/seed_means.h"
+#include "studies/selection.h"
 #include "studies/summary.h"
 
 namespace hookpoint::studies {
@@ -58,13 +61,31 @@ std::string varied_line(const StudyResult& study) {
     text += html(spoken(sweep.name)) + " ";
     if (sweep.values.size() > most_told)
       text += std::to_string(sweep.values.size()) + " values from " +
-              output::rounded(sweep.values.front(), 6) + " to " +
-              output::rounded(sweep.values.back(), 6);
+              label_of(sweep, sweep.values.front()) + " to " + label_of(sweep, sweep.values.back());
     for (std::size_t i = 0; i < sweep.values.size() && sweep.values.size() <= most_told; ++i)
-      text += (i > 0 ? ", " : "") + output::rounded(sweep.values[i], 6);
+      text += (i > 0 ? ", " : "") + html(label_of(sweep, sweep.values[i]));
     if (!sweep.unit.empty()) text += " " + html(sweep.unit);
   }
+  if (study.runs != nullptr) text += (text.empty() ? "" : "; ") + seeds_words(study);
   return text.empty() ? "" : paragraph("facts", text + ".");
+}
+
+/// Each with a mark and words, so that it can be read without colours.
+std::string claims(const StudyResult& study) {
+  std::string text;
+  for (const ClaimSpec& claim : study.claims) {
+    const SaidClaim said = said_of(study, claim);
+    const bool good = said.verdict == ClaimVerdict::holds;
+    const bool bad = said.verdict == ClaimVerdict::fails || said.verdict == ClaimVerdict::unsaid;
+    const std::string tone = good ? "good" : bad ? "bad" : "soft";
+    text += paragraph("claim" + (bad ? std::string(" bad") : ""),
+                      html(said.text) + " <small class=\"" + tone + "\">" +
+                          (good  ? "✓ "
+                           : bad ? "✗ "
+                                 : "") +
+                          html(said.why) + "</small>");
+  }
+  return text;
 }
 
 std::string title_of(const StudyResult& study) {
@@ -76,6 +97,7 @@ std::string opening(const StudyResult& study, const ReportContext& context,
   std::string text = paragraph("kicker", "Study · " + html(study.file));
   text += "<h1>" + html(title_of(study)) + "</h1>\n";
   if (!study.question.empty()) text += paragraph("question", html(study.question));
+  text += claims(study);
   text += verdict_line(summary) + stopped_line(summary.total) + facts_line(summary) +
           varied_line(study);
   text += "<pre>" + html(context.command) + "</pre>\n";
@@ -154,6 +176,7 @@ std::string described_svg(const ReportFigure& figure) {
 
 std::string report_html(const StudyResult& study, const ReportContext& context,
                         const std::vector<ReportFigure>& figures) {
+  if (study.seed_sweep) return report_html(over_seeds(study), context, figures);
   const StudySummary summary = summarise(study);
   std::string page = page_start(title_of(study));
   page += opening(study, context, summary);

@@ -13,8 +13,12 @@ namespace {
 std::string pivot_cell(const PivotCell& cell) {
   if (cell.rows == 0) return "<td></td>";
   std::string text = fmt::format("<td class=\"first{}\">{}", cell.failed > 0 ? " fails" : "",
-                                 cell.mean ? output::rounded(*cell.mean) : "–");
-  if (const auto spread = spread_of(cell))
+                                 cell.interval ? text_of(*cell.interval)
+                                 : cell.mean   ? output::rounded(*cell.mean)
+                                               : "–");
+  if (cell.difference)
+    text += fmt::format("<small>difference {}</small>", text_of(*cell.difference));
+  if (const auto spread = spread_of(cell); spread && !cell.interval)
     text += fmt::format("<small>{} … {}</small>", spread->first, spread->second);
   if (cell.predicted)
     text += fmt::format("<small>closed form {}</small>", output::rounded(*cell.predicted));
@@ -49,7 +53,9 @@ std::string pivot_tables(const StudyResult& study) {
       text += "</tr>\n";
     }
     text += "</tbody></table></div>\n";
-    if (pivot.several)
+    if (pivot.seeds > 0)
+      text += text_block("note soft", "Mean " + html(interval_note(pivot)) + ".");
+    if (pivot.several && pivot.seeds == 0)
       text += text_block("note soft",
                          "Where several runs fall into a cell: their mean, below it the least and "
                          "the largest.");

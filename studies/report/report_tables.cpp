@@ -8,6 +8,7 @@
 #include "output/text/number.h"
 #include "studies/report/figures.h"
 #include "studies/report/report_page.h"
+#include "studies/selection.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -172,12 +173,14 @@ std::string run_row(const StudyResult& study, const std::vector<NeededColumns>& 
   const RunResult& row = study.rows[index];
   std::string text =
       "<tr data-kind=\"" + kinds_of(row) + "\" id=\"run-" + std::to_string(index) + "\">";
-  for (const double value : row.parameters) text += "<td>" + output::rounded(value, 6) + "</td>";
+  for (std::size_t i = 0; i < row.parameters.size(); ++i)
+    text += "<td>" + html(label_of(study.sweeps[i], row.parameters[i])) + "</td>";
   text += "<td class=\"text\">" + html(study.subjects[static_cast<std::size_t>(row.subject)].name) +
           "</td>";
   for (std::size_t i = 0; i < needed.size(); ++i) {
     const MetricValue value = i < row.metrics.size() ? row.metrics[i] : MetricValue{};
-    text += "<td class=\"first\">" + number(value.measured) + "</td>";
+    text += "<td class=\"first\">" + number(value.measured) +
+            (value.half_width ? " ± " + output::rounded(*value.half_width, 2) : "") + "</td>";
     if (needed[i].predicted) text += "<td>" + number(value.predicted) + "</td>";
     if (needed[i].verdict) text += verdict_cell(value);
   }

@@ -12,8 +12,9 @@ Cell pivot_value(const PivotCell& cell) {
   if (cell.rows == 0) return {"", Tone::faint};
   const Tone tone = cell.failed > 0 ? Tone::bad : cell.passed > 0 ? Tone::good : Tone::plain;
   if (!cell.mean) return {"-", cell.failed > 0 ? Tone::bad : Tone::faint};
-  std::string text = output::rounded(*cell.mean);
-  if (const auto spread = spread_of(cell))
+  std::string text = cell.interval ? text_of(*cell.interval) : output::rounded(*cell.mean);
+  if (cell.difference) text += ", difference " + text_of(*cell.difference);
+  if (const auto spread = spread_of(cell); spread && !cell.interval)
     text += " (" + spread->first + " .. " + spread->second + ")";
   if (cell.predicted) text += " / " + output::rounded(*cell.predicted);
   return {text, tone};
@@ -39,7 +40,8 @@ std::string terminal_pivot(const Pivot& pivot, const TableStyle& style) {
   const auto add = [&](const char* what) {
     note += (note.empty() ? "" : "; ") + std::string(what);
   };
-  if (pivot.several) add("mean (least .. largest)");
+  if (pivot.several && pivot.seeds == 0) add("mean (least .. largest)");
+  if (pivot.seeds > 0) add(interval_note(pivot).c_str());
   if (pivot.predicted) add("behind / the closed form");
   if (!note.empty()) text += toned(note, Tone::faint, style.color) + "\n";
   for (std::size_t next = 0; next < columns.size();) {

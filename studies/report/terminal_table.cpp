@@ -1,13 +1,18 @@
 #include "studies/report/terminal_table.h"
 
 #include <algorithm>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "output/text/csv.h"
 #include "output/text/number.h"
+#include "studies/claims.h"
 #include "studies/report/terminal_blocks.h"
 #include "studies/report/terminal_pivot.h"
+#include "studies/seed_means.h"
 #include "studies/summary.h"
+#include "unicode/display.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -149,6 +154,9 @@ std::string run_name(const StudyResult& study, const RunResult& row) {
          (parameters.empty() ? "" : " at " + parameters);
 }
 
+/// What the status of a run that was refused begins with; the reason follows.
+constexpr std::string_view refused_word = "refused: ";
+
 /// A word in front of each line, which goes on under itself.
 std::string listed(const char* word, const std::vector<std::string>& lines,
                    const TableStyle& style) {
@@ -170,6 +178,28 @@ std::string stopped_list(const StudyResult& study, const TableStyle& style) {
   return listed("stopped", lines, style);
 }
 
+/// Each reason why engines refused runs, with the first of these and how many others there are.
+std::string refused_list(const StudyResult& study, const TableStyle& style) {
+  std::vector<std::pair<const RunResult*, std::size_t>> reasons;
+  for (const RunResult& row : study.rows) {
+    if (outcome_of(row) != RunOutcome::refused) continue;
+    const auto known = std::ranges::find_if(reasons, [&](const auto& reason) {
+      return reason.first->status == row.status && reason.first->subject == row.subject;
+    });
+    if (known == reasons.end())
+      reasons.emplace_back(&row, 0);
+    else
+      ++known->second;
+  }
+  std::vector<std::string> lines;
+  for (const auto& [row, others] : reasons) {
+    const std::string why = row->status.substr(std::min(row->status.size(), refused_word.size()));
+    lines.push_back(run_name(study, *row) +
+                    (others > 0 ? " and " + std::to_string(others) + " more" : "") + ": " + why);
+  }
+  return listed("refused", lines, style);
+}
+
 std::string failure_list(const StudyResult& study, const TableStyle& style) {
   std::vector<std::string> lines;
   for (const Failure& failure : failures_of(study)) {
@@ -182,6 +212,21 @@ std::string failure_list(const StudyResult& study, const TableStyle& style) {
     lines.push_back(std::move(line));
   }
   return listed("fails", lines, style);
+}
+
+/// Each sentence with what became of it.
+std::string claim_list(const StudyResult& study, const TableStyle& style) {
+  constexpr std::size_t indent = 2;
+  std::string text;
+  for (const ClaimSpec& claim : study.claims) {
+    const SaidClaim said = said_of(study, claim);
+    const Tone tone = said.verdict == ClaimVerdict::holds      ? Tone::good
+                      : said.verdict == ClaimVerdict::unjudged ? Tone::faint
+                                                               : Tone::bad;
+    text += wrapped(unicode::printable(said.text), style.width) + std::string(indent, ' ') +
+            toned("(" + unicode::printable(said.why) + ")", tone, style.color) + "\n";
+  }
+  return text.empty() ? "" : text + "\n";
 }
 
 /// Each Truth with the number of values that agree.
@@ -220,13 +265,16 @@ std::string counts(const StudySummary& summary, const TableStyle& style) {
 }  // namespace
 
 std::string terminal_table(const StudyResult& study, const TableStyle& style) {
+  if (study.seed_sweep) return terminal_table(over_seeds(study), style);
   std::string text;
   if (!study.question.empty()) text += wrapped(study.question, style.width) + "\n";
+  text += claim_list(study, style);
   for (const TableSpec& table : study.tables)
     text += terminal_pivot(pivot_of(study, table), style) + "\n";
   for (const RegimeTable& table : regime_tables(study)) text += print_table(study, table, style);
   return text + truth_list(study, style) + failure_list(study, style) + stopped_list(study, style) +
-         counts(summarise(study), style);
+         refused_list(study, style) + counts(summarise(study), style) +
+         (study.runs == nullptr ? "" : seeds_words(study) + "\n");
 }
 
 }  // namespace hookpoint::studies

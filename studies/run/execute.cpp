@@ -122,8 +122,14 @@ class Watch {
       : measurement_(measurement),
         context_(context),
         observer_(context, needs_points(), needs_feet()) {
-    for (const MetricDefinition* metric : measurement.metrics)
-      metrics_.push_back(metric->make == nullptr ? nullptr : metric->make(context));
+    std::vector<simulation::Port> ports;
+    if (std::ranges::any_of(measurement.metrics, &MetricDefinition::user)) ports = world.ports();
+    for (const MetricDefinition* metric : measurement.metrics) {
+      metrics_.push_back(nullptr);
+      if (metric->make != nullptr) metrics_.back() = metric->make(context);
+      if (metric->user != nullptr)
+        metrics_.back() = make_user_metric(*metric->user, context, ports);
+    }
     if (std::ranges::any_of(measurement.metrics, &MetricDefinition::needs_stance))
       stance_ = stance_ports(context, world);
     if (measurement.path) path_.emplace(measurement.duration);
@@ -147,7 +153,11 @@ class Watch {
       if (metrics_[i] && complete) value = metrics_[i]->value();
       if (metrics_[i] && broken) value = metrics_[i]->value_of_broken_run();
       if (value && !std::isfinite(*value)) value.reset();
-      record.values[std::string(measurement_.metrics[i]->name)].measured = value;
+      const MetricDefinition& metric = *measurement_.metrics[i];
+      if (complete && !value && metrics_[i])
+        if (const std::string why = metrics_[i]->why_not(); !why.empty())
+          record.notices.push_back(std::string(metric.name) + ": " + why);
+      record.values[kept_name(metric)].measured = value;
     }
     for (std::size_t i = 0; i < recordings_.size(); ++i)
       record.curves[measurement_.signals[i].name()] = recordings_[i].take();
@@ -177,7 +187,7 @@ class Watch {
 RunRecord not_run(const Measurement& measurement, RunRecord record, std::string status) {
   record.status = std::move(status);
   for (const MetricDefinition* metric : measurement.metrics)
-    record.values[std::string(metric->name)].measured.reset();
+    record.values[kept_name(*metric)].measured.reset();
   for (const RecordedSignal& recorded : measurement.signals) record.curves[recorded.name()] = {};
   if (measurement.path) record.curves[path_curve] = {};
   return record;
@@ -187,7 +197,8 @@ void predict_all(const Measurement& measurement, const RunContext& context,
                  const EngineEntry& engine, RunRecord& record) {
   const PeerContact peer = peer_contact(engine, *context.experiment);
   for (const MetricDefinition* metric : measurement.metrics)
-    record.values[std::string(metric->name)].predicted = predict(metric->name, context, peer);
+    if (metric->user == nullptr)
+      record.values[kept_name(*metric)].predicted = predict(metric->name, context, peer);
 }
 
 /// As `execute`, of an engine that is there; may throw.
@@ -226,6 +237,10 @@ std::optional<RunRecord> step_through(const Measurement& measurement, const RunC
 
 }  // namespace
 
+std::string kept_name(const MetricDefinition& metric) {
+  return metric.user == nullptr ? std::string(metric.name) : metric.user->key;
+}
+
 std::string RecordedSignal::name() const {
   return std::string(signal->name) + (logarithmic ? ", logarithmic" : "");
 }
@@ -233,7 +248,7 @@ std::string RecordedSignal::name() const {
 bool Measurement::found_in(const RunRecord& record) const {
   return std::ranges::all_of(metrics,
                              [&](const MetricDefinition* metric) {
-                               return record.values.contains(std::string(metric->name));
+                               return record.values.contains(kept_name(*metric));
                              }) &&
          std::ranges::all_of(signals,
                              [&](const RecordedSignal& recorded) {
@@ -244,8 +259,10 @@ bool Measurement::found_in(const RunRecord& record) const {
 
 Measurement measurement_of(const StudyPlan& plan, const RowPlan& row) {
   Measurement measurement{plan.settle, plan.duration, {}, {}, plan.measures(MetricScope::subjects)};
-  for (const MetricDefinition* metric : plan.metrics)
-    if (!metric->timing()) measurement.metrics.push_back(metric);
+  for (const MetricDefinition* metric : plan.metrics) {
+    const bool missing = metric->user != nullptr && !row.forms[metric->user->index].missing.empty();
+    if (!metric->timing() && !missing) measurement.metrics.push_back(metric);
+  }
   for (const PlotPlan& plot : plan.plots)
     if (plot.signal != nullptr && plan.covers(plot.only, row))
       measurement.signals.push_back({plot.signal, plot.spec.log_x});

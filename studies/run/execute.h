@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,6 +14,9 @@
 #include "studies/run/run_record.h"
 
 namespace hookpoint::studies {
+
+/// Under what a record keeps the values of a metric.
+std::string kept_name(const MetricDefinition& metric);
 
 /// A signal over time that a run records, evenly or, for a logarithmic axis, in geometric
 /// progression.
@@ -30,6 +34,9 @@ struct Measurement {
   std::vector<RecordedSignal> signals;
   /// Whether positions of the body's origin are recorded, for distances between trajectories.
   bool path = false;
+
+  /// Of the metrics, where no plan has them.
+  std::vector<std::shared_ptr<const UserMetric>> owned = {};
 
   /// Whether `record` has all of it.
   bool found_in(const RunRecord& record) const;

@@ -7,6 +7,7 @@
 #include "output/file.h"
 #include "output/text/number.h"
 #include "studies/pivot.h"
+#include "studies/selection.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -18,12 +19,30 @@ std::string field(const std::optional<bool>& value) {
   return value ? (*value ? "true" : "false") : std::string();
 }
 
+/// What a row's run is made of, a column each.
+struct Composed {
+  const char* name;
+  std::string SubjectInfo::*word;
+};
+
+/// Those that are no swept column already.
+std::vector<Composed> composed_columns(const StudyResult& result) {
+  std::vector<Composed> columns{{"engine", &SubjectInfo::engine},
+                                {"law", &SubjectInfo::law},
+                                {"integrator", &SubjectInfo::integrator},
+                                {"settings", &SubjectInfo::settings}};
+  std::erase_if(columns, [&](const Composed& column) {
+    return sweep_index(result, column.name).has_value();
+  });
+  return columns;
+}
+
 std::vector<std::string> header(const StudyResult& result, bool timing) {
   std::vector<std::string> names;
   for (const SweepColumn& sweep : result.sweeps)
     names.push_back(output::column_title(sweep.name, sweep.unit));
-  for (const char* name : {"subject", "engine", "law", "integrator", "settings"})
-    names.emplace_back(name);
+  names.emplace_back("subject");
+  for (const Composed& column : composed_columns(result)) names.emplace_back(column.name);
   for (const MetricColumn& metric : result.metrics) {
     if (metric.timing != timing) continue;
     names.push_back(output::column_title(metric.name, metric.unit));
@@ -36,11 +55,11 @@ std::vector<std::string> header(const StudyResult& result, bool timing) {
 
 std::vector<std::string> table_row(const StudyResult& result, const RunResult& run, bool timing) {
   std::vector<std::string> fields;
-  for (const double parameter : run.parameters) fields.push_back(output::shortest(parameter));
-  const SubjectInfo& subject = result.subjects[static_cast<std::size_t>(run.subject)];
-  for (const std::string& word :
-       {subject.name, subject.engine, subject.law, subject.integrator, subject.settings})
-    fields.push_back(word);
+  for (std::size_t i = 0; i < run.parameters.size(); ++i)
+    fields.push_back(exact_label_of(result.sweeps[i], run.parameters[i]));
+  fields.push_back(result.subjects[static_cast<std::size_t>(run.subject)].name);
+  const SubjectInfo& composed = composition_of(result, run);
+  for (const Composed& column : composed_columns(result)) fields.push_back(composed.*column.word);
   for (std::size_t i = 0; i < result.metrics.size(); ++i) {
     if (result.metrics[i].timing != timing) continue;
     fields.push_back(field(run.metrics[i].measured));
@@ -83,7 +102,8 @@ void write_distances(const std::filesystem::path& folder, const StudyResult& res
   const std::size_t subjects = result.subjects.size();
   for (const PeerDistances& matrix : result.peer_distances) {
     std::vector<std::string> swept;
-    for (const double parameter : matrix.parameters) swept.push_back(output::shortest(parameter));
+    for (std::size_t i = 0; i < matrix.parameters.size(); ++i)
+      swept.push_back(exact_label_of(result.sweeps[i], matrix.parameters[i]));
     for (std::size_t cell = 0; cell < matrix.distances.size(); ++cell) {
       const std::size_t subject = cell / subjects, other = cell % subjects;
       if (subject == other || !matrix.distances[cell]) continue;
@@ -105,6 +125,8 @@ void write_pivot(const std::filesystem::path& folder, const StudyResult& result,
   for (const char* name : {"least", "largest", "predicted"})
     table.header.push_back(output::column_title(name, pivot.unit));
   for (const char* name : {"runs", "values", "passed", "failed"}) table.header.emplace_back(name);
+  for (const char* name : {"half_width", "difference", "difference_half_width"})
+    if (pivot.seeds > 0) table.header.push_back(output::column_title(name, pivot.unit));
   for (std::size_t row = 0; row < pivot.rows.size(); ++row)
     for (std::size_t column = 0; column < pivot.columns.size(); ++column) {
       const PivotCell& cell = pivot.at(row, column);
@@ -115,6 +137,11 @@ void write_pivot(const std::filesystem::path& folder, const StudyResult& result,
                             told ? output::shortest(cell.largest) : "", field(cell.predicted)});
       for (const int count : {cell.rows, cell.values, cell.passed, cell.failed})
         table.rows.back().push_back(std::to_string(count));
+      if (pivot.seeds == 0) continue;
+      const auto& difference = cell.difference;
+      table.rows.back().push_back(cell.interval ? output::shortest(cell.interval->half_width) : "");
+      table.rows.back().push_back(difference ? output::shortest(difference->mean) : "");
+      table.rows.back().push_back(difference ? output::shortest(difference->half_width) : "");
     }
   output::write_csv(folder / (spec.name + ".csv"), table);
 }

@@ -5,7 +5,9 @@
 #include <string>
 #include <utility>
 
+#include "studies/run/execute.h"
 #include "studies/run/group_metrics.h"
+#include "studies/seed_means.h"
 #include "studies/summary.h"
 
 namespace hookpoint::studies {
@@ -16,6 +18,12 @@ bool has(const RunResult& run, RunOutcome outcome) { return outcome_of(run) == o
 bool near(double measured, double expected, const TruthPlan& truth) {
   return std::abs(measured - expected) <=
          std::max(truth.within, truth.tolerance * std::abs(expected));
+}
+
+/// What a definition of the user's own says of the row; null of another metric.
+const RowForm* form_of(const StudyPlan& plan, std::size_t metric, std::size_t row) {
+  const UserMetric* user = plan.metrics[metric]->user;
+  return user == nullptr ? nullptr : &plan.rows[row].forms[user->index];
 }
 
 bool applies(const StudyPlan& plan, const TruthPlan& truth, const RowPlan& row) {
@@ -30,10 +38,13 @@ std::optional<bool> judge(const StudyPlan& plan, const RunResult& run, std::size
                           const TruthPlan& truth) {
   if (has(run, RunOutcome::skipped) || !applies(plan, truth, plan.rows[row])) return std::nullopt;
   if (has(run, RunOutcome::refused) && truth.subjects.empty()) return std::nullopt;
+  const RowForm* form = form_of(plan, truth.metric, row);
+  if (form != nullptr && !form->missing.empty() && truth.subjects.empty()) return std::nullopt;
   const MetricValue& metric = run.metrics[truth.metric];
   if (truth.predicted && !metric.predicted) return std::nullopt;
   if (!metric.measured) return false;
   const double measured = *metric.measured;
+  if (truth.of_scene) return std::abs(measured - *metric.predicted) <= form->allowed;
   bool ok = true;
   if (truth.predicted) ok = ok && near(measured, *metric.predicted, truth);
   if (truth.value) ok = ok && near(measured, *truth.value, truth);
@@ -75,6 +86,7 @@ RunResult empty_row(const StudyPlan& plan, const RowPlan& row) {
   for (std::size_t i = 0; i < plan.sweeps.size(); ++i)
     run.parameters.push_back(plan.sweeps[i].column.values[static_cast<std::size_t>(row.values[i])]);
   run.subject = row.subject;
+  run.composition = row.composition;
   return run;
 }
 
@@ -83,9 +95,11 @@ RunResult run_result(const StudyPlan& plan, const KeptRows& kept, std::size_t ro
   RunResult run = empty_row(plan, plan.rows[row]);
   run.status = std::move(record.status);
   run.regime = record.regime;
-  for (const MetricDefinition* metric : plan.metrics) {
-    const KeptValue& value = record.values[std::string(metric->name)];
-    run.metrics.push_back({value.measured, value.predicted, std::nullopt});
+  for (std::size_t i = 0; i < plan.metrics.size(); ++i) {
+    const KeptValue& value = record.values[kept_name(*plan.metrics[i])];
+    const RowForm* form = form_of(plan, i, row);
+    run.metrics.push_back(
+        {value.measured, form == nullptr ? value.predicted : form->predicted, std::nullopt});
   }
   run.traces.reserve(plan.plots.size());
   for (std::size_t plot = 0; plot < plan.plots.size(); ++plot)
@@ -93,7 +107,41 @@ RunResult run_result(const StudyPlan& plan, const KeptRows& kept, std::size_t ro
   return run;
 }
 
+/// Rows that differ in the seed alone, in the order of their first ones.
+std::vector<std::vector<std::size_t>> seed_groups(const StudyPlan& plan) {
+  auto groups = plan.groups_along(plan.seed_sweep());
+  std::ranges::sort(groups, {}, [](const auto& group) { return group.front(); });
+  return groups;
+}
+
+/// What a Truth says of the means over seeds, each verdict that of all runs of the mean.
+void judge_means(const StudyPlan& plan, std::size_t index, StudyResult& result) {
+  const TruthPlan& planned = plan.truths[index];
+  TruthResult& truth = result.truths[index];
+  const auto groups = seed_groups(plan);
+  // A row has its mean where the mean is judged.
+  StudyResult means = result;
+  for (const std::vector<std::size_t>& group : groups) {
+    const RunResult mean = mean_of_rows(result, group);
+    for (const std::size_t row : group) means.rows[row] = mean;
+  }
+  const bool along = planned.same_over >= 0;
+  const auto first =
+      along ? first_of_groups(plan, planned.same_over) : std::vector<std::ptrdiff_t>();
+  for (const std::vector<std::size_t>& group : groups) {
+    const std::size_t row = group.front();
+    const std::optional<bool> verdict = along ? judge(plan, means, row, planned, first[row])
+                                              : judge(plan, means.rows[row], row, planned);
+    if (!verdict) continue;
+    for (const std::size_t each : group)
+      add_verdict(result.rows[each].metrics[planned.metric], *verdict);
+    ++(*verdict ? truth.passed : truth.failed);
+    if (!*verdict && truth.first_failure < 0) truth.first_failure = static_cast<int>(row);
+  }
+}
+
 void judge_all(const StudyPlan& plan, std::size_t index, StudyResult& result) {
+  if (plan.seed_sweep() >= 0) return judge_means(plan, index, result);
   const TruthPlan& planned = plan.truths[index];
   TruthResult& truth = result.truths[index];
   const bool along = planned.same_over >= 0;
@@ -119,11 +167,13 @@ StudyResult empty_table(const StudyPlan& plan) {
   result.file = plan.file;
   for (const SweepPlan& sweep : plan.sweeps) result.sweeps.push_back(sweep.column);
   for (const SubjectPlan& subject : plan.subjects) result.subjects.push_back(subject.info);
+  result.compositions = plan.compositions;
   for (const MetricDefinition* metric : plan.metrics)
     result.metrics.push_back(
         {std::string(metric->name), std::string(metric->unit), metric->timing(), metric->regime});
   for (const PlotPlan& plot : plan.plots) result.plots.push_back(plot.spec);
   result.tables = plan.tables;
+  result.claims = plan.claims;
   for (const TruthPlan& truth : plan.truths)
     result.truths.push_back({truth.name, truth.words, static_cast<int>(truth.metric)});
   for (const RowPlan& row : plan.rows) {
@@ -131,6 +181,7 @@ StudyResult empty_table(const StudyPlan& plan) {
     result.rows.back().metrics.resize(plan.metrics.size());
   }
   result.warnings = plan.warnings;
+  if (plan.seed_sweep() >= 0) result.seed_sweep = static_cast<std::size_t>(plan.seed_sweep());
   return result;
 }
 
@@ -138,7 +189,8 @@ RunResult assemble_row(const StudyPlan& plan, const KeptRows& kept, std::size_t 
   RunResult run = run_result(plan, kept, row, kept.numbers(row));
   for (const TruthPlan& truth : plan.truths) {
     MetricValue& value = run.metrics[truth.metric];
-    const bool alone = truth.same_over < 0 && plan.metrics[truth.metric]->scope == MetricScope::run;
+    const bool alone = truth.same_over < 0 && plan.seed_sweep() < 0 &&
+                       plan.metrics[truth.metric]->scope == MetricScope::run;
     if (!alone) continue;
     if (const auto verdict = judge(plan, run, row, truth)) add_verdict(value, *verdict);
   }
@@ -150,6 +202,9 @@ StudyResult assemble(const StudyPlan& plan, const KeptRows& kept, Notices& notic
   for (std::size_t row = 0; row < plan.rows.size(); ++row) {
     RunRecord record = kept.numbers(row);
     notices.add(row, record.notices);
+    for (const auto& metric : plan.user_metrics)
+      if (const RowForm& form = plan.rows[row].forms[metric->index]; !form.missing.empty())
+        notices.add(row, {metric->name + ": " + form.missing});
     result.rows[row] = run_result(plan, kept, row, std::move(record));
   }
   measure_groups(plan, kept, result);

@@ -145,9 +145,8 @@ std::vector<std::string> TuneScene::names() const {
 
 std::optional<double> TuneScene::own_value(const ConstantSetting& constant) const {
   const auto of_parameters = [&](const auto& values) -> std::optional<double> {
-    const auto found = std::ranges::find_if(
-        values, [&](const auto& value) { return value.first == constant.name; });
-    return found == values.end() ? std::nullopt : std::optional(found->second);
+    const auto found = std::ranges::find(values, constant.name, &language::ParameterValue::name);
+    return found == values.end() ? std::nullopt : std::optional(found->value);
   };
   const auto of_field = [&](const Object& object) -> std::optional<double> {
     const language::Field* field = object.find(constant.name);

@@ -89,10 +89,10 @@ class TuneScene {
   language::Library& library_;
   SceneSource source_;
   Names terrain_parameters_, scene_parameters_, material_fields_, world_fields_;
-  std::string world_;           ///< trail of the World
-  std::string material_trail_;  ///< from the top
-  std::vector<std::pair<std::string, double>> terrain_values_, scene_values_;  ///< of Params, SI
-  std::unique_ptr<language::Object> own_;                                      ///< composed plain
+  std::string world_;                                                    ///< trail of the World
+  std::string material_trail_;                                           ///< from the top
+  std::vector<language::ParameterValue> terrain_values_, scene_values_;  ///< of Params
+  std::unique_ptr<language::Object> own_;                                ///< composed plain
 };
 
 }  // namespace hookpoint::studies

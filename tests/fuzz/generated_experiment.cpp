@@ -339,6 +339,18 @@ class Generator {
     return components_;
   }
 
+  /// What a component of formulas needs.
+  void formulas(const std::string& type) {
+    static const std::vector<std::string> of_time{"sin(3 * time / 1 s)", "time / period",
+                                                  "0.5 * previous + 1", "1 / (time - time)"};
+    if (type == "Expression") write("formula = \"" + one_of(of_time) + "\";");
+    if (type != "StateMachine") return;
+    write("State still { output = \"0\"; } State moved { output = \"2 * time_in_state / 1 s\"; }");
+    write("Transition start { from = still; to = moved; when = \"time_in_state > 3 ms\"; }");
+    if (chance(0.5))
+      write("Transition stop { from = moved; to = still; when = \"time_in_state > 1 ms\"; }");
+  }
+
   void component() {
     const std::string& type = one_of(component_classes());
     const ClassSchema& described = *schema_.find(type);
@@ -349,6 +361,7 @@ class Generator {
       if (field.type == FieldType::object) attached.insert(field.name);
     }
     fields(type, {}, attached);
+    formulas(type);
     for (const FieldSchema& field : described.fields) {
       const bool scalar = field.type == FieldType::number;
       const bool out = field.port == Direction::output && !field.setting;

@@ -15,7 +15,7 @@ namespace {
 using namespace reference_scenes;
 
 /// Tests of an engine that this build may lack.
-class Mujoco : public testing::Test {
+class Mujoco : public ::testing::Test {
  protected:
   void SetUp() override {
     if (!reference::mujoco_peer.found()) GTEST_SKIP() << "this build has no MuJoCo";
@@ -191,10 +191,11 @@ TEST_F(Mujoco, TurnsAWarningIntoANotice) {
   for (int i = 0; i < 300; ++i) base.boundary_points.push_back({1e-4 * i, 0., -0.0501});
   const auto engine = reference::mujoco_peer.make(experiment);
   std::filesystem::remove("MUJOCO_LOG.TXT");
-  testing::internal::CaptureStderr();
-  testing::internal::CaptureStdout();
+  ::testing::internal::CaptureStderr();
+  ::testing::internal::CaptureStdout();
   for (int i = 0; i < 5; ++i) ASSERT_TRUE(engine->step().ok());
-  EXPECT_EQ(testing::internal::GetCapturedStderr() + testing::internal::GetCapturedStdout(), "");
+  EXPECT_EQ(::testing::internal::GetCapturedStderr() + ::testing::internal::GetCapturedStdout(),
+            "");
   EXPECT_FALSE(std::filesystem::exists("MUJOCO_LOG.TXT"));
   ASSERT_EQ(engine->state().notices.size(), 1u);
   EXPECT_NE(engine->state().notices[0].find("MuJoCo warned"), std::string::npos);

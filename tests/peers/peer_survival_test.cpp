@@ -136,9 +136,9 @@ TEST(Dart, EndsTheRunWhereAnAssertionOfItsFails) {
   const auto good = sloped_block(0.1, 0., 0.5, 1e-3);
   for (const auto& peer : reference::peers())
     if (peer.name == "dart") {
-      testing::internal::CaptureStderr();
+      ::testing::internal::CaptureStderr();
       EXPECT_NE(words(peer, experiment).find("assertion"), std::string::npos);
-      EXPECT_NE(testing::internal::GetCapturedStderr().find("Assertion"), std::string::npos);
+      EXPECT_NE(::testing::internal::GetCapturedStderr().find("Assertion"), std::string::npos);
       EXPECT_EQ(words(peer, good), "");
     }
 }

@@ -102,9 +102,9 @@ TEST(OdeBlock, SticksAltogetherAcrossItsFrictionBox) {
 TEST(OdeBlock, TellsOfTheSolversTroubleOnceAndPrintsNothing) {
   const auto engine =
       reference::ode_peer.make(sloped_block(10. * degree, 0., 0.2, 1e-3, "default"));
-  testing::internal::CaptureStderr();
+  ::testing::internal::CaptureStderr();
   for (int step = 0; step < 500; ++step) ASSERT_TRUE(engine->step().ok());
-  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
   ASSERT_EQ(engine->state().notices.size(), 1u);
   EXPECT_NE(engine->state().notices[0].find("LCP internal error"), std::string::npos);
 }

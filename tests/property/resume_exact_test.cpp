@@ -118,6 +118,13 @@ Sensor.IMU imu {
 Gain turning { rate = 90 Hz; gain = 0.1; Wire FROM imu.gyroscope.z TO input; }
 Wire FROM turning.output TO world.gait.turn { delay = 1 ms; }
 Signal.Noise gust { standard_deviation = 0.2; seed = 3; rate = 45 Hz; Wire FROM output TO world.wind.force.y; }
+Expression smooth { rate = 130 Hz; formula = "(time > 0.3 s ? 0.2 * shake : 0) + 0.8 * previous"; Input shake { Wire FROM imu.gyroscope.y { delay = 6 ms; } } }
+StateMachine pulse {
+  State off { output = "smooth"; }
+  State on { output = "1 + time_in_state / 1 s"; }
+  Transition up { from = off; to = on; when = "time_in_state >= 61 ms || smooth > 0.05"; }
+  Transition down { from = on; to = off; when = "time_in_state > 23 ms"; }
+}
 Sensor.Foot foot { body = world.hexapod.leg[0].tibia; noise = 0.1 N; }
 Probe felt { Wire FROM foot.normal TO input { delay = 20 ms; rate = 333 Hz; } }
 Probe shaken { Wire FROM world.hexapod.leg[4].tibia.linear_acceleration.x TO input { delay = 3 ms; } }

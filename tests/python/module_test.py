@@ -1,15 +1,20 @@
 """import hookpoint: closed forms, the command's own bytes, and what is refused."""
 import csv
+import gc
 import json
 import os
 import pathlib
 import re
 import signal
 import subprocess
+import sys
 import tempfile
 import threading
 import time
+import types
 import unittest
+import unittest.mock
+import warnings
 
 import numpy as np
 
@@ -287,6 +292,271 @@ class World(unittest.TestCase):
         self.assertEqual(world["twice.output"], 2 * world["ball.base.location.z"])
 
 
+WALK = CONFIGS / "scenes" / "walking_hexapod.hook"
+FORWARD = "world.gait.forward"
+
+
+def ports_of(world):
+    """Every number of a world, by its trail, as bytes: -0 is not 0."""
+    return {trail: np.float64(world[trail]).tobytes() for trail, _, _ in world.ports()}
+
+
+class State(unittest.TestCase):
+    def test_a_state_goes_on_bit_for_bit(self):
+        world = hookpoint.load(WALK)
+        world.step(700)
+        state = world.state()
+        world.step(300)
+        # In a world of its own, that was elsewhere meanwhile.
+        other = hookpoint.load(WALK)
+        other.step(41)
+        other.set_state(state)
+        self.assertEqual((other.steps, other.state()), (700, state))
+        other.step(300)
+        self.assertEqual(ports_of(other), ports_of(world))
+        # And in the same.
+        after = world.state()
+        world.set_state(state)
+        world.step(300)
+        self.assertEqual(world.state(), after)
+
+    def test_states_of_others_and_damaged_ones_are_refused(self):
+        world = hookpoint.loads(FALLING)
+        world.step(10)
+        state, before = world.state(), ports_of(world)
+        others = [hookpoint.loads(FALLING, set={"w.seed": 2}), hookpoint.loads(FALLING, set={"height": 2}), hookpoint.loads(WHEEL)]
+        for other in others:
+            with self.assertRaisesRegex(hookpoint.Error, "another experiment"):
+                world.set_state(other.state())
+        for place in range(18, len(state), 7):
+            with self.assertRaisesRegex(hookpoint.Error, "damaged"):
+                world.set_state(state[:place] + bytes([state[place] ^ 16]) + state[place + 1:])
+        for length in (18, 40, 54, len(state) - 8, len(state) - 1):
+            with self.assertRaisesRegex(hookpoint.Error, "damaged"):
+                world.set_state(state[:length])
+        for nothing in (b"", b"hook", b"PK" + state):
+            with self.assertRaisesRegex(hookpoint.Error, "no state of a world"):
+                world.set_state(nothing)
+        self.assertEqual(ports_of(world), before)
+
+    def test_a_copy_goes_on_by_itself(self):
+        world = hookpoint.load(WALK)
+        world.step(500)
+        copy = world.copy()
+        world.step(200)
+        self.assertEqual((copy.steps, world.steps), (500, 700))
+        copy.step(200)
+        self.assertEqual(ports_of(copy), ports_of(world))
+        copy[FORWARD] = 0.
+        copy.step(400)
+        world.step(400)
+        self.assertNotEqual(copy.state(), world.state())
+
+    def test_a_reset_world_is_as_it_was_loaded(self):
+        trails = ["hexapod.base.location.x", "hexapod.base.contact.force.z", "hexapod.base.linear_acceleration.z"]
+        fresh, world = hookpoint.load(WALK), hookpoint.load(WALK)
+        start = ports_of(fresh)
+        self.assertEqual(ports_of(world), start)
+        world[FORWARD] = 0.05
+        world.step(300)
+        self.assertNotEqual(ports_of(world), start)
+        world.reset()
+        self.assertEqual((world.time, world.steps), (0., 0))
+        # All but what only a step computes.
+        of_steps = {trail for trail in start if re.search(r"\.(acceleration|total_torque|hip_force\..|hip_moment\..)$", trail)}
+        self.assertEqual(len(of_steps), 18 + 18 + 36)
+        now = ports_of(world)
+        self.assertEqual([trail for trail in start if now[trail] != start[trail] and trail not in of_steps], [])
+        fresh.step()
+        world.step()
+        self.assertEqual(ports_of(world), ports_of(fresh))
+        again, first = (each.run(0.2, record=trails) for each in (world, fresh))
+        for trail in ["time", *trails]:
+            np.testing.assert_array_equal(again[trail], first[trail])
+
+    def test_engines_that_cannot_be_saved_say_so(self):
+        world = hookpoint.loads(FALLING, engine="ode")
+        for ask in (world.state, world.copy, world.reset):
+            with self.assertRaisesRegex(hookpoint.Error, "cannot be saved"):
+                ask()
+
+
+class View(unittest.TestCase):
+    def test_shows_what_is_and_costs_no_copy(self):
+        world = hookpoint.loads(FALLING)
+        velocity, height = world.view("ball.base.velocity"), world.view("w.ball.base.location.z")
+        turned = world.view("ball.base.orientation")
+        self.assertEqual((velocity.shape, height.shape, turned.shape), ((3,), (), (4,)))
+        for n in range(1, 4):
+            world.step()
+            np.testing.assert_allclose(velocity, [0, 0, -10e-3 * n], atol=1e-15)
+            self.assertEqual(height[()], world["ball.base.location.z"])
+        np.testing.assert_array_equal(turned, [1, 0, 0, 0])
+        world.reset()
+        np.testing.assert_array_equal(velocity, [0, 0, 0])
+        with self.assertRaisesRegex(ValueError, "read-only"):
+            velocity[0] = 1
+        with self.assertRaises(ValueError):
+            velocity.setflags(write=True)
+
+    def test_keeps_its_world_alive(self):
+        height = hookpoint.loads(FALLING).view("ball.base.location.z")
+        gc.collect()
+        self.assertEqual(height[()], 1.)
+        self.assertEqual(height.base.name, "w")
+
+    def test_an_input_is_written_in_place(self):
+        world = hookpoint.loads(WHEEL)
+        torque = world.view("wheel.axle.disc.torque")
+        torque[()] = 0.5
+        world.step(1000)
+        self.assertAlmostEqual(world["wheel.axle.disc.rate"], 0.5 / 0.25, places=12)
+        torque += 0.5
+        self.assertEqual(world["wheel.axle.disc.torque"], 1.)
+        # The step after a force is written is the first that it acts in, written by name or in place.
+        pushed = FALLING[:FALLING.rindex("}")] + "Force push { body = ball.base; } }\n"
+        by_name, in_place = hookpoint.loads(pushed), hookpoint.loads(pushed)
+        by_name["push.force.x"] = 2.
+        in_place.view("push.force")[:] = [2., 0, 0]
+        for world in (by_name, in_place):
+            world.step()
+            self.assertAlmostEqual(world["ball.base.velocity.x"], 1e-3, places=15)
+
+    def test_wired_inputs_cannot_be_written_and_mistakes_are_told(self):
+        wired = hookpoint.loads(WHEEL + "Signal.Step push { Wire TO w.wheel.axle.disc.torque; }")
+        self.assertFalse(wired.view("w.wheel.axle.disc.torque").flags.writeable)
+        with self.assertRaisesRegex(hookpoint.Error, "did you mean"):
+            wired.view("wheel.axle.disc.torqe")
+
+
+class Callback(unittest.TestCase):
+    def test_is_called_after_every_steps_and_after_the_last(self):
+        world = hookpoint.loads(FALLING)
+        seen = []
+        world.step(7, callback=lambda each: seen.append((each is world, each.steps)), every=3)
+        self.assertEqual(seen, [(True, 3), (True, 6), (True, 7)])
+        world.step(3, callback=lambda each: seen.append(each.steps))
+        self.assertEqual(seen[3:], [8, 9, 10])
+
+    def test_false_ends_the_steps_and_what_it_raises_passes(self):
+        world = hookpoint.loads(FALLING)
+        world.step(400, callback=lambda each: each["ball.base.location.z"] > 0.9)
+        self.assertLessEqual(world["ball.base.location.z"], 0.9)
+        self.assertGreater(world["ball.base.location.z"], 0.9 - 2e-3)
+        with self.assertRaises(ZeroDivisionError):
+            world.step(3, callback=lambda each: 1 / 0)
+        with self.assertRaisesRegex(hookpoint.Error, "1 or more"):
+            world.step(3, callback=print, every=0)
+
+
+NOISY = """World w {
+  deltat = 1 ms; duration = 0.5 s;
+  Robot arm { Base.fixed; Chain c { Link l { mass = 1; inertia = .1, .1, .1, 0, 0, 0; damping = .2; } } }
+  Controller.PD pd {
+    goal = 1; pconstant = 2; dconstant = .1;
+    Wire FROM arm.c.l.angle TO current { noise = 0.02; delay = 3 ms; }
+    Wire FROM arm.c.l.rate TO rate_in;
+    Wire FROM output TO arm.c.l.torque;
+  }
+}
+"""
+
+
+class Batch(unittest.TestCase):
+    def test_each_world_is_a_world_by_itself_for_any_number_of_threads(self):
+        seeds = [1, 2, 3, 2, 77]
+        trails = ["arm.c.l.angle", "arm.c.l.location", "pd.output"]
+        batches = [hookpoint.Batch(NOISY, 5, threads=threads, seeds=seeds, observations=trails) for threads in (1, 2, 5)]
+        for batch in batches:
+            self.assertEqual(batch.observations.shape, (5, 5))
+            for count in (1, 20, 100):
+                observed, _ = batch.step(count=count)
+        for other in batches[1:]:
+            np.testing.assert_array_equal(other.observations, batches[0].observations)
+        for i, seed in enumerate(seeds):
+            world = hookpoint.loads(NOISY, set={"w.seed": seed})
+            world.step(121)
+            self.assertEqual([world[trail] for trail in batches[0].observation_trails], observed[i].tolist())
+            for batch in batches:
+                self.assertEqual(batch.state(i), world.state())
+        # Noise is of the seed.
+        self.assertEqual(len({row.tobytes() for row in observed}), 4)
+
+    def test_actions_are_written_as_to_a_world(self):
+        batch = hookpoint.Batch(WALK, 3, threads=2, observations=["hexapod.base.location", "hexapod.base.velocity.x"],
+                                actions=[FORWARD])
+        self.assertEqual(batch.action_trails, [FORWARD])
+        forward = np.array([[0.1], [0.05], [0.]])
+        for _ in range(10):
+            observed, done = batch.step(forward, 20)
+            np.testing.assert_array_equal(batch.actions, forward)
+        self.assertIs(observed, batch.observations)
+        self.assertFalse(done.any())
+        np.testing.assert_allclose(batch.time, 0.1, rtol=1e-12)
+        for i in range(3):
+            world = hookpoint.load(WALK)
+            for _ in range(10):
+                world[FORWARD] = forward[i, 0]
+                world.step(20)
+            self.assertEqual(batch.state(i), world.state())
+            np.testing.assert_array_equal(observed[i], [world[trail] for trail in batch.observation_trails])
+
+    def test_reset_takes_those_of_the_mask_back(self):
+        batch = hookpoint.Batch(FALLING, 3, observations=["ball.base.location.z"])
+        batch.step(count=100)
+        state = batch.state(1)
+        rows = batch.reset([True, False, True])
+        np.testing.assert_allclose(rows[:, 0], [1., 1 - 10e-6 * 100 * 101 / 2, 1.], atol=1e-12)
+        np.testing.assert_allclose(batch.time, [0, 0.1, 0])
+        batch.set_state(2, state)
+        self.assertEqual(rows[2, 0], rows[1, 0])
+        self.assertEqual(batch.reset()[1, 0], 1.)
+        self.assertEqual(batch.state(1), hookpoint.loads(FALLING).state())
+
+    def test_a_world_is_done_by_its_port_by_its_end_or_by_a_failure(self):
+        world = hookpoint.Batch(STIFF, 2, observations=["wheel.axle.disc.angle"])
+        _, done = world.step(count=1000)
+        self.assertTrue(done.all())
+        self.assertRegex(world.failures[1], "wheel")
+        before = world.time.copy()
+        world.step(count=10)
+        np.testing.assert_array_equal(world.time, before)
+        world.reset([False, True])
+        self.assertEqual((world.done.tolist(), list(world.failures)), ([True, False], [0]))
+        # What is watched is not 0 after the first step.
+        fallen = hookpoint.Batch(FALLING, 2, done="ball.base.velocity.z")
+        _, done = fallen.step(count=50)
+        self.assertEqual((done.tolist(), fallen.time.tolist()), ([True, True], [0.001, 0.001]))
+
+    def test_mistakes_are_told(self):
+        batch = hookpoint.Batch(WHEEL, 2, actions=["wheel.axle.disc.torque"])
+        for wrong in (np.zeros((2, 2)), np.zeros(2), [[1.]]):
+            with self.assertRaisesRegex(hookpoint.Error, "array of 2 x 1"):
+                batch.step(wrong)
+        with self.assertRaisesRegex(hookpoint.Error, "world 1 takes a finite"):
+            batch.step([[0.], [np.inf]])
+        with self.assertRaisesRegex(hookpoint.Error, "one a world: 2, not 3"):
+            hookpoint.Batch(WHEEL, 2, seeds=[1, 2, 3])
+        with self.assertRaisesRegex(hookpoint.Error, "one world or more"):
+            hookpoint.Batch(WHEEL, 0)
+        with self.assertRaisesRegex(hookpoint.Error, "not written"):
+            hookpoint.Batch(WHEEL, 1, actions=["wheel.axle.disc.rate"])
+        with self.assertRaisesRegex(hookpoint.Error, "did you mean"):
+            hookpoint.Batch(WHEEL, 1, observations=["wheel.axle.disc.raet"])
+        with self.assertRaisesRegex(hookpoint.Error, "one value a world"):
+            batch.reset([True])
+        with self.assertRaises(IndexError):
+            batch.state(2)
+        with self.assertRaises(hookpoint.FileError):
+            hookpoint.Batch("nowhere.hook", 2)
+
+    def test_ctrl_c_stops_a_batch(self):
+        batch = hookpoint.Batch(FALLING, 4, threads=2)
+        threading.Timer(0.2, os.kill, (os.getpid(), signal.SIGINT)).start()
+        with self.assertRaises(KeyboardInterrupt):
+            batch.step(count=10**12)
+
+
 class Study(unittest.TestCase):
     def test_the_table_is_that_of_results_csv(self):
         study = CONFIGS / "studies" / "creep.hook"
@@ -411,6 +681,114 @@ class Study(unittest.TestCase):
             hookpoint.study(CONFIGS / "scenes" / "sloped_block.hook")
         with self.assertRaises(hookpoint.FileError):
             hookpoint.study(CONFIGS / "studies" / "creep.hook", only=["nobody"])
+
+
+SLIDE = "World w { deltat = 1 ms; duration = 0.2 s; Terrain.Slope g { size = 4; angle = 20 deg; } " \
+    "Robot block { Base.mobile { rest_on = g; Shape.Box { dimensions = .2, .2, .1; mass = 1; } } } }\n"
+
+TABLED = """Study slides {
+  scene = "slide.hook"; duration = 0.2 s; settle = 0 s; Measure slip_distance;
+  Sweep dt { values = 1 ms, 2 ms; }
+  Subject ours { engine = dts; } Subject soft { contact = hunt_crossley; }
+  Table slip { rows = subject; columns = dt; value = slip_distance; }
+}
+"""
+
+# A unit mass on one point whose spring and damper along the ground say next to nothing.
+POINT = """World world {
+  gravity = 9.81; deltat = 1 ms; duration = 4 s;
+  Material floor { normal_stiffness = 5 kN/m; normal_damping = 10 N.s/m; tangential_stiffness = 1 N/m; tangential_damping = 0 N.s/m; }
+  Terrain.Flat ground { material = floor; }
+  Robot point { Base.mobile { mass = 1; inertia = 1, 1, 1, 0, 0, 0; ContactPoint tip { location = 0, 0, 0; } } }
+}
+"""
+
+TUNED = """Tune stiffest {
+  scene = "scene.hook"; settle = 3 s;
+  Vary normal_stiffness { from = 1 kN/m; to = 100 kN/m; scale = log; }
+  Objective penetration_mean { minimise; }
+  Require stable_step { above = 10 ms; }
+  method = cmaes; population = 8; generations = 6; seeds = 1; samples = 0;
+}
+"""
+
+
+class DataFrame:
+    """What frames are made of, where pandas is not."""
+
+    def __init__(self, data, index=None, columns=None):
+        self.data, self.index, self.columns = data, index, columns
+
+
+class Frames(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.place = pathlib.Path(folder.name)
+        (self.place / "slide.hook").write_text("Param dt = 1 ms;\n" + SLIDE.replace("deltat = 1 ms", "deltat = dt"))
+        (self.place / "study.hook").write_text(TABLED)
+        # Its steps are coarse on purpose.
+        self.enterContext(warnings.catch_warnings())
+        warnings.simplefilter("ignore")
+
+    def test_a_table_block_is_a_grid(self):
+        result = hookpoint.study(self.place / "study.hook")["slides"]
+        grid, table = result["tables"]["slip"], result["table"]
+        self.assertEqual((grid["down"], grid["rows"], len(grid["columns"])), ("subject", ["ours", "soft"], 2))
+        slipped = next(values for title, values in table.items() if title.startswith("slip_distance ["))
+        step = table["dt [ms]"] if "dt [ms]" in table else table["dt [s]"]
+        for i, subject in enumerate(grid["rows"]):
+            for j, value in enumerate(np.unique(step)):
+                self.assertEqual(grid["values"][i, j], slipped[(table["subject"] == subject) & (step == value)][0])
+
+    def test_tables_are_frames_where_pandas_is(self):
+        with unittest.mock.patch.dict(sys.modules, {"pandas": types.SimpleNamespace(DataFrame=DataFrame)}):
+            framed = hookpoint.study(self.place / "study.hook", frames=True)["slides"]
+        plain = hookpoint.study(self.place / "study.hook")["slides"]
+        self.assertEqual(list(framed), list(plain))
+        self.assertEqual(list(framed["table"].data), list(plain["table"]))
+        np.testing.assert_array_equal(framed["table"].data["subject"], plain["table"]["subject"])
+        slip = framed["tables"]["slip"]
+        self.assertEqual((slip.index, slip.columns), (plain["tables"]["slip"]["rows"], plain["tables"]["slip"]["columns"]))
+        np.testing.assert_array_equal(slip.data, plain["tables"]["slip"]["values"])
+        self.assertEqual(framed["truths"], plain["truths"])
+
+    def test_without_pandas_nothing_runs(self):
+        with unittest.mock.patch.dict(sys.modules, {"pandas": None}):
+            for ask in (hookpoint.study, hookpoint.tune):
+                with self.assertRaisesRegex(hookpoint.Error, "needs pandas"):
+                    ask(self.place / "nowhere.hook", frames=True)
+
+
+class Tune(unittest.TestCase):
+    def test_is_the_tuning_of_the_command(self):
+        with tempfile.TemporaryDirectory() as folder:
+            place = pathlib.Path(folder)
+            (place / "scene.hook").write_text(POINT)
+            (place / "tune.hook").write_text(TUNED)
+            subprocess.run([PROGRAM, "tune", place / "tune.hook", "--out", place / "command"], capture_output=True)
+            result = hookpoint.tune(place / "tune.hook", out=place / "python")["stiffest"]
+            unkept = hookpoint.tune(place / "tune.hook")["stiffest"]
+            for name in ("evaluations.csv", "pareto.csv", "recommended.json"):
+                self.assertEqual((place / "python" / name).read_bytes(), (place / "command" / name).read_bytes(), name)
+            rows = read_csv(place / "command" / "evaluations.csv")
+            recommended = json.loads((place / "command" / "recommended.json").read_text())
+            self.assertTrue((place / "python" / "report.html").exists())
+        table = result["table"]
+        self.assertEqual(list(table), rows[0])
+        self.assertEqual(table["stage"].tolist(), [row[1] for row in rows[1:]])
+        np.testing.assert_array_equal(table["evaluation"], np.arange(1, len(rows)))
+        self.assertEqual(result["recommended"], recommended)
+        self.assertEqual(unkept["recommended"], recommended)
+        self.assertTrue(result["holds"])
+        self.assertIn("_tuned {", result["material"])
+        self.assertIn("yes", result["pareto"]["recommended"].tolist())
+
+    def test_files_without_one_and_ctrl_c_are_told(self):
+        with self.assertRaisesRegex(hookpoint.Error, "holds no Tune"):
+            hookpoint.tune(CONFIGS / "studies" / "creep.hook")
+        with self.assertRaises(hookpoint.FileError):
+            hookpoint.tune("nowhere.hook")
 
 
 class Module(unittest.TestCase):

@@ -67,8 +67,8 @@ void for_random_robots(std::uint64_t seed, const Check& check) {
       for (const bool degenerate : {false, true}) {
         for (int repetition = 0; repetition < 4; ++repetition) {
           if (!mobile && chains == 0) continue;
-          SCOPED_TRACE(testing::Message() << chains << " chains, mobile " << mobile
-                                          << ", degenerate " << degenerate << ", " << repetition);
+          SCOPED_TRACE(::testing::Message() << chains << " chains, mobile " << mobile
+                                            << ", degenerate " << degenerate << ", " << repetition);
           const Case drawn(random, random.robot(mobile, chains, degenerate));
           check(random, drawn);
         }

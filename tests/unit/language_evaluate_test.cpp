@@ -266,6 +266,38 @@ TEST(LanguageIncludes, AreLookedUpBesideTheFileThenAlongThePath) {
   EXPECT_EQ(result.root->children.at(1)->name, "second");
 }
 
+TEST(LanguageIncludes, TakeTheirPathFromAValue) {
+  const Folder folder;
+  folder.write("parts/clay.hook", "Material clay { static_friction = .3; }");
+  folder.write("parts/sand.hook", "Param mu = .4; Material sand { static_friction = mu; }");
+  folder.write("plugged.hook", "Plugin \"law.so\";");
+  const auto file = folder.write("test.hook", R"(
+Param soil = "parts/clay.hook";
+Param second = sand;
+World w { Include soil; Include ("parts/" + second + ".hook") (mu = .7) under; Include soil again; }
+)");
+  Evaluated result = evaluate_file(file);
+  ASSERT_TRUE(result.root) << result.errors();
+  EXPECT_EQ(result.at("w.clay").number("static_friction"), .3);
+  EXPECT_EQ(result.at("w.under.sand").number("static_friction"), .7);
+  EXPECT_EQ(result.at("w.again.clay").number("static_friction"), .3);
+  EvaluateOptions options;
+  options.parameters = {{"soil", "\"parts/sand.hook\""}};
+  EXPECT_EQ(evaluate_file(file, options).at("w.sand").number("static_friction"), .4);
+  options.parameters = {{"soil", "\"parts/mud.hook\""}};
+  EXPECT_EQ(evaluate_file(file, options).messages().substr(0, 36),
+            "there is no file `parts/mud.hook`; l");
+  EXPECT_EQ(evaluate_file(folder.write("two.hook", "Let p = \"plugged.hook\"; Include p;"))
+                .messages()
+                .substr(0, 64),
+            "a Plugin stands in no file whose Include has its path from a val");
+  EXPECT_EQ(evaluate_text("Include soil;").messages(),
+            "an Include takes the path of a file, a string in quotes or a Param that holds one, "
+            "not the word `soil`\n");
+  EXPECT_EQ(evaluate_text("Include (\"a\" + 3);").messages(),
+            "a string and a number cannot be put together\n");
+}
+
 TEST(LanguageIncludes, DoNotSeeTheIncludersVariables) {
   const Folder folder;
   folder.write("a.hook", "World w deltat = 2 * step;");

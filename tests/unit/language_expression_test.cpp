@@ -150,7 +150,7 @@ TEST(LanguageExpressions, MistakesAreNamed) {
             "undefined variable `lenth`; did you mean `length`?\n");
   EXPECT_EQ(error_of("3 kgg"), "unknown unit `kgg`; did you mean `kg`?\n");
   EXPECT_EQ(error_of("1 + true"), "expected a number, not true or false\n");
-  EXPECT_EQ(error_of("1 + \"a\""), "expected a number, not a string\n");
+  EXPECT_EQ(error_of("1 + \"a\""), "a string and a number cannot be put together\n");
   EXPECT_EQ(error_of("1 ? 2 : 3"), "expected true or false, not a number\n");
 }
 

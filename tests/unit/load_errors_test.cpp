@@ -20,7 +20,7 @@ struct Case {
   std::string diagnostics;
 };
 
-class WrongExperiment : public testing::TestWithParam<Case> {};
+class WrongExperiment : public ::testing::TestWithParam<Case> {};
 
 TEST_P(WrongExperiment, IsRefusedInTheseWords) {
   EXPECT_EQ(diagnostics_of(GetParam().text), GetParam().diagnostics);
@@ -138,9 +138,9 @@ const Case cases[] = {
      "error 2:19 boundary_points of a Shape.Cylinder is 0 (its default) or at least 3\n"},
 };
 
-std::string case_name(const testing::TestParamInfo<Case>& tested) { return tested.param.name; }
+std::string case_name(const ::testing::TestParamInfo<Case>& tested) { return tested.param.name; }
 
-INSTANTIATE_TEST_SUITE_P(Load, WrongExperiment, testing::ValuesIn(cases), case_name);
+INSTANTIATE_TEST_SUITE_P(Load, WrongExperiment, ::testing::ValuesIn(cases), case_name);
 
 // All that is wrong is said at once.
 TEST(LoadErrors, ComeAllInOneGo) {

@@ -11,7 +11,7 @@ namespace {
 
 using namespace simulation;
 
-class Figure7 : public testing::Test {
+class Figure7 : public ::testing::Test {
  protected:
   void SetUp() override {
     loaded_ = load_file(std::filesystem::path(HOOKPOINT_SOURCE_DIR) /

@@ -94,7 +94,8 @@ TEST(JointUnits, WhatIsSetFromOutsideCountsToo) {
   language::EvaluateOptions sliding, turning;
   sliding.overrides = {{"w.r.c.l.joint", "prismatic"}, {"w.r.c.l.angle", "10 mm"}};
   turning.overrides = {{"w.r.c.l.joint", "prismatic"}};
-  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "joint_units.hook";
+  const std::filesystem::path file =
+      std::filesystem::path(::testing::TempDir()) / "joint_units.hook";
   std::ofstream(file) << link("angle = 10 deg;");
   EXPECT_TRUE(load_file(file, sliding).experiment);
   EXPECT_EQ(load_file(file, turning).diagnostics,
@@ -135,7 +136,7 @@ TEST(JointUnits, PortsAndConstantsCarryThem) {
 
 TEST(JointUnits, APrintedFileReadsBack) {
   const std::filesystem::path file =
-      std::filesystem::path(testing::TempDir()) / "joint_units_print.hook";
+      std::filesystem::path(::testing::TempDir()) / "joint_units_print.hook";
   std::ofstream(file) << link("stiffness = 2 N/mm; angle = 10 mm; joint = prismatic;");
   language::Library library(experiment_schema(), {});
   language::Diagnostics diagnostics;

@@ -27,7 +27,7 @@ ExpectationSpec take(Reduction reduction, double from = 0., std::optional<double
 
 /// 3, 1, 4, 1, 5 at 0, 1, 2, 3, 4 s.
 std::optional<double> of_pi(const ExpectationSpec& spec) {
-  Reducer reducer(spec);
+  Reducer reducer(spec.reduction());
   double time = 0.;
   for (const double value : {3., 1., 4., 1., 5.}) reducer.observe(time++, value);
   return reducer.value();
@@ -63,9 +63,50 @@ TEST(Reducer, FindsTheFirstCrossingOnAStraightLine) {
   EXPECT_EQ(of_pi(take(Reduction::time_at, 0., 3., 4.5)), std::nullopt) << "met after the window";
 }
 
+TEST(Reducer, TakesTimesAndAreasOfTheStraightLinesBetweenSteps) {
+  EXPECT_EQ(of_pi(take(Reduction::last)), 5.);
+  EXPECT_EQ(of_pi(take(Reduction::time_of_maximum)), 4.);
+  EXPECT_EQ(of_pi(take(Reduction::time_of_minimum)), 1.) << "the first of two";
+  EXPECT_NEAR(*of_pi(take(Reduction::integral)), 2. + 2.5 + 2.5 + 3., 1e-15);
+  // Above 2: until 0.5 s, from 4/3 to 8/3 s, and from 3.25 s on.
+  EXPECT_EQ(of_pi(take(Reduction::count_above, 0., {}, 2.)), 3.);
+  EXPECT_NEAR(*of_pi(take(Reduction::time_above, 0., {}, 2.)), 0.5 + 4. / 3. + 0.75, 1e-15);
+  EXPECT_EQ(of_pi(take(Reduction::count_above, 0., {}, 9.)), 0.);
+}
+
+// x = exp(-t): within b of its end e from t = -log(e + b) on; about 0 from -log(b) on.
+TEST(Reducer, SettlesWhenNothingLeavesTheBandAgain) {
+  constexpr double dt = 1e-3, band = 0.01;
+  ExpectationSpec spec = take(Reduction::settle_time);
+  spec.level.reset();
+  spec.band = band;
+  Reducer about_end(spec.reduction());
+  spec.level = 0.;
+  Reducer about_zero(spec.reduction());
+  spec.band = 0.005;
+  Reducer not_yet(spec.reduction());
+  for (int k = 0; k <= 5000; ++k)
+    for (Reducer* reducer : {&about_end, &about_zero, &not_yet})
+      reducer->observe(k * dt, std::exp(-k * dt));
+  // To a hundredth of the band, 1e-4/0.0167 of a second here.
+  EXPECT_NEAR(*about_end.value(), -std::log(std::exp(-5.) + band), 7e-3);
+  EXPECT_NEAR(*about_zero.value(), -std::log(band), dt);
+  EXPECT_EQ(not_yet.value(), std::nullopt) << "exp(-5) is above 0.005";
+  // A ringing end counts from its last excursion on, whichever side that was on.
+  Reducer rings([] {
+    ExpectationSpec ringing = take(Reduction::settle_time);
+    ringing.level.reset();
+    ringing.band = 0.5;
+    return ringing.reduction();
+  }());
+  double time = 0.;
+  for (const double value : {0., 2., 0.2, -0.7, 0.1, 0.3, 0.}) rings.observe(time++, value);
+  EXPECT_EQ(rings.value(), 4.);
+}
+
 // Sums of squares of such times and values would leave nothing of the rise.
 TEST(Reducer, KeepsTheSlopeOfASmallRiseFarFromZero) {
-  Reducer slope(take(Reduction::slope));
+  Reducer slope(take(Reduction::slope).reduction());
   for (int k = 0; k < 1000; ++k) {
     const double t = 1e7 + 1e-3 * k;
     slope.observe(t, 1e6 + 1e-3 * (t - 1e7));
@@ -141,7 +182,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"integrator", "of = w.b.position.x; equals = 2 m; within = 1 m; integrators = rk5;",
               "error 2:75 there is no `rk5` among the integrators; did you mean `rk4`?\n"},
         Wrong{"level", "of = w.b.position.x; take = time_at; equals = 2 s; within = 1 s;",
-              "error 2:40 `time_at` needs the `level` whose first crossing is meant\n"},
+              "error 2:40 `time_at` needs the `level` that is meant\n"},
         Wrong{"tolerance", "of = w.b.position.x; equals = 2 m;",
               "error 2:1 no difference is allowed: give a `tolerance` (relative) or `within`\n"},
         Wrong{"window", "of = w.b.position.x; equals = 2 m; within = 1 m; from = 2 s; to = 1 s;",

@@ -2,11 +2,16 @@
 // results.csv, independence of the number of threads, resuming, failing rows.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "simulation/scene/load.h"
+#include "studies/pivot.h"
+#include "studies/report/figures.h"
 #include "studies/run/results_csv.h"
 #include "studies/run/verdict.h"
+#include "tests/support/page_blocks.h"
 #include "tests/support/study_runner.h"
 
 namespace hookpoint::studies {
@@ -263,6 +268,246 @@ TEST_F(StudyRunner, QuickTakesTheEndsOfSweepsAndAFifthOfTheTime) {
   EXPECT_DOUBLE_EQ(plan->settle, 0.04);
 }
 
+constexpr const char* scene_of_words = R"(
+Param soil = clay;
+Param law = hookpoint;
+Param robot = "box.hook";
+World world {
+  deltat = 10 ms;
+  contact = law;
+  Material clay { static_friction = 0.9; kinetic_friction = 0.9; normal_stiffness = 3 N/m; }
+  Material oak { static_friction = 0.4; kinetic_friction = 0.4; normal_stiffness = 3 N/m; }
+  Terrain.Slope ground { angle = 10 deg; material = soil; }
+  Include robot;
+}
+)";
+constexpr const char* study_of_words = R"(
+Study words {
+  scene = "words.hook"; duration = 1 s;
+  Sweep robot { values = "box.hook", "plate.hook"; }
+  Sweep soil { values = clay, oak; }
+  Sweep law { values = hookpoint, lugre; }
+  Subject ours { engine = dts; }
+  Subject some { engine = dts; Only soil { values = oak; } }
+  Measure creep_speed;
+  Truth creep_speed { below = 1 m/s; Only law { values = lugre; } }
+  Table creep { rows = soil; columns = robot; value = creep_speed; }
+  Plot by_soil { x = soil; y = creep_speed; series = law; Only robot { values = "plate.hook"; } }
+}
+)";
+
+class WordStudies : public StudyRunner {
+ protected:
+  WordStudies() {
+    write("words.hook", scene_of_words);
+    write("box.hook", block("1 kg"));
+    write("plate.hook", block("2 kg"));
+  }
+  static std::string block(const std::string& mass) {
+    return "Robot block { Base.mobile { rest_on = ground; Shape.Box { dimensions = 0.2, 0.2, 0.1; "
+           "mass = " +
+           mass + "; } } }";
+  }
+  /// Of the world's first Material that a row's ground is made of.
+  static double friction(const Experiment& experiment) {
+    return experiment.materials[static_cast<std::size_t>(experiment.terrain->material)]
+        .constants.static_friction;
+  }
+};
+
+TEST_F(WordStudies, AScenesParamsTakeWordsAndFiles) {
+  const auto plan = this->plan(study_of_words);
+  ASSERT_TRUE(plan) << first_error();
+  ASSERT_EQ(plan->rows.size(), 12U);
+  EXPECT_EQ(plan->name_of(plan->rows[0]),
+            "words (ours, robot = \"box.hook\", soil = clay, law = hookpoint)");
+  const Experiment first = plan->experiment_of(plan->rows.front());
+  const Experiment last = plan->experiment_of(plan->rows.back());
+  EXPECT_EQ(first.contact, "hookpoint");
+  EXPECT_EQ(last.contact, "lugre");
+  EXPECT_EQ(friction(first), 0.9);
+  EXPECT_EQ(friction(last), 0.4);
+  EXPECT_EQ(first.robots[0].base.mass.mass, 1.);
+  EXPECT_EQ(last.robots[0].base.mass.mass, 2.);
+  EXPECT_EQ(plan->subjects[0].info.law, "hookpoint or lugre");
+}
+
+TEST_F(WordStudies, TheirResultsHoldTheWords) {
+  const auto plan = this->plan(study_of_words);
+  ASSERT_TRUE(plan) << first_error();
+  StudyRun run = this->run(*plan, "out", 2);
+  const output::CsvTable table = results_table(run.result, false);
+  // `law` is swept: it has one column.
+  EXPECT_EQ(table.header[2], "law");
+  EXPECT_EQ(std::ranges::count(table.header, "law"), 1);
+  EXPECT_EQ(table.rows.back()[0], "plate.hook");
+  EXPECT_EQ(table.rows.back()[1], "oak");
+  EXPECT_EQ(table.rows.back()[2], "lugre");
+  EXPECT_EQ(run.result.truths[0].passed, 6);
+  const Pivot pivot = pivot_of(run.result, run.result.tables[0]);
+  EXPECT_EQ(pivot.rows, (std::vector<std::string>{"clay", "oak"}));
+  EXPECT_EQ(pivot.columns, (std::vector<std::string>{"box.hook", "plate.hook"}));
+  EXPECT_EQ(pivot.at(1, 0).rows, 4);
+  const Figure figure = make_figure(run.result, 0);
+  EXPECT_EQ(figure.plot.x.names, (std::vector<std::string>{"clay", "oak"}));
+  EXPECT_EQ(figure.plot.series.size(), 4U);
+  EXPECT_TRUE(figure.plot.series[0].scattered);
+  const std::string script = output::plot_script(figure.plot);
+  EXPECT_NE(script.find("('clay' 0, 'oak' 1)"), std::string::npos) << script;
+  EXPECT_NE(script.find("xrange [-0.5:1.5]"), std::string::npos) << script;
+  const std::string before = read(run.folder / "results.csv");
+  const long steps = Slider::steps_taken;
+  run.files.reset();
+  EXPECT_EQ(read(this->run(*plan, "out", 1, true).folder / "results.csv"), before);
+  EXPECT_EQ(Slider::steps_taken, steps);
+}
+
+TEST_F(WordStudies, EngineContactAndTerrainAreTheWorlds) {
+  write("ice.hook",
+        "Param seed = 1; Material ice { static_friction = 0.1; kinetic_friction = 0.1; }"
+        "Terrain.Slope ground { angle = 20 deg; material = ice; }");
+  write("turf.hook",
+        "Param tilt = 10 deg; Material turf { static_friction = 0.7; kinetic_friction = 0.7; }"
+        "Terrain.Slope ground { angle = tilt; material = turf; }");
+  const auto plan = this->plan(R"(
+Study grounds {
+  scene = "words.hook"; duration = 1 s;
+  Sweep terrain { values = "ice.hook", "turf.hook"; }
+  Sweep engine { values = dts, ode; }
+  Sweep contact { values = hookpoint, lugre; }
+  Fix tilt { value = 5 deg; }
+  Subject all { integrator = rk4; Fix law { value = lugre; } }
+  Measure creep_speed;
+})");
+  ASSERT_TRUE(plan) << first_error();
+  ASSERT_EQ(plan->rows.size(), 8U);
+  const Experiment ours = plan->experiment_of(plan->rows[0]);
+  const Experiment theirs = plan->experiment_of(plan->rows[7]);
+  EXPECT_EQ(ours.engine, "dts");
+  EXPECT_EQ(ours.contact, "hookpoint");
+  EXPECT_EQ(ours.integrator, "rk4");
+  EXPECT_EQ(friction(ours), 0.1);
+  EXPECT_EQ(theirs.engine, "ode");
+  EXPECT_EQ(friction(theirs), 0.7);
+  EXPECT_NEAR(std::get<contact::SlopeSurface>(theirs.terrain->surface).angle, 5. * M_PI / 180.,
+              1e-15);
+  // A peer has a contact of its own: both laws are one run.
+  EXPECT_EQ(plan->rows[6].hash, plan->rows[7].hash);
+  EXPECT_NE(plan->rows[4].hash, plan->rows[5].hash);
+  const output::CsvTable table = results_table(this->run(*plan, "out").result, false);
+  EXPECT_EQ(table.rows[1][2], "lugre");
+  EXPECT_EQ(std::ranges::count(table.header, "engine"), 1);
+  const auto law = std::ranges::find(table.header, "law") - table.header.begin();
+  EXPECT_EQ(table.rows[1][static_cast<std::size_t>(law)], "lugre");
+  EXPECT_EQ(table.rows[7][static_cast<std::size_t>(law)], "");
+  const RowScene scene = plan->scene_of(plan->rows[0]);
+  EXPECT_TRUE(scene.ground && scene.ground->parameters.empty());
+  EXPECT_EQ(plan->scene_of(plan->rows[7]).ground->parameters.at("tilt").substr(0, 8), "0.087266");
+}
+
+TEST_F(WordStudies, WhatIsWrongWithAWordHasItsPlace) {
+  const auto told = [&](const std::string& from, const std::string& to) {
+    EXPECT_FALSE(plan(replaced(study_of_words, from, to))) << to;
+    const language::Diagnostic& first = diagnostics_.all().front();
+    return std::to_string(first.position.file == nullptr
+                              ? 0
+                              : first.position.offset -
+                                    std::min(first.position.offset,
+                                             replaced(study_of_words, from, to).find(to))) +
+           " " + first.message;
+  };
+  EXPECT_EQ(told("Sweep soil { values = clay, oak", "Sweep sol { values = clay, oak").substr(2),
+            "no Param of the scene is called `sol`; did you mean `soil`?");
+  EXPECT_EQ(told("clay, oak; }", "clay, 5; }"),
+            "6 the values of `values` are all numbers or all words, not a number behind the word "
+            "`clay`");
+  EXPECT_EQ(told("clay, oak; }", "clay, clay; }"), "0 `clay` stands there twice");
+  EXPECT_EQ(told("values = oak", "values = oka"),
+            "9 no value of the Sweep soil is called `oka`; did you mean `oak`?");
+  EXPECT_EQ(told("values = oak", "from = 3"),
+            "7 `soil` has words, which have no order: give `values`");
+  EXPECT_EQ(
+      told("Sweep law { values = hookpoint, lugre", "Sweep contact { values = hookpoint, lugra")
+          .substr(0, 62),
+      "36 no contact is called `lugra`; did you mean `lugre`?");
+  EXPECT_EQ(told("series = law;", "scale = log_x;"),
+            "8 `soil` has words: its axis cannot be logarithmic");
+}
+
+TEST_F(WordStudies, AWordThatTheSceneCannotTakeHasItsPlaceInTheStudy) {
+  const std::string text =
+      "Study s { scene = \"words.hook\"; duration = 1 s; Sweep law { values = hookpoint, lugra; } "
+      "Subject ours { engine = dts; } Measure creep_speed; }";
+  EXPECT_FALSE(plan(text));
+  const auto& all = diagnostics_.all();
+  const auto found =
+      std::ranges::find(all, language::Severity::error, &language::Diagnostic::severity);
+  ASSERT_NE(found, all.end());
+  const language::Diagnostic& first = *found;
+  EXPECT_EQ(first.message.substr(0, 20), "`lugra` is no contac");
+  EXPECT_EQ(first.position.offset, text.find("lugra"));
+  EXPECT_EQ(first.position.length, 5U);
+}
+
+TEST_F(WordStudies, ThePagesExampleIsPlannedAsItSays) {
+  const std::filesystem::path page =
+      std::filesystem::path(HOOKPOINT_SOURCE_DIR) / "docs/studies.md";
+  std::string example;
+  for (const testing::PageBlock& block : testing::blocks_of(read(page))) {
+    if (block.name == "soils.hook") example = block.text;
+    if (!block.name.empty()) write(block.name, block.text);
+  }
+  const auto plan = this->plan(example);
+  ASSERT_TRUE(plan) << first_error();
+  EXPECT_EQ(plan->rows.size(), 12U);
+}
+
+TEST_F(StudyRunner, SeedsRunEachRowAndATruthJudgesTheirMean) {
+  // With a Param `seed` that the slope follows from: the slider itself knows no chance.
+  write("scene.hook",
+        "Param seed = 7;\n" + replaced(slider_scene, "angle = slope", "angle = slope * seed"));
+  const std::string text = R"(
+Study seeded {
+  scene = "scene.hook"; duration = 1 s; seeds = 3;
+  Sweep mu { values = 0.8, 1; }
+  Fix slope { value = 0.1; }
+  Subject ours { engine = dts; }
+  Subject peer { engine = ode; }
+  Measure creep_speed;
+  Truth mean { metric = creep_speed; equals = value; value = 2.2 mm/s; within = 0.05 mm/s; }
+  Truth low { metric = creep_speed; below = 2.15 mm/s; Only mu { values = 1; } }
+  Plot by_mu { x = mu; y = creep_speed; }
+  Plot path { x = time; y = displacement; }
+})";
+  const auto plan = this->plan(text);
+  ASSERT_TRUE(plan) << first_error();
+  ASSERT_EQ(plan->rows.size(), 12U);
+  EXPECT_EQ(plan->seeds, (std::set<std::uint64_t>{1, 2, 3}));
+  const StudyRun run = this->run(*plan, "out");
+  const output::CsvTable table = results_table(run.result, false);
+  EXPECT_EQ(table.header[1], "seed");
+  EXPECT_EQ(table.rows[5][1], "3");
+  // 2 mm/s and 0.1, 0.2, 0.3 mm/s: mean 2.2, s = 0.1; only the mean is within 0.05 of it.
+  EXPECT_NEAR(*run.result.rows[0].metrics[0].measured, 2.1e-3, 1e-12);
+  EXPECT_EQ(run.result.truths[0].passed, 4);
+  EXPECT_EQ(run.result.truths[1].failed, 2);
+  EXPECT_EQ(run.result.truths[1].first_failure, 6);
+  const Figure figure = make_figure(run.result, 0);
+  ASSERT_EQ(figure.plot.series.size(), 2U);
+  const output::Series& ours = figure.plot.series[0];
+  EXPECT_NEAR(ours.measured.y[0], 2.2e-3, 1e-12);
+  EXPECT_NEAR(ours.half_widths.at(0), 4.302652729911275 * 1e-4 / std::sqrt(3.), 1e-12);
+  const std::string script = output::plot_script(figure.plot);
+  EXPECT_NE(script.find("yerrorbars"), std::string::npos);
+  EXPECT_EQ(output::plot_data(figure.plot).substr(0, 51),
+            "series,kind,mu,creep speed [m/s],half_width [m/s]\no");
+  const Figure path = make_figure(run.result, 1);
+  EXPECT_NEAR(path.plot.series.at(0).measured.y.back(), 2.2e-3, 1e-12);
+  EXPECT_FALSE(this->plan(replaced(text, "Sweep mu { values = 0.8, 1; }",
+                                   "Sweep seed { values = 1, 2; } Sweep mu { values = 1; }")));
+  EXPECT_EQ(first_error(), "`seeds` varies the Param `seed`: it cannot be swept or fixed");
+}
+
 TEST_F(StudyRunner, OnlyRunsTheNamedSubject) {
   const auto plan = this->plan(study, {false, {"peer"}});
   ASSERT_TRUE(plan) << first_error();
@@ -275,7 +520,9 @@ TEST_F(StudyRunner, MisspeltNamesAreErrorsBeforeAnythingRuns) {
   EXPECT_FALSE(plan(replaced(study, "Sweep slope", "Sweep slop")));
   EXPECT_EQ(first_error(), "no Param of the scene is called `slop`; did you mean `slope`?");
   EXPECT_FALSE(plan(replaced(study, "Measure creep_speed", "Measure creep_sped")));
-  EXPECT_EQ(first_error(), "no metric is called `creep_sped`; did you mean `creep_speed`?");
+  EXPECT_EQ(first_error(),
+            "no metric is called `creep_sped` (one of your own says what it is `of`); did you mean "
+            "`creep_speed`?");
   EXPECT_FALSE(plan(replaced(study, "subjects = ours", "subjects = our")));
   EXPECT_EQ(first_error(), "no Subject is called `our`; did you mean `ours`?");
   EXPECT_FALSE(plan(replaced(study, "scene.hook", "secne.hook")));

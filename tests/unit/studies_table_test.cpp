@@ -7,6 +7,8 @@
 #include "studies/pivot.h"
 #include "studies/report/report_pivots.h"
 #include "studies/report/terminal_pivot.h"
+#include "studies/report/terminal_table.h"
+#include "studies/seed_means.h"
 #include "tests/support/study_runner.h"
 #include "tests/support/synthetic_study.h"
 
@@ -28,6 +30,102 @@ TableSpec by_slope() {
           .value = "creep_speed",
           .subjects = {},
           .where = {}};
+}
+
+/// Two subjects at two values of a sweep with four seeds; the second is the first plus 1, 2, 3, 4.
+StudyResult study_of_seeds() {
+  StudyResult study;
+  study.name = "seeds";
+  study.sweeps = {{"slope", "deg", {5., 10.}, {}}, {"seed", "", {1., 2., 3., 4.}, {}}};
+  study.seed_sweep = 1;
+  study.subjects = {{"one", "dts", "hookpoint", "", "", true}, {"two", "ode", "", "", "", true}};
+  study.metrics = {{"creep_speed", "m/s", false, Regime::none}};
+  study.tables = {{"creep", "", "subject", "slope", "creep_speed", {}, {}}};
+  for (const double slope : {5., 10.})
+    for (const double seed : {1., 2., 3., 4.})
+      for (const int subject : {0, 1}) {
+        RunResult row;
+        row.parameters = {slope, seed};
+        row.subject = subject;
+        const double value = slope * slope * (seed == 2. ? 3. : 1.) + (subject == 0 ? 0. : seed);
+        row.metrics = {{value, 7., std::nullopt, std::nullopt}};
+        study.rows.push_back(row);
+      }
+  return study;
+}
+
+// Student's t of 3 and 4 degrees of freedom at 97.5 %: tables of the distribution.
+constexpr double student_3 = 3.182446305284263, student_4 = 2.776445105197999;
+
+TEST(Seeds, AnIntervalIsStudents) {
+  // Sums by hand: mean 3, squares 4 + 1 + 0 + 1 + 4 = 10, s^2 = 2.5, s / sqrt(5) = sqrt(0.5).
+  const auto interval = mean_interval(std::vector{1., 2., 3., 4., 5.});
+  ASSERT_TRUE(interval);
+  EXPECT_DOUBLE_EQ(interval->mean, 3.);
+  EXPECT_NEAR(interval->half_width, student_4 * std::sqrt(0.5), 1e-12);
+  EXPECT_FALSE(mean_interval(std::vector{1.}));
+  EXPECT_EQ(mean_interval(std::vector{2., 2.})->half_width, 0.);
+}
+
+TEST(Seeds, ATableHasMeansTheirIntervalsAndPairedDifferences) {
+  const StudyResult study = study_of_seeds();
+  const Pivot pivot = pivot_of(study, study.tables[0]);
+  EXPECT_EQ(pivot.seeds, 4U);
+  EXPECT_EQ(pivot.first, "one");
+  EXPECT_EQ(pivot.note, "");
+  // 25, 75, 25, 25: mean 37.5, s = 25, s / sqrt(4) = 12.5.
+  EXPECT_DOUBLE_EQ(pivot.at(0, 0).interval->mean, 37.5);
+  EXPECT_NEAR(pivot.at(0, 0).interval->half_width, student_3 * 12.5, 1e-10);
+  EXPECT_FALSE(pivot.at(0, 0).difference);
+  // Whatever the seeds scatter, the differences are 1, 2, 3, 4: mean 2.5, s^2 = 5 / 3.
+  for (const std::size_t column : {0U, 1U}) {
+    const PivotCell& cell = pivot.at(1, column);
+    EXPECT_NEAR(cell.difference->mean, 2.5, 1e-12);
+    EXPECT_NEAR(cell.difference->half_width, student_3 * std::sqrt(5. / 12.), 1e-10);
+  }
+  const std::string terminal = terminal_table(study);
+  EXPECT_TRUE(says(terminal, "37.5 ± 40")) << terminal;
+  EXPECT_TRUE(says(terminal, "difference 2.5 ± 2.1")) << terminal;
+  EXPECT_TRUE(says(terminal, "over 4 seeds; difference to one, paired by seed")) << terminal;
+  EXPECT_TRUE(says(pivot_tables(over_seeds(study)), "difference 2.5 ± 2.1"));
+}
+
+TEST(Seeds, ACellThatAveragesMoreThanSeedsTakesEachSeedsMean) {
+  StudyResult study = study_of_seeds();
+  const TableSpec table = study.tables[0];
+  // Both slopes in one column: each seed's value is (25 + 100) / 2 times 1 or 3.
+  for (RunResult& row : study.rows) row.parameters[0] = row.parameters[0] == 5. ? 5. : 5. + 1e-12;
+  const Pivot pivot = pivot_of(study, table);
+  EXPECT_DOUBLE_EQ(pivot.at(0, 0).interval->mean, 93.75);
+  EXPECT_NEAR(pivot.at(0, 0).interval->half_width, student_3 * 62.5 / 2., 1e-9);
+  // A run without a value: no interval claims to know it.
+  study.rows[0].metrics[0].measured.reset();
+  EXPECT_FALSE(pivot_of(study, table).at(0, 0).interval);
+}
+
+TEST(Seeds, RowsThatDifferInTheSeedAloneAreOneOfMeans) {
+  StudyResult study = study_of_seeds();
+  study.rows[2].status = "not_finite at 0.1 s";
+  const StudyResult means = over_seeds(study);
+  ASSERT_EQ(means.rows.size(), 4U);
+  ASSERT_EQ(means.sweeps.size(), 1U);
+  EXPECT_EQ(means.rows[3].parameters, (std::vector<double>{10.}));
+  EXPECT_EQ(means.rows[3].subject, 1);
+  EXPECT_DOUBLE_EQ(*means.rows[3].metrics[0].measured, 152.5);
+  EXPECT_TRUE(means.rows[3].metrics[0].half_width);
+  EXPECT_EQ(*means.rows[3].metrics[0].predicted, 7.);
+  EXPECT_EQ(means.rows[0].status, "not_finite at 0.1 s (1 of 4 seeds)");
+}
+
+TEST(TerminalTable, SaysOnceWhyAnEngineRefusedRuns) {
+  StudyResult study = study_of_seeds();
+  study.seed_sweep.reset();
+  for (RunResult& row : study.rows)
+    if (row.subject == 1) row.status = "refused: a rail has no mass";
+  const std::string terminal = terminal_table(study);
+  EXPECT_TRUE(
+      says(terminal, "refused  two at slope = 5 deg, seed = 1 and 7 more: a rail has no mass"))
+      << terminal;
 }
 
 TEST(Pivot, ACellIsTheMeanOfItsRunsBesideTheirClosedForm) {

@@ -175,7 +175,7 @@ struct Frame {
 };
 void PrintTo(const Frame& frame, std::ostream* out) {
   *out << "opcode " << frame.opcode << ", " << frame.payload.size() << " bytes "
-       << testing::PrintToString(frame.payload.substr(0, 80));
+       << ::testing::PrintToString(frame.payload.substr(0, 80));
 }
 
 /// A browser's end of a WebSocket.
@@ -419,7 +419,7 @@ TEST(ViewServer, AnswersWhatIsNoRequestByAnErrorAndStays) {
         frame(binary, "abc"), frame(binary, ""), frame(text, "\xff\xfe"), frame(text, "\xc0\xaf"),
         frame(text, "\xed\xa0\x80"), frame(text, "glissi\xc3")}) {
     client.socket.write(wrong);
-    EXPECT_TRUE(is_error(client.next())) << testing::PrintToString(wrong.substr(0, 20));
+    EXPECT_TRUE(is_error(client.next())) << ::testing::PrintToString(wrong.substr(0, 20));
     still_there();
   }
   // A character may be cut by the end of a frame, not by that of a message.
@@ -445,7 +445,7 @@ TEST(ViewServer, ClosesAConnectionThatBreaksTheProtocol) {
     Client client(server);
     EXPECT_EQ(event(server).kind, Kind::joined);
     client.socket.write(wrong + frame(text, "not looked at"));
-    EXPECT_EQ(client.next(), (Frame{close_frame, "\x03\xea"})) << testing::PrintToString(wrong);
+    EXPECT_EQ(client.next(), (Frame{close_frame, "\x03\xea"})) << ::testing::PrintToString(wrong);
     EXPECT_TRUE(client.socket.is_closed());
     EXPECT_EQ(event(server).kind, Kind::left);
   }

@@ -42,7 +42,7 @@ struct Case {
   std::string diagnostics;
 };
 
-class WrongWiring : public testing::TestWithParam<Case> {};
+class WrongWiring : public ::testing::TestWithParam<Case> {};
 
 TEST_P(WrongWiring, IsRefusedInTheseWords) {
   const Loaded loaded = load_text(arm + GetParam().text);
@@ -125,8 +125,8 @@ const Case cases[] = {
      "rate\n"},
 };
 
-std::string case_name(const testing::TestParamInfo<Case>& tested) { return tested.param.name; }
-INSTANTIATE_TEST_SUITE_P(Load, WrongWiring, testing::ValuesIn(cases), case_name);
+std::string case_name(const ::testing::TestParamInfo<Case>& tested) { return tested.param.name; }
+INSTANTIATE_TEST_SUITE_P(Load, WrongWiring, ::testing::ValuesIn(cases), case_name);
 
 std::string push_of(const std::string& fields) {
   const Loaded loaded = load_text(

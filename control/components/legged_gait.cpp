@@ -1,4 +1,4 @@
-#include "control/components/hexapod_gait.h"
+#include "control/components/legged_gait.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,8 +21,9 @@ void put(State& state, std::size_t leg, const Vector3d& v) {
 
 }  // namespace
 
-void HexapodGait::start(double) {
-  for (std::size_t leg = 0; leg < leg_count; ++leg) {
+void LeggedGait::start(double) {
+  legs_ = legs_at_start();
+  for (std::size_t leg = 0; leg < legs(); ++leg) {
     feet_[leg] = {.position = neutral(leg), .origin = {}, .origin_velocity = {}};
     if (!solve(leg).reachable) {
       const std::string i = "[" + std::to_string(leg) + "]";
@@ -38,7 +39,7 @@ void HexapodGait::start(double) {
   write_outputs();
 }
 
-void HexapodGait::update(const Tick& tick) {
+void LeggedGait::update(const Tick& tick) {
   const double dt = tick.count == 0 ? 0. : tick.period;
   elapsed = elapsed + dt;
   load_feet();
@@ -47,15 +48,15 @@ void HexapodGait::update(const Tick& tick) {
   write_outputs();
 }
 
-void HexapodGait::load_feet() {
-  for (std::size_t leg = 0; leg < leg_count; ++leg) {
+void LeggedGait::load_feet() {
+  for (std::size_t leg = 0; leg < legs(); ++leg) {
     feet_[leg] = {vector_of(foot_position, leg), vector_of(lift_off_position, leg),
                   vector_of(lift_off_velocity, leg), swing_progress.get(leg)};
   }
 }
 
-void HexapodGait::save_feet() {
-  for (std::size_t leg = 0; leg < leg_count; ++leg) {
+void LeggedGait::save_feet() {
+  for (std::size_t leg = 0; leg < legs(); ++leg) {
     put(foot_position, leg, feet_[leg].position);
     put(lift_off_position, leg, feet_[leg].origin);
     put(lift_off_velocity, leg, feet_[leg].origin_velocity);
@@ -63,7 +64,7 @@ void HexapodGait::save_feet() {
   }
 }
 
-PlanarTwist HexapodGait::follow_command(double dt) {
+PlanarTwist LeggedGait::follow_command(double dt) {
   const double share = command_lag > 0. ? -std::expm1(-dt / command_lag) : 1.;
   followed_forward = followed_forward + share * (forward - followed_forward);
   followed_sideways = followed_sideways + share * (sideways - followed_sideways);
@@ -71,15 +72,15 @@ PlanarTwist HexapodGait::follow_command(double dt) {
   return {followed_forward, followed_sideways, followed_turn};
 }
 
-GroundSearch HexapodGait::search(std::size_t leg) const {
+GroundSearch LeggedGait::search(std::size_t leg) const {
   return {contact.driven(leg), contact[leg] > 0., search_depth, search_speed};
 }
 
-bool HexapodGait::meets_ground(std::size_t leg) const {
+bool LeggedGait::meets_ground(std::size_t leg) const {
   return contact.driven(leg) && contact[leg] > 0. && feet_[leg].progress > 0.5;
 }
 
-LegSolution HexapodGait::solve(std::size_t leg) const {
+LegSolution LeggedGait::solve(std::size_t leg) const {
   const Vector3d& foot = feet_[leg].position;
   const double x = foot.x - hip_x[leg], y = foot.y - hip_y[leg];
   const double cosine = std::cos(hip_heading[leg]), sine = std::sin(hip_heading[leg]);
@@ -89,9 +90,9 @@ LegSolution HexapodGait::solve(std::size_t leg) const {
                     knee_up > 0.5 ? Knee::up : Knee::down);
 }
 
-void HexapodGait::write_outputs() {
+void LeggedGait::write_outputs() {
   int out_of_reach = 0;
-  for (std::size_t leg = 0; leg < leg_count; ++leg) {
+  for (std::size_t leg = 0; leg < legs(); ++leg) {
     const LegSolution solution = solve(leg);
     goal.set(leg_joints * leg, solution.angles.coxa);
     goal.set(leg_joints * leg + 1, solution.angles.femur);

@@ -1,0 +1,124 @@
+// What every gait has: commands, the robot's measures, feet, and the joint goals that follow from
+// where the feet are.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "control/component.h"
+#include "control/components/foot_path.h"
+#include "control/leg_kinematics.h"
+
+namespace hookpoint::control {
+
+constexpr std::size_t leg_joints = 3;
+
+/// Legs are numbered along the right side from the rear, then along the left one.
+class LeggedGait : public Component {
+  const std::size_t
+      most_;  ///< legs that the ports are for; before the ports, which are built by it
+
+ public:
+  Parameter forward{*this, "forward", "m/s", 0., "commanded speed along the body's x"};
+  Parameter sideways{*this, "sideways", "m/s", 0., "commanded speed along the body's y (left)"};
+  Parameter turn{*this, "turn", "rad/s", 0., "commanded yaw rate, positive to the left"};
+  Parameter command_lag = Parameter{*this, "command_lag", "s", 0.3,
+                                    "time constant with which the commands are followed"}
+                              .range(0., 100.);
+  Parameter stand =
+      Parameter{*this, "stand", "s", 0.5, "time to stand before the first step"}.range(0., 1e6);
+  Parameter coxa_length =
+      Parameter{*this, "coxa_length", "m", 0.05, "of each leg, from the coxa's axis to the femur's",
+                most_}
+          .range(0., 1e3);
+  Parameter femur_length =
+      Parameter{
+          *this, "femur_length", "m", 0.1, "of each leg, from the femur's axis to the tibia's",
+          most_}
+          .range(1e-6, 1e3);
+  Parameter tibia_length =
+      Parameter{*this, "tibia_length", "m", 0.15, "of each leg, from the tibia's axis to the foot",
+                most_}
+          .range(1e-6, 1e3);
+  Parameter knee_up = Parameter{*this, "knee_up", "", 1.,
+                                "1: the knee is above the line from hip to foot, 0: below"}
+                          .range(0., 1.);
+  Parameter hip_x{
+      *this, "hip_x", "m", 0., "hips in the body's axes, right legs from the rear, then left ones",
+      most_};
+  Parameter hip_y{*this, "hip_y", "m", 0., "hips in the body's axes", most_};
+  Parameter hip_heading{*this, "hip_heading", "rad", 0., "yaw of the hip's x axis in the body",
+                        most_};
+  Parameter foot_x{*this, "foot_x", "m", 0., "neutral foot positions in the body's axes", most_};
+  Parameter foot_y{*this, "foot_y", "m", 0., "neutral foot positions in the body's axes", most_};
+  Parameter body_height =
+      Parameter{*this, "body_height", "m", 0.1, "of the hips above the feet"}.range(0., 1e3);
+  Parameter step_height =
+      Parameter{*this, "step_height", "m", 0.03, "of the foot above the ground in mid-swing"}.range(
+          0., 1e3);
+  Parameter search_depth = Parameter{*this, "search_depth", "m", 0.02,
+                                     "how far a foot whose wired contact is 0 reaches below"}
+                               .range(0., 1e3);
+  Parameter search_speed =
+      Parameter{*this, "search_speed", "m/s", 0.2, "how fast it does"}.range(0., 1e3);
+
+  Input height_offset{*this, "height_offset", "m", "lengthens a leg: raises the body there", 0.,
+                      most_};
+  Input contact{*this, "contact",
+                "?",   "above 0 while the foot carries load; a swing past its middle ends there",
+                0.,    most_};
+
+  Output goal{*this, "goal", "rad", "joint angles: coxa, femur, tibia of leg 0, then of leg 1 ...",
+              most_* leg_joints};
+  Output phase{*this, "phase", "", "0 to 0.5 through stance, 0.5 to 1 through swing", most_};
+  Output stance{*this, "stance", "", "1 in stance, 0 in swing", most_};
+  Output unreachable{*this, "unreachable", "", "legs whose foot is out of reach at the moment"};
+
+  State foot_position{*this, "foot_position", "m",
+                      "x, y in the body's axes and height over the ground, leg by leg", 3 * most_};
+  State lift_off_position{*this, "lift_off_position", "m", "where the last swing of each leg began",
+                          3 * most_};
+  State lift_off_velocity{*this, "lift_off_velocity", "m/s", "how fast the ground moved there",
+                          3 * most_};
+  State swing_progress{*this, "swing_progress", "", "through the swing, 0 to 1; -1 in stance",
+                       most_};
+  State followed_forward{*this, "followed_forward", "m/s", "the command as followed"};
+  State followed_sideways{*this, "followed_sideways", "m/s", "the command as followed"};
+  State followed_turn{*this, "followed_turn", "rad/s", "the command as followed"};
+  State elapsed{*this, "elapsed", "s", "since the start"};
+
+  /// Feet at their neutral positions. Throws std::runtime_error for one out of reach.
+  void start(double period) final;
+  void update(const Tick& tick) final;
+
+ protected:
+  explicit LeggedGait(std::size_t most) : most_(most), feet_(most) {}
+  /// How many legs there are, at the start; the ports of the others stay as they are.
+  virtual std::size_t legs_at_start() const { return most_; }
+  std::size_t legs() const { return legs_; }
+  /// The gait's own state at the start.
+  virtual void begin() = 0;
+  /// Moves the feet on by `dt` > 0 [s].
+  virtual void step(double dt) = 0;
+  /// Of a leg, as the output says.
+  virtual double phase_of(std::size_t leg) const = 0;
+
+  PlanarTwist command() const { return {forward, sideways, turn}; }
+  /// Moves the command as followed towards the command by the lag's share of `dt`; returns it.
+  PlanarTwist follow_command(double dt);
+  Vector3d neutral(std::size_t leg) const { return {foot_x[leg], foot_y[leg], 0.}; }
+  GroundSearch search(std::size_t leg) const;
+  /// A swing ends early: past its middle the foot has met something.
+  bool meets_ground(std::size_t leg) const;
+
+  std::vector<FootPath> feet_;  ///< during an update; between two they rest in the states
+
+ private:
+  std::size_t legs_ = most_;
+  void load_feet();
+  void save_feet();
+  LegSolution solve(std::size_t leg) const;
+  void write_outputs();
+};
+
+}  // namespace hookpoint::control

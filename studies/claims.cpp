@@ -1,0 +1,135 @@
+#include "studies/claims.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "output/text/number.h"
+#include "studies/selection.h"
+
+namespace hookpoint::studies {
+namespace {
+
+constexpr const char* no_number = "(no value)";
+
+/// Of numbers: their mean, the least and the greatest.
+struct Gathered {
+  int count = 0;
+  double sum = 0., least = 0., largest = 0.;
+
+  void add(double value) {
+    least = count == 0 ? value : std::min(least, value);
+    largest = count == 0 ? value : std::max(largest, value);
+    sum += value;
+    ++count;
+  }
+  std::optional<double> mean() const {
+    return count > 0 ? std::optional(sum / count) : std::nullopt;
+  }
+};
+
+Gathered gather(const StudyResult& study, const ClaimSpec& claim, const ClaimValue& value,
+                int subject) {
+  Gathered gathered;
+  for (const RunResult& row : study.rows) {
+    const bool meant = (subject < 0 || row.subject == subject) && admits(study, claim.where, row) &&
+                       admits(study, value.where, row);
+    if (!meant) continue;
+    const MetricValue& metric = row.metrics[value.metric];
+    const auto& number = value.take == ClaimTake::predicted ? metric.predicted : metric.measured;
+    if (number) gathered.add(*number);
+  }
+  return gathered;
+}
+
+std::optional<double> number_of(const StudyResult& study, const ClaimSpec& claim,
+                                const ClaimValue& value) {
+  const Gathered gathered = gather(study, claim, value, value.subject);
+  if (gathered.count == 0) return std::nullopt;
+  switch (value.take) {
+    case ClaimTake::least:
+      return gathered.least;
+    case ClaimTake::largest:
+      return gathered.largest;
+    default:
+      return gathered.mean();
+  }
+}
+
+/// The subject whose mean is the least or the largest; "" where none has one.
+std::string subject_of(const StudyResult& study, const ClaimSpec& claim, const ClaimValue& value) {
+  std::string name;
+  double best = 0.;
+  for (std::size_t i = 0; i < study.subjects.size(); ++i) {
+    const auto mean = gather(study, claim, value, static_cast<int>(i)).mean();
+    if (!mean) continue;
+    const bool better = value.take == ClaimTake::subject_of_least ? *mean < best : *mean > best;
+    if (!name.empty() && !better) continue;
+    name = study.subjects[i].name;
+    best = *mean;
+  }
+  return name;
+}
+
+std::string words_of(const StudyResult& study, const ClaimSpec& claim, const ClaimPart& part) {
+  const ClaimValue& value = *part.value;
+  if (value.take == ClaimTake::subject_of_least || value.take == ClaimTake::subject_of_largest)
+    return subject_of(study, claim, value);
+  const auto number = number_of(study, claim, value);
+  if (!number) return "";
+  constexpr int digits = 3;
+  if (part.divisor) {
+    const auto divisor = number_of(study, claim, *part.divisor);
+    const bool said = divisor && std::isfinite(*number / *divisor);
+    return said ? output::rounded(*number / *divisor, digits) : "";
+  }
+  const std::string& unit = study.metrics[value.metric].unit;
+  return output::rounded(*number, digits) + (unit.empty() ? "" : " " + unit);
+}
+
+std::string runs(int count) { return std::to_string(count) + (count == 1 ? " run" : " runs"); }
+
+void judge_by_truths(const StudyResult& study, const ClaimSpec& claim, SaidClaim& said) {
+  std::string failing, holding;
+  for (const int index : claim.truths) {
+    const TruthResult& truth = study.truths[static_cast<std::size_t>(index)];
+    const int all = truth.passed + truth.failed;
+    if (truth.failed > 0)
+      failing += (failing.empty() ? "" : ", ") + truth.name + " in " +
+                 std::to_string(truth.failed) + " of " + runs(all);
+    else if (all > 0)
+      holding += (holding.empty() ? "" : ", ") + truth.name + " in " + runs(all);
+  }
+  said.verdict = !failing.empty()   ? ClaimVerdict::fails
+                 : !holding.empty() ? ClaimVerdict::holds
+                                    : ClaimVerdict::unjudged;
+  said.why = !failing.empty()   ? "does not hold: it fails " + failing
+             : !holding.empty() ? "holds: " + holding
+                                : "no Truth judges it";
+}
+
+}  // namespace
+
+SaidClaim said_of(const StudyResult& study, const ClaimSpec& claim) {
+  SaidClaim said;
+  bool whole = true;
+  for (const ClaimPart& part : claim.parts) {
+    if (!part.value) {
+      said.text += part.text;
+      continue;
+    }
+    const std::string words = words_of(study, claim, part);
+    whole = whole && !words.empty();
+    said.text += words.empty() ? no_number : words;
+  }
+  judge_by_truths(study, claim, said);
+  if (!whole && said.verdict != ClaimVerdict::fails) {
+    said.verdict = ClaimVerdict::unsaid;
+    said.why = "cannot be said: no run has all its numbers";
+  }
+  return said;
+}
+
+}  // namespace hookpoint::studies

@@ -1,0 +1,22 @@
+// Claims with their numbers filled in, and whether the Truths behind them hold.
+#pragma once
+
+#include <string>
+
+#include "studies/result.h"
+
+namespace hookpoint::studies {
+
+/// Unjudged: no Truth says anything of its runs. Unsaid: a number has no run that it could be of.
+enum class ClaimVerdict { holds, fails, unjudged, unsaid };
+
+struct SaidClaim {
+  std::string text;
+  ClaimVerdict verdict = ClaimVerdict::unjudged;
+  std::string why;  ///< in words: "the Truth creep holds in all 12 runs"
+};
+
+/// The claim as the study's rows tell it. Cost: its numbers times the rows.
+SaidClaim said_of(const StudyResult& study, const ClaimSpec& claim);
+
+}  // namespace hookpoint::studies

@@ -1,0 +1,138 @@
+#include "studies/metrics/user_metric.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "output/text/hash.h"
+#include "output/text/number.h"
+#include "simulation/run/expectation.h"
+
+namespace hookpoint::studies {
+namespace {
+
+/// Without a value, and why.
+class NotMeasured : public Metric {
+ public:
+  explicit NotMeasured(std::string why) : why_(std::move(why)) {}
+  void observe(const Observation&) override {}
+  std::optional<double> value() const override { return std::nullopt; }
+  std::string why_not() const override { return why_; }
+
+ private:
+  std::string why_;
+};
+
+/// Of a formula of ports, reduced as the run goes on.
+class MeasuredFormula : public Metric {
+ public:
+  MeasuredFormula(const UserMetric& metric, std::vector<const double*> sources, double slack)
+      : metric_(metric),
+        sources_(std::move(sources)),
+        names_(sources_.size()),
+        formula_(*metric.of),
+        reducer_(widened(metric.reduction, slack)) {}
+  void observe(const Observation& observation) override {
+    for (std::size_t i = 0; i < sources_.size(); ++i) names_[i] = *sources_[i];
+    const double value = formula_(names_);
+    const double time = observation.world.time;
+    if (std::isfinite(value))
+      reducer_.observe(time, value);
+    else if (!lost_)
+      lost_ = time;
+  }
+  std::optional<double> value() const override {
+    const auto value = lost_ ? std::nullopt : reducer_.value();
+    return value ? std::optional(metric_.in_unit(*value)) : std::nullopt;
+  }
+  std::string why_not() const override {
+    if (!lost_) return "";
+    return fmt::format("`{}` has no value at {} s", metric_.of->text, output::shortest(*lost_));
+  }
+
+ private:
+  /// Times are multiples of the step, rounded.
+  static simulation::ReductionSpec widened(simulation::ReductionSpec spec, double slack) {
+    spec.from -= slack;
+    if (spec.to) *spec.to += slack;
+    return spec;
+  }
+  const UserMetric& metric_;
+  std::vector<const double*> sources_;
+  std::vector<double> names_;
+  language::FormulaEvaluator formula_;
+  simulation::Reducer reducer_;
+  std::optional<double> lost_;  ///< when the formula had no value [s]
+};
+
+/// An Expect of the scene.
+class MeasuredExpect : public Metric {
+ public:
+  MeasuredExpect(const simulation::ExpectationSpec& spec, const double* source)
+      : source_(source), reducer_(spec.reduction()) {}
+  void observe(const Observation& observation) override {
+    reducer_.observe(observation.world.time, *source_);
+  }
+  std::optional<double> value() const override { return reducer_.value(); }
+
+ private:
+  const double* source_;
+  simulation::Reducer reducer_;
+};
+
+std::string spec_text(const std::optional<double>& value) {
+  return value ? output::shortest(*value) : "-";
+}
+
+std::string own_key(const UserMetric& metric) {
+  if (!metric.expectation.empty()) return "expect:" + metric.expectation;
+  constexpr std::size_t digits = 16;
+  const simulation::ReductionSpec& spec = metric.reduction;
+  output::Hash hash;
+  hash.add(metric.of->text);
+  for (const std::string& trail : metric.trails) hash.add(trail);
+  hash.add(fmt::format("{} {} {} {} {} {}", static_cast<int>(spec.take),
+                       output::shortest(spec.from), spec_text(spec.to), spec_text(spec.level),
+                       spec_text(spec.band), output::shortest(metric.scale)));
+  return metric.name + "@" + hash.text().substr(0, digits);
+}
+
+}  // namespace
+
+void complete(UserMetric& metric) {
+  metric.key = own_key(metric);
+  metric.definition = {.name = metric.name, .unit = metric.unit, .doc = metric.doc};
+  metric.definition.user = &metric;
+}
+
+std::unique_ptr<Metric> make_user_metric(const UserMetric& metric, const RunContext& context,
+                                         const std::vector<simulation::Port>& ports) {
+  const simulation::Experiment& experiment = *context.experiment;
+  try {
+    if (!metric.expectation.empty()) {
+      const auto* spec = expectation_of(experiment, metric.expectation);
+      if (spec == nullptr) return std::make_unique<NotMeasured>("");
+      return std::make_unique<MeasuredExpect>(
+          *spec, simulation::find_port(experiment, ports, spec->trail).value);
+    }
+    std::vector<const double*> sources;
+    for (const std::string& trail : metric.trails)
+      sources.push_back(simulation::find_port(experiment, ports, trail).value);
+    return std::make_unique<MeasuredFormula>(metric, std::move(sources), 0.5 * experiment.deltat);
+  } catch (const simulation::ExperimentError& error) {
+    return std::make_unique<NotMeasured>(error.what());
+  }
+}
+
+const simulation::ExpectationSpec* expectation_of(const simulation::Experiment& experiment,
+                                                  const std::string& name) {
+  const auto found =
+      std::ranges::find(experiment.expectations, name, &simulation::ExpectationSpec::name);
+  const bool covers = found != experiment.expectations.end() && found->covers(experiment);
+  return covers ? &*found : nullptr;
+}
+
+}  // namespace hookpoint::studies

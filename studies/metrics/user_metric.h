@@ -1,0 +1,48 @@
+// Metrics that a study's Measure blocks define by a formula of ports, and those that the Expects of
+// its scene are. Both are reduced to one number by simulation's Reducer, which also judges an
+// Expect that is run alone.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "language/values/formula.h"
+#include "simulation/experiment.h"
+#include "simulation/wiring/ports.h"
+#include "studies/metric.h"
+
+namespace hookpoint::studies {
+
+struct UserMetric {
+  std::string name, doc;
+  std::string unit;       ///< of its values
+  double scale = 1.;      ///< SI of one of them
+  std::size_t index = 0;  ///< among the metrics of its study that are the user's
+  /// Of an Expect of the scene, which then says all that follows, run by run; else empty.
+  std::string expectation;
+  std::shared_ptr<const language::Formula> of;         ///< of ports, at every step
+  std::vector<std::string> trails;                     ///< of its names, as a run knows them
+  simulation::ReductionSpec reduction;                 ///< SI; times of the run
+  std::shared_ptr<const language::Formula> predicted;  ///< of what the scene has; may be null
+  /// Under what its values are kept: another definition of the name has another.
+  std::string key;
+  MetricDefinition definition;  ///< of the above
+
+  double in_unit(double si) const { return si / scale; }
+};
+
+/// Sets `key` and `definition` from the rest, which stays as it is and where it is.
+void complete(UserMetric& metric);
+
+/// `metric` of the run of `context`, whose `ports` live as long. A port that the run has not leaves
+/// a Metric without a value that says so.
+std::unique_ptr<Metric> make_user_metric(const UserMetric& metric, const RunContext& context,
+                                         const std::vector<simulation::Port>& ports);
+
+/// The Expect of that name where it covers a run of `experiment`; else null.
+const simulation::ExpectationSpec* expectation_of(const simulation::Experiment& experiment,
+                                                  const std::string& name);
+
+}  // namespace hookpoint::studies
