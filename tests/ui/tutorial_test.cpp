@@ -107,6 +107,17 @@ TEST_F(Tutorial, WithItItSquatsAsItSays) {
   EXPECT_NEAR(*std::ranges::max_element(bend), 50. * M_PI / 180., 1e-3);
 }
 
+TEST_F(Tutorial, TheStudyIsTheOneThatIsShippedAndSaysWhatThePageSays) {
+  const std::vector<testing::PageBlock> blocks =
+      blocks_of(place_->read(source / "docs/tutorial.md"));
+  const auto shown = std::ranges::find(blocks, "foot_drop.hook", &testing::PageBlock::name);
+  ASSERT_NE(shown, blocks.end());
+  EXPECT_EQ(shown->text, place_->read(source / "configs/studies/foot_drop.hook"));
+  EXPECT_LT(std::ranges::count(shown->text, '\n'), 50);
+  const std::string table = place_->read("two_legs/foot_drop/depth.csv");
+  EXPECT_NE(table.find("hookpoint,clay,10.93"), std::string::npos) << table;
+}
+
 TEST_F(Tutorial, ThePlotShowsTheCurves) {
   const std::string plot = place_->read("two_legs/squat.svg");
   EXPECT_NE(plot.find("</svg>"), std::string::npos);
