@@ -7,7 +7,17 @@
 #include <thread>
 #include <vector>
 
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
+
 namespace hookpoint::studies {
+
+void give_memory_back() {
+#if defined(__GLIBC__)
+  malloc_trim(0);
+#endif
+}
 
 bool work_through(std::size_t count, int jobs, const std::function<bool(std::size_t)>& work) {
   std::atomic<std::size_t> next{0};
@@ -28,6 +38,7 @@ bool work_through(std::size_t count, int jobs, const std::function<bool(std::siz
     std::vector<std::jthread> workers;
     for (int i = 0; i < std::max(1, jobs); ++i) workers.emplace_back(run);
   }
+  give_memory_back();
   if (failure) std::rethrow_exception(failure);
   return !cut_short;
 }

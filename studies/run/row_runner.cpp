@@ -93,11 +93,14 @@ void keep(std::size_t row, RunRecord record, const RowWork& work, RunStore& stor
   meter.advance(false);
 }
 
+constexpr std::size_t runs_between_giving_back = 256;
+
 bool run_here(const Rows& rows, const RowWork& work, const RunOptions& options, RunStore& store,
               ProgressMeter& meter) {
   return work_through(rows.size(), options.jobs, [&](std::size_t i) {
     auto record = work.execute(rows[i]);
     if (record) keep(rows[i], std::move(*record), work, store, meter);
+    if ((i + 1) % runs_between_giving_back == 0) give_memory_back();
     return record.has_value();
   });
 }
