@@ -58,18 +58,19 @@ struct Case {
 };
 
 /// Calls `check` for robots with 0..8 chains of 1..6 links, fixed and mobile, generic and
-/// degenerate.
+/// degenerate, all chains on the base and on any body.
 template <class Check>
 void for_random_robots(std::uint64_t seed, const Check& check) {
   RandomRobots random(seed);
   for (int chains = 0; chains <= 8; ++chains) {
     for (const bool mobile : {false, true}) {
       for (const bool degenerate : {false, true}) {
-        for (int repetition = 0; repetition < 4; ++repetition) {
+        for (int repetition = 0; repetition < 8; ++repetition) {
           if (!mobile && chains == 0) continue;
           SCOPED_TRACE(::testing::Message() << chains << " chains, mobile " << mobile
                                             << ", degenerate " << degenerate << ", " << repetition);
-          const Case drawn(random, random.robot(mobile, chains, degenerate));
+          const Case drawn(random, repetition % 2 == 0 ? random.robot(mobile, chains, degenerate)
+                                                       : random.tree(mobile, chains, degenerate));
           check(random, drawn);
         }
       }
@@ -189,6 +190,21 @@ TEST(DtsDense, ImpulsesUseTheInertiasThatForwardDynamicsLeaves) {
   std::vector<double> velocity(dts::velocity_count(drawn.model));
   dts::get_velocity(drawn.model, state, std::span<double>(velocity));
   EXPECT_LE(relative_error(eigen(velocity), truth), tolerance);
+}
+
+TEST(DtsDense, AMasslessLinkThatEndsAChainAndCarriesOthers) {
+  RandomRobots random(8);
+  dts::RobotDescription robot = random.robot(true, 3, false, 0.);
+  robot.chains[0].links.back().mass = {};
+  const std::size_t shoulder = robot.chains[0].links.size();
+  for (const std::size_t arm : {1u, 2u}) robot.chains[arm].carrier = shoulder;
+  const Case drawn(random, robot);
+  Workspace<double> workspace(drawn.model);
+  drawn.solve(workspace);
+  const Eigen::VectorXd truth =
+      DenseDynamics(drawn.robot, drawn.state)
+          .accelerations(eigen(drawn.gravity), drawn.torques, drawn.forces);
+  EXPECT_LE(relative_error(eigen(accelerations_of(drawn.model, workspace)), truth), 1e-9);
 }
 
 TEST(DtsDense, MasslessLinksBeforeAMassiveOne) {

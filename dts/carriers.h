@@ -1,0 +1,63 @@
+// Between chains and the links that carry them: motions outwards, inertias and forces inwards.
+// Chains on the base have theirs from the base alone (hip_forces.h).
+#pragma once
+
+#include <span>
+
+#include "dts/hip_forces.h"
+#include "dts/joint.h"
+
+namespace hookpoint::dts {
+
+/// How the bodies that carry a group's chains move, of which the base does as `base`.
+template <class Real>
+Motion<Lanes<Real>> carrier_motion(const ChainGroup<Real>& group, const Motion<Real>& base,
+                                   const Workspace<Real>& workspace) {
+  if (group.on_base()) return in_all_lanes<Lanes<Real>>(base);
+  return gather(at_carrier(group, std::span(workspace.carrier_motions)));
+}
+
+/// Sets what the chains of links `n` are handed: `a` is those links' motion.
+template <class Real>
+void hand_outward(const ChainGroup<Real>& group, std::size_t n, const Motion<Lanes<Real>>& a,
+                  Workspace<Real>& workspace) {
+  if (group.links[n].carries) scatter(a, at_body(group, n, std::span(workspace.carrier_motions)));
+}
+
+/// Nothing hangs on any link yet.
+template <class Real>
+void clear_carried(Workspace<Real>& workspace) {
+  for (HipPass<Real>& carried : workspace.carried) carried = {};
+}
+
+// Not inlined: few robots branch, and the recursions of the others are to stay as they are.
+
+/// Adds `x`, which the chains of a group ask of their hips, to what their carriers carry.
+template <class Real>
+[[gnu::noinline]] void hand_inward(const ChainGroup<Real>& group,
+                                   const ArticulatedInertia<Lanes<Real>>& x,
+                                   Workspace<Real>& workspace) {
+  const ArticulatedInertia<Lanes<Real>> on_carriers = inward(group, x);
+  for (std::size_t lane = 0; lane < group.chain_count; ++lane) {
+    ArticulatedInertia<Real>& IA = workspace.carried[group.carriers[lane]].IA;
+    IA = IA + lane_of(on_carriers, lane);
+  }
+}
+template <class Real>
+[[gnu::noinline]] void hand_inward(const ChainGroup<Real>& group, const Wrench<Lanes<Real>>& x,
+                                   Workspace<Real>& workspace) {
+  const Wrench<Lanes<Real>> on_carriers = inward(group, x);
+  for (std::size_t lane = 0; lane < group.chain_count; ++lane) {
+    Wrench<Real>& pA = workspace.carried[group.carriers[lane]].pA;
+    pA = pA + lane_of(on_carriers, lane);
+  }
+}
+
+/// What hangs on the links `n` of a group.
+template <class Real>
+[[gnu::noinline]] HipPass<Lanes<Real>> carried_by(const ChainGroup<Real>& group, std::size_t n,
+                                                  const Workspace<Real>& workspace) {
+  return gather(at_body(group, n, std::span(workspace.carried)));
+}
+
+}  // namespace hookpoint::dts
