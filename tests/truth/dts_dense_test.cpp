@@ -2,9 +2,11 @@
 // written out.
 #include <gtest/gtest.h>
 
+#include "dts/energy.h"
 #include "dts/external_forces.h"
 #include "dts/forward_dynamics.h"
 #include "dts/impulse_response.h"
+#include "dts/inverse_dynamics.h"
 #include "tests/support/random_robot.h"
 
 namespace hookpoint::tests {
@@ -45,6 +47,10 @@ struct Case {
   }
 
   void solve(Workspace<double>& workspace) const {
+    apply_forces(workspace);
+    dts::forward_dynamics(model, gravity, torques, workspace);
+  }
+  void apply_forces(Workspace<double>& workspace) const {
     dts::forward_kinematics(model, state, workspace);
     dts::clear_external_forces(workspace);
     for (const DenseForce& x : forces) {
@@ -53,7 +59,6 @@ struct Case {
       dts::add_external_torque(workspace, x.body,
                                Vector3d{x.torque.x(), x.torque.y(), x.torque.z()});
     }
-    dts::forward_dynamics(model, gravity, torques, workspace);
   }
 };
 
@@ -138,6 +143,48 @@ TEST(DtsDense, HipWrenchesAreNewtonEulerOfTheChain) {
       EXPECT_LE(relative_error(eigen(workspace.hip_wrenches[k].force), truth.force), 1e-9);
       EXPECT_LE(relative_error(eigen(workspace.hip_wrenches[k].moment), truth.moment), 1e-9);
     }
+  });
+}
+
+TEST(DtsDense, InverseDynamicsTakesWhatTheMassMatrixSays) {
+  for_random_robots(9, [](RandomRobots& random, const Case& drawn) {
+    Workspace<double> workspace(drawn.model);
+    drawn.apply_forces(workspace);
+    const std::size_t n = drawn.model.link_count();
+    const std::vector<double> joints = random.numbers(n, 5.);
+    dts::Accelerations<double> wanted{{}, {}, joints};
+    Eigen::VectorXd a(Eigen::Index(dts::velocity_count(drawn.model)));
+    a.tail(Eigen::Index(n)) = eigen(joints);
+    if (drawn.robot.mobile) {
+      wanted.base_angular = random.vector(5.);
+      wanted.base_linear = random.vector(5.);
+      a.head(6) << eigen(wanted.base_angular), eigen(wanted.base_linear);
+    }
+    std::vector<double> torques(n);
+    const dts::Wrench<double> support = dts::inverse_dynamics(
+        drawn.model, drawn.gravity, wanted, std::span<double>(torques), workspace);
+    const DenseDynamics dense(drawn.robot, drawn.state);
+    const Eigen::VectorXd free =
+        dense.accelerations(eigen(drawn.gravity), std::vector<double>(n), drawn.forces);
+    const Eigen::VectorXd truth = dense.mass_matrix() * (a - free);
+    Eigen::VectorXd found(truth.size());
+    if (drawn.robot.mobile) found.head(6) << eigen(support.moment), eigen(support.force);
+    found.tail(Eigen::Index(n)) = eigen(torques);
+    EXPECT_LE(relative_error(found, truth), tolerance);
+  });
+}
+
+TEST(DtsDense, EnergyAndMomentaAreSumsOverTheBodies) {
+  for_random_robots(10, [](RandomRobots&, const Case& drawn) {
+    Workspace<double> workspace(drawn.model);
+    dts::forward_kinematics(drawn.model, drawn.state, workspace);
+    const DenseMomentum truth = DenseDynamics(drawn.robot, drawn.state).momentum();
+    const double energy = dts::kinetic_energy(drawn.model, workspace);
+    EXPECT_NEAR(energy, truth.kinetic_energy, tolerance * truth.kinetic_energy);
+    const Eigen::Vector3d p = eigen(dts::linear_momentum(drawn.model, workspace));
+    const Eigen::Vector3d L = eigen(dts::angular_momentum(drawn.model, workspace));
+    EXPECT_LE(relative_error(p, truth.linear), tolerance);
+    EXPECT_LE(relative_error(L, truth.angular), tolerance);
   });
 }
 

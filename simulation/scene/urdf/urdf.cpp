@@ -111,12 +111,9 @@ class UrdfInclude {
     object.children.push_back(base_object(*robot, *tree));
     const bool mobile = object.children.front().type == "Base.mobile";
     const double sag = hold_argument();
-    for (std::size_t i = 0; i < tree->chains.size(); ++i) {
-      std::vector<UrdfHold> held(tree->chains[i].size());
-      for (std::size_t k = 0; sag > 0. && k < held.size(); ++k)
-        held[k] = hold_joint(*tree, i, k, mobile, sag);
-      object.children.push_back(chain_object(*robot, tree->chains[i], held));
-    }
+    if (sag > 0.) holds_ = hold_joints(*tree, mobile, sag);
+    for (const UrdfChain& chain : tree->chains)
+      object.children.push_back(chain_object(*robot, chain));
     return {std::move(object)};
   }
 
@@ -138,8 +135,8 @@ class UrdfInclude {
     return object;
   }
 
-  ForeignObject chain_object(const UrdfRobot& robot, const std::vector<UrdfBody>& bodies,
-                             const std::vector<UrdfHold>& held) {
+  ForeignObject chain_object(const UrdfRobot& robot, const UrdfChain& of) {
+    const std::vector<UrdfBody>& bodies = of.bodies;
     const UrdfJoint& hip = *bodies.front().joint;
     ForeignObject chain{"Chain", identifier(hip.name), hip.place, {}, {}};
     add_pose(bodies.front().joint_pose, "hip_distance", "hip_orientation", hip.place, chain);
@@ -152,10 +149,13 @@ class UrdfInclude {
         object.fields.push_back(word("joint", "prismatic", joint.place));
       if (&body != &bodies.front())
         add_pose(body.joint_pose, "joint_location", "joint_orientation", joint.place, object);
-      add_joint(joint, held[chain.children.size()], object);
+      const auto held = holds_.find(&joint);
+      add_joint(joint, held == holds_.end() ? UrdfHold{} : held->second, object);
       add_body(body, object);
       chain.children.push_back(std::move(object));
     }
+    for (const UrdfChain& carried : of.carried)
+      chain.children.back().children.push_back(chain_object(robot, carried));
     return chain;
   }
 
@@ -265,6 +265,7 @@ class UrdfInclude {
 
   const ForeignArguments& arguments_;
   language::Report& report_;
+  std::map<const UrdfJoint*, UrdfHold> holds_;
 };
 
 }  // namespace
