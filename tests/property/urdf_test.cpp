@@ -9,6 +9,7 @@
 #include "dts/energy.h"
 #include "dts/forward_dynamics.h"
 #include "simulation/engine/robot_description.h"
+#include "simulation/robot_tree.h"
 #include "tests/support/command.h"
 #include "tests/support/load_text.h"
 #include "tests/support/text.h"
@@ -36,12 +37,21 @@ struct Pair {
   simulation::RobotSpec spec;
   Eigen::Isometry3d root;
   std::vector<double> q;          // one a moving joint, the file's order
-  dts::State<double> state;       // the same in the order of chains
+  dts::State<double> state;       // the same in the order of bodies
   std::vector<std::size_t> body;  // of each link: the body that it became or is fixed to
   std::vector<std::size_t> link;  // of each body: the link that names it
+
+  /// Velocities or forces in the order of bodies from those in the file's.
+  Eigen::VectorXd in_order_of_bodies(const Eigen::VectorXd& of_file) const {
+    Eigen::VectorXd of_bodies = of_file;
+    Eigen::Index column = 6;
+    for (const UrdfNumbers::Joint& joint : numbers.joints)
+      if (joint.moves()) of_bodies[5 + Eigen::Index(body[joint.child])] = of_file[column++];
+    return of_bodies;
+  }
 };
 
-/// Links that move become bodies, chain by chain; a chain's joints follow one another in the file.
+/// Links that move become bodies of their names.
 Pair random_pair(RandomUrdf& random, const UrdfNumbers& numbers) {
   Pair pair{numbers, {}, Eigen::Isometry3d::Identity(), {}, {}, {0}, {0}};
   const Loaded loaded = load_urdf(numbers.text());
@@ -54,14 +64,19 @@ Pair random_pair(RandomUrdf& random, const UrdfNumbers& numbers) {
   const Eigen::Vector3d p = pair.root.translation();
   pair.state.base_orientation = {q.w(), q.x(), q.y(), q.z()};
   pair.state.base_position = {p.x(), p.y(), p.z()};
+  std::map<std::string, std::size_t> bodies;
+  simulation::for_each_link(
+      pair.spec, [&](const simulation::TreeLink& at) { bodies[at.link.body.name] = at.body; });
+  pair.link.resize(1 + bodies.size());
+  pair.state.joint_positions.resize(bodies.size());
   for (const UrdfNumbers::Joint& joint : numbers.joints) {
     pair.body.push_back(pair.body[joint.parent]);
     if (!joint.moves()) continue;
-    pair.body.back() = pair.link.size();
-    pair.link.push_back(joint.child);
+    pair.body.back() = bodies.at(numbers.links[joint.child].name);
+    pair.link[pair.body.back()] = joint.child;
     pair.q.push_back(random.uniform(-3., 3.));
+    pair.state.joint_positions[pair.body.back() - 1] = pair.q.back();
   }
-  pair.state.joint_positions = pair.q;
   pair.state.joint_rates.assign(pair.q.size(), 0.);
   return pair;
 }
@@ -77,9 +92,11 @@ class RandomRobot : public ::testing::TestWithParam<double> {};
 
 TEST_P(RandomRobot, StandsWhereItsNumbersSay) {
   RandomUrdf random(7);
-  for (int i = 0; i < 15; ++i) {
-    const Pair pair = random_pair(random, random.robot(3, 4, GetParam()));
-    ASSERT_EQ(pair.spec.chains.size(), 3u);
+  for (int i = 0; i < 30; ++i) {
+    const bool branches = i >= 15;
+    const Pair pair = random_pair(
+        random, branches ? random.tree(20, GetParam()) : random.robot(3, 4, GetParam()));
+    if (!branches) ASSERT_EQ(pair.spec.chains.size(), 3u);
     const dts::Model<double> model(simulation::describe_robot(pair.spec));
     dts::Workspace<double> workspace(model);
     dts::forward_kinematics(model, pair.state, workspace);
@@ -97,8 +114,9 @@ TEST_P(RandomRobot, StandsWhereItsNumbersSay) {
 
 TEST_P(RandomRobot, AcceleratesAsItsOwnLinksTellOneByOne) {
   RandomUrdf random(8);
-  for (int i = 0; i < 15; ++i) {
-    const Pair pair = random_pair(random, random.robot(2, 3, GetParam()));
+  for (int i = 0; i < 30; ++i) {
+    const Pair pair =
+        random_pair(random, i >= 15 ? random.tree(16, GetParam()) : random.robot(2, 3, GetParam()));
     const dts::Model<double> model(simulation::describe_robot(pair.spec));
     dts::Workspace<double> workspace(model);
     const Eigen::Vector3d g = random.vector(10.);
@@ -110,7 +128,7 @@ TEST_P(RandomRobot, AcceleratesAsItsOwnLinksTellOneByOne) {
     const UrdfNumbers::Still still = pair.numbers.at_rest(pair.root, pair.q, g);
     Eigen::VectorXd force = still.gravity;
     force.tail(Eigen::Index(torques.size())).array() += 0.7;
-    const Eigen::VectorXd truth = still.M.fullPivLu().solve(force);
+    const Eigen::VectorXd truth = pair.in_order_of_bodies(still.M.fullPivLu().solve(force));
     const Eigen::Map<const Eigen::VectorXd> a(found.data(), Eigen::Index(found.size()));
     EXPECT_LE((a - truth).lpNorm<Eigen::Infinity>(), 1e-10 * truth.lpNorm<Eigen::Infinity>());
 
@@ -118,7 +136,9 @@ TEST_P(RandomRobot, AcceleratesAsItsOwnLinksTellOneByOne) {
     dts::State<double> moving = pair.state;
     Eigen::VectorXd v(Eigen::Index(found.size()));
     for (double& x : v) x = random.uniform(-2., 2.);
-    dts::set_velocity(model, std::span<const double>(v.data(), std::size_t(v.size())), moving);
+    const Eigen::VectorXd ours = pair.in_order_of_bodies(v);
+    dts::set_velocity(model, std::span<const double>(ours.data(), std::size_t(ours.size())),
+                      moving);
     dts::forward_kinematics(model, moving, workspace);
     const double energy = 0.5 * v.dot(still.M * v);
     EXPECT_NEAR(dts::kinetic_energy(model, workspace), energy, 1e-12 * energy);
@@ -347,15 +367,9 @@ const Case cases[] = {
      "error 4:17 `ball` is no type of joint: expected revolute, continuous, prismatic or fixed\n"},
     {"mimic", robot(link_l + joint("j", "continuous", "\n<mimic joint=\"k\"/>")),
      "error 6:2 joint `j` mimics another: joints that are geared together are not supported\n"},
-    {"branching",
-     robot(link_l + "<link name=\"m\">" + inertial + "</link><link name=\"n\">" + inertial +
-           "</link>\n" + joint("j", "continuous", "") + joint("k", "continuous", "", "l", "m") +
-           joint("i", "continuous", "", "l", "n")),
-     "error 9:2 joint `i` is the second that link `l` (with what is fixed to it) carries: only the "
-     "base branches, its chains do not\n"},
     {"no_inertial", robot("<link name=\"l\"/>\n" + joint("j", "continuous", "")),
-     "error 3:2 link `l` moves but has no <inertial>: give it, or a link that is fixed to it, a "
-     "mass and an inertia\n"},
+     "error 3:2 link `l` moves but has no <inertial>: give it, a link that is fixed to it or one "
+     "further out a mass and an inertia\n"},
     {"capsule",
      robot("<link name=\"l\">" + inertial +
            "<collision><geometry>\n<capsule radius=\"1\"/></geometry></collision></link>" +
@@ -412,6 +426,51 @@ const Case cases[] = {
 };
 INSTANTIATE_TEST_SUITE_P(Cases, WrongUrdf, ::testing::ValuesIn(cases),
                          [](const auto& of) { return of.param.name; });
+
+TEST(Urdf, ALinkThatCarriesSeveralJointsStartsAChainForEach) {
+  const std::string others = "<link name=\"m\">" + inertial + "</link><link name=\"n\">" +
+                             inertial + "</link><link name=\"o\">" + inertial + "</link>\n";
+  const Loaded loaded = load_urdf(
+      robot("<link name=\"l\"/>" + others + joint("j", "continuous", "") +
+            joint("k", "continuous", "", "l", "m") + joint("i", "continuous", "", "l", "n") +
+            joint("tip", "continuous", "", "n", "o")));
+  ASSERT_TRUE(loaded.experiment) << loaded.diagnostics;
+  const simulation::RobotSpec& read = loaded.experiment->robots.at(0);
+  ASSERT_EQ(read.chains.size(), 3u);
+  EXPECT_EQ(read.chains[0].name, "j");
+  EXPECT_EQ(read.chains[1].name, "j.l.k");
+  EXPECT_EQ(read.chains[2].name, "j.l.i");
+  EXPECT_EQ(read.chains[0].carrier, 0u);
+  EXPECT_EQ(read.chains[1].carrier, 1u);
+  EXPECT_EQ(read.chains[2].carrier, 1u);
+  EXPECT_EQ(read.chains[2].links.size(), 2u);
+  EXPECT_EQ(read.chains[0].links[0].body.mass.mass, 0.);  // it carries what has one
+}
+
+TEST(Urdf, BranchingsAfterOneAnotherAreBounded) {
+  const auto comb = [](int teeth) {
+    std::string text;
+    for (int i = 0; i < teeth; ++i) {
+      const std::string number = std::to_string(i),
+                        before = i == 0 ? "b" : "s" + std::to_string(i - 1);
+      for (const char* kind : {"s", "t"}) {
+        text += "<link name=\"" + (kind + number) + "\">" + inertial + "</link>\n";
+        text += joint("to_" + (kind + number), "continuous", "", before, kind + number);
+      }
+    }
+    return robot(text);
+  };
+  const Loaded most = load_urdf(comb(91));
+  EXPECT_TRUE(most.experiment) << most.diagnostics;
+  const Loaded more = load_urdf(comb(93));
+  EXPECT_FALSE(more.experiment);
+  EXPECT_NE(
+      more.diagnostics.find("joint `to_s91` starts a chain on a chain, and so on, 91 deep: 90 "
+                            "are the most"),
+      std::string::npos)
+      << more.diagnostics;
+  EXPECT_FALSE(load_urdf(comb(20000)).experiment);
+}
 
 std::string quadruped() {
   return testing::read_file(HOOKPOINT_SOURCE_DIR "/configs/robots/quadruped.urdf");

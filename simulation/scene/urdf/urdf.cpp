@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 
 #include "language/document.h"
 #include "language/names.h"
@@ -93,6 +94,14 @@ void add_body(const UrdfBody& body, ForeignObject& object) {
     object.children.push_back(shape_object(body.shapes[i], body.shape_places[i]));
 }
 
+/// Whether the body `first` of a chain or one further out has an <inertial>.
+bool has_mass_from(const UrdfChain& chain, std::size_t first) {
+  const auto further_out = std::span(chain.bodies).subspan(first);
+  return std::ranges::any_of(further_out, &UrdfBody::has_inertial) ||
+         std::ranges::any_of(chain.carried,
+                             [](const UrdfChain& carried) { return has_mass_from(carried, 0); });
+}
+
 class UrdfInclude {
  public:
   UrdfInclude(const ForeignArguments& arguments, language::Report& report)
@@ -143,7 +152,7 @@ class UrdfInclude {
     for (const UrdfBody& body : bodies) {
       const UrdfJoint& joint = *body.joint;
       const UrdfLink& link = robot.links[body.link];
-      require_mass(link, body);
+      if (!has_mass_from(of, chain.children.size())) require_mass(link, body);
       ForeignObject object{"Link", identifier(link.name), joint.place, {}, {}};
       if (joint.type == UrdfJointType::prismatic)
         object.fields.push_back(word("joint", "prismatic", joint.place));
@@ -201,8 +210,9 @@ class UrdfInclude {
 
   void require_mass(const UrdfLink& link, const UrdfBody& body) {
     if (body.has_inertial) return;
-    report_.error(link.place, fmt::format("link `{}` moves but has no <inertial>: give it, or a "
-                                          "link that is fixed to it, a mass and an inertia",
+    report_.error(link.place, fmt::format("link `{}` moves but has no <inertial>: give it, a link "
+                                          "that is fixed to it or one further out a mass and an "
+                                          "inertia",
                                           link.name));
   }
 
