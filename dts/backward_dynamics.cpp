@@ -29,16 +29,14 @@ void backward_dynamics(const Model<Real>& model,
                        std::span<const std::type_identity_t<Real>> joint_torques,
                        Workspace<Real>& workspace) {
   clear_carried(workspace);
-  for_each_inward(model, [&](const ChainGroup<Real>& group) {
+  for (std::size_t g = model.groups().size(); g-- > 0;) {
+    const ChainGroup<Real>& group = model.groups()[g];
     const std::span<LinkPass<Lanes<Real>>> passes = workspace.passes(group);
-    HipPass<Lanes<Real>>& carried = workspace.hips[group.index];
+    HipPass<Lanes<Real>>& carried = workspace.hips[g];
     carried = {};
     for (std::size_t n = group.link_count(); n-- > 0;) {
       const LinkConstants<Lanes<Real>>& link = group.links[n];
-      if (link.carries) {
-        const HipPass<Lanes<Real>> more = carried_by(group, n, workspace);
-        carried = {carried.IA + more.IA, carried.pA + more.pA};
-      }
+      if (link.carries) add_carried(group, n, workspace, carried);
       const Wrench<Lanes<Real>> pA = carried.pA + bias_wrench(group, n, passes[n], workspace);
       const Lanes<Real> torque = gather(at_link(group, n, joint_torques));
       carried = group.ends_at(n)
@@ -49,10 +47,8 @@ void backward_dynamics(const Model<Real>& model,
         carried = {inward(link.placement, carried.IA), inward(link.placement, carried.pA)};
       }
     }
-    if (group.on_base()) return;
-    hand_inward(group, carried.IA, workspace);
-    hand_inward(group, wrench_on_hip(group, workspace), workspace);
-  });
+    if (!group.on_base()) hand_inward(group, workspace);
+  }
 }
 
 template void backward_dynamics(const Model<double>&, std::span<const double>, Workspace<double>&);

@@ -9,21 +9,6 @@
 
 namespace hookpoint::dts {
 
-/// How the bodies that carry a group's chains move, of which the base does as `base`.
-template <class Real>
-Motion<Lanes<Real>> carrier_motion(const ChainGroup<Real>& group, const Motion<Real>& base,
-                                   const Workspace<Real>& workspace) {
-  if (group.on_base()) return in_all_lanes<Lanes<Real>>(base);
-  return gather(at_carrier(group, std::span(workspace.carrier_motions)));
-}
-
-/// Sets what the chains of links `n` are handed: `a` is those links' motion.
-template <class Real>
-void hand_outward(const ChainGroup<Real>& group, std::size_t n, const Motion<Lanes<Real>>& a,
-                  Workspace<Real>& workspace) {
-  if (group.links[n].carries) scatter(a, at_body(group, n, std::span(workspace.carrier_motions)));
-}
-
 /// Nothing hangs on any link yet.
 template <class Real>
 void clear_carried(Workspace<Real>& workspace) {
@@ -31,6 +16,20 @@ void clear_carried(Workspace<Real>& workspace) {
 }
 
 // Not inlined: few robots branch, and the recursions of the others are to stay as they are.
+
+/// How the links that carry a group's chains move.
+template <class Real>
+[[gnu::noinline]] Motion<Lanes<Real>> carrier_motion(const ChainGroup<Real>& group,
+                                                     const Workspace<Real>& workspace) {
+  return gather(at_carrier(group, std::span(workspace.carrier_motions)));
+}
+
+/// Sets what the chains of links `n` are handed: `a` is those links' motion.
+template <class Real>
+[[gnu::noinline]] void hand_outward(const ChainGroup<Real>& group, std::size_t n,
+                                    const Motion<Lanes<Real>>& a, Workspace<Real>& workspace) {
+  scatter(a, at_body(group, n, std::span(workspace.carrier_motions)));
+}
 
 /// Adds `x`, which the chains of a group ask of their hips, to what their carriers carry.
 template <class Real>
@@ -53,11 +52,26 @@ template <class Real>
   }
 }
 
+/// Both, of what backward_dynamics found at the hips.
+template <class Real>
+void hand_inward(const ChainGroup<Real>& group, Workspace<Real>& workspace) {
+  hand_inward(group, workspace.hips[group.index].IA, workspace);
+  hand_inward(group, wrench_on_hip(group, workspace), workspace);
+}
+
 /// What hangs on the links `n` of a group.
 template <class Real>
-[[gnu::noinline]] HipPass<Lanes<Real>> carried_by(const ChainGroup<Real>& group, std::size_t n,
-                                                  const Workspace<Real>& workspace) {
+HipPass<Lanes<Real>> carried_by(const ChainGroup<Real>& group, std::size_t n,
+                                const Workspace<Real>& workspace) {
   return gather(at_body(group, n, std::span(workspace.carried)));
+}
+/// Adds it to what the links carry otherwise.
+template <class Real>
+[[gnu::noinline]] void add_carried(const ChainGroup<Real>& group, std::size_t n,
+                                   const Workspace<Real>& workspace,
+                                   HipPass<Lanes<Real>>& carried) {
+  const HipPass<Lanes<Real>> more = carried_by(group, n, workspace);
+  carried = {carried.IA + more.IA, carried.pA + more.pA};
 }
 
 }  // namespace hookpoint::dts

@@ -5,7 +5,7 @@
 namespace hookpoint::dts {
 namespace {
 
-/// R_WB of the links that carry a group's chains.
+/// R_WB of the links that carry a group's chains. Not inlined: few robots branch.
 template <class Real>
 [[gnu::noinline]] Matrix3<Lanes<Real>> carrier_axes(const ChainGroup<Real>& group,
                                                     const Workspace<Real>& workspace) {
@@ -16,14 +16,19 @@ template <class Real>
 
 template <class Real>
 void forward_accelerations(const Model<Real>& model, Workspace<Real>& workspace) {
-  const Matrix3<Lanes<Real>> R_base = in_all_lanes<Lanes<Real>>(workspace.bodies[0].R_WB);
+  // Of the bodies that carry the chains: first the base, then links.
+  Motion<Lanes<Real>> carriers = in_all_lanes<Lanes<Real>>(workspace.base_motion);
+  Matrix3<Lanes<Real>> R_WB = in_all_lanes<Lanes<Real>>(workspace.bodies[0].R_WB);
   for (const ChainGroup<Real>& group : model.groups()) {
-    Motion<Lanes<Real>> a = outward(group, carrier_motion(group, workspace.base_motion, workspace));
+    if (!group.on_base()) {
+      carriers = carrier_motion(group, workspace);
+      R_WB = carrier_axes(group, workspace);
+    }
+    Motion<Lanes<Real>> a = outward(group, carriers);
     a.linear += hip_centripetal(group, workspace);
 
     const HipPass<Lanes<Real>>& hip = workspace.hips[group.index];
     const Wrench<Lanes<Real>> on_chain = hip.IA * a + hip.pA;
-    const Matrix3<Lanes<Real>> R_WB = group.on_base() ? R_base : carrier_axes(group, workspace);
     const Vector3<Lanes<Real>> force = group.hip.R_BH * on_chain.force;
     const Vector3<Lanes<Real>> moment =
         group.hip.R_BH * on_chain.moment + cross(group.hip.hip_to_H, force);
@@ -40,7 +45,7 @@ void forward_accelerations(const Model<Real>& model, Workspace<Real>& workspace)
       const Lanes<Real> acceleration = pass.D_inverse * (pass.u - dot(pass.U, a));
       scatter(acceleration, at_link(group, n, std::span(workspace.joint_accelerations)));
       a = with_joint_motion(link.joint, a, acceleration);
-      hand_outward(group, n, a, workspace);
+      if (link.carries) hand_outward(group, n, a, workspace);
     }
   }
 }

@@ -104,20 +104,11 @@ void group_kinematics(const ChainGroup<Real>& group, const State<Real>& state,
   }
 }
 
-/// The same from the bodies that carry the chains; `w`: their angular velocity in their axes.
+/// The motion of the links that carry a group's chains. Not inlined: few robots branch.
 template <class Real>
-void group_kinematics(const ChainGroup<Real>& group, const State<Real>& state,
-                      const BodyMotion<Lanes<Real>>& carriers, const Vector3<Lanes<Real>>& w,
-                      Workspace<Real>& workspace) {
-  workspace.carrier_w[group.index] = w;
-  const BodyMotion<Lanes<Real>> hips = hip_motion(group.hip, carriers);
-  const Vector3<Lanes<Real>> w_hips = transpose_times(group.hip.R_BH, w);
-  const bool placed = std::ranges::any_of(group.links, &LinkConstants<Lanes<Real>>::placed);
-  if (placed) {
-    group_kinematics<true>(group, state, hips, w_hips, workspace);
-  } else {
-    group_kinematics<false>(group, state, hips, w_hips, workspace);
-  }
+[[gnu::noinline]] BodyMotion<Lanes<Real>> carriers_of(const ChainGroup<Real>& group,
+                                                      const Workspace<Real>& workspace) {
+  return gather(at_carrier(group, std::span(workspace.bodies)));
 }
 
 }  // namespace
@@ -133,16 +124,23 @@ void forward_kinematics(const Model<Real>& model, const State<Real>& state,
   }
   workspace.base.w = transpose_times(base.R_WB, base.w_WB);
 
-  const BodyMotion<Lanes<Real>> base_lanes = in_all_lanes<Lanes<Real>>(base);
-  const Vector3<Lanes<Real>> w_base = in_all_lanes<Lanes<Real>>(workspace.base.w);
-  for (const ChainGroup<Real>& group : model.base_groups()) {
-    group_kinematics(group, state, base_lanes, w_base, workspace);
-  }
-  for (const ChainGroup<Real>& group : model.link_groups()) {
-    const std::span<const BodyMotion<Real>> bodies = workspace.bodies;
-    const BodyMotion<Lanes<Real>> carriers = gather(at_carrier(group, bodies));
-    group_kinematics(group, state, carriers, transpose_times(carriers.R_WB, carriers.w_WB),
-                     workspace);
+  // Of the bodies that carry the chains: first the base, then links.
+  BodyMotion<Lanes<Real>> carriers = in_all_lanes<Lanes<Real>>(base);
+  Vector3<Lanes<Real>> w = in_all_lanes<Lanes<Real>>(workspace.base.w);
+  for (const ChainGroup<Real>& group : model.groups()) {
+    if (!group.on_base()) {
+      carriers = carriers_of(group, workspace);
+      w = transpose_times(carriers.R_WB, carriers.w_WB);
+    }
+    workspace.carrier_w[group.index] = w;
+    const BodyMotion<Lanes<Real>> hips = hip_motion(group.hip, carriers);
+    const Vector3<Lanes<Real>> w_hips = transpose_times(group.hip.R_BH, w);
+    const bool placed = std::ranges::any_of(group.links, &LinkConstants<Lanes<Real>>::placed);
+    if (placed) {
+      group_kinematics<true>(group, state, hips, w_hips, workspace);
+    } else {
+      group_kinematics<false>(group, state, hips, w_hips, workspace);
+    }
   }
 }
 

@@ -102,9 +102,11 @@ Motion<Real> jump_of_robot(const Model<Real>& model, Workspace<Real>& workspace,
                            const BodyPoint<Real>& point, const Vector3<Real>& impulse_W,
                            const OnJoint& on_joint) {
   const Motion<Real> base = jump_of_base(model, workspace, point, impulse_W);
+  Motion<Lanes<Real>> carriers = in_all_lanes<Lanes<Real>>(base);
   for (const ChainGroup<Real>& group : model.groups()) {
     if (group.link_count() == 0) continue;
-    carry_outward(group, group.link_count() - 1, carrier_motion(group, base, workspace), workspace,
+    if (!group.on_base()) carriers = carrier_motion(group, workspace);
+    carry_outward(group, group.link_count() - 1, carriers, workspace,
                   [&](std::size_t n, const Lanes<Real>& rates, const Motion<Lanes<Real>>& jumps) {
                     for (std::size_t lane = 0; lane < group.chain_count; ++lane) {
                       const std::size_t l = group.first_links[lane] + n;

@@ -15,16 +15,18 @@ Wrench<Real> inverse_dynamics(const Model<Real>& model, const Vector3<Real>& gra
   const auto wrenches_of = [&](const ChainGroup<Real>& group) {
     return std::span(workspace.link_wrenches).subspan(group.first_pass, group.link_count());
   };
+  Motion<Lanes<Real>> carriers = in_all_lanes<Lanes<Real>>(a_base);
   for (const ChainGroup<Real>& group : model.groups()) {
     const std::span<LinkPass<Lanes<Real>>> passes = workspace.passes(group);
     const std::span<Wrench<Lanes<Real>>> wrenches = wrenches_of(group);
-    Motion<Lanes<Real>> a = outward(group, carrier_motion(group, a_base, workspace));
+    if (!group.on_base()) carriers = carrier_motion(group, workspace);
+    Motion<Lanes<Real>> a = outward(group, carriers);
     a.linear += hip_centripetal(group, workspace);
     for (std::size_t n = 0; n < group.link_count(); ++n) {
       const LinkConstants<Lanes<Real>>& link = group.links[n];
       a = with_joint_motion(link.joint, outward(link, passes[n], a) + passes[n].c,
                             gather(at_link(group, n, accelerations.joints)));
-      hand_outward(group, n, a, workspace);
+      if (link.carries) hand_outward(group, n, a, workspace);
       wrenches[n] = link.inertia * a + bias_wrench(group, n, passes[n], workspace);
     }
   }
