@@ -74,13 +74,15 @@ TEST(PeerRobot, AcceleratesFromRestAsOurs) {
     for (const bool mobile : {true, false})
       for (const simulation::RobotSpec& robot : skew_robots(mobile)) {
         simulation::Experiment experiment = at_rest(robot);
-        // QuickStep iterates on the joints too: 9 % with 20 iterations, 1e-4 with 100.
+        // QuickStep iterates on the joints too: 9 % with 20 iterations, 1e-4 with 100; where eight
+        // joints follow one another 6 %.
         const bool iterates = peer.name == "ode_quickstep";
+        const double least = robot.chains.size() == 3 ? 1e-3 : 0.1;
         if (iterates) experiment.settings = "recommended";
         // Simbody integrates along the step: its mean acceleration is of the middle's geometry.
         if (peer.name == "simbody") experiment.deltat = 1e-3;
-        EXPECT_LT(acceleration_error(peer.make, experiment), iterates ? 1e-3 : 1e-8)
-            << peer.name << (mobile ? "" : ", fixed base, ") << robot.chains.size() << " chains";
+        EXPECT_LT(acceleration_error(peer.make, experiment), iterates ? least : 1e-8)
+            << peer.name << (mobile ? ", " : ", fixed base, ") << robot.chains.size() << " chains";
       }
 }
 
@@ -93,7 +95,7 @@ TEST(PeerRobot, AcceleratesInMotionAsOursInJointCoordinates) {
       for (simulation::RobotSpec robot : skew_robots(mobile)) {
         set_in_motion(robot);
         EXPECT_LT(acceleration_error(peer.make, robot_world(robot, 1e-3)), 1e-8)
-            << peer.name << (mobile ? "" : ", fixed base, ") << robot.chains.size() << " chains";
+            << peer.name << (mobile ? ", " : ", fixed base, ") << robot.chains.size() << " chains";
       }
   }
 }

@@ -72,7 +72,10 @@ TEST(ChainOnLink, MovesAsTheLinkWouldUnderEveryIntegrator) {
       // The arm moves: its fixed base keeps chains from feeling each other.
       for (simulation::ChainSpec& chain : whole.robots[0].chains)
         for (simulation::LinkSpec& link : chain.links) link.rate += 0.5;
-      EXPECT_LT(difference(whole, cut(whole), 100), 1e-9) << file << ' ' << integrator;
+      // An adaptive integrator makes both right within its tolerances.
+      const bool adapts = std::string(integrator).starts_with("cvode");
+      EXPECT_LT(difference(whole, cut(whole), 100), adapts ? 1e-7 : 1e-9)
+          << file << ' ' << integrator;
     }
 }
 
