@@ -215,10 +215,10 @@ class DenseDynamics {
   DenseWrench hip_wrench(std::size_t k, const Eigen::VectorXd& a, const Eigen::Vector3d& gravity,
                          const std::vector<DenseForce>& forces) const {
     std::vector<bool> beyond(still_.bodies().size());
-    std::size_t body = 1;
+    std::size_t next = 1;
     for (std::size_t j = 0; j < robot_.chains.size(); ++j) {
       const bool hangs = j == k || beyond[robot_.chains[j].carrier];
-      for (std::size_t n = 0; n < robot_.chains[j].links.size(); ++n) beyond[body++] = hangs;
+      for (std::size_t n = 0; n < robot_.chains[j].links.size(); ++n) beyond[next++] = hangs;
     }
     const auto& carrier = still_.bodies()[robot_.chains[k].carrier];
     const Eigen::Vector3d hip = carrier.p + carrier.R * eigen(robot_.chains[k].hip_position);

@@ -108,12 +108,13 @@ class UrdfInclude {
       : arguments_(arguments), report_(report) {}
 
   std::vector<ForeignObject> run(const language::SourceFile& file) {
-    const bool visual = word_argument("shapes", {"collision", "visual"}) == "visual";
+    const std::string shapes = word_argument("shapes", {"collision", "visual", "inertia"});
     const auto robot =
-        read_urdf(file, visual ? UrdfShapes::visual : UrdfShapes::collision, report_);
+        read_urdf(file, shapes == "visual" ? UrdfShapes::visual : UrdfShapes::collision, report_);
     if (!robot) return {};
-    const auto tree = assemble_urdf(*robot, report_);
+    auto tree = assemble_urdf(*robot, report_);
     if (!tree) return {};
+    if (shapes == "inertia") take_inertia_boxes(*tree);
     check_arguments(*robot);
     tell_left_out(*robot);
     ForeignObject object{"Robot", robot_name(*robot), robot->place, {}, {}};
@@ -234,7 +235,7 @@ class UrdfInclude {
     const bool one = given->second.values.size() == 1 && value.kind == ValueKind::word;
     if (one && std::ranges::count(choices, value.text) > 0) return value.text;
     report_.error(given->second.position,
-                  fmt::format("the argument `{}` is {} or {}", name, choices[0], choices[1]));
+                  fmt::format("the argument `{}` is {}", name, fmt::join(choices, " or ")));
     return "";
   }
 

@@ -84,6 +84,10 @@ struct UrdfTree {
 /// links.
 std::optional<UrdfTree> assemble_urdf(const UrdfRobot& robot, language::Report& report);
 
+/// Gives each body, in place of its shapes, a box at its centre of mass along its own axes that has
+/// the body's second moments of mass along them; none to a body without mass or without inertia.
+void take_inertia_boxes(UrdfTree& tree);
+
 /// Constants of the spring and damper of a joint [N m/rad, N m s/rad; N/m, N s/m].
 struct UrdfHold {
   double stiffness = 0., damping = 0.;
