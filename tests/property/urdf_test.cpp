@@ -2,8 +2,11 @@
 // definitions; what is refused, in which words and at which line; files that are no URDF at all.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
+#include <sstream>
 
 #include "dts/configuration.h"
 #include "dts/energy.h"
@@ -555,6 +558,97 @@ TEST(Urdf, HoldMakesAQuadrupedStandWithJointsThatSagLessThanSaid) {
     EXPECT_NEAR(std::stod(cell), -1.4, 0.05);
     EXPECT_GT(std::abs(std::stod(cell) + 1.4), 0.001);  // it does carry weight
   }
+}
+
+/// A uniform box of `mass` and edges x, y, z at `at` in its link's frame, that may touch.
+std::string box_link(const std::string& name, double mass, double x, double y, double z,
+                     const std::string& at) {
+  std::ostringstream text;
+  text << "<link name=\"" << name << "\"><inertial><origin xyz=\"" << at << "\"/><mass value=\""
+       << mass << "\"/><inertia ixx=\"" << mass * (y * y + z * z) / 12. << "\" iyy=\""
+       << mass * (x * x + z * z) / 12. << "\" izz=\"" << mass * (x * x + y * y) / 12.
+       << "\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial><collision><origin xyz=\"" << at
+       << "\"/><geometry><box size=\"" << x << ' ' << y << ' ' << z
+       << "\"/></geometry></collision></link>\n";
+  return text.str();
+}
+
+std::string pitch_joint(const std::string& parent, const std::string& child,
+                        const std::string& at) {
+  return joint("to_" + child, "continuous", "<origin xyz=\"" + at + "\"/><axis xyz=\"0 1 0\"/>",
+               parent, child);
+}
+
+/// A pelvis with two legs and a torso, on which hang two arms. 40 kg.
+std::string humanoid() {
+  std::string text = "<robot name=\"h\">" + box_link("pelvis", 6., 0.15, 0.3, 0.1, "0 0 0") +
+                     box_link("torso", 15., 0.2, 0.3, 0.4, "0 0 0.25") +
+                     pitch_joint("pelvis", "torso", "0 0 0.05");
+  for (const auto& [side, y] : {std::pair{"left", "0.1"}, std::pair{"right", "-0.1"}}) {
+    const std::string s = side;
+    text += box_link(s + "_thigh", 4., 0.1, 0.1, 0.36, "0 0 -0.2") +
+            box_link(s + "_shank", 3., 0.08, 0.08, 0.36, "0 0 -0.2") +
+            box_link(s + "_foot", 1., 0.24, 0.1, 0.05, "0.03 0 -0.04") +
+            box_link(s + "_arm", 1., 0.06, 0.06, 0.3, "0 0 -0.15") +
+            box_link(s + "_hand", 0.5, 0.05, 0.05, 0.2, "0 0 -0.1") +
+            pitch_joint("pelvis", s + "_thigh", std::string("0 ") + y + " -0.05") +
+            pitch_joint(s + "_thigh", s + "_shank", "0 0 -0.4") +
+            pitch_joint(s + "_shank", s + "_foot", "0 0 -0.4") +
+            pitch_joint("torso", s + "_arm",
+                        std::string("0 ") + (y[0] == '-' ? "-0.2" : "0.2") + " 0.4") +
+            pitch_joint(s + "_arm", s + "_hand", "0 0 -0.3");
+  }
+  return text + "</robot>";
+}
+
+TEST(Urdf, HoldMakesAHumanoidStandWithArmsThatCarryThemselves) {
+  const testing::Workplace place;
+  place.file("humanoid.urdf", humanoid());
+  place.file(
+      "scene.hook",
+      "World w { deltat = auto; Include \"materials/rigid_floor.hook\" (load = 50 N, "
+      "allowance = 1 mm); Terrain.Flat ground { material = rigid_floor; } Include "
+      "\"humanoid.urdf\" (name = r, rest_on = ground, hold = 0.03 rad, to_left_arm = 60 deg); }");
+  const testing::CommandResult ran = place.hookpoint(
+      "run scene.hook --for 4s --out run --record w.r.position.z,w.r.orientation.w,"
+      "w.r.to_torso.torso.to_left_arm.left_arm.angle");
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  std::istringstream trace(place.read("run/trace.csv"));
+  std::vector<std::vector<double>> rows;
+  for (std::string line; std::getline(trace, line);) {
+    if (line.empty() || line[0] == '#' || line.find('[') != std::string::npos) continue;
+    std::istringstream cells(line);
+    std::vector<double>& row = rows.emplace_back();
+    for (std::string cell; std::getline(cells, cell, ',');) row.push_back(std::stod(cell));
+  }
+  ASSERT_GT(rows.size(), 10u);
+  EXPECT_NEAR(rows.back()[1], rows.front()[1], 0.01);
+  EXPECT_GT(std::abs(rows.back()[2]), std::cos(0.03));  // leans by less than 0.06 rad
+  EXPECT_NEAR(rows.back()[3], 60. * M_PI / 180., 0.03);
+
+  const Loaded loaded = load_file(place.folder() / "scene.hook");
+  ASSERT_TRUE(loaded.experiment) << loaded.diagnostics;
+  const auto& chains = loaded.experiment->robots.at(0).chains;
+  const auto stiffness = [&](const std::string& chain, std::size_t link) {
+    return std::ranges::find(chains, chain, &simulation::ChainSpec::name)->links.at(link).stiffness;
+  };
+  // The hip's outer bodies reach 0.8 m down to the ankle and on to the foot's middle; the
+  // shoulder's to the hand's.
+  const double weight = 9.80665 * (6. + 15. + 2. * (4. + 3. + 1. + 1. + 0.5));
+  EXPECT_NEAR(stiffness("to_left_thigh", 0), weight * std::hypot(0.03, 0.84) / 0.03, 1e-9 * weight);
+  EXPECT_NEAR(stiffness("to_torso.torso.to_left_arm", 0), 9.80665 * 1.5 * 0.4 / 0.03, 1e-9);
+}
+
+TEST(Urdf, InertiaStandsForAFormThatIsNotKnown) {
+  const std::string text =
+      "<robot name=\"h\">" + box_link("b", 3., 0.2, 0.3, 0.1, "0.01 0.02 0.03") + "</robot>";
+  const Loaded loaded = load_urdf(text, ", shapes = inertia");
+  ASSERT_TRUE(loaded.experiment) << loaded.diagnostics;
+  const simulation::BodySpec& read = loaded.experiment->robots.at(0).base;
+  ASSERT_EQ(read.shapes.size(), 1u);
+  const Vector3d edges = std::get<simulation::Box>(read.shapes[0].geometry).dimensions;
+  EXPECT_LT(norm(edges - Vector3d{0.2, 0.3, 0.1}), 1e-6);
+  EXPECT_LT(norm(read.shapes[0].location - Vector3d{0.01, 0.02, 0.03}), 1e-12);
 }
 
 TEST(Urdf, TheQuadrupedStandsOnItsFourFeet) {
