@@ -59,6 +59,7 @@ void write_robot(output::JsonWriter& json, const RobotDynamics& robot,
   for (const simulation::ChainDynamics& chain : robot.chains) {
     json.key(chain.name)
         .begin_object()
+        .member("carrier", chain.carrier)
         .key("joint_accelerations")
         .numbers(chain.joint_accelerations);
     member(json, "hip_force", chain.hip_force);
@@ -111,8 +112,9 @@ void print_robot(const RobotDynamics& robot) {
   for (const simulation::ChainDynamics& chain : robot.chains) {
     fmt::print("  chain {:<28} joint accelerations", chain.name);
     for (double acceleration : chain.joint_accelerations) fmt::print(" {:.6g}", acceleration);
-    fmt::print("\n  {:<34} {} N\n", "  force on the base at the hip", text(chain.hip_force));
-    fmt::print("  {:<34} {} N.m\n", "  moment on the base at the hip", text(chain.hip_moment));
+    const std::string where = fmt::format("on the {} at the hip", chain.carrier);
+    fmt::print("\n  {:<34} {} N\n", "  force " + where, text(chain.hip_force));
+    fmt::print("  {:<34} {} N.m\n", "  moment " + where, text(chain.hip_moment));
   }
   fmt::print("  {:<34} {:12.6g} J\n", "kinetic energy", robot.kinetic_energy);
   fmt::print("  {:<34} {:12.6g} J\n", "potential energy", robot.potential_energy);

@@ -1,7 +1,7 @@
 #include "dts/backward_dynamics.h"
 
 #include "dts/body_forces.h"
-#include "dts/joint.h"
+#include "dts/carriers.h"
 
 namespace hookpoint::dts {
 
@@ -28,16 +28,18 @@ template <class Real>
 void backward_dynamics(const Model<Real>& model,
                        std::span<const std::type_identity_t<Real>> joint_torques,
                        Workspace<Real>& workspace) {
-  for (std::size_t g = 0; g < model.groups().size(); ++g) {
+  clear_carried(workspace);
+  for (std::size_t g = model.groups().size(); g-- > 0;) {
     const ChainGroup<Real>& group = model.groups()[g];
     const std::span<LinkPass<Lanes<Real>>> passes = workspace.passes(group);
     HipPass<Lanes<Real>>& carried = workspace.hips[g];
     carried = {};
     for (std::size_t n = group.link_count(); n-- > 0;) {
       const LinkConstants<Lanes<Real>>& link = group.links[n];
+      if (link.carries) add_carried(group, n, workspace, carried);
       const Wrench<Lanes<Real>> pA = carried.pA + bias_wrench(group, n, passes[n], workspace);
       const Lanes<Real> torque = gather(at_link(group, n, joint_torques));
-      carried = n + 1 == group.link_count()
+      carried = group.ends_at(n)
                     ? pass_inward(link, group.leaf, pA, torque, passes[n])
                     : pass_inward(link, eliminate(link.joint, carried.IA + link.inertia), pA,
                                   torque, passes[n]);
@@ -45,6 +47,7 @@ void backward_dynamics(const Model<Real>& model,
         carried = {inward(link.placement, carried.IA), inward(link.placement, carried.pA)};
       }
     }
+    if (!group.on_base()) hand_inward(group, workspace);
   }
 }
 

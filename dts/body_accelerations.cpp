@@ -8,7 +8,7 @@ void body_accelerations(const Model<Real>& model, const State<Real>& state,
   bodies[0] = {workspace.base_angular_acceleration, workspace.base_acceleration};
   for (std::size_t body = 1; body < model.body_count(); ++body) {
     const Seat& seat = model.seat_of(body);
-    const std::size_t preceding = seat.link == 0 ? 0 : body - 1;
+    const std::size_t preceding = model.carrier_of(body);
     const BodyMotion<Real>& before = workspace.bodies[preceding];
     const BodyMotion<Real>& here = workspace.bodies[body];
     const Matrix3<Real>& R = here.R_WB;

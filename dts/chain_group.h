@@ -47,34 +47,41 @@ struct LinkConstants {
   Placement<Real> placement;
   bool twisted = false;  ///< alpha or a differs from 0, so that there is a screw about x
   Screw<Real> twist;     ///< by alpha and a, about the preceding frame's x
+  bool carries = false;  ///< a chain hangs on the link, in some lane
   Real d{}, theta{};
   RigidInertia<Real> inertia;
 };
 
-/// Where a chain starts. H is the hip frame after the first link's constant screw about x, which
-/// the model has merged into it.
+/// Where a chain starts, on the body B that carries it. H is the hip frame after the first link's
+/// constant screw about x, which the model has merged into it.
 template <class Real>
 struct HipConstants {
   Vector3<Real> p_BH;
   Matrix3<Real> R_BH;
-  Vector3<Real> hip_to_H;  ///< from the hip as described to H, base axes [m]
+  Vector3<Real> hip_to_H;  ///< from the hip as described to H, axes of B [m]
 };
 
 /// Up to `lane_count` chains. The lanes beyond the last chain repeat it: they compute and write the
 /// numbers that it does, and are left out of sums (`in_use`).
 template <class Real>
 struct ChainGroup {
+  std::size_t index = 0;  ///< among the model's groups
+  std::size_t depth = 0;  ///< links that carry chains, from the base to these
   std::size_t chain_count = 0;
   std::array<std::size_t, lane_count> chains{};       ///< which, in the robot's order
   std::array<std::size_t, lane_count> first_links{};  ///< theirs, in the robot's order
+  std::array<std::size_t, lane_count> carriers{};     ///< the bodies that they hang on
   std::size_t first_pass = 0;  ///< where the group's links start in a workspace
   Mask<Lanes<Real>> in_use;
   bool aligned = true;  ///< every R_BH is the identity
   HipConstants<Lanes<Real>> hip;
   std::vector<LinkConstants<Lanes<Real>>> links;
-  Elimination<Lanes<Real>> leaf;  ///< of the last links, which carry nothing: constant
+  Elimination<Lanes<Real>> leaf;  ///< of the last links, where they carry nothing: constant
 
   std::size_t link_count() const { return links.size(); }
+  bool on_base() const { return depth == 0; }
+  /// Link `n` is the last of all, so that its elimination is `leaf`.
+  bool ends_at(std::size_t n) const { return n + 1 == links.size() && !links[n].carries; }
 };
 
 /// For each lane, where link `n` of its chain finds its own among `of_links`, one a link.
@@ -90,6 +97,13 @@ template <class Real, class T>
 std::array<T*, lane_count> at_body(const ChainGroup<Real>& group, std::size_t n,
                                    std::span<T> of_bodies) {
   return at_link(group, n + 1, of_bodies);
+}
+/// For each lane, where its chain finds its carrier's among `of_bodies`.
+template <class Real, class T>
+std::array<T*, lane_count> at_carrier(const ChainGroup<Real>& group, std::span<T> of_bodies) {
+  std::array<T*, lane_count> result;
+  for (std::size_t i = 0; i < lane_count; ++i) result[i] = &of_bodies[group.carriers[i]];
+  return result;
 }
 /// For each lane, where its chain finds its own among `of_chains`, one a chain.
 template <class Real, class T>

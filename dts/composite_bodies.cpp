@@ -37,7 +37,7 @@ CompositeBodies composite_bodies(const Model<double>& model, const Workspace<dou
   }
   for (std::size_t body = model.body_count() - 1; body > 0; --body) {
     const RigidInertia<double>& outer = composite.carried[body];
-    RigidInertia<double>& inner = composite.carried[carrier_of(model, body)];
+    RigidInertia<double>& inner = composite.carried[model.carrier_of(body)];
     inner.mass += outer.mass;
     inner.mass_moment += outer.mass_moment;
     inner.inertia += outer.inertia;

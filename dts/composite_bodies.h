@@ -15,11 +15,6 @@ struct CompositeBodies {
   std::vector<Motion<double>> freedoms;  ///< one a link: S, the motion at O of a unit joint rate
 };
 
-/// The body that carries `body` >= 1: the link before it, or the base, 0.
-inline std::size_t carrier_of(const Model<double>& model, std::size_t body) {
-  return model.seat_of(body).link == 0 ? 0 : body - 1;
-}
-
 /// At the posture that forward_kinematics saw last. A fixed base counts as massless. O(links).
 CompositeBodies composite_bodies(const Model<double>& model, const Workspace<double>& workspace);
 

@@ -1,19 +1,34 @@
 #include "dts/forward_accelerations.h"
 
-#include "dts/hip_forces.h"
-#include "dts/joint.h"
+#include "dts/carriers.h"
 
 namespace hookpoint::dts {
+namespace {
+
+/// R_WB of the links that carry a group's chains. Not inlined: few robots branch.
+template <class Real>
+[[gnu::noinline]] Matrix3<Lanes<Real>> carrier_axes(const ChainGroup<Real>& group,
+                                                    const Workspace<Real>& workspace) {
+  return gather(at_carrier(group, std::span(workspace.bodies))).R_WB;
+}
+
+}  // namespace
 
 template <class Real>
 void forward_accelerations(const Model<Real>& model, Workspace<Real>& workspace) {
-  const Matrix3<Lanes<Real>> R_WB = in_all_lanes<Lanes<Real>>(workspace.bodies[0].R_WB);
-  for (std::size_t g = 0; g < model.groups().size(); ++g) {
-    const ChainGroup<Real>& group = model.groups()[g];
-    Motion<Lanes<Real>> a = outward(group, workspace.base_motion);
-    a.linear += hip_centripetal(group, workspace.base);
+  // Of the bodies that carry the chains: first the base, then links.
+  Motion<Lanes<Real>> carriers = in_all_lanes<Lanes<Real>>(workspace.base_motion);
+  Matrix3<Lanes<Real>> R_WB = in_all_lanes<Lanes<Real>>(workspace.bodies[0].R_WB);
+  for (const ChainGroup<Real>& group : model.groups()) {
+    if (!group.on_base()) {
+      carriers = carrier_motion(group, workspace);
+      R_WB = carrier_axes(group, workspace);
+    }
+    Motion<Lanes<Real>> a = outward(group, carriers);
+    a.linear += hip_centripetal(group, workspace);
 
-    const Wrench<Lanes<Real>> on_chain = workspace.hips[g].IA * a + workspace.hips[g].pA;
+    const HipPass<Lanes<Real>>& hip = workspace.hips[group.index];
+    const Wrench<Lanes<Real>> on_chain = hip.IA * a + hip.pA;
     const Vector3<Lanes<Real>> force = group.hip.R_BH * on_chain.force;
     const Vector3<Lanes<Real>> moment =
         group.hip.R_BH * on_chain.moment + cross(group.hip.hip_to_H, force);
@@ -30,6 +45,7 @@ void forward_accelerations(const Model<Real>& model, Workspace<Real>& workspace)
       const Lanes<Real> acceleration = pass.D_inverse * (pass.u - dot(pass.U, a));
       scatter(acceleration, at_link(group, n, std::span(workspace.joint_accelerations)));
       a = with_joint_motion(link.joint, a, acceleration);
+      if (link.carries) hand_outward(group, n, a, workspace);
     }
   }
 }

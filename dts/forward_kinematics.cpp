@@ -72,14 +72,15 @@ template <class Real>
   return body;
 }
 
-/// The motion of the hip frames, which move with the base.
+/// The motion of the hip frames, which move with their carriers.
 template <class Real>
-BodyMotion<Real> hip_motion(const HipConstants<Real>& hip, const BodyMotion<Real>& base) {
-  const Vector3<Real> r = base.R_WB * hip.p_BH;
-  return {base.R_WB * hip.R_BH, base.p_WB + r, base.v_WB + cross(base.w_WB, r), base.w_WB};
+BodyMotion<Real> hip_motion(const HipConstants<Real>& hip, const BodyMotion<Real>& carrier) {
+  const Vector3<Real> r = carrier.R_WB * hip.p_BH;
+  return {carrier.R_WB * hip.R_BH, carrier.p_WB + r, carrier.v_WB + cross(carrier.w_WB, r),
+          carrier.w_WB};
 }
 
-/// From the base out along the chains of a group: `body` is the motion of their hips, `w` its
+/// From the hips out along the chains of a group: `body` is the motion of their hips, `w` its
 /// angular velocity in their axes. `placed`: some link has a placement.
 template <bool placed, class Real>
 void group_kinematics(const ChainGroup<Real>& group, const State<Real>& state,
@@ -103,6 +104,13 @@ void group_kinematics(const ChainGroup<Real>& group, const State<Real>& state,
   }
 }
 
+/// The motion of the links that carry a group's chains. Not inlined: few robots branch.
+template <class Real>
+[[gnu::noinline]] BodyMotion<Lanes<Real>> carriers_of(const ChainGroup<Real>& group,
+                                                      const Workspace<Real>& workspace) {
+  return gather(at_carrier(group, std::span(workspace.bodies)));
+}
+
 }  // namespace
 
 template <class Real>
@@ -116,16 +124,22 @@ void forward_kinematics(const Model<Real>& model, const State<Real>& state,
   }
   workspace.base.w = transpose_times(base.R_WB, base.w_WB);
 
-  const BodyMotion<Lanes<Real>> base_lanes = in_all_lanes<Lanes<Real>>(base);
-  const Vector3<Lanes<Real>> w_base = in_all_lanes<Lanes<Real>>(workspace.base.w);
+  // Of the bodies that carry the chains: first the base, then links.
+  BodyMotion<Lanes<Real>> carriers = in_all_lanes<Lanes<Real>>(base);
+  Vector3<Lanes<Real>> w = in_all_lanes<Lanes<Real>>(workspace.base.w);
   for (const ChainGroup<Real>& group : model.groups()) {
-    const BodyMotion<Lanes<Real>> hips = hip_motion(group.hip, base_lanes);
-    const Vector3<Lanes<Real>> w = transpose_times(group.hip.R_BH, w_base);
+    if (!group.on_base()) {
+      carriers = carriers_of(group, workspace);
+      w = transpose_times(carriers.R_WB, carriers.w_WB);
+    }
+    workspace.carrier_w[group.index] = w;
+    const BodyMotion<Lanes<Real>> hips = hip_motion(group.hip, carriers);
+    const Vector3<Lanes<Real>> w_hips = transpose_times(group.hip.R_BH, w);
     const bool placed = std::ranges::any_of(group.links, &LinkConstants<Lanes<Real>>::placed);
     if (placed) {
-      group_kinematics<true>(group, state, hips, w, workspace);
+      group_kinematics<true>(group, state, hips, w_hips, workspace);
     } else {
-      group_kinematics<false>(group, state, hips, w, workspace);
+      group_kinematics<false>(group, state, hips, w_hips, workspace);
     }
   }
 }

@@ -9,9 +9,8 @@ template <class Real>
 void factor_base(const Model<Real>& model, Workspace<Real>& workspace) {
   if (!model.mobile()) return;
   ArticulatedInertia<Lanes<Real>> carried;
-  for (std::size_t g = 0; g < model.groups().size(); ++g) {
-    const ChainGroup<Real>& group = model.groups()[g];
-    carried = carried + only(group.in_use, inward(group, workspace.hips[g].IA));
+  for (const ChainGroup<Real>& group : model.base_groups()) {
+    carried = carried + only(group.in_use, inward(group, workspace.hips[group.index].IA));
   }
   const ArticulatedInertia<Real> IA = lane_sum(carried) + model.base();
   BasePass<Real>& base = workspace.base;
@@ -32,12 +31,8 @@ void hip_forces_to_base(const Model<Real>& model, const Vector3<Real>& gravity_W
   }
   factor_base(model, workspace);
   Wrench<Lanes<Real>> carried;
-  for (std::size_t g = 0; g < model.groups().size(); ++g) {
-    const ChainGroup<Real>& group = model.groups()[g];
-    const auto& [IA, pA] = workspace.hips[g];
-    const Vector3<Lanes<Real>> c = hip_centripetal(group, workspace.base);
-    const Wrench<Lanes<Real>> on_hip = pA + Wrench<Lanes<Real>>{IA.H * c, IA.M * c};
-    carried = carried + only(group.in_use, inward(group, on_hip));
+  for (const ChainGroup<Real>& group : model.base_groups()) {
+    carried = carried + only(group.in_use, inward(group, wrench_on_hip(group, workspace)));
   }
   const Wrench<Real> pA =
       lane_sum(carried) + bias_wrench(model.base(), workspace.base.w, R_WB, workspace.external[0]);

@@ -26,12 +26,21 @@ Motion<Real> solve_base(const BasePass<Real>& base, const Wrench<Real>& pA) {
   return {angular, -(base.M_inverse * (pA.force + transpose_times(base.H, angular)))};
 }
 
-/// w x (w x p): the acceleration of hips that the base's angular velocity alone gives them, in
+/// w x (w x p): the acceleration of hips that the carriers' angular velocity alone gives them, in
 /// their axes.
 template <class Real>
-Vector3<Lanes<Real>> hip_centripetal(const ChainGroup<Real>& group, const BasePass<Real>& base) {
-  const Vector3<Lanes<Real>> w = in_all_lanes<Lanes<Real>>(base.w);
+Vector3<Lanes<Real>> hip_centripetal(const ChainGroup<Real>& group,
+                                     const Workspace<Real>& workspace) {
+  const Vector3<Lanes<Real>>& w = workspace.carrier_w[group.index];
   return transpose_times(group.hip.R_BH, cross(w, cross(w, group.hip.p_BH)));
+}
+
+/// What a group's chains ask of their hips while the carriers turn on without acceleration.
+template <class Real>
+Wrench<Lanes<Real>> wrench_on_hip(const ChainGroup<Real>& group, const Workspace<Real>& workspace) {
+  const auto& [IA, pA] = workspace.hips[group.index];
+  const Vector3<Lanes<Real>> c = hip_centripetal(group, workspace);
+  return pA + Wrench<Lanes<Real>>{IA.H * c, IA.M * c};
 }
 
 extern template void hip_forces_to_base(const Model<double>&, const Vector3<double>&,

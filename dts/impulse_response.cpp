@@ -1,26 +1,33 @@
 #include "dts/impulse_response.h"
 
+#include "dts/carriers.h"
 #include "dts/configuration.h"
-#include "dts/hip_forces.h"
-#include "dts/joint.h"
 
 namespace hookpoint::dts {
 namespace {
 
-/// Carries an impulse from `point` to the base, leaving its part along each joint of the chain in
-/// the chain's lane of `links[].impulse` and zero in the others, and returns the velocity jump of
-/// the base, base axes.
+/// Calls `visit(group, seat)` for the chains from `body` to the base, each with the seat of the
+/// last of its links on the way.
+template <class Real, class Visit>
+void for_each_on_path(const Model<Real>& model, std::size_t body, const Visit& visit) {
+  while (body > 0) {
+    const Seat& seat = model.seat_of(body);
+    const ChainGroup<Real>& group = model.groups()[seat.group];
+    visit(group, seat);
+    body = group.carriers[seat.lane];
+  }
+}
+
+/// Carries an impulse from `point` to the base, leaving its part along each joint on the way in the
+/// chain's lane of `links[].impulse`, and returns the velocity jump of the base, base axes.
 template <class Real>
 Motion<Real> jump_of_base(const Model<Real>& model, Workspace<Real>& workspace,
                           const BodyPoint<Real>& point, const Vector3<Real>& impulse_W) {
   const BodyMotion<Real>& body = workspace.bodies[point.body];
   Wrench<Real> p{-transpose_times(body.R_WB, cross(point.p_WP - body.p_WB, impulse_W)),
                  -transpose_times(body.R_WB, impulse_W)};
-  if (point.body > 0) {
-    const Seat& seat = model.seat_of(point.body);
-    const ChainGroup<Real>& group = model.groups()[seat.group];
+  for_each_on_path(model, point.body, [&](const ChainGroup<Real>& group, const Seat& seat) {
     const std::span<LinkPass<Lanes<Real>>> passes = workspace.passes(group);
-    for (LinkPass<Lanes<Real>>& beyond : passes.subspan(seat.link + 1)) beyond.impulse = 0.;
     Wrench<Lanes<Real>> struck;
     set_lane(struck, seat.lane, p);
     for (std::size_t n = seat.link + 1; n-- > 0;) {
@@ -30,33 +37,50 @@ Motion<Real> jump_of_base(const Model<Real>& model, Workspace<Real>& workspace,
       struck = inward(link, pass, struck + (pass.impulse * pass.D_inverse) * pass.U);
     }
     p = lane_of(inward(group, struck), seat.lane);
-  }
+  });
   return model.mobile() ? solve_base(workspace.base, p) : Motion<Real>{};
 }
 
-/// Carries the base's jump out along a group's chains to their links `last`; `struck` says that the
-/// impulse acted on one of them. Returns the jumps of those links, link axes; `on_joint(n, jump of
-/// its rate)` sees each joint passed.
+/// Takes back what jump_of_base left.
+template <class Real>
+void clear_impulses(const Model<Real>& model, Workspace<Real>& workspace, std::size_t body) {
+  for_each_on_path(model, body, [&](const ChainGroup<Real>& group, const Seat& seat) {
+    for (LinkPass<Lanes<Real>>& pass : workspace.passes(group).first(seat.link + 1))
+      pass.impulse = 0.;
+  });
+}
+
+/// Carries the jumps of the bodies that carry a group's chains out along these to their links
+/// `last`, and returns the jumps of those, link axes; `on_joint(n, jump of its rate, jump of its
+/// link)` sees each joint passed.
 template <class Real, class OnJoint>
-Motion<Lanes<Real>> carry_outward(const ChainGroup<Real>& group, std::size_t last, bool struck,
-                                  const Motion<Real>& base, Workspace<Real>& workspace,
+Motion<Lanes<Real>> carry_outward(const ChainGroup<Real>& group, std::size_t last,
+                                  const Motion<Lanes<Real>>& carriers, Workspace<Real>& workspace,
                                   const OnJoint& on_joint) {
-  Motion<Lanes<Real>> jump = outward(group, base);
+  Motion<Lanes<Real>> jump = outward(group, carriers);
   const std::span<const LinkPass<Lanes<Real>>> passes = workspace.passes(group);
   for (std::size_t n = 0; n <= last; ++n) {
     const LinkPass<Lanes<Real>>& pass = passes[n];
     jump = outward(group.links[n], pass, jump);
-    const Lanes<Real> u = struck ? pass.impulse : Lanes<Real>(0.);
-    const Lanes<Real> rate = pass.D_inverse * (u - dot(pass.U, jump));
+    const Lanes<Real> rate = pass.D_inverse * (pass.impulse - dot(pass.U, jump));
     jump = with_joint_motion(group.links[n].joint, jump, rate);
-    on_joint(n, rate);
+    on_joint(n, rate, jump);
   }
   return jump;
 }
 
+/// The jump of `body`, in its axes, from the base's.
 template <class Real>
-bool in_group(const Model<Real>& model, std::size_t body, std::size_t group) {
-  return body > 0 && model.seat_of(body).group == group;
+Motion<Real> jump_of_body(const Model<Real>& model, Workspace<Real>& workspace,
+                          const Motion<Real>& base, std::size_t body) {
+  if (body == 0) return base;
+  const Seat& seat = model.seat_of(body);
+  const ChainGroup<Real>& group = model.groups()[seat.group];
+  const Motion<Real> carrier = jump_of_body(model, workspace, base, group.carriers[seat.lane]);
+  const Motion<Lanes<Real>> jumps =
+      carry_outward(group, seat.link, in_all_lanes<Lanes<Real>>(carrier), workspace,
+                    [](std::size_t, const Lanes<Real>&, const Motion<Lanes<Real>>&) {});
+  return lane_of(jumps, seat.lane);
 }
 
 /// The velocity change of `b` under the impulse `impulse_W` at `a`, world axes.
@@ -64,14 +88,9 @@ template <class Real>
 Vector3<Real> response(const Model<Real>& model, Workspace<Real>& workspace,
                        const BodyPoint<Real>& a, const Vector3<Real>& impulse_W,
                        const BodyPoint<Real>& b) {
-  Motion<Real> jump = jump_of_base(model, workspace, a, impulse_W);
-  if (b.body > 0) {
-    const Seat& seat = model.seat_of(b.body);
-    const Motion<Lanes<Real>> jumps =
-        carry_outward(model.groups()[seat.group], seat.link, in_group(model, a.body, seat.group),
-                      jump, workspace, [](std::size_t, const Lanes<Real>&) {});
-    jump = lane_of(jumps, seat.lane);
-  }
+  const Motion<Real> base = jump_of_base(model, workspace, a, impulse_W);
+  const Motion<Real> jump = jump_of_body(model, workspace, base, b.body);
+  clear_impulses(model, workspace, a.body);
   const BodyMotion<Real>& body = workspace.bodies[b.body];
   return body.R_WB * jump.linear + cross(body.R_WB * jump.angular, b.p_WP - body.p_WB);
 }
@@ -83,16 +102,21 @@ Motion<Real> jump_of_robot(const Model<Real>& model, Workspace<Real>& workspace,
                            const BodyPoint<Real>& point, const Vector3<Real>& impulse_W,
                            const OnJoint& on_joint) {
   const Motion<Real> base = jump_of_base(model, workspace, point, impulse_W);
-  for (std::size_t g = 0; g < model.groups().size(); ++g) {
-    const ChainGroup<Real>& group = model.groups()[g];
+  Motion<Lanes<Real>> carriers = in_all_lanes<Lanes<Real>>(base);
+  for (const ChainGroup<Real>& group : model.groups()) {
     if (group.link_count() == 0) continue;
-    carry_outward(group, group.link_count() - 1, in_group(model, point.body, g), base, workspace,
-                  [&](std::size_t n, const Lanes<Real>& rates) {
+    if (!group.on_base()) carriers = carrier_motion(group, workspace);
+    carry_outward(group, group.link_count() - 1, carriers, workspace,
+                  [&](std::size_t n, const Lanes<Real>& rates, const Motion<Lanes<Real>>& jumps) {
                     for (std::size_t lane = 0; lane < group.chain_count; ++lane) {
-                      on_joint(group.first_links[lane] + n, rates[lane]);
+                      const std::size_t l = group.first_links[lane] + n;
+                      on_joint(l, rates[lane]);
+                      if (group.links[n].carries)
+                        workspace.carrier_motions[l + 1] = lane_of(jumps, lane);
                     }
                   });
   }
+  clear_impulses(model, workspace, point.body);
   return base;
 }
 
@@ -100,21 +124,23 @@ Motion<Real> jump_of_robot(const Model<Real>& model, Workspace<Real>& workspace,
 
 template <class Real>
 void articulated_inertias(const Model<Real>& model, Workspace<Real>& workspace) {
-  for (std::size_t g = 0; g < model.groups().size(); ++g) {
-    const ChainGroup<Real>& group = model.groups()[g];
+  clear_carried(workspace);
+  for_each_inward(model, [&](const ChainGroup<Real>& group) {
     const std::span<LinkPass<Lanes<Real>>> passes = workspace.passes(group);
     ArticulatedInertia<Lanes<Real>> IA;
     for (std::size_t n = group.link_count(); n-- > 0;) {
       const LinkConstants<Lanes<Real>>& link = group.links[n];
       LinkPass<Lanes<Real>>& pass = passes[n];
+      if (link.carries) IA = IA + carried_by(group, n, workspace).IA;
       const Elimination<Lanes<Real>> free =
-          n + 1 == group.link_count() ? group.leaf : eliminate(link.joint, IA + link.inertia);
+          group.ends_at(n) ? group.leaf : eliminate(link.joint, IA + link.inertia);
       pass.U = free.U;
       pass.D_inverse = free.D_inverse;
       IA = inward(link, pass, free.Ia);
     }
-    workspace.hips[g].IA = IA;
-  }
+    workspace.hips[group.index].IA = IA;
+    if (!group.on_base()) hand_inward(group, IA, workspace);
+  });
   factor_base(model, workspace);
 }
 

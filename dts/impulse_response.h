@@ -1,6 +1,6 @@
 // What an impulse does to the velocities: the recursion of forward dynamics with impulses in place
 // of forces (Mirtich 1996, section 4.2.3; Featherstone 2008, section 11.7). Each response is
-// O(links of the two chains involved).
+// O(links between the base and the two bodies).
 //
 // Order of calls: forward_kinematics, then articulated_inertias or forward_dynamics (either leaves
 // the articulated inertias of the present configuration in the workspace), then any number of

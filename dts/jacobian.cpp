@@ -31,7 +31,7 @@ std::vector<double> body_jacobian(const Model<double>& model, const CompositeBod
   };
   for (std::size_t k = 0; k < first; ++k)
     add(k, k < 3 ? Motion<double>{unit(k), {}} : Motion<double>{{}, unit(k - 3)});
-  for (; body > 0; body = carrier_of(model, body))
+  for (; body > 0; body = model.carrier_of(body))
     add(first + body - 1, composite.freedoms[body - 1]);
   return J;
 }

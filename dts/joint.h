@@ -111,8 +111,8 @@ constexpr Motion<Real> outward(const LinkConstants<Real>& link, const LinkPass<R
   return outward_screws(link, pass, link.placed ? outward(link.placement, a) : a);
 }
 
-/// Inertias of chains about their hips, as the base sees them: H' = H + [p]x M, I' = I - H [p]x +
-/// [p]x H'^T.
+/// Inertias of chains about their hips, as the carriers see them: H' = H + [p]x M, I' = I - H [p]x
+/// + [p]x H'^T.
 template <class Real>
 constexpr ArticulatedInertia<Lanes<Real>> inward(const ChainGroup<Real>& group,
                                                  const ArticulatedInertia<Lanes<Real>>& x) {
@@ -126,11 +126,10 @@ constexpr Wrench<Lanes<Real>> inward(const ChainGroup<Real>& group, const Wrench
   const Vector3<Lanes<Real>> force = R_BH * f.force;
   return {R_BH * f.moment + cross(p_BH, force), force};
 }
-/// The base's motion as the hips have it.
+/// The carriers' motion as the hips have it.
 template <class Real>
-constexpr Motion<Lanes<Real>> outward(const ChainGroup<Real>& group, const Motion<Real>& base) {
+constexpr Motion<Lanes<Real>> outward(const ChainGroup<Real>& group, const Motion<Lanes<Real>>& a) {
   const auto& [p_BH, R_BH, hip_to_H] = group.hip;
-  const Motion<Lanes<Real>> a = in_all_lanes<Lanes<Real>>(base);
   return {transpose_times(R_BH, a.angular),
           transpose_times(R_BH, a.linear + cross(a.angular, p_BH))};
 }

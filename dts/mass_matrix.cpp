@@ -29,7 +29,7 @@ std::vector<double> mass_matrix(const Model<double>& model, const CompositeBodie
     const std::size_t column = first + body - 1;
     const Wrench<double> f = composite.carried[body] * composite.freedoms[body - 1];
     add_base_rows(column, f);
-    for (std::size_t inner = body; inner > 0; inner = carrier_of(model, inner))
+    for (std::size_t inner = body; inner > 0; inner = model.carrier_of(inner))
       set(first + inner - 1, column, dot(f, composite.freedoms[inner - 1]));
   }
   return M;

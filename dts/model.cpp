@@ -1,6 +1,7 @@
 #include "dts/model.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "dts/joint.h"
@@ -88,12 +89,13 @@ void set_link(LinkConstants<Lanes<Real>>& links, std::size_t lane, LinkDescripti
 
 /// Adds a chain to a group of its kind: in the next lane, and for the time being in those beyond.
 template <class Real>
-void add_to(ChainGroup<Real>& group, std::size_t chain, std::size_t first_link,
+void add_to(ChainGroup<Real>& group, std::size_t chain, std::size_t first_link, std::size_t carrier,
             const HipConstants<double>& hip, std::span<const LinkDescription> links) {
   group.aligned = group.aligned && hip.R_BH == Matrix3d::identity();
   for (std::size_t lane = group.chain_count; lane < lane_count; ++lane) {
     group.chains[lane] = chain;
     group.first_links[lane] = first_link;
+    group.carriers[lane] = carrier;
     set_lane(group.hip, lane, in_all_lanes<Real>(hip));
     for (std::size_t n = 0; n < links.size(); ++n) set_link<Real>(group.links[n], lane, links[n]);
   }
@@ -104,34 +106,67 @@ void add_to(ChainGroup<Real>& group, std::size_t chain, std::size_t first_link,
   }
 }
 
+/// How many links that carry chains lie between the base and each chain.
+std::vector<std::size_t> depths_of(const RobotDescription& robot) {
+  std::vector<std::size_t> of_chains;
+  std::vector<std::size_t> beyond{0};  // of a chain that hangs on a body, one a body
+  for (const ChainDescription& chain : robot.chains) {
+    assert(chain.carrier < beyond.size() && "a chain comes after its carrier");
+    of_chains.push_back(beyond[chain.carrier]);
+    beyond.resize(beyond.size() + chain.links.size(), of_chains.back() + 1);
+  }
+  return of_chains;
+}
+
 }  // namespace
 
 template <class Real>
 Model<Real>::Model(const RobotDescription& robot)
     : mobile_(robot.mobile),
+      chain_count_(robot.chains.size()),
       inertias_{robot.mobile ? about_origin<Real>(robot.base) : RigidInertia<Real>{}} {
-  for (const ChainDescription& description : robot.chains) add_chain(description);
+  std::vector<std::size_t> first_links;
+  for (const ChainDescription& chain : robot.chains) {
+    first_links.push_back(link_count());
+    for (const LinkDescription& link : chain.links)
+      inertias_.push_back(about_origin<Real>(link.mass));
+  }
+  seats_.resize(link_count());
+  // Level by level, so that a carrier's group comes before those of what it carries.
+  const std::vector<std::size_t> depths = depths_of(robot);
+  std::size_t added = 0;
+  for (std::size_t depth = 0; added < chain_count_; ++depth) {
+    for (std::size_t chain = 0; chain < chain_count_; ++chain) {
+      if (depths[chain] != depth) continue;
+      add_chain(robot.chains[chain], chain, first_links[chain], depth);
+      ++added;
+    }
+    if (depth == 0) base_groups_ = groups_.size();
+  }
 }
 
 template <class Real>
-void Model<Real>::add_chain(const ChainDescription& description) {
+void Model<Real>::add_chain(const ChainDescription& description, std::size_t chain,
+                            std::size_t first_link, std::size_t depth) {
   std::vector<LinkDescription> links = description.links;
   LinkDescription none;
   const HipConstants<double> hip = merged_hip(description, links.empty() ? none : links.front());
-  const std::size_t g = group_for(links);
+  const std::size_t g = group_for(links, depth);
   for (std::size_t n = 0; n < links.size(); ++n) {
-    seats_.push_back({g, groups_[g].chain_count, n});
+    seats_[first_link + n] = {g, groups_[g].chain_count, n};
   }
-  add_to<Real>(groups_[g], chain_count_, link_count(), hip, links);
-  for (const LinkDescription& link : links) inertias_.push_back(about_origin<Real>(link.mass));
-  ++chain_count_;
+  add_to<Real>(groups_[g], chain, first_link, description.carrier, hip, links);
+  if (depth == 0) return;
+  const Seat& carrier = seat_of(description.carrier);
+  groups_[carrier.group].links[carrier.link].carries = true;
 }
 
-/// The group with room for a chain of these joints: the first there is, or a new one.
+/// The group with room for a chain of these joints, so far from the base: the first there is, or a
+/// new one.
 template <class Real>
-std::size_t Model<Real>::group_for(std::span<const LinkDescription> links) {
+std::size_t Model<Real>::group_for(std::span<const LinkDescription> links, std::size_t depth) {
   const auto fits = [&](const ChainGroup<Real>& group) {
-    return group.chain_count < lane_count &&
+    return group.chain_count < lane_count && group.depth == depth &&
            std::ranges::equal(group.links, links, {}, &LinkConstants<Lanes<Real>>::joint,
                               &LinkDescription::joint);
   };
@@ -139,6 +174,8 @@ std::size_t Model<Real>::group_for(std::span<const LinkDescription> links) {
   const std::size_t g = std::size_t(found - groups_.begin());
   if (found != groups_.end()) return g;
   ChainGroup<Real>& group = groups_.emplace_back();
+  group.index = g;
+  group.depth = depth;
   if (g > 0) group.first_pass = groups_[g - 1].first_pass + groups_[g - 1].link_count();
   group.links.resize(links.size());
   for (std::size_t n = 0; n < links.size(); ++n) group.links[n].joint = links[n].joint;

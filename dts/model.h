@@ -1,5 +1,6 @@
 // The robot as the engine sees it: a reference member (fixed or mobile) that carries serial chains,
-// joints in modified Denavit-Hartenberg form (Reichler & Delcomyn 2000, Fig. 2; Lilly 1993).
+// joints in modified Denavit-Hartenberg form (Reichler & Delcomyn 2000, Fig. 2; Lilly 1993), whose
+// links may carry chains in turn (docs/decisions/0027-chains-on-links.md).
 // Immutable once built; share it freely.
 #pragma once
 
@@ -34,9 +35,10 @@ struct LinkDescription {
 };
 
 struct ChainDescription {
-  Vector3d hip_position;        ///< p_BH, hip in base axes [m]
+  Vector3d hip_position;        ///< p_BH, hip in the carrier's axes [m]
   Quaterniond hip_orientation;  ///< R_BH
   std::vector<LinkDescription> links;
+  std::size_t carrier = 0;  ///< body that it hangs on: 0 the base, or a link of an earlier chain
 };
 
 struct RobotDescription {
@@ -57,31 +59,54 @@ struct Seat {
 template <class Real>
 class Model {
  public:
-  /// Takes any description; a joint whose articulated inertia about (along) its axis is 0, such as
-  /// a massless last link, gives accelerations that are not finite.
+  /// Takes any description whose chains come after their carriers; a joint whose articulated
+  /// inertia about (along) its axis is 0, such as a massless last link, gives accelerations that
+  /// are not finite.
   explicit Model(const RobotDescription& robot);
 
   bool mobile() const { return mobile_; }
   std::size_t body_count() const { return inertias_.size(); }
   std::size_t link_count() const { return body_count() - 1; }
   std::size_t chain_count() const { return chain_count_; }
+  /// Chains on the base come first, and every chain after its carrier.
   std::span<const ChainGroup<Real>> groups() const { return groups_; }
+  std::span<const ChainGroup<Real>> base_groups() const { return groups().first(base_groups_); }
+  /// Those whose chains hang on links.
+  std::span<const ChainGroup<Real>> link_groups() const { return groups().subspan(base_groups_); }
+  /// Some link carries chains.
+  bool branches() const { return base_groups_ < groups_.size(); }
   /// Zero for a fixed base, whose mass plays no part.
   const RigidInertia<Real>& base() const { return inertias_[0]; }
   const RigidInertia<Real>& inertia(std::size_t body) const { return inertias_[body]; }
   /// The place of body `body` >= 1.
   const Seat& seat_of(std::size_t body) const { return seats_[body - 1]; }
+  /// The body that carries body `body` >= 1: the link before it, or what its chain hangs on. Its
+  /// number is the lower.
+  std::size_t carrier_of(std::size_t body) const {
+    const Seat& seat = seat_of(body);
+    return seat.link > 0 ? body - 1 : groups_[seat.group].carriers[seat.lane];
+  }
 
  private:
-  void add_chain(const ChainDescription& description);
-  std::size_t group_for(std::span<const LinkDescription> links);
+  void add_chain(const ChainDescription& description, std::size_t chain, std::size_t first_link,
+                 std::size_t depth);
+  std::size_t group_for(std::span<const LinkDescription> links, std::size_t depth);
 
   bool mobile_;
-  std::size_t chain_count_ = 0;
+  std::size_t chain_count_;
+  std::size_t base_groups_ = 0;
   std::vector<RigidInertia<Real>> inertias_;
   std::vector<ChainGroup<Real>> groups_;
   std::vector<Seat> seats_;
 };
+
+/// Calls `visit(group)` for every group, what a chain carries before the chain.
+template <class Real, class Visit>
+void for_each_inward(const Model<Real>& model, const Visit& visit) {
+  const std::span<const ChainGroup<Real>> on_links = model.link_groups();
+  for (std::size_t g = on_links.size(); g-- > 0;) visit(on_links[g]);
+  for (const ChainGroup<Real>& group : model.base_groups()) visit(group);
+}
 
 extern template class Model<double>;
 

@@ -27,10 +27,10 @@ struct LinkPass {
   Wrench<Real> U;      ///< IA S
   Real D_inverse{};    ///< 1 / (S^T IA S)
   Real u{};            ///< tau - S^T pA
-  Real impulse{};      ///< as u, when impulses take the place of forces
+  Real impulse{};      ///< as u, when impulses take the place of forces; 0 but during a response
 };
 
-/// What a chain asks of its hip frame: f_hip = IA a_hip + pA.
+/// What a chain asks of its hip frame, or all chains on a link of the link's: f = IA a + pA.
 template <class Real>
 struct HipPass {
   ArticulatedInertia<Real> IA;
@@ -53,7 +53,10 @@ struct Workspace {
         external(model.body_count()),
         joint_accelerations(model.link_count()),
         hip_wrenches(model.chain_count()),
-        hips(model.groups().size()) {
+        hips(model.groups().size()),
+        carrier_w(model.groups().size()),
+        carrier_motions(model.branches() ? model.body_count() : 0),
+        carried(carrier_motions.size()) {
     for (const ChainGroup<Real>& group : model.groups()) {
       links.resize(links.size() + group.link_count());
     }
@@ -75,14 +78,19 @@ struct Workspace {
   Vector3<Real> base_acceleration;  ///< of the base origin, world axes; free fall: g [m/s^2]
   Vector3<Real> base_angular_acceleration;  ///< world axes [rad/s^2]
   std::vector<Real> joint_accelerations;    ///< chain by chain
-  std::vector<Wrench<Real>> hip_wrenches;  ///< by each chain ON the base, about its hip, world axes
+  /// By each chain ON the body that carries it, about its hip, world axes.
+  std::vector<Wrench<Real>> hip_wrenches;
 
   // Between the passes.
   std::vector<LinkPass<Lanes<Real>>> links;        ///< group by group
   std::vector<HipPass<Lanes<Real>>> hips;          ///< one a group
+  std::vector<Vector3<Lanes<Real>>> carrier_w;     ///< one a group: w of the carriers, their axes
   std::vector<Wrench<Lanes<Real>>> link_wrenches;  ///< as links: on the link, link axes
   BasePass<Real> base;
   Motion<Real> base_motion;  ///< acceleration less gravity (or velocity jump), base axes
+  // Of links that carry chains; one a body, none where no link does.
+  std::vector<Motion<Real>> carrier_motions;  ///< as base_motion, link axes
+  std::vector<HipPass<Real>> carried;         ///< what the chains on it ask of the link, link axes
 };
 
 }  // namespace hookpoint::dts

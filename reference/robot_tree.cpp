@@ -44,15 +44,13 @@ RobotTree robot_tree(const simulation::Experiment& experiment) {
                            initial_base(robot)});
     simulation::for_each_link(robot, [&](const simulation::TreeLink& at) {
       const auto copy = std::make_shared<LinkSpec>(at.link);
-      const Pose before =
-          at.on_base() ? Pose{at.chain.hip_distance, at.chain.hip_orientation} : Pose{};
       TreeBody body{std::shared_ptr<const simulation::BodySpec>(copy, &copy->body),
                     copy,
                     number,
                     base + static_cast<int>(at.parent),
                     static_cast<int>(tree.joints++),
                     true,
-                    before * pose_at_zero(at.link),
+                    simulation::frame_before(at) * pose_at_zero(at.link),
                     {}};
       body.initial = link_state(tree.bodies[static_cast<std::size_t>(body.parent)].initial, body,
                                 at.link.angle, at.link.rate);

@@ -41,7 +41,7 @@ struct PointState {
   double sliding = 0.;  ///< 1 while it slips, else 0
 };
 
-/// What a chain does to the base, at its hip, world axes, in the step just taken.
+/// What a chain does to the body that carries it, at its hip, world axes, in the step just taken.
 struct ChainState {
   Vector3d hip_force;   ///< [N]
   Vector3d hip_moment;  ///< [N m]

@@ -89,22 +89,24 @@ struct LinkSpec {
   double limit_damping = joint_types[0].defaults.limit_damping;
 };
 
+/// Links in series that hang on the base or on a link of an earlier chain.
 struct ChainSpec {
-  std::string name;
-  Vector3d hip_distance;        ///< hip's position in base axes [m]
+  std::string name;             ///< its trail below the robot: "waist.torso.left_arm"
+  Vector3d hip_distance;        ///< p_BH, in the axes of the body that carries it [m]
   Quaterniond hip_orientation;  ///< R_BH
   std::vector<LinkSpec> links;
+  std::size_t carrier = 0;  ///< that body: 0 the base, or a link, counted chain by chain from 1
 };
 
 struct RobotSpec {
   std::string name;
   bool mobile = false;
   BodySpec base;
-  Vector3d location;          ///< p_WB [m]
-  Quaterniond orientation;    ///< R_WB
-  Vector3d velocity;          ///< v_WB, of the base origin, world axes [m/s]
-  Vector3d angular_velocity;  ///< w_WB, world axes [rad/s]
-  std::vector<ChainSpec> chains;
+  Vector3d location;              ///< p_WB [m]
+  Quaterniond orientation;        ///< R_WB
+  Vector3d velocity;              ///< v_WB, of the base origin, world axes [m/s]
+  Vector3d angular_velocity;      ///< w_WB, world axes [rad/s]
+  std::vector<ChainSpec> chains;  ///< each after the one that carries it
 };
 
 /// A ContactPoint that the file names by a trail of its own.

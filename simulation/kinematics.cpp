@@ -16,12 +16,14 @@ Pose joint_pose(const LinkSpec& link) {
   return Pose{link.joint_location, link.joint_orientation} * screw_x * screw_z;
 }
 
+Pose frame_before(const TreeLink& at) {
+  return at.is_first() ? Pose{at.chain.hip_distance, at.chain.hip_orientation} : Pose{};
+}
+
 std::vector<Pose> body_poses(const RobotSpec& robot) {
   std::vector<Pose> poses{Pose{}};
   for_each_link(robot, [&](const TreeLink& at) {
-    const Pose X_BP =
-        at.on_base() ? Pose{at.chain.hip_distance, at.chain.hip_orientation} : poses[at.parent];
-    poses.push_back(X_BP * joint_pose(at.link));
+    poses.push_back(poses[at.parent] * frame_before(at) * joint_pose(at.link));
   });
   return poses;
 }

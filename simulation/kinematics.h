@@ -20,6 +20,10 @@ Pose operator*(const Pose& X_AB, const Pose& X_BC);
 /// Rot_x(alpha) Trans_x(a) Rot_z(theta) Trans_z(d).
 Pose joint_pose(const LinkSpec& link);
 
+/// X_PH, from which the link's own pose counts: the hip of a chain's first link in the body that
+/// carries the chain, the preceding link itself for the others.
+Pose frame_before(const TreeLink& at);
+
 /// X_BL of every body in the base's frame, in the order of robot_tree.h. O(bodies).
 std::vector<Pose> body_poses(const RobotSpec& robot);
 

@@ -4,13 +4,17 @@
 
 namespace hookpoint::simulation {
 
+std::vector<std::string> body_names(const RobotSpec& robot) {
+  std::vector<std::string> names{robot.base.name};
+  for_each_link(
+      robot, [&](const TreeLink& at) { names.push_back(at.chain.name + "." + at.link.body.name); });
+  return names;
+}
+
 std::vector<std::string> body_trails(const Experiment& experiment) {
   std::vector<std::string> trails;
   for (const RobotSpec& robot : experiment.robots) {
-    trails.push_back(robot.name + "." + robot.base.name);
-    for_each_link(robot, [&](const TreeLink& at) {
-      trails.push_back(robot.name + "." + at.chain.name + "." + at.link.body.name);
-    });
+    for (const std::string& name : body_names(robot)) trails.push_back(robot.name + "." + name);
   }
   return trails;
 }

@@ -14,11 +14,11 @@ struct TreeLink {
   const ChainSpec& chain;
   const LinkSpec& link;
   std::size_t body;    ///< of the robot's bodies; 0 is the base
-  std::size_t parent;  ///< the body that carries it: the base, or the preceding link
+  std::size_t parent;  ///< the body that carries it: the preceding link, or its chain's carrier
 
   std::size_t joint() const { return body - 1; }
-  bool on_base() const { return parent == 0; }
-  bool is_last() const { return &link == &chain.links.back(); }  ///< of its chain
+  bool is_first() const { return &link == &chain.links.front(); }  ///< of its chain
+  bool is_last() const { return &link == &chain.links.back(); }    ///< of its chain
 };
 
 /// Calls `visit(TreeLink)` for every link. Allocates nothing.
@@ -26,7 +26,7 @@ template <class Visit>
 void for_each_link(const RobotSpec& robot, Visit&& visit) {
   std::size_t body = 0;
   for (const ChainSpec& chain : robot.chains) {
-    std::size_t parent = 0;
+    std::size_t parent = chain.carrier;
     for (const LinkSpec& link : chain.links) {
       ++body;
       visit(TreeLink{chain, link, body, parent});
@@ -46,6 +46,10 @@ std::size_t joint_count(const RobotSpec& robot);
 /// The base and the links.
 std::size_t body_count(const RobotSpec& robot);
 std::vector<const BodySpec*> bodies_of(const RobotSpec& robot);
+/// The body that carries each; the base, 0, stands for its own. Its number is the lower.
+std::vector<std::size_t> carriers_of(const RobotSpec& robot);
+/// Whether a chain hangs on body `body`.
+bool carries_chains(const RobotSpec& robot, std::size_t body);
 /// Of the base and all links [kg]; `moving_mass` without a base that is fixed.
 double robot_mass(const RobotSpec& robot);
 double moving_mass(const RobotSpec& robot);

@@ -33,25 +33,35 @@ std::vector<Pose> world_poses(const simulation::RobotSpec& robot) {
   return poses;
 }
 
-/// Whether gravity g moves no joint of a chain whose links have the poses X_WL from `first` on.
-bool unloaded_joints(const simulation::ChainSpec& chain, const Vector3d& g, const Pose* first,
-                     double weight) {
-  for (std::size_t joint = 0; joint < chain.links.size(); ++joint) {
-    const simulation::LinkSpec& link = chain.links[joint];
-    if (link.rate != 0. || link.torque != 0. || !link.body.boundary_radii.empty()) return false;
-    if (link.stiffness != 0. && link.angle != link.rest_angle) return false;
-    Vector3d force, moment;
-    for (std::size_t i = joint; i < chain.links.size(); ++i) {
-      const simulation::MassSpec& mass = chain.links[i].body.mass;
-      const Vector3d center = first[i].position + rotate(first[i].orientation, mass.center_of_mass);
-      force += mass.mass * g;
-      moment += cross(center - first[joint].position, mass.mass * g);
+/// Whether gravity g moves no joint of a robot whose bodies have the poses `X_WB`.
+bool unloaded_joints(const simulation::RobotSpec& robot, const Vector3d& g,
+                     const std::vector<Pose>& X_WB, double weight) {
+  struct Load {
+    Vector3d force, moment;  // of all further out, about the body's origin
+  };
+  std::vector<Load> loads(X_WB.size());
+  const std::vector<std::size_t> carriers = simulation::carriers_of(robot);
+  bool unloaded = true;
+  simulation::for_each_link(robot, [&](const simulation::TreeLink& at) {
+    const simulation::MassSpec& mass = at.link.body.mass;
+    const Pose& X_WL = X_WB[at.body];
+    const Vector3d center = X_WL.position + rotate(X_WL.orientation, mass.center_of_mass);
+    for (std::size_t body = at.body; body > 0; body = carriers[body]) {
+      loads[body].force += mass.mass * g;
+      loads[body].moment += cross(center - X_WB[body].position, mass.mass * g);
     }
+  });
+  simulation::for_each_link(robot, [&](const simulation::TreeLink& at) {
+    const simulation::LinkSpec& link = at.link;
+    const bool moves = link.rate != 0. || link.torque != 0. || !link.body.boundary_radii.empty();
+    const bool springs = link.stiffness != 0. && link.angle != link.rest_angle;
     const bool turns = simulation::joint_type(link.joint).turns;
-    const Vector3d axis = rotate(first[joint].orientation, Vector3d{0., 0., 1.});
-    if (std::abs(dot(axis, turns ? moment : force)) > rounding_load * weight) return false;
-  }
-  return true;
+    const Vector3d axis = rotate(X_WB[at.body].orientation, Vector3d{0., 0., 1.});
+    const Load& load = loads[at.body];
+    const double along = dot(axis, turns ? load.moment : load.force);
+    unloaded = unloaded && !moves && !springs && std::abs(along) <= rounding_load * weight;
+  });
+  return unloaded;
 }
 
 }  // namespace
@@ -77,13 +87,7 @@ bool stands_as_one_body(const RunContext& context) {
   if (!alone_on_plane(context) || robot.chains.empty() || !level || norm(robot.velocity) > 0. ||
       !experiment.components.empty())
     return false;
-  const std::vector<Pose> poses = world_poses(robot);
-  std::size_t first = 1;
-  for (const simulation::ChainSpec& chain : robot.chains) {
-    if (!unloaded_joints(chain, experiment.gravity, &poses[first], context.weight)) return false;
-    first += chain.links.size();
-  }
-  return true;
+  return unloaded_joints(robot, experiment.gravity, world_poses(robot), context.weight);
 }
 
 BodyOnPlane body_on_plane(const RunContext& context) {

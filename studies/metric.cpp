@@ -250,7 +250,8 @@ Observer::Observer(const RunContext& context, bool with_points, bool with_feet)
     const auto& chains = context.robot_spec().chains;
     simulation::for_each_link(context.robot_spec(), [&](const simulation::TreeLink& at) {
       const auto chain = static_cast<std::size_t>(&at.chain - chains.data());
-      if (at.is_last() && !at.link.body.boundary_points.empty())
+      const bool ends = at.is_last() && !simulation::carries_chains(context.robot_spec(), at.body);
+      if (ends && !at.link.body.boundary_points.empty())
         followed_.push_back({chain, context.body + at.body, &at.link.body, {}});
     });
     feet_.reserve(followed_.size());

@@ -11,6 +11,7 @@
 #include "simulation/engine/articulated_robot.h"
 #include "simulation/engine/robot_description.h"
 #include "simulation/joint_type.h"
+#include "simulation/names.h"
 #include "simulation/robot_tree.h"
 
 namespace hookpoint::simulation {
@@ -54,13 +55,6 @@ std::vector<VelocityCoordinate> coordinates_of(const RobotSpec& robot) {
                            joint_type(at.link.joint).units.rate});
   });
   return coordinates;
-}
-
-std::vector<std::string> bodies_of_robot(const RobotSpec& robot) {
-  std::vector<std::string> names{robot.base.name};
-  for_each_link(
-      robot, [&](const TreeLink& at) { names.push_back(at.chain.name + "." + at.link.body.name); });
-  return names;
 }
 
 /// v' of a robot that is moved to other states.
@@ -118,7 +112,7 @@ ControllerTerms::ControllerTerms(const Experiment& experiment, std::size_t robot
     : experiment_(&experiment),
       robot_(robot),
       coordinates_(coordinates_of(experiment.robots[robot])),
-      bodies_(bodies_of_robot(experiment.robots[robot])),
+      bodies_(body_names(experiment.robots[robot])),
       model_(describe_robot(experiment.robots[robot])),
       state_(std::move(state)),
       workspace_(model_) {

@@ -15,11 +15,14 @@ namespace {
 std::vector<ChainDynamics> chain_dynamics(const RobotSpec& spec,
                                           const dts::Workspace<double>& workspace) {
   std::vector<ChainDynamics> chains;
+  const std::vector<std::string> bodies = body_names(spec);
   auto acceleration = workspace.joint_accelerations.begin();
   for (std::size_t c = 0; c < spec.chains.size(); ++c) {
-    const auto end = acceleration + static_cast<std::ptrdiff_t>(spec.chains[c].links.size());
+    const ChainSpec& chain = spec.chains[c];
+    const auto end = acceleration + static_cast<std::ptrdiff_t>(chain.links.size());
     const dts::Wrench<double>& hip = workspace.hip_wrenches[c];
-    chains.push_back({spec.chains[c].name, {acceleration, end}, hip.force, hip.moment});
+    chains.push_back(
+        {chain.name, bodies[chain.carrier], {acceleration, end}, hip.force, hip.moment});
     acceleration = end;
   }
   return chains;

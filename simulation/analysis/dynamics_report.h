@@ -10,9 +10,10 @@
 namespace hookpoint::simulation {
 
 struct ChainDynamics {
-  std::string name;
+  std::string name;                         ///< its trail below the robot
+  std::string carrier;                      ///< that of the body that it hangs on: "base"
   std::vector<double> joint_accelerations;  ///< [rad/s^2 or m/s^2]
-  Vector3d hip_force, hip_moment;           ///< ON the base, at the hip, world axes [N, N m]
+  Vector3d hip_force, hip_moment;           ///< ON what carries it, at the hip, world axes [N, N m]
 };
 
 /// A boundary point inside the ground.

@@ -106,9 +106,6 @@ RobotAtRest::RobotAtRest(const RobotSystem& robot) : robot_(&robot), workspace_(
   const Eigen::LLT<Eigen::MatrixXd> factors(inverse_mass_matrix(robot, workspace_));
   root_ = factors.matrixL();
   regular_ = factors.info() == Eigen::Success && root_.allFinite();
-  chain_starts_.push_back(0);
-  for (std::size_t body = 1; body < robot.model().body_count(); ++body)
-    chain_starts_.push_back(robot.model().seat_of(body).link == 0 ? body : chain_starts_.back());
 }
 
 Eigen::MatrixXd RobotAtRest::lever(const dts::BodyPoint<double>& point) const {
@@ -173,8 +170,7 @@ Eigen::MatrixXd RobotAtRest::stiffness_of(const std::vector<SteadyLoad>& loads) 
         way.push_back({index++, axis, cross(axis, arm)});
     }
     const std::size_t turns = way.size();
-    for (std::size_t body = std::max<std::size_t>(1, chain_starts_[load.point.body]);
-         body <= load.point.body; ++body) {
+    for (std::size_t body = load.point.body; body > 0; body = robot_->model().carrier_of(body)) {
       const dts::BodyMotion<double>& link = workspace_.bodies[body];
       const Vector3d z = link.R_WB * Vector3d{0., 0., 1.};
       const dts::Seat& seat = robot_->model().seat_of(body);
@@ -183,6 +179,7 @@ Eigen::MatrixXd RobotAtRest::stiffness_of(const std::vector<SteadyLoad>& loads) 
       way.push_back({first_joint() + static_cast<Eigen::Index>(body) - 1, slides ? Vector3d{} : z,
                      slides ? z : cross(z, load.point.p_WP - link.p_WB)});
     }
+    std::reverse(way.begin() + static_cast<std::ptrdiff_t>(turns), way.end());
     for (std::size_t i = 0; i < way.size(); ++i) {
       for (std::size_t j = i; j < way.size(); ++j) {
         double second = dot(load.force, cross(way[i].axis, way[j].lever));

@@ -71,7 +71,6 @@ class RobotAtRest {
   mutable dts::Workspace<double> workspace_;  ///< articulated inertias, and what a response needs
   Eigen::MatrixXd root_;                      ///< R of M^-1 = R R^T, z = R^-1 q
   bool regular_ = true;
-  std::vector<std::size_t> chain_starts_;  ///< of each body, the first body of its chain
 };
 
 /// Of a symmetric matrix; 0 of one without rows.

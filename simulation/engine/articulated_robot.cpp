@@ -9,6 +9,7 @@
 #include "dts/forward_dynamics.h"
 #include "integrators/rotation_rate.h"
 #include "simulation/engine/robot_description.h"
+#include "simulation/robot_tree.h"
 
 namespace hookpoint::simulation {
 
@@ -99,9 +100,13 @@ bool ArticulatedRobot::chart_exhausted(std::span<const double> u) const {
 
 std::size_t ArticulatedRobot::jacobian_block() const {
   if (model_.mobile()) return velocity_count();
-  std::size_t longest = 1;
-  for (const ChainSpec& chain : spec().chains) longest = std::max(longest, chain.links.size());
-  return longest;
+  std::size_t largest = 1;
+  std::vector<std::size_t> starts{0};  // of a body, the link on the base that it hangs on
+  for_each_link(spec(), [&](const TreeLink& at) {
+    starts.push_back(at.parent == 0 ? at.body : starts[at.parent]);
+    largest = std::max(largest, at.body - starts.back() + 1);
+  });
+  return largest;
 }
 
 void ArticulatedRobot::update_kinematics() { dts::forward_kinematics(model_, state_, workspace_); }

@@ -39,7 +39,7 @@ class ArticulatedRobot {
   /// from a new origin.
   bool chart_exhausted(std::span<const double> u) const;
   /// Coordinates fall into groups of at most so many that do not feel each other: the chains of a
-  /// base that cannot move.
+  /// base that cannot move, each with what hangs on it.
   std::size_t jacobian_block() const;
 
   // One evaluation of the dynamics, in this order; results stay in workspace().

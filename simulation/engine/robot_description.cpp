@@ -30,6 +30,7 @@ dts::RobotDescription describe_robot(const RobotSpec& robot) {
     dts::ChainDescription& added = description.chains.emplace_back();
     added.hip_position = chain.hip_distance;
     added.hip_orientation = chain.hip_orientation;
+    added.carrier = chain.carrier;
     for (const LinkSpec& link : chain.links) added.links.push_back(describe_link(link));
   }
   return description;

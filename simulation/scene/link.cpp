@@ -154,7 +154,7 @@ void add_link_class(language::Schema& schema) {
       "ahead of which may stand any fixed transform";
   link.naming = language::Naming::required;
   link.top_level = true;
-  link.children = {"Shape.", "ContactPoint"};
+  link.children = {"Shape.", "ContactPoint", "Chain"};
   append(link.children, component_families());
   link.fields = schemas(frame_fields());
   append(link.fields, mass_fields("link"));

@@ -30,7 +30,7 @@ const language::Object* find_world(const language::Object& root, Loading& loadin
 /// left out.
 void check_strays(const language::Object& root, Loading& loading) {
   constexpr std::array<std::pair<const char*, const char*>, 4> homes{
-      {{"Robot", "World"}, {"Terrain.", "World"}, {"Chain", "Robot"}, {"Link", "Chain"}}};
+      {{"Robot", "World"}, {"Terrain.", "World"}, {"Chain", "Robot or a Link"}, {"Link", "Chain"}}};
   for (const auto& [type, home] : homes) {
     for (const language::Object* stray : root.children_of(type)) {
       loading.error(stray->position,

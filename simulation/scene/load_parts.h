@@ -97,9 +97,16 @@ void load_forces(const language::Object& world, Loading& loading);
 /// that moves by itself.
 BodySpec load_body(const language::Object& object, std::string name, bool must_have_inertia,
                    Loading& loading);
-/// A Chain and its links; `next` is the first of them and becomes the first after them.
-ChainSpec load_chain(const language::Object& object, std::string name, BodyIndex& next,
-                     Loading& loading);
+/// A robot as it grows, and the objects of its links, one a body beyond the base.
+struct LoadedRobot {
+  RobotSpec spec;
+  std::vector<const language::Object*> links;
+};
+/// A Chain that hangs on `carrier`, its links, then the chains that stand in these.
+void load_chain(const language::Object& object, const language::Object& robot, BodyIndex carrier,
+                LoadedRobot& loaded, Loading& loading);
+/// Says which joints move no inertia. O(links depth).
+void check_joints(const LoadedRobot& loaded, Loading& loading);
 LinkSpec load_link(const language::Object& object, std::string name, Loading& loading);
 ShapeSpec load_shape(const language::Object& object, Loading& loading);
 /// A ContactPoint; a ball of radius 0 is a point.

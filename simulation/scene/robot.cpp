@@ -131,19 +131,19 @@ void add_robot_classes(language::Schema& schema) {
 
 void load_robots(const language::Object& world, Loading& loading) {
   for (const language::Object* object : world.children_of("Robot")) {
-    RobotSpec robot;
-    robot.name = name_within(*object, world);
+    LoadedRobot robot;
+    robot.spec.name = name_within(*object, world);
     const language::Object* base = find_base(*object, loading);
     if (base == nullptr) continue;
-    BodyIndex next{static_cast<int>(loading.experiment.robots.size()), 0};
-    load_base(*base, robot, loading);
-    loading.bodies.emplace(base, next);
-    ++next.body;
-    for (const language::Object* chain : object->children_of("Chain")) {
-      robot.chains.push_back(load_chain(*chain, name_within(*chain, *object), next, loading));
-    }
+    const BodyIndex body{static_cast<int>(loading.experiment.robots.size()), 0};
+    load_base(*base, robot.spec, loading);
+    loading.bodies.emplace(base, body);
+    const std::size_t errors_before = loading.diagnostics.error_count();
+    for (const language::Object* chain : object->children_of("Chain"))
+      load_chain(*chain, *object, body, robot, loading);
+    if (loading.diagnostics.error_count() == errors_before) check_joints(robot, loading);
     loading.bases.push_back(base);
-    loading.experiment.robots.push_back(std::move(robot));
+    loading.experiment.robots.push_back(std::move(robot.spec));
   }
 }
 

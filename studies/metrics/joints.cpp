@@ -15,9 +15,7 @@ class JointGap : public Metric {
  public:
   explicit JointGap(const RunContext& context) : context_(context) {
     simulation::for_each_link(context.robot_spec(), [&](const simulation::TreeLink& at) {
-      const Pose X_PH =
-          at.on_base() ? Pose{at.chain.hip_distance, at.chain.hip_orientation} : Pose{};
-      joints_.push_back({X_PH * simulation::joint_pose(at.link), at.parent,
+      joints_.push_back({simulation::frame_before(at) * simulation::joint_pose(at.link), at.parent,
                          !simulation::joint_type(at.link.joint).turns});
     });
   }

@@ -148,15 +148,19 @@ dts::RobotDescription placed(dts::RobotDescription robot) {
 }
 dts::RobotDescription with_chains(std::size_t m) { return generic_robot(m, 3); }
 dts::RobotDescription with_links(std::size_t n) { return generic_robot(6, n); }
+dts::RobotDescription with_branches(std::size_t m) { return branching_robot(m, 3); }
 
 BENCHMARK_CAPTURE(forward_dynamics, hexapod, hexapod());
 BENCHMARK_CAPTURE(forward_dynamics, generic, generic_robot(6, 3));
+BENCHMARK_CAPTURE(forward_dynamics, branching, branching_robot(6, 3));
 BENCHMARK_CAPTURE(forward_dynamics, placed, placed(generic_robot(6, 3)));
 BENCHMARK_CAPTURE(against_bullet, hexapod, hexapod())->Iterations(3);
 BENCHMARK_CAPTURE(against_bullet, generic, generic_robot(6, 3))->Iterations(3);
+BENCHMARK_CAPTURE(against_bullet, branching, branching_robot(6, 3))->Iterations(3);
 BENCHMARK_CAPTURE(against_bullet, placed, placed(generic_robot(6, 3)))->Iterations(3);
 BENCHMARK_CAPTURE(against_bullet, one_leg, generic_robot(1, 3))->Iterations(3);
 BENCHMARK_CAPTURE(exponent, chains, with_chains, {1, 2, 4, 8, 16, 32, 64})->Iterations(1);
+BENCHMARK_CAPTURE(exponent, branches, with_branches, {1, 2, 4, 8, 16, 32, 64})->Iterations(1);
 BENCHMARK_CAPTURE(exponent, links, with_links, {2, 3, 4, 6, 8, 12, 16})->Iterations(1);
 
 }  // namespace

@@ -35,8 +35,9 @@ struct Drawn {
   DenseDynamics truth;
   dts::CompositeBodies composite;
 
-  Drawn(RandomRobots& random, bool mobile, int chains, bool degenerate)
-      : robot(random.robot(mobile, chains, degenerate)),
+  Drawn(RandomRobots& random, bool mobile, int chains, bool degenerate, bool branching)
+      : robot(branching ? random.tree(mobile, chains, degenerate)
+                        : random.robot(mobile, chains, degenerate)),
         model(robot),
         state(random.state(model)),
         workspace(model),
@@ -51,8 +52,8 @@ struct Drawn {
 template <class Check>
 void for_drawn(std::uint64_t seed, Check&& check) {
   RandomRobots random(seed);
-  for (int repetition = 0; repetition < 60; ++repetition) {
-    Drawn x(random, repetition % 2 == 0, 1 + repetition % 6, repetition % 3 == 0);
+  for (int repetition = 0; repetition < 120; ++repetition) {
+    Drawn x(random, repetition % 2 == 0, 1 + repetition % 6, repetition % 3 == 0, repetition >= 60);
     check(x, random);
   }
 }

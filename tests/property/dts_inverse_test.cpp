@@ -16,8 +16,9 @@ struct Drawn {
   dts::Workspace<double> workspace;
   Vector3d gravity;
 
-  Drawn(RandomRobots& random, bool mobile, int chains, bool degenerate)
-      : robot(random.robot(mobile, chains, degenerate)),
+  Drawn(RandomRobots& random, bool mobile, int chains, bool degenerate, bool branching)
+      : robot(branching ? random.tree(mobile, chains, degenerate)
+                        : random.robot(mobile, chains, degenerate)),
         model(robot),
         state(random.state(model)),
         workspace(model),
@@ -31,8 +32,8 @@ struct Drawn {
 
 TEST(DtsInverse, ForwardOfInverseIsTheIdentity) {
   RandomRobots random(21);
-  for (int repetition = 0; repetition < 60; ++repetition) {
-    Drawn x(random, repetition % 2 == 0, repetition % 7, repetition % 3 == 0);
+  for (int repetition = 0; repetition < 120; ++repetition) {
+    Drawn x(random, repetition % 2 == 0, repetition % 7, repetition % 3 == 0, repetition >= 60);
     const std::size_t n = x.model.link_count();
     const std::vector<double> wanted = random.numbers(n, 5.);
     dts::Accelerations<double> accelerations{{}, {}, wanted};
@@ -56,8 +57,8 @@ TEST(DtsInverse, ForwardOfInverseIsTheIdentity) {
 
 TEST(DtsInverse, InverseOfForwardIsTheIdentityAndFreeMotionNeedsNoSupport) {
   RandomRobots random(22);
-  for (int repetition = 0; repetition < 30; ++repetition) {
-    Drawn x(random, true, 1 + repetition % 6, repetition % 3 == 0);
+  for (int repetition = 0; repetition < 60; ++repetition) {
+    Drawn x(random, true, 1 + repetition % 6, repetition % 3 == 0, repetition >= 30);
     const std::vector<double> torques = random.numbers(x.model.link_count(), 5.);
     dts::forward_dynamics(x.model, x.gravity, torques, x.workspace);
     const std::vector<double> found = x.workspace.joint_accelerations;
@@ -74,7 +75,7 @@ TEST(DtsInverse, InverseOfForwardIsTheIdentityAndFreeMotionNeedsNoSupport) {
 
 TEST(DtsInverse, AtRestTheSupportCarriesTheWeight) {
   RandomRobots random(23);
-  const dts::RobotDescription robot = random.robot(true, 4, false);
+  const dts::RobotDescription robot = random.tree(true, 4, false);
   const dts::Model<double> model(robot);
   dts::Workspace<double> workspace(model);
   dts::State<double> state = random.state(model);

@@ -91,6 +91,41 @@ TEST(DtsLanes, AChainOnAFixedBaseMovesTheSameBitForBitInAnyLane) {
   }
 }
 
+/// `count` chains of a kind, each on a link of its own of as many others.
+dts::RobotDescription arms_on_legs(RandomRobots& random, bool mobile, int count) {
+  dts::RobotDescription robot = chains_of_a_kind(random, mobile, count, arm);
+  const dts::RobotDescription arms = chains_of_a_kind(random, mobile, count, arm);
+  for (dts::ChainDescription chain : arms.chains) {
+    const auto leg = std::size_t(random.integer(0, count - 1));
+    chain.carrier = 1 + leg * arm.size() + std::size_t(random.integer(0, 2));
+    robot.chains.push_back(chain);
+  }
+  return robot;
+}
+
+TEST(DtsLanes, ChainsOnLinksShareLanesWithThoseOnOtherLinks) {
+  RandomRobots random(45);
+  for (int count = 1; count <= 6; ++count) {
+    for (const bool mobile : {false, true}) {
+      const dts::RobotDescription robot = arms_on_legs(random, mobile, count);
+      const dts::Model<double> model(robot);
+      EXPECT_EQ(model.groups().size(), 2 * (std::size_t(count + 3) / 4));
+      const dts::State<double> state = random.state(model);
+      const std::vector<double> torques = random.numbers(model.link_count(), 5.);
+      const Vector3d gravity = random.vector(10.);
+      dts::Workspace<double> workspace(model);
+      dts::forward_dynamics(model, state, gravity, torques, workspace);
+      std::vector<double> found(dts::velocity_count(model));
+      dts::get_acceleration(model, workspace, std::span<double>(found));
+      const Eigen::VectorXd truth =
+          DenseDynamics(robot, state).accelerations(eigen(gravity), torques, {});
+      const Eigen::Map<const Eigen::VectorXd> a(found.data(), Eigen::Index(found.size()));
+      EXPECT_LE((a - truth).lpNorm<Eigen::Infinity>(), 1e-10 * truth.lpNorm<Eigen::Infinity>())
+          << count << " chains on as many";
+    }
+  }
+}
+
 TEST(DtsLanes, AChainThatIsNotFiniteLeavesItsNeighboursOnAFixedBaseAlone) {
   RandomRobots random(43);
   dts::RobotDescription robot = chains_of_a_kind(random, false, 4, arm);

@@ -25,7 +25,9 @@ struct Struck {
 class Impact {
  public:
   Impact(tests::RandomRobots& random, bool mobile, const contact::MaterialConstants<double>& floor)
-      : robot_(random.robot(mobile, random.integer(1, 4), random.chance(0.3))), model_(robot_) {
+      : robot_(random.chance(0.5) ? random.robot(mobile, random.integer(1, 4), random.chance(0.3))
+                                  : random.tree(mobile, random.integer(1, 4), random.chance(0.3))),
+        model_(robot_) {
     dts::State<double> state = random.state(model_);
     const int last = static_cast<int>(model_.body_count()) - 1;
     const std::size_t body = static_cast<std::size_t>(random.integer(mobile ? 0 : 1, last));

@@ -2,13 +2,17 @@
 // definitions; what is refused, in which words and at which line; files that are no URDF at all.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
+#include <sstream>
 
 #include "dts/configuration.h"
 #include "dts/energy.h"
 #include "dts/forward_dynamics.h"
 #include "simulation/engine/robot_description.h"
+#include "simulation/robot_tree.h"
 #include "tests/support/command.h"
 #include "tests/support/load_text.h"
 #include "tests/support/text.h"
@@ -36,12 +40,21 @@ struct Pair {
   simulation::RobotSpec spec;
   Eigen::Isometry3d root;
   std::vector<double> q;          // one a moving joint, the file's order
-  dts::State<double> state;       // the same in the order of chains
+  dts::State<double> state;       // the same in the order of bodies
   std::vector<std::size_t> body;  // of each link: the body that it became or is fixed to
   std::vector<std::size_t> link;  // of each body: the link that names it
+
+  /// Velocities or forces in the order of bodies from those in the file's.
+  Eigen::VectorXd in_order_of_bodies(const Eigen::VectorXd& of_file) const {
+    Eigen::VectorXd of_bodies = of_file;
+    Eigen::Index column = 6;
+    for (const UrdfNumbers::Joint& joint : numbers.joints)
+      if (joint.moves()) of_bodies[5 + Eigen::Index(body[joint.child])] = of_file[column++];
+    return of_bodies;
+  }
 };
 
-/// Links that move become bodies, chain by chain; a chain's joints follow one another in the file.
+/// Links that move become bodies of their names.
 Pair random_pair(RandomUrdf& random, const UrdfNumbers& numbers) {
   Pair pair{numbers, {}, Eigen::Isometry3d::Identity(), {}, {}, {0}, {0}};
   const Loaded loaded = load_urdf(numbers.text());
@@ -54,14 +67,19 @@ Pair random_pair(RandomUrdf& random, const UrdfNumbers& numbers) {
   const Eigen::Vector3d p = pair.root.translation();
   pair.state.base_orientation = {q.w(), q.x(), q.y(), q.z()};
   pair.state.base_position = {p.x(), p.y(), p.z()};
+  std::map<std::string, std::size_t> bodies;
+  simulation::for_each_link(
+      pair.spec, [&](const simulation::TreeLink& at) { bodies[at.link.body.name] = at.body; });
+  pair.link.resize(1 + bodies.size());
+  pair.state.joint_positions.resize(bodies.size());
   for (const UrdfNumbers::Joint& joint : numbers.joints) {
     pair.body.push_back(pair.body[joint.parent]);
     if (!joint.moves()) continue;
-    pair.body.back() = pair.link.size();
-    pair.link.push_back(joint.child);
+    pair.body.back() = bodies.at(numbers.links[joint.child].name);
+    pair.link[pair.body.back()] = joint.child;
     pair.q.push_back(random.uniform(-3., 3.));
+    pair.state.joint_positions[pair.body.back() - 1] = pair.q.back();
   }
-  pair.state.joint_positions = pair.q;
   pair.state.joint_rates.assign(pair.q.size(), 0.);
   return pair;
 }
@@ -77,9 +95,11 @@ class RandomRobot : public ::testing::TestWithParam<double> {};
 
 TEST_P(RandomRobot, StandsWhereItsNumbersSay) {
   RandomUrdf random(7);
-  for (int i = 0; i < 15; ++i) {
-    const Pair pair = random_pair(random, random.robot(3, 4, GetParam()));
-    ASSERT_EQ(pair.spec.chains.size(), 3u);
+  for (int i = 0; i < 30; ++i) {
+    const bool branches = i >= 15;
+    const Pair pair = random_pair(
+        random, branches ? random.tree(20, GetParam()) : random.robot(3, 4, GetParam()));
+    if (!branches) ASSERT_EQ(pair.spec.chains.size(), 3u);
     const dts::Model<double> model(simulation::describe_robot(pair.spec));
     dts::Workspace<double> workspace(model);
     dts::forward_kinematics(model, pair.state, workspace);
@@ -97,8 +117,9 @@ TEST_P(RandomRobot, StandsWhereItsNumbersSay) {
 
 TEST_P(RandomRobot, AcceleratesAsItsOwnLinksTellOneByOne) {
   RandomUrdf random(8);
-  for (int i = 0; i < 15; ++i) {
-    const Pair pair = random_pair(random, random.robot(2, 3, GetParam()));
+  for (int i = 0; i < 30; ++i) {
+    const Pair pair =
+        random_pair(random, i >= 15 ? random.tree(16, GetParam()) : random.robot(2, 3, GetParam()));
     const dts::Model<double> model(simulation::describe_robot(pair.spec));
     dts::Workspace<double> workspace(model);
     const Eigen::Vector3d g = random.vector(10.);
@@ -110,7 +131,7 @@ TEST_P(RandomRobot, AcceleratesAsItsOwnLinksTellOneByOne) {
     const UrdfNumbers::Still still = pair.numbers.at_rest(pair.root, pair.q, g);
     Eigen::VectorXd force = still.gravity;
     force.tail(Eigen::Index(torques.size())).array() += 0.7;
-    const Eigen::VectorXd truth = still.M.fullPivLu().solve(force);
+    const Eigen::VectorXd truth = pair.in_order_of_bodies(still.M.fullPivLu().solve(force));
     const Eigen::Map<const Eigen::VectorXd> a(found.data(), Eigen::Index(found.size()));
     EXPECT_LE((a - truth).lpNorm<Eigen::Infinity>(), 1e-10 * truth.lpNorm<Eigen::Infinity>());
 
@@ -118,7 +139,9 @@ TEST_P(RandomRobot, AcceleratesAsItsOwnLinksTellOneByOne) {
     dts::State<double> moving = pair.state;
     Eigen::VectorXd v(Eigen::Index(found.size()));
     for (double& x : v) x = random.uniform(-2., 2.);
-    dts::set_velocity(model, std::span<const double>(v.data(), std::size_t(v.size())), moving);
+    const Eigen::VectorXd ours = pair.in_order_of_bodies(v);
+    dts::set_velocity(model, std::span<const double>(ours.data(), std::size_t(ours.size())),
+                      moving);
     dts::forward_kinematics(model, moving, workspace);
     const double energy = 0.5 * v.dot(still.M * v);
     EXPECT_NEAR(dts::kinetic_energy(model, workspace), energy, 1e-12 * energy);
@@ -347,15 +370,9 @@ const Case cases[] = {
      "error 4:17 `ball` is no type of joint: expected revolute, continuous, prismatic or fixed\n"},
     {"mimic", robot(link_l + joint("j", "continuous", "\n<mimic joint=\"k\"/>")),
      "error 6:2 joint `j` mimics another: joints that are geared together are not supported\n"},
-    {"branching",
-     robot(link_l + "<link name=\"m\">" + inertial + "</link><link name=\"n\">" + inertial +
-           "</link>\n" + joint("j", "continuous", "") + joint("k", "continuous", "", "l", "m") +
-           joint("i", "continuous", "", "l", "n")),
-     "error 9:2 joint `i` is the second that link `l` (with what is fixed to it) carries: only the "
-     "base branches, its chains do not\n"},
     {"no_inertial", robot("<link name=\"l\"/>\n" + joint("j", "continuous", "")),
-     "error 3:2 link `l` moves but has no <inertial>: give it, or a link that is fixed to it, a "
-     "mass and an inertia\n"},
+     "error 3:2 link `l` moves but has no <inertial>: give it, a link that is fixed to it or one "
+     "further out a mass and an inertia\n"},
     {"capsule",
      robot("<link name=\"l\">" + inertial +
            "<collision><geometry>\n<capsule radius=\"1\"/></geometry></collision></link>" +
@@ -412,6 +429,51 @@ const Case cases[] = {
 };
 INSTANTIATE_TEST_SUITE_P(Cases, WrongUrdf, ::testing::ValuesIn(cases),
                          [](const auto& of) { return of.param.name; });
+
+TEST(Urdf, ALinkThatCarriesSeveralJointsStartsAChainForEach) {
+  const std::string others = "<link name=\"m\">" + inertial + "</link><link name=\"n\">" +
+                             inertial + "</link><link name=\"o\">" + inertial + "</link>\n";
+  const Loaded loaded = load_urdf(
+      robot("<link name=\"l\"/>" + others + joint("j", "continuous", "") +
+            joint("k", "continuous", "", "l", "m") + joint("i", "continuous", "", "l", "n") +
+            joint("tip", "continuous", "", "n", "o")));
+  ASSERT_TRUE(loaded.experiment) << loaded.diagnostics;
+  const simulation::RobotSpec& read = loaded.experiment->robots.at(0);
+  ASSERT_EQ(read.chains.size(), 3u);
+  EXPECT_EQ(read.chains[0].name, "j");
+  EXPECT_EQ(read.chains[1].name, "j.l.k");
+  EXPECT_EQ(read.chains[2].name, "j.l.i");
+  EXPECT_EQ(read.chains[0].carrier, 0u);
+  EXPECT_EQ(read.chains[1].carrier, 1u);
+  EXPECT_EQ(read.chains[2].carrier, 1u);
+  EXPECT_EQ(read.chains[2].links.size(), 2u);
+  EXPECT_EQ(read.chains[0].links[0].body.mass.mass, 0.);  // it carries what has one
+}
+
+TEST(Urdf, BranchingsAfterOneAnotherAreBounded) {
+  const auto comb = [](int teeth) {
+    std::string text;
+    for (int i = 0; i < teeth; ++i) {
+      const std::string number = std::to_string(i),
+                        before = i == 0 ? "b" : "s" + std::to_string(i - 1);
+      for (const char* kind : {"s", "t"}) {
+        text += "<link name=\"" + (kind + number) + "\">" + inertial + "</link>\n";
+        text += joint("to_" + (kind + number), "continuous", "", before, kind + number);
+      }
+    }
+    return robot(text);
+  };
+  const Loaded most = load_urdf(comb(91));
+  EXPECT_TRUE(most.experiment) << most.diagnostics;
+  const Loaded more = load_urdf(comb(93));
+  EXPECT_FALSE(more.experiment);
+  EXPECT_NE(
+      more.diagnostics.find("joint `to_s91` starts a chain on a chain, and so on, 91 deep: 90 "
+                            "are the most"),
+      std::string::npos)
+      << more.diagnostics;
+  EXPECT_FALSE(load_urdf(comb(20000)).experiment);
+}
 
 std::string quadruped() {
   return testing::read_file(HOOKPOINT_SOURCE_DIR "/configs/robots/quadruped.urdf");
@@ -496,6 +558,97 @@ TEST(Urdf, HoldMakesAQuadrupedStandWithJointsThatSagLessThanSaid) {
     EXPECT_NEAR(std::stod(cell), -1.4, 0.05);
     EXPECT_GT(std::abs(std::stod(cell) + 1.4), 0.001);  // it does carry weight
   }
+}
+
+/// A uniform box of `mass` and edges x, y, z at `at` in its link's frame, that may touch.
+std::string box_link(const std::string& name, double mass, double x, double y, double z,
+                     const std::string& at) {
+  std::ostringstream text;
+  text << "<link name=\"" << name << "\"><inertial><origin xyz=\"" << at << "\"/><mass value=\""
+       << mass << "\"/><inertia ixx=\"" << mass * (y * y + z * z) / 12. << "\" iyy=\""
+       << mass * (x * x + z * z) / 12. << "\" izz=\"" << mass * (x * x + y * y) / 12.
+       << "\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial><collision><origin xyz=\"" << at
+       << "\"/><geometry><box size=\"" << x << ' ' << y << ' ' << z
+       << "\"/></geometry></collision></link>\n";
+  return text.str();
+}
+
+std::string pitch_joint(const std::string& parent, const std::string& child,
+                        const std::string& at) {
+  return joint("to_" + child, "continuous", "<origin xyz=\"" + at + "\"/><axis xyz=\"0 1 0\"/>",
+               parent, child);
+}
+
+/// A pelvis with two legs and a torso, on which hang two arms. 40 kg.
+std::string humanoid() {
+  std::string text = "<robot name=\"h\">" + box_link("pelvis", 6., 0.15, 0.3, 0.1, "0 0 0") +
+                     box_link("torso", 15., 0.2, 0.3, 0.4, "0 0 0.25") +
+                     pitch_joint("pelvis", "torso", "0 0 0.05");
+  for (const auto& [side, y] : {std::pair{"left", "0.1"}, std::pair{"right", "-0.1"}}) {
+    const std::string s = side;
+    text += box_link(s + "_thigh", 4., 0.1, 0.1, 0.36, "0 0 -0.2") +
+            box_link(s + "_shank", 3., 0.08, 0.08, 0.36, "0 0 -0.2") +
+            box_link(s + "_foot", 1., 0.24, 0.1, 0.05, "0.03 0 -0.04") +
+            box_link(s + "_arm", 1., 0.06, 0.06, 0.3, "0 0 -0.15") +
+            box_link(s + "_hand", 0.5, 0.05, 0.05, 0.2, "0 0 -0.1") +
+            pitch_joint("pelvis", s + "_thigh", std::string("0 ") + y + " -0.05") +
+            pitch_joint(s + "_thigh", s + "_shank", "0 0 -0.4") +
+            pitch_joint(s + "_shank", s + "_foot", "0 0 -0.4") +
+            pitch_joint("torso", s + "_arm",
+                        std::string("0 ") + (y[0] == '-' ? "-0.2" : "0.2") + " 0.4") +
+            pitch_joint(s + "_arm", s + "_hand", "0 0 -0.3");
+  }
+  return text + "</robot>";
+}
+
+TEST(Urdf, HoldMakesAHumanoidStandWithArmsThatCarryThemselves) {
+  const testing::Workplace place;
+  place.file("humanoid.urdf", humanoid());
+  place.file(
+      "scene.hook",
+      "World w { deltat = auto; Include \"materials/rigid_floor.hook\" (load = 50 N, "
+      "allowance = 1 mm); Terrain.Flat ground { material = rigid_floor; } Include "
+      "\"humanoid.urdf\" (name = r, rest_on = ground, hold = 0.03 rad, to_left_arm = 60 deg); }");
+  const testing::CommandResult ran = place.hookpoint(
+      "run scene.hook --for 4s --out run --record w.r.position.z,w.r.orientation.w,"
+      "w.r.to_torso.torso.to_left_arm.left_arm.angle");
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  std::istringstream trace(place.read("run/trace.csv"));
+  std::vector<std::vector<double>> rows;
+  for (std::string line; std::getline(trace, line);) {
+    if (line.empty() || line[0] == '#' || line.find('[') != std::string::npos) continue;
+    std::istringstream cells(line);
+    std::vector<double>& row = rows.emplace_back();
+    for (std::string cell; std::getline(cells, cell, ',');) row.push_back(std::stod(cell));
+  }
+  ASSERT_GT(rows.size(), 10u);
+  EXPECT_NEAR(rows.back()[1], rows.front()[1], 0.01);
+  EXPECT_GT(std::abs(rows.back()[2]), std::cos(0.03));  // leans by less than 0.06 rad
+  EXPECT_NEAR(rows.back()[3], 60. * M_PI / 180., 0.03);
+
+  const Loaded loaded = load_file(place.folder() / "scene.hook");
+  ASSERT_TRUE(loaded.experiment) << loaded.diagnostics;
+  const auto& chains = loaded.experiment->robots.at(0).chains;
+  const auto stiffness = [&](const std::string& chain, std::size_t link) {
+    return std::ranges::find(chains, chain, &simulation::ChainSpec::name)->links.at(link).stiffness;
+  };
+  // The hip's outer bodies reach 0.8 m down to the ankle and on to the foot's middle; the
+  // shoulder's to the hand's.
+  const double weight = 9.80665 * (6. + 15. + 2. * (4. + 3. + 1. + 1. + 0.5));
+  EXPECT_NEAR(stiffness("to_left_thigh", 0), weight * std::hypot(0.03, 0.84) / 0.03, 1e-9 * weight);
+  EXPECT_NEAR(stiffness("to_torso.torso.to_left_arm", 0), 9.80665 * 1.5 * 0.4 / 0.03, 1e-9);
+}
+
+TEST(Urdf, InertiaStandsForAFormThatIsNotKnown) {
+  const std::string text =
+      "<robot name=\"h\">" + box_link("b", 3., 0.2, 0.3, 0.1, "0.01 0.02 0.03") + "</robot>";
+  const Loaded loaded = load_urdf(text, ", shapes = inertia");
+  ASSERT_TRUE(loaded.experiment) << loaded.diagnostics;
+  const simulation::BodySpec& read = loaded.experiment->robots.at(0).base;
+  ASSERT_EQ(read.shapes.size(), 1u);
+  const Vector3d edges = std::get<simulation::Box>(read.shapes[0].geometry).dimensions;
+  EXPECT_LT(norm(edges - Vector3d{0.2, 0.3, 0.1}), 1e-6);
+  EXPECT_LT(norm(read.shapes[0].location - Vector3d{0.01, 0.02, 0.03}), 1e-12);
 }
 
 TEST(Urdf, TheQuadrupedStandsOnItsFourFeet) {

@@ -24,9 +24,10 @@ class BulletMultibody {
                                           !robot.mobile, false);
     base_ = base;
     int l = 0;
+    std::vector<Principal> bodies{base};
     for (const auto& chain : robot.chains) {
-      int parent = -1;
-      Principal before = base;
+      int parent = int(chain.carrier) - 1;
+      Principal before = bodies[chain.carrier];
       // The hip or the preceding link's frame, seen from the preceding Bullet frame.
       Matrix3d R_PF = rotation_matrix(chain.hip_orientation);
       Vector3d p_PF = chain.hip_position;
@@ -47,6 +48,7 @@ class BulletMultibody {
                              bullet(transpose_times(here.R_BC, here.center)), true);
         parent = l++;
         before = here;
+        bodies.push_back(here);
         R_PF = Matrix3d::identity();
         p_PF = {};
       }

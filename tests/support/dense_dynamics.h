@@ -55,9 +55,10 @@ class DenseKinematics {
     add_body(p, R, robot.base.center_of_mass, {});
     int joint = 0;
     for (const auto& chain : robot.chains) {
-      Vector origin = p + R * eigen(chain.hip_position).cast<Scalar>();
-      Matrix axes = R * eigen(chain.hip_orientation).cast<Scalar>();
-      std::vector<Axis> path;
+      const DenseBody<Scalar>& carrier = bodies_[chain.carrier];
+      Vector origin = carrier.p + carrier.R * eigen(chain.hip_position).cast<Scalar>();
+      Matrix axes = carrier.R * eigen(chain.hip_orientation).cast<Scalar>();
+      std::vector<Axis> path = paths_[chain.carrier];
       for (const auto& link : chain.links) {
         const bool revolute = link.joint == dts::JointType::revolute;
         const Scalar theta = revolute ? Scalar(link.theta + q[joint]) : Scalar(link.theta);
@@ -209,31 +210,35 @@ class DenseDynamics {
     return M_.fullPivLu().solve(f);
   }
 
-  /// The wrench of chain `k` on the base about its hip: less the rate of the chain's momentum, plus
-  /// what acts on it.
+  /// The wrench of chain `k` on its carrier about its hip: less the rate of momentum of the chain
+  /// and all that hangs on it, plus what acts on them.
   DenseWrench hip_wrench(std::size_t k, const Eigen::VectorXd& a, const Eigen::Vector3d& gravity,
                          const std::vector<DenseForce>& forces) const {
-    std::size_t first = 1;
-    for (std::size_t j = 0; j < k; ++j) first += robot_.chains[j].links.size();
-    const std::size_t last = first + robot_.chains[k].links.size();
-    const auto& base = still_.bodies()[0];
-    const Eigen::Vector3d hip = base.p + base.R * eigen(robot_.chains[k].hip_position);
-    DenseWrench on_base{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
-    for (std::size_t i = first; i < last; ++i) {
+    std::vector<bool> beyond(still_.bodies().size());
+    std::size_t next = 1;
+    for (std::size_t j = 0; j < robot_.chains.size(); ++j) {
+      const bool hangs = j == k || beyond[robot_.chains[j].carrier];
+      for (std::size_t n = 0; n < robot_.chains[j].links.size(); ++n) beyond[next++] = hangs;
+    }
+    const auto& carrier = still_.bodies()[robot_.chains[k].carrier];
+    const Eigen::Vector3d hip = carrier.p + carrier.R * eigen(robot_.chains[k].hip_position);
+    DenseWrench on_carrier{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+    for (std::size_t i = 1; i < beyond.size(); ++i) {
+      if (!beyond[i]) continue;
       const auto& body = still_.bodies()[i];
       const Eigen::Vector3d w = body.J_angular * velocity_;
       const Eigen::Vector3d dw = body.J_angular * a + angular_bias_[i];
       const Eigen::Vector3d force =
           properties(i).mass * (body.J_linear * a + linear_bias_[i] - gravity);
-      on_base.force -= force;
-      on_base.moment -= (body.c - hip).cross(force) + inertia(i) * dw + w.cross(inertia(i) * w);
+      on_carrier.force -= force;
+      on_carrier.moment -= (body.c - hip).cross(force) + inertia(i) * dw + w.cross(inertia(i) * w);
     }
     for (const DenseForce& x : forces) {
-      if (x.body < first || x.body >= last) continue;
-      on_base.force += x.force;
-      on_base.moment += x.torque + (x.point - hip).cross(x.force);
+      if (!beyond[x.body]) continue;
+      on_carrier.force += x.force;
+      on_carrier.moment += x.torque + (x.point - hip).cross(x.force);
     }
-    return on_base;
+    return on_carrier;
   }
 
  private:

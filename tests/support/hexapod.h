@@ -63,4 +63,12 @@ inline dts::RobotDescription generic_robot(std::size_t chains, std::size_t links
   return robot;
 }
 
+/// `chains` legs of such a robot, of which each after the first two hangs on the end of one before:
+/// a tree in which every leg carries two.
+inline dts::RobotDescription branching_robot(std::size_t chains, std::size_t links) {
+  dts::RobotDescription robot = generic_robot(chains, links);
+  for (std::size_t k = 2; k < chains; ++k) robot.chains[k].carrier = (k / 2) * links;
+  return robot;
+}
+
 }  // namespace hookpoint::tests

@@ -18,6 +18,7 @@ inline simulation::ChainSpec chain_spec(const dts::ChainDescription& chain, std:
   simulation::ChainSpec spec;
   spec.hip_distance = chain.hip_position;
   spec.hip_orientation = chain.hip_orientation;
+  spec.carrier = chain.carrier;
   for (std::size_t n = 0; n < chain.links.size(); ++n) {
     const dts::LinkDescription& link = chain.links[n];
     simulation::LinkSpec& added = spec.links.emplace_back();

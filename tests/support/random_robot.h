@@ -62,6 +62,17 @@ class RandomRobots {
     return robot;
   }
 
+  /// The same with chains on links: each after the first hangs on any body before it.
+  dts::RobotDescription tree(bool mobile, int chains, bool degenerate, double prismatic = 0.3) {
+    dts::RobotDescription robot = this->robot(mobile, chains, degenerate, prismatic);
+    std::size_t bodies = 1;
+    for (dts::ChainDescription& chain : robot.chains) {
+      chain.carrier = std::size_t(integer(0, int(bodies) - 1));
+      bodies += chain.links.size();
+    }
+    return robot;
+  }
+
   dts::State<double> state(const dts::Model<double>& model) {
     dts::State<double> state = dts::zero_state(model);
     state.base_position = vector(2.);

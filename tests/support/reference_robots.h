@@ -1,7 +1,9 @@
 // Robots with chains for the peers' tests, built without the language.
 #pragma once
 
+#include <array>
 #include <random>
+#include <vector>
 
 #include "tests/support/reference_scenes.h"
 
@@ -47,6 +49,23 @@ inline simulation::RobotSpec skew_robot(int chains, int links, bool mobile) {
     }
   }
   return robot;
+}
+
+/// Two legs, from one link of each of which hangs another: from the midst of the first, from the
+/// end of the second.
+inline simulation::RobotSpec skew_tree(bool mobile) {
+  simulation::RobotSpec robot = skew_robot(4, 4, mobile);
+  for (const auto& [chain, leg, link] : {std::array{2u, 0u, 1u}, std::array{3u, 1u, 3u}}) {
+    robot.chains[chain].name = "leg" + std::to_string(leg) + ".link" + std::to_string(link) + "." +
+                               robot.chains[chain].name;
+    robot.chains[chain].carrier = 1 + 4 * leg + link;
+  }
+  return robot;
+}
+
+/// Legs on the base, and legs on legs.
+inline std::vector<simulation::RobotSpec> skew_robots(bool mobile) {
+  return {skew_robot(3, 4, mobile), skew_tree(mobile)};
 }
 
 /// Sets every joint in motion, and a mobile base too.

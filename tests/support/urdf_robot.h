@@ -164,6 +164,22 @@ class RandomUrdf {
     return robot;
   }
 
+  /// The same in one tree: each joint is carried by any link.
+  UrdfNumbers tree(int joints, double tilt) {
+    UrdfNumbers robot;
+    robot.links.push_back(link("trunk"));
+    for (int n = 0; n < joints; ++n) {
+      const auto parent = std::size_t(uniform(0., double(robot.links.size())));
+      const double kind = uniform(0., 4.);
+      const char* type = kind < 1.   ? "fixed"
+                         : kind < 2. ? "prismatic"
+                         : kind < 3. ? "revolute"
+                                     : "continuous";
+      add(robot, std::min(parent, robot.links.size() - 1), type, parent == 0 ? 2. : tilt);
+    }
+    return robot;
+  }
+
  private:
   UrdfNumbers::Link link(const std::string& name) {
     const double x = uniform(0.01, 0.2), y = uniform(0.01, 0.2), z = uniform(0.01, 0.2);

@@ -2,9 +2,11 @@
 // written out.
 #include <gtest/gtest.h>
 
+#include "dts/energy.h"
 #include "dts/external_forces.h"
 #include "dts/forward_dynamics.h"
 #include "dts/impulse_response.h"
+#include "dts/inverse_dynamics.h"
 #include "tests/support/random_robot.h"
 
 namespace hookpoint::tests {
@@ -45,6 +47,10 @@ struct Case {
   }
 
   void solve(Workspace<double>& workspace) const {
+    apply_forces(workspace);
+    dts::forward_dynamics(model, gravity, torques, workspace);
+  }
+  void apply_forces(Workspace<double>& workspace) const {
     dts::forward_kinematics(model, state, workspace);
     dts::clear_external_forces(workspace);
     for (const DenseForce& x : forces) {
@@ -53,23 +59,23 @@ struct Case {
       dts::add_external_torque(workspace, x.body,
                                Vector3d{x.torque.x(), x.torque.y(), x.torque.z()});
     }
-    dts::forward_dynamics(model, gravity, torques, workspace);
   }
 };
 
 /// Calls `check` for robots with 0..8 chains of 1..6 links, fixed and mobile, generic and
-/// degenerate.
+/// degenerate, all chains on the base and on any body.
 template <class Check>
 void for_random_robots(std::uint64_t seed, const Check& check) {
   RandomRobots random(seed);
   for (int chains = 0; chains <= 8; ++chains) {
     for (const bool mobile : {false, true}) {
       for (const bool degenerate : {false, true}) {
-        for (int repetition = 0; repetition < 4; ++repetition) {
+        for (int repetition = 0; repetition < 8; ++repetition) {
           if (!mobile && chains == 0) continue;
           SCOPED_TRACE(::testing::Message() << chains << " chains, mobile " << mobile
                                             << ", degenerate " << degenerate << ", " << repetition);
-          const Case drawn(random, random.robot(mobile, chains, degenerate));
+          const Case drawn(random, repetition % 2 == 0 ? random.robot(mobile, chains, degenerate)
+                                                       : random.tree(mobile, chains, degenerate));
           check(random, drawn);
         }
       }
@@ -140,6 +146,48 @@ TEST(DtsDense, HipWrenchesAreNewtonEulerOfTheChain) {
   });
 }
 
+TEST(DtsDense, InverseDynamicsTakesWhatTheMassMatrixSays) {
+  for_random_robots(9, [](RandomRobots& random, const Case& drawn) {
+    Workspace<double> workspace(drawn.model);
+    drawn.apply_forces(workspace);
+    const std::size_t n = drawn.model.link_count();
+    const std::vector<double> joints = random.numbers(n, 5.);
+    dts::Accelerations<double> wanted{{}, {}, joints};
+    Eigen::VectorXd a(Eigen::Index(dts::velocity_count(drawn.model)));
+    a.tail(Eigen::Index(n)) = eigen(joints);
+    if (drawn.robot.mobile) {
+      wanted.base_angular = random.vector(5.);
+      wanted.base_linear = random.vector(5.);
+      a.head(6) << eigen(wanted.base_angular), eigen(wanted.base_linear);
+    }
+    std::vector<double> torques(n);
+    const dts::Wrench<double> support = dts::inverse_dynamics(
+        drawn.model, drawn.gravity, wanted, std::span<double>(torques), workspace);
+    const DenseDynamics dense(drawn.robot, drawn.state);
+    const Eigen::VectorXd free =
+        dense.accelerations(eigen(drawn.gravity), std::vector<double>(n), drawn.forces);
+    const Eigen::VectorXd truth = dense.mass_matrix() * (a - free);
+    Eigen::VectorXd found(truth.size());
+    if (drawn.robot.mobile) found.head(6) << eigen(support.moment), eigen(support.force);
+    found.tail(Eigen::Index(n)) = eigen(torques);
+    EXPECT_LE(relative_error(found, truth), tolerance);
+  });
+}
+
+TEST(DtsDense, EnergyAndMomentaAreSumsOverTheBodies) {
+  for_random_robots(10, [](RandomRobots&, const Case& drawn) {
+    Workspace<double> workspace(drawn.model);
+    dts::forward_kinematics(drawn.model, drawn.state, workspace);
+    const DenseMomentum truth = DenseDynamics(drawn.robot, drawn.state).momentum();
+    const double energy = dts::kinetic_energy(drawn.model, workspace);
+    EXPECT_NEAR(energy, truth.kinetic_energy, tolerance * truth.kinetic_energy);
+    const Eigen::Vector3d p = eigen(dts::linear_momentum(drawn.model, workspace));
+    const Eigen::Vector3d L = eigen(dts::angular_momentum(drawn.model, workspace));
+    EXPECT_LE(relative_error(p, truth.linear), tolerance);
+    EXPECT_LE(relative_error(L, truth.angular), tolerance);
+  });
+}
+
 TEST(DtsDense, ImpulseResponsesAreJMinvJt) {
   for_random_robots(5, [](RandomRobots& random, const Case& drawn) {
     Workspace<double> workspace(drawn.model);
@@ -189,6 +237,21 @@ TEST(DtsDense, ImpulsesUseTheInertiasThatForwardDynamicsLeaves) {
   std::vector<double> velocity(dts::velocity_count(drawn.model));
   dts::get_velocity(drawn.model, state, std::span<double>(velocity));
   EXPECT_LE(relative_error(eigen(velocity), truth), tolerance);
+}
+
+TEST(DtsDense, AMasslessLinkThatEndsAChainAndCarriesOthers) {
+  RandomRobots random(8);
+  dts::RobotDescription robot = random.robot(true, 3, false, 0.);
+  robot.chains[0].links.back().mass = {};
+  const std::size_t shoulder = robot.chains[0].links.size();
+  for (const std::size_t arm : {1u, 2u}) robot.chains[arm].carrier = shoulder;
+  const Case drawn(random, robot);
+  Workspace<double> workspace(drawn.model);
+  drawn.solve(workspace);
+  const Eigen::VectorXd truth =
+      DenseDynamics(drawn.robot, drawn.state)
+          .accelerations(eigen(drawn.gravity), drawn.torques, drawn.forces);
+  EXPECT_LE(relative_error(eigen(accelerations_of(drawn.model, workspace)), truth), 1e-9);
 }
 
 TEST(DtsDense, MasslessLinksBeforeAMassiveOne) {

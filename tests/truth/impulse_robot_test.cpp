@@ -191,7 +191,7 @@ TEST(ImpulseRobot, BouncesAsASingleBodyWhereTheChainHasNothingToDo) {
 TEST(ImpulseRobot, FliesAsTheForceLawsDoUnderTorquesSpringsLimitsAndForces) {
   tests::RandomRobots random(11);
   for (const bool mobile : {true, false}) {
-    const dts::RobotDescription robot = random.robot(mobile, 3, false);
+    const dts::RobotDescription robot = random.tree(mobile, 4, false);
     dts::State<double> state = random.state(dts::Model<double>(robot));
     Experiment experiment = impulse_experiment(robot, state, material(0., 0.5), kGravity, 1e-4);
     experiment.terrain.reset();
@@ -229,7 +229,8 @@ TEST(ImpulseRobot, FliesAsTheForceLawsDoUnderTorquesSpringsLimitsAndForces) {
 TEST(ImpulseRobot, KeepsMomentumInFlight) {
   tests::RandomRobots random(12);
   for (int k = 0; k < 5; ++k) {
-    const dts::RobotDescription robot = random.robot(true, 3, false, 0.);
+    const dts::RobotDescription robot =
+        k < 2 ? random.robot(true, 3, false, 0.) : random.tree(true, 4, false, 0.);
     const dts::Model<double> model(robot);
     const dts::State<double> state = random.state(model);
     Experiment experiment = impulse_experiment(robot, state, material(0., 0.), kNoGravity, 0.01);

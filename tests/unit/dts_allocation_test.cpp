@@ -12,9 +12,15 @@
 namespace hookpoint::tests {
 namespace {
 
-TEST(DtsAllocation, AStepAllocatesNothing) {
+/// `branching`: with chains on links.
+class DtsAllocation : public ::testing::TestWithParam<bool> {};
+INSTANTIATE_TEST_SUITE_P(Branching, DtsAllocation, ::testing::Bool());
+
+TEST_P(DtsAllocation, AStepAllocatesNothing) {
   RandomRobots random(31);
-  const dts::Model<double> model(random.robot(true, 5, false));
+  const dts::Model<double> model(GetParam() ? random.tree(true, 8, false)
+                                            : random.robot(true, 5, false));
+  ASSERT_EQ(model.branches(), GetParam());
   dts::Workspace<double> workspace(model);
   dts::State<double> state = random.state(model);
   std::vector<double> torques = random.numbers(model.link_count(), 1.);
@@ -43,7 +49,7 @@ TEST(DtsAllocation, AStepAllocatesNothing) {
   EXPECT_EQ(testing::allocation_count(), before);
 }
 
-TEST(DtsAllocation, TheCounterCounts) {
+TEST(AllocationCounter, TheCounterCounts) {
   const long before = testing::allocation_count();
   const std::vector<double> something(10);
   EXPECT_GT(testing::allocation_count(), before) << something.size();

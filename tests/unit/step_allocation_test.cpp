@@ -35,6 +35,14 @@ TEST(StepAllocation, BlockUnderEveryLaw) {
   }
 }
 
+TEST(StepAllocation, ChainsOnLinks) {
+  for (const char* law : {"hookpoint", "impulse"}) {
+    const simulation::Experiment experiment =
+        testing::load_scene("scenes/tumbling_acrobat.hook", {}, {{"world.contact", law}});
+    EXPECT_EQ(allocations_in_steps(experiment, 100), 0) << law;
+  }
+}
+
 TEST(StepAllocation, HexapodUnderTheImpulseLaws) {
   for (const char* law : {"impulse", "impulse_reversal"}) {
     simulation::Experiment experiment =

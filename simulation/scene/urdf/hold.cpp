@@ -14,39 +14,93 @@ namespace {
 
 constexpr double standard_gravity = 9.80665;  // [m/s^2]
 
-double total_mass(const UrdfTree& tree) {
-  double mass = tree.base.mass.mass;
-  for (const std::vector<UrdfBody>& chain : tree.chains) {
-    for (const UrdfBody& body : chain) mass += body.mass.mass;
+class UrdfHolding {
+ public:
+  UrdfHolding(const UrdfTree& tree, bool mobile, double sag)
+      : mass_(tree.base.mass.mass), mobile_(mobile), sag_(sag) {
+    for (const UrdfChain& chain : tree.chains) add(chain, {}, nullptr);
   }
-  return mass;
-}
+
+  std::map<const UrdfJoint*, UrdfHold> run() const {
+    std::map<const UrdfJoint*, UrdfHold> holds;
+    for (const auto& [joint, beyond] : joints_) holds.emplace(joint, hold(*joint, beyond));
+    return holds;
+  }
+
+ private:
+  /// What is beyond a joint, all joints at 0.
+  struct Beyond {
+    double reach = 0., mass = 0.;
+    double inertia = 0.;  ///< about the joint's axis
+    double lowest = 0.;   ///< z in the base's axes
+  };
+  /// A body on the way to the base.
+  struct Way {
+    const UrdfBody& body;
+    const Way* before;
+  };
+
+  /// `X_BP`: of what carries the chain, in the base.
+  void add(const UrdfChain& chain, Pose X_BP, const Way* before) {
+    add_from(chain, 0, X_BP, before);
+  }
+  void add_from(const UrdfChain& chain, std::size_t link, const Pose& X_BP, const Way* before) {
+    if (link == chain.bodies.size()) {
+      for (const UrdfChain& carried : chain.carried) add(carried, X_BP, before);
+      return;
+    }
+    const UrdfBody& body = chain.bodies[link];
+    const Pose X_BL = X_BP * body.joint_pose;
+    const Way way{body, before};
+    double lowest = X_BL.position.z;
+    for (const ShapeSpec& shape : body.shapes)
+      lowest = std::min(lowest, (X_BL * Pose{shape.location, shape.orientation}).position.z);
+    lowest_ = std::min(lowest_, lowest);
+    mass_ += body.mass.mass;
+    Pose X_JL;  // in the frame of each joint that carries it
+    for (const Way* at = &way; at != nullptr; at = at->before) {
+      Beyond& beyond = joints_[at->body.joint];
+      add(body, X_JL, beyond);
+      beyond.lowest = std::min(beyond.lowest, lowest);
+      X_JL = at->body.joint_pose * X_JL;
+    }
+    add_from(chain, link + 1, X_BL, &way);
+  }
+
+  static void add(const UrdfBody& body, const Pose& X_JL, Beyond& beyond) {
+    const MassSpec& mass = body.mass;
+    const dts::MassProperties<double> in_joint = dts::placed(
+        {mass.mass, mass.center_of_mass, mass.inertia}, X_JL.position, X_JL.orientation);
+    const Vector3d& c = in_joint.center_of_mass;
+    beyond.mass += mass.mass;
+    beyond.inertia += in_joint.inertia.zz + mass.mass * (c.x * c.x + c.y * c.y);
+    beyond.reach = std::max({beyond.reach, norm(c), norm(X_JL.position)});
+    for (const ShapeSpec& shape : body.shapes) {
+      const Pose X_JS = X_JL * Pose{shape.location, shape.orientation};
+      beyond.reach = std::max(beyond.reach, norm(X_JS.position));
+    }
+  }
+
+  UrdfHold hold(const UrdfJoint& joint, const Beyond& beyond) const {
+    const bool slides = joint.type == UrdfJointType::prismatic;
+    const bool is_leg = mobile_ && beyond.lowest < 0. && beyond.lowest <= 0.5 * lowest_;
+    const double weight = standard_gravity * (is_leg ? mass_ : beyond.mass);
+    // A joint that slides gives way by as much as the end of one that turns.
+    const double stiffness = slides ? weight / (sag_ * beyond.reach) : weight * beyond.reach / sag_;
+    return {stiffness, 2. * std::sqrt(stiffness * (slides ? beyond.mass : beyond.inertia))};
+  }
+
+  std::map<const UrdfJoint*, Beyond> joints_;
+  double mass_;         ///< of the robot
+  double lowest_ = 0.;  ///< z of any body or shape
+  bool mobile_;
+  double sag_;
+};
 
 }  // namespace
 
-UrdfHold hold_joint(const UrdfTree& tree, std::size_t chain, std::size_t link, bool mobile,
-                    double sag) {
-  const std::vector<UrdfBody>& bodies = tree.chains[chain];
-  double reach = 0., carried = 0., inertia = 0.;
-  Pose X_JB;  // of an outer body in the joint's frame, all joints between them at 0
-  for (std::size_t i = link; i < bodies.size(); ++i) {
-    const UrdfBody& body = bodies[i];
-    if (i > link) X_JB = X_JB * body.joint_pose;
-    const MassSpec& mass = body.mass;
-    const dts::MassProperties<double> in_joint = dts::placed(
-        {mass.mass, mass.center_of_mass, mass.inertia}, X_JB.position, X_JB.orientation);
-    const Vector3d& c = in_joint.center_of_mass;
-    carried += mass.mass;
-    inertia += in_joint.inertia.zz + mass.mass * (c.x * c.x + c.y * c.y);
-    reach = std::max({reach, norm(c), norm(X_JB.position)});
-    for (const ShapeSpec& shape : body.shapes)
-      reach = std::max(reach, norm((X_JB * Pose{shape.location, shape.orientation}).position));
-  }
-  const bool slides = bodies[link].joint->type == UrdfJointType::prismatic;
-  const double weight = standard_gravity * (mobile ? total_mass(tree) : carried);
-  // A joint that slides gives way by as much as the end of one that turns.
-  const double stiffness = slides ? weight / (sag * reach) : weight * reach / sag;
-  return {stiffness, 2. * std::sqrt(stiffness * (slides ? carried : inertia))};
+std::map<const UrdfJoint*, UrdfHold> hold_joints(const UrdfTree& tree, bool mobile, double sag) {
+  return UrdfHolding(tree, mobile, sag).run();
 }
 
 }  // namespace hookpoint::simulation

@@ -38,15 +38,8 @@ class UrdfAssembly {
     if (tree.floats) ++reached_;
     std::vector<Next> hips;
     tree.base = body_of(tree.floats ? free->child : *root, nullptr, {}, hips);
-    for (Next next : hips) {
-      std::vector<UrdfBody>& chain = tree.chains.emplace_back();
-      for (std::vector<Next> outer{next}; !outer.empty();) {
-        next = outer.front();
-        outer.clear();
-        chain.push_back(body_of(next.joint->child, next.joint, next.X_FJ, outer));
-        if (outer.size() > 1) return branches(chain.back(), *outer[1].joint);
-      }
-    }
+    for (const Next& hip : hips) tree.chains.push_back(chain_from(hip, 0));
+    if (too_deep_) return std::nullopt;
     return all_reached() ? std::optional(std::move(tree)) : std::nullopt;
   }
 
@@ -56,6 +49,32 @@ class UrdfAssembly {
     const UrdfJoint* joint;
     Pose X_FJ;
   };
+
+  /// Bodies from `next` on, as long as each carries one more; the chain hangs on a chain on ...,
+  /// `depth` of them.
+  UrdfChain chain_from(const Next& next, std::size_t depth) {
+    // Each is a Chain in a Link, and the language nests 200 deep.
+    constexpr std::size_t deepest = 90;
+    UrdfChain chain;
+    if (depth > deepest) {
+      if (!too_deep_)
+        report_.error(
+            next.joint->place,
+            fmt::format("joint `{}` starts a chain on a chain, and so on, {} deep: {} are "
+                        "the most",
+                        next.joint->name, depth, deepest));
+      too_deep_ = true;
+      return chain;
+    }
+    for (std::vector<Next> outer{next}; outer.size() == 1;) {
+      const Next at = outer.front();
+      outer.clear();
+      chain.bodies.push_back(body_of(at.joint->child, at.joint, at.X_FJ, outer));
+      if (outer.size() == 1) continue;
+      for (const Next& hip : outer) chain.carried.push_back(chain_from(hip, depth + 1));
+    }
+    return chain;
+  }
 
   /// Which joints each link carries; false when one is carried twice.
   bool hang_links() {
@@ -170,14 +189,6 @@ class UrdfAssembly {
     }
   }
 
-  std::nullopt_t branches(const UrdfBody& body, const UrdfJoint& second) {
-    report_.error(second.place,
-                  fmt::format("joint `{}` is the second that link `{}` (with what is fixed to it) "
-                              "carries: only the base branches, its chains do not",
-                              second.name, robot_.links[body.link].name));
-    return std::nullopt;
-  }
-
   /// Links in a loop of their own hang on nothing that the root carries.
   bool all_reached() {
     if (reached_ == robot_.links.size()) return true;
@@ -190,6 +201,7 @@ class UrdfAssembly {
   std::vector<std::vector<const UrdfJoint*>> outward_;  ///< one a link: the joints it carries
   std::vector<bool> moves_;                             ///< one a link: a joint carries it
   std::size_t reached_ = 0;
+  bool too_deep_ = false;
 };
 
 }  // namespace

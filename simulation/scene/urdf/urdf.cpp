@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 
 #include "language/document.h"
 #include "language/names.h"
@@ -93,30 +94,36 @@ void add_body(const UrdfBody& body, ForeignObject& object) {
     object.children.push_back(shape_object(body.shapes[i], body.shape_places[i]));
 }
 
+/// Whether the body `first` of a chain or one further out has an <inertial>.
+bool has_mass_from(const UrdfChain& chain, std::size_t first) {
+  const auto further_out = std::span(chain.bodies).subspan(first);
+  return std::ranges::any_of(further_out, &UrdfBody::has_inertial) ||
+         std::ranges::any_of(chain.carried,
+                             [](const UrdfChain& carried) { return has_mass_from(carried, 0); });
+}
+
 class UrdfInclude {
  public:
   UrdfInclude(const ForeignArguments& arguments, language::Report& report)
       : arguments_(arguments), report_(report) {}
 
   std::vector<ForeignObject> run(const language::SourceFile& file) {
-    const bool visual = word_argument("shapes", {"collision", "visual"}) == "visual";
+    const std::string shapes = word_argument("shapes", {"collision", "visual", "inertia"});
     const auto robot =
-        read_urdf(file, visual ? UrdfShapes::visual : UrdfShapes::collision, report_);
+        read_urdf(file, shapes == "visual" ? UrdfShapes::visual : UrdfShapes::collision, report_);
     if (!robot) return {};
-    const auto tree = assemble_urdf(*robot, report_);
+    auto tree = assemble_urdf(*robot, report_);
     if (!tree) return {};
+    if (shapes == "inertia") take_inertia_boxes(*tree);
     check_arguments(*robot);
     tell_left_out(*robot);
     ForeignObject object{"Robot", robot_name(*robot), robot->place, {}, {}};
     object.children.push_back(base_object(*robot, *tree));
     const bool mobile = object.children.front().type == "Base.mobile";
     const double sag = hold_argument();
-    for (std::size_t i = 0; i < tree->chains.size(); ++i) {
-      std::vector<UrdfHold> held(tree->chains[i].size());
-      for (std::size_t k = 0; sag > 0. && k < held.size(); ++k)
-        held[k] = hold_joint(*tree, i, k, mobile, sag);
-      object.children.push_back(chain_object(*robot, tree->chains[i], held));
-    }
+    if (sag > 0.) holds_ = hold_joints(*tree, mobile, sag);
+    for (const UrdfChain& chain : tree->chains)
+      object.children.push_back(chain_object(*robot, chain));
     return {std::move(object)};
   }
 
@@ -138,24 +145,27 @@ class UrdfInclude {
     return object;
   }
 
-  ForeignObject chain_object(const UrdfRobot& robot, const std::vector<UrdfBody>& bodies,
-                             const std::vector<UrdfHold>& held) {
+  ForeignObject chain_object(const UrdfRobot& robot, const UrdfChain& of) {
+    const std::vector<UrdfBody>& bodies = of.bodies;
     const UrdfJoint& hip = *bodies.front().joint;
     ForeignObject chain{"Chain", identifier(hip.name), hip.place, {}, {}};
     add_pose(bodies.front().joint_pose, "hip_distance", "hip_orientation", hip.place, chain);
     for (const UrdfBody& body : bodies) {
       const UrdfJoint& joint = *body.joint;
       const UrdfLink& link = robot.links[body.link];
-      require_mass(link, body);
+      if (!has_mass_from(of, chain.children.size())) require_mass(link, body);
       ForeignObject object{"Link", identifier(link.name), joint.place, {}, {}};
       if (joint.type == UrdfJointType::prismatic)
         object.fields.push_back(word("joint", "prismatic", joint.place));
       if (&body != &bodies.front())
         add_pose(body.joint_pose, "joint_location", "joint_orientation", joint.place, object);
-      add_joint(joint, held[chain.children.size()], object);
+      const auto held = holds_.find(&joint);
+      add_joint(joint, held == holds_.end() ? UrdfHold{} : held->second, object);
       add_body(body, object);
       chain.children.push_back(std::move(object));
     }
+    for (const UrdfChain& carried : of.carried)
+      chain.children.back().children.push_back(chain_object(robot, carried));
     return chain;
   }
 
@@ -201,8 +211,9 @@ class UrdfInclude {
 
   void require_mass(const UrdfLink& link, const UrdfBody& body) {
     if (body.has_inertial) return;
-    report_.error(link.place, fmt::format("link `{}` moves but has no <inertial>: give it, or a "
-                                          "link that is fixed to it, a mass and an inertia",
+    report_.error(link.place, fmt::format("link `{}` moves but has no <inertial>: give it, a link "
+                                          "that is fixed to it or one further out a mass and an "
+                                          "inertia",
                                           link.name));
   }
 
@@ -224,7 +235,7 @@ class UrdfInclude {
     const bool one = given->second.values.size() == 1 && value.kind == ValueKind::word;
     if (one && std::ranges::count(choices, value.text) > 0) return value.text;
     report_.error(given->second.position,
-                  fmt::format("the argument `{}` is {} or {}", name, choices[0], choices[1]));
+                  fmt::format("the argument `{}` is {}", name, fmt::join(choices, " or ")));
     return "";
   }
 
@@ -265,6 +276,7 @@ class UrdfInclude {
 
   const ForeignArguments& arguments_;
   language::Report& report_;
+  std::map<const UrdfJoint*, UrdfHold> holds_;
 };
 
 }  // namespace

@@ -63,6 +63,13 @@ struct UrdfBody {
   std::vector<language::Position> shape_places;
 };
 
+/// Bodies in series. Where one carries several joints its chain ends, and each of the joints starts
+/// a chain of its own: arms alike are chains alike.
+struct UrdfChain {
+  std::vector<UrdfBody> bodies;
+  std::vector<UrdfChain> carried;  ///< by the last of the bodies, in the file's order
+};
+
 /// The base, and the chains of bodies that it carries. A root without mass and shapes that carries
 /// but a floating joint stands for the world: the joint's child is the base. A body's frame has its
 /// origin where URDF has that of its link; its axes are the link's, turned by the least rotation
@@ -70,22 +77,26 @@ struct UrdfBody {
 struct UrdfTree {
   UrdfBody base;
   bool floats = false;  ///< by a joint that says so
-  std::vector<std::vector<UrdfBody>> chains;
+  std::vector<UrdfChain> chains;
 };
 
-/// Nothing after an error: a second root, a loop, a chain that branches. Cost: n log n in the
+/// Nothing after an error: a second root, a loop. Cost: n log n in the
 /// links.
 std::optional<UrdfTree> assemble_urdf(const UrdfRobot& robot, language::Report& report);
+
+/// Gives each body, in place of its shapes, a box at its centre of mass along its own axes that has
+/// the body's second moments of mass along them; none to a body without mass or without inertia.
+void take_inertia_boxes(UrdfTree& tree);
 
 /// Constants of the spring and damper of a joint [N m/rad, N m s/rad; N/m, N s/m].
 struct UrdfHold {
   double stiffness = 0., damping = 0.;
 };
 
-/// So that the joint of a chain's link gives way by less than `sag` [rad] under the weight that it
-/// may carry: the whole robot's if that is mobile, else that of the bodies beyond it. O(bodies).
-UrdfHold hold_joint(const UrdfTree& tree, std::size_t chain, std::size_t link, bool mobile,
-                    double sag);
+/// So that every joint gives way by less than `sag` [rad] under the weight that it may carry: that
+/// of the bodies beyond it or, of a mobile robot's legs, the whole robot's. A leg reaches at least
+/// half as far below the base as anything of the robot, all joints at 0. O(bodies depth).
+std::map<const UrdfJoint*, UrdfHold> hold_joints(const UrdfTree& tree, bool mobile, double sag);
 
 /// The reader of an Include: the robot as an object of the language.
 std::vector<language::ForeignObject> include_urdf(const language::SourceFile& file,
