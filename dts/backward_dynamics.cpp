@@ -22,6 +22,15 @@ template <class Real>
   return {inward_screws(link, pass, free.Ia), inward_screws(link, pass, pa)};
 }
 
+/// Of a link whose joint has a rotor, and that carries `IA`.
+template <class Real>
+[[gnu::noinline]] HipPass<Real> pass_geared(const LinkConstants<Real>& link,
+                                            const ArticulatedInertia<Real>& IA,
+                                            const Wrench<Real>& pA, const Real& torque,
+                                            LinkPass<Real>& pass) {
+  return pass_inward(link, eliminate_geared(link, IA + link.inertia), pA, torque, pass);
+}
+
 }  // namespace
 
 template <class Real>
@@ -37,10 +46,14 @@ void backward_dynamics(const Model<Real>& model,
       const LinkConstants<Lanes<Real>>& link = group.links[n];
       const Wrench<Lanes<Real>> pA = carried.pA + bias_wrench(group, n, passes[n], workspace);
       const Lanes<Real> torque = gather(at_link(group, n, joint_torques));
-      carried = n + 1 == group.link_count()
-                    ? pass_inward(link, group.leaf, pA, torque, passes[n])
-                    : pass_inward(link, eliminate(link.joint, carried.IA + link.inertia), pA,
-                                  torque, passes[n]);
+      if (n + 1 == group.link_count()) {
+        carried = pass_inward(link, group.leaf, pA, torque, passes[n]);
+      } else if (link.geared) {
+        carried = pass_geared(link, carried.IA, pA, torque, passes[n]);
+      } else {
+        carried = pass_inward(link, eliminate(link.joint, carried.IA + link.inertia), pA, torque,
+                              passes[n]);
+      }
       if (link.placed) {
         carried = {inward(link.placement, carried.IA), inward(link.placement, carried.pA)};
       }

@@ -30,7 +30,7 @@ template <class Real>
 struct Elimination {
   ArticulatedInertia<Real> Ia;
   Wrench<Real> U;    ///< IA S
-  Real D_inverse{};  ///< 1 / (S^T IA S)
+  Real D_inverse{};  ///< 1 / (S^T IA S + I_r)
 };
 
 /// The part of a link's fixed transform that its screws cannot take up.
@@ -49,6 +49,8 @@ struct LinkConstants {
   Screw<Real> twist;     ///< by alpha and a, about the preceding frame's x
   Real d{}, theta{};
   RigidInertia<Real> inertia;
+  bool geared = false;   ///< some lane has a rotor inertia
+  Real rotor_inertia{};  ///< I_r, which moves with the joint alone [kg m^2, kg]
 };
 
 /// Where a chain starts. H is the hip frame after the first link's constant screw about x, which

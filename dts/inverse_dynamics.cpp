@@ -30,7 +30,10 @@ Wrench<Real> inverse_dynamics(const Model<Real>& model, const Vector3<Real>& gra
     for (std::size_t n = group.link_count(); n-- > 0;) {
       const LinkConstants<Lanes<Real>>& link = group.links[n];
       const Wrench<Lanes<Real>> f = wrenches[n] + carried;
-      scatter(along(link.joint, f), at_link(group, n, joint_torques));
+      // tau = S^T f + I_r q''
+      const Lanes<Real> rotor =
+          link.rotor_inertia * gather(at_link(group, n, accelerations.joints));
+      scatter(along(link.joint, f) + rotor, at_link(group, n, joint_torques));
       carried = inward(link, passes[n], f);
     }
     on_base = on_base + only(group.in_use, inward(group, carried));

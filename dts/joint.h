@@ -65,6 +65,27 @@ constexpr Elimination<Real> eliminate(JointType joint, const ArticulatedInertia<
           D_inverse};
 }
 
+/// The same for a joint whose motor and gears turn with it: D = S^T U + I_r (Featherstone 2008,
+/// section 9.6, with the rotor's spin alone). Row and column along S do not vanish then. Not
+/// inlined, for the sake of robots without: those rows and columns are no numbers there, but zeros.
+template <class Real>
+[[gnu::noinline]] constexpr Elimination<Real> eliminate_geared(const LinkConstants<Real>& link,
+                                                               const ArticulatedInertia<Real>& IA) {
+  const auto& [I, H, M] = IA;
+  const bool turns = link.joint == JointType::revolute;
+  const Vector3<Real> m = turns ? Vector3<Real>{I.xz, I.yz, I.zz} : Vector3<Real>{H.xz, H.yz, H.zz};
+  const Vector3<Real> f = turns ? Vector3<Real>{H.zx, H.zy, H.zz} : Vector3<Real>{M.xz, M.yz, M.zz};
+  const Real D_inverse = 1. / ((turns ? m.z : f.z) + link.rotor_inertia);
+  const Vector3<Real> g = D_inverse * m;
+  return {
+      {less_dyad(I, m, g),
+       {H.xx - g.x * f.x, H.xy - g.x * f.y, H.xz - g.x * f.z, H.yx - g.y * f.x, H.yy - g.y * f.y,
+        H.yz - g.y * f.z, H.zx - g.z * f.x, H.zy - g.z * f.y, H.zz - g.z * f.z},
+       less_dyad(M, f, D_inverse * f)},
+      {m, f},
+      D_inverse};
+}
+
 // Across a placement, inwards and outwards. Not inlined: few robots have one, and the recursions of
 // the others are a sixth slower with this code in their midst (docs/urdf.md).
 template <class Real>

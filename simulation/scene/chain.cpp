@@ -25,8 +25,8 @@ const Fields<ChainSpec>& chain_fields() {
 }
 
 /// What joint `joint` of the chain accelerates: the inertia of its link and all further out about
-/// its axis (their mass, for a prismatic joint), and the size that such an inertia is measured
-/// against.
+/// its axis (their mass, for a prismatic joint) and of its rotor, and the size that such an inertia
+/// is measured against.
 struct MovedInertia {
   double value = 0., scale = 0.;
 };
@@ -43,6 +43,8 @@ MovedInertia moved_inertia(const std::vector<LinkSpec>& links, std::size_t joint
     moved.value += turns ? I_J.zz : mass.mass;
     moved.scale += turns ? I_J.xx + I_J.yy + I_J.zz : mass.mass;
   }
+  moved.value += links[joint].rotor_inertia;
+  moved.scale += links[joint].rotor_inertia;
   return moved;
 }
 

@@ -92,7 +92,9 @@ void read_urdf(const std::string& bytes) {
   language::SourceFile file{"robot.urdf", bytes, {}};
   language::index_lines(file);
   language::Report report;
-  const auto objects = simulation::include_urdf(file, {}, report);
+  const language::Schema schema;
+  language::FileStore files(schema, {});
+  const auto objects = simulation::include_urdf(file, {}, files, report);
   fuzz::require(!objects.empty() || report.has_errors(), "neither a robot nor a mistake");
   language::Diagnostics diagnostics;
   report.deliver(diagnostics);

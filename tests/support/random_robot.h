@@ -45,6 +45,7 @@ class RandomRobots {
     link.joint = chance(prismatic) ? dts::JointType::prismatic : dts::JointType::revolute;
     link.mass = mass_properties();
     if (chance(0.3)) place(link, degenerate);
+    if (chance(0.3)) link.rotor_inertia = uniform(0., 0.5);
     return link;
   }
 

@@ -2,7 +2,7 @@
 // carries at most the weight M g at their end, a moment M g l. With
 //   k = M g l/sag     c = 2 sqrt(k I)
 // it gives way by no more than `sag` at rest, and its outer bodies, of moment of inertia I about
-// its axis, come to rest without overshoot while they swing free.
+// its axis with the rotor's, come to rest without overshoot while they swing free.
 #include <algorithm>
 #include <cmath>
 
@@ -41,12 +41,16 @@ UrdfHold hold_joint(const UrdfTree& tree, std::size_t chain, std::size_t link, b
     reach = std::max({reach, norm(c), norm(X_JB.position)});
     for (const ShapeSpec& shape : body.shapes)
       reach = std::max(reach, norm((X_JB * Pose{shape.location, shape.orientation}).position));
+    for (const Vector3d& point : body.points)
+      reach = std::max(reach, norm((X_JB * Pose{point, {}}).position));
   }
-  const bool slides = bodies[link].joint->type == UrdfJointType::prismatic;
+  const UrdfJoint& joint = *bodies[link].joint;
+  const bool slides = joint.type == UrdfJointType::prismatic;
+  const double moved = (slides ? carried : inertia) + joint.rotor_inertia;
   const double weight = standard_gravity * (mobile ? total_mass(tree) : carried);
   // A joint that slides gives way by as much as the end of one that turns.
   const double stiffness = slides ? weight / (sag * reach) : weight * reach / sag;
-  return {stiffness, 2. * std::sqrt(stiffness * (slides ? carried : inertia))};
+  return {stiffness, 2. * std::sqrt(stiffness * moved)};
 }
 
 }  // namespace hookpoint::simulation

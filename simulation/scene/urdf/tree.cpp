@@ -98,7 +98,7 @@ class UrdfAssembly {
   const UrdfJoint* free_joint(std::size_t root) const {
     const UrdfLink& link = robot_.links[root];
     const std::vector<const UrdfJoint*>& carried = outward_[root];
-    const bool is_world = !link.has_inertial && link.shapes.empty() && carried.size() == 1 &&
+    const bool is_world = !link.has_inertial && !link.touches() && carried.size() == 1 &&
                           carried[0]->type == UrdfJointType::floating;
     return is_world ? carried[0] : nullptr;
   }
@@ -168,6 +168,10 @@ class UrdfAssembly {
       body.shapes.push_back(shape);
       body.shape_places.push_back(link.shape_places[i]);
     }
+    for (const Vector3d& point : link.points)
+      body.points.push_back(X_FL.position + rotate(X_FL.orientation, point));
+    body.point_places.insert(body.point_places.end(), link.point_places.begin(),
+                             link.point_places.end());
   }
 
   std::nullopt_t branches(const UrdfBody& body, const UrdfJoint& second) {
