@@ -22,13 +22,13 @@ template <class Real>
   return {inward_screws(link, pass, free.Ia), inward_screws(link, pass, pa)};
 }
 
-/// Of a link whose joint has a rotor, and that carries `IA`.
+/// Of a link whose elimination leaves nothing 0, and that carries `IA`.
 template <class Real>
-[[gnu::noinline]] HipPass<Real> pass_geared(const LinkConstants<Real>& link,
-                                            const ArticulatedInertia<Real>& IA,
-                                            const Wrench<Real>& pA, const Real& torque,
-                                            LinkPass<Real>& pass) {
-  return pass_inward(link, eliminate_geared(link, IA + link.inertia), pA, torque, pass);
+[[gnu::noinline]] HipPass<Real> pass_full(const LinkConstants<Real>& link,
+                                          const ArticulatedInertia<Real>& IA,
+                                          const Wrench<Real>& pA, const Real& torque,
+                                          LinkPass<Real>& pass) {
+  return pass_inward(link, eliminate_fully(link, IA + link.inertia), pA, torque, pass);
 }
 
 }  // namespace
@@ -48,8 +48,8 @@ void backward_dynamics(const Model<Real>& model,
       const Lanes<Real> torque = gather(at_link(group, n, joint_torques));
       if (n + 1 == group.link_count()) {
         carried = pass_inward(link, group.leaf, pA, torque, passes[n]);
-      } else if (link.geared) {
-        carried = pass_geared(link, carried.IA, pA, torque, passes[n]);
+      } else if (link.full) {
+        carried = pass_full(link, carried.IA, pA, torque, passes[n]);
       } else {
         carried = pass_inward(link, eliminate(link.joint, carried.IA + link.inertia), pA, torque,
                               passes[n]);

@@ -22,10 +22,10 @@ Real rotor_energy(const Model<Real>& model, const Workspace<Real>& workspace, st
   const BodyMotion<Real>& own = workspace.bodies[body];
   const BodyMotion<Real>& carrier = workspace.bodies[carrier_of(model, body)];
   const Vector3<Real> beyond =
-      link.joint == JointType::revolute
-          ? own.w_WB - carrier.w_WB
-          : own.v_WB - carrier.v_WB - cross(carrier.w_WB, own.p_WB - carrier.p_WB);
-  const Real rate = (transpose_times(own.R_WB, beyond)).z;
+      link.joint == JointType::prismatic
+          ? own.v_WB - carrier.v_WB - cross(carrier.w_WB, own.p_WB - carrier.p_WB)
+          : own.w_WB - carrier.w_WB;
+  const Real rate = transpose_times(own.R_WB, beyond).z;
   return 0.5 * link.rotor_inertia.lanes[seat.lane] * rate * rate;
 }
 

@@ -108,9 +108,8 @@ void articulated_inertias(const Model<Real>& model, Workspace<Real>& workspace) 
       const LinkConstants<Lanes<Real>>& link = group.links[n];
       LinkPass<Lanes<Real>>& pass = passes[n];
       const Elimination<Lanes<Real>> free = n + 1 == group.link_count() ? group.leaf
-                                            : link.geared
-                                                ? eliminate_geared(link, IA + link.inertia)
-                                                : eliminate(link.joint, IA + link.inertia);
+                                            : link.full ? eliminate_fully(link, IA + link.inertia)
+                                                        : eliminate(link.joint, IA + link.inertia);
       pass.U = free.U;
       pass.D_inverse = free.D_inverse;
       IA = inward(link, pass, free.Ia);

@@ -65,24 +65,31 @@ constexpr Elimination<Real> eliminate(JointType joint, const ArticulatedInertia<
           D_inverse};
 }
 
-/// The same for a joint whose motor and gears turn with it: D = S^T U + I_r (Featherstone 2008,
-/// section 9.6, with the rotor's spin alone). Row and column along S do not vanish then. Not
-/// inlined, for the sake of robots without: those rows and columns are no numbers there, but zeros.
+/// U = IA S.
 template <class Real>
-[[gnu::noinline]] constexpr Elimination<Real> eliminate_geared(const LinkConstants<Real>& link,
-                                                               const ArticulatedInertia<Real>& IA) {
+constexpr Wrench<Real> column(JointType joint, const ArticulatedInertia<Real>& IA) {
   const auto& [I, H, M] = IA;
-  const bool turns = link.joint == JointType::revolute;
-  const Vector3<Real> m = turns ? Vector3<Real>{I.xz, I.yz, I.zz} : Vector3<Real>{H.xz, H.yz, H.zz};
-  const Vector3<Real> f = turns ? Vector3<Real>{H.zx, H.zy, H.zz} : Vector3<Real>{M.xz, M.yz, M.zz};
-  const Real D_inverse = 1. / ((turns ? m.z : f.z) + link.rotor_inertia);
-  const Vector3<Real> g = D_inverse * m;
+  if (joint == JointType::revolute) return {{I.xz, I.yz, I.zz}, {H.zx, H.zy, H.zz}};
+  return {{H.xz, H.yz, H.zz}, {M.xz, M.yz, M.zz}};
+}
+
+/// The same where nothing vanishes: of a joint whose motor and gears turn with it, D = S^T U + I_r
+/// (Featherstone 2008, section 9.6; of a rotor the spin alone). Not inlined, for the sake of joints
+/// whose zeros the recursions know.
+template <class Real>
+[[gnu::noinline]] constexpr Elimination<Real> eliminate_fully(const LinkConstants<Real>& link,
+                                                              const ArticulatedInertia<Real>& IA) {
+  const auto& [I, H, M] = IA;
+  const Wrench<Real> U = column(link.joint, IA);
+  const auto& [m, f] = U;
+  const Real D_inverse = 1. / (along(link.joint, U) + link.rotor_inertia);
+  const Vector3<Real> n = D_inverse * m;
   return {
-      {less_dyad(I, m, g),
-       {H.xx - g.x * f.x, H.xy - g.x * f.y, H.xz - g.x * f.z, H.yx - g.y * f.x, H.yy - g.y * f.y,
-        H.yz - g.y * f.z, H.zx - g.z * f.x, H.zy - g.z * f.y, H.zz - g.z * f.z},
+      {less_dyad(I, m, n),
+       {H.xx - n.x * f.x, H.xy - n.x * f.y, H.xz - n.x * f.z, H.yx - n.y * f.x, H.yy - n.y * f.y,
+        H.yz - n.y * f.z, H.zx - n.z * f.x, H.zy - n.z * f.y, H.zz - n.z * f.z},
        less_dyad(M, f, D_inverse * f)},
-      {m, f},
+      U,
       D_inverse};
 }
 

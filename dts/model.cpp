@@ -84,7 +84,7 @@ void set_link(LinkConstants<Lanes<Real>>& links, std::size_t lane, LinkDescripti
   links.d.lanes[lane] = link.d;
   links.theta.lanes[lane] = link.theta;
   set_lane(links.inertia, lane, about_origin<Real>(link.mass));
-  links.geared = links.geared || link.rotor_inertia != 0.;
+  links.full = links.full || link.rotor_inertia != 0.;
   links.rotor_inertia.lanes[lane] = link.rotor_inertia;
 }
 
@@ -103,8 +103,8 @@ void add_to(ChainGroup<Real>& group, std::size_t chain, std::size_t first_link,
   ++group.chain_count;
   if (!links.empty()) {
     const LinkConstants<Lanes<Real>>& last = group.links.back();
-    group.leaf = last.geared ? eliminate_geared(last, articulated(last.inertia))
-                             : eliminate(last.joint, articulated(last.inertia));
+    group.leaf = last.full ? eliminate_fully(last, articulated(last.inertia))
+                           : eliminate(last.joint, articulated(last.inertia));
   }
 }
 
