@@ -300,6 +300,16 @@ TEST(Urdf, AMakersRobotsLoad) {
     }
     EXPECT_NEAR(sum, total, 1e-9) << name;
   }
+  // Their meshes are not there: whoever asks for one is told where it was looked for.
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().extension() != ".urdf") continue;
+    const std::string text = testing::read_file(entry.path().string());
+    for (const char* meshes : {"box", "hull"}) {
+      const Loaded loaded = load_urdf(text, std::string(", shapes = visual, meshes = ") + meshes);
+      EXPECT_FALSE(loaded.experiment) << entry.path();
+      EXPECT_NE(loaded.diagnostics.find("there is no mesh `"), std::string::npos) << entry.path();
+    }
+  }
 }
 
 struct Case {
