@@ -208,13 +208,14 @@ TEST_F(Xacro, GetsArgumentsAsTheyAreAndOnlyItsOwn) {
 
 TEST_F(Xacro, SaysWhatItsProgramSaysWhereItFails) {
   program("echo 'no such macro: leg' >&2; echo 'when processing r.xacro' >&2; exit 2");
-  EXPECT_EQ(
-      load("r.xacro", macros_).diagnostics.substr(0, 95),
-      "error 2:2 xacro ended with status 2: no such macro: leg; when processing r.xacro\nnote "
-      "1:11 inclu");
+  const auto first_line = [&] {
+    const std::string diagnostics = load("r.xacro", macros_).diagnostics;
+    return diagnostics.substr(0, diagnostics.find('\n'));
+  };
+  EXPECT_EQ(first_line(),
+            "error 2:2 xacro ended with status 2: no such macro: leg; when processing r.xacro");
   program("echo '<robot>'");
-  EXPECT_NE(load("r.xacro", macros_).diagnostics.find("error 1:9 this is not XML"),
-            std::string::npos);
+  EXPECT_EQ(first_line(), "error 1:8 this is not XML: Start-end tags mismatch");
 }
 
 TEST_F(Xacro, IsAskedForWhereItIsNotInstalled) {

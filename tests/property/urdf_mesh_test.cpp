@@ -14,6 +14,7 @@
 #include "simulation/scene/urdf/hull.h"
 #include "simulation/scene/urdf/mesh.h"
 #include "simulation/scene/urdf/mesh_path.h"
+#include "simulation/scene/urdf/urdf.h"
 #include "tests/support/urdf_text.h"
 
 namespace hookpoint::tests {
@@ -219,7 +220,7 @@ TEST(UrdfMesh, ABrickThatTouchesByItsHullRestsOnASlopeAsABoxDoes) {
   robot.file("brick.stl", binary_stl(brick()));
   const std::string world =
       "World w { deltat = 1 ms; Material floor { static_friction = 0.8; kinetic_friction = 0.7; } "
-      "Terrain.Slope ground { slope = 15 deg; material = floor; } Include \"robot.urdf\" (rest_on "
+      "Terrain.Slope ground { angle = 15 deg; material = floor; } Include \"robot.urdf\" (rest_on "
       "= "
       "ground, meshes = hull); }";
   const auto end_of = [&](const std::string& geometry, const std::string& origin) {
@@ -265,7 +266,7 @@ TEST(UrdfMesh, IsLookedUpInItsPackageAndAlongTheSearchPath) {
   const char* dog = "dog_description/urdf/dog.urdf";
   EXPECT_EQ(found("package://dog_description/meshes/leg.stl", dog),
             "dog_description/meshes/leg.stl");
-  EXPECT_EQ(found("../meshes/leg.stl", dog), "dog_description/urdf/../meshes/leg.stl");
+  EXPECT_EQ(found("../meshes/leg.stl", dog), "dog_description/meshes/leg.stl");
   EXPECT_EQ(found("package://cat_description/meshes/ear.stl", dog),
             "cat_description/meshes/ear.stl");
   EXPECT_EQ(found("model://cow/horn.stl", dog), "elsewhere/cow/horn.stl");
@@ -315,11 +316,11 @@ TEST(UrdfMesh, WhatCannotBeReadIsRefusedAtItsName) {
   EXPECT_EQ(error("<mesh/>"), "error 2:2 this <mesh> has no filename");
   robot.file("brick.stl", binary_stl(brick()));
   EXPECT_EQ(error("<mesh filename=\"brick.stl\" scale=\"1 0 1\"/>"),
-            "error 2:29 a scale of 0 leaves nothing of a mesh");
+            "error 2:28 a scale of 0 leaves nothing of a mesh");
   EXPECT_TRUE(robot.load(robot_of("<mesh filename=\"leg.stl\"/>"), "meshes = skip").experiment);
-  EXPECT_EQ(robot.load(robot_of("<mesh filename=\"leg.stl\"/>"), "meshes = all")
-                .diagnostics.substr(0, 60),
-            "error 1:34 the argument `meshes` is skip, box or hull\nnote 1");
+  EXPECT_NE(error("<mesh filename=\"leg.stl\"/>", "all")
+                .find("the argument `meshes` is skip, box or hull"),
+            std::string::npos);
 }
 
 TEST(UrdfMesh, BrokenFilesGiveVerticesOrAProblem) {

@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <string_view>
 
 #include "reference/engines.h"
 #include "simulation/engine/dts_engine.h"
@@ -32,7 +34,7 @@ simulation::JointState first_step(simulation::EngineFactory make,
 
 void expect_acceleration(const simulation::Experiment& experiment, double acceleration,
                          double torque) {
-  const auto check = [&](const std::string& name, simulation::EngineFactory make, double within) {
+  const auto check = [&](std::string_view name, simulation::EngineFactory make, double within) {
     const simulation::JointState joint = first_step(make, experiment);
     EXPECT_NEAR(joint.acceleration, acceleration, within * std::abs(acceleration)) << name;
     EXPECT_DOUBLE_EQ(joint.torque, torque) << name;
