@@ -99,6 +99,10 @@ const Written writings[] = {
            joint("j", "continuous", "") +
            joint("k", "continuous", "<axis xyz=\"0 0 1\"/>", "l", "m")),
      ""},
+    {"root_that_weighs_nothing",
+     "<robot name=\"r\"><link name=\"b\"/>" + link_l + joint("j", "continuous", "") + "</robot>",
+     "note 1:18 link `b`, the base, has no <inertial>: it is fixed\n"},
+    {"joint_called_base", robot(link_l + joint("base", "continuous", "")), ""},
     {"rotor_link",
      robot(link_l + "<link name=\"rotor\">" + inertial + "</link>" + joint("j", "continuous", "") +
            joint("k", "fixed", "", "b", "rotor")),

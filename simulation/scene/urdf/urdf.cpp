@@ -38,6 +38,12 @@ std::string identifier(std::string text) {
   return text;
 }
 
+/// A chain is called as its first joint; the base has its name already.
+std::string chain_name(const UrdfJoint& hip) {
+  const std::string name = identifier(hip.name);
+  return name == "base" ? "base_" : name;
+}
+
 ForeignField numbers(const char* name, const std::vector<double>& of, const Position& place) {
   ForeignField field{name, {}, place};
   for (const double x : of) {
@@ -178,8 +184,12 @@ class UrdfInclude {
     const UrdfBody& body = tree.base;
     const UrdfLink& link = robot.links[body.link];
     std::string kind = word_argument("base", {"mobile", "fixed"});
-    // A root that is the world itself, as other readers take it.
-    if (kind.empty()) kind = link.name == "world" && !tree.floats ? "fixed" : "mobile";
+    // A root that is the world itself, as other readers take it, or that nothing could move.
+    const bool is_world = link.name == "world" && !tree.floats;
+    if (kind.empty() && !is_world && !tree.floats && !body.has_inertial)
+      report_.remark(link.place,
+                     fmt::format("link `{}`, the base, has no <inertial>: it is fixed", link.name));
+    if (kind.empty()) kind = is_world || (!body.has_inertial && !tree.floats) ? "fixed" : "mobile";
     ForeignObject object{"Base." + kind, "", link.place, {}, {}};
     if (kind == "mobile") require_mass(link, body);
     for (const char* name : base_fields) {
@@ -194,7 +204,7 @@ class UrdfInclude {
   ForeignObject chain_object(const UrdfRobot& robot, const std::vector<UrdfBody>& bodies,
                              const std::vector<UrdfHold>& held) {
     const UrdfJoint& hip = *bodies.front().joint;
-    ForeignObject chain{"Chain", identifier(hip.name), hip.place, {}, {}};
+    ForeignObject chain{"Chain", chain_name(hip), hip.place, {}, {}};
     add_pose(bodies.front().joint_pose, "hip_distance", "hip_orientation", hip.place, chain);
     for (const UrdfBody& body : bodies) {
       const UrdfJoint& joint = *body.joint;
