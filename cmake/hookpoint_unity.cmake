@@ -6,6 +6,8 @@ if(CMAKE_UNITY_BUILD)
   endfunction()
   hookpoint_read_apart(output records/hdf5_times.cpp figures/heat_map.cpp movies/writer.cpp)
   hookpoint_read_apart(simulation analysis/stable_step.cpp)
+  # A library of macros.
+  hookpoint_read_apart(simulation scene/urdf/hull.cpp)
   hookpoint_read_apart(studies report/terminal_table.cpp)
   hookpoint_read_apart(reference ground.cpp bullet/engine.cpp dart/engine.cpp mujoco/engine.cpp mujoco/model.cpp ode/engine.cpp ode/shapes.cpp ode/world.cpp robot_tree.cpp simbody/engine.cpp)
 endif()

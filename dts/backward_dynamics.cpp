@@ -22,6 +22,15 @@ template <class Real>
   return {inward_screws(link, pass, free.Ia), inward_screws(link, pass, pa)};
 }
 
+/// Of a link whose elimination leaves nothing 0, and that carries `IA`.
+template <class Real>
+[[gnu::noinline]] HipPass<Real> pass_full(const LinkConstants<Real>& link,
+                                          const ArticulatedInertia<Real>& IA,
+                                          const Wrench<Real>& pA, const Real& torque,
+                                          LinkPass<Real>& pass) {
+  return pass_inward(link, eliminate_fully(link, IA + link.inertia), pA, torque, pass);
+}
+
 }  // namespace
 
 template <class Real>
@@ -39,10 +48,14 @@ void backward_dynamics(const Model<Real>& model,
       if (link.carries) add_carried(group, n, workspace, carried);
       const Wrench<Lanes<Real>> pA = carried.pA + bias_wrench(group, n, passes[n], workspace);
       const Lanes<Real> torque = gather(at_link(group, n, joint_torques));
-      carried = group.ends_at(n)
-                    ? pass_inward(link, group.leaf, pA, torque, passes[n])
-                    : pass_inward(link, eliminate(link.joint, carried.IA + link.inertia), pA,
-                                  torque, passes[n]);
+      if (group.ends_at(n)) {
+        carried = pass_inward(link, group.leaf, pA, torque, passes[n]);
+      } else if (link.full) {
+        carried = pass_full(link, carried.IA, pA, torque, passes[n]);
+      } else {
+        carried = pass_inward(link, eliminate(link.joint, carried.IA + link.inertia), pA, torque,
+                              passes[n]);
+      }
       if (link.placed) {
         carried = {inward(link.placement, carried.IA), inward(link.placement, carried.pA)};
       }

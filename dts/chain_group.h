@@ -30,7 +30,7 @@ template <class Real>
 struct Elimination {
   ArticulatedInertia<Real> Ia;
   Wrench<Real> U;    ///< IA S
-  Real D_inverse{};  ///< 1 / (S^T IA S)
+  Real D_inverse{};  ///< 1 / (S^T IA S + I_r)
 };
 
 /// The part of a link's fixed transform that its screws cannot take up.
@@ -50,6 +50,8 @@ struct LinkConstants {
   bool carries = false;  ///< a chain hangs on the link, in some lane
   Real d{}, theta{};
   RigidInertia<Real> inertia;
+  bool full = false;     ///< its elimination leaves nothing 0: some lane has a rotor
+  Real rotor_inertia{};  ///< I_r, which moves with the joint alone [kg m^2, kg]
 };
 
 /// Where a chain starts, on the body B that carries it. H is the hip frame after the first link's

@@ -32,7 +32,9 @@ CompositeBodies composite_bodies(const Model<double>& model, const Workspace<dou
     if (body == 0) continue;
     const Seat& seat = model.seat_of(body);
     const Vector3d z = at.R_WB * Vector3d{0., 0., 1.};
-    const bool turns = model.groups()[seat.group].links[seat.link].joint == JointType::revolute;
+    const LinkConstants<Lanes<double>>& link = model.groups()[seat.group].links[seat.link];
+    const bool turns = link.joint == JointType::revolute;
+    composite.rotor_inertias.push_back(link.rotor_inertia.lanes[seat.lane]);
     composite.freedoms.push_back(turns ? Motion<double>{z, cross(r, z)} : Motion<double>{{}, z});
   }
   for (std::size_t body = model.body_count() - 1; body > 0; --body) {

@@ -13,6 +13,7 @@ namespace hookpoint::dts {
 struct CompositeBodies {
   std::vector<RigidInertia<double>> carried;  ///< one a body: itself and all that hangs on it
   std::vector<Motion<double>> freedoms;  ///< one a link: S, the motion at O of a unit joint rate
+  std::vector<double> rotor_inertias;    ///< one a link: I_r [kg m^2, kg]
 };
 
 /// At the posture that forward_kinematics saw last. A fixed base counts as massless. O(links).

@@ -1,5 +1,7 @@
 #include "dts/energy.h"
 
+#include "dts/composite_bodies.h"
+
 namespace hookpoint::dts {
 namespace {
 
@@ -11,6 +13,22 @@ Wrench<Real> momentum_of(const RigidInertia<Real>& inertia, const BodyMotion<Rea
   return {spin + cross(h, body.v_WB), inertia.mass * body.v_WB + cross(body.w_WB, h)};
 }
 
+/// I_r q'^2 / 2 of the joint that carries `body` >= 1; q' is what its motion has along z beyond
+/// that of its carrier.
+template <class Real>
+Real rotor_energy(const Model<Real>& model, const Workspace<Real>& workspace, std::size_t body) {
+  const Seat& seat = model.seat_of(body);
+  const LinkConstants<Lanes<Real>>& link = model.groups()[seat.group].links[seat.link];
+  const BodyMotion<Real>& own = workspace.bodies[body];
+  const BodyMotion<Real>& carrier = workspace.bodies[carrier_of(model, body)];
+  const Vector3<Real> beyond =
+      link.joint == JointType::prismatic
+          ? own.v_WB - carrier.v_WB - cross(carrier.w_WB, own.p_WB - carrier.p_WB)
+          : own.w_WB - carrier.w_WB;
+  const Real rate = transpose_times(own.R_WB, beyond).z;
+  return 0.5 * link.rotor_inertia.lanes[seat.lane] * rate * rate;
+}
+
 }  // namespace
 
 template <class Real>
@@ -20,6 +38,7 @@ Real kinetic_energy(const Model<Real>& model, const Workspace<Real>& workspace) 
     const BodyMotion<Real>& motion = workspace.bodies[body];
     const Wrench<Real> momentum = momentum_of(model.inertia(body), motion);
     energy += 0.5 * (dot(momentum.moment, motion.w_WB) + dot(momentum.force, motion.v_WB));
+    if (body > 0) energy += rotor_energy(model, workspace, body);
   }
   return energy;
 }

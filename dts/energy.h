@@ -6,7 +6,7 @@
 
 namespace hookpoint::dts {
 
-/// T = sum (m v_c^2 + w.I w) / 2 [J].
+/// T = sum (m v_c^2 + w.I w + I_r q'^2) / 2 [J].
 template <class Real>
 Real kinetic_energy(const Model<Real>& model, const Workspace<Real>& workspace);
 

@@ -132,8 +132,9 @@ void articulated_inertias(const Model<Real>& model, Workspace<Real>& workspace) 
       const LinkConstants<Lanes<Real>>& link = group.links[n];
       LinkPass<Lanes<Real>>& pass = passes[n];
       if (link.carries) IA = IA + carried_by(group, n, workspace).IA;
-      const Elimination<Lanes<Real>> free =
-          group.ends_at(n) ? group.leaf : eliminate(link.joint, IA + link.inertia);
+      const Elimination<Lanes<Real>> free = group.ends_at(n) ? group.leaf
+                                            : link.full ? eliminate_fully(link, IA + link.inertia)
+                                                        : eliminate(link.joint, IA + link.inertia);
       pass.U = free.U;
       pass.D_inverse = free.D_inverse;
       IA = inward(link, pass, free.Ia);

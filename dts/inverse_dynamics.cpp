@@ -40,7 +40,10 @@ Wrench<Real> inverse_dynamics(const Model<Real>& model, const Vector3<Real>& gra
       const LinkConstants<Lanes<Real>>& link = group.links[n];
       Wrench<Lanes<Real>> f = wrenches[n] + carried;
       if (link.carries) f = f + carried_by(group, n, workspace).pA;
-      scatter(along(link.joint, f), at_link(group, n, joint_torques));
+      // tau = S^T f + I_r q''
+      const Lanes<Real> rotor =
+          link.rotor_inertia * gather(at_link(group, n, accelerations.joints));
+      scatter(along(link.joint, f) + rotor, at_link(group, n, joint_torques));
       carried = inward(link, passes[n], f);
     }
     if (group.on_base()) {

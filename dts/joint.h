@@ -65,6 +65,34 @@ constexpr Elimination<Real> eliminate(JointType joint, const ArticulatedInertia<
           D_inverse};
 }
 
+/// U = IA S.
+template <class Real>
+constexpr Wrench<Real> column(JointType joint, const ArticulatedInertia<Real>& IA) {
+  const auto& [I, H, M] = IA;
+  if (joint == JointType::revolute) return {{I.xz, I.yz, I.zz}, {H.zx, H.zy, H.zz}};
+  return {{H.xz, H.yz, H.zz}, {M.xz, M.yz, M.zz}};
+}
+
+/// The same where nothing vanishes: of a joint whose motor and gears turn with it, D = S^T U + I_r
+/// (Featherstone 2008, section 9.6; of a rotor the spin alone). Not inlined, for the sake of joints
+/// whose zeros the recursions know.
+template <class Real>
+[[gnu::noinline]] constexpr Elimination<Real> eliminate_fully(const LinkConstants<Real>& link,
+                                                              const ArticulatedInertia<Real>& IA) {
+  const auto& [I, H, M] = IA;
+  const Wrench<Real> U = column(link.joint, IA);
+  const auto& [m, f] = U;
+  const Real D_inverse = 1. / (along(link.joint, U) + link.rotor_inertia);
+  const Vector3<Real> n = D_inverse * m;
+  return {
+      {less_dyad(I, m, n),
+       {H.xx - n.x * f.x, H.xy - n.x * f.y, H.xz - n.x * f.z, H.yx - n.y * f.x, H.yy - n.y * f.y,
+        H.yz - n.y * f.z, H.zx - n.z * f.x, H.zy - n.z * f.y, H.zz - n.z * f.z},
+       less_dyad(M, f, D_inverse * f)},
+      U,
+      D_inverse};
+}
+
 // Across a placement, inwards and outwards. Not inlined: few robots have one, and the recursions of
 // the others are a sixth slower with this code in their midst (docs/urdf.md).
 template <class Real>

@@ -1,5 +1,5 @@
 // What a joint exerts by itself, as a function of its position, its rate and where its dry friction
-// is hooked: damper, dry friction, spring, limits.
+// is hooked: damper, dry friction, spring, limits; and how much of its drive's torque it gets.
 #pragma once
 
 #include <limits>
@@ -19,9 +19,17 @@ struct JointProperties {
   Real stiffness{0.}, rest_position{0.};
   Real lower_limit{-std::numeric_limits<double>::infinity()};
   Real upper_limit{std::numeric_limits<double>::infinity()};
-  Real limit_stiffness{1000.};  ///< k_l of the stop
-  Real limit_damping{1.};       ///< c_l of the stop
+  Real limit_stiffness{1000.};                                 ///< k_l of the stop
+  Real limit_damping{1.};                                      ///< c_l of the stop
+  Real effort_limit{std::numeric_limits<double>::infinity()};  ///< tau_max of the drive
 };
+
+/// What a drive that is asked for `torque` gives: at most tau_max, either way.
+template <class Real>
+Real drive_torque(const JointProperties<Real>& joint, const Real& torque) {
+  const Real& most = joint.effort_limit;
+  return select(torque > most, most, select(torque < -most, -most, torque));
+}
 
 /// Where dry friction is hooked once the joint has come to `position`: the anchor h stays while
 /// |q - h| <= z_f, beyond it is dragged along.

@@ -31,6 +31,7 @@ std::vector<double> mass_matrix(const Model<double>& model, const CompositeBodie
     add_base_rows(column, f);
     for (std::size_t inner = body; inner > 0; inner = model.carrier_of(inner))
       set(first + inner - 1, column, dot(f, composite.freedoms[inner - 1]));
+    M[column * n + column] += composite.rotor_inertias[body - 1];
   }
   return M;
 }

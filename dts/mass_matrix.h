@@ -7,7 +7,8 @@
 
 namespace hookpoint::dts {
 
-/// M, row by row, velocity_count squared: M_ij = S_i . Ic_j S_j where joint i carries joint j. The
+/// M, row by row, velocity_count squared: M_ij = S_i . Ic_j S_j where joint i carries joint j, and
+/// I_r more where i is j. The
 /// kinetic energy is v.M v / 2. [kg m^2, kg m, kg]. O(links^2).
 std::vector<double> mass_matrix(const Model<double>& model, const CompositeBodies& composite);
 

@@ -85,6 +85,8 @@ void set_link(LinkConstants<Lanes<Real>>& links, std::size_t lane, LinkDescripti
   links.d.lanes[lane] = link.d;
   links.theta.lanes[lane] = link.theta;
   set_lane(links.inertia, lane, about_origin<Real>(link.mass));
+  links.full = links.full || link.rotor_inertia != 0.;
+  links.rotor_inertia.lanes[lane] = link.rotor_inertia;
 }
 
 /// Adds a chain to a group of its kind: in the next lane, and for the time being in those beyond.
@@ -102,7 +104,9 @@ void add_to(ChainGroup<Real>& group, std::size_t chain, std::size_t first_link, 
   group.in_use.bits[group.chain_count] = -1;
   ++group.chain_count;
   if (!links.empty()) {
-    group.leaf = eliminate(links.back().joint, articulated(group.links.back().inertia));
+    const LinkConstants<Lanes<Real>>& last = group.links.back();
+    group.leaf = last.full ? eliminate_fully(last, articulated(last.inertia))
+                           : eliminate(last.joint, articulated(last.inertia));
   }
 }
 

@@ -32,6 +32,7 @@ struct LinkDescription {
   MassProperties<double> mass;
   Vector3d joint_position;        ///< of the fixed transform, preceding link's axes [m]
   Quaterniond joint_orientation;  ///< of the fixed transform
+  double rotor_inertia = 0.;      ///< I_r of the joint's motor and gears, at the joint [kg m^2, kg]
 };
 
 struct ChainDescription {

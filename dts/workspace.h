@@ -25,7 +25,7 @@ struct LinkPass {
   Vector3<Real> w;     ///< angular velocity
   Motion<Real> c;      ///< acceleration that the velocities alone give the link
   Wrench<Real> U;      ///< IA S
-  Real D_inverse{};    ///< 1 / (S^T IA S)
+  Real D_inverse{};    ///< 1 / (S^T IA S + I_r)
   Real u{};            ///< tau - S^T pA
   Real impulse{};      ///< as u, when impulses take the place of forces; 0 but during a response
 };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -31,6 +32,15 @@ class FileStore {
   /// `trail=value` as a file of its own, named <--set trail>. Thread-safe.
   const ParsedFile& override_text(const std::string& trail, const std::string& value);
   const std::vector<std::filesystem::path>& search_path() const { return search_path_; }
+  /// What `make` returns, under the name `key`: made once, kept for good, as what a reader of
+  /// another format finds in files of its own. `make` asks for nothing that is kept. Thread-safe.
+  template <class Made>
+  const Made& keep(const std::string& key, const std::function<Made()>& make) {
+    const std::lock_guard lock(made_mutex_);
+    std::shared_ptr<const void>& made = made_[key];
+    if (made == nullptr) made = std::make_shared<const Made>(make());
+    return *static_cast<const Made*>(made.get());
+  }
 
  private:
   /// Under the lock: where the file is kept, null before it is.
@@ -43,6 +53,8 @@ class FileStore {
   std::mutex mutex_;
   std::map<std::string, std::unique_ptr<ParsedFile>> files_;
   std::map<std::string_view, std::unique_ptr<ParsedFile>> overrides_;  ///< by their own texts
+  std::mutex made_mutex_;
+  std::map<std::string, std::shared_ptr<const void>> made_;
 };
 
 /// Where the file `path` lies that an Include or a Plugin of `file` names at `place`. Empty, after

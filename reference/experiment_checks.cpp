@@ -42,6 +42,8 @@ void add_robot(const simulation::Experiment& experiment, int index, std::vector<
       add_inertia(link.body, "link " + chain.name + "." + link.body.name + " of " + name, uses);
       if (link.lower_limit || link.upper_limit)
         uses.push_back({feature::joint_limits, joint + " has a limit"});
+      if (link.rotor_inertia > 0.)
+        uses.push_back({feature::rotors, joint + " has a rotor_inertia"});
     }
   if (touches_by_points(experiment, index)) {
     uses.push_back({feature::points, name + " touches by its boundary points"});

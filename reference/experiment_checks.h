@@ -20,6 +20,7 @@ inline constexpr std::string_view prismatic = "prismatic joints";
 inline constexpr std::string_view massless = "links without mass";
 inline constexpr std::string_view no_inertia = "bodies with mass and without inertia";
 inline constexpr std::string_view joint_limits = "joint limits";
+inline constexpr std::string_view rotors = "rotor inertias";
 inline constexpr std::string_view two_frictions = "static friction that differs from kinetic";
 inline constexpr std::string_view restitution = "restitution";
 inline constexpr std::string_view tile_friction = "friction of single tiles";

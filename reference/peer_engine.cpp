@@ -9,6 +9,7 @@
 
 #include "reference/experiment_checks.h"
 #include "reference/touching_points.h"
+#include "simulation/effort_watch.h"
 #include "simulation/engine/robot_system.h"
 #include "simulation/joint_properties.h"
 #include "simulation/names.h"
@@ -38,6 +39,7 @@ class PeerEngine final : public simulation::Engine {
         tree_(robot_tree(experiment_)),
         trails_(simulation::body_trails(experiment_)),
         inputs_(simulation::initial_inputs(experiment_)),
+        efforts_(experiment_),
         acting_(inputs_),
         touching_(touching_points(experiment_, tree_)),
         point_forces_(touching_.size()) {
@@ -57,6 +59,7 @@ class PeerEngine final : public simulation::Engine {
 
   StepStatus step() override {
     if (!failure_.ok()) return failure_;
+    efforts_.look(inputs_, state_.time, state_.notices);
     take_inputs();
     const std::string trouble = world_->advance(acting_);
     world_->read(next_bodies_, next_joints_);
@@ -104,8 +107,8 @@ class PeerEngine final : public simulation::Engine {
   void publish_ground_forces() override { state_.ground_force_time = world_->force_time(); }
 
  private:
-  /// What the joints exert by themselves (docs/joints.md) every peer has as an explicit torque,
-  /// from the state at the step's start.
+  /// What the joints exert by themselves (docs/joints.md) and what their drives may give every peer
+  /// has as an explicit torque, from the state at the step's start.
   void take_inputs() {
     acting_.forces = inputs_.forces;
     acting_.pull = inputs_.pull;
@@ -116,7 +119,7 @@ class PeerEngine final : public simulation::Engine {
       const dts::JointProperties<double>& passive = passive_joints_[joint];
       anchors_[joint] = dts::dragged_anchor(passive, now.angle, anchors_[joint]);
       acting_.joint_torques[joint] =
-          inputs_.joint_torques[joint] +
+          dts::drive_torque(passive, inputs_.joint_torques[joint]) +
           dts::passive_joint_torque(passive, now.angle, now.rate, anchors_[joint]);
     }
   }
@@ -194,6 +197,7 @@ class PeerEngine final : public simulation::Engine {
   const RobotTree tree_;
   const std::vector<std::string> trails_;
   simulation::WorldInputs inputs_;
+  simulation::EffortWatch efforts_;
   simulation::WorldInputs acting_;  ///< with what the joints exert by themselves
   std::optional<contact::Terrain> ground_;
   const std::vector<TouchingPoint> touching_;

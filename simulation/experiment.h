@@ -87,6 +87,8 @@ struct LinkSpec {
   std::optional<double> lower_limit, upper_limit;
   double limit_stiffness = joint_types[0].defaults.limit_stiffness;
   double limit_damping = joint_types[0].defaults.limit_damping;
+  std::optional<double> effort_limit;  ///< of the drive's torque, either way
+  double rotor_inertia = 0.;           ///< of motor and gears, at the joint
 };
 
 /// Links in series that hang on the base or on a link of an earlier chain.

@@ -14,6 +14,7 @@ dts::JointProperties<double> joint_properties(const LinkSpec& link) {
   if (link.upper_limit) joint.upper_limit = *link.upper_limit;
   joint.limit_stiffness = link.limit_stiffness;
   joint.limit_damping = link.limit_damping;
+  if (link.effort_limit) joint.effort_limit = *link.effort_limit;
   return joint;
 }
 

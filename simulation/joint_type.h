@@ -17,6 +17,7 @@ struct JointUnits {
   const char* torque;  ///< of a joint that slides a force
   const char* stiffness;
   const char* damping;
+  const char* inertia;  ///< of a joint that slides a mass
 };
 
 /// Of joints that state none (docs/joints.md).
@@ -41,12 +42,12 @@ inline constexpr std::array<JointType, 2> joint_types{{
     {JointKind::revolute,
      "revolute",
      true,
-     {"rad", "rad/s", "rad/s^2", "N.m", "N.m/rad", "N.m.s/rad"},
+     {"rad", "rad/s", "rad/s^2", "N.m", "N.m/rad", "N.m.s/rad", "kg.m^2"},
      {1e-3, 0.05, 1000., 1.}},
     {JointKind::prismatic,
      "prismatic",
      false,
-     {"m", "m/s", "m/s^2", "N", "N/m", "N.s/m"},
+     {"m", "m/s", "m/s^2", "N", "N/m", "N.s/m", "kg"},
      {1e-4, 0.005, 1e5, 100.}},
 }};
 

@@ -4,8 +4,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "simulation/ground.h"
+#include "simulation/rotors.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -355,7 +357,10 @@ double kinetic_energy(const RunContext& context, const simulation::WorldState& w
                   const Vector3d w_B = rotate(conjugate(body.orientation), body.angular_velocity);
                   energy += 0.5 * mass.mass * dot(v_WC, v_WC) + 0.5 * dot(w_B, mass.inertia * w_B);
                 });
-  return energy;
+  // Each robot ahead has one body more than joints.
+  const std::size_t first_joint = context.body - static_cast<std::size_t>(context.robot);
+  return energy + simulation::rotor_energy(context.robot_spec(),
+                                           std::span(world.joints).subspan(first_joint));
 }
 
 double mechanical_energy(const RunContext& context, const simulation::WorldState& world) {

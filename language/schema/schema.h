@@ -92,11 +92,13 @@ struct ClassSchema {
 struct ForeignArguments;
 struct ForeignObject;
 struct SourceFile;
+class FileStore;
 class Report;
 /// Reads a file that is not in the language (foreign.h): the objects that an Include of it with
-/// these arguments lays down. What is wrong goes to the report.
+/// these arguments lays down. `files` says where others are looked up, and keeps what is read of
+/// them. What is wrong goes to the report.
 using ForeignReader = std::function<std::vector<ForeignObject>(
-    const SourceFile& file, const ForeignArguments& arguments, Report& report)>;
+    const SourceFile& file, const ForeignArguments& arguments, FileStore& files, Report& report)>;
 
 /// All classes. Every folder that owns objects of the language adds its own; the command joins
 /// them.

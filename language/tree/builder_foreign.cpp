@@ -15,7 +15,7 @@ void Builder::lay_foreign_file(const FileScope& scope) {
   for (const auto& [name, given] : scope.given)
     arguments.emplace(name, ForeignField{name, given.values, given.position});
   const std::vector<ForeignObject> objects =
-      (*scope.file.reader)(scope.file.source, arguments, report_);
+      (*scope.file.reader)(scope.file.source, arguments, files_, report_);
   for (const ForeignObject& object : objects) lay_foreign(scope, object);
 }
 

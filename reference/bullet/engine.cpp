@@ -14,6 +14,7 @@ using enum simulation::EngineGap::Handling;
 /// What Bullet lacks.
 constexpr auto gaps = std::to_array<OwnGap>({
     single_friction_gap,
+    {feature::rotors, refused, "joints of Bullet have no inertia of their own; use dts or mujoco"},
 });
 
 }  // namespace

@@ -18,6 +18,7 @@ constexpr auto gaps = std::to_array<OwnGap>({
     {feature::legcone, refused, "DART has no truncated cone; use Cylinder, Sphere or Box"},
     {feature::tile_softness, noticed,
      "at `settings = matched` the constants of the terrain's own material hold on every tile"},
+    {feature::rotors, refused, "joints of DART have no inertia of their own; use dts or mujoco"},
 });
 
 }  // namespace

@@ -166,8 +166,8 @@ class Builder {
       return;
     }
     text_ << "<joint name=\"" << name('j', index) << "\" type=\""
-          << (body.turns() ? "hinge" : "slide")
-          << "\" axis=\"0 0 1\" damping=\"0\" armature=\"0\"/>";
+          << (body.turns() ? "hinge" : "slide") << "\" axis=\"0 0 1\" damping=\"0\" armature=\""
+          << body.link->rotor_inertia << "\"/>";
   }
 
   void write_inertia(const TreeBody& body) {

@@ -19,6 +19,7 @@ constexpr auto gaps = std::to_array<OwnGap>({
     {feature::massless, refused, "every body of ODE has a mass; give the link one"},
     {feature::no_inertia, refused,
      "every body of ODE has an inertia; give it a shape or an inertia"},
+    {feature::rotors, refused, "joints of ODE have no inertia of their own; use dts or mujoco"},
 });
 
 }  // namespace

@@ -24,6 +24,7 @@ constexpr auto gaps = std::to_array<OwnGap>({
     {feature::tile_friction, refused, "use one material"},
     {feature::tile_softness, refused, "use one material"},
     {feature::tile_restitution, refused, "use one material"},
+    {feature::rotors, refused, "joints of Simbody have no inertia of their own; use dts or mujoco"},
 });
 
 }  // namespace

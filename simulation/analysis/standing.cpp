@@ -202,12 +202,13 @@ struct Drives {
     for_each_link(experiment.robots[robot], [&](const TreeLink& tree) {
       const std::size_t joint = tree.joint();
       const double position = at.state().joint_positions[joint];
-      double torque = dts::passive_joint_torque(joints.properties()[joint], position, 0.,
-                                                joints.anchors()[joint]);
+      const dts::JointProperties<double>& properties = joints.properties()[joint];
       const DrivenJoint* drive = find(joint);
-      if (drive == nullptr) torque += tree.link.torque;
-      if (drive != nullptr && drive->goal)
-        torque += drive->proportional * (*drive->goal - position);
+      double asked = drive == nullptr ? tree.link.torque : 0.;
+      if (drive != nullptr && drive->goal) asked = drive->proportional * (*drive->goal - position);
+      const double torque =
+          dts::drive_torque(properties, asked) +
+          dts::passive_joint_torque(properties, position, 0., joints.anchors()[joint]);
       sum += torque * levers.row(static_cast<Eigen::Index>(joint)).transpose();
     });
     return sum;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "contact/force_law.h"
+#include "simulation/effort_watch.h"
 #include "simulation/engine/force_robot.h"
 #include "simulation/engine/impulse_part.h"
 #include "simulation/ground.h"
@@ -27,6 +28,7 @@ class DtsEngine final : public Engine, public Resumable {
   explicit DtsEngine(const Experiment& experiment)
       : experiment_(experiment),
         inputs_(initial_inputs(experiment_)),
+        efforts_(experiment_),
         ground_(make_ground(experiment_)) {
     const contact::LawDescription* law = contact::find_law(experiment_.contact);
     if (law == nullptr)
@@ -49,6 +51,7 @@ class DtsEngine final : public Engine, public Resumable {
   }
 
   StepStatus step() override {
+    efforts_.look(inputs_, state_.time, state_.notices);
     for (std::size_t i = 0; i < parts_.size(); ++i) {
       const StepStatus status = parts_[i].robot->step(state_.time);
       if (status.ok()) continue;
@@ -194,6 +197,7 @@ class DtsEngine final : public Engine, public Resumable {
 
   const Experiment experiment_;
   WorldInputs inputs_;
+  EffortWatch efforts_;
   const std::optional<contact::Terrain> ground_;
   std::vector<Part> parts_;
   WorldState state_;

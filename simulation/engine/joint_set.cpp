@@ -28,8 +28,9 @@ JointSet::JointSet(const RobotSpec& robot) {
 void JointSet::torques(std::span<const double> drive, std::span<const double> positions,
                        std::span<const double> rates, std::span<double> torques) const {
   for (std::size_t i = 0; i < properties_.size(); ++i) {
-    torques[i] =
-        drive[i] + dts::passive_joint_torque(properties_[i], positions[i], rates[i], anchors_[i]);
+    const dts::JointProperties<double>& joint = properties_[i];
+    torques[i] = dts::drive_torque(joint, drive[i]) +
+                 dts::passive_joint_torque(joint, positions[i], rates[i], anchors_[i]);
   }
 }
 

@@ -16,7 +16,8 @@ class JointSet {
   /// Dry friction begins unstretched, where the joints are at first.
   explicit JointSet(const RobotSpec& robot);
 
-  /// tau = drive + what each joint exerts by itself (dts/joint_forces.h) [N m, N].
+  /// tau = drive, within effort_limit, + what each joint exerts by itself (dts/joint_forces.h)
+  /// [N m, N].
   void torques(std::span<const double> drive, std::span<const double> positions,
                std::span<const double> rates, std::span<double> torques) const;
 

@@ -19,7 +19,8 @@ dts::LinkDescription describe_link(const LinkSpec& link) {
           type,
           mass_properties(link.body.mass),
           link.joint_location,
-          link.joint_orientation};
+          link.joint_orientation,
+          link.rotor_inertia};
 }
 
 }  // namespace

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "dts/joint_forces.h"
 #include "simulation/joint_properties.h"
 #include "simulation/robot_tree.h"
+#include "simulation/rotors.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -18,13 +20,13 @@ constexpr double wavering = 0.05;
 /// Of the energies summed: what rounding leaves.
 constexpr double rounding = 1e-9;
 
-double spring_energy(const dts::JointProperties<double>& joint, double position, double torque) {
+double spring_energy(const dts::JointProperties<double>& joint, double position, double drive) {
   const double below = std::max(0., joint.lower_limit - position);
   const double above = std::max(0., position - joint.upper_limit);
   const double stretch = position - joint.rest_position;
   return 0.5 * (joint.stiffness * stretch * stretch +
                 joint.limit_stiffness * (below * below + above * above)) -
-         torque * position;
+         dts::drive_torque(joint, drive) * position;
 }
 
 }  // namespace
@@ -58,7 +60,7 @@ void EnergyWatch::sample() {
   const WorldState& state = world_.state();
   Sample now{state.time, 0., world_.ground_energy().value_or(0.)};
   auto body = state.bodies.begin();
-  auto joint = state.joints.begin();
+  std::span joints(state.joints);
   const auto add = [&](const MassSpec& mass, const BodyState& motion) {
     const Vector3d arm = rotate(motion.orientation, mass.center_of_mass);
     const Vector3d velocity = motion.velocity + cross(motion.angular_velocity, arm);
@@ -71,8 +73,11 @@ void EnergyWatch::sample() {
     ++body;
     for_each_link(robot, [&](const TreeLink& at) {
       add(at.link.body.mass, *body++);
-      now.energy += spring_energy(joint_properties(at.link), (joint++)->angle, at.link.torque);
+      now.energy +=
+          spring_energy(joint_properties(at.link), joints[at.joint()].angle, at.link.torque);
     });
+    now.kinetic += rotor_energy(robot, joints.first(joint_count(robot)));
+    joints = joints.subspan(joint_count(robot));
   }
   for (const ForceSpec& force : experiment_.forces) {
     const std::size_t first = first_bodies_[static_cast<std::size_t>(force.robot)];

@@ -29,7 +29,8 @@ const Fields<ChainSpec>& chain_fields() {
 }
 
 /// What a joint accelerates: the inertia of its link and all further out about its axis (their
-/// mass, for a prismatic joint), and the size that such an inertia is measured against.
+/// mass, for a prismatic joint) and of its rotor, and the size that such an inertia is measured
+/// against.
 struct MovedInertia {
   double value = 0., scale = 0.;
 
@@ -40,6 +41,10 @@ struct MovedInertia {
     const Symmetric3d I_J = I_C + point_inertia(mass.mass, p_JC);
     value += turns ? I_J.zz : mass.mass;
     scale += turns ? I_J.xx + I_J.yy + I_J.zz : mass.mass;
+  }
+  void add_rotor(double inertia) {
+    value += inertia;
+    scale += inertia;
   }
 };
 
@@ -92,6 +97,7 @@ void check_joints(const LoadedRobot& loaded, Loading& loading) {
   const auto turns = [&](std::size_t joint) { return joint_type(links[joint].link.joint).turns; };
   std::vector<MovedInertia> moved(links.size());
   for (const TreeLink& outer : links) {
+    moved[outer.joint()].add_rotor(outer.link.rotor_inertia);
     Pose X_JL;
     for (std::size_t body = outer.body; body > 0;) {
       const TreeLink& at = links[body - 1];

@@ -111,6 +111,13 @@ const Fields<LinkSpec>& joint_fields() {
                                "joint spring: torque = -stiffness (angle - rest_angle)")),
       joint_field("rest_angle", &Units::position, &LinkSpec::rest_angle,
                   "angle at which the joint spring is slack"),
+      positive(joint_field("effort_limit", &Units::torque, &LinkSpec::effort_limit,
+                           "greatest `torque` that the drive gives, either way: what is asked "
+                           "beyond it is not exerted, and a notice of the run says so; none if not "
+                           "given")),
+      not_negative(joint_field("rotor_inertia", &Units::inertia, &LinkSpec::rotor_inertia,
+                               "of motor and gears, as the joint sees it: gear ratio squared times "
+                               "the rotor's own")),
   };
   return fields;
 }

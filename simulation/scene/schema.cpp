@@ -22,7 +22,7 @@ void make_readable(language::ClassSchema& schema) {
 }  // namespace
 
 void add_experiment_classes(language::Schema& schema, const PeerChoices& peers) {
-  schema.add_reader(".urdf", include_urdf);
+  for (const char* ending : {".urdf", ".xacro"}) schema.add_reader(ending, include_urdf);
   language::Schema classes;
   add_world_classes(classes, peers);
   add_force_classes(classes);

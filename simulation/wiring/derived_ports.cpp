@@ -1,8 +1,10 @@
 #include "simulation/wiring/derived_ports.h"
 
 #include <cmath>
+#include <span>
 
 #include "simulation/robot_tree.h"
+#include "simulation/rotors.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -33,9 +35,10 @@ void DerivedPorts::restart() {
   update();
 }
 
-// T = (m v_c^2 + w.I w)/2, V = -m g.c of every body that moves.
+// T = (m v_c^2 + w.I w + I_r q'^2)/2, V = -m g.c of every body that moves.
 void DerivedPorts::compute_energies() {
   auto body = engine_.state().bodies.begin();
+  std::span joints(engine_.state().joints);
   for (std::size_t i = 0; i < robots_.size(); ++i) {
     const RobotSpec& robot = experiment_.robots[i];
     RobotValues sum;
@@ -53,6 +56,8 @@ void DerivedPorts::compute_energies() {
     if (robot.mobile) add(robot.base.mass, *body);
     ++body;
     for_each_link(robot, [&](const TreeLink& at) { add(at.link.body.mass, *body++); });
+    sum.kinetic_energy += rotor_energy(robot, joints);
+    joints = joints.subspan(joint_count(robot));
     if (total > 0.) sum.center_of_mass = (1. / total) * sum.center_of_mass;
     finite_ = finite_ && std::isfinite(sum.kinetic_energy) && std::isfinite(sum.potential_energy) &&
               is_finite(sum.center_of_mass);

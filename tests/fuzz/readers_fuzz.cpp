@@ -20,6 +20,8 @@
 #include "output/text/json_reader.h"
 #include "simulation/scene/terrain/ascii_grid.h"
 #include "simulation/scene/terrain/png_grid.h"
+#include "simulation/scene/urdf/hull.h"
+#include "simulation/scene/urdf/mesh.h"
 #include "simulation/scene/urdf/urdf.h"
 #include "studies/cluster/journal.h"
 #include "studies/cluster/run_list.h"
@@ -92,12 +94,30 @@ void read_urdf(const std::string& bytes) {
   language::SourceFile file{"robot.urdf", bytes, {}};
   language::index_lines(file);
   language::Report report;
-  const auto objects = simulation::include_urdf(file, {}, report);
+  const language::Schema schema;
+  language::FileStore files(schema, {});
+  const auto objects = simulation::include_urdf(file, {}, files, report);
   fuzz::require(!objects.empty() || report.has_errors(), "neither a robot nor a mistake");
   language::Diagnostics diagnostics;
   report.deliver(diagnostics);
   for (const language::Diagnostic& diagnostic : diagnostics.all())
     fuzz::require(diagnostic.position.offset <= bytes.size(), "a place outside the file");
+}
+
+/// The same bytes as each kind of mesh.
+void read_meshes(const std::string& bytes) {
+  for (const auto& read : {simulation::read_stl, simulation::read_obj, simulation::read_collada}) {
+    const simulation::MeshPoints mesh = read(bytes);
+    fuzz::require(mesh.vertices.size() <= bytes.size() * 10'000, "vertices out of nothing");
+    if (mesh.vertices.empty() || mesh.vertices.size() > 1000) continue;
+    const auto hull = simulation::spread_points(mesh.vertices, 8);
+    fuzz::require(hull.size() <= 8, "more points than were asked for");
+  }
+}
+
+void read_robot(const std::string& bytes) {
+  read_urdf(bytes);
+  read_meshes(bytes);
 }
 
 void read_movie(const std::string& bytes) {
@@ -194,9 +214,9 @@ void read_text(const std::string& bytes) {
 
 void run(char kind, const std::string& bytes) {
   constexpr void (*readers[])(const std::string&) = {
-      read_csv,  read_mat,   read_grid,  read_unit,   read_rational,
-      read_urdf, read_movie, read_spool, read_json,   read_table,
-      read_png,  read_elf,   read_row,   read_folder, read_text};
+      read_csv,   read_mat,   read_grid,  read_unit,   read_rational,
+      read_robot, read_movie, read_spool, read_json,   read_table,
+      read_png,   read_elf,   read_row,   read_folder, read_text};
   try {
     readers[static_cast<unsigned char>(kind) % std::size(readers)](bytes);
   } catch (const std::exception&) {

@@ -1,7 +1,7 @@
 // The truth that the recursions are held against: the mass matrix written out. Body Jacobians from
-// world kinematics, M = sum J^T diag(I, m) J, and J' v by differentiating those same Jacobians
-// along the motion with dual numbers, so that no velocity product is ever derived by hand. Shares
-// nothing with dts/ but its descriptions.
+// world kinematics, M = sum J^T diag(I, m) J with the rotors' inertias on its diagonal, and J' v by
+// differentiating those same Jacobians along the motion with dual numbers, so that no velocity
+// product is ever derived by hand. Shares nothing with dts/ but its descriptions.
 #pragma once
 
 #include <eigen3/Eigen/Dense>
@@ -171,6 +171,10 @@ class DenseDynamics {
       const auto& body = still_.bodies()[i];
       M_ += body.J_angular.transpose() * inertia(i) * body.J_angular +
             properties(i).mass * body.J_linear.transpose() * body.J_linear;
+    }
+    Eigen::Index joint = robot.mobile ? 6 : 0;
+    for (const auto& chain : robot.chains) {
+      for (const auto& link : chain.links) M_.diagonal()[joint++] += link.rotor_inertia;
     }
   }
 

@@ -31,6 +31,7 @@ inline simulation::ChainSpec chain_spec(const dts::ChainDescription& chain, std:
     added.joint = link.joint == dts::JointType::revolute ? simulation::JointKind::revolute
                                                          : simulation::JointKind::prismatic;
     added.body.mass = mass_spec(link.mass);
+    added.rotor_inertia = link.rotor_inertia;
     added.angle = state.joint_positions[first_joint + n];
     added.rate = state.joint_rates[first_joint + n];
   }

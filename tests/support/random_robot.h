@@ -13,7 +13,7 @@ namespace hookpoint::tests {
 
 class RandomRobots {
  public:
-  explicit RandomRobots(std::uint64_t seed) : engine_(seed) {}
+  explicit RandomRobots(std::uint64_t seed) : engine_(seed), rotors_(seed + 1) {}
 
   double uniform(double low, double high) { return test_support::drawn(engine_, low, high); }
   int integer(int low, int high) { return int(std::floor(uniform(low, high + 1.))); }
@@ -45,6 +45,9 @@ class RandomRobots {
     link.joint = chance(prismatic) ? dts::JointType::prismatic : dts::JointType::revolute;
     link.mass = mass_properties();
     if (chance(0.3)) place(link, degenerate);
+    // Drawn apart: robots are otherwise the same with rotors and without.
+    if (test_support::drawn(rotors_, 0., 1.) < 0.3)
+      link.rotor_inertia = test_support::drawn(rotors_, 0., 0.5);
     return link;
   }
 
@@ -100,7 +103,7 @@ class RandomRobots {
     link.joint_orientation = degenerate ? exponential(vector(1e-6)) : orientation();
   }
 
-  std::mt19937_64 engine_;
+  std::mt19937_64 engine_, rotors_;
 };
 
 }  // namespace hookpoint::tests

@@ -62,6 +62,27 @@ TEST(DtsClosedForms, Pendulum) {
   }
 }
 
+/// A motor of inertia I_r turns with the joint: (m l^2 + I_r) q'' = tau - m g l cos q, and the base
+/// feels tau - I_r q''. Of a link without mass I_r is all there is.
+TEST(DtsClosedForms, PendulumWithARotor) {
+  for (const double mass : {0.7, 0.}) {
+    const double length = 0.8, rotor = 0.31, torque = 0.3, q = 0.4, rate = 1.7;
+    dts::LinkDescription link = bob(0., quarter, mass, length);
+    link.rotor_inertia = rotor;
+    const Model<double> model(arm({link}));
+    Workspace<double> workspace(model);
+    State<double> state = dts::zero_state(model);
+    state.joint_positions[0] = q;
+    state.joint_rates[0] = rate;
+    dts::forward_dynamics(model, state, gravity, std::vector<double>{torque}, workspace);
+    const double inertia = mass * length * length + rotor;
+    const double ddq = (torque - mass * g * length * std::cos(q)) / inertia;
+    EXPECT_NEAR(workspace.joint_accelerations[0], ddq, 1e-12);
+    EXPECT_NEAR(workspace.hip_wrenches[0].moment.y, torque - rotor * ddq, 1e-12);
+    EXPECT_NEAR(dts::kinetic_energy(model, workspace), 0.5 * inertia * rate * rate, 1e-13);
+  }
+}
+
 // Lagrange: with p = q1 + q2 the absolute angle of the second bob above the horizontal,
 //   (m1 + m2) l1^2 dd1 + m2 l1 l2 (cos(q2) ddp - sin(q2) dp^2) + (m1 + m2) g l1 cos q1 = 0
 //   m2 l2^2 ddp + m2 l1 l2 (cos(q2) dd1 + sin(q2) d1^2) + m2 g l2 cos p = 0

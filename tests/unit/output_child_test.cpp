@@ -1,6 +1,7 @@
 // Programs that are started: words stay words, and what they say and how they end comes back.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <csignal>
 
 #include "output/child.h"
@@ -31,6 +32,37 @@ TEST(Child, BothStreamsAndTheStatusComeBack) {
   EXPECT_EQ(result->output, "out\nerr\n");
   EXPECT_EQ(result->status, 7);
   EXPECT_FALSE(run_program("no-such-program-anywhere", {}, "/").has_value());
+}
+
+TEST(Child, ItsStreamsComeApartWhereAsked) {
+  const auto result =
+      run_program("sh", {"-c", "echo out; echo err >&2; exit 3"}, "/", {.errors_apart = true});
+  ASSERT_TRUE(result.has_value());
+  EXPECT_EQ(result->output, "out\n");
+  EXPECT_EQ(result->errors, "err\n");
+  EXPECT_EQ(result->status, 3);
+  EXPECT_FALSE(result->stopped);
+}
+
+/// Alive or not, with its streams open or closed, and with a program of its own that waits.
+TEST(Child, IsStoppedWithAllThatItStartedBeyondItsLimits) {
+  using namespace std::chrono;
+  for (const char* script : {"sleep 60", "exec >&- 2>&-; sleep 60", "sleep 60 & wait"}) {
+    const auto start = steady_clock::now();
+    const auto result = run_program("sh", {"-c", script}, "/", {.most_seconds = 0.2});
+    ASSERT_TRUE(result.has_value());
+    EXPECT_TRUE(result->stopped) << script;
+    EXPECT_EQ(result->status, 128 + SIGKILL) << script;
+    EXPECT_LT(steady_clock::now() - start, 30s);
+  }
+  const auto talker = run_program("sh", {"-c", "while :; do echo words; done"}, "/",
+                                  {.most_seconds = 60., .most_bytes = 1000});
+  ASSERT_TRUE(talker.has_value());
+  EXPECT_TRUE(talker->stopped);
+  const auto quick = run_program("true", {}, "/", {.most_seconds = 60.});
+  ASSERT_TRUE(quick.has_value());
+  EXPECT_FALSE(quick->stopped);
+  EXPECT_EQ(quick->status, 0);
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 // carries at most the weight M g at their end, a moment M g l. With
 //   k = M g l/sag     c = 2 sqrt(k I)
 // it gives way by no more than `sag` at rest, and its outer bodies, of moment of inertia I about
-// its axis, come to rest without overshoot while they swing free.
+// its axis with the rotor's, come to rest without overshoot while they swing free.
 #include <algorithm>
 #include <cmath>
 
@@ -55,6 +55,8 @@ class UrdfHolding {
     double lowest = X_BL.position.z;
     for (const ShapeSpec& shape : body.shapes)
       lowest = std::min(lowest, (X_BL * Pose{shape.location, shape.orientation}).position.z);
+    for (const Vector3d& point : body.points)
+      lowest = std::min(lowest, (X_BL * Pose{point, {}}).position.z);
     lowest_ = std::min(lowest_, lowest);
     mass_ += body.mass.mass;
     Pose X_JL;  // in the frame of each joint that carries it
@@ -79,6 +81,8 @@ class UrdfHolding {
       const Pose X_JS = X_JL * Pose{shape.location, shape.orientation};
       beyond.reach = std::max(beyond.reach, norm(X_JS.position));
     }
+    for (const Vector3d& point : body.points)
+      beyond.reach = std::max(beyond.reach, norm((X_JL * Pose{point, {}}).position));
   }
 
   UrdfHold hold(const UrdfJoint& joint, const Beyond& beyond) const {
@@ -87,7 +91,8 @@ class UrdfHolding {
     const double weight = standard_gravity * (is_leg ? mass_ : beyond.mass);
     // A joint that slides gives way by as much as the end of one that turns.
     const double stiffness = slides ? weight / (sag_ * beyond.reach) : weight * beyond.reach / sag_;
-    return {stiffness, 2. * std::sqrt(stiffness * (slides ? beyond.mass : beyond.inertia))};
+    const double moved = (slides ? beyond.mass : beyond.inertia) + joint.rotor_inertia;
+    return {stiffness, 2. * std::sqrt(stiffness * moved)};
   }
 
   std::map<const UrdfJoint*, Beyond> joints_;

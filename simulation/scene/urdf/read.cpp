@@ -1,11 +1,15 @@
 // A URDF file as it stands.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <unordered_map>
 
 #include "language/document.h"
 #include "language/names.h"
+#include "simulation/scene/urdf/hull.h"
+#include "simulation/scene/urdf/mesh.h"
+#include "simulation/scene/urdf/mesh_path.h"
 #include "simulation/scene/urdf/urdf.h"
 #include "simulation/scene/urdf/xml.h"
 
@@ -16,8 +20,9 @@ using language::Position;
 
 class UrdfReader : private UrdfXml {
  public:
-  UrdfReader(const language::SourceFile& file, UrdfShapes shapes, language::Report& report)
-      : UrdfXml(file, report), shapes_(shapes) {}
+  UrdfReader(const language::SourceFile& file, const UrdfGeometry& geometry,
+             language::FileStore& files, language::Report& report)
+      : UrdfXml(file, report), path_(file.path), geometry_(geometry), files_(files) {}
 
   std::optional<UrdfRobot> run();
 
@@ -25,8 +30,11 @@ class UrdfReader : private UrdfXml {
   void read_link(const pugi::xml_node& node);
   void read_inertial(const pugi::xml_node& node, UrdfLink& link);
   void read_shape(const pugi::xml_node& node, UrdfLink& link);
-  void leave_out(const std::string& what) { ++robot_.left_out[what]; }
+  void leave_out(const std::string& what, std::size_t times = 1) { robot_.left_out[what] += times; }
   std::optional<ShapeGeometry> read_geometry(const pugi::xml_node& node);
+  void read_mesh_at(const pugi::xml_node& node, const Pose& X_LS, UrdfLink& link);
+  /// Its vertices, each once, as the file has them; null after an error.
+  const MeshPoints* find_mesh(const pugi::xml_node& node);
   void read_joint(const pugi::xml_node& node);
   bool read_type(const pugi::xml_node& node, UrdfJoint& joint);
   bool read_ends(const pugi::xml_node& node, UrdfJoint& joint);
@@ -36,10 +44,15 @@ class UrdfReader : private UrdfXml {
   /// A joint whose limits are one place is fixed there.
   void hold_still(UrdfJoint& joint);
   void read_dynamics(const pugi::xml_node& node, UrdfJoint& joint);
+  void read_transmission(const pugi::xml_node& node);
+  /// A joint that carries nothing of mass moves nothing: it is fixed where it is.
+  void fix_idle_joints();
 
   Pose read_origin(const pugi::xml_node& parent);
 
-  UrdfShapes shapes_;
+  const std::filesystem::path path_;
+  const UrdfGeometry geometry_;
+  language::FileStore& files_;
   UrdfRobot robot_;
   std::unordered_map<std::string, std::size_t> links_, joints_;
   int hints_ = 0;  ///< given so far
@@ -50,23 +63,23 @@ std::optional<UrdfRobot> UrdfReader::run() {
   if (!root) return std::nullopt;
   robot_.name = root.attribute("name").value();
   robot_.place = place(root);
-  for (const pugi::xml_node& node : root.children()) {
-    if (!std::string_view(node.name()).starts_with("xacro:")) continue;
-    fail(place(node), "macros of xacro are not expanded here: `xacro FILE > robot.urdf` does it");
-    return std::nullopt;
-  }
   for (const pugi::xml_node& node : root.children("link")) {
     if (!full()) read_link(node);
   }
   for (const pugi::xml_node& node : root.children()) {
     const std::string_view name = node.name();
-    if (node.type() == pugi::node_element && name != "link" && name != "joint")
+    if (node.type() == pugi::node_element && name != "link" && name != "joint" &&
+        name != "transmission")
       leave_out(fmt::format("<{}>", name));
   }
   if (robot_.links.empty()) fail(robot_.place, "the robot has no <link>");
   for (const pugi::xml_node& node : root.children("joint")) {
     if (!full()) read_joint(node);
   }
+  for (const pugi::xml_node& node : root.children("transmission")) {
+    if (!full()) read_transmission(node);
+  }
+  fix_idle_joints();
   return good() ? std::optional(std::move(robot_)) : std::nullopt;
 }
 
@@ -80,7 +93,7 @@ void UrdfReader::read_link(const pugi::xml_node& node) {
     return note(robot_.links[same->second].place, "the first is here");
   }
   if (const pugi::xml_node inertial = only(node, "inertial")) read_inertial(inertial, link);
-  const bool visual = shapes_ == UrdfShapes::visual;
+  const bool visual = geometry_.shapes == UrdfShapes::visual;
   const char* kind = visual ? "visual" : "collision";
   const char* other = visual ? "collision" : "visual";
   for (const pugi::xml_node& shape : node.children(kind)) read_shape(shape, link);
@@ -90,7 +103,6 @@ void UrdfReader::read_link(const pugi::xml_node& node) {
 }
 
 void UrdfReader::read_inertial(const pugi::xml_node& node, UrdfLink& link) {
-  link.has_inertial = true;
   link.inertial_place = place(node);
   const Pose X_LC = read_origin(node);
   const pugi::xml_node mass = only(node, "mass"), inertia = only(node, "inertia");
@@ -106,6 +118,7 @@ void UrdfReader::read_inertial(const pugi::xml_node& node, UrdfLink& link) {
                         number(inertia, "ixz", {}), number(inertia, "iyz", {})};
   link.mass.center_of_mass = X_LC.position;
   link.mass.inertia = rotate(rotation_matrix(X_LC.orientation), I_C);
+  link.has_inertial = link.mass.mass != 0. || I_C != Symmetric3d{};
 }
 
 void UrdfReader::read_shape(const pugi::xml_node& node, UrdfLink& link) {
@@ -115,11 +128,81 @@ void UrdfReader::read_shape(const pugi::xml_node& node, UrdfLink& link) {
     fail(place(node), fmt::format("<{}> lacks <geometry>", node.name()));
     return;
   }
-  if (geometry.child("mesh")) return leave_out(fmt::format("mesh of <{}>", node.name()));
+  if (const pugi::xml_node mesh = geometry.child("mesh")) {
+    if (geometry_.meshes == UrdfMeshes::skip)
+      return leave_out(fmt::format("mesh of <{}>", node.name()));
+    return read_mesh_at(mesh, X_LS, link);
+  }
   const std::optional<ShapeGeometry> read = read_geometry(geometry);
   if (!read) return;
   link.shapes.push_back({*read, X_LS.position, X_LS.orientation, 0});
   link.shape_places.push_back(place(geometry.first_child()));
+}
+
+void UrdfReader::read_mesh_at(const pugi::xml_node& node, const Pose& X_LS, UrdfLink& link) {
+  const Vector3d scale = vector(node, "scale", {1., 1., 1.});
+  const MeshPoints* mesh = find_mesh(node);
+  if (mesh == nullptr) return;
+  if (scale.x * scale.y * scale.z == 0.) {
+    fail(place(node, "scale"), "a scale of 0 leaves nothing of a mesh");
+    return;
+  }
+  std::vector<Vector3d> points;
+  for (const Vector3d& p : mesh->vertices)
+    points.push_back({scale.x * p.x, scale.y * p.y, scale.z * p.z});
+  if (geometry_.meshes == UrdfMeshes::box) {
+    const auto [low, high] = bounds_of(points);
+    // A flat mesh is a plate.
+    constexpr double thinnest = 1e-6;  // [m]
+    const Vector3d edges = high - low;
+    const Box box{
+        {std::max(edges.x, thinnest), std::max(edges.y, thinnest), std::max(edges.z, thinnest)}};
+    const Pose X_LB = X_LS * Pose{0.5 * (low + high), {}};
+    link.shapes.push_back({box, X_LB.position, X_LB.orientation, 0});
+    link.shape_places.push_back(place(node));
+    return;
+  }
+  const std::vector<Vector3d> hull = hull_vertices(points);
+  const std::vector<Vector3d> taken = spread_points(hull, most_hull_points);
+  if (taken.size() < hull.size())
+    leave_out(fmt::format("vertex of a hull, beyond {} of it", most_hull_points),
+              hull.size() - taken.size());
+  for (const Vector3d& p : taken) {
+    link.points.push_back(X_LS.position + rotate(X_LS.orientation, p));
+    link.point_places.push_back(place(node));
+  }
+}
+
+const MeshPoints* UrdfReader::find_mesh(const pugi::xml_node& node) {
+  const std::string filename = node.attribute("filename").value();
+  const Position at = place(node, "filename");
+  const std::vector<std::filesystem::path> places =
+      mesh_places(filename, path_, files_.search_path());
+  if (places.empty()) {
+    fail(at, filename.empty()
+                 ? "this <mesh> has no filename"
+                 : "a mesh is named by a path, or by package://NAME/PATH or file://PATH");
+    return nullptr;
+  }
+  std::error_code ignored;
+  const auto found = std::ranges::find_if(places, [&](const std::filesystem::path& path) {
+    return std::filesystem::is_regular_file(path, ignored);
+  });
+  if (found == places.end()) {
+    std::string tried;
+    for (const std::filesystem::path& path : places)
+      tried += fmt::format("{}{}", tried.empty() ? "" : ", ", path.string());
+    fail(at, fmt::format("there is no mesh `{}`: looked for {} (HOOKPOINT_PATH names further "
+                         "folders; meshes = skip does without)",
+                         filename, tried));
+    return nullptr;
+  }
+  const std::string path = found->lexically_normal().string();
+  const MeshPoints& mesh =
+      files_.keep<MeshPoints>("mesh " + path, [&] { return read_mesh(*found); });
+  if (mesh.problem.empty()) return &mesh;
+  fail(at, fmt::format("the mesh {} cannot be read: {}", path, mesh.problem));
+  return nullptr;
 }
 
 std::optional<ShapeGeometry> UrdfReader::read_geometry(const pugi::xml_node& node) {
@@ -128,12 +211,21 @@ std::optional<ShapeGeometry> UrdfReader::read_geometry(const pugi::xml_node& nod
   const std::string_view kind = shape.name();
   if (kind == "box") {
     const Vector3d size = vector(shape, "size", {});
-    if (size.x <= 0. || size.y <= 0. || size.z <= 0.)
-      fail(place(shape, "size"), "the edges of a box are greater than 0");
-    return Box{size};
+    const double least = std::min({size.x, size.y, size.z});
+    if (least < 0.) fail(place(shape, "size"), "the edges of a box are greater than 0");
+    if (least != 0.) return Box{size};
+    leave_out("shape of size 0");
+    return std::nullopt;
   }
-  if (kind == "sphere") return Sphere{positive(shape, "radius")};
-  if (kind == "cylinder") return Cylinder{positive(shape, "radius"), positive(shape, "length")};
+  if (kind == "sphere" || kind == "cylinder") {
+    const double radius = not_negative(shape, "radius");
+    const double length = kind == "sphere" ? 1. : not_negative(shape, "length");
+    if (radius == 0. || length == 0.) {
+      leave_out("shape of size 0");
+      return std::nullopt;
+    }
+    return kind == "sphere" ? ShapeGeometry(Sphere{radius}) : Cylinder{radius, length};
+  }
   fail(shape ? place(shape) : place(node),
        "<geometry> takes a box, a cylinder, a sphere or a mesh");
   return std::nullopt;
@@ -228,18 +320,15 @@ void UrdfReader::read_axis(const pugi::xml_node& node, UrdfJoint& joint) {
 
 void UrdfReader::read_limit(const pugi::xml_node& node, UrdfJoint& joint) {
   const pugi::xml_node limit = only(node, "limit");
-  for (const char* aside : {"effort", "velocity"}) {
-    if (limit.attribute(aside)) leave_out(fmt::format("limit of {}", aside));
+  if (limit.attribute("velocity")) leave_out("limit of velocity");
+  if (limit.attribute("effort")) {
+    joint.effort_limit = bound(limit, "effort");
+    joint.effort_place = place(limit, "effort");
+    if (!joint.effort_limit) leave_out("limit of effort that is no bound");
   }
   if (joint.type == UrdfJointType::continuous) return;
-  if (!limit) {
-    fail(joint.place,
-         fmt::format("joint `{}` lacks <limit lower=\"...\" upper=\"...\"/>{}", joint.name,
-                     joint.type == UrdfJointType::revolute
-                         ? "; without limits its type is continuous"
-                         : ""));
-    return;
-  }
+  if (!limit.attribute("lower") && !limit.attribute("upper"))
+    return leave_out(fmt::format("limits that joint `{}` is not given", joint.name));
   joint.limit_place = place(limit);
   joint.lower_limit = number(limit, "lower", 0.);
   joint.upper_limit = number(limit, "upper", 0.);
@@ -276,6 +365,51 @@ void UrdfReader::read_dynamics(const pugi::xml_node& node, UrdfJoint& joint) {
   joint.friction = number(dynamics, "friction", 0.);
 }
 
+// Where rotor inertias stand in URDF: in the actuator of a transmission, beside the reduction N of
+// its gears; the joint has N^2 times the inertia of the motor.
+void UrdfReader::read_transmission(const pugi::xml_node& node) {
+  const pugi::xml_node actuator = node.child("actuator");
+  const auto number_in = [&](std::initializer_list<const char*> names) {
+    std::optional<double> found;
+    for (const char* name : names) {
+      const pugi::xml_node element = actuator.child(name) ? actuator.child(name) : node.child(name);
+      if (element && !found)
+        found = element.attribute("value") ? number(element, "value", {}) : content(element);
+    }
+    return found;
+  };
+  const std::optional<double> motor =
+      number_in({"motorInertia", "rotorInertia", "rotor_inertia", "drake:rotor_inertia"});
+  if (!motor) return leave_out("<transmission>");
+  const double reduction = number_in({"mechanicalReduction", "drake:gear_ratio"}).value_or(1.);
+  const auto of = joints_.find(node.child("joint").attribute("name").value());
+  if (of == joints_.end() || of->second >= robot_.joints.size()) return leave_out("<transmission>");
+  if (*motor < 0.) {
+    fail(place(actuator), "an inertia is not negative");
+    return;
+  }
+  UrdfJoint& joint = robot_.joints[of->second];
+  joint.rotor_inertia += reduction * reduction * *motor;
+  joint.rotor_place = place(actuator);
+}
+
+void UrdfReader::fix_idle_joints() {
+  std::vector<std::optional<std::size_t>> carrier(robot_.links.size());
+  for (const UrdfJoint& joint : robot_.joints) carrier[joint.child] = joint.parent;
+  std::vector<bool> heavy(robot_.links.size(), false);
+  for (std::size_t i = 0; i < robot_.links.size(); ++i) {
+    if (!robot_.links[i].has_inertial) continue;
+    for (std::optional<std::size_t> at = i; at && !heavy[*at]; at = carrier[*at]) heavy[*at] = true;
+  }
+  for (UrdfJoint& joint : robot_.joints) {
+    if (heavy[joint.child] || joint.type == UrdfJointType::fixed ||
+        joint.type == UrdfJointType::floating)
+      continue;
+    joint.type = UrdfJointType::fixed;
+    leave_out("joint that carries no mass: fixed");
+  }
+}
+
 Pose UrdfReader::read_origin(const pugi::xml_node& parent) {
   const pugi::xml_node origin = only(parent, "origin");
   if (!origin) return {};
@@ -285,9 +419,9 @@ Pose UrdfReader::read_origin(const pugi::xml_node& parent) {
 
 }  // namespace
 
-std::optional<UrdfRobot> read_urdf(const language::SourceFile& file, UrdfShapes shapes,
-                                   language::Report& report) {
-  return UrdfReader(file, shapes, report).run();
+std::optional<UrdfRobot> read_urdf(const language::SourceFile& file, const UrdfGeometry& geometry,
+                                   language::FileStore& files, language::Report& report) {
+  return UrdfReader(file, geometry, files, report).run();
 }
 
 }  // namespace hookpoint::simulation

@@ -117,7 +117,7 @@ class UrdfAssembly {
   const UrdfJoint* free_joint(std::size_t root) const {
     const UrdfLink& link = robot_.links[root];
     const std::vector<const UrdfJoint*>& carried = outward_[root];
-    const bool is_world = !link.has_inertial && link.shapes.empty() && carried.size() == 1 &&
+    const bool is_world = !link.has_inertial && !link.touches() && carried.size() == 1 &&
                           carried[0]->type == UrdfJointType::floating;
     return is_world ? carried[0] : nullptr;
   }
@@ -187,6 +187,10 @@ class UrdfAssembly {
       body.shapes.push_back(shape);
       body.shape_places.push_back(link.shape_places[i]);
     }
+    for (const Vector3d& point : link.points)
+      body.points.push_back(X_FL.position + rotate(X_FL.orientation, point));
+    body.point_places.insert(body.point_places.end(), link.point_places.begin(),
+                             link.point_places.end());
   }
 
   /// Links in a loop of their own hang on nothing that the root carries.

@@ -9,6 +9,7 @@
 
 #include "language/document.h"
 #include "language/names.h"
+#include "simulation/scene/urdf/xacro.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -24,7 +25,9 @@ using language::ValueKind;
 constexpr std::array base_fields{"location", "orientation", "velocity", "angular_velocity",
                                  "rest_on",  "at",          "yaw"};
 /// Arguments with a meaning of their own.
-constexpr std::array own_arguments{"name", "base", "shapes", "hold"};
+constexpr std::array own_arguments{"name", "base", "shapes", "meshes", "hold", "rotor_inertia"};
+/// What follows the name of a joint in the argument that gives its rotor's inertia.
+constexpr const char* rotor_argument = "_rotor_inertia";
 
 /// `text` as a name of the language: letters, digits and _, no digit first.
 std::string identifier(std::string text) {
@@ -34,6 +37,12 @@ std::string identifier(std::string text) {
       text, [&](char c) { return !digit(c) && !letter(c); }, '_');
   if (text.empty() || digit(text[0])) text.insert(0, "_");
   return text;
+}
+
+/// A chain is called as its first joint; the base has its name already.
+std::string chain_name(const UrdfJoint& hip) {
+  const std::string name = identifier(hip.name);
+  return name == "base" ? "base_" : name;
 }
 
 ForeignField numbers(const char* name, const std::vector<double>& of, const Position& place) {
@@ -92,26 +101,30 @@ void add_body(const UrdfBody& body, ForeignObject& object) {
   }
   for (std::size_t i = 0; i < body.shapes.size(); ++i)
     object.children.push_back(shape_object(body.shapes[i], body.shape_places[i]));
-}
-
-/// Whether the body `first` of a chain or one further out has an <inertial>.
-bool has_mass_from(const UrdfChain& chain, std::size_t first) {
-  const auto further_out = std::span(chain.bodies).subspan(first);
-  return std::ranges::any_of(further_out, &UrdfBody::has_inertial) ||
-         std::ranges::any_of(chain.carried,
-                             [](const UrdfChain& carried) { return has_mass_from(carried, 0); });
+  for (std::size_t i = 0; i < body.points.size(); ++i) {
+    const Vector3d& p = body.points[i];
+    const Position& place = body.point_places[i];
+    object.children.push_back(
+        {"ContactPoint", "", place, {numbers("location", {p.x, p.y, p.z}, place)}, {}});
+  }
 }
 
 class UrdfInclude {
  public:
-  UrdfInclude(const ForeignArguments& arguments, language::Report& report)
-      : arguments_(arguments), report_(report) {}
+  UrdfInclude(const ForeignArguments& arguments, language::FileStore& files,
+              language::Report& report)
+      : arguments_(arguments), files_(files), report_(report) {}
 
   std::vector<ForeignObject> run(const language::SourceFile& file) {
+    const ExpandedUrdf expanded = expand_xacro(file, arguments_, own_arguments, files_, report_);
+    if (expanded.source == nullptr) return {};
+    for_macros_ = expanded.arguments;
     const std::string shapes = word_argument("shapes", {"collision", "visual", "inertia"});
-    const auto robot =
-        read_urdf(file, shapes == "visual" ? UrdfShapes::visual : UrdfShapes::collision, report_);
+    auto robot = read_urdf(*expanded.source, geometry_argument(shapes), files_, report_);
     if (!robot) return {};
+    // A file that a run is repeated from is the one that was written.
+    if (expanded.source != &file) robot->place = {&file, 0, 1};
+    take_rotors(*robot);
     auto tree = assemble_urdf(*robot, report_);
     if (!tree) return {};
     if (shapes == "inertia") take_inertia_boxes(*tree);
@@ -128,12 +141,54 @@ class UrdfInclude {
   }
 
  private:
+  UrdfGeometry geometry_argument(const std::string& shapes) {
+    UrdfGeometry geometry;
+    if (shapes == "visual") geometry.shapes = UrdfShapes::visual;
+    const std::string meshes = word_argument("meshes", {"skip", "box", "hull"});
+    if (meshes == "box") geometry.meshes = UrdfMeshes::box;
+    if (meshes == "hull") geometry.meshes = UrdfMeshes::hull;
+    return geometry;
+  }
+
+  /// What the arguments say of rotors goes before what the file says.
+  void take_rotors(UrdfRobot& robot) {
+    const auto give = [&](const std::string& argument, UrdfJoint& joint) {
+      const auto given = arguments_.find(argument);
+      if (given == arguments_.end() || given->second.values.empty()) return;
+      const Value& value = given->second.values[0];
+      joint.rotor_place = given->second.position;
+      const std::string unit =
+          joint.type == UrdfJointType::prismatic ? "a mass, in kg" : "in kg.m^2";
+      const language::Dimension wanted = joint.type == UrdfJointType::prismatic
+                                             ? language::Dimension{1, 0, 0, 0}
+                                             : language::Dimension{1, 2, 0, 0};
+      const bool plain =
+          given->second.values.size() == 1 && value.kind == ValueKind::number &&
+          (value.quantity.dimension.dimensionless() || value.quantity.dimension == wanted);
+      if (plain && value.quantity.value >= 0.) {
+        joint.rotor_inertia = value.quantity.value;
+        return;
+      }
+      report_.error(given->second.position,
+                    fmt::format("the argument `{}` is {} and not negative", argument, unit));
+    };
+    for (UrdfJoint& joint : robot.joints) {
+      if (joint.type == UrdfJointType::fixed || joint.type == UrdfJointType::floating) continue;
+      if (joint.type != UrdfJointType::prismatic) give("rotor_inertia", joint);
+      give(identifier(joint.name) + rotor_argument, joint);
+    }
+  }
+
   ForeignObject base_object(const UrdfRobot& robot, const UrdfTree& tree) {
     const UrdfBody& body = tree.base;
     const UrdfLink& link = robot.links[body.link];
     std::string kind = word_argument("base", {"mobile", "fixed"});
-    // A root that is the world itself, as other readers take it.
-    if (kind.empty()) kind = link.name == "world" && !tree.floats ? "fixed" : "mobile";
+    // A root that is the world itself, as other readers take it, or that nothing could move.
+    const bool is_world = link.name == "world" && !tree.floats;
+    if (kind.empty() && !is_world && !tree.floats && !body.has_inertial)
+      report_.remark(link.place,
+                     fmt::format("link `{}`, the base, has no <inertial>: it is fixed", link.name));
+    if (kind.empty()) kind = is_world || (!body.has_inertial && !tree.floats) ? "fixed" : "mobile";
     ForeignObject object{"Base." + kind, "", link.place, {}, {}};
     if (kind == "mobile") require_mass(link, body);
     for (const char* name : base_fields) {
@@ -148,12 +203,11 @@ class UrdfInclude {
   ForeignObject chain_object(const UrdfRobot& robot, const UrdfChain& of) {
     const std::vector<UrdfBody>& bodies = of.bodies;
     const UrdfJoint& hip = *bodies.front().joint;
-    ForeignObject chain{"Chain", identifier(hip.name), hip.place, {}, {}};
+    ForeignObject chain{"Chain", chain_name(hip), hip.place, {}, {}};
     add_pose(bodies.front().joint_pose, "hip_distance", "hip_orientation", hip.place, chain);
     for (const UrdfBody& body : bodies) {
       const UrdfJoint& joint = *body.joint;
       const UrdfLink& link = robot.links[body.link];
-      if (!has_mass_from(of, chain.children.size())) require_mass(link, body);
       ForeignObject object{"Link", identifier(link.name), joint.place, {}, {}};
       if (joint.type == UrdfJointType::prismatic)
         object.fields.push_back(word("joint", "prismatic", joint.place));
@@ -179,6 +233,8 @@ class UrdfInclude {
     const bool has_own = joint.damping != 0.;
     if (damping != 0.) add("damping", damping, has_own ? joint.damping_place : joint.place);
     if (joint.friction != 0.) add("friction", joint.friction, joint.friction_place);
+    if (joint.effort_limit) add("effort_limit", *joint.effort_limit, joint.effort_place);
+    if (joint.rotor_inertia != 0.) add("rotor_inertia", joint.rotor_inertia, joint.rotor_place);
     if (held.stiffness != 0.) add("stiffness", held.stiffness, joint.place);
     const auto angle = arguments_.find(identifier(joint.name));
     if (angle != arguments_.end()) {
@@ -234,8 +290,10 @@ class UrdfInclude {
     const Value& value = given->second.values[0];
     const bool one = given->second.values.size() == 1 && value.kind == ValueKind::word;
     if (one && std::ranges::count(choices, value.text) > 0) return value.text;
-    report_.error(given->second.position,
-                  fmt::format("the argument `{}` is {}", name, fmt::join(choices, " or ")));
+    std::string list = choices[0];
+    for (std::size_t i = 1; i < choices.size(); ++i)
+      list += (i + 1 < choices.size() ? ", " : " or ") + choices[i];
+    report_.error(given->second.position, fmt::format("the argument `{}` is {}", name, list));
     return "";
   }
 
@@ -261,30 +319,36 @@ class UrdfInclude {
     std::vector<std::string> known(own_arguments.begin(), own_arguments.end());
     known.insert(known.end(), base_fields.begin(), base_fields.end());
     for (const UrdfJoint& joint : robot.joints) {
-      if (joint.type != UrdfJointType::fixed) known.push_back(identifier(joint.name));
+      if (joint.type == UrdfJointType::fixed) continue;
+      known.push_back(identifier(joint.name));
+      known.push_back(known.back() + rotor_argument);
     }
+    known.insert(known.end(), for_macros_.begin(), for_macros_.end());
     for (const auto& [name, given] : arguments_) {
       if (std::ranges::count(known, name) > 0) continue;
       const std::string nearest = language::nearest_name(name, known);
       report_.error(given.position,
                     fmt::format("the robot takes no argument `{}`; {}", name,
-                                nearest.empty() ? "it takes name, base, shapes, hold, fields of "
-                                                  "its base, and the names of its moving joints"
+                                nearest.empty() ? "it takes name, base, shapes, meshes, hold, "
+                                                  "rotor_inertia, fields of its base, and the "
+                                                  "names of its moving joints"
                                                 : "did you mean `" + nearest + "`?"));
     }
   }
 
   const ForeignArguments& arguments_;
+  language::FileStore& files_;
   language::Report& report_;
   std::map<const UrdfJoint*, UrdfHold> holds_;
+  std::vector<std::string> for_macros_;  ///< arguments that xacro took
 };
 
 }  // namespace
 
 std::vector<ForeignObject> include_urdf(const language::SourceFile& file,
                                         const ForeignArguments& arguments,
-                                        language::Report& report) {
-  return UrdfInclude(arguments, report).run(file);
+                                        language::FileStore& files, language::Report& report) {
+  return UrdfInclude(arguments, files, report).run(file);
 }
 
 }  // namespace hookpoint::simulation

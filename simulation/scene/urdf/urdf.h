@@ -1,6 +1,7 @@
-// Robots written as URDF: the file as it stands (read.cpp), its tree with what is fixed
-// together made one (tree.cpp), and the objects of the language that it comes to (urdf.cpp),
-// held in its pose if asked to (hold.cpp).
+// Robots written as URDF: the file, expanded where xacro wrote it (xacro.h), as it stands
+// (read.cpp) with its meshes (mesh.h, hull.h), its tree with what is fixed together made one
+// (tree.cpp), and the objects of the language that it comes to (urdf.cpp), held in its pose if
+// asked to (hold.cpp).
 #pragma once
 
 #include <map>
@@ -8,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "language/files.h"
 #include "language/tree/foreign.h"
 #include "simulation/experiment.h"
 #include "simulation/kinematics.h"
@@ -22,19 +24,26 @@ struct UrdfLink {
   MassSpec mass;  ///< link's frame
   std::vector<ShapeSpec> shapes;
   std::vector<language::Position> shape_places;
+  std::vector<Vector3d> points;  ///< that touch the ground, link's frame
+  std::vector<language::Position> point_places;
+
+  bool touches() const { return !shapes.empty() || !points.empty(); }
 };
 
 enum class UrdfJointType { fixed, revolute, continuous, prismatic, floating };
 
 struct UrdfJoint {
   std::string name;
-  language::Position place, type_place, limit_place, damping_place, friction_place;
+  language::Position place, type_place, limit_place, damping_place, friction_place, effort_place,
+      rotor_place;
   UrdfJointType type = UrdfJointType::fixed;
   std::size_t parent = 0, child = 0;  ///< indices of links
   Pose origin;                        ///< X_PC at angle 0: of the child's frame in its parent's
   Vector3d axis{1., 0., 0.};          ///< unit vector, child's frame
   std::optional<double> lower_limit, upper_limit;
   double damping = 0., friction = 0.;
+  std::optional<double> effort_limit;
+  double rotor_inertia = 0.;  ///< at the joint [kg m^2, kg]
 };
 
 struct UrdfRobot {
@@ -46,10 +55,19 @@ struct UrdfRobot {
 };
 
 enum class UrdfShapes { collision, visual };
+/// What a mesh becomes: nothing, its bounding box, or the vertices of its convex hull.
+enum class UrdfMeshes { skip, box, hull };
+struct UrdfGeometry {
+  UrdfShapes shapes = UrdfShapes::collision;
+  UrdfMeshes meshes = UrdfMeshes::skip;
+};
+/// Of a hull with more vertices so many are taken, spread over it (hull.h).
+inline constexpr std::size_t most_hull_points = 64;
 
-/// The file's robot; `shapes` says which geometry counts. Nothing after an error. Cost: linear.
-std::optional<UrdfRobot> read_urdf(const language::SourceFile& file, UrdfShapes shapes,
-                                   language::Report& report);
+/// The file's robot; `geometry` says what of it counts, `files` where meshes are looked up. Nothing
+/// after an error. Cost: linear, and n log n in the vertices of each mesh, which are read once.
+std::optional<UrdfRobot> read_urdf(const language::SourceFile& file, const UrdfGeometry& geometry,
+                                   language::FileStore& files, language::Report& report);
 
 /// Links that are fixed together, as one body in its own frame.
 struct UrdfBody {
@@ -61,6 +79,8 @@ struct UrdfBody {
   language::Position inertial_place;  ///< of the first that does
   std::vector<ShapeSpec> shapes;      ///< body's frame
   std::vector<language::Position> shape_places;
+  std::vector<Vector3d> points;  ///< body's frame
+  std::vector<language::Position> point_places;
 };
 
 /// Bodies in series. Where one carries several joints its chain ends, and each of the joints starts
@@ -101,6 +121,7 @@ std::map<const UrdfJoint*, UrdfHold> hold_joints(const UrdfTree& tree, bool mobi
 /// The reader of an Include: the robot as an object of the language.
 std::vector<language::ForeignObject> include_urdf(const language::SourceFile& file,
                                                   const language::ForeignArguments& arguments,
+                                                  language::FileStore& files,
                                                   language::Report& report);
 
 }  // namespace hookpoint::simulation

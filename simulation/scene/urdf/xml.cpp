@@ -14,6 +14,7 @@ using language::Position;
 /// Only what links and joints need is read; a larger file is no robot's description.
 constexpr std::size_t largest_file = 64UL << 20;
 constexpr std::string_view blanks = " \t\r\n";
+constexpr double largest_number = 1e12;  // squares and products of such numbers stay finite
 
 }  // namespace
 
@@ -58,19 +59,33 @@ double UrdfXml::number(const pugi::xml_node& node, const char* attribute,
   return found ? parse(found.value(), place(node, attribute)).value_or(0.) : 0.;
 }
 
-double UrdfXml::positive(const pugi::xml_node& node, const char* attribute) {
-  const bool good_before = good_;
+double UrdfXml::not_negative(const pugi::xml_node& node, const char* attribute) {
   const double value = number(node, attribute, {});
-  if (good_before == good_ && value <= 0.)
-    fail(place(node, attribute), fmt::format("{} is greater than 0", attribute));
+  if (value < 0.) fail(place(node, attribute), fmt::format("{} is not negative", attribute));
   return value;
+}
+
+double UrdfXml::content(const pugi::xml_node& node) {
+  return parse(node.text().get(), place(node)).value_or(0.);
+}
+
+std::optional<double> UrdfXml::bound(const pugi::xml_node& node, const char* attribute) {
+  const pugi::xml_attribute found = node.attribute(attribute);
+  if (!found) return std::nullopt;
+  // Beyond all numbers as strtod has it, in whatever locale.
+  const std::string_view text = found.value();
+  const bool endless = std::abs(found.as_double()) > largest_number;
+  if (endless &&
+      text.find_first_not_of("0123456789+-.eEinfINFtyTY \t\r\n") == std::string_view::npos)
+    return std::nullopt;
+  const double value = number(node, attribute, {});
+  return value > 0. ? std::optional(value) : std::nullopt;
 }
 
 Vector3d UrdfXml::vector(const pugi::xml_node& node, const char* attribute,
                          const Vector3d& otherwise) {
   const pugi::xml_attribute found = node.attribute(attribute);
   if (!found) return otherwise;
-  constexpr std::string_view blanks = " \t\r\n";
   std::string_view text = found.value();
   std::vector<double> numbers;
   const Position at = place(node, attribute);
@@ -91,8 +106,6 @@ Vector3d UrdfXml::vector(const pugi::xml_node& node, const char* attribute,
 }
 
 std::optional<double> UrdfXml::parse(std::string_view text, const Position& at) {
-  constexpr std::string_view blanks = " \t\r\n";
-  constexpr double largest = 1e12;  // squares and products of such numbers stay finite
   constexpr std::size_t longest = 40;
   std::string_view digits = text;
   digits.remove_prefix(std::min(digits.find_first_not_of(blanks), digits.size()));
@@ -101,9 +114,10 @@ std::optional<double> UrdfXml::parse(std::string_view text, const Position& at) 
   double value = 0.;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   const bool whole = error == std::errc() && end == digits.data() + digits.size();
-  if (whole && std::fabs(value) <= largest) return value;
-  fail(at, fmt::format("`{}` is no number{}", text.substr(0, longest),
-                       whole ? fmt::format(" from {:g} to {:g}", -largest, largest) : ""));
+  if (whole && std::fabs(value) <= largest_number) return value;
+  fail(at, fmt::format(
+               "`{}` is no number{}", text.substr(0, longest),
+               whole ? fmt::format(" from {:g} to {:g}", -largest_number, largest_number) : ""));
   return std::nullopt;
 }
 

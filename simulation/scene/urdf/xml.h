@@ -25,7 +25,12 @@ class UrdfXml {
   std::string name_of(const pugi::xml_node& node);
   /// A number, `otherwise` where it is not given; 0 after an error.
   double number(const pugi::xml_node& node, const char* attribute, std::optional<double> otherwise);
-  double positive(const pugi::xml_node& node, const char* attribute);
+  double not_negative(const pugi::xml_node& node, const char* attribute);
+  /// The number that stands in an element; 0 after an error.
+  double content(const pugi::xml_node& node);
+  /// A number above 0 that bounds something; nothing where it is not given, or bounds nothing: not
+  /// above 0, infinite, or beyond all numbers.
+  std::optional<double> bound(const pugi::xml_node& node, const char* attribute);
   /// Three numbers, `otherwise` where they are not given or after an error.
   Vector3d vector(const pugi::xml_node& node, const char* attribute, const Vector3d& otherwise);
 

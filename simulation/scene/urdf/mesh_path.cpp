@@ -1,0 +1,67 @@
+#include "simulation/scene/urdf/mesh_path.h"
+
+#include <algorithm>
+#include <string_view>
+
+namespace hookpoint::simulation {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_control(char c) { return (c >= 0 && c < ' ') || c == '\x7f'; }
+
+/// The folder of `robot` and those above it, innermost first.
+std::vector<fs::path> folders_above(const fs::path& robot) {
+  std::error_code ignored;
+  std::vector<fs::path> folders;
+  fs::path folder = fs::absolute(robot, ignored).lexically_normal().parent_path();
+  for (; !folder.empty(); folder = folder.parent_path()) {
+    folders.push_back(folder);
+    if (folder == folder.parent_path()) break;
+  }
+  return folders;
+}
+
+std::vector<fs::path> package_places(std::string_view name_and_rest, const fs::path& robot,
+                                     const std::vector<fs::path>& search_path) {
+  const std::size_t slash = std::min(name_and_rest.find('/'), name_and_rest.size());
+  const fs::path name(name_and_rest.substr(0, slash));
+  const fs::path rest(name_and_rest.substr(std::min(slash + 1, name_and_rest.size())));
+  if (name.empty() || rest.empty() || rest.is_absolute()) return {};
+  const std::vector<fs::path> above = folders_above(robot);
+  std::error_code ignored;
+  std::vector<fs::path> places;
+  for (const fs::path& folder : above) {
+    if (folder.filename() == name || fs::exists(folder / "package.xml", ignored))
+      places.push_back(folder / rest);
+  }
+  for (const fs::path& folder : above) places.push_back(folder / name / rest);
+  for (const fs::path& folder : search_path) {
+    places.push_back(folder / name / rest);
+    places.push_back(folder / rest);
+  }
+  return places;
+}
+
+}  // namespace
+
+std::vector<fs::path> mesh_places(const std::string& filename, const fs::path& robot,
+                                  const std::vector<fs::path>& search_path) {
+  if (std::ranges::any_of(filename, is_control)) return {};
+  const std::string_view text = filename;
+  for (const std::string_view scheme : {"package://", "model://"}) {
+    if (text.starts_with(scheme))
+      return package_places(text.substr(scheme.size()), robot, search_path);
+  }
+  constexpr std::string_view file_scheme = "file://";
+  const bool has_scheme = text.starts_with(file_scheme);
+  if (!has_scheme && text.find("://") != std::string_view::npos) return {};
+  const fs::path path(has_scheme ? text.substr(file_scheme.size()) : text);
+  if (path.empty()) return {};
+  if (path.is_absolute()) return {path};
+  std::vector<fs::path> places{robot.parent_path() / path};
+  for (const fs::path& folder : search_path) places.push_back(folder / path);
+  return places;
+}
+
+}  // namespace hookpoint::simulation

@@ -1,0 +1,378 @@
+// Meshes of robots: a cube and a ball in every format, against their own dimensions; where their
+// files are looked up; files that are broken.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <numbers>
+#include <random>
+#include <sstream>
+#include <tuple>
+
+#include "simulation/engine/dts_engine.h"
+#include "simulation/scene/urdf/hull.h"
+#include "simulation/scene/urdf/mesh.h"
+#include "simulation/scene/urdf/mesh_path.h"
+#include "simulation/scene/urdf/urdf.h"
+#include "tests/support/urdf_text.h"
+
+namespace hookpoint::tests {
+namespace {
+
+using simulation::MeshPoints;
+
+struct Triangles {
+  std::vector<Vector3d> corners;  // three a triangle
+};
+
+/// A brick from (0, -0.1, 0) to (0.3, 0.1, 0.1), two triangles a side.
+Triangles brick() {
+  constexpr int sides[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                               {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+  Triangles mesh;
+  for (const auto& side : sides) {
+    for (const int k : {0, 1, 2, 0, 2, 3}) {
+      const int corner = side[k];
+      mesh.corners.push_back(
+          {0.3 * (corner & 1), 0.2 * (corner >> 1 & 1) - 0.1, 0.1 * (corner >> 2 & 1)});
+    }
+  }
+  return mesh;
+}
+
+/// A ball of radius 0.05 about the origin in 24 x 48 quadrangles.
+Triangles ball() {
+  constexpr int rows = 24, columns = 48;
+  const auto at = [](int i, int j) {
+    const double polar = std::numbers::pi * i / rows, turn = 2. * std::numbers::pi * j / columns;
+    return Vector3d{0.05 * std::sin(polar) * std::cos(turn),
+                    0.05 * std::sin(polar) * std::sin(turn), 0.05 * std::cos(polar)};
+  };
+  Triangles mesh;
+  for (int i = 0; i < rows; ++i) {
+    for (int j = 0; j < columns; ++j) {
+      for (const auto& [di, dj] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}})
+        mesh.corners.push_back(at(i + di, j + dj));
+    }
+  }
+  return mesh;
+}
+
+std::string binary_stl(const Triangles& mesh, const char* header = "made here") {
+  std::string bytes(80, ' ');
+  std::memcpy(bytes.data(), header, std::strlen(header));
+  const auto add = [&](const auto& value) {
+    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+  };
+  add(static_cast<std::uint32_t>(mesh.corners.size() / 3));
+  for (std::size_t i = 0; i < mesh.corners.size(); i += 3) {
+    for (int k = 0; k < 3; ++k) add(0.f);
+    for (std::size_t k = i; k < i + 3; ++k) {
+      for (const double x : {mesh.corners[k].x, mesh.corners[k].y, mesh.corners[k].z})
+        add(static_cast<float>(x));
+    }
+    add(std::uint16_t{0});
+  }
+  return bytes;
+}
+
+std::string ascii_stl(const Triangles& mesh) {
+  std::ostringstream text;
+  text << "solid brick\r\n";
+  for (std::size_t i = 0; i < mesh.corners.size(); ++i) {
+    const Vector3d& p = mesh.corners[i];
+    if (i % 3 == 0) text << " facet normal 0 0 0\r\n  outer loop\r\n";
+    text << "   vertex " << p.x << ' ' << std::scientific << p.y << ' ' << p.z << "\r\n";
+    if (i % 3 == 2) text << "  endloop\r\n endfacet\r\n";
+  }
+  text << "endsolid brick\r\n";
+  return text.str();
+}
+
+std::string obj(const Triangles& mesh) {
+  std::ostringstream text;
+  text << "# made here\nmtllib none.mtl\no brick\nvn 0 0 1\n";
+  for (const Vector3d& p : mesh.corners) text << "v " << p.x << ' ' << p.y << ' ' << p.z << "\n";
+  for (std::size_t i = 1; i < mesh.corners.size(); i += 3)
+    text << "f " << i << "//1 " << i + 1 << "//1 " << i + 2 << "//1\n";
+  return text.str();
+}
+
+/// In mm, upside down and shifted, which the scene's nodes undo.
+std::string collada(const Triangles& mesh) {
+  std::ostringstream text;
+  text
+      << "<?xml version=\"1.0\"?>\n<COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" "
+         "version=\"1.4.1\"><asset><unit name=\"mm\" meter=\"0.001\"/><up_axis>Z_UP</up_axis>"
+         "</asset><library_geometries><geometry id=\"g\"><mesh><source id=\"p\"><float_array "
+         "id=\"a\" count=\""
+      << 3 * mesh.corners.size() << "\">";
+  for (const Vector3d& p : mesh.corners)
+    text << 500. * p.x - 10. << ' ' << -500. * p.y << ' ' << -500. * p.z << '\n';
+  text << "</float_array><technique_common><accessor source=\"#a\" stride=\"3\" count=\""
+       << mesh.corners.size()
+       << "\"/></technique_common></source><vertices id=\"v\"><input semantic=\"POSITION\" "
+          "source=\"#p\"/></vertices></mesh></geometry></library_geometries>"
+          "<library_nodes><node id=\"n\"><matrix>2 0 0 0  0 2 0 0  0 0 2 0  0 0 0 1</matrix>"
+          "<instance_geometry url=\"#g\"/></node></library_nodes>"
+          "<library_visual_scenes><visual_scene id=\"s\"><node><rotate>1 0 0 180</rotate><node>"
+          "<translate>20 0 0</translate><instance_node url=\"#n\"/></node></node></visual_scene>"
+          "</library_visual_scenes><scene><instance_visual_scene url=\"#s\"/></scene></COLLADA>";
+  return text.str();
+}
+
+struct Format {
+  const char* name;
+  std::string (*write)(const Triangles&);
+};
+std::string misleading_stl(const Triangles& mesh) { return binary_stl(mesh, "solid by Works"); }
+const Format formats[] = {{"a.stl", [](const Triangles& mesh) { return binary_stl(mesh); }},
+                          {"b.STL", misleading_stl},
+                          {"c.stl", ascii_stl},
+                          {"d.obj", obj},
+                          {"e.dae", collada}};
+
+/// A robot of one body, whose collision is the mesh.
+std::string robot_of(const std::string& mesh, const std::string& origin = "") {
+  return "<robot name=\"r\"><link name=\"b\">" + urdf_text::inertial + "<collision>" + origin +
+         "<geometry>\n" + mesh + "</geometry></collision></link></robot>";
+}
+
+struct Robot : testing::Workplace {
+  Loaded load(const std::string& urdf, const std::string& arguments) const {
+    file("robot.urdf", urdf);
+    return load_file(file("scene.hook", "World w { Include \"robot.urdf\" (" + arguments + "); }"));
+  }
+};
+
+void expect_near(const Vector3d& a, const Vector3d& b, double within) {
+  EXPECT_LT(norm(a - b), within) << a.x << ' ' << a.y << ' ' << a.z;
+}
+
+TEST(UrdfMesh, BoxIsTheMeshsOwnWhereItStands) {
+  for (const Format& format : formats) {
+    const Robot robot;
+    robot.file(format.name, format.write(brick()));
+    const Loaded loaded = robot.load(
+        robot_of("<mesh filename=\"" + std::string(format.name) + "\" scale=\"2 -1 1\"/>",
+                 "<origin xyz=\"1 2 3\" rpy=\"0 0 1.5707963267948966\"/>"),
+        "meshes = box");
+    ASSERT_TRUE(loaded.experiment) << format.name << loaded.diagnostics;
+    const auto& shapes = loaded.experiment->robots.at(0).base.shapes;
+    ASSERT_EQ(shapes.size(), 1u);
+    expect_near(std::get<simulation::Box>(shapes[0].geometry).dimensions, {0.6, 0.2, 0.1}, 1e-7);
+    expect_near(shapes[0].location, {1., 2.3, 3.05}, 1e-7);
+    EXPECT_NEAR(shapes[0].orientation.z, std::sqrt(0.5), 1e-15);
+    EXPECT_EQ(loaded.diagnostics, "");
+  }
+}
+
+TEST(UrdfMesh, HullOfABrickIsItsEightCorners) {
+  for (const Format& format : formats) {
+    const Robot robot;
+    robot.file(format.name, format.write(brick()));
+    const Loaded loaded = robot.load(
+        robot_of("<mesh filename=\"file://" + (robot.folder() / format.name).string() + "\"/>",
+                 "<origin xyz=\"0 0 1\"/>"),
+        "meshes = hull");
+    ASSERT_TRUE(loaded.experiment) << format.name << loaded.diagnostics;
+    const simulation::BodySpec& body = loaded.experiment->robots.at(0).base;
+    EXPECT_TRUE(body.shapes.empty());
+    ASSERT_EQ(body.boundary_points.size(), 8u) << format.name;
+    std::vector<Vector3d> points = body.boundary_points;
+    std::ranges::sort(
+        points, {}, [](const Vector3d& p) { return std::tuple(p.x > 0.15, p.y > 0., p.z > 1.05); });
+    for (int i = 0; i < 8; ++i)
+      expect_near(points[std::size_t(i)],
+                  {0.3 * (i >> 2), 0.2 * (i >> 1 & 1) - 0.1, 1. + 0.1 * (i & 1)}, 1e-7);
+  }
+}
+
+/// Of 24 x 48 quadrangles 23 x 48 + 2 vertices, all on the hull.
+TEST(UrdfMesh, AHullOfManyVerticesIsThinnedAndKeepsTheOutermost) {
+  const Robot robot;
+  robot.file("ball.stl", binary_stl(ball()));
+  const Loaded loaded = robot.load(robot_of("<mesh filename=\"ball.stl\"/>"), "meshes = hull");
+  ASSERT_TRUE(loaded.experiment) << loaded.diagnostics;
+  EXPECT_EQ(loaded.diagnostics, "note 1:2 left out: vertex of a hull, beyond 64 of it (" +
+                                    std::to_string(23 * 48 + 2 - 64) + ")\n");
+  const auto& points = loaded.experiment->robots.at(0).base.boundary_points;
+  ASSERT_EQ(points.size(), simulation::most_hull_points);
+  for (const Vector3d& p : points) EXPECT_NEAR(norm(p), 0.05, 1e-8);
+  for (const Vector3d& axis : {Vector3d{1., 0., 0.}, {0., 1., 0.}, {0., 0., 1.}}) {
+    for (const double side : {0.05, -0.05}) {
+      EXPECT_EQ(std::ranges::count_if(
+                    points, [&](const Vector3d& p) { return norm(p - side * axis) < 1e-6; }),
+                1);
+    }
+  }
+  // No gap of the ball is wider than 64 caps of the same area would leave.
+  for (const Vector3d& corner : ball().corners) {
+    double nearest = 1.;
+    for (const Vector3d& p : points) nearest = std::min(nearest, norm(corner - p));
+    EXPECT_LT(nearest, 2. * 0.05 * std::sqrt(4. / 64.));
+  }
+}
+
+TEST(UrdfMesh, ABrickThatTouchesByItsHullRestsOnASlopeAsABoxDoes) {
+  const Robot robot;
+  robot.file("brick.stl", binary_stl(brick()));
+  const std::string world =
+      "World w { deltat = 1 ms; Material floor { static_friction = 0.8; kinetic_friction = 0.7; } "
+      "Terrain.Slope ground { angle = 15 deg; material = floor; } Include \"robot.urdf\" (rest_on "
+      "= "
+      "ground, meshes = hull); }";
+  const auto end_of = [&](const std::string& geometry, const std::string& origin) {
+    robot.file("robot.urdf", robot_of(geometry, origin));
+    const Loaded loaded = load_file(robot.file("scene.hook", world));
+    EXPECT_TRUE(loaded.experiment) << loaded.diagnostics;
+    const auto engine = simulation::make_dts(loaded.experiment.value());
+    const Vector3d start = engine->state().bodies[0].position;
+    for (int i = 0; i < 2000; ++i) EXPECT_TRUE(engine->step().ok());
+    const Vector3d at = engine->state().bodies[0].position;
+    for (int i = 0; i < 2000; ++i) EXPECT_TRUE(engine->step().ok());
+    EXPECT_LT(norm(engine->state().bodies[0].position - at), 1e-8);
+    return at - start;
+  };
+  const Vector3d by_hull = end_of("<mesh filename=\"brick.stl\"/>", "");
+  const Vector3d by_box = end_of("<box size=\"0.3 0.2 0.1\"/>", "<origin xyz=\"0.15 0 0.05\"/>");
+  expect_near(by_hull, by_box, 1e-6);
+  EXPECT_LT(norm(by_hull), 1e-2);
+}
+
+TEST(UrdfMesh, IsLookedUpInItsPackageAndAlongTheSearchPath) {
+  const testing::Workplace place;
+  const std::filesystem::path folder = place.folder();
+  const auto make = [&](const char* path) {
+    std::filesystem::create_directories((folder / path).parent_path());
+    return place.file(path, binary_stl(brick()));
+  };
+  make("dog_description/meshes/leg.stl");
+  make("named/meshes/paw.stl");
+  place.file("named/package.xml", "<package/>");
+  make("cat_description/meshes/ear.stl");
+  make("elsewhere/cow/horn.stl");
+  make("elsewhere/tail.stl");
+  std::filesystem::create_directories(folder / "dog_description/urdf");
+  std::filesystem::create_directories(folder / "named/urdf");
+  const auto found = [&](const std::string& filename, const char* robot) {
+    for (const std::filesystem::path& path :
+         simulation::mesh_places(filename, folder / robot, {folder / "elsewhere"})) {
+      if (std::filesystem::exists(path)) return std::filesystem::relative(path, folder).string();
+    }
+    return std::string();
+  };
+  const char* dog = "dog_description/urdf/dog.urdf";
+  EXPECT_EQ(found("package://dog_description/meshes/leg.stl", dog),
+            "dog_description/meshes/leg.stl");
+  EXPECT_EQ(found("../meshes/leg.stl", dog), "dog_description/meshes/leg.stl");
+  EXPECT_EQ(found("package://cat_description/meshes/ear.stl", dog),
+            "cat_description/meshes/ear.stl");
+  EXPECT_EQ(found("model://cow/horn.stl", dog), "elsewhere/cow/horn.stl");
+  EXPECT_EQ(found("tail.stl", dog), "elsewhere/tail.stl");
+  EXPECT_EQ(found("package://robot/meshes/paw.stl", "named/urdf/r.urdf"), "named/meshes/paw.stl");
+  EXPECT_EQ(found("file://" + (folder / "elsewhere/tail.stl").string(), dog), "elsewhere/tail.stl");
+  for (const char* none :
+       {"http://host/leg.stl", "package://dog_description", "package:///leg.stl", "leg\n.stl", ""})
+    EXPECT_TRUE(simulation::mesh_places(none, folder / dog, {}).empty()) << none;
+}
+
+TEST(UrdfMesh, WhatCannotBeReadIsRefusedAtItsName) {
+  const Robot robot;
+  const std::string folder = robot.folder().string();
+  robot.file("short.stl", binary_stl(brick()).substr(0, 300));
+  robot.file("empty.obj", "");
+  robot.file("word.obj", "v 0 0 0\nv 1 2\n");
+  robot.file("nan.stl", "solid\nvertex 0 0 nan\n");
+  robot.file("far.obj", "v 0 0 1e7\n");
+  robot.file("mesh.ply", "ply\n");
+  robot.file("wrong.dae", "<COLLADA><library_geometries>");
+  const auto error = [&](const std::string& mesh, const std::string& meshes = "hull") {
+    const Loaded loaded = robot.load(robot_of(mesh), "meshes = " + meshes);
+    EXPECT_FALSE(loaded.experiment) << mesh;
+    return loaded.diagnostics.substr(0, loaded.diagnostics.find("\nnote"));
+  };
+  const auto broken = [&](const std::string& name, const std::string& why) {
+    EXPECT_EQ(error("<mesh filename=\"" + name + "\"/>").substr(0, 400),
+              "error 2:7 the mesh " + folder + "/" + name + " cannot be read: " + why);
+  };
+  broken("short.stl", "it says 12 triangles and ends after 4");
+  broken("empty.obj", "it has no vertices");
+  broken("word.obj", "line 2: a vertex has three numbers");
+  broken("nan.stl", "line 2: a vertex has three numbers");
+  broken("far.obj", "it has a coordinate that is no number up to 1e+06");
+  broken("mesh.ply", "meshes are read from STL, OBJ and DAE (Collada) files");
+  broken("wrong.dae", "it is no XML: Start-end tags mismatch");
+  for (const char* meshes : {"box", "hull"}) {
+    EXPECT_EQ(error("<mesh filename=\"leg.stl\"/>", meshes),
+              "error 2:7 there is no mesh `leg.stl`: looked for " + folder + "/leg.stl, " +
+                  HOOKPOINT_SOURCE_DIR
+                  "/configs/leg.stl (HOOKPOINT_PATH names further folders; "
+                  "meshes = skip does without)");
+  }
+  EXPECT_EQ(error("<mesh filename=\"https://host/leg.stl\"/>"),
+            "error 2:7 a mesh is named by a path, or by package://NAME/PATH or file://PATH");
+  EXPECT_EQ(error("<mesh/>"), "error 2:2 this <mesh> has no filename");
+  robot.file("brick.stl", binary_stl(brick()));
+  EXPECT_EQ(error("<mesh filename=\"brick.stl\" scale=\"1 0 1\"/>"),
+            "error 2:28 a scale of 0 leaves nothing of a mesh");
+  EXPECT_TRUE(robot.load(robot_of("<mesh filename=\"leg.stl\"/>"), "meshes = skip").experiment);
+  EXPECT_NE(error("<mesh filename=\"leg.stl\"/>", "all")
+                .find("the argument `meshes` is skip, box or hull"),
+            std::string::npos);
+}
+
+TEST(UrdfMesh, BrokenFilesGiveVerticesOrAProblem) {
+  std::mt19937 random(5);
+  using Reader = MeshPoints (*)(std::string_view);
+  const std::pair<std::string, Reader> files[] = {{binary_stl(brick()), simulation::read_stl},
+                                                  {ascii_stl(brick()), simulation::read_stl},
+                                                  {obj(brick()), simulation::read_obj},
+                                                  {collada(brick()), simulation::read_collada}};
+  for (const auto& [whole, read] : files) {
+    EXPECT_EQ(read(whole).problem, "");
+    for (int i = 0; i < 2000; ++i) {
+      std::string bytes = whole.substr(0, i % 2 == 0 ? whole.size() : random() % whole.size());
+      for (int k = 0; k < 3 && !bytes.empty(); ++k) bytes[random() % bytes.size()] = char(random());
+      const MeshPoints mesh = read(bytes);
+      EXPECT_LE(mesh.vertices.size(), bytes.size());
+    }
+  }
+  // A node that stands in itself, and one that stands a thousand times in each of a hundred.
+  std::string nodes;
+  for (int i = 0; i < 100; ++i) {
+    nodes += "<node id=\"n" + std::to_string(i) + "\">";
+    for (int k = 0; k < 10; ++k)
+      nodes += "<instance_node url=\"#n" + std::to_string((i + 1) % 100) + "\"/>";
+    nodes += "</node>";
+  }
+  EXPECT_EQ(simulation::read_collada("<COLLADA><library_visual_scenes><visual_scene>" + nodes +
+                                     "</visual_scene></library_visual_scenes></COLLADA>")
+                .problem,
+            "its nodes stand in one another too often");
+}
+
+TEST(Hull, IsOfWhatStandsOut) {
+  using simulation::hull_vertices;
+  std::vector<Vector3d> grid, plane, line;
+  for (int i = 0; i < 11; ++i) {
+    line.push_back({0.1 * i, 0.2 * i, 0.3 * i});
+    for (int j = 0; j < 11; ++j) {
+      plane.push_back({0.1 * i, 0.1 * j, 0.});
+      for (int k = 0; k < 11; ++k)
+        grid.push_back({0.1f * float(i), 0.07f * float(j), 0.1f * float(k)});
+    }
+  }
+  EXPECT_EQ(hull_vertices(grid).size(), 8u);
+  EXPECT_EQ(hull_vertices(plane).size(), plane.size());
+  EXPECT_EQ(hull_vertices(line).size(), line.size());
+  EXPECT_EQ(hull_vertices(std::vector<Vector3d>{{1., 2., 3.}}).size(), 1u);
+  const auto few = simulation::spread_points(plane, 4);
+  ASSERT_EQ(few.size(), 4u);
+  for (const Vector3d& p : few)
+    EXPECT_TRUE((p.x == 0. || p.x == 1.) && (p.y == 0. || p.y == 1.)) << p.x << ' ' << p.y;
+}
+
+}  // namespace
+}  // namespace hookpoint::tests
