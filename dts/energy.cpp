@@ -20,7 +20,7 @@ Real rotor_energy(const Model<Real>& model, const Workspace<Real>& workspace, st
   const Seat& seat = model.seat_of(body);
   const LinkConstants<Lanes<Real>>& link = model.groups()[seat.group].links[seat.link];
   const BodyMotion<Real>& own = workspace.bodies[body];
-  const BodyMotion<Real>& carrier = workspace.bodies[carrier_of(model, body)];
+  const BodyMotion<Real>& carrier = workspace.bodies[model.carrier_of(body)];
   const Vector3<Real> beyond =
       link.joint == JointType::prismatic
           ? own.v_WB - carrier.v_WB - cross(carrier.w_WB, own.p_WB - carrier.p_WB)
