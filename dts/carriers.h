@@ -31,32 +31,24 @@ template <class Real>
   scatter(a, at_body(group, n, std::span(workspace.carrier_motions)));
 }
 
-/// Adds `x`, which the chains of a group ask of their hips, to what their carriers carry.
-template <class Real>
-[[gnu::noinline]] void hand_inward(const ChainGroup<Real>& group,
-                                   const ArticulatedInertia<Lanes<Real>>& x,
+/// Adds `x`, an inertia or a wrench that the chains of a group ask of their hips, to that part of
+/// what their carriers carry.
+template <class Real, template <class> class Quantity>
+[[gnu::noinline]] void hand_inward(const ChainGroup<Real>& group, const Quantity<Lanes<Real>>& x,
+                                   Quantity<Real> HipPass<Real>::*part,
                                    Workspace<Real>& workspace) {
-  const ArticulatedInertia<Lanes<Real>> on_carriers = inward(group, x);
+  const Quantity<Lanes<Real>> on_carriers = inward(group, x);
   for (std::size_t lane = 0; lane < group.chain_count; ++lane) {
-    ArticulatedInertia<Real>& IA = workspace.carried[group.carriers[lane]].IA;
-    IA = IA + lane_of(on_carriers, lane);
-  }
-}
-template <class Real>
-[[gnu::noinline]] void hand_inward(const ChainGroup<Real>& group, const Wrench<Lanes<Real>>& x,
-                                   Workspace<Real>& workspace) {
-  const Wrench<Lanes<Real>> on_carriers = inward(group, x);
-  for (std::size_t lane = 0; lane < group.chain_count; ++lane) {
-    Wrench<Real>& pA = workspace.carried[group.carriers[lane]].pA;
-    pA = pA + lane_of(on_carriers, lane);
+    Quantity<Real>& sum = workspace.carried[group.carriers[lane]].*part;
+    sum = sum + lane_of(on_carriers, lane);
   }
 }
 
-/// Both, of what backward_dynamics found at the hips.
+/// Inertia and wrench that backward_dynamics found at the hips.
 template <class Real>
 void hand_inward(const ChainGroup<Real>& group, Workspace<Real>& workspace) {
-  hand_inward(group, workspace.hips[group.index].IA, workspace);
-  hand_inward(group, wrench_on_hip(group, workspace), workspace);
+  hand_inward(group, workspace.hips[group.index].IA, &HipPass<Real>::IA, workspace);
+  hand_inward(group, wrench_on_hip(group, workspace), &HipPass<Real>::pA, workspace);
 }
 
 /// What hangs on the links `n` of a group.

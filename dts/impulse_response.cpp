@@ -140,7 +140,7 @@ void articulated_inertias(const Model<Real>& model, Workspace<Real>& workspace) 
       IA = inward(link, pass, free.Ia);
     }
     workspace.hips[group.index].IA = IA;
-    if (!group.on_base()) hand_inward(group, IA, workspace);
+    if (!group.on_base()) hand_inward(group, IA, &HipPass<Real>::IA, workspace);
   });
   factor_base(model, workspace);
 }

@@ -49,7 +49,7 @@ Wrench<Real> inverse_dynamics(const Model<Real>& model, const Vector3<Real>& gra
     if (group.on_base()) {
       on_base = on_base + only(group.in_use, inward(group, carried));
     } else {
-      hand_inward(group, carried, workspace);
+      hand_inward(group, carried, &HipPass<Real>::pA, workspace);
     }
   });
   const Wrench<Real> f_base =

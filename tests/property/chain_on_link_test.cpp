@@ -8,8 +8,8 @@
 #include "simulation/analysis/dynamics_report.h"
 #include "simulation/analysis/stability.h"
 #include "simulation/engine/dts_engine.h"
-#include "tests/support/command.h"
 #include "tests/support/load_text.h"
+#include "tests/support/printed_run.h"
 #include "tests/support/run_text.h"
 
 namespace hookpoint {
@@ -172,18 +172,9 @@ TEST(ChainOnLink, AJointThatMovesNoInertiaIsToldOfOnlyWhereNothingThatItCarriesH
 }
 
 TEST(ChainOnLink, PrintsAsAFileThatMeansTheSame) {
-  const testing::Workplace place;
-  place.file("scene.hook", "Include \"scenes/tumbling_acrobat.hook\";");
-  const testing::CommandResult printed = place.hookpoint("print scene.hook");
-  ASSERT_EQ(printed.status, 0) << printed.err;
-  place.file("printed.hook", printed.out);
-  const std::string run =
-      " --for 20ms --record world.acrobat.waist.torso.arm[1].lower.location.x,"
-      "world.acrobat.waist.torso.neck.hip_force.z --out ";
-  ASSERT_EQ(place.hookpoint("run scene.hook" + run + "a").status, 0);
-  ASSERT_EQ(place.hookpoint("run printed.hook" + run + "b").status, 0);
-  EXPECT_FALSE(place.read("a/trace.csv").empty());
-  EXPECT_EQ(place.read("a/trace.csv"), place.read("b/trace.csv"));
+  testing::expect_printed_runs_alike("scenes/tumbling_acrobat.hook",
+                                     "world.acrobat.waist.torso.arm[1].lower.location.x,"
+                                     "world.acrobat.waist.torso.neck.hip_force.z");
 }
 
 }  // namespace

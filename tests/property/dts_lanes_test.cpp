@@ -30,6 +30,23 @@ dts::RobotDescription chains_of_a_kind(RandomRobots& random, bool mobile, int co
 const std::vector<dts::JointType> arm{dts::JointType::revolute, dts::JointType::prismatic,
                                       dts::JointType::revolute};
 
+/// In one drawn state.
+void expect_like_the_mass_matrix(RandomRobots& random, const dts::RobotDescription& robot,
+                                 const dts::Model<double>& model) {
+  const dts::State<double> state = random.state(model);
+  const std::vector<double> torques = random.numbers(model.link_count(), 5.);
+  const Vector3d gravity = random.vector(10.);
+  dts::Workspace<double> workspace(model);
+  dts::forward_dynamics(model, state, gravity, torques, workspace);
+  std::vector<double> found(dts::velocity_count(model));
+  dts::get_acceleration(model, workspace, std::span<double>(found));
+  const Eigen::VectorXd truth =
+      DenseDynamics(robot, state).accelerations(eigen(gravity), torques, {});
+  const Eigen::Map<const Eigen::VectorXd> a(found.data(), Eigen::Index(found.size()));
+  EXPECT_LE((a - truth).lpNorm<Eigen::Infinity>(), 1e-10 * truth.lpNorm<Eigen::Infinity>())
+      << robot.chains.size() << " chains";
+}
+
 TEST(DtsLanes, AcceleratesLikeTheMassMatrixWhateverTheNumberOfLanesInUse) {
   RandomRobots random(41);
   for (int count = 1; count <= 9; ++count) {
@@ -37,18 +54,7 @@ TEST(DtsLanes, AcceleratesLikeTheMassMatrixWhateverTheNumberOfLanesInUse) {
       const dts::RobotDescription robot = chains_of_a_kind(random, mobile, count, arm);
       const dts::Model<double> model(robot);
       EXPECT_EQ(model.groups().size(), std::size_t(count + 3) / 4);
-      const dts::State<double> state = random.state(model);
-      const std::vector<double> torques = random.numbers(model.link_count(), 5.);
-      const Vector3d gravity = random.vector(10.);
-      dts::Workspace<double> workspace(model);
-      dts::forward_dynamics(model, state, gravity, torques, workspace);
-      std::vector<double> found(dts::velocity_count(model));
-      dts::get_acceleration(model, workspace, std::span<double>(found));
-      const Eigen::VectorXd truth =
-          DenseDynamics(robot, state).accelerations(eigen(gravity), torques, {});
-      const Eigen::Map<const Eigen::VectorXd> a(found.data(), Eigen::Index(found.size()));
-      EXPECT_LE((a - truth).lpNorm<Eigen::Infinity>(), 1e-10 * truth.lpNorm<Eigen::Infinity>())
-          << count << " chains";
+      expect_like_the_mass_matrix(random, robot, model);
     }
   }
 }
@@ -110,18 +116,7 @@ TEST(DtsLanes, ChainsOnLinksShareLanesWithThoseOnOtherLinks) {
       const dts::RobotDescription robot = arms_on_legs(random, mobile, count);
       const dts::Model<double> model(robot);
       EXPECT_EQ(model.groups().size(), 2 * (std::size_t(count + 3) / 4));
-      const dts::State<double> state = random.state(model);
-      const std::vector<double> torques = random.numbers(model.link_count(), 5.);
-      const Vector3d gravity = random.vector(10.);
-      dts::Workspace<double> workspace(model);
-      dts::forward_dynamics(model, state, gravity, torques, workspace);
-      std::vector<double> found(dts::velocity_count(model));
-      dts::get_acceleration(model, workspace, std::span<double>(found));
-      const Eigen::VectorXd truth =
-          DenseDynamics(robot, state).accelerations(eigen(gravity), torques, {});
-      const Eigen::Map<const Eigen::VectorXd> a(found.data(), Eigen::Index(found.size()));
-      EXPECT_LE((a - truth).lpNorm<Eigen::Infinity>(), 1e-10 * truth.lpNorm<Eigen::Infinity>())
-          << count << " chains on as many";
+      expect_like_the_mass_matrix(random, robot, model);
     }
   }
 }

@@ -94,15 +94,18 @@ Eigen::VectorXd eigen(const std::vector<double>& a) {
 }
 using tests::eigen;
 
+void expect_accelerations(const Case& drawn, double within) {
+  Workspace<double> workspace(drawn.model);
+  drawn.solve(workspace);
+  const Eigen::VectorXd truth =
+      DenseDynamics(drawn.robot, drawn.state)
+          .accelerations(eigen(drawn.gravity), drawn.torques, drawn.forces);
+  EXPECT_LE(relative_error(eigen(accelerations_of(drawn.model, workspace)), truth), within);
+}
+
 TEST(DtsDense, AccelerationsOfRandomRobots) {
-  for_random_robots(1, [](RandomRobots&, const Case& drawn) {
-    Workspace<double> workspace(drawn.model);
-    drawn.solve(workspace);
-    const Eigen::VectorXd truth =
-        DenseDynamics(drawn.robot, drawn.state)
-            .accelerations(eigen(drawn.gravity), drawn.torques, drawn.forces);
-    EXPECT_LE(relative_error(eigen(accelerations_of(drawn.model, workspace)), truth), tolerance);
-  });
+  for_random_robots(
+      1, [](RandomRobots&, const Case& drawn) { expect_accelerations(drawn, tolerance); });
 }
 
 TEST(DtsDense, FixedBaseDoesNotMove) {
@@ -245,13 +248,7 @@ TEST(DtsDense, AMasslessLinkThatEndsAChainAndCarriesOthers) {
   robot.chains[0].links.back().mass = {};
   const std::size_t shoulder = robot.chains[0].links.size();
   for (const std::size_t arm : {1u, 2u}) robot.chains[arm].carrier = shoulder;
-  const Case drawn(random, robot);
-  Workspace<double> workspace(drawn.model);
-  drawn.solve(workspace);
-  const Eigen::VectorXd truth =
-      DenseDynamics(drawn.robot, drawn.state)
-          .accelerations(eigen(drawn.gravity), drawn.torques, drawn.forces);
-  EXPECT_LE(relative_error(eigen(accelerations_of(drawn.model, workspace)), truth), 1e-9);
+  expect_accelerations(Case(random, robot), 1e-9);
 }
 
 TEST(DtsDense, MasslessLinksBeforeAMassiveOne) {
@@ -263,13 +260,7 @@ TEST(DtsDense, MasslessLinksBeforeAMassiveOne) {
     chain.links[1].mass = {};
     chain.links[2].mass = random.mass_properties();
   }
-  const Case drawn(random, robot);
-  Workspace<double> workspace(drawn.model);
-  drawn.solve(workspace);
-  const Eigen::VectorXd truth =
-      DenseDynamics(drawn.robot, drawn.state)
-          .accelerations(eigen(drawn.gravity), drawn.torques, drawn.forces);
-  EXPECT_LE(relative_error(eigen(accelerations_of(drawn.model, workspace)), truth), 1e-9);
+  expect_accelerations(Case(random, robot), 1e-9);
 }
 
 }  // namespace
