@@ -109,6 +109,7 @@ void add_to(ChainGroup<Real>& group, std::size_t chain, std::size_t first_link,
 template <class Real>
 Model<Real>::Model(const RobotDescription& robot)
     : mobile_(robot.mobile),
+      plane_normal_(robot.mobile ? robot.plane_normal : std::nullopt),
       inertias_{robot.mobile ? about_origin<Real>(robot.base) : RigidInertia<Real>{}} {
   for (const ChainDescription& description : robot.chains) add_chain(description);
 }

@@ -41,7 +41,8 @@ struct HipPass {
 template <class Real>
 struct BasePass {
   Vector3<Real> w;  ///< angular velocity
-  Matrix3<Real> H;  ///< of IA
+  Matrix3<Real> H;     ///< of IA
+  Symmetric3<Real> M;  ///< of IA
   Symmetric3<Real> M_inverse;
   Symmetric3<Real> rotational_inverse;  ///< (I - H M^-1 H^T)^-1
 };

@@ -125,6 +125,7 @@ struct ChangedInput : std::runtime_error {
 
 struct StudyPlan {
   std::string name, title, question, file;
+  std::string body;  ///< trail of the body measured; "": the one that nobody asks for
   double settle = 0., duration = 0.;
   bool quick = false;
   std::vector<SweepPlan> sweeps;
