@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "language/names.h"
+#include "simulation/engine.h"
 #include "simulation/names.h"
 #include "simulation/robot_tree.h"
 

@@ -151,6 +151,9 @@ ClassSchema study_class() {
               integer("seeds",
                       "runs of each row, with the seeds 1, 2, 3 ...; default: one, with the "
                       "scene's own")),
+       choice("match", {"hookpoint"}, "",
+              "choose every law's constants so that the ground is as deep and stiff under the "
+              "scene's load, and rebounds as much, as hookpoint's"),
        boolean("expects", true,
                "whether the Expects of the scene are measured and judged too, where the study runs "
                "as long as the scene")},

@@ -46,7 +46,10 @@ language::ClassSchema robot_class() {
                     number_field("potential_energy", "J", "",
                                  "of the same in gravity, zero at the world's origin")),
           port_only(Direction::output,
-                    vector_field("center_of_mass", "m", "", "of the same, world axes"))});
+                    vector_field("center_of_mass", "m", "", "of the same, world axes")),
+          port_only(Direction::output,
+                    vector_field("center_of_mass_velocity", "m/s", "", "of that, world axes")),
+          port_only(Direction::output, number_field("total_mass", "kg", "", "of the same"))});
   return robot;
 }
 

@@ -98,6 +98,18 @@ class ParameterGiver {
 
 }  // namespace
 
+namespace {
+
+void set_matched(RowScene& scene, const std::vector<simulation::MatchedMaterial>& materials) {
+  for (const simulation::MatchedMaterial& material : materials)
+    for (const simulation::MatchedConstant& constant : material.constants)
+      scene.options.overrides.push_back(
+          {fmt::format("{}.{}.{}", scene.timed_world, material.name, constant.name),
+           fmt::format("{}", constant.chosen)});
+}
+
+}  // namespace
+
 RowScene StudyPlan::scene_of(const RowPlan& row) const {
   RowScene scene = *row.scene;
   const SweptGround* ground = nullptr;
@@ -125,6 +137,7 @@ RowScene StudyPlan::scene_of(const RowPlan& row) const {
     if (meant && varies(field) && !word.empty())
       scene.options.overrides.push_back({scene.timed_world + "." + field, word});
   }
+  set_matched(scene, row.matched);
   return scene;
 }
 
@@ -188,6 +201,8 @@ struct LoadedRow {
   std::vector<RowForm> forms;
   std::optional<std::string> warning;  ///< of its step
   std::string no_body;                 ///< why the body that is asked for cannot be measured
+  std::string no_match;                ///< why its ground cannot be hookpoint's
+  std::vector<simulation::MatchedMaterial> matched;
 };
 
 /// Why the body that a study asks for is none that moves; "" where it does not ask.
@@ -233,6 +248,7 @@ class SceneLoader {
     const SubjectPlan& subject = plan.subjects[static_cast<std::size_t>(row.subject)];
     LoadedRow loaded;
     loaded.scene = load_scene(library_, plan.scene_of(row), loaded.found);
+    if (loaded.scene && plan.match) match(plan, row, loaded);
     if (loaded.scene) {
       simulation::Experiment& experiment = loaded.scene->experiment;
       experiment.duration = plan.duration;
@@ -262,6 +278,11 @@ class SceneLoader {
   bool accept(StudyPlan& plan, const Object& study, const LoadedRow& loaded, RowPlan& row) {
     if (!loaded.scene || loaded.refusal.empty()) forward(loaded.found, plan, study, row);
     if (!loaded.scene) return false;
+    if (!loaded.no_match.empty()) {
+      diagnostics_.error(study.find("match")->position, loaded.no_match);
+      return false;
+    }
+    row.matched = loaded.matched;
     if (!loaded.no_body.empty()) {
       diagnostics_.error(study.find("body")->position, loaded.no_body);
       return false;
@@ -282,6 +303,22 @@ class SceneLoader {
   std::vector<std::string> settable;    ///< names at the scene's top
 
  private:
+  /// Gives the row of our engine hookpoint's ground; a peer has its own.
+  void match(const StudyPlan& plan, const RowPlan& row, LoadedRow& loaded) const {
+    if (loaded.scene->experiment.engine != "dts") return;
+    try {
+      loaded.matched = simulation::matched_to_hookpoint(loaded.scene->experiment);
+    } catch (const simulation::ExperimentError& error) {
+      loaded.no_match = error.what();
+      return;
+    }
+    RowPlan matched = row;
+    matched.matched = loaded.matched;
+    Diagnostics found;
+    loaded.scene = load_scene(library_, plan.scene_of(matched), found);
+    if (!loaded.scene) loaded.found = std::move(found);
+  }
+
   /// Warns of a step above the stability bound, once for each subject and step.
   void warn_of_step(StudyPlan& plan, const Object& study, const RowPlan& row,
                     const simulation::Experiment& experiment, const std::string& what) {
@@ -618,6 +655,7 @@ std::optional<StudyPlan> make_plan(const Object& root, const Object& study, cons
   if (study.find("title") != nullptr) plan.title = study.word("title");
   if (study.find("question") != nullptr) plan.question = study.word("question");
   plan_body(plan, study, diagnostics);
+  plan.match = study.find("match") != nullptr && study.word("match") == "hookpoint";
   plan_times(plan, study, diagnostics);
   const std::filesystem::path scene = library.find(study.word("scene"), file);
   if (scene.empty()) {

@@ -53,7 +53,8 @@ struct Drawn {
   Eigen::VectorXd constrained(const Eigen::VectorXd& f) const {
     const Eigen::MatrixXd M = truth.mass_matrix()(free, free);
     Eigen::VectorXd x = Eigen::VectorXd::Zero(f.size());
-    x(free) = M.ldlt().solve(f(free).eval());
+    const Eigen::VectorXd f_free = f(free);
+    x(free) = Eigen::VectorXd(M.ldlt().solve(f_free));
     return x;
   }
 };

@@ -28,7 +28,7 @@ World w {
   gravity = 9.81;
   deltat = 0.1 ms;
   @world
-  Material m { normal_stiffness = 20 kN/m; normal_damping = 60 N.s/m; tangential_stiffness = 20 kN/m; tangential_damping = 60 N.s/m; }
+  Material m { normal_stiffness = 20 kN/m; normal_damping = 60 N.s/m; tangential_stiffness = 20 kN/m; tangential_damping = 60 N.s/m; regularisation_speed = 0.1 m/s; }
   Terrain.Flat ground { material = m; }
   Robot r {
     Base.@base {
@@ -101,7 +101,7 @@ World w {
   gravity = 9.81;
   deltat = 1 ms;
   @world
-  Robot r { Base.planar { plane = @plane; mass = 2 kg; inertia = 0.1, 0.2, 0.3, 0.01, 0.02, 0.03; center_of_mass = 0.1, 0.05, 0.02; } }
+  Robot r { Base.planar { plane = @plane; mass = 2 kg; inertia = 0.2, 0.25, 0.3, 0.01, 0.02, 0.03; center_of_mass = 0.1, 0.05, 0.02; } }
   Force f { body = r.base; point = 0.1, 0.05, 0.02; force = 3, 4, 5; }
 }
 )";
