@@ -1,6 +1,6 @@
-// The robot as the engine sees it: a reference member (fixed, mobile or planar) that carries serial chains,
-// joints in modified Denavit-Hartenberg form (Reichler & Delcomyn 2000, Fig. 2; Lilly 1993).
-// Immutable once built; share it freely.
+// The robot as the engine sees it: a reference member (fixed, mobile or planar) that carries serial
+// chains, joints in modified Denavit-Hartenberg form (Reichler & Delcomyn 2000, Fig. 2; Lilly
+// 1993). Immutable once built; share it freely.
 #pragma once
 
 #include <cstddef>

@@ -37,8 +37,7 @@ void hold_in_plane(const Model<Real>& model, Vector3<Real>& angular, Vector3<Rea
 /// s v v^T.
 template <class Real>
 Symmetric3<Real> outer_square(const Real& s, const Vector3<Real>& v) {
-  return {s * v.x * v.x, s * v.y * v.y, s * v.z * v.z,
-          s * v.x * v.y, s * v.x * v.z, s * v.y * v.z};
+  return {s * v.x * v.x, s * v.y * v.y, s * v.z * v.z, s * v.x * v.y, s * v.x * v.z, s * v.y * v.z};
 }
 
 /// Restricts the factors of a free base to the plane with the normal `n` (base axes): the inverse

@@ -21,8 +21,7 @@ constexpr double rounding_load = 1e-9;
 bool alone_on_plane(const RunContext& context) {
   const simulation::Experiment& experiment = *context.experiment;
   return experiment.terrain && experiment.robots.size() == 1 && experiment.forces.empty() &&
-         moves_as_if_free(context) &&
-         norm(context.robot_spec().angular_velocity) == 0. &&
+         moves_as_if_free(context) && norm(context.robot_spec().angular_velocity) == 0. &&
          !context.robot_spec().base.boundary_points.empty() &&
          context.robot_spec().base.boundary_radii.empty() &&
          !std::holds_alternative<contact::GridSurface>(experiment.terrain->surface);

@@ -75,8 +75,11 @@ std::vector<MatchedLine> matched_lines(const StudyResult& study) {
       by_subject[{run.subject, material.name}].add(material);
   std::vector<MatchedLine> lines;
   for (const auto& [key, gathered] : by_subject) {
-    MatchedLine line{study.subjects[static_cast<std::size_t>(key.first)].name, key.second,
-                     gathered.load.text() + " N a contact", {}, agreement(gathered)};
+    MatchedLine line{study.subjects[static_cast<std::size_t>(key.first)].name,
+                     key.second,
+                     gathered.load.text() + " N a contact",
+                     {},
+                     agreement(gathered)};
     line.under += gathered.speed.largest > 0. ? " that lands at " + gathered.speed.text() + " m/s"
                                               : " at rest";
     for (const MatchedConstant& constant : gathered.order) {
@@ -91,8 +94,8 @@ std::vector<MatchedLine> matched_lines(const StudyResult& study) {
 std::string constants_text(const MatchedLine& line) {
   std::string text;
   for (const ChosenConstant& constant : line.constants) {
-    text += (text.empty() ? "" : ", ") + constant.name + " " + constant.own + " → " +
-            constant.chosen;
+    text +=
+        (text.empty() ? "" : ", ") + constant.name + " " + constant.own + " → " + constant.chosen;
     if (!constant.unit.empty()) text += " " + constant.unit;
   }
   return text.empty() ? "as hookpoint's" : text;
@@ -102,9 +105,9 @@ output::CsvTable matched_table(const StudyResult& study) {
   output::CsvTable table;
   for (const SweepColumn& sweep : study.sweeps)
     table.header.push_back(output::column_title(sweep.name, sweep.unit));
-  for (const char* name : {"subject", "material", "load [N]", "impact_speed [m/s]", "constant",
-                           "unit", "own", "chosen", "depth_ratio", "stiffness_ratio",
-                           "rebound_ratio"})
+  for (const char* name :
+       {"subject", "material", "load [N]", "impact_speed [m/s]", "constant", "unit", "own",
+        "chosen", "depth_ratio", "stiffness_ratio", "rebound_ratio"})
     table.header.emplace_back(name);
   for (const MatchedRun& run : study.matched)
     for (const MatchedMaterial& material : run.materials)
@@ -112,11 +115,11 @@ output::CsvTable matched_table(const StudyResult& study) {
         std::vector<std::string>& row = table.rows.emplace_back();
         for (std::size_t i = 0; i < run.parameters.size(); ++i)
           row.push_back(exact_label_of(study.sweeps[i], run.parameters[i]));
-        row.insert(row.end(), {study.subjects[static_cast<std::size_t>(run.subject)].name,
-                               material.name, output::shortest(material.under.load),
-                               output::shortest(material.under.impact_speed), constant.name,
-                               constant.unit, output::shortest(constant.own),
-                               output::shortest(constant.chosen)});
+        row.insert(row.end(),
+                   {study.subjects[static_cast<std::size_t>(run.subject)].name, material.name,
+                    output::shortest(material.under.load),
+                    output::shortest(material.under.impact_speed), constant.name, constant.unit,
+                    output::shortest(constant.own), output::shortest(constant.chosen)});
         for (const double ratio : {material.depth, material.stiffness, material.rebound})
           row.push_back(output::shortest(ratio));
       }

@@ -17,7 +17,7 @@ struct ChosenConstant {
 
 struct MatchedLine {
   std::string subject, material;
-  std::string under;  ///< "9.81 N a contact that lands at 1.4 m/s"
+  std::string under;                      ///< "9.81 N a contact that lands at 1.4 m/s"
   std::vector<ChosenConstant> constants;  ///< empty: hookpoint's serve
   std::string matched;  ///< "depth, stiffness, rebound", or what differs and how much
 };

@@ -73,14 +73,14 @@ MeasuredBody measured_body(const Experiment& experiment, std::string_view trail)
     if (!known) return false;
     found = {index, base, static_cast<std::size_t>(named - trails.begin())};
     if (found.body == base && !robot.mobile)
-      throw ExperimentError(fmt::format("`{}` is held in the world; {}", trail,
-                                        advice_for(robot, trails, base)));
+      throw ExperimentError(
+          fmt::format("`{}` is held in the world; {}", trail, advice_for(robot, trails, base)));
     return true;
   });
   if (known) return found;
   for (const RobotSpec& robot : experiment.robots) trails.push_back(robot.name);
-  throw ExperimentError(fmt::format("no body `{}` in the scene{}", trail,
-                                    language::did_you_mean(wanted, trails)));
+  throw ExperimentError(
+      fmt::format("no body `{}` in the scene{}", trail, language::did_you_mean(wanted, trails)));
 }
 
 }  // namespace hookpoint::studies

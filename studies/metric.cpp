@@ -227,9 +227,8 @@ RunContext make_context(const simulation::Experiment& experiment, double settle,
   context.body = measured.base;
   context.watched = measured.body;
   const simulation::RobotSpec& robot = context.robot_spec();
-  const simulation::Pose X_WB =
-      simulation::Pose{robot.location, robot.orientation} *
-      simulation::body_poses(robot)[measured.body - measured.base];
+  const simulation::Pose X_WB = simulation::Pose{robot.location, robot.orientation} *
+                                simulation::body_poses(robot)[measured.body - measured.base];
   context.weight = simulation::robot_mass(robot) * norm(experiment.gravity);
   context.start = X_WB.position;
   context.start_orientation = X_WB.orientation;

@@ -25,17 +25,17 @@ namespace hookpoint::studies {
 struct RunContext {
   const simulation::Experiment* experiment = nullptr;
   std::optional<contact::Terrain> ground;
-  int robot = 0;         ///< index of the robot measured
-  std::size_t body = 0;  ///< index of its base in WorldState::bodies, where its links follow
+  int robot = 0;            ///< index of the robot measured
+  std::size_t body = 0;     ///< index of its base in WorldState::bodies, where its links follow
   std::size_t watched = 0;  ///< index there of the body that Observation::body is: base or link
-  double settle = 0.;    ///< [s]
-  double duration = 0.;  ///< [s]
-  Vector3d start;        ///< p_WB at time 0 of the body that is watched [m]
+  double settle = 0.;       ///< [s]
+  double duration = 0.;     ///< [s]
+  Vector3d start;           ///< p_WB at time 0 of the body that is watched [m]
   Quaterniond start_orientation;  ///< R_WB at time 0 of the same
-  Vector3d normal;       ///< of the ground under the start, unit
-  Vector3d downhill;     ///< unit, in the ground's plane: steepest descent; on the level, along the
-                         ///< base's initial velocity
-  double weight = 0.;    ///< m |g| [N], of the whole robot
+  Vector3d normal;                ///< of the ground under the start, unit
+  Vector3d downhill;   ///< unit, in the ground's plane: steepest descent; on the level, along the
+                       ///< base's initial velocity
+  double weight = 0.;  ///< m |g| [N], of the whole robot
   simulation::EngineFactory make =
       nullptr;  ///< of the run's engine, where a metric may run another
 

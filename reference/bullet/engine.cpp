@@ -15,7 +15,8 @@ using enum simulation::EngineGap::Handling;
 constexpr auto gaps = std::to_array<OwnGap>({
     single_friction_gap,
     {feature::planar, refused,
-     "Bullet's planar joint moves along axes that turn with the body; choose dts, dart, mujoco, ode "
+     "Bullet's planar joint moves along axes that turn with the body; choose dts, dart, mujoco, "
+     "ode "
      "or simbody"},
 });
 

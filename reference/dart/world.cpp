@@ -191,8 +191,7 @@ class DartWorld final : public PeerWorld {
     const Vector3d arm = rotate(body.initial.orientation, center);
     joint->setArbitraryPlane(eigen(axes.first), eigen(axes.second));
     joint->setTransformFromParentBodyNode(transform(body.initial.position + arm, {}));
-    joint->setTransformFromChildBodyNode(
-        transform(center, conjugate(body.initial.orientation)));
+    joint->setTransformFromChildBodyNode(transform(center, conjugate(body.initial.orientation)));
     const Vector3d& w = body.initial.angular_velocity;
     const Vector3d v = body.initial.velocity + cross(w, arm);
     joint->setVelocities(

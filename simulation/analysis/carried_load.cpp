@@ -55,8 +55,8 @@ std::vector<CarriedLoad> carried_loads(const Experiment& experiment, std::size_t
     const double effective = effective_mass(robot, point);
     share.least_mass = share.points == 0 ? effective : std::min(share.least_mass, effective);
     share.impact_speed =
-        std::max(share.impact_speed, landing_speed(robot, point, std::max(0., -deepest),
-                                                   experiment.gravity));
+        std::max(share.impact_speed,
+                 landing_speed(robot, point, std::max(0., -deepest), experiment.gravity));
     ++share.points;
   }
   std::vector<CarriedLoad> loads;

@@ -202,11 +202,9 @@ LinearisedRobot ControllerTerms::linearised(const std::vector<double>& torques) 
     forth[moved] = step;
     back[moved] = -step;
     A.col(k).tail(n) =
-        (motion.accelerations(forth, none) - motion.accelerations(back, none))(free_) /
-        (2. * step);
+        (motion.accelerations(forth, none) - motion.accelerations(back, none))(free_) / (2. * step);
     A.col(n + k).tail(n) =
-        (motion.accelerations(none, forth) - motion.accelerations(none, back))(free_) /
-        (2. * step);
+        (motion.accelerations(none, forth) - motion.accelerations(none, back))(free_) / (2. * step);
   }
   const std::vector<double> M = mass_matrix();
   Matrix B = Matrix::Zero(2 * n, joints);

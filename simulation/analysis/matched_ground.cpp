@@ -55,9 +55,8 @@ Constants matched(const contact::HuntCrossley& law, const Wanted& wanted, Consta
 // d1 exp(d2 (d + d0)) = W with the tangent d2 W = W/d.
 Constants matched(const contact::Exponential& law, const Wanted& wanted, Constants material) {
   material.exponential_rate = 1. / wanted.depth;
-  material.exponential_force =
-      wanted.load *
-      std::exp(-material.exponential_rate * (wanted.depth + material.exponential_height));
+  material.exponential_force = wanted.load * std::exp(-material.exponential_rate *
+                                                      (wanted.depth + material.exponential_height));
   material.hysteresis_damping = hysteresis_for(wanted, law, material);
   return material;
 }
@@ -74,9 +73,9 @@ Constants matched(const contact::AzadFeatherstone& law, const Wanted& wanted, Co
 
 /// The laws whose normal force is hookpoint's own.
 template <class Law>
-  requires std::derived_from<Law, contact::SpringDamperPredictions> ||
-           std::derived_from<Law, contact::LugrePredictions>
-Constants matched(const Law&, const Wanted&, const Constants& material) {
+requires std::derived_from<Law, contact::SpringDamperPredictions> ||
+    std::derived_from<Law, contact::LugrePredictions>
+        Constants matched(const Law&, const Wanted&, const Constants& material) {
   return material;
 }
 
@@ -109,7 +108,7 @@ MatchedMaterial match_impulses(const CarriedLoad& under, const MaterialSpec& spe
   const Wanted wanted(under, spec.constants);
   Constants chosen = spec.constants;
   if (wanted.lands()) chosen.restitution = wanted.rebound;
-  return {under.material, spec.name, under, changed(spec.constants, chosen), 0., 0.,
+  return {under.material,          spec.name, under, changed(spec.constants, chosen), 0., 0.,
           wanted.lands() ? 1. : 0.};
 }
 

@@ -19,9 +19,9 @@ struct MatchedConstant {
 /// What one material became, and how near that comes to hookpoint with the material's own
 /// constants.
 struct MatchedMaterial {
-  int material = 0;         ///< index among the experiment's
+  int material = 0;  ///< index among the experiment's
   std::string name;
-  CarriedLoad under;        ///< what it was matched under
+  CarriedLoad under;                       ///< what it was matched under
   std::vector<MatchedConstant> constants;  ///< that were changed
   /// Under the load, over hookpoint's: 1 where matched. Of an impulse law 0: it has no depth.
   double depth = 1., stiffness = 1.;
@@ -34,8 +34,8 @@ struct MatchedMaterial {
 /// laws with hookpoint's linear normal spring nothing is changed; `nominal` is soft as hookpoint up
 /// to its nominal depth; `hunt_crossley` becomes linear in depth; `exponential` has hookpoint's
 /// tangent; `azad_featherstone`, whose exponent is fixed, matches depth and rebound and is 1.5
-/// times as stiff; an impulse law matches the rebound alone (docs/advice.md). Throws ExperimentError
-/// where there is nothing to match: a peer, no ground, no weight.
+/// times as stiff; an impulse law matches the rebound alone (docs/advice.md). Throws
+/// ExperimentError where there is nothing to match: a peer, no ground, no weight.
 std::vector<MatchedMaterial> matched_to_hookpoint(const Experiment& experiment);
 
 }  // namespace hookpoint::simulation

@@ -64,10 +64,11 @@ language::ClassSchema base_class(std::string name, std::string doc) {
   base.children = {"Shape.", "ContactPoint"};
   base.fields = schemas(motion_fields());
   if (base.name == "Base.planar") {
-    append(base.fields,
-           {choice_field("plane", {planes.begin(), planes.end()}, "xz",
-                         "of world axes, through the base frame's origin at the start: the base "
-                         "moves in it and turns about its normal, and nothing moves it otherwise")});
+    append(
+        base.fields,
+        {choice_field("plane", {planes.begin(), planes.end()}, "xz",
+                      "of world axes, through the base frame's origin at the start: the base "
+                      "moves in it and turns about its normal, and nothing moves it otherwise")});
   }
   if (mobile) {
     append(
@@ -103,9 +104,9 @@ void load_plane(const language::Object& object, RobotSpec& robot, Loading& loadi
     loading.error(place_of(object, base_field::velocity),
                   fmt::format("this leads out of the plane {} that the base is kept in", *plane));
   if (turning != std::array{0., 0., 0.})
-    loading.error(place_of(object, base_field::angular_velocity),
-                  fmt::format("a base in the plane {} turns about {} alone", *plane,
-                              "xyz"[normal]));
+    loading.error(
+        place_of(object, base_field::angular_velocity),
+        fmt::format("a base in the plane {} turns about {} alone", *plane, "xyz"[normal]));
 }
 
 void load_base(const language::Object& object, RobotSpec& robot, Loading& loading) {
@@ -144,7 +145,8 @@ const language::Object* find_base(const language::Object& robot, Loading& loadin
   if (bases.empty()) {
     loading.error(
         robot.position,
-        fmt::format("robot `{}` has no base; give it a Base.fixed, Base.mobile or Base.planar", robot.name));
+        fmt::format("robot `{}` has no base; give it a Base.fixed, Base.mobile or Base.planar",
+                    robot.name));
     return nullptr;
   }
   for (std::size_t i = 1; i < bases.size(); ++i) {
@@ -158,11 +160,10 @@ const language::Object* find_base(const language::Object& robot, Loading& loadin
 
 void add_robot_classes(language::Schema& schema) {
   schema.add(robot_class());
-  schema.add(base_class("Base.fixed",
-                        "a robot's body, held in the world; its mass plays no part"));
+  schema.add(base_class("Base.fixed", "a robot's body, held in the world; its mass plays no part"));
   schema.add(base_class("Base.mobile", "a robot's body, free to move"));
-  schema.add(base_class("Base.planar",
-                        "a robot's body that moves in a plane, as a robot on a boom does"));
+  schema.add(
+      base_class("Base.planar", "a robot's body that moves in a plane, as a robot on a boom does"));
 }
 
 void load_robots(const language::Object& world, Loading& loading) {

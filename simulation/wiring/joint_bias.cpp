@@ -39,7 +39,11 @@ void JointBias::compute_robot(const RobotSpec& robot, std::size_t first_body,
     const Vector3d turning = state.joints[first_joint + link.joint()].rate * cross(w, z);
     Body& body = bodies_[link.body];
     body = {carrier.acceleration + cross(carrier.angular_acceleration, r) + cross(w, cross(w, r)),
-            carrier.angular_acceleration, {}, {}, z, link.parent,
+            carrier.angular_acceleration,
+            {},
+            {},
+            z,
+            link.parent,
             joint_type(link.link.joint).turns};
     if (body.turns)
       body.angular_acceleration += turning;
@@ -58,8 +62,8 @@ void JointBias::compute_robot(const RobotSpec& robot, std::size_t first_body,
     body.gravity.force = -mass.mass * g;
     body.gravity.moment = cross(center, body.gravity.force);
     body.all.force = mass.mass * (a_c - g);
-    body.all.moment = cross(center, body.all.force) + times_inertia(alpha) +
-                      cross(spin, times_inertia(spin));
+    body.all.moment =
+        cross(center, body.all.force) + times_inertia(alpha) + cross(spin, times_inertia(spin));
   });
   // From the tips to the base, each to what carries it.
   for (std::size_t i = body_count(robot); --i > 0;) {

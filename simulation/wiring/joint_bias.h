@@ -34,10 +34,10 @@ class JointBias {
   };
   struct Body {
     Vector3d acceleration, angular_acceleration;  ///< at v' = 0, of its origin
-    Load gravity, all;         ///< of it and what it carries, on what carries it
-    Vector3d axis;             ///< of its joint
-    std::size_t carrier = 0;   ///< the body that carries it
-    bool turns = true;         ///< its joint does not slide
+    Load gravity, all;                            ///< of it and what it carries, on what carries it
+    Vector3d axis;                                ///< of its joint
+    std::size_t carrier = 0;                      ///< the body that carries it
+    bool turns = true;                            ///< its joint does not slide
   };
 
   void compute_robot(const RobotSpec& robot, std::size_t first_body, std::size_t first_joint,

@@ -128,7 +128,7 @@ struct ChangedInput : std::runtime_error {
 
 struct StudyPlan {
   std::string name, title, question, file;
-  std::string body;  ///< trail of the body measured; "": the one that nobody asks for
+  std::string body;    ///< trail of the body measured; "": the one that nobody asks for
   bool match = false;  ///< laws of our engine get hookpoint's ground
   double settle = 0., duration = 0.;
   bool quick = false;

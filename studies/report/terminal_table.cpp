@@ -251,10 +251,10 @@ std::string matched_list(const StudyResult& study, const TableStyle& style) {
   constexpr std::size_t indent = 4;
   std::string text;
   for (const MatchedLine& line : matched_lines(study))
-    text += std::string(2, ' ') + wrapped(line.subject + " on " + line.material + ", " +
-                                              line.under + ": " + constants_text(line) + " (" +
-                                              line.matched + ")",
-                                          style.width, indent);
+    text +=
+        std::string(2, ' ') + wrapped(line.subject + " on " + line.material + ", " + line.under +
+                                          ": " + constants_text(line) + " (" + line.matched + ")",
+                                      style.width, indent);
   return text.empty() ? "" : "Ground matched to hookpoint's\n" + text + "\n";
 }
 
@@ -283,7 +283,7 @@ std::string terminal_table(const StudyResult& study, const TableStyle& style) {
   if (!study.question.empty()) text += wrapped(study.question, style.width) + "\n";
   text += claim_list(study, style);
   text += matched_list(study, style);
-  for (const TableSpec& table : study.tables)
+  for (const TableSpec& table : shown_tables(study))
     text += terminal_pivot(pivot_of(study, table), style) + "\n";
   for (const RegimeTable& table : regime_tables(study)) text += print_table(study, table, style);
   return text + truth_list(study, style) + failure_list(study, style) + stopped_list(study, style) +

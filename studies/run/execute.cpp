@@ -307,8 +307,8 @@ std::optional<RunRecord> execute(const Measurement& measurement,
                          : "";
   RunRecord record;
   try {
-    RunContext context = make_context(experiment, measurement.settle, measurement.duration,
-                                      measurement.body);
+    RunContext context =
+        make_context(experiment, measurement.settle, measurement.duration, measurement.body);
     record.regime = regime_of(context);
     if (!why_not.empty()) return not_run(measurement, std::move(record), why_not);
     context.make = engine->second.make;

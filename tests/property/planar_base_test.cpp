@@ -1,11 +1,12 @@
 // A base that is kept in a plane against the mass matrix written out, its held rows and columns
 // left out, and against what it must conserve.
+#include "dts/planar_base.h"
+
 #include <gtest/gtest.h>
 
 #include "dts/external_forces.h"
 #include "dts/forward_dynamics.h"
 #include "dts/impulse_response.h"
-#include "dts/planar_base.h"
 #include "tests/support/random_robot.h"
 
 namespace hookpoint::tests {

@@ -1,13 +1,14 @@
 // `match = hookpoint`: a resting point is as deep under every law as under hookpoint, swings about
 // that depth with the same frequency, and rebounds as a Kelvin-Voigt body does. The forces are
 // written out here; what was chosen is only read.
+#include "simulation/analysis/matched_ground.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
 #include <map>
 
-#include "simulation/analysis/matched_ground.h"
 #include "simulation/material_fields.h"
 #include "tests/support/command.h"
 #include "tests/support/run_text.h"
@@ -23,7 +24,8 @@ std::string scene(const std::string& law, double damping, double z) {
          "contact = " + law +
          "; Material m { normal_stiffness = 20 kN/m; normal_damping = " + std::to_string(damping) +
          "; tangential_stiffness = 20 kN/m; tangential_damping = 50 N.s/m; exponent = 1.5; "
-         "nominal_stiffness = 5 kN/m; nominal_penetration = 0.5 mm; restitution = 0.1; rebound_speed = 1 mm/s; }"
+         "nominal_stiffness = 5 kN/m; nominal_penetration = 0.5 mm; restitution = 0.1; "
+         "rebound_speed = 1 mm/s; }"
          " Terrain.Flat ground { material = m; } Robot p { Base.mobile { location = 0, 0, " +
          std::to_string(z) +
          "; mass = 1.5; inertia = 1, 1, 1, 0, 0, 0; ContactPoint tip { location = 0, 0, 0; } } } }";
@@ -45,12 +47,12 @@ using Force = std::function<double(const contact::MaterialConstants<double>&, do
 
 /// N(d, d') as the sources of the laws have it.
 const std::map<std::string, Force> laws{
-    {"hookpoint",
-     [](const auto& m, double d, double v) { return m.normal_stiffness * d + m.normal_damping * v; }},
-    {"lugre",
-     [](const auto& m, double d, double v) { return m.normal_stiffness * d + m.normal_damping * v; }},
-    {"elastoplastic",
-     [](const auto& m, double d, double v) { return m.normal_stiffness * d + m.normal_damping * v; }},
+    {"hookpoint", [](const auto& m, double d,
+                     double v) { return m.normal_stiffness * d + m.normal_damping * v; }},
+    {"lugre", [](const auto& m, double d,
+                 double v) { return m.normal_stiffness * d + m.normal_damping * v; }},
+    {"elastoplastic", [](const auto& m, double d,
+                         double v) { return m.normal_stiffness * d + m.normal_damping * v; }},
     {"nominal",
      [](const auto& m, double d, double v) {
        const double beyond = std::max(0., d - m.nominal_penetration);
@@ -128,12 +130,14 @@ TEST(MatchedGround, AStudyRestsAtOneDepthUnderAllLawsAndTellsWhatItChose) {
   std::string text = scene("hookpoint", 400., 0.);
   work.file("scene.hook", text.replace(text.find("contact = hookpoint; "), 21, ""));
   std::string subjects;
-  for (const auto& [law, force] : laws) subjects += "Subject " + law + " { contact = " + law + "; } ";
-  work.file("study.hook",
-            "Study rest { scene = \"scene.hook\"; duration = 1 s; settle = 0.9 s; match = hookpoint; " +
-                subjects +
-                "Measure depth { of = -p.position.z; predicted = 1.5 kg * 9.81 m/s^2 / 20 kN/m; } "
-                "Truth depth { equals = predicted; tolerance = 1e-6; } }");
+  for (const auto& [law, force] : laws)
+    subjects += "Subject " + law + " { contact = " + law + "; } ";
+  work.file(
+      "study.hook",
+      "Study rest { scene = \"scene.hook\"; duration = 1 s; settle = 0.9 s; match = hookpoint; " +
+          subjects +
+          "Measure depth { of = -p.position.z; predicted = 1.5 kg * 9.81 m/s^2 / 20 kN/m; } "
+          "Truth depth { equals = predicted; tolerance = 1e-6; } }");
   const auto result = work.hookpoint("study study.hook --out out");
   EXPECT_EQ(result.status, 0) << result.out << result.err;
   EXPECT_NE(result.out.find("Ground matched to hookpoint's"), std::string::npos) << result.out;
@@ -151,10 +155,12 @@ TEST(MatchedGround, AStudyRestsAtOneDepthUnderAllLawsAndTellsWhatItChose) {
 
 TEST(MatchedGround, SaysWhereThereIsNothingToMatch) {
   const testing::Workplace work;
-  work.file("scene.hook", "World w { gravity = 0; Terrain.Flat ground; Robot p { Base.mobile { mass "
-                          "= 1; inertia = 1, 1, 1, 0, 0, 0; ContactPoint t { location = 0, 0, 0; } } } }");
-  work.file("study.hook", "Study s { scene = \"scene.hook\"; duration = 0.1 s; match = hookpoint; "
-                          "Subject a { contact = hunt_crossley; } Measure creep_speed; }");
+  work.file("scene.hook",
+            "World w { gravity = 0; Terrain.Flat ground; Robot p { Base.mobile { mass "
+            "= 1; inertia = 1, 1, 1, 0, 0, 0; ContactPoint t { location = 0, 0, 0; } } } }");
+  work.file("study.hook",
+            "Study s { scene = \"scene.hook\"; duration = 0.1 s; match = hookpoint; "
+            "Subject a { contact = hunt_crossley; } Measure creep_speed; }");
   const auto result = work.hookpoint("study study.hook --out out");
   EXPECT_EQ(result.status, 2);
   EXPECT_NE(result.err.find("without gravity nothing bears on the ground"), std::string::npos)

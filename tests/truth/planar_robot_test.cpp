@@ -94,8 +94,8 @@ TEST(PlanarRobot, PeersHaveThePlaneOrSayWhyNot) {
   }
 }
 
-/// A body with a moment and a force of 5 N across its plane, and weight across it where the plane is
-/// xy.
+/// A body with a moment and a force of 5 N across its plane, and weight across it where the plane
+/// is xy.
 const std::string pushed = R"(
 World w {
   gravity = 9.81;
@@ -118,9 +118,9 @@ TEST(PlanarRobot, NothingLeadsItOutOfItsPlane) {
     if (peer.found() && peer.name != std::string_view("bullet"))
       engines.emplace_back(peer.name, peer.make);
   for (const auto& [engine, make] : engines)
-    for (const Plane& plane : {Plane{"xz", "y", "x", "z", 3., 5. - W},
-                               Plane{"yz", "x", "y", "z", 4., 5. - W},
-                               Plane{"xy", "z", "x", "y", 3., 4.}}) {
+    for (const Plane& plane :
+         {Plane{"xz", "y", "x", "z", 3., 5. - W}, Plane{"yz", "x", "y", "z", 4., 5. - W},
+          Plane{"xy", "z", "x", "y", 3., 4.}}) {
       Running run(with(pushed, {{"world", "engine = " + engine + ";"}, {"plane", plane.name}}),
                   make);
       run.step(200);
@@ -130,19 +130,20 @@ TEST(PlanarRobot, NothingLeadsItOutOfItsPlane) {
       for (const char* axis : {"x", "y", "z"})
         if (std::string(axis) != plane.normal)
           EXPECT_NEAR(run["w.r.angular_velocity." + std::string(axis)], 0., tolerance) << what;
-      // The force acts at the centre of mass: no turn, s = F t^2/2m, to the first order of the step.
+      // The force acts at the centre of mass: no turn, s = F t^2/2m, to the first order of the
+      // step.
       EXPECT_NEAR(run["w.r.position." + std::string(plane.first)], plane.along_first / 4. * t * t,
                   0.01 * t)
           << what;
-      EXPECT_NEAR(run["w.r.position." + std::string(plane.second)],
-                  plane.along_second / 4. * t * t, 0.01 * t)
+      EXPECT_NEAR(run["w.r.position." + std::string(plane.second)], plane.along_second / 4. * t * t,
+                  0.01 * t)
           << what;
     }
 }
 
 TEST(PlanarRobot, KeepsEnergyAndMomentumInFlight) {
-  std::string text = with(tumbling, {{"world", "gravity = 0; integrator = rk4;"},
-                                     {"base", "planar"}});
+  std::string text =
+      with(tumbling, {{"world", "gravity = 0; integrator = rk4;"}, {"base", "planar"}});
   text.replace(text.find("  gravity = 9.81;\n"), 18, "");
   text.replace(text.find("damping = 0.02; "), 16, "");
   text.replace(text.find("0, 0, 0.4"), 9, "0, 0, 9.4");

@@ -44,12 +44,17 @@ TEST(StudyBody, IsTheOneThatIsAskedFor) {
     EXPECT_EQ(result.status, 0) << body << "\n" << result.out << result.err;
   };
   holds("body = rig.rail.cart;",
-        "Measure creep_speed; Truth creep_speed { equals = value; value = 3 mm/s; tolerance = 1e-9; }");
+        "Measure creep_speed; Truth creep_speed { equals = value; value = 3 mm/s; tolerance = "
+        "1e-9; }");
   holds("body = world.rig.rail.cart;",
-        "Measure settle_shift; Truth settle_shift { equals = value; value = 0 m; within = 1e-12 m; }");
+        "Measure settle_shift; Truth settle_shift { equals = value; value = 0 m; within = 1e-12 m; "
+        "}");
   holds("body = ball;",
-        "Measure creep_speed; Truth creep_speed { equals = value; value = 2 m/s; tolerance = 1e-9; }");
-  holds("", "Measure creep_speed; Truth creep_speed { equals = value; value = 2 m/s; tolerance = 1e-9; }");
+        "Measure creep_speed; Truth creep_speed { equals = value; value = 2 m/s; tolerance = 1e-9; "
+        "}");
+  holds("",
+        "Measure creep_speed; Truth creep_speed { equals = value; value = 2 m/s; tolerance = 1e-9; "
+        "}");
   holds("body = rig.turn.arm;",
         "Measure spin_max; Truth spin_max { equals = value; value = 2 rad/s; tolerance = 1e-6; }");
 }
@@ -57,10 +62,12 @@ TEST(StudyBody, IsTheOneThatIsAskedFor) {
 TEST(StudyBody, WithoutAMobileRobotItIsTheEndOfTheFirstChain) {
   const Workplace work;
   std::string alone = scene;
-  alone.erase(alone.find("  Robot ball"), alone.find("mass = 1 kg; } } }\n") + 19 - alone.find("  Robot ball"));
+  alone.erase(alone.find("  Robot ball"),
+              alone.find("mass = 1 kg; } } }\n") + 19 - alone.find("  Robot ball"));
   work.file("scene.hook", alone);
-  work.file("study.hook", study("", "Measure creep_speed; Truth creep_speed { equals = value; value "
-                                    "= 3 mm/s; tolerance = 1e-9; }"));
+  work.file("study.hook", study("",
+                                "Measure creep_speed; Truth creep_speed { equals = value; value "
+                                "= 3 mm/s; tolerance = 1e-9; }"));
   const auto result = work.hookpoint("study study.hook --out out");
   EXPECT_EQ(result.status, 0) << result.out << result.err;
 }
