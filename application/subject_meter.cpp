@@ -1,5 +1,6 @@
 #include "application/subject_meter.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -116,7 +117,8 @@ std::unique_ptr<view::Meter> make_meter(const simulation::Experiment& experiment
                                         const studies::EngineTable& engines,
                                         const view::Tally& behind) {
   const auto engine = engines.find(experiment.engine);
-  if (engine == engines.end()) return nullptr;
+  const bool moves = std::ranges::any_of(experiment.robots, &simulation::RobotSpec::mobile);
+  if (engine == engines.end() || !moves) return nullptr;
   try {
     RunContext context = studies::make_context(experiment, 0., experiment.duration);
     if (!context.ground) return nullptr;
@@ -124,7 +126,7 @@ std::unique_ptr<view::Meter> make_meter(const simulation::Experiment& experiment
     return std::make_unique<StudyMeter>(studies::peer_contact(engine->second, experiment),
                                         std::move(context), behind);
   } catch (const simulation::ExperimentError&) {
-    return nullptr;  // no robot moves
+    return nullptr;  // the run itself says why
   }
 }
 

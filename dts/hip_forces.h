@@ -18,7 +18,7 @@ template <class Real>
 void factor_base(const Model<Real>& model, Workspace<Real>& workspace);
 
 /// a = -IA^-1 pA with the factors of `factor_base`: two symmetric 3x3 inverses by the Schur
-/// complement of M.
+/// complement of M; of a planar base within its plane (planar_base.h).
 template <class Real>
 Motion<Real> solve_base(const BasePass<Real>& base, const Wrench<Real>& pA) {
   const Vector3<Real> angular =

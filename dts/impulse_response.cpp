@@ -2,6 +2,7 @@
 
 #include "dts/carriers.h"
 #include "dts/configuration.h"
+#include "dts/planar_base.h"
 
 namespace hookpoint::dts {
 namespace {
@@ -95,6 +96,16 @@ Vector3<Real> response(const Model<Real>& model, Workspace<Real>& workspace,
   return body.R_WB * jump.linear + cross(body.R_WB * jump.angular, b.p_WP - body.p_WB);
 }
 
+/// A jump of the base's velocity, from base axes.
+template <class Real>
+Motion<Real> in_world(const Model<Real>& model, const Workspace<Real>& workspace,
+                      const Motion<Real>& base) {
+  const Matrix3<Real>& R_WB = workspace.bodies[0].R_WB;
+  Motion<Real> jump{R_WB * base.angular, R_WB * base.linear};
+  hold_in_plane(model, jump.angular, jump.linear);
+  return jump;
+}
+
 /// Calls `on_joint(l, jump of its rate)` for every joint of the robot; returns the base's jump,
 /// base axes.
 template <class Real, class OnJoint>
@@ -163,8 +174,8 @@ void velocity_change(const Model<Real>& model, Workspace<Real>& workspace,
       jump_of_robot(model, workspace, point, impulse_W,
                     [&](std::size_t l, const Real& rate) { change[offset + l] = rate; });
   if (!model.mobile()) return;
-  const Matrix3<Real>& R_WB = workspace.bodies[0].R_WB;
-  write_base_velocity<Real>(R_WB * base.angular, R_WB * base.linear, change);
+  const Motion<Real> jump = in_world(model, workspace, base);
+  write_base_velocity<Real>(jump.angular, jump.linear, change);
 }
 
 template <class Real>
@@ -174,9 +185,9 @@ void apply_impulse(const Model<Real>& model, Workspace<Real>& workspace,
   const Motion<Real> base =
       jump_of_robot(model, workspace, point, impulse_W,
                     [&](std::size_t l, const Real& rate) { state.joint_rates[l] += rate; });
-  const Matrix3<Real>& R_WB = workspace.bodies[0].R_WB;
-  state.base_angular_velocity += R_WB * base.angular;
-  state.base_velocity += R_WB * base.linear;
+  const Motion<Real> jump = in_world(model, workspace, base);
+  state.base_angular_velocity += jump.angular;
+  state.base_velocity += jump.linear;
 }
 
 template void articulated_inertias(const Model<double>&, Workspace<double>&);

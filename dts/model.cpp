@@ -127,6 +127,7 @@ std::vector<std::size_t> depths_of(const RobotDescription& robot) {
 template <class Real>
 Model<Real>::Model(const RobotDescription& robot)
     : mobile_(robot.mobile),
+      plane_normal_(robot.mobile ? robot.plane_normal : std::nullopt),
       chain_count_(robot.chains.size()),
       inertias_{robot.mobile ? about_origin<Real>(robot.base) : RigidInertia<Real>{}} {
   std::vector<std::size_t> first_links;

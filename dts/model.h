@@ -1,10 +1,11 @@
-// The robot as the engine sees it: a reference member (fixed or mobile) that carries serial chains,
-// joints in modified Denavit-Hartenberg form (Reichler & Delcomyn 2000, Fig. 2; Lilly 1993), whose
-// links may carry chains in turn (docs/decisions/0027-chains-on-links.md).
+// The robot as the engine sees it: a reference member (fixed, mobile or planar) that carries serial
+// chains, joints in modified Denavit-Hartenberg form (Reichler & Delcomyn 2000, Fig. 2; Lilly
+// 1993), whose links may carry chains in turn (docs/decisions/0027-chains-on-links.md).
 // Immutable once built; share it freely.
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -46,6 +47,8 @@ struct RobotDescription {
   bool mobile = false;
   MassProperties<double> base;  ///< ignored for a fixed base
   std::vector<ChainDescription> chains;
+  /// Of a mobile base that is kept in a plane of world axes: which of x, y, z is its normal.
+  std::optional<std::size_t> plane_normal = {};
 };
 
 /// Where the recursions find a link: which of its chain, and the lane of the group that the chain
@@ -66,6 +69,8 @@ class Model {
   explicit Model(const RobotDescription& robot);
 
   bool mobile() const { return mobile_; }
+  /// 0, 1, 2 for the world axis that a planar base neither moves along nor turns away from.
+  const std::optional<std::size_t>& plane_normal() const { return plane_normal_; }
   std::size_t body_count() const { return inertias_.size(); }
   std::size_t link_count() const { return body_count() - 1; }
   std::size_t chain_count() const { return chain_count_; }
@@ -94,6 +99,7 @@ class Model {
   std::size_t group_for(std::span<const LinkDescription> links, std::size_t depth);
 
   bool mobile_;
+  std::optional<std::size_t> plane_normal_;
   std::size_t chain_count_;
   std::size_t base_groups_ = 0;
   std::vector<RigidInertia<Real>> inertias_;

@@ -40,8 +40,9 @@ struct HipPass {
 /// The base with all that it carries, base axes, factored for a = -IA^-1 pA.
 template <class Real>
 struct BasePass {
-  Vector3<Real> w;  ///< angular velocity
-  Matrix3<Real> H;  ///< of IA
+  Vector3<Real> w;     ///< angular velocity
+  Matrix3<Real> H;     ///< of IA
+  Symmetric3<Real> M;  ///< of IA
   Symmetric3<Real> M_inverse;
   Symmetric3<Real> rotational_inverse;  ///< (I - H M^-1 H^T)^-1
 };

@@ -32,6 +32,7 @@ void add_robot(const simulation::Experiment& experiment, int index, std::vector<
   const std::string name = "robot '" + robot.name + "'";
   if (!robot.chains.empty()) uses.push_back({feature::chains, name + " has chains"});
   if (robot.mobile) add_inertia(robot.base, name, uses);
+  if (robot.plane_normal) uses.push_back({feature::planar, name + " has a Base.planar"});
   for (const simulation::ChainSpec& chain : robot.chains)
     for (const simulation::LinkSpec& link : chain.links) {
       const std::string joint = name + ", joint of " + chain.name + "." + link.body.name;

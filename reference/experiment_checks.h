@@ -15,6 +15,7 @@ namespace hookpoint::reference {
 /// Features that a gap may name.
 namespace feature {
 inline constexpr std::string_view chains = "robots with chains";
+inline constexpr std::string_view planar = "bases that are kept in a plane";
 inline constexpr std::string_view points = "boundary points that touch";
 inline constexpr std::string_view prismatic = "prismatic joints";
 inline constexpr std::string_view massless = "links without mass";

@@ -33,7 +33,7 @@ std::vector<Vector3d> candidates(const simulation::Experiment& experiment) {
 std::optional<RestingBody> resting_body(const simulation::Experiment& experiment) {
   if (!experiment.terrain || experiment.robots.size() != 1) return std::nullopt;
   const simulation::RobotSpec& robot = experiment.robots[0];
-  if (!robot.mobile || !robot.chains.empty()) return std::nullopt;
+  if (!robot.mobile || robot.plane_normal || !robot.chains.empty()) return std::nullopt;
   const Ground ground = ground_of(*experiment.terrain);
   const auto* plane = std::get_if<GroundPlane>(&ground);
   if (plane == nullptr) return std::nullopt;

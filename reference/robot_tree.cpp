@@ -27,6 +27,12 @@ BodyState initial_base(const simulation::RobotSpec& robot) {
 
 }  // namespace
 
+PlaneAxes plane_axes(std::size_t normal) {
+  const Vector3d axes[] = {{1., 0., 0.}, {0., 1., 0.}, {0., 0., 1.}};
+  const Vector3d &a = axes[(normal + 1) % 3], &b = axes[(normal + 2) % 3], &n = axes[normal];
+  return {a, b, n, quaternion_from(Matrix3d{a.x, b.x, n.x, a.y, b.y, n.y, a.z, b.z, n.z})};
+}
+
 RobotTree robot_tree(const simulation::Experiment& experiment) {
   RobotTree tree;
   for (std::size_t i = 0; i < experiment.robots.size(); ++i) {
@@ -41,7 +47,8 @@ RobotTree robot_tree(const simulation::Experiment& experiment) {
                            -1,
                            robot.mobile,
                            {},
-                           initial_base(robot)});
+                           initial_base(robot),
+                           robot.plane_normal});
     simulation::for_each_link(robot, [&](const simulation::TreeLink& at) {
       const auto copy = std::make_shared<LinkSpec>(at.link);
       TreeBody body{std::shared_ptr<const simulation::BodySpec>(copy, &copy->body),

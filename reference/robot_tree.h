@@ -2,7 +2,9 @@
 // what a peer builds its bodies and joints from.
 #pragma once
 
+#include <cstddef>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "simulation/engine.h"
@@ -23,6 +25,8 @@ struct TreeBody {
   /// X_PL(q) = X_PL(0) Rot_z(q), or X_PL(0) Trans_z(q).
   simulation::Pose X_PL0;
   simulation::BodyState initial;  ///< at time 0, by the joints' angles and rates
+  /// Of a base that is kept in a plane through where it starts: which of x, y, z is its normal.
+  std::optional<std::size_t> plane_normal = {};
 
   bool turns() const { return simulation::joint_type(link->joint).turns; }
 };
@@ -37,6 +41,14 @@ struct RobotTree {
     return bases[static_cast<std::size_t>(robot)] + static_cast<std::size_t>(body);
   }
 };
+
+/// The axes of a plane, right-handed: two in it, then its normal.
+struct PlaneAxes {
+  Vector3d first, second, normal;
+  Quaterniond turn;  ///< from x, y, z to them
+};
+/// Of the plane of world axes whose normal is x, y or z: `normal` 0, 1, 2.
+PlaneAxes plane_axes(std::size_t normal);
 
 RobotTree robot_tree(const simulation::Experiment& experiment);
 

@@ -103,6 +103,8 @@ struct ChainSpec {
 struct RobotSpec {
   std::string name;
   bool mobile = false;
+  /// Of a mobile base that is kept in a plane of world axes: 0, 1, 2, its normal x, y or z.
+  std::optional<std::size_t> plane_normal;
   BodySpec base;
   Vector3d location;              ///< p_WB [m]
   Quaterniond orientation;        ///< R_WB

@@ -1,6 +1,7 @@
 #include "studies/body_on_plane.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -20,7 +21,7 @@ constexpr double rounding_load = 1e-9;
 bool alone_on_plane(const RunContext& context) {
   const simulation::Experiment& experiment = *context.experiment;
   return experiment.terrain && experiment.robots.size() == 1 && experiment.forces.empty() &&
-         norm(context.robot_spec().angular_velocity) == 0. &&
+         moves_as_if_free(context) && norm(context.robot_spec().angular_velocity) == 0. &&
          !context.robot_spec().base.boundary_points.empty() &&
          context.robot_spec().base.boundary_radii.empty() &&
          !std::holds_alternative<contact::GridSurface>(experiment.terrain->surface);
@@ -73,6 +74,17 @@ double BodyOnPlane::slip_acceleration() const {
 double BodyOnPlane::friction_load() const {
   const double pull = mass * gravity * sine / contacts();
   return sticks() ? pull : std::min(pull, material.kinetic_friction * normal_load());
+}
+
+bool moves_as_if_free(const RunContext& context) {
+  const simulation::RobotSpec& robot = context.robot_spec();
+  if (!robot.mobile || !robot.plane_normal) return robot.mobile;
+  const auto across = [&](const Vector3d& a) {
+    return std::array{a.x, a.y, a.z}[*robot.plane_normal];
+  };
+  const simulation::Experiment& experiment = *context.experiment;
+  return std::abs(across(context.normal)) <= rounding_load &&
+         std::abs(across(experiment.gravity)) <= rounding_load * norm(experiment.gravity);
 }
 
 bool one_rigid_body(const RunContext& context) {

@@ -32,6 +32,10 @@ struct BodyOnPlane {
   double friction_load() const;
 };
 
+/// Whether the measured robot's base is free, or kept in a plane that holds gravity and the
+/// ground's normal, out of which nothing pushes it.
+bool moves_as_if_free(const RunContext& context);
+
 /// The closed forms want: one rigid body that cannot roll, a plane, no other forces.
 bool one_rigid_body(const RunContext& context);
 

@@ -7,7 +7,9 @@
 #include <span>
 
 #include "simulation/ground.h"
+#include "simulation/kinematics.h"
 #include "simulation/rotors.h"
+#include "studies/measured_body.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -215,28 +217,25 @@ const SignalDefinition* find_signal(std::string_view name) {
   return nullptr;
 }
 
-RunContext make_context(const simulation::Experiment& experiment, double settle, double duration) {
+RunContext make_context(const simulation::Experiment& experiment, double settle, double duration,
+                        std::string_view body) {
   RunContext context;
   context.experiment = &experiment;
   context.ground = simulation::make_ground(experiment);
   context.settle = settle;
   context.duration = duration;
-  std::size_t body = 0;
-  bool found = false;
-  for (std::size_t i = 0; i < experiment.robots.size() && !found; ++i) {
-    const simulation::RobotSpec& robot = experiment.robots[i];
-    context.robot = static_cast<int>(i);
-    context.body = body;
-    found = robot.mobile;
-    body += simulation::body_count(robot);
-  }
-  if (!found)
-    throw simulation::ExperimentError("a study needs a robot with a mobile base: there is none");
+  const MeasuredBody measured = measured_body(experiment, body);
+  context.robot = measured.robot;
+  context.body = measured.base;
+  context.watched = measured.body;
   const simulation::RobotSpec& robot = context.robot_spec();
+  const simulation::Pose X_WB = simulation::Pose{robot.location, robot.orientation} *
+                                simulation::body_poses(robot)[measured.body - measured.base];
   context.weight = simulation::robot_mass(robot) * norm(experiment.gravity);
-  context.start = robot.location;
+  context.start = X_WB.position;
+  context.start_orientation = X_WB.orientation;
   context.normal =
-      context.ground ? context.ground->query(robot.location).normal : Vector3d{0., 0., 1.};
+      context.ground ? context.ground->query(context.start).normal : Vector3d{0., 0., 1.};
   context.downhill = driven_direction(context.normal, experiment.gravity, robot.velocity);
   return context;
 }
@@ -269,7 +268,7 @@ Observer::Observer(const RunContext& context, bool with_points, bool with_feet)
 
 Observation Observer::observe(const simulation::WorldState& world,
                               const simulation::WorldInputs* inputs) {
-  const simulation::BodyState& body = world.bodies[context_.body];
+  const simulation::BodyState& body = world.bodies[context_.watched];
   if (points_.capacity() > 0) observe_points(world);
   if (!followed_.empty()) observe_feet(world);
   return {world,

@@ -20,20 +20,22 @@
 
 namespace hookpoint::studies {
 
-/// What of a run is known before it starts: the body measured (base of the first mobile robot), the
-/// ground under its start and the direction in which it is driven.
+/// What of a run is known before it starts: the body measured (studies/measured_body.h), the ground
+/// under its start and the direction in which it is driven.
 struct RunContext {
   const simulation::Experiment* experiment = nullptr;
   std::optional<contact::Terrain> ground;
-  int robot = 0;         ///< index of the robot measured
-  std::size_t body = 0;  ///< index of its base in WorldState::bodies, where its links follow
-  double settle = 0.;    ///< [s]
-  double duration = 0.;  ///< [s]
-  Vector3d start;        ///< p_WB at time 0 [m]
-  Vector3d normal;       ///< of the ground under the start, unit
-  Vector3d downhill;     ///< unit, in the ground's plane: steepest descent; on the level, along the
-                         ///< initial velocity
-  double weight = 0.;    ///< m |g| [N], of the whole robot
+  int robot = 0;            ///< index of the robot measured
+  std::size_t body = 0;     ///< index of its base in WorldState::bodies, where its links follow
+  std::size_t watched = 0;  ///< index there of the body that Observation::body is: base or link
+  double settle = 0.;       ///< [s]
+  double duration = 0.;     ///< [s]
+  Vector3d start;           ///< p_WB at time 0 of the body that is watched [m]
+  Quaterniond start_orientation;  ///< R_WB at time 0 of the same
+  Vector3d normal;                ///< of the ground under the start, unit
+  Vector3d downhill;   ///< unit, in the ground's plane: steepest descent; on the level, along the
+                       ///< base's initial velocity
+  double weight = 0.;  ///< m |g| [N], of the whole robot
   simulation::EngineFactory make =
       nullptr;  ///< of the run's engine, where a metric may run another
 
@@ -42,8 +44,10 @@ struct RunContext {
   }
 };
 
-/// Throws simulation::ExperimentError when no robot can move.
-RunContext make_context(const simulation::Experiment& experiment, double settle, double duration);
+/// `body`: the trail of the body measured, as studies/measured_body.h takes it. Throws
+/// simulation::ExperimentError when there is none or it cannot move.
+RunContext make_context(const simulation::Experiment& experiment, double settle, double duration,
+                        std::string_view body = {});
 
 /// A boundary point of the measured robot: its base's first, then its links', chain by chain.
 struct PointObservation {

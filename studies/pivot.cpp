@@ -224,6 +224,16 @@ std::string interval_note(const Pivot& pivot) {
          (pivot.first.empty() ? "" : "; difference to " + pivot.first + ", paired by seed");
 }
 
+std::vector<TableSpec> shown_tables(const StudyResult& study) {
+  constexpr std::size_t most_columns = 12;
+  const auto metric = std::ranges::find(study.metrics, false, &MetricColumn::timing);
+  if (!study.tables.empty() || study.sweeps.size() != 1 || metric == study.metrics.end())
+    return study.tables;
+  const std::size_t values = study.sweeps.front().values.size();
+  if (values < 2 || values > most_columns) return {};
+  return {{"", "", "subject", study.sweeps.front().name, metric->name, {}, {}}};
+}
+
 Pivot pivot_of(const StudyResult& table_study, const TableSpec& table) {
   const StudyResult& study = table_study.runs != nullptr ? *table_study.runs : table_study;
   const std::size_t metric = metric_index(study, table.value).value();

@@ -52,6 +52,10 @@ std::string text_of(const MeanInterval& interval);
 /// What the intervals of a Table are; "" for a study without seeds.
 std::string interval_note(const Pivot& pivot);
 
+/// The study's Tables; of one without, that varied one thing, its first metric by subject and
+/// value: a worst or a median alone says nothing of how what was varied matters.
+std::vector<TableSpec> shown_tables(const StudyResult& study);
+
 /// Rows and columns that no run of the Table falls into are left out.
 Pivot pivot_of(const StudyResult& study, const TableSpec& table);
 

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "simulation/analysis/matched_ground.h"
 #include "studies/regime.h"
 
 namespace hookpoint::studies {
@@ -166,8 +167,16 @@ struct TruthResult {
   int first_failure = -1;      ///< index into StudyResult::rows
 };
 
+/// What `match` chose for one run.
+struct MatchedRun {
+  std::vector<double> parameters;  ///< one a sweep, in the sweep's unit
+  int subject = 0;                 ///< index into StudyResult::subjects
+  std::vector<simulation::MatchedMaterial> materials;
+};
+
 /// Names of a study's own tables, which no figure may have.
-inline constexpr std::array<std::string_view, 3> table_names{"results", "timing", "peer_distance"};
+inline constexpr std::array<std::string_view, 4> table_names{"results", "timing", "peer_distance",
+                                                             "matched"};
 
 struct StudyResult {
   std::string name;
@@ -184,6 +193,7 @@ struct StudyResult {
   std::vector<ClaimSpec> claims;
   std::vector<TruthResult> truths;
   std::vector<PeerDistances> peer_distances;   ///< where `peer_distance` is measured
+  std::vector<MatchedRun> matched;             ///< where the study has `match`, of our engine
   std::vector<std::string> warnings;           ///< the plan's
   std::optional<std::size_t> seed_sweep = {};  ///< of `seeds`: index into `sweeps`
   const StudyResult* runs = nullptr;  ///< of rows that are means over seeds: the runs themselves

@@ -137,6 +137,10 @@ ClassSchema study_class() {
       {text("title", "heading of the report"),
        text("question", "what the study asks, first thing in the report"),
        required(text("scene", "file of the world, whose Params a Sweep may vary")),
+       formula("body",
+               "the body that metrics of motion look at: a robot, which stands for its base, or a "
+               "link; default: the base of the first mobile robot, or else the end of the first "
+               "chain"),
        required(positive(number("duration", "s", "simulated time of every run"))),
        with_default(
            at_least_zero(number("settle", "s", "time from which metrics look: the start may ring")),
@@ -147,6 +151,9 @@ ClassSchema study_class() {
               integer("seeds",
                       "runs of each row, with the seeds 1, 2, 3 ...; default: one, with the "
                       "scene's own")),
+       choice("match", {"hookpoint"}, "",
+              "choose every law's constants so that the ground is as deep and stiff under the "
+              "scene's load, and rebounds as much, as hookpoint's"),
        boolean("expects", true,
                "whether the Expects of the scene are measured and judged too, where the study runs "
                "as long as the scene")},

@@ -15,6 +15,10 @@ using enum simulation::EngineGap::Handling;
 constexpr auto gaps = std::to_array<OwnGap>({
     single_friction_gap,
     {feature::rotors, refused, "joints of Bullet have no inertia of their own; use dts or mujoco"},
+    {feature::planar, refused,
+     "Bullet's planar joint moves along axes that turn with the body; choose dts, dart, mujoco, "
+     "ode "
+     "or simbody"},
 });
 
 }  // namespace

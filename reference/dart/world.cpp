@@ -5,6 +5,7 @@
 #include <dart/collision/CollisionObject.hpp>
 #include <dart/dynamics/BodyNode.hpp>
 #include <dart/dynamics/FreeJoint.hpp>
+#include <dart/dynamics/PlanarJoint.hpp>
 #include <dart/dynamics/PrismaticJoint.hpp>
 #include <dart/dynamics/RevoluteJoint.hpp>
 #include <dart/dynamics/Skeleton.hpp>
@@ -171,6 +172,7 @@ class DartWorld final : public PeerWorld {
       joint->setTransformFromParentBodyNode(X_WB);
       return node;
     }
+    if (body.plane_normal) return add_planar_base(body);
     const auto [joint, node] = add_node<FreeJoint>(nullptr);
     // DART steps the velocity of the joint's frame: at the centre of mass it is exact in free
     // flight.
@@ -178,6 +180,22 @@ class DartWorld final : public PeerWorld {
     FreeJoint::setTransformOf(joint, X_WB);
     joint->setAngularVelocity(eigen(body.initial.angular_velocity));
     joint->setLinearVelocity(eigen(body.initial.velocity));
+    return node;
+  }
+
+  /// At the centre of mass, as a free base; the joint's frame has the world's axes at the start.
+  BodyNode* add_planar_base(const TreeBody& body) {
+    const PlaneAxes axes = plane_axes(*body.plane_normal);
+    const auto [joint, node] = add_node<dart::dynamics::PlanarJoint>(nullptr);
+    const Vector3d& center = body.body->mass.center_of_mass;
+    const Vector3d arm = rotate(body.initial.orientation, center);
+    joint->setArbitraryPlane(eigen(axes.first), eigen(axes.second));
+    joint->setTransformFromParentBodyNode(transform(body.initial.position + arm, {}));
+    joint->setTransformFromChildBodyNode(transform(center, conjugate(body.initial.orientation)));
+    const Vector3d& w = body.initial.angular_velocity;
+    const Vector3d v = body.initial.velocity + cross(w, arm);
+    joint->setVelocities(
+        Eigen::Vector3d(dot(v, axes.first), dot(v, axes.second), dot(w, axes.normal)));
     return node;
   }
 

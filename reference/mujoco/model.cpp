@@ -162,12 +162,24 @@ class Builder {
   void write_joint(const TreeBody& body, std::size_t index) {
     if (body.link == nullptr) {
       // Without it a body is part of the world and stays where it is.
+      if (body.plane_normal) return write_plane(body, index);
       if (body.mobile) text_ << "<freejoint name=\"" << name('j', index) << "\"/>";
       return;
     }
     text_ << "<joint name=\"" << name('j', index) << "\" type=\""
           << (body.turns() ? "hinge" : "slide") << "\" axis=\"0 0 1\" damping=\"0\" armature=\""
           << body.link->rotor_inertia << "\"/>";
+  }
+
+  /// Two slides and a turn about where the body's frame is. Their axes are in the body's own frame
+  /// as it stands in the model.
+  void write_plane(const TreeBody& body, std::size_t index) {
+    const PlaneAxes axes = plane_axes(*body.plane_normal);
+    const Quaterniond to_body = conjugate(body.initial.orientation);
+    text_ << "<joint name=\"" << name('j', index) << "\" type=\"slide\" axis=\""
+          << rotate(to_body, axes.first) << "\"/><joint type=\"slide\" axis=\""
+          << rotate(to_body, axes.second) << "\"/><joint type=\"hinge\" axis=\""
+          << rotate(to_body, axes.normal) << "\"/>";
   }
 
   void write_inertia(const TreeBody& body) {

@@ -115,11 +115,18 @@ class MujocoWorld final : public PeerWorld {
       *position = body.link->angle;
       *velocity = body.link->rate;
     } else if (body.mobile) {
-      // qpos holds the pose already: it is the model's reference. The speeds of a free joint are in
-      // world axes, its rates in the body's.
+      // qpos holds the pose already: it is the model's reference, at which the joints of a plane
+      // are 0. The speeds of a free joint are in world axes, its rates in the body's.
       const BodyState& state = body.initial;
       const Vector3d arm = rotate(state.orientation, mine.offset);
-      write(state.velocity + cross(state.angular_velocity, arm), velocity);
+      const Vector3d v = state.velocity + cross(state.angular_velocity, arm);
+      if (body.plane_normal) {
+        const PlaneAxes axes = plane_axes(*body.plane_normal);
+        return write(
+            {dot(v, axes.first), dot(v, axes.second), dot(state.angular_velocity, axes.normal)},
+            velocity);
+      }
+      write(v, velocity);
       write(rotate(conjugate(state.orientation), state.angular_velocity), velocity + 3);
     }
   }

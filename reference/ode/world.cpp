@@ -188,10 +188,30 @@ class OdeWorld final : public PeerWorld {
         if (experiment.terrain && !touches_by_points(experiment, spec.robot))
           for (const auto& shape : spec.body->shapes)
             body.geometries.push_back(make_ode_geometry(shape, body.center_of_mass, body.id));
+        if (spec.plane_normal) keep_in_plane(body.id, plane_axes(*spec.plane_normal));
       }
       ids.push_back(body.id);
     }
     joints_.emplace(tree, world_.get(), ids);
+  }
+
+  /// Motors of any strength that hold what a plane holds at rest. (ODE's own joint Plane2D knows
+  /// the plane z = 0 alone.)
+  void keep_in_plane(dBodyID body, const PlaneAxes& axes) {
+    const dJointID across = dJointCreateLMotor(world_.get(), nullptr);
+    dJointAttach(across, body, nullptr);
+    dJointSetLMotorNumAxes(across, 1);
+    dJointSetLMotorAxis(across, 0, 0, axes.normal.x, axes.normal.y, axes.normal.z);
+    dJointSetLMotorParam(across, dParamFMax, dInfinity);
+    dJointSetLMotorParam(across, dParamCFM, 0.);
+    const dJointID tilt = dJointCreateAMotor(world_.get(), nullptr);
+    dJointAttach(tilt, body, nullptr);
+    dJointSetAMotorMode(tilt, dAMotorUser);
+    dJointSetAMotorNumAxes(tilt, 2);
+    dJointSetAMotorAxis(tilt, 0, 0, axes.first.x, axes.first.y, axes.first.z);
+    dJointSetAMotorAxis(tilt, 1, 0, axes.second.x, axes.second.y, axes.second.z);
+    for (const int fmax : {dParamFMax, dParamFMax2}) dJointSetAMotorParam(tilt, fmax, dInfinity);
+    for (const int cfm : {dParamCFM, dParamCFM2}) dJointSetAMotorParam(tilt, cfm, 0.);
   }
 
   void apply_forces(const simulation::WorldInputs& inputs) {

@@ -255,6 +255,11 @@ void Model::Parts::add_mobilizer(const Body& body, const SimTK::Body::Rigid& rig
     case Body::Mobility::free:
       MobilizedBody::Free(parent, rigid);
       break;
+    case Body::Mobility::planar: {
+      const Transform X_WF = simtk(body.X_WF);
+      MobilizedBody::Planar(parent, X_WF, rigid, ~X_PL0 * X_WF);
+      break;
+    }
     case Body::Mobility::turning:
       MobilizedBody::Pin(parent, X_PL0, rigid, Transform());
       break;
@@ -274,6 +279,13 @@ void Model::Parts::start(const Description& description) {
       mobilized.setQToFitTransform(state, simtk(body.X_PL0));
       mobilized.setUToFitVelocity(state,
                                   SpatialVec(simtk(body.angular_velocity), simtk(body.velocity)));
+    } else if (body.mobility == Body::Mobility::planar) {
+      // About z of the plane's frame, then along its x and y.
+      const SimTK::Rotation R_WF = simtk(body.X_WF).R();
+      const Vec3 v = ~R_WF * simtk(body.velocity);
+      mobilized.setOneU(state, 0, (~R_WF * simtk(body.angular_velocity))[2]);
+      mobilized.setOneU(state, 1, v[0]);
+      mobilized.setOneU(state, 2, v[1]);
     } else if (body.mobility != Body::Mobility::fixed) {
       mobilized.setOneQ(state, 0, body.angle);
       mobilized.setOneU(state, 0, body.rate);

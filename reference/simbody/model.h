@@ -28,14 +28,16 @@ struct Surface {
 };
 
 struct Body {
-  enum class Mobility { fixed, free, turning, sliding };
+  enum class Mobility { fixed, free, planar, turning, sliding };
   Mobility mobility = Mobility::free;
+  /// Of a planar one: the plane's frame at the start, its normal along z.
+  Frame X_WF{};
   int parent = -1;                     ///< index of the carrying body; -1: the world
   Frame X_PL0;                         ///< pose in the parent, of a joint at 0
   double mass = 0.;                    ///< [kg]
   Vec center_of_mass{};                ///< body axes [m]
   std::array<double, 6> inertia{};     ///< about it: xx, yy, zz, xy, xz, yz [kg m^2]
-  Vec velocity{}, angular_velocity{};  ///< of a free body, world axes [m/s], [rad/s]
+  Vec velocity{}, angular_velocity{};  ///< of a base, world axes [m/s], [rad/s]
   double angle = 0., rate = 0.;        ///< of a joint [rad, m], [rad/s, m/s]
   std::vector<Surface> surfaces;
 };

@@ -30,6 +30,7 @@ simbody::Frame frame(const Vector3d& position, const Quaterniond& q) {
 simbody::Body::Mobility mobility(const TreeBody& body) {
   using enum simbody::Body::Mobility;
   if (body.link != nullptr) return body.turns() ? turning : sliding;
+  if (body.plane_normal) return planar;
   return body.mobile ? free : fixed;
 }
 
@@ -41,6 +42,8 @@ simbody::Body describe(const TreeBody& tree) {
   body.parent = tree.parent;
   body.X_PL0 = tree.link != nullptr ? frame(tree.X_PL0.position, tree.X_PL0.orientation)
                                     : frame(tree.initial.position, tree.initial.orientation);
+  if (tree.plane_normal)
+    body.X_WF = frame(tree.initial.position, plane_axes(*tree.plane_normal).turn);
   body.mass = mass.mass;
   body.center_of_mass = plain(mass.center_of_mass);
   body.inertia = {I.xx, I.yy, I.zz, I.xy, I.xz, I.yz};

@@ -4,19 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "contact/predictions.h"
-#include "dts/impulse_response.h"
 #include "integrators/stepper.h"
 #include "simulation/analysis/advice_changes.h"
 #include "simulation/analysis/advice_constants.h"
+#include "simulation/analysis/carried_load.h"
 #include "simulation/analysis/stability.h"
-#include "simulation/analysis/standing.h"
 #include "simulation/engine.h"
-#include "simulation/engine/robot_system.h"
 #include "simulation/ground.h"
-#include "simulation/robot_tree.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -32,9 +28,6 @@ constexpr double surface_share = 0.1;
 
 using Aim = ConstantAdvice::Aim;
 
-/// How far above its lowest point a robot that does not touch is taken to stand [m].
-constexpr double standing_reach = 1e-3;
-
 void check_applicable(const Experiment& experiment) {
   if (experiment.engine != "dts")
     throw ExperimentError("advice is for the laws of engine dts, not for `" + experiment.engine +
@@ -44,25 +37,6 @@ void check_applicable(const Experiment& experiment) {
                           "` has no stiffness and no damping: there is nothing to advise on");
   if (!experiment.terrain)
     throw ExperimentError("the World has no terrain: there is no contact to advise on");
-}
-
-std::vector<const ContactPoint*> carrying_points(const RobotSystem& robot) {
-  double deepest = -HUGE_VAL;
-  for (const ContactPoint& point : robot.contacts().points())
-    deepest = std::max(deepest, point.depth);
-  const double least = deepest > 0. ? 0. : deepest - standing_reach;
-  std::vector<const ContactPoint*> carrying;
-  for (const ContactPoint& point : robot.contacts().points()) {
-    if (point.depth > least) carrying.push_back(&point);
-  }
-  return carrying;
-}
-
-/// 1/(n . K n), K the collision matrix: what a blow along the normal feels.
-double effective_mass(RobotSystem& robot, const ContactPoint& point) {
-  const Matrix3d K =
-      dts::collision_matrix(robot.model(), robot.workspace(), {point.body, point.position});
-  return 1. / dot(point.normal, K * point.normal);
 }
 
 double wanted_rebound(const AdviceWishes& wishes,
@@ -150,27 +124,18 @@ void advise_constants(GroundAdvice& ground, const contact::AnyForceLaw& law,
 std::vector<GroundAdvice> advise_robot(const Experiment& experiment, int index,
                                        const contact::Terrain& terrain, const WorldInputs& inputs,
                                        const AdviceWishes& wishes) {
-  RobotSystem robot(experiment, static_cast<std::size_t>(index), &terrain, inputs);
-  dts::articulated_inertias(robot.model(), robot.workspace());
-  const std::vector<const ContactPoint*> carrying = carrying_points(robot);
   const contact::AnyForceLaw law = *contact::find_force_law(experiment.contact);
-  const double gravity = norm(experiment.gravity);
-  const double mass = moving_mass(experiment.robots[index]);
-
-  std::map<int, GroundAdvice> by_material;
-  for (const ContactPoint* point : carrying) {
-    GroundAdvice& ground = by_material[point->material];
-    const double effective = effective_mass(robot, *point);
-    ground.least_mass = ground.points == 0 ? effective : std::min(ground.least_mass, effective);
-    ++ground.points;
-  }
+  const auto robot = static_cast<std::size_t>(index);
   std::vector<GroundAdvice> grounds;
-  for (auto& [material, ground] : by_material) {
-    const MaterialSpec& spec = experiment.materials[material];
-    ground.robot = experiment.robots[index].name;
+  for (const CarriedLoad& share : carried_loads(experiment, robot, terrain, inputs)) {
+    const MaterialSpec& spec = experiment.materials[static_cast<std::size_t>(share.material)];
+    GroundAdvice ground;
+    ground.robot = experiment.robots[robot].name;
     ground.material = spec.name;
-    ground.mass = mass / static_cast<double>(carrying.size());
-    ground.load = ground.mass * gravity;
+    ground.points = share.points;
+    ground.mass = share.mass;
+    ground.load = share.load;
+    ground.least_mass = share.least_mass;
     ground.depth = contact::static_depth(law, ground.load, spec.constants);
     ground.rebound = contact::restitution(law, ground.mass, wishes.impact_speed, spec.constants);
     ground.wanted_depth = wishes.penetration.value_or(spec.constants.nominal_penetration);

@@ -8,6 +8,7 @@
 #include "dts/configuration.h"
 #include "dts/forward_kinematics.h"
 #include "dts/mass_matrix.h"
+#include "dts/planar_base.h"
 #include "simulation/engine/articulated_robot.h"
 #include "simulation/engine/robot_description.h"
 #include "simulation/joint_type.h"
@@ -40,15 +41,38 @@ dts::State<double> state_of(const Experiment& experiment, std::size_t robot,
   return state;
 }
 
-std::vector<VelocityCoordinate> coordinates_of(const RobotSpec& robot) {
+constexpr std::size_t base_velocities = 6;
+
+/// Of the engine's velocities those that are free: a plane holds three of its base's.
+std::vector<std::size_t> free_velocities(const RobotSpec& robot) {
+  const std::size_t all = (robot.mobile ? base_velocities : 0) + joint_count(robot);
+  std::vector<std::size_t> indices;
+  for (std::size_t k = 0; k < all; ++k)
+    if (!robot.plane_normal || k >= base_velocities || !dts::held_in_plane(k, *robot.plane_normal))
+      indices.push_back(k);
+  return indices;
+}
+
+/// The columns `chosen` of rows of so many numbers.
+std::vector<double> columns_of(const std::vector<double>& matrix, std::size_t columns,
+                               const std::vector<std::size_t>& chosen) {
+  std::vector<double> picked;
+  if (columns == 0) return picked;
+  picked.reserve(matrix.size());
+  for (std::size_t row = 0; row + columns <= matrix.size(); row += columns)
+    for (const std::size_t column : chosen) picked.push_back(matrix[row + column]);
+  return picked;
+}
+
+std::vector<VelocityCoordinate> coordinates_of(const RobotSpec& robot,
+                                               const std::vector<std::size_t>& free) {
   std::vector<VelocityCoordinate> coordinates;
-  const auto add_base = [&](const std::string& what, const char* unit) {
-    for (const char* axis : {".x", ".y", ".z"})
-      coordinates.push_back({robot.name + "." + robot.base.name + "." + what + axis, unit});
-  };
-  if (robot.mobile) {
-    add_base("angular_velocity", "rad/s");
-    add_base("velocity", "m/s");
+  for (const std::size_t k : free) {
+    if (!robot.mobile || k >= base_velocities) break;
+    const bool turns = k < 3;
+    coordinates.push_back({robot.name + "." + robot.base.name +
+                               (turns ? ".angular_velocity." : ".velocity.") + "xyz"[k % 3],
+                           turns ? "rad/s" : "m/s"});
   }
   for_each_link(robot, [&](const TreeLink& at) {
     coordinates.push_back({robot.name + "." + at.chain.name + "." + at.link.body.name + ".rate",
@@ -111,7 +135,8 @@ ControllerTerms::ControllerTerms(const Experiment& experiment, std::size_t robot
                                  dts::State<double> state)
     : experiment_(&experiment),
       robot_(robot),
-      coordinates_(coordinates_of(experiment.robots[robot])),
+      free_(free_velocities(experiment.robots[robot])),
+      coordinates_(coordinates_of(experiment.robots[robot], free_)),
       bodies_(body_names(experiment.robots[robot])),
       model_(describe_robot(experiment.robots[robot])),
       state_(std::move(state)),
@@ -119,15 +144,26 @@ ControllerTerms::ControllerTerms(const Experiment& experiment, std::size_t robot
   dts::forward_kinematics(model_, state_, workspace_);
   composite_ = dts::composite_bodies(model_, workspace_);
   center_ = dts::center_of_mass(model_, composite_, state_.base_position);
+  center_.jacobian = in_free(center_.jacobian);
+}
+
+std::vector<double> ControllerTerms::in_free(const std::vector<double>& rows) const {
+  return columns_of(rows, dts::velocity_count(model_), free_);
 }
 
 std::vector<double> ControllerTerms::mass_matrix() const {
-  return dts::mass_matrix(model_, composite_);
+  const std::vector<double> M = in_free(dts::mass_matrix(model_, composite_));
+  std::vector<double> rows;
+  for (const std::size_t row : free_) {
+    const auto begin = M.begin() + static_cast<std::ptrdiff_t>(row * free_.size());
+    rows.insert(rows.end(), begin, begin + static_cast<std::ptrdiff_t>(free_.size()));
+  }
+  return rows;
 }
 
 std::vector<double> ControllerTerms::bias_forces() const {
   dts::Workspace<double> workspace = workspace_;
-  return dts::bias_forces(model_, experiment_->gravity, workspace);
+  return in_free(dts::bias_forces(model_, experiment_->gravity, workspace));
 }
 
 std::vector<double> ControllerTerms::gravity_forces() const {
@@ -136,8 +172,8 @@ std::vector<double> ControllerTerms::gravity_forces() const {
 
 std::vector<double> ControllerTerms::jacobian(std::size_t body, const Vector3d& point) const {
   const dts::BodyMotion<double>& at = workspace_.bodies[body];
-  return dts::body_jacobian(model_, composite_, state_.base_position, body,
-                            at.p_WB + at.R_WB * point);
+  return in_free(dts::body_jacobian(model_, composite_, state_.base_position, body,
+                                    at.p_WB + at.R_WB * point));
 }
 
 LinearisedRobot ControllerTerms::linearised(const std::vector<double>& torques) const {
@@ -148,20 +184,21 @@ LinearisedRobot ControllerTerms::linearised(const std::vector<double>& torques) 
   const double step = std::cbrt(std::numeric_limits<double>::epsilon());
   Matrix A = Matrix::Zero(2 * n, 2 * n);
   A.topRightCorner(n, n).setIdentity();
-  if (model_.mobile()) {
+  if (model_.mobile() && !model_.plane_normal()) {
     // Of a turn d against a base that itself turns, d' = w' + w x d.
     const Vector3d& w = state_.base_angular_velocity;
     A.topLeftCorner(3, 3) << 0., -w.z, w.y, w.z, 0., -w.x, -w.y, w.x, 0.;
   }
-  const std::vector<double> none(coordinates_.size());
+  const std::vector<double> none(dts::velocity_count(model_));
   for (Eigen::Index k = 0; k < n; ++k) {
+    const std::size_t moved = free_[static_cast<std::size_t>(k)];
     std::vector<double> forth = none, back = none;
-    forth[static_cast<std::size_t>(k)] = step;
-    back[static_cast<std::size_t>(k)] = -step;
+    forth[moved] = step;
+    back[moved] = -step;
     A.col(k).tail(n) =
-        (motion.accelerations(forth, none) - motion.accelerations(back, none)) / (2. * step);
+        (motion.accelerations(forth, none) - motion.accelerations(back, none))(free_) / (2. * step);
     A.col(n + k).tail(n) =
-        (motion.accelerations(none, forth) - motion.accelerations(none, back)) / (2. * step);
+        (motion.accelerations(none, forth) - motion.accelerations(none, back))(free_) / (2. * step);
   }
   const std::vector<double> M = mass_matrix();
   Matrix B = Matrix::Zero(2 * n, joints);

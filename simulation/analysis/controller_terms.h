@@ -13,8 +13,8 @@
 
 namespace hookpoint::simulation {
 
-/// One of v: angular velocity and velocity of a mobile base's origin, world axes, then the joints'
-/// rates, chain by chain.
+/// One of v: angular velocity and velocity of a mobile base's origin, world axes (of a planar base
+/// those in its plane), then the joints' rates, chain by chain.
 struct VelocityCoordinate {
   std::string trail;  ///< "walker.base.velocity.x", "walker.leg.thigh.rate"
   std::string unit;   ///< rad/s or m/s
@@ -57,9 +57,12 @@ class ControllerTerms {
 
  private:
   ControllerTerms(const Experiment& experiment, std::size_t robot, dts::State<double> state);
+  /// Of rows over all of the engine's velocities the columns that are free.
+  std::vector<double> in_free(const std::vector<double>& rows) const;
 
   const Experiment* experiment_;
   std::size_t robot_;
+  std::vector<std::size_t> free_;  ///< of the engine's velocities: those of `coordinates_`
   std::vector<VelocityCoordinate> coordinates_;
   std::vector<std::string> bodies_;
   dts::Model<double> model_;

@@ -6,6 +6,7 @@
 #include "dts/configuration.h"
 #include "dts/external_forces.h"
 #include "dts/forward_dynamics.h"
+#include "dts/planar_base.h"
 #include "simulation/analysis/eigen_decompositions.h"
 
 namespace hookpoint::simulation {
@@ -50,6 +51,12 @@ Eigen::VectorXd to_joint(const RobotSystem& robot, Workspace& workspace, std::si
   return change;
 }
 
+/// Whether a plane holds the coordinate.
+bool is_held(const dts::Model<double>& model, Eigen::Index coordinate) {
+  return model.plane_normal() && coordinate < 6 &&
+         dts::held_in_plane(static_cast<std::size_t>(coordinate), *model.plane_normal());
+}
+
 Eigen::MatrixXd inverse_mass_matrix(const RobotSystem& robot, Workspace& workspace) {
   const Eigen::Index size = velocity_size(robot);
   const auto links = static_cast<Eigen::Index>(robot.model().link_count());
@@ -66,7 +73,11 @@ Eigen::MatrixXd inverse_mass_matrix(const RobotSystem& robot, Workspace& workspa
   }
   for (Eigen::Index joint = 0; joint < links; ++joint)
     inverse.col(size - links + joint) = to_joint(robot, workspace, static_cast<std::size_t>(joint));
-  return 0.5 * (inverse + inverse.transpose());
+  Eigen::MatrixXd symmetric = 0.5 * (inverse + inverse.transpose());
+  // What a plane holds answers nothing and is coupled to nothing: any inertia does for it.
+  for (Eigen::Index k = 0; k < size; ++k)
+    if (is_held(robot.model(), k)) symmetric(k, k) = 1.;
+  return symmetric;
 }
 
 /// -d(passive_joint_torque)/d(position), /d(rate) at rest.
@@ -124,6 +135,8 @@ Eigen::VectorXd RobotAtRest::base_motion(const Vector3d& rotation,
   Eigen::VectorXd q = Eigen::VectorXd::Zero(size());
   q.head(3) = eigen(rotation);
   q.segment(3, 3) = eigen(translation);
+  for (Eigen::Index k = 0; k < 6; ++k)
+    if (is_held(robot_->model(), k)) q[k] = 0.;
   root_.triangularView<Eigen::Lower>().solveInPlace(q);
   return q;
 }
@@ -166,8 +179,10 @@ Eigen::MatrixXd RobotAtRest::stiffness_of(const std::vector<SteadyLoad>& loads) 
       const Vector3d arm = load.point.p_WP - workspace_.bodies[0].p_WB;
       Eigen::Index index = 0;
       for (const Vector3d& axis :
-           {Vector3d{1., 0., 0.}, Vector3d{0., 1., 0.}, Vector3d{0., 0., 1.}})
-        way.push_back({index++, axis, cross(axis, arm)});
+           {Vector3d{1., 0., 0.}, Vector3d{0., 1., 0.}, Vector3d{0., 0., 1.}}) {
+        if (!is_held(robot_->model(), index)) way.push_back({index, axis, cross(axis, arm)});
+        ++index;
+      }
     }
     const std::size_t turns = way.size();
     for (std::size_t body = load.point.body; body > 0; body = robot_->model().carrier_of(body)) {

@@ -79,7 +79,8 @@ std::unique_ptr<RobotPart> make_impulse_part(const Experiment& experiment, std::
                                              const contact::Terrain* ground,
                                              const WorldInputs& inputs) {
   const contact::ImpulseLaw law = impulse_law(experiment.contact);
-  if (experiment.robots[index].chains.empty())
+  const RobotSpec& robot = experiment.robots[index];
+  if (robot.chains.empty() && !robot.plane_normal)
     return std::make_unique<ImpulseBody>(experiment, index, law, ground, inputs);
   return std::make_unique<ImpulseRobot>(experiment, index, law, ground, inputs);
 }

@@ -26,7 +26,8 @@ dts::LinkDescription describe_link(const LinkSpec& link) {
 }  // namespace
 
 dts::RobotDescription describe_robot(const RobotSpec& robot) {
-  dts::RobotDescription description{robot.mobile, mass_properties(robot.base.mass), {}};
+  dts::RobotDescription description{
+      robot.mobile, mass_properties(robot.base.mass), {}, robot.plane_normal};
   for (const ChainSpec& chain : robot.chains) {
     dts::ChainDescription& added = description.chains.emplace_back();
     added.hip_position = chain.hip_distance;

@@ -87,6 +87,10 @@ const Fields<LinkSpec>& joint_fields() {
       joint_port("total_torque", &Units::torque,
                  "of the drive, spring, damping, friction and stops together, in the "
                  "step just taken"),
+      joint_port("gravity_torque", &Units::torque,
+                 "what gravity takes of the drive to hold the joint where it is"),
+      joint_port("bias_torque", &Units::torque,
+                 "what gravity and velocities take of the drive at accelerations of 0"),
       joint_field(link_field::lower_limit, &Units::position, &LinkSpec::lower_limit,
                   "least angle; none if not given"),
       joint_field("upper_limit", &Units::position, &LinkSpec::upper_limit,

@@ -1,6 +1,9 @@
 // Robot: a base and its chains. Base: the body that carries them.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+
 #include "simulation/scene/body.h"
 #include "simulation/scene/load_parts.h"
 #include "simulation/scene/schema.h"
@@ -43,18 +46,30 @@ language::ClassSchema robot_class() {
                     number_field("potential_energy", "J", "",
                                  "of the same in gravity, zero at the world's origin")),
           port_only(Direction::output,
-                    vector_field("center_of_mass", "m", "", "of the same, world axes"))});
+                    vector_field("center_of_mass", "m", "", "of the same, world axes")),
+          port_only(Direction::output,
+                    vector_field("center_of_mass_velocity", "m/s", "", "of that, world axes")),
+          port_only(Direction::output, number_field("total_mass", "kg", "", "of the same"))});
   return robot;
 }
 
-language::ClassSchema base_class(bool mobile) {
+constexpr std::array<const char*, 3> planes{"yz", "xz", "xy"};  // by their normals x, y, z
+
+language::ClassSchema base_class(std::string name, std::string doc) {
   language::ClassSchema base;
-  base.name = mobile ? "Base.mobile" : "Base.fixed";
-  base.doc = mobile ? "a robot's body, free to move"
-                    : "a robot's body, held in the world; its mass plays no part";
+  base.name = std::move(name);
+  base.doc = std::move(doc);
+  const bool mobile = base.name != "Base.fixed";
   base.default_name = "base";
   base.children = {"Shape.", "ContactPoint"};
   base.fields = schemas(motion_fields());
+  if (base.name == "Base.planar") {
+    append(
+        base.fields,
+        {choice_field("plane", {planes.begin(), planes.end()}, "xz",
+                      "of world axes, through the base frame's origin at the start: the base "
+                      "moves in it and turns about its normal, and nothing moves it otherwise")});
+  }
   if (mobile) {
     append(
         base.fields,
@@ -76,10 +91,29 @@ language::ClassSchema base_class(bool mobile) {
 
 bool is_zero(const Vector3d& a) { return a == Vector3d{}; }
 
+/// The plane of a base that has one, and whether its motion at the start lies in it.
+void load_plane(const language::Object& object, RobotSpec& robot, Loading& loading) {
+  if (object.type != "Base.planar") return;
+  const auto plane = std::ranges::find(planes, object.word("plane"));
+  const auto normal = static_cast<std::size_t>(plane - planes.begin());
+  robot.plane_normal = normal;
+  const auto parts = [](const Vector3d& a) { return std::array{a.x, a.y, a.z}; };
+  std::array turning = parts(robot.angular_velocity);
+  turning[normal] = 0.;
+  if (parts(robot.velocity)[normal] != 0.)
+    loading.error(place_of(object, base_field::velocity),
+                  fmt::format("this leads out of the plane {} that the base is kept in", *plane));
+  if (turning != std::array{0., 0., 0.})
+    loading.error(
+        place_of(object, base_field::angular_velocity),
+        fmt::format("a base in the plane {} turns about {} alone", *plane, "xyz"[normal]));
+}
+
 void load_base(const language::Object& object, RobotSpec& robot, Loading& loading) {
-  robot.mobile = object.type == "Base.mobile";
+  robot.mobile = object.type != "Base.fixed";
   robot.base = load_body(object, object.name, robot.mobile, loading);
   store_fields(object, motion_fields(), robot);
+  load_plane(object, robot, loading);
   if (!robot.mobile) {
     for (const char* field : {base_field::velocity, base_field::angular_velocity}) {
       if (is_zero(vector_of(object, field))) continue;
@@ -111,7 +145,8 @@ const language::Object* find_base(const language::Object& robot, Loading& loadin
   if (bases.empty()) {
     loading.error(
         robot.position,
-        fmt::format("robot `{}` has no base; give it a Base.fixed or a Base.mobile", robot.name));
+        fmt::format("robot `{}` has no base; give it a Base.fixed, Base.mobile or Base.planar",
+                    robot.name));
     return nullptr;
   }
   for (std::size_t i = 1; i < bases.size(); ++i) {
@@ -125,8 +160,10 @@ const language::Object* find_base(const language::Object& robot, Loading& loadin
 
 void add_robot_classes(language::Schema& schema) {
   schema.add(robot_class());
-  schema.add(base_class(false));
-  schema.add(base_class(true));
+  schema.add(base_class("Base.fixed", "a robot's body, held in the world; its mass plays no part"));
+  schema.add(base_class("Base.mobile", "a robot's body, free to move"));
+  schema.add(
+      base_class("Base.planar", "a robot's body that moves in a plane, as a robot on a boom does"));
 }
 
 void load_robots(const language::Object& world, Loading& loading) {

@@ -20,6 +20,7 @@ DerivedPorts::DerivedPorts(const Experiment& experiment, Engine& engine)
       engine_(engine),
       robots_(experiment.robots.size()),
       bodies_(engine.state().bodies.size()),
+      joint_bias_(experiment),
       contact_forces_(engine),
       details_(engine) {}
 
@@ -28,6 +29,7 @@ void DerivedPorts::update() {
   energies_.update();
   accelerations_.update();
   contacts_.update();
+  joint_terms_.update();
 }
 
 void DerivedPorts::restart() {
@@ -42,7 +44,6 @@ void DerivedPorts::compute_energies() {
   for (std::size_t i = 0; i < robots_.size(); ++i) {
     const RobotSpec& robot = experiment_.robots[i];
     RobotValues sum;
-    double total = 0.;
     const auto add = [&](const MassSpec& mass, const BodyState& state) {
       const Vector3d arm = rotate(state.orientation, mass.center_of_mass);
       const Vector3d center = state.position + arm;
@@ -51,14 +52,18 @@ void DerivedPorts::compute_energies() {
       sum.kinetic_energy += 0.5 * (mass.mass * dot(velocity, velocity) + dot(w, mass.inertia * w));
       sum.potential_energy -= mass.mass * dot(experiment_.gravity, center);
       sum.center_of_mass += mass.mass * center;
-      total += mass.mass;
+      sum.center_velocity += mass.mass * velocity;
+      sum.mass += mass.mass;
     };
     if (robot.mobile) add(robot.base.mass, *body);
     ++body;
     for_each_link(robot, [&](const TreeLink& at) { add(at.link.body.mass, *body++); });
     sum.kinetic_energy += rotor_energy(robot, joints);
     joints = joints.subspan(joint_count(robot));
-    if (total > 0.) sum.center_of_mass = (1. / total) * sum.center_of_mass;
+    if (sum.mass > 0.) {
+      sum.center_of_mass = (1. / sum.mass) * sum.center_of_mass;
+      sum.center_velocity = (1. / sum.mass) * sum.center_velocity;
+    }
     finite_ = finite_ && std::isfinite(sum.kinetic_energy) && std::isfinite(sum.potential_energy) &&
               is_finite(sum.center_of_mass);
     robots_[i] = sum;
@@ -77,6 +82,12 @@ void DerivedPorts::compute_accelerations() {
         finite_ && is_finite(bodies_[i].acceleration) && is_finite(bodies_[i].angular_acceleration);
     before_[i] = now[i];
   }
+}
+
+void DerivedPorts::compute_joint_bias() {
+  joint_bias_.compute(engine_.state());
+  for (const JointBiasValues& joint : joint_bias_.values())
+    finite_ = finite_ && std::isfinite(joint.all);
 }
 
 void DerivedPorts::compute_contacts() {

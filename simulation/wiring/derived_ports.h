@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "simulation/wiring/joint_bias.h"
 #include "simulation/wiring/ports.h"
 
 namespace hookpoint::simulation {
@@ -28,6 +29,8 @@ class DerivedPorts {
     double kinetic_energy = 0.;    ///< of its bodies; a fixed base counts for nothing [J]
     double potential_energy = 0.;  ///< of gravity, zero at the world's origin [J]
     Vector3d center_of_mass;       ///< world axes [m]
+    Vector3d center_velocity;      ///< of the same [m/s]
+    double mass = 0.;              ///< of the same bodies [kg]
   };
   struct BodyValues {
     Vector3d acceleration,
@@ -37,9 +40,13 @@ class DerivedPorts {
   const RobotValues& robot(std::size_t i) const { return robots_[i]; }
   const BodyValues& body(std::size_t i) const { return bodies_[i]; }
 
+  const JointBiasValues& joint(std::size_t i) const { return joint_bias_.values()[i]; }
+
   Lazy& energies() { return energies_; }
   Lazy& accelerations() { return accelerations_; }
   Lazy& contacts() { return contacts_; }
+  /// What gravity and velocities take of the joints.
+  Lazy& joint_bias() { return joint_terms_; }
   /// The bodies' contact forces (Engine::publish_contact_forces).
   Lazy& contact_forces() { return contact_forces_; }
   /// The engine's own details (Engine::publish_details).
@@ -77,16 +84,19 @@ class DerivedPorts {
   void compute_energies();
   void compute_accelerations();
   void compute_contacts();
+  void compute_joint_bias();
 
   const Experiment& experiment_;
   Engine& engine_;
   std::vector<RobotValues> robots_;
   std::vector<BodyValues> bodies_;
+  JointBias joint_bias_;
   std::vector<BodyState> before_;  // of the step before, while accelerations are wanted
   bool finite_ = true;
   Group energies_{*this, &DerivedPorts::compute_energies};
   Group accelerations_{*this, &DerivedPorts::compute_accelerations};
   Group contacts_{*this, &DerivedPorts::compute_contacts};
+  Group joint_terms_{*this, &DerivedPorts::compute_joint_bias};
   ContactForces contact_forces_;
   Details details_;
 };

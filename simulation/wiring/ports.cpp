@@ -60,17 +60,23 @@ void add_robot(std::vector<Port>& ports, const std::string& trail,
   ports.push_back(readable(trail + ".kinetic_energy", "J", values.kinetic_energy));
   ports.push_back(readable(trail + ".potential_energy", "J", values.potential_energy));
   add_vector(ports, trail + ".center_of_mass", "m", values.center_of_mass);
+  add_vector(ports, trail + ".center_of_mass_velocity", "m/s", values.center_velocity);
+  ports.push_back(readable(trail + ".total_mass", "kg", values.mass));
   on_demand(ports, first, derived.energies());
 }
 
 void add_joint(std::vector<Port>& ports, const std::string& trail, const JointUnits& units,
-               const JointState& joint, double& drive) {
+               const JointState& joint, double& drive, const JointBiasValues& bias, Lazy& lazy) {
   ports.push_back(readable(trail + ".angle", units.position, joint.angle));
   ports.push_back(readable(trail + ".rate", units.rate, joint.rate));
   ports.push_back(readable(trail + ".acceleration", units.acceleration, joint.acceleration));
   ports.push_back(readable(trail + ".total_torque", units.torque, joint.torque));
   ports.push_back(readable(trail + ".torque", units.torque, drive));
   ports.back().writable = &drive;
+  const std::size_t first = ports.size();
+  ports.push_back(readable(trail + ".gravity_torque", units.torque, bias.gravity));
+  ports.push_back(readable(trail + ".bias_torque", units.torque, bias.all));
+  on_demand(ports, first, lazy);
 }
 
 void add_integrator(std::vector<Port>& ports, const std::string& trail,
@@ -137,7 +143,7 @@ std::vector<Port> list_ports(const Experiment& experiment, Engine& engine, Deriv
     for_each_link(robot, [&](const TreeLink& at) {
       const std::string trail = world + robot.name + "." + at.chain.name + "." + at.link.body.name;
       add_joint(ports, trail, joint_type(at.link.joint).units, state.joints[joint],
-                engine.inputs().joint_torques[joint]);
+                engine.inputs().joint_torques[joint], derived.joint(joint), derived.joint_bias());
       add(trail, "location");
       ++body;
       ++joint;

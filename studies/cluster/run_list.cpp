@@ -67,6 +67,7 @@ void write_run(output::JsonWriter& json, const RunRequest& run) {
   for (const language::Override& set : run.scene.options.overrides)
     write_pair(json, set.trail, set.value);
   json.end_array();
+  json.member("body", run.measurement.body);
   json.member("settle", run.measurement.settle).member("duration", run.measurement.duration);
   json.key("metrics").begin_array();
   for (const MetricDefinition* metric : run.measurement.metrics)
@@ -103,6 +104,8 @@ class RunReader {
       return read_parameter(run_.scene.ground->parameters, second, value);
     else if (kind == "overrides")
       return read_override(second, value);
+    else if (kind == "body")
+      run_.measurement.body = value;
     else if (kind == "settle")
       return read_time(value, run_.measurement.settle);
     else if (kind == "duration")

@@ -53,10 +53,18 @@ std::string cell_html(const WallLine& line, const WallCell& cell) {
          html(error_text(line, *cell.error)) + "</small></td>";
 }
 
+/// A name that may go on in the next line after each of its words: ten laws fit beside each other.
+std::string breakable(const std::string& name) {
+  std::string text;
+  for (const char c : name) text += c == '_' ? "_<wbr>" : html(std::string(1, c));
+  return text;
+}
+
 std::string table_head(const WallResult& wall) {
   std::string head =
       "<thead><tr><th class=\"text\">truth</th><th class=\"text\">closed form</th><th>allowed</th>";
-  for (const SubjectInfo& subject : wall.subjects) head += "<th>" + html(subject.name) + "</th>";
+  for (const SubjectInfo& subject : wall.subjects)
+    head += "<th>" + breakable(subject.name) + "</th>";
   return head + "</tr></thead>\n";
 }
 

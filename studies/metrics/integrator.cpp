@@ -30,7 +30,7 @@ class IntegratorCount : public Metric {
 class DistanceFromLimit : public Metric {
  public:
   DistanceFromLimit(const RunContext& context, simulation::Experiment nearer, std::int64_t steps)
-      : body_(context.body), steps_(steps), nearer_(std::move(nearer)) {
+      : body_(context.watched), steps_(steps), nearer_(std::move(nearer)) {
     if (context.make == nullptr) return;
     nearer_.deltat = context.experiment->deltat / static_cast<double>(steps);
     world_ = std::make_unique<simulation::World>(nearer_, context.make(nearer_));

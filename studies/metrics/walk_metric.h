@@ -12,9 +12,9 @@ class WalkMetric : public Metric {
  public:
   explicit WalkMetric(const RunContext& context)
       : context_(context),
-        upright_(rotate(context.robot_spec().orientation, Vector3d{0., 0., 1.})),
+        upright_(rotate(context.start_orientation, Vector3d{0., 0., 1.})),
         start_height_(height_over_ground(context, context.start)) {
-    const Vector3d x = rotate(context.robot_spec().orientation, Vector3d{1., 0., 0.});
+    const Vector3d x = rotate(context.start_orientation, Vector3d{1., 0., 0.});
     const Vector3d along = tangential(x, context.normal);
     heading_ = norm(along) > 0. ? (1. / norm(along)) * along : x;
   }

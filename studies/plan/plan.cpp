@@ -15,6 +15,7 @@
 #include "language/names.h"
 #include "output/text/hash.h"
 #include "simulation/identity.h"
+#include "studies/measured_body.h"
 #include "studies/plan/plan_parts.h"
 #include "studies/plan/row_forms.h"
 #include "studies/plan/scene_settings.h"
@@ -97,6 +98,18 @@ class ParameterGiver {
 
 }  // namespace
 
+namespace {
+
+void set_matched(RowScene& scene, const std::vector<simulation::MatchedMaterial>& materials) {
+  for (const simulation::MatchedMaterial& material : materials)
+    for (const simulation::MatchedConstant& constant : material.constants)
+      scene.options.overrides.push_back(
+          {fmt::format("{}.{}.{}", scene.timed_world, material.name, constant.name),
+           fmt::format("{}", constant.chosen)});
+}
+
+}  // namespace
+
 RowScene StudyPlan::scene_of(const RowPlan& row) const {
   RowScene scene = *row.scene;
   const SweptGround* ground = nullptr;
@@ -124,6 +137,7 @@ RowScene StudyPlan::scene_of(const RowPlan& row) const {
     if (meant && varies(field) && !word.empty())
       scene.options.overrides.push_back({scene.timed_world + "." + field, word});
   }
+  set_matched(scene, row.matched);
   return scene;
 }
 
@@ -186,7 +200,21 @@ struct LoadedRow {
   std::string refusal;  ///< why its engine cannot run it; "": it can
   std::vector<RowForm> forms;
   std::optional<std::string> warning;  ///< of its step
+  std::string no_body;                 ///< why the body that is asked for cannot be measured
+  std::string no_match;                ///< why its ground cannot be hookpoint's
+  std::vector<simulation::MatchedMaterial> matched;
 };
+
+/// Why the body that a study asks for is none that moves; "" where it does not ask.
+std::string why_not_measured(const simulation::Experiment& experiment, const std::string& body) {
+  if (body.empty()) return "";
+  try {
+    measured_body(experiment, body);
+  } catch (const simulation::ExperimentError& error) {
+    return error.what();
+  }
+  return "";
+}
 
 /// Evaluates and loads the scene of each row, in three parts: `prepare` and `accept` one row after
 /// the other, `load` from any thread. The same warning in many rows is told once.
@@ -220,9 +248,11 @@ class SceneLoader {
     const SubjectPlan& subject = plan.subjects[static_cast<std::size_t>(row.subject)];
     LoadedRow loaded;
     loaded.scene = load_scene(library_, plan.scene_of(row), loaded.found);
+    if (loaded.scene && plan.match) match(plan, row, loaded);
     if (loaded.scene) {
       simulation::Experiment& experiment = loaded.scene->experiment;
       experiment.duration = plan.duration;
+      loaded.no_body = why_not_measured(experiment, plan.body);
       if (!stepped_.contains(step_of(subject, experiment)))
         loaded.warning = step_warning(experiment);
       loaded.forms = row_forms(plan, *loaded.scene->tree, experiment);
@@ -248,6 +278,15 @@ class SceneLoader {
   bool accept(StudyPlan& plan, const Object& study, const LoadedRow& loaded, RowPlan& row) {
     if (!loaded.scene || loaded.refusal.empty()) forward(loaded.found, plan, study, row);
     if (!loaded.scene) return false;
+    if (!loaded.no_match.empty()) {
+      diagnostics_.error(study.find("match")->position, loaded.no_match);
+      return false;
+    }
+    row.matched = loaded.matched;
+    if (!loaded.no_body.empty()) {
+      diagnostics_.error(study.find("body")->position, loaded.no_body);
+      return false;
+    }
     row.under_ours = !loaded.refusal.empty();
     if (row.under_ours) row.scene = scenes_.at(row.subject).under_ours;
     row.refusal = loaded.refusal;
@@ -264,6 +303,22 @@ class SceneLoader {
   std::vector<std::string> settable;    ///< names at the scene's top
 
  private:
+  /// Gives the row of our engine hookpoint's ground; a peer has its own.
+  void match(const StudyPlan& plan, const RowPlan& row, LoadedRow& loaded) const {
+    if (loaded.scene->experiment.engine != "dts") return;
+    try {
+      loaded.matched = simulation::matched_to_hookpoint(loaded.scene->experiment);
+    } catch (const simulation::ExperimentError& error) {
+      loaded.no_match = error.what();
+      return;
+    }
+    RowPlan matched = row;
+    matched.matched = loaded.matched;
+    Diagnostics found;
+    loaded.scene = load_scene(library_, plan.scene_of(matched), found);
+    if (!loaded.scene) loaded.found = std::move(found);
+  }
+
   /// Warns of a step above the stability bound, once for each subject and step.
   void warn_of_step(StudyPlan& plan, const Object& study, const RowPlan& row,
                     const simulation::Experiment& experiment, const std::string& what) {
@@ -560,6 +615,17 @@ void complete_subjects(StudyPlan& plan, const EngineTable& engines) {
   }
 }
 
+void plan_body(StudyPlan& plan, const Object& study, Diagnostics& diagnostics) {
+  const language::Field* field = study.find("body");
+  if (field == nullptr) return;
+  const language::Formula& asked = *field->formula;
+  if (asked.names.size() == 1 && asked.text == asked.names.front())
+    plan.body = asked.text;
+  else
+    diagnostics.error(field->position,
+                      "`body` is the trail of a robot or of a body of one: arm.leg1.link2");
+}
+
 void plan_times(StudyPlan& plan, const Object& study, Diagnostics& diagnostics) {
   constexpr double quick_part = 0.2;
   const auto quick = [&](const char* field, double full) {
@@ -588,6 +654,8 @@ std::optional<StudyPlan> make_plan(const Object& root, const Object& study, cons
   plan.quick = options.quick;
   if (study.find("title") != nullptr) plan.title = study.word("title");
   if (study.find("question") != nullptr) plan.question = study.word("question");
+  plan_body(plan, study, diagnostics);
+  plan.match = study.find("match") != nullptr && study.word("match") == "hookpoint";
   plan_times(plan, study, diagnostics);
   const std::filesystem::path scene = library.find(study.word("scene"), file);
   if (scene.empty()) {

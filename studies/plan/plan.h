@@ -13,6 +13,7 @@
 
 #include "language/document.h"
 #include "output/result_folder.h"
+#include "simulation/analysis/matched_ground.h"
 #include "simulation/experiment.h"
 #include "studies/engine_table.h"
 #include "studies/metric.h"
@@ -116,6 +117,8 @@ struct RowPlan {
   std::string
       refusal;  ///< why the row's engine cannot run the scene, which others can; "" if it can
   std::vector<RowForm> forms = {};  ///< one a StudyPlan::user_metrics
+  /// Where the study has `match`: the constants chosen for its law, which its scene gets.
+  std::vector<simulation::MatchedMaterial> matched = {};
 };
 
 /// A row's inputs are not what they were when it was planned. The message says what to do.
@@ -125,6 +128,8 @@ struct ChangedInput : std::runtime_error {
 
 struct StudyPlan {
   std::string name, title, question, file;
+  std::string body;    ///< trail of the body measured; "": the one that nobody asks for
+  bool match = false;  ///< laws of our engine get hookpoint's ground
   double settle = 0., duration = 0.;
   bool quick = false;
   std::vector<SweepPlan> sweeps;

@@ -3,6 +3,7 @@
 
 #include "contact/force_law.h"
 #include "contact/predictions.h"
+#include "studies/body_on_plane.h"
 #include "studies/predictions/predictions.h"
 
 namespace hookpoint::studies {
@@ -15,6 +16,7 @@ std::optional<Constants> lone_body_ground(const RunContext& context) {
   const simulation::Experiment& experiment = *context.experiment;
   const bool alone = experiment.robots.size() == 1 && experiment.forces.empty() &&
                      context.robot_spec().chains.empty() && context.ground &&
+                     moves_as_if_free(context) &&
                      !std::holds_alternative<contact::GridSurface>(experiment.terrain->surface);
   if (!alone) return std::nullopt;
   const auto material = static_cast<std::size_t>(context.ground->query(context.start).material);
@@ -56,7 +58,8 @@ std::optional<double> rebound(const RunContext& context) {
 }
 
 std::optional<double> support_force(const RunContext& context) {
-  if (!context.ground || !context.experiment->forces.empty() || context.weight == 0.)
+  if (!context.ground || !context.experiment->forces.empty() || context.weight == 0. ||
+      !moves_as_if_free(context))
     return std::nullopt;
   return -dot(context.experiment->gravity, context.normal) / norm(context.experiment->gravity) *
          context.weight;

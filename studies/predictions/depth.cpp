@@ -42,6 +42,10 @@ std::vector<double> footprint_depths(const RunContext& context, const BodyOnPlan
   const Vector3d plane =
       (1. / stiffness) *
       (inverse(sums) * Vector3d{body.normal_load() * body.contacts(), moment, 0.});
+  // A plane holds its base against rolling, with moments of its own.
+  constexpr double even = 1e-9;
+  if (context.robot_spec().plane_normal && std::abs(plane.z) * body.height > even * plane.x)
+    return {};
   std::vector<double> depths;
   for (const Vector3d& point : body.footprint) {
     depths.push_back(plane.x + plane.y * dot(point, context.downhill) +

@@ -30,7 +30,9 @@ bool hops_fast(const Constants& material) {
 
 std::optional<double> slip_onset(const RunContext& context) {
   const simulation::Experiment& experiment = *context.experiment;
-  if (!context.ground || experiment.robots.size() != 1 || !context.robot_spec().chains.empty())
+  const simulation::RobotSpec& robot = context.robot_spec();
+  if (!context.ground || experiment.robots.size() != 1 || !robot.chains.empty() ||
+      robot.plane_normal)
     return std::nullopt;
   const auto material = static_cast<std::size_t>(context.ground->query(context.start).material);
   const Constants& constants = experiment.materials[material].constants;

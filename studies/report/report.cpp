@@ -5,7 +5,9 @@
 #include "output/file.h"
 #include "output/text/number.h"
 #include "studies/claims.h"
+#include "studies/matched_grounds.h"
 #include "studies/report/figures.h"
+#include "studies/report/page_parts.h"
 #include "studies/report/report_distances.h"
 #include "studies/report/report_page.h"
 #include "studies/report/report_pivots.h"
@@ -151,6 +153,18 @@ std::string results(const StudyResult& study, const std::vector<ReportFigure>& f
          figure_list(figures) + others;
 }
 
+/// What `match` chose, and what of hookpoint's ground that gives.
+std::string matched_grounds(const StudyResult& study) {
+  const std::vector<MatchedLine> lines = matched_lines(study);
+  if (lines.empty()) return "";
+  HtmlTable table({"subject", "material", "under", "constants", "as hookpoint's"}, 5);
+  for (const MatchedLine& line : lines)
+    table.row({html(line.subject), html(line.material), html(line.under),
+               html(constants_text(line)), html(line.matched)});
+  return heading("Ground matched to hookpoint's") + table.text() +
+         paragraph("facts", "<a href=\"matched.csv\">matched.csv</a>");
+}
+
 std::string peer_table(const ReportContext& context) {
   if (context.peers.empty()) return "";
   std::string text =
@@ -180,7 +194,7 @@ std::string report_html(const StudyResult& study, const ReportContext& context,
   const StudySummary summary = summarise(study);
   std::string page = page_start(title_of(study));
   page += opening(study, context, summary);
-  page += pivot_tables(study) + results(study, figures);
+  page += matched_grounds(study) + pivot_tables(study) + results(study, figures);
   page += truths_table(study) + failure_table(study) + stopped_table(study);
   page += warning_list(study.warnings) + distance_table(study);
   page += heading("Every run") + runs_table(study);

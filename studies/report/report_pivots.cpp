@@ -34,7 +34,7 @@ std::string pivot_cell(const PivotCell& cell) {
 
 std::string pivot_tables(const StudyResult& study) {
   std::string text;
-  for (const TableSpec& spec : study.tables) {
+  for (const TableSpec& spec : shown_tables(study)) {
     const Pivot pivot = pivot_of(study, spec);
     text +=
         section(pivot.title) + (pivot.note.empty() ? "" : text_block("facts", html(pivot.note)));

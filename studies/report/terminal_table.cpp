@@ -8,6 +8,7 @@
 #include "output/text/csv.h"
 #include "output/text/number.h"
 #include "studies/claims.h"
+#include "studies/matched_grounds.h"
 #include "studies/report/terminal_blocks.h"
 #include "studies/report/terminal_pivot.h"
 #include "studies/seed_means.h"
@@ -245,6 +246,18 @@ std::string truth_list(const StudyResult& study, const TableStyle& style) {
   return text.empty() ? "" : text + "\n";
 }
 
+/// What `match` chose, a subject and material a line.
+std::string matched_list(const StudyResult& study, const TableStyle& style) {
+  constexpr std::size_t indent = 4;
+  std::string text;
+  for (const MatchedLine& line : matched_lines(study))
+    text +=
+        std::string(2, ' ') + wrapped(line.subject + " on " + line.material + ", " + line.under +
+                                          ": " + constants_text(line) + " (" + line.matched + ")",
+                                      style.width, indent);
+  return text.empty() ? "" : "Ground matched to hookpoint's\n" + text + "\n";
+}
+
 std::string counts(const StudySummary& summary, const TableStyle& style) {
   const auto& total = summary.total;
   std::string text =
@@ -269,7 +282,8 @@ std::string terminal_table(const StudyResult& study, const TableStyle& style) {
   std::string text;
   if (!study.question.empty()) text += wrapped(study.question, style.width) + "\n";
   text += claim_list(study, style);
-  for (const TableSpec& table : study.tables)
+  text += matched_list(study, style);
+  for (const TableSpec& table : shown_tables(study))
     text += terminal_pivot(pivot_of(study, table), style) + "\n";
   for (const RegimeTable& table : regime_tables(study)) text += print_table(study, table, style);
   return text + truth_list(study, style) + failure_list(study, style) + stopped_list(study, style) +

@@ -259,6 +259,7 @@ bool Measurement::found_in(const RunRecord& record) const {
 
 Measurement measurement_of(const StudyPlan& plan, const RowPlan& row) {
   Measurement measurement{plan.settle, plan.duration, {}, {}, plan.measures(MetricScope::subjects)};
+  measurement.body = plan.body;
   for (const MetricDefinition* metric : plan.metrics) {
     const bool missing = metric->user != nullptr && !row.forms[metric->user->index].missing.empty();
     if (!metric->timing() && !missing) measurement.metrics.push_back(metric);
@@ -277,7 +278,7 @@ std::string run_identity(const std::string& experiment, const Measurement& measu
                              : entry->second.description;
   return output::Hash()
       .add("measured")
-      .add(fmt::format("{} {}", measurement.settle, measurement.duration))
+      .add(fmt::format("{} {} {}", measurement.settle, measurement.duration, measurement.body))
       .add(simulation::run_hash(experiment, description))
       .text();
 }
@@ -306,7 +307,8 @@ std::optional<RunRecord> execute(const Measurement& measurement,
                          : "";
   RunRecord record;
   try {
-    RunContext context = make_context(experiment, measurement.settle, measurement.duration);
+    RunContext context =
+        make_context(experiment, measurement.settle, measurement.duration, measurement.body);
     record.regime = regime_of(context);
     if (!why_not.empty()) return not_run(measurement, std::move(record), why_not);
     context.make = engine->second.make;

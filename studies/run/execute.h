@@ -38,6 +38,8 @@ struct Measurement {
   /// Of the metrics, where no plan has them.
   std::vector<std::shared_ptr<const UserMetric>> owned = {};
 
+  std::string body = {};  ///< trail of the body measured (studies/measured_body.h)
+
   /// Whether `record` has all of it.
   bool found_in(const RunRecord& record) const;
 };

@@ -6,6 +6,7 @@
 
 #include "output/file.h"
 #include "output/text/number.h"
+#include "studies/matched_grounds.h"
 #include "studies/pivot.h"
 #include "studies/selection.h"
 
@@ -179,6 +180,7 @@ void write_study_files(const std::filesystem::path& folder, const StudyPlan& pla
   output::write_file(folder / "provenance.json", provenance_json(provenance));
   write_traces(folder, result);
   write_distances(folder, result);
+  if (!result.matched.empty()) output::write_csv(folder / "matched.csv", matched_table(result));
   for (const TableSpec& table : result.tables) write_pivot(folder, result, table);
 }
 

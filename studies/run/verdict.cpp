@@ -178,7 +178,9 @@ StudyResult empty_table(const StudyPlan& plan) {
     result.truths.push_back({truth.name, truth.words, static_cast<int>(truth.metric)});
   for (const RowPlan& row : plan.rows) {
     result.rows.push_back(empty_row(plan, row));
-    result.rows.back().metrics.resize(plan.metrics.size());
+    RunResult& run = result.rows.back();
+    run.metrics.resize(plan.metrics.size());
+    if (!row.matched.empty()) result.matched.push_back({run.parameters, run.subject, row.matched});
   }
   result.warnings = plan.warnings;
   if (plan.seed_sweep() >= 0) result.seed_sweep = static_cast<std::size_t>(plan.seed_sweep());

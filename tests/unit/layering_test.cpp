@@ -86,7 +86,7 @@ const std::map<std::string, Rooms> rooms{
       {"scene/"}}},
     {"studies",
      {{"regime", "result", "metric", "summary", "selection", "pivot", "seed_means", "claims",
-       "body_on_plane", "engine_table", "workers"},
+       "body_on_plane", "engine_table", "workers", "measured_body", "matched_grounds"},
       {"schema"},
       {"predictions/"},
       {"metrics/"},

@@ -1,0 +1,146 @@
+#include "simulation/analysis/matched_ground.h"
+
+#include <cmath>
+
+#include "contact/force_law.h"
+#include "contact/predictions.h"
+#include "simulation/analysis/advice_constants.h"
+#include "simulation/ground.h"
+
+namespace hookpoint::simulation {
+namespace {
+
+using Constants = contact::MaterialConstants<double>;
+
+/// What hookpoint does with a material's own constants.
+struct Wanted {
+  double load, mass, speed;  // [N], [kg], [m/s]
+  double depth, stiffness;   // [m], [N/m]
+  double rebound;            // of a landing
+  double damping;            // about rest [N s/m]
+
+  Wanted(const CarriedLoad& under, const Constants& material)
+      : load(under.load),
+        mass(under.mass),
+        speed(under.impact_speed),
+        depth(contact::Hookpoint::static_depth(load, material)),
+        stiffness(material.normal_stiffness),
+        rebound(contact::Hookpoint::restitution(mass, speed, material)),
+        damping(material.normal_damping) {}
+  bool lands() const { return speed > 0.; }
+};
+
+/// alpha of k d^n (1 + alpha d'), whatever the spring: by its closed form of the rebound at the
+/// landing's speed, or alpha N = c about rest.
+double hysteresis_for(const Wanted& wanted, const contact::AnyForceLaw& law, const Constants& now) {
+  if (!wanted.lands()) return wanted.damping / wanted.load;
+  return damping_for_rebound(law, field_of(&Constants::hysteresis_damping), wanted.mass,
+                             wanted.speed, wanted.rebound, now);
+}
+
+// k1 = W/d: one line with the stiffness beyond the nominal depth, which is hookpoint's own.
+Constants matched(const contact::Nominal&, const Wanted& wanted, Constants material) {
+  material.nominal_stiffness = wanted.stiffness;
+  return material;
+}
+
+// n W/d = W/d wants n = 1; then k = W/d.
+Constants matched(const contact::HuntCrossley& law, const Wanted& wanted, Constants material) {
+  material.exponent = 1.;
+  material.normal_stiffness = wanted.load / wanted.depth;
+  material.hysteresis_damping = hysteresis_for(wanted, law, material);
+  return material;
+}
+
+// d1 exp(d2 (d + d0)) = W with the tangent d2 W = W/d.
+Constants matched(const contact::Exponential& law, const Wanted& wanted, Constants material) {
+  material.exponential_rate = 1. / wanted.depth;
+  material.exponential_force = wanted.load * std::exp(-material.exponential_rate *
+                                                      (wanted.depth + material.exponential_height));
+  material.hysteresis_damping = hysteresis_for(wanted, law, material);
+  return material;
+}
+
+// k d^1.5 = W; the tangent is then 1.5 W/d. D sqrt(d) = c about rest.
+Constants matched(const contact::AzadFeatherstone& law, const Wanted& wanted, Constants material) {
+  material.normal_stiffness = wanted.load / std::pow(wanted.depth, 1.5);
+  material.normal_damping =
+      wanted.lands() ? damping_for_rebound(law, field_of(&Constants::normal_damping), wanted.mass,
+                                           wanted.speed, wanted.rebound, material)
+                     : wanted.damping / std::sqrt(wanted.depth);
+  return material;
+}
+
+/// The laws whose normal force is hookpoint's own.
+template <class Law>
+requires std::derived_from<Law, contact::SpringDamperPredictions> ||
+    std::derived_from<Law, contact::LugrePredictions>
+        Constants matched(const Law&, const Wanted&, const Constants& material) {
+  return material;
+}
+
+/// The constants that differ.
+std::vector<MatchedConstant> changed(const Constants& own, const Constants& chosen) {
+  std::vector<MatchedConstant> constants;
+  for (const MaterialField& field : material_fields())
+    if (own.*field.member != chosen.*field.member)
+      constants.push_back({field.name, field.unit, own.*field.member, chosen.*field.member});
+  return constants;
+}
+
+MatchedMaterial match(const contact::AnyForceLaw& law, const CarriedLoad& under,
+                      const MaterialSpec& spec) {
+  const Wanted wanted(under, spec.constants);
+  const Constants chosen =
+      std::visit([&](const auto& one) { return matched(one, wanted, spec.constants); }, law);
+  const contact::LinearContact about = contact::linearise(law, wanted.load, chosen);
+  MatchedMaterial made{under.material, spec.name, under, changed(spec.constants, chosen)};
+  made.depth = contact::static_depth(law, wanted.load, chosen) / wanted.depth;
+  made.stiffness = about.normal_stiffness / wanted.stiffness;
+  if (wanted.lands())
+    made.rebound = contact::restitution(law, wanted.mass, wanted.speed, chosen) / wanted.rebound;
+  else if (wanted.damping > 0.)
+    made.rebound = about.normal_damping / wanted.damping;
+  return made;
+}
+
+MatchedMaterial match_impulses(const CarriedLoad& under, const MaterialSpec& spec) {
+  const Wanted wanted(under, spec.constants);
+  Constants chosen = spec.constants;
+  if (wanted.lands()) chosen.restitution = wanted.rebound;
+  return {under.material,          spec.name, under, changed(spec.constants, chosen), 0., 0.,
+          wanted.lands() ? 1. : 0.};
+}
+
+std::size_t first_robot(const Experiment& experiment) {
+  const auto mobile = std::ranges::find_if(experiment.robots, &RobotSpec::mobile);
+  return mobile == experiment.robots.end()
+             ? 0
+             : static_cast<std::size_t>(mobile - experiment.robots.begin());
+}
+
+}  // namespace
+
+std::vector<MatchedMaterial> matched_to_hookpoint(const Experiment& experiment) {
+  if (experiment.engine != "dts")
+    throw ExperimentError("`match` chooses constants of a law of engine dts; engine " +
+                          experiment.engine + " has the material's at `settings = matched`");
+  const auto terrain = make_ground(experiment);
+  if (!terrain || experiment.robots.empty())
+    throw ExperimentError("there is no robot on a ground: nothing to `match`");
+  if (norm(experiment.gravity) == 0.)
+    throw ExperimentError("without gravity nothing bears on the ground: no depth to `match`");
+  // What carries the robot, and how it lands, is the scene's: under hookpoint.
+  Experiment reference = experiment;
+  reference.contact = contact::Hookpoint::name;
+  const auto law = contact::find_force_law(experiment.contact);
+  std::vector<MatchedMaterial> materials;
+  for (const CarriedLoad& under :
+       carried_loads(reference, first_robot(reference), *terrain, initial_inputs(reference))) {
+    const MaterialSpec& spec = experiment.materials[static_cast<std::size_t>(under.material)];
+    materials.push_back(law ? match(*law, under, spec) : match_impulses(under, spec));
+  }
+  return materials;
+}
+
+}  // namespace hookpoint::simulation
