@@ -179,7 +179,11 @@ class UrdfInclude {
     const bool has_own = joint.damping != 0.;
     if (damping != 0.) add("damping", damping, has_own ? joint.damping_place : joint.place);
     if (joint.friction != 0.) add("friction", joint.friction, joint.friction_place);
-    if (held.stiffness != 0.) add("stiffness", held.stiffness, joint.place);
+    if (held.stiffness != 0.) {
+      add("stiffness", held.stiffness, joint.place);
+      add("limit_stiffness", held.limit_stiffness, joint.place);
+      add("limit_damping", held.limit_damping, joint.place);
+    }
     const auto angle = arguments_.find(identifier(joint.name));
     if (angle != arguments_.end()) {
       if (angle->second.values.empty()) return;
