@@ -3,7 +3,8 @@
 //   k = M g l/sag     c = 2 sqrt(k I)
 // it gives way by no more than `sag` at rest, and its outer bodies, of moment of inertia I about
 // its axis, come to rest without overshoot while they swing free. A stop as firm as any joint's
-// would ask for steps of microseconds of a finger: it is 10 k at most, and as well damped.
+// would ask for steps of microseconds of a finger: it is 10 k at most, and as well damped; so is
+// dry friction while it sticks, by its friction_speed.
 #include <algorithm>
 #include <cmath>
 
@@ -94,7 +95,12 @@ class UrdfHolding {
     const JointDefaults& usual =
         joint_type(slides ? JointKind::prismatic : JointKind::revolute).defaults;
     const double stop = std::min(usual.limit_stiffness, 10. * stiffness);
-    return {stiffness, damper(stiffness), stop, std::min(usual.limit_damping, damper(stop))};
+    UrdfHold held{stiffness, damper(stiffness), stop, std::min(usual.limit_damping, damper(stop)),
+                  usual.friction_speed};
+    if (joint.friction > 0.)
+      held.friction_speed = std::max(
+          held.friction_speed, joint.friction / damper(joint.friction / usual.friction_deflection));
+    return held;
   }
 
   std::map<const UrdfJoint*, Beyond> joints_;

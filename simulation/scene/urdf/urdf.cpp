@@ -183,6 +183,7 @@ class UrdfInclude {
       add("stiffness", held.stiffness, joint.place);
       add("limit_stiffness", held.limit_stiffness, joint.place);
       add("limit_damping", held.limit_damping, joint.place);
+      if (joint.friction != 0.) add("friction_speed", held.friction_speed, joint.friction_place);
     }
     const auto angle = arguments_.find(identifier(joint.name));
     if (angle != arguments_.end()) {

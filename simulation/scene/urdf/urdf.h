@@ -93,6 +93,7 @@ void take_inertia_boxes(UrdfTree& tree);
 struct UrdfHold {
   double stiffness = 0., damping = 0.;
   double limit_stiffness = 0., limit_damping = 0.;
+  double friction_speed = 0.;  ///< [rad/s; m/s]
 };
 
 /// So that every joint gives way by less than `sag` [rad] under the weight that it may carry: that
