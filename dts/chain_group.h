@@ -46,8 +46,8 @@ struct LinkConstants {
   bool placed = false;  ///< there is a placement ahead of the screws
   Placement<Real> placement;
   bool twisted = false;  ///< alpha or a differs from 0, so that there is a screw about x
-  Screw<Real> twist;     ///< by alpha and a, about the preceding frame's x
   bool carries = false;  ///< a chain hangs on the link, in some lane
+  Screw<Real> twist;     ///< by alpha and a, about the preceding frame's x
   Real d{}, theta{};
   RigidInertia<Real> inertia;
   bool full = false;     ///< its elimination leaves nothing 0: some lane has a rotor
@@ -70,10 +70,10 @@ struct ChainGroup {
   std::size_t index = 0;  ///< among the model's groups
   std::size_t depth = 0;  ///< links that carry chains, from the base to these
   std::size_t chain_count = 0;
-  std::array<std::size_t, lane_count> chains{};       ///< which, in the robot's order
+  std::size_t first_pass = 0;                    ///< where the group's links start in a workspace
+  std::array<std::size_t, lane_count> chains{};  ///< which, in the robot's order
   std::array<std::size_t, lane_count> first_links{};  ///< theirs, in the robot's order
   std::array<std::size_t, lane_count> carriers{};     ///< the bodies that they hang on
-  std::size_t first_pass = 0;  ///< where the group's links start in a workspace
   Mask<Lanes<Real>> in_use;
   bool aligned = true;  ///< every R_BH is the identity
   HipConstants<Lanes<Real>> hip;

@@ -96,7 +96,9 @@ TEST_P(RandomRobot, StandsWhereItsNumbersSay) {
     const bool branches = i >= 15;
     const Pair pair = random_pair(
         random, branches ? random.tree(20, GetParam()) : random.robot(3, 4, GetParam()));
-    if (!branches) ASSERT_EQ(pair.spec.chains.size(), 3u);
+    if (!branches) {
+      ASSERT_EQ(pair.spec.chains.size(), 3u);
+    }
     const dts::Model<double> model(simulation::describe_robot(pair.spec));
     dts::Workspace<double> workspace(model);
     dts::forward_kinematics(model, pair.state, workspace);
@@ -607,6 +609,9 @@ TEST(Urdf, HoldMakesAHumanoidStandWithArmsThatCarryThemselves) {
   const double weight = 9.80665 * (6. + 15. + 2. * (4. + 3. + 1. + 1. + 0.5));
   EXPECT_NEAR(stiffness("to_left_thigh", 0), weight * std::hypot(0.03, 0.84) / 0.03, 1e-9 * weight);
   EXPECT_NEAR(stiffness("to_torso.torso.to_left_arm", 0), 9.80665 * 1.5 * 0.4 / 0.03, 1e-9);
+  for (const simulation::ChainSpec& chain : chains)
+    for (const simulation::LinkSpec& link : chain.links)
+      EXPECT_EQ(link.limit_stiffness, std::min(1000., 10. * link.stiffness));
 }
 
 TEST(Urdf, InertiaStandsForAFormThatIsNotKnown) {

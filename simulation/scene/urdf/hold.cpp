@@ -2,7 +2,9 @@
 // carries at most the weight M g at their end, a moment M g l. With
 //   k = M g l/sag     c = 2 sqrt(k I)
 // it gives way by no more than `sag` at rest, and its outer bodies, of moment of inertia I about
-// its axis with the rotor's, come to rest without overshoot while they swing free.
+// its axis with the rotor's, come to rest without overshoot while they swing free. A stop as firm
+// as any joint's would ask for steps of microseconds of a finger: it is 10 k at most, and as well
+// damped; so is dry friction while it sticks, by its friction_speed.
 #include <algorithm>
 #include <cmath>
 
@@ -89,10 +91,20 @@ class UrdfHolding {
     const bool slides = joint.type == UrdfJointType::prismatic;
     const bool is_leg = mobile_ && beyond.lowest < 0. && beyond.lowest <= 0.5 * lowest_;
     const double weight = standard_gravity * (is_leg ? mass_ : beyond.mass);
-    // A joint that slides gives way by as much as the end of one that turns.
-    const double stiffness = slides ? weight / (sag_ * beyond.reach) : weight * beyond.reach / sag_;
+    // A joint that slides gives way by as much as the end of one that turns, and by some.
+    const double stiffness =
+        slides ? weight / (sag_ * std::max(beyond.reach, 0.01)) : weight * beyond.reach / sag_;
     const double moved = (slides ? beyond.mass : beyond.inertia) + joint.rotor_inertia;
-    return {stiffness, 2. * std::sqrt(stiffness * moved)};
+    const auto damper = [&](double spring) { return 2. * std::sqrt(spring * moved); };
+    const JointDefaults& usual =
+        joint_type(slides ? JointKind::prismatic : JointKind::revolute).defaults;
+    const double stop = std::min(usual.limit_stiffness, 10. * stiffness);
+    UrdfHold held{stiffness, damper(stiffness), stop, std::min(usual.limit_damping, damper(stop)),
+                  usual.friction_speed};
+    if (joint.friction > 0.)
+      held.friction_speed = std::max(
+          held.friction_speed, joint.friction / damper(joint.friction / usual.friction_deflection));
+    return held;
   }
 
   std::map<const UrdfJoint*, Beyond> joints_;

@@ -10,14 +10,14 @@ namespace {
 /// Half the edge along an axis of a uniform box with the second moment J = int x^2 dm is sqrt(3
 /// J/m); the J are I's, tr(I)/2 - I_ii.
 ShapeSpec inertia_box(const MassSpec& body) {
-  const auto& [mass, center, I] = body;
+  const Symmetric3d& I = body.inertia;
   const double half_trace = 0.5 * (I.xx + I.yy + I.zz);
   constexpr double thinnest = 1e-6;  // [m], of a plate
   const auto edge = [&](double moment) {
-    const double squared = 3. * (half_trace - moment) / mass;
+    const double squared = 3. * (half_trace - moment) / body.mass;
     return std::max(thinnest, 2. * std::sqrt(std::max(0., squared)));
   };
-  return {Box{{edge(I.xx), edge(I.yy), edge(I.zz)}}, center, {}};
+  return {Box{{edge(I.xx), edge(I.yy), edge(I.zz)}}, body.center_of_mass, {}};
 }
 
 void take_inertia_box(UrdfBody& body) {

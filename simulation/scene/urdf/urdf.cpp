@@ -235,7 +235,12 @@ class UrdfInclude {
     if (joint.friction != 0.) add("friction", joint.friction, joint.friction_place);
     if (joint.effort_limit) add("effort_limit", *joint.effort_limit, joint.effort_place);
     if (joint.rotor_inertia != 0.) add("rotor_inertia", joint.rotor_inertia, joint.rotor_place);
-    if (held.stiffness != 0.) add("stiffness", held.stiffness, joint.place);
+    if (held.stiffness != 0.) {
+      add("stiffness", held.stiffness, joint.place);
+      add("limit_stiffness", held.limit_stiffness, joint.place);
+      add("limit_damping", held.limit_damping, joint.place);
+      if (joint.friction != 0.) add("friction_speed", held.friction_speed, joint.friction_place);
+    }
     const auto angle = arguments_.find(identifier(joint.name));
     if (angle != arguments_.end()) {
       if (angle->second.values.empty()) return;

@@ -108,9 +108,12 @@ std::optional<UrdfTree> assemble_urdf(const UrdfRobot& robot, language::Report& 
 /// the body's second moments of mass along them; none to a body without mass or without inertia.
 void take_inertia_boxes(UrdfTree& tree);
 
-/// Constants of the spring and damper of a joint [N m/rad, N m s/rad; N/m, N s/m].
+/// Constants of the spring and damper of a joint, and of its stops [N m/rad, N m s/rad; N/m, N
+/// s/m].
 struct UrdfHold {
   double stiffness = 0., damping = 0.;
+  double limit_stiffness = 0., limit_damping = 0.;
+  double friction_speed = 0.;  ///< [rad/s; m/s]
 };
 
 /// So that every joint gives way by less than `sag` [rad] under the weight that it may carry: that
