@@ -81,6 +81,7 @@ struct Workspace {
   std::vector<LinkPass<Lanes<Real>>> links;        ///< group by group
   std::vector<HipPass<Lanes<Real>>> hips;          ///< one a group
   std::vector<Wrench<Lanes<Real>>> link_wrenches;  ///< as links: on the link, link axes
+  Elimination<Lanes<Real>> full;                   ///< of the link just passed, if it has a rotor
   BasePass<Real> base;
   Motion<Real> base_motion;  ///< acceleration less gravity (or velocity jump), base axes
 };
