@@ -87,6 +87,7 @@ struct Workspace {
   std::vector<HipPass<Lanes<Real>>> hips;          ///< one a group
   std::vector<Vector3<Lanes<Real>>> carrier_w;     ///< one a group: w of the carriers, their axes
   std::vector<Wrench<Lanes<Real>>> link_wrenches;  ///< as links: on the link, link axes
+  Elimination<Lanes<Real>> full;                   ///< of the link just passed, if it has a rotor
   BasePass<Real> base;
   Motion<Real> base_motion;  ///< acceleration less gravity (or velocity jump), base axes
   // Of links that carry chains; one a body, none where no link does.

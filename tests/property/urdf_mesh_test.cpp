@@ -355,13 +355,15 @@ TEST(UrdfMesh, BrokenFilesGiveVerticesOrAProblem) {
 
 TEST(Hull, IsOfWhatStandsOut) {
   using simulation::hull_vertices;
+  // As a file of single precision has it: points of a side stand out by its rounding.
+  const auto single = [](double x) { return static_cast<double>(static_cast<float>(x)); };
   std::vector<Vector3d> grid, plane, line;
   for (int i = 0; i < 11; ++i) {
     line.push_back({0.1 * i, 0.2 * i, 0.3 * i});
     for (int j = 0; j < 11; ++j) {
       plane.push_back({0.1 * i, 0.1 * j, 0.});
       for (int k = 0; k < 11; ++k)
-        grid.push_back({0.1f * float(i), 0.07f * float(j), 0.1f * float(k)});
+        grid.push_back({single(0.1 * i), single(0.07 * j), single(0.1 * k)});
     }
   }
   EXPECT_EQ(hull_vertices(grid).size(), 8u);

@@ -54,8 +54,9 @@ MeshPoints read_binary_stl(std::string_view bytes, std::size_t triangles) {
   for (std::size_t i = 0; i < triangles; ++i) {
     std::array<float, 12> numbers;
     std::memcpy(numbers.data(), bytes.data() + stl_header + stl_triangle * i, sizeof numbers);
+    const auto at = [&](std::size_t k) { return static_cast<double>(numbers[k]); };
     for (std::size_t k = 3; k < numbers.size(); k += 3)
-      mesh.vertices.push_back({numbers[k], numbers[k + 1], numbers[k + 2]});
+      mesh.vertices.push_back({at(k), at(k + 1), at(k + 2)});
   }
   return mesh;
 }
@@ -136,8 +137,9 @@ MeshPoints read_mesh(const std::filesystem::path& path) {
   if (!mesh.problem.empty()) return {{}, std::move(mesh.problem)};
   const auto by_coordinates = [](const Vector3d& p) { return std::tuple(p.x, p.y, p.z); };
   std::ranges::sort(mesh.vertices, {}, by_coordinates);
-  const auto again = std::ranges::unique(mesh.vertices, {}, by_coordinates);
-  mesh.vertices.erase(again.begin(), again.end());
+  // The ranges' own gives a subrange, which clang 14 cannot do with this library.
+  const auto again = std::unique(mesh.vertices.begin(), mesh.vertices.end());
+  mesh.vertices.erase(again, mesh.vertices.end());
   return mesh;
 }
 

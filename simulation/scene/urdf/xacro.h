@@ -2,6 +2,10 @@
 // installed.
 #pragma once
 
+#include <span>
+#include <string>
+#include <vector>
+
 #include "language/files.h"
 #include "language/report.h"
 #include "language/tree/foreign.h"
