@@ -61,13 +61,22 @@ Constants matched(const contact::Exponential& law, const Wanted& wanted, Constan
   return material;
 }
 
-// k d^1.5 = W; the tangent is then 1.5 W/d. D sqrt(d) = c about rest.
-Constants matched(const contact::AzadFeatherstone& law, const Wanted& wanted, Constants material) {
-  material.normal_stiffness = wanted.load / std::pow(wanted.depth, 1.5);
-  material.normal_damping =
-      wanted.lands() ? damping_for_rebound(law, field_of(&Constants::normal_damping), wanted.mass,
-                                           wanted.speed, wanted.rebound, material)
-                     : wanted.damping / std::sqrt(wanted.depth);
+/// Any law by its own predictions: the constant that sets its depth, then the one of its rebound,
+/// or of its damping about rest, to which that is proportional.
+template <class Law>
+Constants matched(const Law& law, const Wanted& wanted, Constants material) {
+  const auto stiffness = stiffness_field(law), damping = damping_field(law);
+  if (stiffness)
+    material.*stiffness->member =
+        stiffness_for_depth(law, *stiffness, wanted.load, wanted.depth, material);
+  if (!damping) return material;
+  if (wanted.lands()) {
+    material.*damping->member =
+        damping_for_rebound(law, *damping, wanted.mass, wanted.speed, wanted.rebound, material);
+    return material;
+  }
+  material.*damping->member = 1.;
+  material.*damping->member = wanted.damping / law.linearise(wanted.load, material).normal_damping;
   return material;
 }
 
