@@ -4,9 +4,9 @@
 #include "output/figures/plot.h"
 #include "output/file.h"
 #include "output/text/number.h"
-#include "studies/claims.h"
 #include "studies/matched_grounds.h"
 #include "studies/report/figures.h"
+#include "studies/report/report_claims.h"
 #include "studies/report/report_distances.h"
 #include "studies/report/report_page.h"
 #include "studies/report/report_pivots.h"
@@ -71,24 +71,6 @@ std::string varied_line(const StudyResult& study) {
   return text.empty() ? "" : paragraph("facts", text + ".");
 }
 
-/// Each with a mark and words, so that it can be read without colours.
-std::string claims(const StudyResult& study) {
-  std::string text;
-  for (const ClaimSpec& claim : study.claims) {
-    const SaidClaim said = said_of(study, claim);
-    const bool good = said.verdict == ClaimVerdict::holds;
-    const bool bad = said.verdict == ClaimVerdict::fails || said.verdict == ClaimVerdict::unsaid;
-    const std::string tone = good ? "good" : bad ? "bad" : "soft";
-    text += paragraph("claim" + (bad ? std::string(" bad") : ""),
-                      html(said.text) + " <small class=\"" + tone + "\">" +
-                          (good  ? "✓ "
-                           : bad ? "✗ "
-                                 : "") +
-                          html(said.why) + "</small>");
-  }
-  return text;
-}
-
 std::string title_of(const StudyResult& study) {
   return study.title.empty() ? spoken(study.name) : study.title;
 }
@@ -98,7 +80,7 @@ std::string opening(const StudyResult& study, const ReportContext& context,
   std::string text = paragraph("kicker", "Study · " + html(study.file));
   text += "<h1>" + html(title_of(study)) + "</h1>\n";
   if (!study.question.empty()) text += paragraph("question", html(study.question));
-  text += claims(study);
+  text += claim_lines(study);
   text += verdict_line(summary) + stopped_line(summary.total) + facts_line(summary) +
           varied_line(study);
   text += "<pre>" + html(context.command) + "</pre>\n";
