@@ -33,7 +33,7 @@ struct Wanted {
 /// alpha of k d^n (1 + alpha d'), whatever the spring: by its closed form of the rebound at the
 /// landing's speed, or alpha N = c about rest.
 double hysteresis_for(const Wanted& wanted, const contact::AnyForceLaw& law, const Constants& now) {
-  if (!wanted.lands()) return wanted.damping / wanted.load;
+  if (!wanted.lands() || wanted.damping == 0.) return wanted.damping / wanted.load;
   return damping_for_rebound(law, field_of(&Constants::hysteresis_damping), wanted.mass,
                              wanted.speed, wanted.rebound, now);
 }
@@ -61,13 +61,22 @@ Constants matched(const contact::Exponential& law, const Wanted& wanted, Constan
   return material;
 }
 
-// k d^1.5 = W; the tangent is then 1.5 W/d. D sqrt(d) = c about rest.
-Constants matched(const contact::AzadFeatherstone& law, const Wanted& wanted, Constants material) {
-  material.normal_stiffness = wanted.load / std::pow(wanted.depth, 1.5);
-  material.normal_damping =
-      wanted.lands() ? damping_for_rebound(law, field_of(&Constants::normal_damping), wanted.mass,
-                                           wanted.speed, wanted.rebound, material)
-                     : wanted.damping / std::sqrt(wanted.depth);
+/// Any law by its own predictions: the constant that sets its depth, then the one of its rebound,
+/// or of its damping about rest, to which that is proportional.
+template <class Law>
+Constants matched(const Law& law, const Wanted& wanted, Constants material) {
+  const auto stiffness = stiffness_field(law), damping = damping_field(law);
+  if (stiffness)
+    material.*stiffness->member =
+        stiffness_for_depth(law, *stiffness, wanted.load, wanted.depth, material);
+  if (!damping) return material;
+  if (wanted.lands() && wanted.damping > 0.) {
+    material.*damping->member =
+        damping_for_rebound(law, *damping, wanted.mass, wanted.speed, wanted.rebound, material);
+    return material;
+  }
+  material.*damping->member = 1.;
+  material.*damping->member = wanted.damping / law.linearise(wanted.load, material).normal_damping;
   return material;
 }
 
@@ -75,16 +84,22 @@ Constants matched(const contact::AzadFeatherstone& law, const Wanted& wanted, Co
 template <class Law>
 requires std::derived_from<Law, contact::SpringDamperPredictions> ||
     std::derived_from<Law, contact::LugrePredictions>
-        Constants matched(const Law&, const Wanted&, const Constants& material) {
+        Constants matched(const Law&, const Wanted&, Constants material) {
   return material;
 }
 
-/// The constants that differ.
-std::vector<MatchedConstant> changed(const Constants& own, const Constants& chosen) {
+/// The constants that differ. A law may read its stiffness in a unit of its own.
+std::vector<MatchedConstant> changed(const Constants& own, const Constants& chosen,
+                                     const contact::NormalConstants& along_normal = {}) {
   std::vector<MatchedConstant> constants;
-  for (const MaterialField& field : material_fields())
-    if (own.*field.member != chosen.*field.member)
-      constants.push_back({field.name, field.unit, own.*field.member, chosen.*field.member});
+  for (const MaterialField& field : material_fields()) {
+    if (own.*field.member == chosen.*field.member) continue;
+    const bool has_own_unit = field.member == along_normal.stiffness;
+    constants.push_back(
+        {field.name,
+         std::string(has_own_unit ? along_normal.stiffness_unit : std::string_view(field.unit)),
+         own.*field.member, chosen.*field.member});
+  }
   return constants;
 }
 
@@ -94,7 +109,8 @@ MatchedMaterial match(const contact::AnyForceLaw& law, const CarriedLoad& under,
   const Constants chosen =
       std::visit([&](const auto& one) { return matched(one, wanted, spec.constants); }, law);
   const contact::LinearContact about = contact::linearise(law, wanted.load, chosen);
-  MatchedMaterial made{under.material, spec.name, under, changed(spec.constants, chosen)};
+  MatchedMaterial made{under.material, spec.name, under,
+                       changed(spec.constants, chosen, contact::normal_constants(law))};
   made.depth = contact::static_depth(law, wanted.load, chosen) / wanted.depth;
   made.stiffness = about.normal_stiffness / wanted.stiffness;
   if (wanted.lands())

@@ -33,8 +33,8 @@ struct MatchedMaterial {
 /// One a material that the first mobile robot, or else the first one, stands or lands on. Of the
 /// laws with hookpoint's linear normal spring nothing is changed; `nominal` is soft as hookpoint up
 /// to its nominal depth; `hunt_crossley` becomes linear in depth; `exponential` has hookpoint's
-/// tangent; `azad_featherstone`, whose exponent is fixed, matches depth and rebound and is 1.5
-/// times as stiff; an impulse law matches the rebound alone (docs/advice.md). Throws
+/// tangent; any other law matches depth and rebound by its own predictions, `azad_featherstone` at
+/// 1.5 times the stiffness; an impulse law matches the rebound alone (docs/studies.md). Throws
 /// ExperimentError where there is nothing to match: a peer, no ground, no weight.
 std::vector<MatchedMaterial> matched_to_hookpoint(const Experiment& experiment);
 

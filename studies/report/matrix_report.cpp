@@ -9,9 +9,11 @@
 #include "studies/report/figures.h"
 #include "studies/report/matrix_rows.h"
 #include "studies/report/page_files.h"
+#include "studies/report/report_claims.h"
 #include "studies/report/report_page.h"
 #include "studies/report/report_tables.h"
 #include "studies/report/terminal_blocks.h"
+#include "studies/seed_means.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -253,6 +255,8 @@ std::string matrix_html(const MatrixResult& matrix, const ReportContext& context
   if (!matrix.question.empty()) page += tag("p", "question", html(matrix.question)) + "\n";
   page += verdict(matrix) + "<pre>" + html(context.command) + "</pre>\n" +
           tag("p", "facts", link("matrix.csv", "matrix.csv")) + "\n";
+  for (const MatrixStudy& study : matrix.studies)
+    page += claim_lines(study.result.seed_sweep ? over_seeds(study.result) : study.result);
   page += overview(matrix) + rows_table(matrix);
   for (const MatrixStudy& study : matrix.studies) page += study_section(study);
   return page + provenance_table(context.provenance) + page_end_with_script();

@@ -4,10 +4,9 @@
 #include "output/figures/plot.h"
 #include "output/file.h"
 #include "output/text/number.h"
-#include "studies/claims.h"
 #include "studies/matched_grounds.h"
 #include "studies/report/figures.h"
-#include "studies/report/page_parts.h"
+#include "studies/report/report_claims.h"
 #include "studies/report/report_distances.h"
 #include "studies/report/report_page.h"
 #include "studies/report/report_pivots.h"
@@ -72,24 +71,6 @@ std::string varied_line(const StudyResult& study) {
   return text.empty() ? "" : paragraph("facts", text + ".");
 }
 
-/// Each with a mark and words, so that it can be read without colours.
-std::string claims(const StudyResult& study) {
-  std::string text;
-  for (const ClaimSpec& claim : study.claims) {
-    const SaidClaim said = said_of(study, claim);
-    const bool good = said.verdict == ClaimVerdict::holds;
-    const bool bad = said.verdict == ClaimVerdict::fails || said.verdict == ClaimVerdict::unsaid;
-    const std::string tone = good ? "good" : bad ? "bad" : "soft";
-    text += paragraph("claim" + (bad ? std::string(" bad") : ""),
-                      html(said.text) + " <small class=\"" + tone + "\">" +
-                          (good  ? "✓ "
-                           : bad ? "✗ "
-                                 : "") +
-                          html(said.why) + "</small>");
-  }
-  return text;
-}
-
 std::string title_of(const StudyResult& study) {
   return study.title.empty() ? spoken(study.name) : study.title;
 }
@@ -99,7 +80,7 @@ std::string opening(const StudyResult& study, const ReportContext& context,
   std::string text = paragraph("kicker", "Study · " + html(study.file));
   text += "<h1>" + html(title_of(study)) + "</h1>\n";
   if (!study.question.empty()) text += paragraph("question", html(study.question));
-  text += claims(study);
+  text += claim_lines(study);
   text += verdict_line(summary) + stopped_line(summary.total) + facts_line(summary) +
           varied_line(study);
   text += "<pre>" + html(context.command) + "</pre>\n";
@@ -153,32 +134,38 @@ std::string results(const StudyResult& study, const std::vector<ReportFigure>& f
          figure_list(figures) + others;
 }
 
+/// A table of words, whose cells go on in the next line.
+std::string wide_table(const std::vector<std::string>& head,
+                       const std::vector<std::vector<std::string>>& rows) {
+  std::string text = "<div class=\"scroll\"><table class=\"wide\"><thead><tr>";
+  for (const std::string& title : head) text += "<th class=\"text\">" + html(title) + "</th>";
+  text += "</tr></thead><tbody>\n";
+  for (const std::vector<std::string>& row : rows) {
+    text += "<tr>";
+    for (const std::string& cell : row) text += "<td>" + html(cell) + "</td>";
+    text += "</tr>\n";
+  }
+  return text + "</tbody></table></div>\n";
+}
+
 /// What `match` chose, and what of hookpoint's ground that gives.
 std::string matched_grounds(const StudyResult& study) {
-  const std::vector<MatchedLine> lines = matched_lines(study);
-  if (lines.empty()) return "";
-  HtmlTable table({"subject", "material", "under", "constants", "as hookpoint's"}, 5);
-  for (const MatchedLine& line : lines)
-    table.row({html(line.subject), html(line.material), html(line.under),
-               html(constants_text(line)), html(line.matched)});
-  return heading("Ground matched to hookpoint's") + table.text() +
+  std::vector<std::vector<std::string>> rows;
+  for (const MatchedLine& line : matched_lines(study))
+    rows.push_back({line.subject, line.material, line.under, constants_text(line), line.matched});
+  if (rows.empty()) return "";
+  return heading("Ground matched to hookpoint's") +
+         wide_table({"subject", "material", "under", "constants", "as hookpoint's"}, rows) +
          paragraph("facts", "<a href=\"matched.csv\">matched.csv</a>");
 }
 
 std::string peer_table(const ReportContext& context) {
   if (context.peers.empty()) return "";
-  std::string text =
-      heading("Settings of the peers") +
-      "<div class=\"scroll\"><table class=\"wide\"><thead><tr>"
-      "<th class=\"text\">engine</th><th class=\"text\">settings</th><th class=\"text\">what</th>"
-      "<th class=\"text\">value</th><th class=\"text\">source</th></tr></thead><tbody>\n";
-  for (const PeerSetting& peer : context.peers) {
-    text += "<tr>";
-    for (const std::string& cell : {peer.engine, peer.settings, peer.name, peer.value, peer.source})
-      text += "<td>" + html(cell) + "</td>";
-    text += "</tr>\n";
-  }
-  return text + "</tbody></table></div>\n";
+  std::vector<std::vector<std::string>> rows;
+  for (const PeerSetting& peer : context.peers)
+    rows.push_back({peer.engine, peer.settings, peer.name, peer.value, peer.source});
+  return heading("Settings of the peers") +
+         wide_table({"engine", "settings", "what", "value", "source"}, rows);
 }
 
 }  // namespace

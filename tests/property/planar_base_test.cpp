@@ -19,9 +19,9 @@ struct Drawn {
   dts::RobotDescription robot;
   dts::Model<double> model;
   dts::State<double> state;
+  std::vector<int> free;  // of all velocities
   dts::Workspace<double> workspace;
   DenseDynamics truth;
-  std::vector<int> free;  // of all velocities
 
   Drawn(RandomRobots& random, int chains, std::size_t normal)
       : robot(in_plane(random.robot(true, chains, chains % 2 == 0), normal)),

@@ -9,6 +9,7 @@
 #include "simulation/analysis/controller_terms.h"
 #include "simulation/analysis/stability.h"
 #include "tests/support/run_text.h"
+#include "tests/support/text.h"
 
 namespace hookpoint {
 namespace {
@@ -78,6 +79,22 @@ TEST(PlanarRobot, MovesAsInSpaceWhereNothingPushesItOutOfItsPlane) {
   for (const char* law : {"impulse", "impulse_reversal"})
     EXPECT_LT(difference(std::string("contact = ") + law + ";", simulation::make_dts, 1500), 1e-6)
         << law;
+}
+
+// Two steps of the compass walker: what it does in space is plane.
+TEST(PlanarRobot, WalksAsInSpace) {
+  std::string text = testing::read_file(HOOKPOINT_SOURCE_DIR "/configs/scenes/compass_walker.hook");
+  Running free(text);
+  text.replace(text.find("Base.mobile"), 11, "Base.planar");
+  Running planar(text);
+  constexpr int steps = 150000;
+  free.step(steps);
+  planar.step(steps);
+  for (const char* trail : {"walker.position.x", "walker.position.z", "walker.leg[0].rod.angle",
+                            "walker.leg[1].rod.angle"})
+    EXPECT_NEAR(planar[trail], free[trail], 1e-10) << trail;
+  EXPECT_GT(planar["walker.position.x"], 0.8) << "it has walked";
+  EXPECT_EQ(planar["walker.position.y"], 0.);
 }
 
 TEST(PlanarRobot, PeersHaveThePlaneOrSayWhyNot) {

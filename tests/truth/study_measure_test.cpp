@@ -69,6 +69,24 @@ TEST(StudyMeasure, AFallingBodyKeepsEveryClosedForm) {
   EXPECT_EQ(work.hookpoint("study wrong.hook --out there").status, 1);
 }
 
+TEST(StudyMeasure, AMatrixBeginsWithTheClaimsOfItsStudies) {
+  const Workplace work;
+  work.file("falling.hook", falling);
+  work.file("study.hook", R"(
+Study falling {
+  scene = "falling.hook"; duration = 0.5 s;
+  Subject ours { }
+  Measure end { of = ball.position.z; unit = cm; }
+  Claim low { text = "It ends at {end of ours}."; }
+}
+)");
+  work.file("matrix.hook", "Matrix all { Part falling { file = \"study.hook\"; } }");
+  const auto result = work.hookpoint("study matrix.hook --out here");
+  EXPECT_EQ(result.status, 0) << result.out << result.err;
+  const std::string page = work.read("here/matrix.html");
+  EXPECT_LT(page.find("It ends at 77.4 cm."), page.find("Subjects and scenes")) << page;
+}
+
 // Let go on undamped springs of the ground it swings: x = (m g/k)(1 - cos(w t)), w = sqrt(k/m),
 // over ten periods T.
 constexpr const char* swinging = R"(

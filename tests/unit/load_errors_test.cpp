@@ -37,7 +37,7 @@ const Case cases[] = {
      "error 2:13 gravity has two components; give one number g for 0,0,-g, or the three of the "
      "vector\n"},
     {"no_base", "World w { Robot r { } }",
-     "error 1:11 robot `r` has no base; give it a Base.fixed or a Base.mobile\n"},
+     "error 1:11 robot `r` has no base; give it a Base.fixed, Base.mobile or Base.planar\n"},
     {"two_bases", "World w { Robot r { Base.fixed a { }\nBase.fixed b { } } }",
      "error 2:1 a second base; a robot has exactly one\nnote 1:21 the first is here\n"},
     {"empty_chain", "World w { Robot r { Base.fixed { }\nChain leg { } } }",
@@ -145,8 +145,8 @@ INSTANTIATE_TEST_SUITE_P(Load, WrongExperiment, ::testing::ValuesIn(cases), case
 // All that is wrong is said at once.
 TEST(LoadErrors, ComeAllInOneGo) {
   EXPECT_EQ(diagnostics_of("World w { settings = matched; Robot r { }\nRobot s { } }"),
-            "error 1:31 robot `r` has no base; give it a Base.fixed or a Base.mobile\n"
-            "error 2:1 robot `s` has no base; give it a Base.fixed or a Base.mobile\n"
+            "error 1:31 robot `r` has no base; give it a Base.fixed, Base.mobile or Base.planar\n"
+            "error 2:1 robot `s` has no base; give it a Base.fixed, Base.mobile or Base.planar\n"
             "error 1:22 settings = matched is for a peer, and the engine is dts; leave it out or "
             "choose another "
             "engine\n");

@@ -54,6 +54,21 @@ StudyResult study_of_seeds() {
   return study;
 }
 
+TEST(Tables, AStudyThatVariedOneThingIsToldValueByValue) {
+  StudyResult study = study_of_seeds();
+  study.tables.clear();
+  const std::string told = terminal_table(study);
+  EXPECT_TRUE(says(told, "creep speed [m/s] by subject and slope [deg]")) << told;
+  EXPECT_TRUE(says(pivot_tables(over_seeds(study)), "slope [deg]"));
+  // Of two swept things the user says what is told over which.
+  StudyResult two = study_of_seeds();
+  two.tables.clear();
+  two.seed_sweep.reset();
+  EXPECT_TRUE(shown_tables(two).empty());
+  two.tables = {by_slope()};
+  EXPECT_EQ(shown_tables(two).size(), 1u);
+}
+
 // Student's t of 3 and 4 degrees of freedom at 97.5 %: tables of the distribution.
 constexpr double student_3 = 3.182446305284263, student_4 = 2.776445105197999;
 
