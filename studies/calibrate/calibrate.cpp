@@ -16,6 +16,7 @@
 #include "studies/calibrate/model.h"
 #include "studies/calibrate/outputs.h"
 #include "studies/calibrate/resampling.h"
+#include "studies/calibrate/response_surface.h"
 #include "studies/calibrate/trace_residual.h"
 #include "studies/tune/guess.h"
 #include "studies/tune/optimiser.h"
@@ -68,7 +69,7 @@ class SubjectFit {
   static std::size_t rows_of(const CalibrationPlan& plan, const CalibrationSubject& subject) {
     if (!subject.refusal.empty()) return 0;
     if (plan.method == FitMethod::cmaes)
-      return subject.constants.size() + (1 + fold_count(plan)) * looks_of_a_search(plan);
+      return subject.constants.size() + (1 + fold_count(plan)) * (looks_of_a_search(plan) + 1);
     return subject.constants.size() + 2 + plan.starts + refined_starts + refits(plan) +
            fold_count(plan);
   }
@@ -484,13 +485,29 @@ class SubjectFit {
     return outcome;
   }
 
-  /// CMA-ES over these cases; every place that it looked at, in order. `number`: 0, or the fold.
-  std::vector<FitOutcome> look_around(std::size_t number, const Cases& cases) {
-    std::vector<FitOutcome> looked;
-    const SearchOptions options{SearchMethod::cmaes, subject_.constants.size(), 1,
-                                plan_.population,    plan_.generations,         plan_.seed,
-                                first_guesses()};
-    search(options, [&](std::span<const Shares> places, int generation) {
+  /// What is found of cases by looking at places.
+  struct Search {
+    std::size_t cases = 0;
+    std::vector<FitOutcome> looked{};  ///< at every place, in order
+    std::optional<ResponseSurface> surface{};
+
+    /// Where the error is least, with each case counted `times`: of the surface, and where that
+    /// has no least place the best that was looked at; nothing where no place has a value.
+    std::optional<Shares> least(const std::vector<int>& times) const {
+      if (surface)
+        if (auto place = surface->least(times)) return place;
+      const FitOutcome* best = best_place(looked, times);
+      return best == nullptr ? std::nullopt : std::optional(best->place);
+    }
+    /// The best that was looked at; null where none ran.
+    const FitOutcome* best() const { return best_place(looked, std::vector<int>(cases, 1)); }
+  };
+
+  /// CMA-ES over these cases, and a look at where the surface over its places is least. `number`:
+  /// 0, or the fold.
+  Search look_around(std::size_t number, const Cases& cases) {
+    Search found{cases.size()};
+    const auto look_at = [&](std::span<const Shares> places, int generation) {
       const auto outcomes = rows_.run(
           {places.size(),
            [&](std::size_t i) {
@@ -501,11 +518,20 @@ class SubjectFit {
       std::vector<Score> scores;
       for (const auto& outcome : outcomes) {
         scores.push_back(outcome->error ? Score{{*outcome->error}, 0.} : Score{{0.}, 1.});
-        looked.push_back(*outcome);
+        found.looked.push_back(*outcome);
       }
       return scores;
-    });
-    return looked;
+    };
+    search({SearchMethod::cmaes, subject_.constants.size(), 1, plan_.population, plan_.generations,
+            plan_.seed, first_guesses()},
+           look_at);
+    std::vector<PlacedErrors> valued;
+    for (const FitOutcome& outcome : found.looked)
+      if (outcome.error) valued.push_back({outcome.place, outcome.cases});
+    found.surface = ResponseSurface::fit(std::move(valued));
+    if (const auto place = found.least(std::vector<int>(cases.size(), 1)))
+      look_at(std::span(&*place, 1), plan_.generations);
+    return found;
   }
 
   /// The place with the least error over its cases, each counted `times`; null where none ran.
@@ -524,17 +550,18 @@ class SubjectFit {
     return best;
   }
 
-  /// The optimum, and its interval: of each sample of the bootstrap the best of the places that
-  /// were looked at, without a run. False when no place has a value.
+  /// The optimum, and its interval: of each sample of the bootstrap where the surface is least,
+  /// without a run. False when no place has a value.
   bool search_distances() {
     const Cases cases = drawn_cases();
-    const std::vector<FitOutcome> looked = look_around(0, cases);
-    for (std::size_t i = 0; i < looked.size(); ++i)
-      result_.records.push_back({FitStage::search, i + 1, looked[i].place, looked[i].error,
-                                 looked[i].models, looked[i].status});
-    const FitOutcome* best = best_place(looked, std::vector<int>(cases.size(), 1));
+    const Search found = look_around(0, cases);
+    for (std::size_t i = 0; i < found.looked.size(); ++i)
+      result_.records.push_back({FitStage::search, i + 1, found.looked[i].place,
+                                 found.looked[i].error, found.looked[i].models,
+                                 found.looked[i].status});
+    const FitOutcome* best = found.best();
     if (best == nullptr) {
-      result_.status = "no run has a value: " + looked.front().status;
+      result_.status = "no run has a value: " + found.looked.front().status;
       return false;
     }
     result_.error = best->error;
@@ -542,7 +569,7 @@ class SubjectFit {
     std::vector<Shares> places;
     for (std::size_t i = 0; i < plan_.resamples; ++i) {
       std::mt19937_64 random = random_of(i);
-      places.push_back(best_place(looked, draw_with_replacement(cases.size(), random))->place);
+      places.push_back(*found.least(draw_with_replacement(cases.size(), random)));
     }
     judge(places);
     return true;
@@ -560,13 +587,13 @@ class SubjectFit {
     std::vector<Residuals> each(cases_.size());
     for (std::size_t i = 0; i < held.size(); ++i) {
       const Cases cases = drawn_from(training[i], i + 1);
-      const std::vector<FitOutcome> looked = look_around(i + 1, cases);
-      const FitOutcome* best = best_place(looked, std::vector<int>(cases.size(), 1));
+      const Search found = look_around(i + 1, cases);
+      const FitOutcome* best = found.best();
       if (best == nullptr) continue;
       const Residuals out = predict(model_.settings_at(best->place), held[i]);
       result_.folds.push_back({held[i], best->error, error_over(held[i], out), best->place});
       result_.records.push_back(
-          {FitStage::fold, i + 1, best->place, best->error, looked.size(), best->status});
+          {FitStage::fold, i + 1, best->place, best->error, found.looked.size(), best->status});
       auto from = out.begin();
       for (const std::size_t one : held[i]) {
         const auto size = static_cast<std::ptrdiff_t>(plan_.cases[one].residuals());

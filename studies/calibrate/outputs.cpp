@@ -19,6 +19,9 @@ namespace {
 
 using output::shortest;
 
+/// Of curves.csv: hundreds of runs are millions of numbers.
+constexpr int curve_digits = 7;
+
 std::string number_or_empty(const std::optional<double>& value) {
   return value ? shortest(*value) : std::string();
 }
@@ -178,13 +181,14 @@ output::CsvTable curves_table(const CalibrationPlan& plan, const CalibrationResu
         const std::vector<double> values = measured(trace, i);
         for (std::size_t part = 0; part < values.size(); ++part)
           rows.push_back({trace.name, trace.parts[part], trace.port_unit,
-                          shortest(trace.measured.time[i]), shortest(values[part])});
+                          output::rounded(trace.measured.time[i], curve_digits),
+                          output::rounded(values[part], curve_digits)});
         for (const SubjectCalibration& found : result.subjects) {
           const auto of_trace = residuals_of(found.residuals, trace, first);
           const std::vector<double> model =
               of_trace.empty() ? std::vector<double>() : modelled(trace, i, of_trace);
           for (std::size_t part = 0; part < rows.size(); ++part)
-            rows[part].push_back(model.empty() ? "" : shortest(model[part]));
+            rows[part].push_back(model.empty() ? "" : output::rounded(model[part], curve_digits));
         }
         std::ranges::move(rows, std::back_inserter(table.rows));
       }
