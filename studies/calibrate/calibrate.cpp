@@ -36,7 +36,10 @@ constexpr double widest_interval = 0.5;
 /// Of fewer samples 2.5 % are less than one.
 constexpr std::size_t least_resamples = 39;
 /// Streams of random numbers: those of the bootstrap's samples come before.
-constexpr std::size_t streams_of_draws = 1'000'000;
+constexpr std::size_t streams_of_draws = 1'000'000, streams_of_surfaces = 2'000'000;
+/// Rounds of a search after CMA-ES, and looks of each.
+constexpr int surface_rounds = 3;
+constexpr std::size_t surface_looks = 4;
 /// Of a constant with which every run is the same, bit for bit.
 constexpr const char* unread = "no trace changes with it";
 
@@ -69,7 +72,7 @@ class SubjectFit {
   static std::size_t rows_of(const CalibrationPlan& plan, const CalibrationSubject& subject) {
     if (!subject.refusal.empty()) return 0;
     if (plan.method == FitMethod::cmaes)
-      return subject.constants.size() + (1 + fold_count(plan)) * (looks_of_a_search(plan) + 1);
+      return subject.constants.size() + (1 + fold_count(plan)) * looks_of_a_search(plan);
     return subject.constants.size() + 2 + plan.starts + refined_starts + refits(plan) +
            fold_count(plan);
   }
@@ -467,7 +470,8 @@ class SubjectFit {
   Cases drawn_cases() const { return drawn_from(cases_, 0); }
 
   static std::size_t looks_of_a_search(const CalibrationPlan& plan) {
-    return static_cast<std::size_t>(plan.population) * static_cast<std::size_t>(plan.generations);
+    return static_cast<std::size_t>(plan.population) * static_cast<std::size_t>(plan.generations) +
+           surface_rounds * surface_looks;
   }
 
   /// What a place leaves of each of these cases.
@@ -491,6 +495,12 @@ class SubjectFit {
     std::vector<FitOutcome> looked{};  ///< at every place, in order
     std::optional<ResponseSurface> surface{};
 
+    void fit_surface() {
+      std::vector<PlacedErrors> valued;
+      for (const FitOutcome& outcome : looked)
+        if (outcome.error) valued.push_back({outcome.place, outcome.cases});
+      surface = ResponseSurface::fit(std::move(valued));
+    }
     /// Where the error is least, with each case counted `times`: of the surface, and where that
     /// has no least place the best that was looked at; nothing where no place has a value.
     std::optional<Shares> least(const std::vector<int>& times) const {
@@ -503,8 +513,9 @@ class SubjectFit {
     const FitOutcome* best() const { return best_place(looked, std::vector<int>(cases, 1)); }
   };
 
-  /// CMA-ES over these cases, and a look at where the surface over its places is least. `number`:
-  /// 0, or the fold.
+  /// CMA-ES over these cases, then rounds of looks where the surface over its places is least: for
+  /// the cases as they are, and for samples of them, so that places lie as close as the cases tell
+  /// them apart. `number`: 0, or the fold.
   Search look_around(std::size_t number, const Cases& cases) {
     Search found{cases.size()};
     const auto look_at = [&](std::span<const Shares> places, int generation) {
@@ -525,12 +536,15 @@ class SubjectFit {
     search({SearchMethod::cmaes, subject_.constants.size(), 1, plan_.population, plan_.generations,
             plan_.seed, first_guesses()},
            look_at);
-    std::vector<PlacedErrors> valued;
-    for (const FitOutcome& outcome : found.looked)
-      if (outcome.error) valued.push_back({outcome.place, outcome.cases});
-    found.surface = ResponseSurface::fit(std::move(valued));
-    if (const auto place = found.least(std::vector<int>(cases.size(), 1)))
-      look_at(std::span(&*place, 1), plan_.generations);
+    found.fit_surface();
+    if (found.best() == nullptr) return found;
+    std::mt19937_64 random = random_of(streams_of_surfaces + number);
+    for (int round = 0; round < surface_rounds; ++round, found.fit_surface()) {
+      std::vector<Shares> places{*found.least(std::vector<int>(cases.size(), 1))};
+      while (places.size() < surface_looks)
+        places.push_back(*found.least(draw_with_replacement(cases.size(), random)));
+      look_at(places, plan_.generations + round);
+    }
     return found;
   }
 

@@ -136,8 +136,9 @@ std::string search_words(const CalibrationPlan& plan) {
       "The same for every subject: CMA-ES, {} generations of {} places, the scene's own constants "
       "and the analytic guess among the first, over {} cases. What is made least, and reported as "
       "the error, is the mean over cases of the mean weighted distance of model and measurement. "
-      "A quadratic surface over the better half of the places says where to look once more, and "
-      "answers {} bootstrap samples over those cases without a run. Each fold is searched anew, "
+      "A quadratic surface over the best places says where to look further, and answers {} "
+      "bootstrap "
+      "samples over those cases without a run. Each fold is searched anew, "
       "over as many of the cases that it may see. A "
       "constant is told unless its interval spans more than half of its range or reaches an end "
       "of it.",

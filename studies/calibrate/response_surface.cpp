@@ -11,6 +11,10 @@ namespace {
 
 using Index = Eigen::Index;
 
+constexpr std::size_t places_a_coefficient = 3;
+/// How far from the middle of the places a surface is believed, in half widths of their box.
+constexpr double reach = 3.;
+
 Index signed_size(std::size_t size) { return static_cast<Index>(size); }
 
 /// 1, u_i, and u_i u_j with i <= j.
@@ -38,9 +42,9 @@ std::optional<ResponseSurface> ResponseSurface::fit(std::vector<PlacedErrors> lo
   if (looked.empty()) return std::nullopt;
   const std::size_t constants = looked.front().place.size(), things = looked.front().errors.size();
   const std::size_t count = coefficient_count(constants);
-  if (looked.size() < 2 * count) return std::nullopt;
+  if (looked.size() < places_a_coefficient * count) return std::nullopt;
   std::ranges::stable_sort(looked, {}, [](const PlacedErrors& one) { return sum_of(one.errors); });
-  looked.resize(std::max(looked.size() / 2, 2 * count));
+  looked.resize(places_a_coefficient * count);
   ResponseSurface surface;
   for (std::size_t i = 0; i < constants; ++i) {
     const auto [low, high] =
@@ -89,7 +93,8 @@ std::optional<Shares> ResponseSurface::least(std::span<const int> times) const {
   const Eigen::VectorXd u = solver.solve(-slope);
   Shares place;
   for (std::size_t i = 0; i < middle_.size(); ++i)
-    place.push_back(middle_[i] + half_width_[i] * std::clamp(u(signed_size(i)), -1., 1.));
+    place.push_back(std::clamp(
+        middle_[i] + half_width_[i] * std::clamp(u(signed_size(i)), -reach, reach), 0., 1.));
   return place;
 }
 

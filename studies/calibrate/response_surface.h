@@ -16,15 +16,15 @@ struct PlacedErrors {
   std::vector<double> errors;  ///< one a thing
 };
 
-/// One quadratic function a thing, by least squares over the best half of the places, best by the
-/// mean of their errors, and at least twice as many as it has coefficients (Box & Wilson 1951).
+/// One quadratic function a thing, by least squares over the best places, best by the sum of their
+/// errors, three times as many as it has coefficients (Box & Wilson 1951).
 class ResponseSurface {
  public:
   /// Nothing with too few places, or where they lie in a plane.
   static std::optional<ResponseSurface> fit(std::vector<PlacedErrors> looked);
 
-  /// Where the sum over the things, each counted `times`, is least, within the box of the places
-  /// that were fitted; nothing where the sum is not convex.
+  /// Where the sum over the things, each counted `times`, is least, within three times the box of
+  /// the places that were fitted, and the unit box; nothing where the sum is not convex.
   std::optional<Shares> least(std::span<const int> times) const;
 
  private:

@@ -16,15 +16,11 @@ std::vector<double> errors_at(const Shares& place, double ripple) {
           2. + 2. * (x - 0.5) * (x - 0.5) + (y - 0.4) * (y - 0.4) - wave};
 }
 
-std::vector<PlacedErrors> grid(double ripple, double sign = 1.) {
+std::vector<PlacedErrors> grid(double ripple) {
   std::vector<PlacedErrors> looked;
   for (int i = 0; i < 12; ++i)
-    for (int j = 0; j < 12; ++j) {
-      const Shares place{i / 11., j / 11.};
-      std::vector<double> errors = errors_at(place, ripple);
-      for (double& error : errors) error *= sign;
-      looked.push_back({place, errors});
-    }
+    for (int j = 0; j < 12; ++j)
+      looked.push_back({{i / 11., j / 11.}, errors_at({i / 11., j / 11.}, ripple)});
   return looked;
 }
 
@@ -41,21 +37,27 @@ TEST(ResponseSurface, IsLeastWhereTheWeighedSumOfTheThingsIs) {
   }
 }
 
-TEST(ResponseSurface, LooksThroughARippleThatIsDeeperThanTheBowl) {
-  const auto surface = ResponseSurface::fit(grid(0.02));
+// The best places alone count: what is far off may be of any shape.
+TEST(ResponseSurface, IsOfTheBestPlacesAndSmoothsTheirRipple) {
+  std::vector<PlacedErrors> looked = grid(1e-3);
+  for (PlacedErrors& one : looked)
+    if (one.errors[0] + one.errors[1] > 3.2)
+      for (double& error : one.errors) error += 10. * one.place[0];
+  const auto surface = ResponseSurface::fit(looked);
   ASSERT_TRUE(surface);
-  const Shares place = *surface->least(std::vector<int>{1, 0});
-  EXPECT_NEAR(place[0], 0.3, 0.02);
-  EXPECT_NEAR(place[1], 0.6, 0.03);
+  const Shares place = *surface->least(std::vector<int>{1, 1});
+  EXPECT_NEAR(place[0], 0.4, 0.02);
+  EXPECT_NEAR(place[1], 0.5, 0.02);
 }
 
 TEST(ResponseSurface, HasNoLeastPlaceWhereItIsNotConvexOrNotKnown) {
-  const auto saddle = ResponseSurface::fit(grid(0., -1.));
-  ASSERT_TRUE(saddle);
-  EXPECT_FALSE(saddle->least(std::vector<int>{1, 1}));
+  const auto surface = ResponseSurface::fit(grid(0.));
+  ASSERT_TRUE(surface);
+  EXPECT_TRUE(surface->least(std::vector<int>{1, 0}));
+  EXPECT_FALSE(surface->least(std::vector<int>{-1, 0}));
   EXPECT_FALSE(ResponseSurface::fit({}));
   std::vector<PlacedErrors> few = grid(0.);
-  few.resize(11);
+  few.resize(17);
   EXPECT_FALSE(ResponseSurface::fit(few));
   std::vector<PlacedErrors> line = grid(0.);
   for (PlacedErrors& one : line) one.place[1] = 0.5;

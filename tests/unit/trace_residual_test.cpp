@@ -44,6 +44,7 @@ TEST(TraceResidual, OfAnOrientationIsTheRotationTheShorterWayRound) {
 
 TEST(TraceResidual, CurveAfterCurveAndTheirMeanDistance) {
   CalibrationCase one;
+  one.traces.reserve(2);
   TracePlan& place = one.traces.emplace_back();
   place.parts = {"p.x", "p.y", "p.z"};
   place.port_unit = "mm";
