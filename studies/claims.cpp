@@ -59,7 +59,8 @@ std::optional<double> number_of(const StudyResult& study, const ClaimSpec& claim
 }
 
 /// The subject whose mean is the least or the largest; "" where none has one.
-std::string subject_of(const StudyResult& study, const ClaimSpec& claim, const ClaimValue& value) {
+std::string named_subject_of(const StudyResult& study, const ClaimSpec& claim,
+                             const ClaimValue& value) {
   std::string name;
   double best = 0.;
   for (std::size_t i = 0; i < study.subjects.size(); ++i) {
@@ -76,7 +77,7 @@ std::string subject_of(const StudyResult& study, const ClaimSpec& claim, const C
 std::string words_of(const StudyResult& study, const ClaimSpec& claim, const ClaimPart& part) {
   const ClaimValue& value = *part.value;
   if (value.take == ClaimTake::subject_of_least || value.take == ClaimTake::subject_of_largest)
-    return subject_of(study, claim, value);
+    return named_subject_of(study, claim, value);
   const auto number = number_of(study, claim, value);
   if (!number) return "";
   constexpr int digits = 3;

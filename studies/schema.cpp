@@ -342,29 +342,63 @@ ClassSchema calibrate_class() {
                                    "points all over the ranges that are looked "
                                    "at; the best are refined")),
                     "16"),
+       choice("method", {"least_squares", "cmaes"}, "least_squares",
+              "what is made least and how: the sum of all squares, by derivatives from the best "
+              "`starts`, or the mean distance, which a run that went astray does not rule, by "
+              "CMA-ES, which needs none"),
+       with_default(within(8, 10000, integer("population", "of cmaes, places of a generation")),
+                    "12"),
+       with_default(within(1, 10000,
+                           integer("generations",
+                                   "of cmaes, the Latin hypercube it begins with "
+                                   "included")),
+                    "10"),
+       within(1, 1000000,
+              integer("most_cases",
+                      "of cmaes, cases that a search looks at, drawn by `seed` from those that it "
+                      "may; default: all")),
        with_default(at_least_zero(integer("seed", "of starts, bootstrap and folds")), "1")},
-      {"Subject", "Vary", "Trace", "Fix"});
+      {"Subject", "Vary", "Trace", "Cases", "Fix"});
   add_varied_scene(calibrate, "what is fitted and why, first thing in the report");
   return calibrate;
 }
 
-ClassSchema measured_trace_class() {
-  ClassSchema trace =
-      named("Trace", "A curve that was measured: a column of a table over time.",
-            {required(text("file", "the table, comma-separated, with titles like `z [m]`")),
-             required(text("column", "title of what was measured, \"z [m]\"")),
-             text("time", "title of the column of times; default: the first column"),
-             required(words("of", 1, "trail of the port that was measured")),
-             required(number("weight", "?", "1 over what one takes for its error: 1 / (0.5 mm)"))},
-            {"Fix"});
-  trace.only_in = "Calibrate";
+ClassSchema measured_trace_class(std::string within) {
+  ClassSchema trace = named(
+      "Trace", "A curve that was measured: columns of a table over time.",
+      {required(text("file", "the table, comma-separated, with titles like `z [m]`")),
+       required(words("column", 4,
+                      "title of what was measured, \"z [m]\"; the three of a vector, or the four, "
+                      "w, x, y, z, of an orientation")),
+       text("time", "title of the column of times; default: the first column"),
+       required(words("of", 1,
+                      "trail of the port that was measured; of a vector or an orientation without "
+                      "its parts")),
+       required(number("weight", "?",
+                       "1 over what one takes for its error: 1 / (0.5 mm); of an orientation "
+                       "1 / (1 deg)"))},
+      {"Fix"});
+  trace.only_in = std::move(within);
   return trace;
+}
+
+ClassSchema cases_class() {
+  return named(
+      "Cases",
+      "Runs that were measured, from tables: a row a case, whose columns set the Params that are "
+      "called like them, and curves of many cases in the tables of its Traces.",
+      {required(text("file", "the table of the cases, comma-separated, with titles like `z [m]`")),
+       required(words("case", 1,
+                      "title of the column that says which case a row is of, here and in the "
+                      "Traces' tables"))},
+      {"Trace", "Only"});
 }
 
 void add_tune_classes(Schema& schema) {
   schema.add(tune_class());
   schema.add(calibrate_class());
-  schema.add(measured_trace_class());
+  for (const char* within : {"Calibrate", "Cases"}) schema.add(measured_trace_class(within));
+  schema.add(cases_class());
   schema.add(named(
       "Vary",
       "A constant to tune: a Param of the terrain's file or of the scene, a field of "
@@ -444,9 +478,10 @@ void add_study_classes(Schema& schema) {
                    {"Only"}));
   schema.add(named("Fix", "A value of a Param of the scene.",
                    {required(or_words(number("value", "?", "the value")))}));
-  schema.add(named("Only", "Restricts its owner to some values of a swept Param.",
-                   {or_words(values("values", "exactly these values")),
-                    number("from", "?", "least value"), number("to", "?", "greatest value")}));
+  schema.add(named(
+      "Only", "Restricts its owner to some values of a swept Param, or Cases to some of a column.",
+      {or_words(values("values", "exactly these values")), number("from", "?", "least value"),
+       number("to", "?", "greatest value")}));
   add_tune_classes(schema);
 }
 

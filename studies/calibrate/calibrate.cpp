@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <random>
+#include <span>
 #include <utility>
 
 #include "output/text/hash.h"
@@ -14,7 +16,11 @@
 #include "studies/calibrate/model.h"
 #include "studies/calibrate/outputs.h"
 #include "studies/calibrate/resampling.h"
+#include "studies/calibrate/response_surface.h"
+#include "studies/calibrate/trace_residual.h"
 #include "studies/tune/guess.h"
+#include "studies/tune/optimiser.h"
+#include "studies/workers.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -29,6 +35,11 @@ constexpr double end_part = 2e-3;
 constexpr double widest_interval = 0.5;
 /// Of fewer samples 2.5 % are less than one.
 constexpr std::size_t least_resamples = 39;
+/// Streams of random numbers: those of the bootstrap's samples come before.
+constexpr std::size_t streams_of_draws = 1'000'000, streams_of_surfaces = 2'000'000;
+/// Rounds of a search after CMA-ES, and looks of each.
+constexpr int surface_rounds = 3;
+constexpr std::size_t surface_looks = 4;
 /// Of a constant with which every run is the same, bit for bit.
 constexpr const char* unread = "no trace changes with it";
 
@@ -41,7 +52,7 @@ Cases all_cases(const CalibrationPlan& plan) {
 }
 
 FitOutcome look_without_value(const std::string& why) {
-  return {why, std::nullopt, std::nullopt, 1, Shares{}};
+  return {why, std::nullopt, std::nullopt, 1, Shares{}, {}};
 }
 
 /// One subject's calibration, stage by stage; each needs those before it.
@@ -60,6 +71,8 @@ class SubjectFit {
   /// Rows that it will ask for at most.
   static std::size_t rows_of(const CalibrationPlan& plan, const CalibrationSubject& subject) {
     if (!subject.refusal.empty()) return 0;
+    if (plan.method == FitMethod::cmaes)
+      return subject.constants.size() + (1 + fold_count(plan)) * looks_of_a_search(plan);
     return subject.constants.size() + 2 + plan.starts + refined_starts + refits(plan) +
            fold_count(plan);
   }
@@ -94,11 +107,20 @@ class SubjectFit {
       return;
     }
     look_at_own_constants();
+    if (plan_.varied.empty()) {
+      result_.error = result_.own_error;
+      result_.residuals = result_.own_residuals;
+      return;
+    }
     leave_out_unread();
     if (subject_.constants.empty()) {
       result_.status = "none of the constants changes a trace";
       result_.error = result_.own_error;
       result_.residuals = result_.own_residuals;
+      return;
+    }
+    if (plan_.method == FitMethod::cmaes) {
+      if (search_distances()) predict_folds();
       return;
     }
     if (!search_box()) return;
@@ -107,10 +129,45 @@ class SubjectFit {
   }
 
   void look_at_own_constants() {
-    if (auto residuals = model_.residuals({}, cases_)) {
-      result_.own_error = error_of(*residuals);
-      result_.own_residuals = std::move(*residuals);
+    Residuals residuals = predict({}, cases_);
+    result_.own_error = error_over(cases_, residuals);
+    if (result_.own_error) result_.own_residuals = std::move(residuals);
+  }
+
+  /// Residuals of these cases, case after case; those of a run that breaks off are not numbers.
+  Residuals predict(const std::vector<ConstantSetting>& constants, const Cases& cases) const {
+    std::vector<Residuals> each(cases.size());
+    work_through(cases.size(), rows_.jobs(), [&](std::size_t i) {
+      auto run = model_.residuals(constants, std::span(cases).subspan(i, 1));
+      each[i] = run ? std::move(*run)
+                    : Residuals(plan_.cases[cases[i]].residuals(),
+                                std::numeric_limits<double>::quiet_NaN());
+      return true;
+    });
+    Residuals all;
+    for (const Residuals& one : each) all.insert(all.end(), one.begin(), one.end());
+    return all;
+  }
+
+  /// The error of these cases, by the plan's method: of all or nothing by squares, of those that
+  /// ran by distances.
+  std::optional<double> error_over(const Cases& cases, const Residuals& residuals) const {
+    if (plan_.method == FitMethod::least_squares)
+      return std::ranges::any_of(residuals, [](double one) { return std::isnan(one); })
+                 ? std::nullopt
+                 : error_of(residuals);
+    double sum = 0.;
+    std::size_t count = 0, first = 0;
+    for (const std::size_t one : cases) {
+      const std::size_t size = plan_.cases[one].residuals();
+      const double error =
+          mean_distance(plan_.cases[one], std::span(residuals).subspan(first, size));
+      first += size;
+      if (std::isnan(error)) continue;
+      sum += error;
+      ++count;
     }
+    return count == 0 ? std::nullopt : std::optional(sum / static_cast<double>(count));
   }
 
   Shares own_or_middle() const {
@@ -124,16 +181,17 @@ class SubjectFit {
 
   void leave_out_unread() {
     const Shares middle = own_or_middle();
+    const Cases cases = drawn_cases();
     const auto outcomes = rows_.run(
         {middle.size(), [&](std::size_t i) { return identity("reads", i, middle); },
          [&](std::size_t i) {
            Shares less = middle, more = middle;
            less[i] = 0.25;
            more[i] = 0.75;
-           const auto one = model_.residuals(model_.settings_at(less), cases_);
-           const auto other = model_.residuals(model_.settings_at(more), cases_);
+           const auto one = model_.residuals(model_.settings_at(less), cases);
+           const auto other = model_.residuals(model_.settings_at(more), cases);
            const bool same = one && other && *one == *other;
-           return FitOutcome{same ? unread : "ok", std::nullopt, std::nullopt, 2, Shares{}};
+           return FitOutcome{same ? unread : "ok", std::nullopt, std::nullopt, 2, Shares{}, {}};
          }});
     stop_if_unfinished(outcomes);
     std::vector<std::size_t> read;
@@ -147,8 +205,8 @@ class SubjectFit {
     subject_.constants = std::move(read);
   }
 
-  /// The scene's own constants, the analytic guess, then points all over the box.
-  std::vector<Shares> starts() const {
+  /// The scene's own constants and the analytic guess.
+  std::vector<Shares> first_guesses() const {
     std::vector<Shares> first;
     TunePlan guessed;
     guessed.scene = subject_.scene;
@@ -165,7 +223,12 @@ class SubjectFit {
       for (std::size_t i = 0; i < guess->values.size(); ++i)
         place.push_back(guessed.varied[i].share_of(guess->values[i]));
     }
-    return spread_starts(subject_.constants.size(), std::move(first), plan_.starts, plan_.seed);
+    return first;
+  }
+
+  /// Those, then points all over the box.
+  std::vector<Shares> starts() const {
+    return spread_starts(subject_.constants.size(), first_guesses(), plan_.starts, plan_.seed);
   }
 
   ResidualModel model_of(const Cases& cases) const {
@@ -182,7 +245,7 @@ class SubjectFit {
          [&](std::size_t i) {
            std::string why;
            const auto residuals = model_.residuals(model_.settings_at(all[i]), cases_, &why);
-           return residuals ? FitOutcome{"ok", error_of(*residuals), std::nullopt, 1, all[i]}
+           return residuals ? FitOutcome{"ok", error_of(*residuals), std::nullopt, 1, all[i], {}}
                             : look_without_value(why);
          }});
     record(FitStage::start, looked, all);
@@ -196,7 +259,7 @@ class SubjectFit {
         rows_.run({best.size(), [&](std::size_t i) { return identity("refined", i, best[i]); },
                    [&](std::size_t i) {
                      const auto fit = refine(model_of(cases_), best[i], fit_of_runs);
-                     return fit ? outcome_of(*fit, plan_.samples())
+                     return fit ? outcome_of(*fit, plan_.residuals())
                                 : look_without_value("no run beside it has a value");
                    }});
     record(FitStage::refined, refined, best);
@@ -206,8 +269,9 @@ class SubjectFit {
   }
 
   static FitOutcome outcome_of(const LeastSquaresFit& fit, std::size_t samples) {
-    return {"ok", std::sqrt(fit.sum / static_cast<double>(samples)), std::nullopt, fit.models,
-            fit.place};
+    return {"ok",         std::sqrt(fit.sum / static_cast<double>(samples)),
+            std::nullopt, fit.models,
+            fit.place,    {}};
   }
 
   /// The places with the least errors.
@@ -257,7 +321,7 @@ class SubjectFit {
   Linearisation optimum_over(const Cases& cases) const {
     Linearisation part{optimum_.place, {}, std::vector<Residuals>(optimum_.derivative.size())};
     std::vector<std::size_t> first{0};
-    for (const CalibrationCase& one : plan_.cases) first.push_back(first.back() + one.samples());
+    for (const CalibrationCase& one : plan_.cases) first.push_back(first.back() + one.residuals());
     const auto take = [&](const Residuals& from, Residuals& into) {
       for (const std::size_t one : cases)
         into.insert(into.end(), from.begin() + static_cast<std::ptrdiff_t>(first[one]),
@@ -272,7 +336,8 @@ class SubjectFit {
   std::vector<std::size_t> trace_sizes() const {
     std::vector<std::size_t> sizes;
     for (const CalibrationCase& one : plan_.cases)
-      for (const TracePlan& trace : one.traces) sizes.push_back(trace.measured.time.size());
+      for (const TracePlan& trace : one.traces)
+        sizes.insert(sizes.end(), trace.residuals_a_sample(), trace.measured.time.size());
     return sizes;
   }
 
@@ -301,7 +366,7 @@ class SubjectFit {
     for (std::size_t i = 0; i < times.size(); ++i) {
       if (times[i] == 0) continue;
       drawn.push_back(i);
-      factor.insert(factor.end(), plan_.cases[i].samples(),
+      factor.insert(factor.end(), plan_.cases[i].residuals(),
                     std::sqrt(static_cast<double>(times[i])));
     }
     const auto weigh = [&](Residuals& residuals) {
@@ -346,7 +411,7 @@ class SubjectFit {
       std::mt19937_64 random = random_of(i);
       const LeastSquaresFit found =
           plan_.resamples_cases() ? fit_drawn_cases(random) : fit_drawn_blocks(random);
-      return outcome_of(found, plan_.samples());
+      return outcome_of(found, plan_.residuals());
     };
     std::vector<Shares> places;
     if (plan_.bootstrap == Bootstrap::one_step) {
@@ -391,10 +456,179 @@ class SubjectFit {
     }
   }
 
+  /// As many of these as a search looks at, in their order; drawn from a stream of its own.
+  Cases drawn_from(Cases cases, std::size_t stream) const {
+    if (plan_.most_cases == 0 || plan_.most_cases >= cases.size()) return cases;
+    std::mt19937_64 random = random_of(streams_of_draws + stream);
+    for (std::size_t i = 0; i < plan_.most_cases; ++i)
+      std::swap(cases[i], cases[i + random() % (cases.size() - i)]);
+    cases.resize(plan_.most_cases);
+    std::ranges::sort(cases);
+    return cases;
+  }
+  /// Those of the search of all cases.
+  Cases drawn_cases() const { return drawn_from(cases_, 0); }
+
+  static std::size_t looks_of_a_search(const CalibrationPlan& plan) {
+    return static_cast<std::size_t>(plan.population) * static_cast<std::size_t>(plan.generations) +
+           surface_rounds * surface_looks;
+  }
+
+  /// What a place leaves of each of these cases.
+  FitOutcome look(const Shares& place, const Cases& cases) const {
+    FitOutcome outcome{"ok", std::nullopt, std::nullopt, 1, place, {}};
+    const auto constants = model_.settings_at(place);
+    for (const std::size_t one : cases) {
+      std::string why;
+      const auto residuals = model_.residuals(constants, std::span(&one, 1), &why);
+      if (!residuals) return look_without_value(why);
+      outcome.cases.push_back(mean_distance(plan_.cases[one], *residuals));
+    }
+    outcome.error = std::reduce(outcome.cases.begin(), outcome.cases.end()) /
+                    static_cast<double>(outcome.cases.size());
+    return outcome;
+  }
+
+  /// What is found of cases by looking at places.
+  struct Search {
+    std::size_t cases = 0;
+    std::vector<FitOutcome> looked{};  ///< at every place, in order
+    std::optional<ResponseSurface> surface{};
+
+    void fit_surface() {
+      std::vector<PlacedErrors> valued;
+      for (const FitOutcome& outcome : looked)
+        if (outcome.error) valued.push_back({outcome.place, outcome.cases});
+      surface = ResponseSurface::fit(std::move(valued));
+    }
+    /// Where the error is least, with each case counted `times`: of the surface, and where that
+    /// has no least place the best that was looked at; nothing where no place has a value.
+    std::optional<Shares> least(const std::vector<int>& times) const {
+      if (surface)
+        if (auto place = surface->least(times)) return place;
+      const FitOutcome* best = best_place(looked, times);
+      return best == nullptr ? std::nullopt : std::optional(best->place);
+    }
+    /// The best that was looked at; null where none ran.
+    const FitOutcome* best() const { return best_place(looked, std::vector<int>(cases, 1)); }
+  };
+
+  /// CMA-ES over these cases, then rounds of looks where the surface over its places is least: for
+  /// the cases as they are, and for samples of them, so that places lie as close as the cases tell
+  /// them apart. `number`: 0, or the fold.
+  Search look_around(std::size_t number, const Cases& cases) {
+    Search found{cases.size()};
+    const auto look_at = [&](std::span<const Shares> places, int generation) {
+      const auto outcomes = rows_.run(
+          {places.size(),
+           [&](std::size_t i) {
+             return identity(fmt::format("search {} {}", number, generation).c_str(), i, places[i]);
+           },
+           [&](std::size_t i) { return look(places[i], cases); }});
+      stop_if_unfinished(outcomes);
+      std::vector<Score> scores;
+      for (const auto& outcome : outcomes) {
+        scores.push_back(outcome->error ? Score{{*outcome->error}, 0.} : Score{{0.}, 1.});
+        found.looked.push_back(*outcome);
+      }
+      return scores;
+    };
+    search({SearchMethod::cmaes, subject_.constants.size(), 1, plan_.population, plan_.generations,
+            plan_.seed, first_guesses()},
+           look_at);
+    found.fit_surface();
+    if (found.best() == nullptr) return found;
+    std::mt19937_64 random = random_of(streams_of_surfaces + number);
+    for (int round = 0; round < surface_rounds; ++round, found.fit_surface()) {
+      std::vector<Shares> places{*found.least(std::vector<int>(cases.size(), 1))};
+      while (places.size() < surface_looks)
+        places.push_back(*found.least(draw_with_replacement(cases.size(), random)));
+      look_at(places, plan_.generations + round);
+    }
+    return found;
+  }
+
+  /// The place with the least error over its cases, each counted `times`; null where none ran.
+  static const FitOutcome* best_place(const std::vector<FitOutcome>& looked,
+                                      const std::vector<int>& times) {
+    const FitOutcome* best = nullptr;
+    double least = std::numeric_limits<double>::infinity();
+    for (const FitOutcome& outcome : looked) {
+      if (!outcome.error) continue;
+      const double sum =
+          std::inner_product(outcome.cases.begin(), outcome.cases.end(), times.begin(), 0.);
+      if (!(sum < least)) continue;
+      least = sum;
+      best = &outcome;
+    }
+    return best;
+  }
+
+  /// The optimum, and its interval: of each sample of the bootstrap where the surface is least,
+  /// without a run. False when no place has a value.
+  bool search_distances() {
+    const Cases cases = drawn_cases();
+    const Search found = look_around(0, cases);
+    for (std::size_t i = 0; i < found.looked.size(); ++i)
+      result_.records.push_back({FitStage::search, i + 1, found.looked[i].place,
+                                 found.looked[i].error, found.looked[i].models,
+                                 found.looked[i].status});
+    const FitOutcome* best = found.best();
+    if (best == nullptr) {
+      result_.status = "no run has a value: " + found.looked.front().status;
+      return false;
+    }
+    result_.error = best->error;
+    adopt(best->place);
+    std::vector<Shares> places;
+    for (std::size_t i = 0; i < plan_.resamples; ++i) {
+      std::mt19937_64 random = random_of(i);
+      places.push_back(*found.least(draw_with_replacement(cases.size(), random)));
+    }
+    judge(places);
+    return true;
+  }
+
+  /// Each case by constants that were fitted without it; without folds by those of all.
+  void predict_folds() {
+    const auto [held, training] = folds_of_cases();
+    if (held.empty()) {
+      Shares place;
+      for (const FittedConstant& constant : result_.constants) place.push_back(constant.share);
+      result_.residuals = predict(model_.settings_at(place), cases_);
+      return;
+    }
+    std::vector<Residuals> each(cases_.size());
+    for (std::size_t i = 0; i < held.size(); ++i) {
+      const Cases cases = drawn_from(training[i], i + 1);
+      const Search found = look_around(i + 1, cases);
+      const FitOutcome* best = found.best();
+      if (best == nullptr) continue;
+      const Residuals out = predict(model_.settings_at(best->place), held[i]);
+      result_.folds.push_back({held[i], best->error, error_over(held[i], out), best->place});
+      result_.records.push_back(
+          {FitStage::fold, i + 1, best->place, best->error, found.looked.size(), best->status});
+      auto from = out.begin();
+      for (const std::size_t one : held[i]) {
+        const auto size = static_cast<std::ptrdiff_t>(plan_.cases[one].residuals());
+        each[one].assign(from, from + size);
+        from += size;
+      }
+    }
+    for (std::size_t i = 0; i < each.size(); ++i) {
+      if (each[i].empty())
+        each[i].assign(plan_.cases[i].residuals(), std::numeric_limits<double>::quiet_NaN());
+      result_.residuals.insert(result_.residuals.end(), each[i].begin(), each[i].end());
+    }
+  }
+
   /// Of the blocks the fit has taken one for each constant.
   double interval_tail() const {
+    if (plan_.method == FitMethod::cmaes)
+      return tail_of_interval(static_cast<double>(drawn_cases().size()));
     if (plan_.resamples_cases()) return tail_of_interval(static_cast<double>(plan_.cases.size()));
-    const double blocks = static_cast<double>(plan_.samples()) / static_cast<double>(result_.block);
+    const double blocks =
+        static_cast<double>(plan_.residuals()) / static_cast<double>(result_.block);
     return tail_of_interval(blocks - static_cast<double>(subject_.constants.size()));
   }
 
@@ -410,14 +644,24 @@ class SubjectFit {
     return "";
   }
 
+  /// Cases that each fold holds out, and those that it is fitted to.
+  struct Folds {
+    std::vector<Cases> held, training;
+  };
+  Folds folds_of_cases() const {
+    const std::size_t folds = fold_count(plan_);
+    const auto fold = fold_of_each(plan_.cases.size(), folds, plan_.seed);
+    Folds all{std::vector<Cases>(folds), std::vector<Cases>(folds)};
+    for (const std::size_t one : cases_)
+      for (std::size_t part = 0; part < folds; ++part)
+        (fold[one] == part ? all.held : all.training)[part].push_back(one);
+    return all;
+  }
+
   void cross_validate() {
     const std::size_t folds = fold_count(plan_);
     if (folds == 0 || optimum_.residuals.empty()) return;
-    const auto fold = fold_of_each(plan_.cases.size(), folds, plan_.seed);
-    std::vector<Cases> held(folds), training(folds);
-    for (const std::size_t one : cases_)
-      for (std::size_t part = 0; part < folds; ++part)
-        (fold[one] == part ? held : training)[part].push_back(one);
+    const auto [held, training] = folds_of_cases();
     const auto outcomes =
         rows_.run({folds, [&](std::size_t i) { return identity("fold", i, optimum_.place); },
                    [&](std::size_t i) {
@@ -475,6 +719,8 @@ std::string_view name_of(FitStage stage) {
       return "start";
     case FitStage::refined:
       return "refined";
+    case FitStage::search:
+      return "search";
     case FitStage::resample:
       return "resample";
     case FitStage::fold:

@@ -20,7 +20,7 @@
 namespace hookpoint::studies {
 
 /// What a row of evaluations.csv is of.
-enum class FitStage { start, refined, resample, fold };
+enum class FitStage { start, refined, search, resample, fold };
 std::string_view name_of(FitStage stage);
 
 /// "lower" or "upper" where a share stands at that end of its range, else "".
@@ -46,7 +46,7 @@ struct FittedConstant {
   std::string reason;               ///< why not, or what is missing
 };
 
-/// Root mean squares of weighted residuals.
+/// Errors as CalibrationPlan::method has them.
 struct FoldResult {
   std::vector<std::size_t> held_out;  ///< cases
   std::optional<double> training, held;
@@ -58,12 +58,16 @@ struct SubjectCalibration {
   std::vector<LeftOut> left_out;          ///< those of the plan, and what changes no trace
   std::vector<FittedConstant> constants;  ///< those that were fitted
   std::optional<double> own_error;        ///< with the scene's own constants
-  std::optional<double> error;            ///< root mean square of weighted residuals at the optimum
+  /// At the optimum: the root mean square of the weighted residuals, or of cmaes the mean over the
+  /// cases that the search looked at of their mean weighted distance.
+  std::optional<double> error;
   std::vector<std::vector<double>> correlations;  ///< of the constants; empty: not known
   std::size_t resamples = 0;                      ///< that have a fit
   std::size_t block = 0;                          ///< samples drawn together; 0: cases
   std::vector<FoldResult> folds;
-  Residuals residuals;        ///< at the optimum, case after case; empty: none
+  /// At the optimum, of cmaes with folds each case by the constants that were fitted without it;
+  /// case after case, those of a run that broke off not numbers; empty: none.
+  Residuals residuals;
   Residuals own_residuals;    ///< with the scene's own constants
   std::string status = "ok";  ///< or why it has no fit
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "output/figures/plot.h"
+#include "studies/calibrate/trace_residual.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -25,7 +26,7 @@ std::vector<PlacedTrace> drawn_traces(const CalibrationPlan& plan) {
   for (const CalibrationCase& one : plan.cases) {
     for (const TracePlan& trace : one.traces) {
       if (traces.size() < most_trace_figures) traces.push_back({&trace, first});
-      first += trace.measured.time.size();
+      first += trace.residuals();
     }
   }
   return traces;
@@ -37,25 +38,30 @@ std::string rest_name(const TracePlan& trace) { return "residuals_" + trace.name
 /// Grey, with a marker that none of the first four subjects has.
 constexpr int measured_style = 3 * output::style_colors - 1;
 
-/// The value of a sample from its trace and its residual.
-using SampleValue = double (*)(const TracePlan&, std::size_t sample, double residual);
+/// The value of a sample from the trace's residuals.
+using SampleValue = double (*)(const TracePlan&, std::size_t sample, std::span<const double>);
 
-double modelled(const TracePlan& trace, std::size_t sample, double residual) {
-  return (trace.measured.value[sample] + residual / trace.weight) / trace.unit_of_port;
+double measured_value(const TracePlan& trace, std::size_t sample, std::span<const double>) {
+  return measured(trace, sample).front();
 }
-double weighted(const TracePlan& /*trace*/, std::size_t /*sample*/, double residual) {
-  return residual;
+double modelled_value(const TracePlan& trace, std::size_t sample,
+                      std::span<const double> residuals) {
+  return modelled(trace, sample, residuals).front();
+}
+double residual(const TracePlan& /*trace*/, std::size_t sample, std::span<const double> residuals) {
+  return residuals[sample];
 }
 
-output::Curve curve_of(const PlacedTrace& placed, const Residuals& residuals, SampleValue value) {
-  const TracePlan& trace = *placed.trace;
+bool has_parts(const TracePlan& trace) { return trace.parts.size() > 1; }
+
+output::Curve curve_of(const TracePlan& trace, std::span<const double> residuals,
+                       SampleValue value) {
   const std::size_t count = trace.measured.time.size();
   const std::size_t stride = (count + most_points - 1) / most_points;
   output::Curve curve;
   for (std::size_t i = 0; i < count; i += stride) {
-    const double residual = residuals.empty() ? 0. : residuals[placed.first + i];
     curve.x.push_back(trace.measured.time[i]);
-    curve.y.push_back(value(trace, i, residual));
+    curve.y.push_back(value(trace, i, residuals));
   }
   return curve;
 }
@@ -63,37 +69,44 @@ output::Curve curve_of(const PlacedTrace& placed, const Residuals& residuals, Sa
 void add_subjects(Plot& plot, const CalibrationPlan& plan, const CalibrationResult& result,
                   const PlacedTrace& placed, SampleValue value) {
   for (std::size_t i = 0; i < result.subjects.size(); ++i) {
-    if (result.subjects[i].residuals.empty()) continue;
+    const auto residuals = residuals_of(result.subjects[i].residuals, *placed.trace, placed.first);
+    if (residuals.empty()) continue;
     Series series{plan.subjects[i].info.name, static_cast<int>(i), {}, {}, {}};
     // Their points are samples of one run: a line.
-    series.measured = curve_of(placed, result.subjects[i].residuals, value);
+    series.measured = curve_of(*placed.trace, residuals, value);
     plot.series.push_back(std::move(series));
   }
 }
 
+/// Of a vector or an orientation the first part.
 Plot curve_figure(const CalibrationPlan& plan, const CalibrationResult& result,
                   const PlacedTrace& placed) {
+  const TracePlan& trace = *placed.trace;
   Plot plot;
-  plot.name = curve_name(*placed.trace);
-  plot.title = placed.trace->name + ": measured and calibrated";
+  plot.name = curve_name(trace);
+  plot.title = trace.name + ": measured and calibrated";
   plot.x = {.label = "time", .unit = "s"};
-  plot.y = {.label = placed.trace->port, .unit = placed.trace->port_unit};
-  Series measured{"measured", measured_style, {}, {}, {}};
-  measured.measured = curve_of(placed, {}, modelled);
-  measured.scattered = true;
-  plot.series.push_back(std::move(measured));
-  add_subjects(plot, plan, result, placed, modelled);
+  plot.y = {.label = trace.parts.front(), .unit = trace.port_unit};
+  Series points{"measured", measured_style, {}, {}, {}};
+  points.measured = curve_of(trace, {}, measured_value);
+  points.scattered = true;
+  plot.series.push_back(std::move(points));
+  add_subjects(plot, plan, result, placed, modelled_value);
   return plot;
 }
 
+/// Of a vector or an orientation the length of the difference.
 Plot rest_figure(const CalibrationPlan& plan, const CalibrationResult& result,
                  const PlacedTrace& placed) {
+  const bool length = has_parts(*placed.trace);
   Plot plot;
   plot.name = rest_name(*placed.trace);
   plot.title = placed.trace->name + ": what the fits leave";
   plot.x = {.label = "time", .unit = "s"};
-  plot.y = {.label = "model less measured, times weight", .unit = ""};
-  add_subjects(plot, plan, result, placed, weighted);
+  plot.y = {.label = length ? "distance of model and measured, times weight"
+                            : "model less measured, times weight",
+            .unit = ""};
+  add_subjects(plot, plan, result, placed, length ? distance : residual);
   return plot;
 }
 

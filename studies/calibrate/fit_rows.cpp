@@ -14,6 +14,7 @@ constexpr const char* held_out_name = "held_out";
 constexpr const char* models_name = "models";
 
 std::string share_name(std::size_t number) { return "share_" + std::to_string(number); }
+std::string case_name(std::size_t number) { return "case_" + std::to_string(number); }
 
 RunRecord record_of_fit(const FitOutcome& outcome) {
   RunRecord record;
@@ -23,6 +24,8 @@ RunRecord record_of_fit(const FitOutcome& outcome) {
   record.values[models_name].measured = static_cast<double>(outcome.models);
   for (std::size_t i = 0; i < outcome.place.size(); ++i)
     record.values[share_name(i)].measured = outcome.place[i];
+  for (std::size_t i = 0; i < outcome.cases.size(); ++i)
+    record.values[case_name(i)].measured = outcome.cases[i];
   return record;
 }
 
@@ -34,10 +37,16 @@ bool is_fit(const RunRecord& record) {
 
 FitOutcome fit_in(const RunRecord& record) {
   const auto value = [&](const std::string& name) { return record.values.at(name).measured; };
-  FitOutcome outcome{record.status, value(error_name), value(held_out_name),
-                     static_cast<std::size_t>(*value(models_name)), Shares{}};
+  FitOutcome outcome{record.status,
+                     value(error_name),
+                     value(held_out_name),
+                     static_cast<std::size_t>(*value(models_name)),
+                     Shares{},
+                     {}};
   for (std::size_t i = 0; record.values.contains(share_name(i)); ++i)
     outcome.place.push_back(value(share_name(i)).value_or(0.));
+  for (std::size_t i = 0; record.values.contains(case_name(i)); ++i)
+    outcome.cases.push_back(value(case_name(i)).value_or(0.));
   return outcome;
 }
 

@@ -24,6 +24,7 @@ struct FitOutcome {
   std::optional<double> held_out;  ///< the same of what a fold has held out
   std::size_t models = 0;          ///< places at which the cases were run
   Shares place;                    ///< where it ended; empty: nowhere
+  std::vector<double> cases{};     ///< error of each case; empty: not told apart
 };
 
 /// Some fits of one kind.
@@ -48,6 +49,7 @@ class FitRows {
   /// Fits that were announced and are not made.
   void skip(std::size_t fits);
   std::size_t count() const { return identities_.size(); }
+  int jobs() const { return options_.jobs; }
 
  private:
   std::string study_;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "simulation/run/world.h"
+#include "studies/calibrate/trace_residual.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -14,30 +15,47 @@ namespace {
 /// One trace's port, read at the times of its samples while the run goes by.
 class SampledPort {
  public:
-  SampledPort(const TracePlan& trace, const simulation::Port& port)
-      : trace_(trace), value_(port.value) {
-    residuals_.reserve(trace.measured.time.size());
+  SampledPort(const TracePlan& trace, const simulation::Experiment& experiment,
+              const std::vector<simulation::Port>& ports)
+      : trace_(trace),
+        value_(trace.parts.size()),
+        last_(trace.parts.size()),
+        model_(trace.parts.size()),
+        residuals_(trace.residuals()) {
+    for (const std::string& part : trace.parts)
+      parts_.push_back(simulation::find_port(experiment, ports, part).value);
   }
 
   /// Times are multiples of the step, rounded: a sample at a step is of that step.
   void observe(double time, double step) {
-    const double value = *value_ * trace_.unit_of_port;
+    for (std::size_t i = 0; i < parts_.size(); ++i) value_[i] = *parts_[i] * trace_.unit_of_port;
+    if (trace_.is_orientation()) stay_on_one_side();
     const std::vector<double>& times = trace_.measured.time;
     for (; next_ < times.size() && times[next_] <= time + 1e-9 * step; ++next_) {
       const double part = time > time_ ? std::min((times[next_] - time_) / (time - time_), 1.) : 1.;
-      const double model = last_ + part * (value - last_);
-      residuals_.push_back(trace_.weight * (model - trace_.measured.value[next_]));
+      for (std::size_t i = 0; i < value_.size(); ++i)
+        model_[i] = last_[i] + part * (value_[i] - last_[i]);
+      set_residuals(trace_, next_, model_, residuals_);
     }
     time_ = time;
-    last_ = value;
+    last_ = value_;
   }
   bool complete() const { return next_ == trace_.measured.time.size(); }
   const Residuals& residuals() const { return residuals_; }
 
  private:
+  /// q and -q are one orientation, and an engine may go over from one to the other.
+  void stay_on_one_side() {
+    double side = 0.;
+    for (std::size_t i = 0; i < value_.size(); ++i) side += value_[i] * last_[i];
+    if (side < 0.)
+      for (double& part : value_) part = -part;
+  }
+
   const TracePlan& trace_;
-  const double* value_;
-  double time_ = 0., last_ = 0.;
+  std::vector<const double*> parts_;
+  std::vector<double> value_, last_, model_;  ///< in SI, one a part
+  double time_ = 0.;
   std::size_t next_ = 0;
   Residuals residuals_;
 };
@@ -83,8 +101,7 @@ bool CalibrationModel::add_case(std::span<const ConstantSetting> constants,
     simulation::World world(experiment, engines_.at(experiment.engine).make(experiment));
     const std::vector<simulation::Port> ports = world.ports();
     std::vector<SampledPort> sampled;
-    for (const TracePlan& trace : one.traces)
-      sampled.emplace_back(trace, simulation::find_port(experiment, ports, trace.port));
+    for (const TracePlan& trace : one.traces) sampled.emplace_back(trace, experiment, ports);
     const auto observe = [&] {
       for (SampledPort& port : sampled) port.observe(world.state().time, experiment.deltat);
     };

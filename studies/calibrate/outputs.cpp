@@ -3,10 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <span>
 
 #include "output/file.h"
 #include "output/text/number.h"
 #include "studies/calibrate/figures.h"
+#include "studies/calibrate/trace_residual.h"
 #include "studies/run/results_csv.h"
 #include "studies/tune/material_text.h"
 
@@ -14,6 +18,9 @@ namespace hookpoint::studies {
 namespace {
 
 using output::shortest;
+
+/// Of curves.csv: hundreds of runs are millions of numbers.
+constexpr int curve_digits = 7;
 
 std::string number_or_empty(const std::optional<double>& value) {
   return value ? shortest(*value) : std::string();
@@ -166,20 +173,26 @@ output::CsvTable curves_table(const CalibrationPlan& plan, const CalibrationResu
   table.header = {"trace", "port", "unit", "time [s]", "measured"};
   for (std::size_t i = 0; i < result.subjects.size(); ++i)
     table.header.push_back(plan.subjects[i].info.name);
-  std::size_t sample = 0;
+  std::size_t first = 0;
   for (const CalibrationCase& one : plan.cases) {
     for (const TracePlan& trace : one.traces) {
-      for (std::size_t i = 0; i < trace.measured.time.size(); ++i, ++sample) {
-        std::vector<std::string>& row = table.rows.emplace_back();
-        const double measured = trace.measured.value[i];
-        row = {trace.name, trace.port, trace.port_unit, shortest(trace.measured.time[i]),
-               shortest(measured / trace.unit_of_port)};
-        for (const SubjectCalibration& found : result.subjects)
-          row.push_back(found.residuals.empty()
-                            ? ""
-                            : shortest((measured + found.residuals[sample] / trace.weight) /
-                                       trace.unit_of_port));
+      for (std::size_t i = 0; i < trace.measured.time.size(); ++i) {
+        std::vector<std::vector<std::string>> rows;
+        const std::vector<double> values = measured(trace, i);
+        for (std::size_t part = 0; part < values.size(); ++part)
+          rows.push_back({trace.name, trace.parts[part], trace.port_unit,
+                          output::rounded(trace.measured.time[i], curve_digits),
+                          output::rounded(values[part], curve_digits)});
+        for (const SubjectCalibration& found : result.subjects) {
+          const auto of_trace = residuals_of(found.residuals, trace, first);
+          const std::vector<double> model =
+              of_trace.empty() ? std::vector<double>() : modelled(trace, i, of_trace);
+          for (std::size_t part = 0; part < rows.size(); ++part)
+            rows[part].push_back(model.empty() ? "" : output::rounded(model[part], curve_digits));
+        }
+        std::ranges::move(rows, std::back_inserter(table.rows));
       }
+      first += trace.residuals();
     }
   }
   return table;

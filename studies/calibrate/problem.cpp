@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <map>
 #include <set>
 
 #include "contact/force_law.h"
@@ -13,6 +15,7 @@
 #include "simulation/material_fields.h"
 #include "simulation/run/world.h"
 #include "simulation/wiring/ports.h"
+#include "studies/calibrate/case_table.h"
 #include "studies/calibrate/subject_name.h"
 #include "studies/plan/plan_parts.h"
 
@@ -25,6 +28,7 @@ using language::Position;
 
 /// What --quick leaves of the work.
 constexpr std::size_t quick_starts = 4, quick_folds = 2;
+constexpr int quick_generations = 3;
 
 /// What a plan is made from.
 struct PlanSource {
@@ -142,62 +146,86 @@ void choose_constants(CalibrationSubject& subject, const std::vector<VariedConst
 
 std::string unit_words(const std::string& unit) { return unit.empty() ? "no unit" : unit; }
 
-/// The trace's file, port and weight against one another.
+/// A Trace's file, ports and weight against one another.
 class TraceReader {
  public:
   TraceReader(const PlanSource& from, const simulation::Experiment& experiment,
               const std::vector<simulation::Port>& ports)
       : from_(from), experiment_(experiment), ports_(ports) {}
 
-  std::optional<TracePlan> read(const Object& block) const {
+  /// By what the case's column calls each; without one the single trace is called "".
+  std::optional<std::map<std::string, TracePlan>> read(const Object& block,
+                                                       const std::string& case_column) const {
     TracePlan trace;
     trace.name = block.name;
     trace.file = from_.find(block, "file");
-    if (trace.file.empty() || !find_port(block, trace)) return std::nullopt;
+    const language::Field& column = *block.find("column");
+    if (trace.file.empty() || !find_ports(block, column.words.size(), trace)) return std::nullopt;
+    trace.column = column.words.front();
     TraceRequest request{
         trace.file,
-        block.word("column"),
+        column.words,
         block.given("time") ? block.word("time") : "",
+        case_column,
         block.find("file")->position,
-        block.find("column")->position,
+        column.position,
         block.given("time") ? block.find("time")->position : block.find("file")->position};
-    auto measured = read_trace(request, from_.diagnostics);
-    if (!measured) return std::nullopt;
-    trace.measured = std::move(*measured);
-    trace.column = request.column;
-    if (!units_agree(block, trace)) return std::nullopt;
+    auto measured = read_traces(request, from_.diagnostics);
+    if (!measured || !units_agree(block, measured->begin()->second.unit, trace))
+      return std::nullopt;
     trace.weight = block.number("weight");
-    if (trace.weight > 0.) return trace;
-    from_.error(block.find("weight")->position, "a weight is greater than 0");
-    return std::nullopt;
+    if (!(trace.weight > 0.)) {
+      from_.error(block.find("weight")->position, "a weight is greater than 0");
+      return std::nullopt;
+    }
+    std::map<std::string, TracePlan> traces;
+    for (auto& [name, one] : *measured) {
+      traces[name] = trace;
+      traces[name].measured = std::move(one);
+    }
+    return traces;
   }
 
  private:
-  bool find_port(const Object& block, TracePlan& trace) const {
-    const language::Field& of = *block.find("of");
+  /// One column is held against a port, three against a vector's parts, four against an
+  /// orientation's.
+  bool find_ports(const Object& block, std::size_t columns, TracePlan& trace) const {
+    static const std::map<std::size_t, std::vector<std::string>> suffixes{
+        {1, {""}}, {3, {".x", ".y", ".z"}}, {4, {".w", ".x", ".y", ".z"}}};
+    const auto suffix = suffixes.find(columns);
+    if (suffix == suffixes.end()) {
+      from_.error(block.find("column")->position,
+                  "a Trace has one column, the three of a vector, or the four of an orientation");
+      return false;
+    }
     try {
-      const simulation::Port port = simulation::find_port(experiment_, ports_, block.word("of"));
-      trace.port = port.trail;
-      trace.port_unit = port.unit;
+      for (const std::string& part : suffix->second) {
+        const simulation::Port port =
+            simulation::find_port(experiment_, ports_, block.word("of") + part);
+        trace.parts.push_back(port.trail);
+        trace.port_unit = port.unit;
+      }
+      const std::string& first = trace.parts.front();
+      trace.port = first.substr(0, first.size() - suffix->second.front().size());
       return true;
     } catch (const simulation::ExperimentError& error) {
-      from_.error(of.position, error.what());
+      from_.error(block.find("of")->position, error.what());
       return false;
     }
   }
 
-  bool units_agree(const Object& block, TracePlan& trace) const {
+  bool units_agree(const Object& block, const language::Unit& measured, TracePlan& trace) const {
     const language::Unit port = language::parse_unit(trace.port_unit).value_or(language::Unit{});
     trace.unit_of_port = port.numerator / port.denominator;
-    if (trace.measured.unit.dimension != port.dimension) {
+    if (measured.dimension != port.dimension) {
       from_.error(block.find("column")->position,
-                  fmt::format("the column `{}` of {} is in {}, {} in {}", block.word("column"),
-                              trace.file.string(),
-                              language::describe_dimension(trace.measured.unit.dimension),
+                  fmt::format("the column `{}` of {} is in {}, {} in {}", trace.column,
+                              trace.file.string(), language::describe_dimension(measured.dimension),
                               trace.port, unit_words(trace.port_unit)));
       return false;
     }
-    const language::Dimension& of = port.dimension;
+    const language::Dimension radians{0, 0, 0, 1};
+    const language::Dimension& of = trace.is_orientation() ? radians : port.dimension;
     const language::Dimension inverse{-of.mass, -of.length, -of.time, -of.angle};
     const language::Field& weight = *block.find("weight");
     if (language::fits(weight.dimension, inverse)) return true;
@@ -238,13 +266,12 @@ std::vector<ConstantSetting> case_settings(const PlanSource& from, const Object&
 }
 
 void add_traces(const PlanSource& from, CalibrationPlan& plan, const TuneScene& scene,
-                const simulation::Experiment& experiment, simulation::World& world) {
-  const std::vector<simulation::Port> ports = world.ports();
-  const TraceReader reader(from, experiment, ports);
+                const TraceReader& reader) {
   for (const Object* block : from.calibrate.children_of("Trace")) {
     auto settings = case_settings(from, *block, plan, scene);
-    auto trace = reader.read(*block);
-    if (!trace) continue;
+    auto traces = reader.read(*block, "");
+    if (!traces) continue;
+    TracePlan& trace = traces->begin()->second;
     const auto known = std::ranges::find_if(plan.cases, [&](const CalibrationCase& one) {
       return same_settings(one.settings, settings);
     });
@@ -252,9 +279,46 @@ void add_traces(const PlanSource& from, CalibrationPlan& plan, const TuneScene& 
         known != plan.cases.end()
             ? *known
             : plan.cases.emplace_back(CalibrationCase{"", std::move(settings), {}});
-    one.name += (one.name.empty() ? "" : "_") + trace->name;
-    one.traces.push_back(std::move(*trace));
+    one.name += (one.name.empty() ? "" : "_") + trace.name;
+    one.traces.push_back(std::move(trace));
   }
+}
+
+/// The cases of a Cases block: each row of its table that its Only blocks admit, set as its columns
+/// say, with the part of each Trace that is of it.
+void add_case_table(const PlanSource& from, CalibrationPlan& plan, const TuneScene& scene,
+                    const TraceReader& reader, const Object& block) {
+  const std::filesystem::path file = from.find(block, "file");
+  if (file.empty()) return;
+  const auto rows = read_cases(block, file, scene, from.diagnostics);
+  if (!rows) return;
+  plan.case_tables.push_back(file);
+  for (const VariedConstant& constant : plan.varied)
+    if (std::ranges::find(rows->parameters, constant.name) != rows->parameters.end())
+      from.error(block.position, fmt::format("`{}` is varied: {} cannot set it as well",
+                                             constant.name, file.string()));
+  std::vector<CalibrationCase> cases;
+  for (const CaseRow& row : rows->cases)
+    cases.push_back({block.name + "_" + row.name, row.settings, {}});
+  if (block.children_of("Trace").empty())
+    from.error(block.position, "Cases need a Trace: nothing was measured");
+  for (const Object* trace : block.children_of("Trace")) {
+    if (!trace->children_of("Fix").empty())
+      from.error(trace->position, "what the cases of a table are set to stands in the table");
+    auto traces = reader.read(*trace, block.word("case"));
+    if (!traces) continue;
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+      const auto measured = traces->find(rows->cases[i].name);
+      if (measured == traces->end()) {
+        from.error(trace->find("file")->position,
+                   fmt::format("no row is of {} {}", block.word("case"), rows->cases[i].name));
+        break;
+      }
+      measured->second.name = cases[i].name + "_" + trace->name;
+      cases[i].traces.push_back(std::move(measured->second));
+    }
+  }
+  std::ranges::move(cases, std::back_inserter(plan.cases));
 }
 
 void set_work(CalibrationPlan& plan, const Object& calibrate, bool quick) {
@@ -265,11 +329,16 @@ void set_work(CalibrationPlan& plan, const Object& calibrate, bool quick) {
   plan.resamples = whole("resamples");
   plan.starts = whole("starts");
   plan.seed = whole("seed");
+  plan.method = calibrate.word("method") == "cmaes" ? FitMethod::cmaes : FitMethod::least_squares;
+  plan.population = static_cast<int>(calibrate.number("population"));
+  plan.generations = static_cast<int>(calibrate.number("generations"));
+  if (calibrate.given("most_cases")) plan.most_cases = whole("most_cases");
   plan.bootstrap =
       calibrate.word("bootstrap") == "one_step" ? Bootstrap::one_step : Bootstrap::refits;
   if (!quick) return;
   plan.folds = std::min(plan.folds, quick_folds);
   plan.bootstrap = Bootstrap::one_step;
+  plan.generations = std::min(plan.generations, quick_generations);
   plan.starts = std::min(plan.starts, quick_starts);
 }
 
@@ -329,9 +398,11 @@ class SubjectMaker {
 };
 
 void set_hash(const PlanSource& from, CalibrationPlan& plan, std::set<std::string> inputs) {
+  std::set<std::filesystem::path> tables(plan.case_tables.begin(), plan.case_tables.end());
   for (const CalibrationCase& one : plan.cases)
-    for (const TracePlan& trace : one.traces)
-      inputs.insert(std::filesystem::absolute(trace.file).lexically_normal().string());
+    for (const TracePlan& trace : one.traces) tables.insert(trace.file);
+  for (const std::filesystem::path& table : tables)
+    inputs.insert(std::filesystem::absolute(table).lexically_normal().string());
   plan.runs.inputs = simulation::hashed(inputs);
   output::Hash hash;
   hash.add(plan.runs.printed).add(from.calibrate.name).add(plan.runs.quick ? "quick" : "");
@@ -352,7 +423,11 @@ bool read_traces(const PlanSource& from, CalibrationPlan& plan, const TuneScene&
   }
   try {
     simulation::World world(own->experiment, engine->second.make(own->experiment));
-    add_traces(from, plan, scene, own->experiment, world);
+    const std::vector<simulation::Port> ports = world.ports();
+    const TraceReader reader(from, own->experiment, ports);
+    add_traces(from, plan, scene, reader);
+    for (const Object* block : from.calibrate.children_of("Cases"))
+      add_case_table(from, plan, scene, reader, *block);
   } catch (const simulation::ExperimentError& error) {
     from.error(from.calibrate.position, error.what());
   }
@@ -367,15 +442,15 @@ double CalibrationCase::duration() const {
   return last;
 }
 
-std::size_t CalibrationCase::samples() const {
+std::size_t CalibrationCase::residuals() const {
   std::size_t count = 0;
-  for (const TracePlan& trace : traces) count += trace.measured.time.size();
+  for (const TracePlan& trace : traces) count += trace.residuals();
   return count;
 }
 
-std::size_t CalibrationPlan::samples() const {
+std::size_t CalibrationPlan::residuals() const {
   std::size_t count = 0;
-  for (const CalibrationCase& one : cases) count += one.samples();
+  for (const CalibrationCase& one : cases) count += one.residuals();
   return count;
 }
 
@@ -405,9 +480,9 @@ std::optional<CalibrationPlan> make_calibration_plan(const Object& root, const O
   for (const Object* block : calibrate.children_of("Vary"))
     if (auto constant = varied_constant(*block, *scene, diagnostics))
       plan.varied.push_back(std::move(*constant));
-  if (plan.varied.empty())
+  if (plan.varied.empty() && calibrate.children_of("Cases").empty())
     from.error(calibrate.position, "a Calibrate needs a Vary: nothing is to be found");
-  if (calibrate.children_of("Trace").empty())
+  if (calibrate.children_of("Trace").empty() && calibrate.children_of("Cases").empty())
     from.error(calibrate.position, "a Calibrate needs a Trace: nothing was measured");
   if (diagnostics.has_errors() || !read_traces(from, plan, *scene)) return std::nullopt;
   set_work(plan, calibrate, quick);

@@ -20,27 +20,35 @@
 
 namespace hookpoint::studies {
 
-/// A Trace block: one curve that was measured, and the port that it is held against.
+/// What a Trace block has of one case: a curve that was measured, and the port that it is held
+/// against.
 struct TracePlan {
   std::string name;
   std::filesystem::path file;
-  std::string column;  ///< as its file names it
-  std::string port;    ///< trail
+  std::string column;  ///< as its file names it; of several the first
+  std::string port;    ///< trail; of a vector or an orientation without its parts
+  /// Trails of the port's parts: itself; .x .y .z of a vector; .w .x .y .z of an orientation.
+  std::vector<std::string> parts;
   std::string port_unit;
   double unit_of_port = 1.;  ///< in SI
-  double weight = 1.;        ///< in one over the SI unit
+  double weight = 1.;        ///< in one over the SI unit; of an orientation in 1/rad
   MeasuredTrace measured;
+
+  bool is_orientation() const { return parts.size() == 4; }
+  /// Residuals of a sample: one a part; of an orientation the three of a rotation vector.
+  std::size_t residuals_a_sample() const { return is_orientation() ? 3 : parts.size(); }
+  std::size_t residuals() const { return residuals_a_sample() * measured.time.size(); }
 };
 
 /// What was measured in one run: what its scene is set to, and the curves. Traces with the same Fix
-/// blocks are of one case.
+/// blocks are of one case, and each row of a Cases block's table is one.
 struct CalibrationCase {
-  std::string name;  ///< of its traces, joined
+  std::string name;  ///< of its traces, joined; or the Cases', and what its table calls the case
   std::vector<ConstantSetting> settings;
   std::vector<TracePlan> traces;
 
-  double duration() const;  ///< up to the last sample [s]
-  std::size_t samples() const;
+  double duration() const;        ///< up to the last sample [s]
+  std::size_t residuals() const;  ///< of all its traces
 };
 
 /// A constant that a subject's calibration does without.
@@ -65,6 +73,12 @@ enum class Bootstrap {
   one_step  ///< every sample is solved with the model linearised at the optimum
 };
 
+/// What is made least, and how.
+enum class FitMethod {
+  least_squares,  ///< the sum of all squares, by derivatives
+  cmaes           ///< the mean distance, without derivatives
+};
+
 struct CalibrationPlan {
   StudyPlan runs;  ///< name, file, texts, hash and inputs, for what tells of the folder; no rows
   std::string material;
@@ -72,12 +86,16 @@ struct CalibrationPlan {
   std::vector<std::optional<double>> own;  ///< values of the scene itself, one a constant
   std::vector<CalibrationCase> cases;
   std::vector<CalibrationSubject> subjects;
+  std::vector<std::filesystem::path> case_tables;
   std::size_t folds = 5;  ///< of the cases; fewer than 2: no cross-validation
   std::size_t resamples = 200, starts = 16;
+  FitMethod method = FitMethod::least_squares;
+  int population = 12, generations = 10;  ///< of cmaes
+  std::size_t most_cases = 0;             ///< that a search of cmaes looks at; 0: all
   Bootstrap bootstrap = Bootstrap::refits;
   std::uint64_t seed = 1;
 
-  std::size_t samples() const;
+  std::size_t residuals() const;  ///< of all cases
   std::filesystem::path folder() const { return runs.folder(); }
   /// Whether cases are resampled, not the samples of each.
   bool resamples_cases() const;

@@ -131,7 +131,24 @@ std::string correlations_of_subjects(const CalibrationPlan& plan, const Calibrat
                     "of the two, not each.");
 }
 
+std::string search_words(const CalibrationPlan& plan) {
+  return fmt::format(
+      "The same for every subject: CMA-ES, {} generations of {} places, the scene's own constants "
+      "and the analytic guess among the first, over {} cases. What is made least, and reported as "
+      "the error, is the mean over cases of the mean weighted distance of model and measurement. "
+      "A quadratic surface over the best places says where to look further, and answers {} "
+      "bootstrap "
+      "samples over those cases without a run. Each fold is searched anew, "
+      "over as many of the cases that it may see. A "
+      "constant is told unless its interval spans more than half of its range or reaches an end "
+      "of it.",
+      plan.generations, plan.population,
+      plan.most_cases == 0 ? plan.cases.size() : std::min(plan.most_cases, plan.cases.size()),
+      plan.resamples);
+}
+
 std::string method_words(const CalibrationPlan& plan, const CalibrationResult& result) {
+  if (plan.method == FitMethod::cmaes) return search_words(plan);
   const std::string refits = plan.bootstrap == Bootstrap::refits
                                  ? "fitted anew from the optimum on"
                                  : "solved with the model linearised at the optimum";
@@ -216,7 +233,7 @@ std::string calibration_html(const CalibrationPlan& plan, const CalibrationResul
   page += verdict_words(plan, result);
   page += text_block(
       "facts", html(fmt::format("{}, {}, {} samples{}.", counted(plan.subjects.size(), "subject"),
-                                counted(plan.cases.size(), "case"), plan.samples(),
+                                counted(plan.cases.size(), "case"), plan.residuals(),
                                 plan.runs.quick ? ", quick" : "")));
   page += "<pre>" + html(context.command) + "</pre>\n";
   std::string links;

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
 #include "language/names.h"
 #include "output/file.h"
-#include "output/text/csv.h"
 #include "output/text/number.h"
 
 namespace hookpoint::studies {
@@ -15,37 +15,6 @@ namespace {
 
 using language::Diagnostics;
 using language::Position;
-
-/// "z [m]" in its parts.
-struct ColumnTitle {
-  std::string name, unit;
-};
-
-ColumnTitle parts_of(const std::string& title) {
-  const std::size_t open = title.rfind(" [");
-  if (open == std::string::npos || !title.ends_with(']')) return {title, ""};
-  return {title.substr(0, open), title.substr(open + 2, title.size() - open - 3)};
-}
-
-/// The column of that title, or the only one of that name.
-std::optional<std::size_t> column_of(const output::CsvTable& table, const std::string& wanted,
-                                     const TraceRequest& request, const Position& place,
-                                     Diagnostics& diagnostics) {
-  std::optional<std::size_t> named;
-  bool several = false;
-  for (std::size_t i = 0; i < table.header.size(); ++i) {
-    if (table.header[i] == wanted) return i;
-    if (parts_of(table.header[i]).name != wanted) continue;
-    several = several || named;
-    named = i;
-  }
-  if (named && !several) return named;
-  diagnostics.error(place, fmt::format("{} has {} column `{}`{}", request.file.string(),
-                                       several ? "more than one" : "no", wanted,
-                                       several ? std::string(": say its unit, too")
-                                               : language::did_you_mean(wanted, table.header)));
-  return std::nullopt;
-}
 
 std::optional<language::Unit> unit_of_column(const output::CsvTable& table, std::size_t column,
                                              const TraceRequest& request, const Position& place,
@@ -58,7 +27,127 @@ std::optional<language::Unit> unit_of_column(const output::CsvTable& table, std:
   return unit;
 }
 
-std::optional<double> number_of(const std::string& text) {
+/// The columns of a request in its table.
+struct TraceColumns {
+  std::size_t time = 0;
+  std::vector<std::size_t> values;
+  std::optional<std::size_t> of_case;
+  language::Unit time_unit;
+  std::vector<language::Unit> units;
+};
+
+double in_si(double value, const language::Unit& unit) {
+  return value * unit.numerator / unit.denominator;
+}
+
+/// Turns a table's rows into samples.
+class TraceRows {
+ public:
+  TraceRows(const TraceRequest& request, const output::CsvTable& table, const TraceColumns& columns,
+            Diagnostics& diagnostics)
+      : request_(request), table_(table), columns_(columns), diagnostics_(diagnostics) {}
+
+  bool read(std::map<std::string, MeasuredTrace>& traces) {
+    for (std::size_t row = 0; row < table_.rows.size(); ++row) {
+      const std::vector<std::string>& fields = table_.rows[row];
+      if (std::ranges::any_of(columns_.values, [&](auto column) { return fields[column].empty(); }))
+        continue;
+      MeasuredTrace& trace = traces[columns_.of_case ? fields[*columns_.of_case] : ""];
+      trace.width = columns_.values.size();
+      trace.unit = columns_.units.front();
+      if (!add_sample(row, trace)) return false;
+    }
+    for (const auto& [name, trace] : traces)
+      if (trace.time.size() < 2) return too_few(name);
+    return !traces.empty() || too_few("");
+  }
+
+ private:
+  bool add_sample(std::size_t row, MeasuredTrace& trace) {
+    const auto time = field(row, columns_.time);
+    if (!time) return false;
+    const double seconds = in_si(*time, columns_.time_unit);
+    if (seconds < 0.) return wrong(row, "begins before 0 s, where the scene does");
+    if (!trace.time.empty() && !(seconds > trace.time.back()))
+      return wrong(row, fmt::format("its time, {} s, is not after that of the sample before it",
+                                    output::shortest(seconds)));
+    trace.time.push_back(seconds);
+    for (std::size_t i = 0; i < columns_.values.size(); ++i) {
+      const auto value = field(row, columns_.values[i]);
+      if (!value) return false;
+      trace.value.push_back(in_si(*value, columns_.units[i]));
+    }
+    return true;
+  }
+  std::optional<double> field(std::size_t row, std::size_t column) {
+    const std::string& text = table_.rows[row][column];
+    const auto value = finite_number(text);
+    if (!value)
+      wrong(row, fmt::format("`{}` in the column `{}` is not a finite number", text,
+                             table_.header[column]));
+    return value;
+  }
+  bool wrong(std::size_t row, const std::string& what) {
+    diagnostics_.error(request_.file_place, fmt::format("{}, row {}: {}", request_.file.string(),
+                                                        line_of_row(row), what));
+    return false;
+  }
+  bool too_few(const std::string& name) {
+    diagnostics_.error(
+        request_.column_place,
+        fmt::format("{}: fewer than two samples in the column `{}`{}", request_.file.string(),
+                    table_.header[columns_.values.front()],
+                    name.empty() ? "" : fmt::format(" of {} {}", request_.case_column, name)));
+    return false;
+  }
+
+  const TraceRequest& request_;
+  const output::CsvTable& table_;
+  const TraceColumns& columns_;
+  Diagnostics& diagnostics_;
+};
+
+std::optional<TraceColumns> columns_of(const TraceRequest& request, const output::CsvTable& table,
+                                       Diagnostics& diagnostics) {
+  TraceColumns columns;
+  const auto find = [&](const std::string& title, const Position& place) {
+    return column_of(table, title, request.file, place, diagnostics);
+  };
+  for (const std::string& title : request.columns) {
+    const auto column = find(title, request.column_place);
+    if (!column) return std::nullopt;
+    const auto unit = unit_of_column(table, *column, request, request.column_place, diagnostics);
+    if (!unit) return std::nullopt;
+    columns.values.push_back(*column);
+    columns.units.push_back(*unit);
+    if (unit->dimension == columns.units.front().dimension) continue;
+    diagnostics.error(request.column_place,
+                      fmt::format("{}: `{}` and `{}` are of different dimensions",
+                                  request.file.string(), request.columns.front(), title));
+    return std::nullopt;
+  }
+  if (!request.case_column.empty()) {
+    columns.of_case = find(request.case_column, request.column_place);
+    if (!columns.of_case) return std::nullopt;
+  }
+  const auto time =
+      request.time.empty() ? std::optional<std::size_t>(0) : find(request.time, request.time_place);
+  if (!time) return std::nullopt;
+  columns.time = *time;
+  const auto time_unit = unit_of_column(table, *time, request, request.time_place, diagnostics);
+  if (!time_unit) return std::nullopt;
+  columns.time_unit = *time_unit;
+  if (time_unit->dimension == language::Dimension{0, 0, 1, 0}) return columns;
+  diagnostics.error(
+      request.time_place,
+      fmt::format("{}: the column `{}` is no time: its title says the unit, as `time [s]` does",
+                  request.file.string(), table.header[*time]));
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<double> finite_number(const std::string& text) {
   double value = 0.;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))
@@ -66,91 +155,55 @@ std::optional<double> number_of(const std::string& text) {
   return value;
 }
 
-/// Turns a table's rows into samples.
-class TraceRows {
- public:
-  TraceRows(const TraceRequest& request, const output::CsvTable& table, std::size_t time,
-            std::size_t value, Diagnostics& diagnostics)
-      : request_(request), table_(table), time_(time), value_(value), diagnostics_(diagnostics) {}
+ColumnTitle parts_of(const std::string& title) {
+  const std::size_t open = title.rfind(" [");
+  if (open == std::string::npos || !title.ends_with(']')) return {title, ""};
+  return {title.substr(0, open), title.substr(open + 2, title.size() - open - 3)};
+}
 
-  bool read(const language::Unit& time_unit, MeasuredTrace& trace) {
-    for (std::size_t row = 0; row < table_.rows.size(); ++row) {
-      if (table_.rows[row][value_].empty()) continue;
-      const auto time = field(row, time_), value = field(row, value_);
-      if (!time || !value) return false;
-      const double seconds = *time * time_unit.numerator / time_unit.denominator;
-      if (seconds < 0.) return wrong(row, "begins before 0 s, where the scene does");
-      if (!trace.time.empty() && !(seconds > trace.time.back()))
-        return wrong(row, fmt::format("its time, {} s, is not after that of the sample before it",
-                                      output::shortest(seconds)));
-      trace.time.push_back(seconds);
-      trace.value.push_back(*value * trace.unit.numerator / trace.unit.denominator);
-    }
-    if (trace.time.size() >= 2) return true;
-    diagnostics_.error(request_.column_place,
-                       fmt::format("{}: fewer than two samples in the column `{}`",
-                                   request_.file.string(), table_.header[value_]));
-    return false;
+std::optional<std::size_t> column_of(const output::CsvTable& table, const std::string& wanted,
+                                     const std::filesystem::path& file, const Position& place,
+                                     Diagnostics& diagnostics) {
+  std::optional<std::size_t> named;
+  bool several = false;
+  for (std::size_t i = 0; i < table.header.size(); ++i) {
+    if (table.header[i] == wanted) return i;
+    if (parts_of(table.header[i]).name != wanted) continue;
+    several = several || named;
+    named = i;
   }
+  if (named && !several) return named;
+  diagnostics.error(place, fmt::format("{} has {} column `{}`{}", file.string(),
+                                       several ? "more than one" : "no", wanted,
+                                       several ? std::string(": say its unit, too")
+                                               : language::did_you_mean(wanted, table.header)));
+  return std::nullopt;
+}
 
- private:
-  std::optional<double> field(std::size_t row, std::size_t column) {
-    const std::string& text = table_.rows[row][column];
-    const auto value = number_of(text);
-    if (!value)
-      wrong(row, fmt::format("`{}` in the column `{}` is not a finite number", text,
-                             table_.header[column]));
-    return value;
-  }
-  bool wrong(std::size_t row, const std::string& what) {
-    constexpr std::size_t first_row = 2;  // behind the header, counted from 1
-    diagnostics_.error(request_.file_place, fmt::format("{}, row {}: {}", request_.file.string(),
-                                                        row + first_row, what));
-    return false;
-  }
-
-  const TraceRequest& request_;
-  const output::CsvTable& table_;
-  std::size_t time_, value_;
-  Diagnostics& diagnostics_;
-};
-
-}  // namespace
-
-std::optional<MeasuredTrace> read_trace(const TraceRequest& request, Diagnostics& diagnostics) {
-  const auto text = output::read_file(request.file);
+std::optional<output::CsvTable> read_table(const std::filesystem::path& file, const Position& place,
+                                           Diagnostics& diagnostics) {
+  const auto text = output::read_file(file);
   if (!text) {
-    diagnostics.error(request.file_place, "cannot read " + request.file.string());
+    diagnostics.error(place, "cannot read " + file.string());
     return std::nullopt;
   }
-  const auto table = output::parse_csv(text->ends_with('\n') ? *text : *text + "\n");
-  if (!table || table->header.empty()) {
-    diagnostics.error(request.file_place,
-                      request.file.string() +
-                          " is no table: a header, and rows with as many fields, between commas");
-    return std::nullopt;
-  }
-  const auto value = column_of(*table, request.column, request, request.column_place, diagnostics);
-  const auto time = request.time.empty()
-                        ? std::optional<std::size_t>(0)
-                        : column_of(*table, request.time, request, request.time_place, diagnostics);
-  if (!value || !time) return std::nullopt;
-  const auto value_unit =
-      unit_of_column(*table, *value, request, request.column_place, diagnostics);
-  const auto time_unit = unit_of_column(*table, *time, request, request.time_place, diagnostics);
-  if (!value_unit || !time_unit) return std::nullopt;
-  if (time_unit->dimension != language::Dimension{0, 0, 1, 0}) {
-    diagnostics.error(request.time_place,
-                      fmt::format("{}: the column `{}` is no time: its title says the unit, as "
-                                  "`time [s]` does",
-                                  request.file.string(), table->header[*time]));
-    return std::nullopt;
-  }
-  MeasuredTrace trace;
-  trace.unit = *value_unit;
-  if (!TraceRows(request, *table, *time, *value, diagnostics).read(*time_unit, trace))
-    return std::nullopt;
-  return trace;
+  auto table = output::parse_csv(text->ends_with('\n') ? *text : *text + "\n");
+  if (table && !table->header.empty()) return table;
+  diagnostics.error(
+      place,
+      file.string() + " is no table: a header, and rows with as many fields, between commas");
+  return std::nullopt;
+}
+
+std::optional<std::map<std::string, MeasuredTrace>> read_traces(const TraceRequest& request,
+                                                                Diagnostics& diagnostics) {
+  const auto table = read_table(request.file, request.file_place, diagnostics);
+  if (!table) return std::nullopt;
+  const auto columns = columns_of(request, *table, diagnostics);
+  if (!columns) return std::nullopt;
+  std::map<std::string, MeasuredTrace> traces;
+  if (!TraceRows(request, *table, *columns, diagnostics).read(traces)) return std::nullopt;
+  return traces;
 }
 
 }  // namespace hookpoint::studies

@@ -293,6 +293,107 @@ TEST_F(CalibrateFile, WhatCannotBeCalibratedIsToldBeforeAnythingRuns) {
       << told_;
 }
 
+/// Six drops of the point in two tables, one of them on ground of its own.
+class CalibrateCases : public CalibrateFile {
+ protected:
+  CalibrateCases() {
+    std::string states = "drop,weight_factor,ball [kg]\n", curves = "drop,time [s],z [mm]\n";
+    for (int i = 0; i < 6; ++i) {
+      const std::string name = std::to_string(i);
+      const double factor = 0.7 + 0.1 * i;
+      states += name + "," + std::to_string(factor) + ",1\n";
+      for (int sample = 0; sample <= 40; ++sample) {
+        const double time = 2.5e-3 * sample;
+        curves += name + "," + std::to_string(time) + "," +
+                  std::to_string(1e3 * height_at(time, factor, stiffness)) + "\n";
+      }
+    }
+    place_.file("states.csv", states);
+    place_.file("curves.csv", curves);
+  }
+  static std::string cases(const std::string& only = "", const std::string& file = "states.csv",
+                           const std::string& of_case = "drop") {
+    return "Cases drop { file = \"" + file + "\"; case = " + of_case + "; " + only +
+           " Trace height { file = \"curves.csv\"; column = z; time = \"time\"; "
+           "of = point.base.location.z; weight = 1 / (0.01 mm); } }\n";
+  }
+};
+
+TEST_F(CalibrateCases, ARowOfTheTableIsACaseThatItsColumnsSet) {
+  const auto found =
+      plan(block(cases("Only weight_factor { from = 0.75; to = 1.15; }") + two_constants));
+  ASSERT_TRUE(found) << told_;
+  ASSERT_EQ(found->cases.size(), 4U);
+  EXPECT_EQ(found->cases[0].name, "drop_1");
+  ASSERT_EQ(found->cases[0].settings.size(), 1U);
+  EXPECT_EQ(found->cases[0].settings[0].name, "weight_factor");
+  EXPECT_EQ(found->cases[0].settings[0].text, "0.800000");
+  EXPECT_EQ(found->cases[0].traces[0].name, "drop_1_height");
+  EXPECT_EQ(found->residuals(), 4U * 41U);
+  const CalibrationResult result = run(*found, "squares");
+  EXPECT_NEAR(found->varied[0].at(result.subjects[0].constants[0].share), 8., 0.01);
+  // Without a Vary it is told how well the scene does as it is.
+  const auto as_it_is = plan(block(cases()));
+  ASSERT_TRUE(as_it_is) << told_;
+  const CalibrationResult plain = run(*as_it_is, "plain");
+  EXPECT_EQ(plain.subjects[0].status, "ok");
+  EXPECT_GT(*plain.subjects[0].error, 1.);
+  EXPECT_EQ(plain.subjects[0].residuals.size(), 6U * 41U);
+}
+
+TEST_F(CalibrateCases, DistancesByCmaesAreTheSameHoweverTheyAreRun) {
+  const auto found = plan(block(
+      cases() + "method = cmaes; generations = 12; most_cases = 4; folds = 3;\n" + two_constants));
+  ASSERT_TRUE(found) << told_;
+  const CalibrationResult one = run(*found, "one", 1);
+  const SubjectCalibration& subject = one.subjects[0];
+  ASSERT_EQ(subject.constants.size(), 2U);
+  EXPECT_NEAR(found->varied[0].at(subject.constants[0].share), 8., 0.4);
+  EXPECT_LT(*subject.error, *subject.own_error);
+  EXPECT_LE(*subject.constants[0].low, subject.constants[0].share + 0.05);
+  ASSERT_EQ(subject.folds.size(), 3U);
+  std::size_t held = 0;
+  for (const FoldResult& fold : subject.folds) {
+    held += fold.held_out.size();
+    EXPECT_TRUE(fold.held);
+  }
+  EXPECT_EQ(held, 6U);
+  EXPECT_EQ(subject.residuals.size(), 6U * 41U);
+  run(*found, "three", 3);
+  EXPECT_TRUE(run(*found, "cut", 2, false, 60).interrupted);
+  EXPECT_FALSE(run(*found, "cut", 2, true).interrupted);
+  for (const char* file : {"calibration.csv", "correlations.csv", "evaluations.csv", "folds.csv",
+                           "curves.csv", "materials/floor_scene.hook"}) {
+    const std::string whole = place_.read(std::filesystem::path("one") / file);
+    EXPECT_FALSE(whole.empty()) << file;
+    EXPECT_EQ(whole, place_.read(std::filesystem::path("three") / file)) << file;
+    EXPECT_EQ(whole, place_.read(std::filesystem::path("cut") / file)) << file;
+  }
+}
+
+TEST_F(CalibrateCases, WhatIsWrongWithATableIsToldBeforeAnythingRuns) {
+  EXPECT_TRUE(refused(cases("", "none.csv") + two_constants, "no file \"none.csv\"")) << told_;
+  EXPECT_TRUE(refused(cases("", "states.csv", "toss") + two_constants, "no column `toss`"))
+      << told_;
+  EXPECT_TRUE(refused(cases("Only weight { to = 1; }") + two_constants, "no column `weight`"))
+      << told_;
+  EXPECT_TRUE(refused(cases("Only drop { from = 9; }") + two_constants, "no row of")) << told_;
+  EXPECT_TRUE(refused(cases() + "Vary weight_factor { from = 0.5; to = 2; }\n",
+                      "`weight_factor` is varied"))
+      << told_;
+  place_.file("twice.csv", "drop,weight_factor\n1,1\n1,2\n");
+  EXPECT_TRUE(refused(cases("", "twice.csv") + two_constants, "row 3: `1` is there already"))
+      << told_;
+  place_.file("word.csv", "drop,weight_factor\n1,heavy\n");
+  EXPECT_TRUE(refused(cases("", "word.csv") + two_constants, "row 2: `heavy`")) << told_;
+  place_.file("more.csv", "drop,weight_factor\n1,1\n77,1\n");
+  EXPECT_TRUE(refused(cases("", "more.csv") + two_constants, "no row is of drop 77")) << told_;
+  EXPECT_TRUE(
+      refused("Cases drop { file = \"states.csv\"; case = drop; }\n" + std::string(two_constants),
+              "Cases need a Trace"))
+      << told_;
+}
+
 TEST_F(CalibrateFile, SubjectsByTheirNames) {
   const auto found = plan(block(trace() + two_constants));
   ASSERT_TRUE(found) << told_;

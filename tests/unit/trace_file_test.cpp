@@ -10,14 +10,22 @@ namespace {
 
 class TraceFile : public ::testing::Test {
  protected:
+  using Traces = std::map<std::string, MeasuredTrace>;
+
+  std::optional<Traces> read_all(const std::string& text, std::vector<std::string> columns,
+                                 const std::string& time = "", const std::string& of_case = "") {
+    language::Diagnostics diagnostics;
+    const TraceRequest request{
+        place_.file("trace.csv", text), std::move(columns), time, of_case, {}, {}, {}};
+    auto traces = read_traces(request, diagnostics);
+    error_ = diagnostics.all().empty() ? "" : diagnostics.all().front().message;
+    EXPECT_EQ(traces.has_value(), error_.empty());
+    return traces;
+  }
   std::optional<MeasuredTrace> read(const std::string& text, const std::string& column,
                                     const std::string& time = "") {
-    language::Diagnostics diagnostics;
-    TraceRequest request{place_.file("trace.csv", text), column, time, {}, {}, {}};
-    auto trace = read_trace(request, diagnostics);
-    error_ = diagnostics.all().empty() ? "" : diagnostics.all().front().message;
-    EXPECT_EQ(trace.has_value(), error_.empty());
-    return trace;
+    const auto traces = read_all(text, {column}, time);
+    return traces ? std::optional(traces->at("")) : std::nullopt;
   }
   bool refused(const std::string& text, const std::string& column, const std::string& why,
                const std::string& time = "") {
@@ -54,6 +62,29 @@ TEST_F(TraceFile, WhatIsWrongIsToldWithItsRow) {
   EXPECT_TRUE(refused("time [s],z [m]\n0,1,2\n", "z", "is no table")) << error_;
   EXPECT_TRUE(refused("time [s],z [m]\n0,1\n", "z", "fewer than two")) << error_;
   EXPECT_TRUE(refused("", "z", "no column `z`")) << error_;
+}
+
+TEST_F(TraceFile, CurvesOfManyCasesAndOfSeveralColumns) {
+  const std::string table =
+      "toss,t [ms],x [m],y [mm]\nb,0,1,10\na,0,2,20\nb,5,3,30\na,4,4,\na,8,5,50\n";
+  const auto traces = read_all(table, {"x", "y"}, "t", "toss");
+  ASSERT_TRUE(traces) << error_;
+  ASSERT_EQ(traces->size(), 2U);
+  // A sample that lacks a part is none.
+  EXPECT_EQ(traces->at("a").time, (std::vector<double>{0., 0.008}));
+  EXPECT_EQ(traces->at("a").value, (std::vector<double>{2., 0.02, 5., 0.05}));
+  EXPECT_EQ(traces->at("b").sample(1)[1], 0.03);
+  EXPECT_FALSE(read_all(table, {"x", "t"}, "t", "toss"));
+  EXPECT_NE(error_.find("different dimensions"), std::string::npos) << error_;
+  EXPECT_FALSE(read_all(table, {"x"}, "t", "throw"));
+  EXPECT_NE(error_.find("no column `throw`"), std::string::npos) << error_;
+  EXPECT_FALSE(read_all(table + "c,0,1,1\n", {"x"}, "t", "toss"));
+  EXPECT_NE(error_.find("fewer than two samples in the column `x [m]` of toss c"),
+            std::string::npos)
+      << error_;
+  // Without its case a row goes back in time.
+  EXPECT_FALSE(read_all(table, {"x"}, "t"));
+  EXPECT_NE(error_.find("row 3"), std::string::npos) << error_;
 }
 
 }  // namespace

@@ -1,0 +1,130 @@
+#include "studies/calibrate/case_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "studies/calibrate/trace_file.h"
+
+namespace hookpoint::studies {
+namespace {
+
+using language::Diagnostics;
+using language::Object;
+
+/// A column that sets a Param, which has its name.
+struct SettingColumn {
+  std::size_t column = 0;
+  ConstantPlace place = ConstantPlace::scene_parameter;
+  ColumnTitle title;
+};
+
+/// An Only block: what a row's field must be.
+struct AdmittedColumn {
+  std::size_t column = 0;
+  double to_si = 1.;
+  const Object* only = nullptr;
+
+  bool admits(double value) const {
+    const language::Field* values = only->find("values");
+    if (values != nullptr && std::ranges::find(values->numbers, value) == values->numbers.end())
+      return false;
+    return (only->find("from") == nullptr || value >= only->number("from")) &&
+           (only->find("to") == nullptr || value <= only->number("to"));
+  }
+};
+
+/// A Cases block and its table.
+class CaseReader {
+ public:
+  CaseReader(const Object& block, const std::filesystem::path& file, const output::CsvTable& table,
+             Diagnostics& diagnostics)
+      : block_(block), file_(file), table_(table), diagnostics_(diagnostics) {}
+
+  std::optional<CaseTable> read(const TuneScene& scene) {
+    const language::Field& field = *block_.find("case");
+    const auto name = column_of(table_, block_.word("case"), file_, field.position, diagnostics_);
+    if (!name || !find_admitted()) return std::nullopt;
+    find_settings(scene);
+    CaseTable read;
+    for (const SettingColumn& setting : settings_) read.parameters.push_back(setting.title.name);
+    std::set<std::string> known;
+    for (std::size_t row = 0; row < table_.rows.size(); ++row) {
+      const std::string& text = table_.rows[row][*name];
+      if (!known.insert(text).second) return wrong(row, fmt::format("`{}` is there already", text));
+      bool admitted = true;
+      for (const AdmittedColumn& column : admitted_) {
+        const auto value = number(row, column.column);
+        if (!value) return std::nullopt;
+        admitted = admitted && column.admits(*value * column.to_si);
+      }
+      if (!admitted) continue;
+      CaseRow& one = read.cases.emplace_back(CaseRow{text, {}});
+      for (const SettingColumn& setting : settings_) {
+        if (!number(row, setting.column)) return std::nullopt;
+        const std::string& unit = setting.title.unit;
+        one.settings.push_back(
+            {setting.place, setting.title.name,
+             table_.rows[row][setting.column] + (unit.empty() ? "" : " " + unit)});
+      }
+    }
+    if (!read.cases.empty()) return read;
+    diagnostics_.error(block_.position, fmt::format("no row of {} is a case", file_.string()));
+    return std::nullopt;
+  }
+
+ private:
+  void find_settings(const TuneScene& scene) {
+    for (std::size_t i = 0; i < table_.header.size(); ++i) {
+      const ColumnTitle title = parts_of(table_.header[i]);
+      const auto place = scene.place_of(title.name);
+      if (place == ConstantPlace::scene_parameter || place == ConstantPlace::terrain_parameter)
+        settings_.push_back({i, *place, title});
+    }
+  }
+
+  bool find_admitted() {
+    for (const Object* only : block_.children_of("Only")) {
+      const auto column = column_of(table_, only->name, file_, only->position, diagnostics_);
+      if (!column) return false;
+      const std::string unit = parts_of(table_.header[*column]).unit;
+      const language::Unit written = language::parse_unit(unit).value_or(language::Unit{});
+      admitted_.push_back({*column, written.numerator / written.denominator, only});
+    }
+    return true;
+  }
+
+  std::optional<double> number(std::size_t row, std::size_t column) {
+    const std::string& text = table_.rows[row][column];
+    const auto value = finite_number(text);
+    if (!value)
+      wrong(row, fmt::format("`{}` in the column `{}` is not a finite number", text,
+                             table_.header[column]));
+    return value;
+  }
+
+  std::nullopt_t wrong(std::size_t row, const std::string& what) {
+    diagnostics_.error(block_.find("file")->position,
+                       fmt::format("{}, row {}: {}", file_.string(), line_of_row(row), what));
+    return std::nullopt;
+  }
+
+  const Object& block_;
+  const std::filesystem::path& file_;
+  const output::CsvTable& table_;
+  Diagnostics& diagnostics_;
+  std::vector<SettingColumn> settings_;
+  std::vector<AdmittedColumn> admitted_;
+};
+
+}  // namespace
+
+std::optional<CaseTable> read_cases(const Object& block, const std::filesystem::path& file,
+                                    const TuneScene& scene, Diagnostics& diagnostics) {
+  const auto table = read_table(file, block.find("file")->position, diagnostics);
+  if (!table) return std::nullopt;
+  return CaseReader(block, file, *table, diagnostics).read(scene);
+}
+
+}  // namespace hookpoint::studies

@@ -1,0 +1,66 @@
+// Throws of a real cube: the page is that of its summaries, and twenty throws under the constants
+// that are given come out as it says, in every engine that is there.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <cstdlib>
+#include <string>
+
+#include "application/calibration_plans.h"
+#include "tests/support/command.h"
+
+namespace hookpoint::studies {
+namespace {
+
+using testing::Workplace;
+
+TEST(RealImpacts, ThePageIsThatOfItsSummaries) {
+  // The script is Debian's Python's, with numpy.
+  if (std::system("/usr/bin/python3 -c 'import numpy' >/dev/null 2>&1") != 0)
+    GTEST_SKIP() << "python3-numpy is not installed";
+  const Workplace work;
+  const std::string command = "'" HOOKPOINT_SOURCE_DIR "/scripts/real_impacts' --check >'" +
+                              (work.folder() / "out").string() + "' 2>&1";
+  EXPECT_EQ(std::system(command.c_str()), 0) << work.read("out");
+}
+
+/// The mean distance of a cube that is thrown as measured and lands where it would have without a
+/// table to stop it is above 1; that of a law with friction of 0.3 that does not rebound about 0.2.
+constexpr double well_explained = 0.14;
+
+TEST(RealImpacts, TwentyThrowsUnderConstantsThatAreGiven) {
+  const Workplace work;
+  application::Application application(false, [](const language::Diagnostics& found) {
+    for (const language::Diagnostic& diagnostic : found.all())
+      EXPECT_NE(diagnostic.severity, language::Severity::error) << diagnostic.message;
+  });
+  application::StudyArguments arguments;
+  arguments.file = HOOKPOINT_SOURCE_DIR "/configs/tunings/acrylic_on_wood_given.hook";
+  const auto root = application.evaluate(arguments.file, {});
+  ASSERT_TRUE(root);
+  const auto plans = application::plan_calibrate_file(application, *root, arguments);
+  ASSERT_TRUE(plans);
+  CalibrationOptions options;
+  options.run.jobs = 2;
+  options.run.folder = work.folder() / "out";
+  const std::atomic<bool> stop = false;
+  const CalibrationPlan& plan = plans->front();
+  EXPECT_EQ(plan.cases.size(), 20U);
+  const CalibrationResult result =
+      run_calibration(plan, application.engines(), options, stop).result;
+  std::size_t ours = 0;
+  for (std::size_t i = 0; i < result.subjects.size(); ++i) {
+    const SubjectInfo& info = plan.subjects[i].info;
+    if (!info.available) continue;
+    ours += info.engine == "dts" ? 1 : 0;
+    ASSERT_TRUE(result.subjects[i].error) << info.name << ": " << result.subjects[i].status;
+    EXPECT_LT(*result.subjects[i].error, well_explained) << info.name;
+    for (const double residual : result.subjects[i].residuals)
+      ASSERT_FALSE(std::isnan(residual)) << info.name;
+  }
+  EXPECT_EQ(ours, 10U);
+}
+
+}  // namespace
+}  // namespace hookpoint::studies
