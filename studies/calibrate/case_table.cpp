@@ -96,17 +96,10 @@ class CaseReader {
   }
 
   std::optional<double> number(std::size_t row, std::size_t column) {
-    const std::string& text = table_.rows[row][column];
-    const auto value = finite_number(text);
-    if (!value)
-      wrong(row, fmt::format("`{}` in the column `{}` is not a finite number", text,
-                             table_.header[column]));
-    return value;
+    return number_at(table_, row, column, file_, block_.find("file")->position, diagnostics_);
   }
-
   std::nullopt_t wrong(std::size_t row, const std::string& what) {
-    diagnostics_.error(block_.find("file")->position,
-                       fmt::format("{}, row {}: {}", file_.string(), line_of_row(row), what));
+    tell_wrong_row(file_, row, what, block_.find("file")->position, diagnostics_);
     return std::nullopt;
   }
 

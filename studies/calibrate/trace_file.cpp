@@ -80,16 +80,10 @@ class TraceRows {
     return true;
   }
   std::optional<double> field(std::size_t row, std::size_t column) {
-    const std::string& text = table_.rows[row][column];
-    const auto value = finite_number(text);
-    if (!value)
-      wrong(row, fmt::format("`{}` in the column `{}` is not a finite number", text,
-                             table_.header[column]));
-    return value;
+    return number_at(table_, row, column, request_.file, request_.file_place, diagnostics_);
   }
   bool wrong(std::size_t row, const std::string& what) {
-    diagnostics_.error(request_.file_place, fmt::format("{}, row {}: {}", request_.file.string(),
-                                                        line_of_row(row), what));
+    tell_wrong_row(request_.file, row, what, request_.file_place, diagnostics_);
     return false;
   }
   bool too_few(const std::string& name) {
@@ -147,12 +141,25 @@ std::optional<TraceColumns> columns_of(const TraceRequest& request, const output
 
 }  // namespace
 
-std::optional<double> finite_number(const std::string& text) {
+void tell_wrong_row(const std::filesystem::path& file, std::size_t row, const std::string& what,
+                    const Position& place, Diagnostics& diagnostics) {
+  constexpr std::size_t first_row = 2;  // behind the header, counted from 1
+  diagnostics.error(place, fmt::format("{}, row {}: {}", file.string(), row + first_row, what));
+}
+
+std::optional<double> number_at(const output::CsvTable& table, std::size_t row, std::size_t column,
+                                const std::filesystem::path& file, const Position& place,
+                                Diagnostics& diagnostics) {
+  const std::string& text = table.rows[row][column];
   double value = 0.;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))
-    return std::nullopt;
-  return value;
+  if (error == std::errc{} && end == text.data() + text.size() && std::isfinite(value))
+    return value;
+  tell_wrong_row(
+      file, row,
+      fmt::format("`{}` in the column `{}` is not a finite number", text, table.header[column]),
+      place, diagnostics);
+  return std::nullopt;
 }
 
 ColumnTitle parts_of(const std::string& title) {

@@ -51,11 +51,14 @@ struct ColumnTitle {
 };
 ColumnTitle parts_of(const std::string& title);
 
-/// The number that a field holds; nothing where it is not finite, or not only that.
-std::optional<double> finite_number(const std::string& text);
+/// What a table's row has wrong: "FILE, row 3: WHAT", at `place`.
+void tell_wrong_row(const std::filesystem::path& file, std::size_t row, const std::string& what,
+                    const language::Position& place, language::Diagnostics& diagnostics);
 
-/// A row's place in its file, as an editor counts: behind the header, from 1.
-constexpr std::size_t line_of_row(std::size_t row) { return row + 2; }
+/// The finite number in a field; nothing after an error at `place`.
+std::optional<double> number_at(const output::CsvTable& table, std::size_t row, std::size_t column,
+                                const std::filesystem::path& file, const language::Position& place,
+                                language::Diagnostics& diagnostics);
 
 /// One trace a case, by the text in the case's column; without such a column one, of the name "".
 /// Nothing after errors, which say file, line and column. A sample of which a field is empty is

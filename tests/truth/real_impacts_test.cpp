@@ -25,9 +25,10 @@ TEST(RealImpacts, ThePageIsThatOfItsSummaries) {
   EXPECT_EQ(std::system(command.c_str()), 0) << work.read("out");
 }
 
-/// The mean distance of a cube that is thrown as measured and lands where it would have without a
-/// table to stop it is above 1; that of a law with friction of 0.3 that does not rebound about 0.2.
+/// Somewhat more than they come out with; with a friction of 0.3 and no rebound it is 0.3 and more.
 constexpr double well_explained = 0.14;
+/// ODE's friction is a box: no constants make up for it.
+constexpr double explained_by_a_box = 0.22;
 
 TEST(RealImpacts, TwentyThrowsUnderConstantsThatAreGiven) {
   const Workplace work;
@@ -55,7 +56,9 @@ TEST(RealImpacts, TwentyThrowsUnderConstantsThatAreGiven) {
     if (!info.available) continue;
     ours += info.engine == "dts" ? 1 : 0;
     ASSERT_TRUE(result.subjects[i].error) << info.name << ": " << result.subjects[i].status;
-    EXPECT_LT(*result.subjects[i].error, well_explained) << info.name;
+    const bool box = info.engine.starts_with("ode");
+    EXPECT_LT(*result.subjects[i].error, box ? explained_by_a_box : well_explained) << info.name;
+    if (box) EXPECT_GT(*result.subjects[i].error, well_explained) << info.name;
     for (const double residual : result.subjects[i].residuals)
       ASSERT_FALSE(std::isnan(residual)) << info.name;
   }
