@@ -57,8 +57,8 @@ void add_world(py::module_& module) {
   py::class_<PythonWorld>(module, "World", "An experiment that runs, from time 0 on.")
       .def(
           "step",
-          [](const py::object& self, std::int64_t count, const py::object& callback,
-             std::int64_t every) { self.cast<PythonWorld&>().step(self, count, callback, every); },
+          [](PythonWorld& world, std::int64_t count, const py::object& callback,
+             std::int64_t every) { world.step(count, callback, every); },
           py::arg("count") = 1, py::kw_only(), py::arg("callback") = py::none(),
           py::arg("every") = 1,
           "Takes `count` steps, fewer when the run ends. `callback(world)` is called after every "

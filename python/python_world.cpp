@@ -58,7 +58,7 @@ simulation::StepStatus PythonWorld::advance(std::int64_t count, Recording& recor
   using Clock = std::chrono::steady_clock;
   constexpr std::chrono::milliseconds patience{50};
   const py::gil_scoped_release others_run;
-  Clock::time_point looked = Clock::now();
+  Clock::time_point looked = count > 1 ? Clock::now() : Clock::time_point{};
   for (std::int64_t i = 0; i < count && world_->ended().empty(); ++i) {
     if (viewed_input_) world_->follow();
     const simulation::StepStatus status = world_->step();
@@ -73,8 +73,7 @@ simulation::StepStatus PythonWorld::advance(std::int64_t count, Recording& recor
   return {};
 }
 
-void PythonWorld::step(const py::object& self, std::int64_t count, const py::object& callback,
-                       std::int64_t every) {
+void PythonWorld::step(std::int64_t count, const py::object& callback, std::int64_t every) {
   if (count < 0) throw_error("step takes a number of steps that is not negative");
   if (every < 1) throw_error("`every` is a number of steps, 1 or more");
   const std::int64_t stretch = callback.is_none() ? count : every;
@@ -84,7 +83,7 @@ void PythonWorld::step(const py::object& self, std::int64_t count, const py::obj
     const simulation::StepStatus status = advance(std::min(left, stretch), none);
     if (!status.ok()) throw_failure(status);
     if (callback.is_none()) continue;
-    const py::object told = callback(self);
+    const py::object told = callback(py::cast(this));
     const int goes_on = told.is_none() ? 1 : PyObject_IsTrue(told.ptr());
     if (goes_on < 0) throw py::error_already_set();
     if (goes_on == 0) return;

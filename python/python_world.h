@@ -35,10 +35,9 @@ class PythonWorld {
   PythonWorld& operator=(const PythonWorld&) = delete;
 
   /// Takes `count` steps, fewer when the run ends. Lets other threads run. After every `every`
-  /// steps and after the last `callback` gets `self`, unless it is None; the steps
-  /// end when it returns something false but None.
-  void step(const pybind11::object& self, std::int64_t count, const pybind11::object& callback,
-            std::int64_t every);
+  /// steps and after the last `callback` gets this World, unless it is None; the steps end when it
+  /// returns something false but None.
+  void step(std::int64_t count, const pybind11::object& callback, std::int64_t every);
   /// Back to time 0, as the file says. Throws hookpoint.Error for an engine that cannot be saved.
   void reset();
   /// StateBytes of it.
