@@ -50,7 +50,7 @@ struct LinkConstants {
   Screw<Real> twist;     ///< by alpha and a, about the preceding frame's x
   Real d{}, theta{};
   RigidInertia<Real> inertia;
-  bool full = false;     ///< its elimination leaves nothing 0: some lane has a rotor
+  bool full = false;     ///< its elimination leaves nothing 0: it has a rotor
   Real rotor_inertia{};  ///< I_r, which moves with the joint alone [kg m^2, kg]
 };
 

@@ -73,6 +73,9 @@ HipConstants<double> merged_hip(const ChainDescription& description, LinkDescrip
   return {description.hip_position + hip_to_H, R * ahead.R, hip_to_H};
 }
 
+/// Whether the link's elimination leaves nothing 0.
+bool is_full(const LinkDescription& link) { return link.rotor_inertia != 0.; }
+
 /// Puts a link of a chain into lane `lane`.
 template <class Real>
 void set_link(LinkConstants<Lanes<Real>>& links, std::size_t lane, LinkDescription link) {
@@ -85,7 +88,7 @@ void set_link(LinkConstants<Lanes<Real>>& links, std::size_t lane, LinkDescripti
   links.d.lanes[lane] = link.d;
   links.theta.lanes[lane] = link.theta;
   set_lane(links.inertia, lane, about_origin<Real>(link.mass));
-  links.full = links.full || link.rotor_inertia != 0.;
+  links.full = is_full(link);
   links.rotor_inertia.lanes[lane] = link.rotor_inertia;
 }
 
@@ -166,14 +169,17 @@ void Model<Real>::add_chain(const ChainDescription& description, std::size_t cha
   groups_[carrier.group].links[carrier.link].carries = true;
 }
 
-/// The group with room for a chain of these joints, so far from the base: the first there is, or a
-/// new one.
+/// The group with room for a chain of these joints, eliminated alike, so far from the base: the
+/// first there is, or a new one. So a chain moves the same bit for bit whatever its neighbours are.
 template <class Real>
 std::size_t Model<Real>::group_for(std::span<const LinkDescription> links, std::size_t depth) {
   const auto fits = [&](const ChainGroup<Real>& group) {
     return group.chain_count < lane_count && group.depth == depth &&
-           std::ranges::equal(group.links, links, {}, &LinkConstants<Lanes<Real>>::joint,
-                              &LinkDescription::joint);
+           std::ranges::equal(
+               group.links, links,
+               [](const LinkConstants<Lanes<Real>>& of_group, const LinkDescription& link) {
+                 return of_group.joint == link.joint && of_group.full == is_full(link);
+               });
   };
   const auto found = std::ranges::find_if(groups_, fits);
   const std::size_t g = std::size_t(found - groups_.begin());
@@ -183,7 +189,10 @@ std::size_t Model<Real>::group_for(std::span<const LinkDescription> links, std::
   group.depth = depth;
   if (g > 0) group.first_pass = groups_[g - 1].first_pass + groups_[g - 1].link_count();
   group.links.resize(links.size());
-  for (std::size_t n = 0; n < links.size(); ++n) group.links[n].joint = links[n].joint;
+  for (std::size_t n = 0; n < links.size(); ++n) {
+    group.links[n].joint = links[n].joint;
+    group.links[n].full = is_full(links[n]);
+  }
   return g;
 }
 

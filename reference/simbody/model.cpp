@@ -257,7 +257,7 @@ void Model::Parts::add_mobilizer(const Body& body, const SimTK::Body::Rigid& rig
       break;
     case Body::Mobility::planar: {
       const Transform X_WF = simtk(body.X_WF);
-      MobilizedBody::Planar(parent, X_WF, rigid, ~X_PL0 * X_WF);
+      const MobilizedBody::Planar planar(parent, X_WF, rigid, ~X_PL0 * X_WF);
       break;
     }
     case Body::Mobility::turning:

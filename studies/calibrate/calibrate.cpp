@@ -661,22 +661,21 @@ class SubjectFit {
   void cross_validate() {
     const std::size_t folds = fold_count(plan_);
     if (folds == 0 || optimum_.residuals.empty()) return;
-    const auto [held, training] = folds_of_cases();
-    const auto outcomes =
-        rows_.run({folds, [&](std::size_t i) { return identity("fold", i, optimum_.place); },
-                   [&](std::size_t i) {
-                     const Linearisation start = optimum_over(training[i]);
-                     const LeastSquaresFit fit =
-                         refine(model_of(training[i]), start, refit_of_runs);
-                     const auto out = model_.residuals(model_.settings_at(fit.place), held[i]);
-                     FitOutcome outcome = outcome_of(fit, start.residuals.size());
-                     if (out) outcome.held_out = error_of(*out);
-                     return outcome;
-                   }});
+    const auto parts = folds_of_cases();
+    const auto outcomes = rows_.run(
+        {folds, [&](std::size_t i) { return identity("fold", i, optimum_.place); },
+         [&](std::size_t i) {
+           const Linearisation start = optimum_over(parts.training[i]);
+           const LeastSquaresFit fit = refine(model_of(parts.training[i]), start, refit_of_runs);
+           const auto out = model_.residuals(model_.settings_at(fit.place), parts.held[i]);
+           FitOutcome outcome = outcome_of(fit, start.residuals.size());
+           if (out) outcome.held_out = error_of(*out);
+           return outcome;
+         }});
     for (std::size_t i = 0; i < folds; ++i) {
       if (!outcomes[i]) continue;
       const FitOutcome& outcome = *outcomes[i];
-      result_.folds.push_back({held[i], outcome.error, outcome.held_out, outcome.place});
+      result_.folds.push_back({parts.held[i], outcome.error, outcome.held_out, outcome.place});
       result_.records.push_back(
           {FitStage::fold, i + 1, outcome.place, outcome.error, outcome.models, "ok"});
     }

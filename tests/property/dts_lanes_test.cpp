@@ -20,7 +20,10 @@ dts::RobotDescription chains_of_a_kind(RandomRobots& random, bool mobile, int co
     dts::ChainDescription chain{random.vector(0.5), random.orientation(), {}};
     for (const dts::JointType joint : joints) {
       chain.links.push_back(random.link(k % 2 == 0, 0.));
-      chain.links.back().joint = joint;
+      dts::LinkDescription& link = chain.links.back();
+      link.joint = joint;
+      // The second joint of each has a rotor, the others none.
+      link.rotor_inertia = chain.links.size() == 2 ? 0.1 + link.rotor_inertia : 0.;
     }
     robot.chains.push_back(chain);
   }
@@ -95,6 +98,16 @@ TEST(DtsLanes, AChainOnAFixedBaseMovesTheSameBitForBitInAnyLane) {
     EXPECT_EQ(workspace.hip_wrenches[k].force, other_workspace.hip_wrenches[moved].force) << k;
     EXPECT_EQ(workspace.hip_wrenches[k].moment, other_workspace.hip_wrenches[moved].moment) << k;
   }
+}
+
+// Elimination with a rotor rounds otherwise than without.
+TEST(DtsLanes, AChainWithARotorElsewhereIsOfAnotherKind) {
+  RandomRobots random(46);
+  dts::RobotDescription robot = chains_of_a_kind(random, false, 3, arm);
+  robot.chains[1].links[0].rotor_inertia = 0.2;
+  const dts::Model<double> model(robot);
+  EXPECT_EQ(model.groups().size(), 2U);
+  expect_like_the_mass_matrix(random, robot, model);
 }
 
 /// `count` chains of a kind, each on a link of its own of as many others.

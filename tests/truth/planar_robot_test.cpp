@@ -144,9 +144,10 @@ TEST(PlanarRobot, NothingLeadsItOutOfItsPlane) {
       const std::string what = engine + " " + plane.name;
       const double t = 0.2, tolerance = engine == "dts" ? 0. : 1e-9;
       EXPECT_NEAR(run["w.r.position." + std::string(plane.normal)], 0., tolerance) << what;
-      for (const char* axis : {"x", "y", "z"})
-        if (std::string(axis) != plane.normal)
-          EXPECT_NEAR(run["w.r.angular_velocity." + std::string(axis)], 0., tolerance) << what;
+      for (const std::string axis : {"x", "y", "z"}) {
+        if (axis == plane.normal) continue;
+        EXPECT_NEAR(run["w.r.angular_velocity." + axis], 0., tolerance) << what;
+      }
       // The force acts at the centre of mass: no turn, s = F t^2/2m, to the first order of the
       // step.
       EXPECT_NEAR(run["w.r.position." + std::string(plane.first)], plane.along_first / 4. * t * t,
