@@ -11,8 +11,7 @@ namespace hookpoint::studies {
 void give_memory_back();
 
 /// Calls `work` with 0 ... count - 1, each once, from `jobs` threads. After a call that gives false
-/// or throws no new one is made; false then, or what was thrown.
-/// Gives memory back at the end.
+/// or throws no new one is made; false then, or what was thrown. Gives memory back at the end.
 bool work_through(std::size_t count, int jobs, const std::function<bool(std::size_t)>& work);
 
 }  // namespace hookpoint::studies
