@@ -200,11 +200,13 @@ LinearisedRobot ControllerTerms::linearised(const std::vector<double>& torques) 
     A.col(n + k).tail(n) =
         (motion.accelerations(none, forth) - motion.accelerations(none, back))(free_) / (2. * step);
   }
-  const std::vector<double> M = mass_matrix();
   Matrix B = Matrix::Zero(2 * n, joints);
-  Matrix drives = Matrix::Zero(n, joints);
-  drives.bottomRows(joints).setIdentity();
-  B.bottomRows(n) = Eigen::Map<const Matrix>(M.data(), n, n).ldlt().solve(drives);
+  if (joints > 0) {
+    const std::vector<double> M = mass_matrix();
+    Matrix drives = Matrix::Zero(n, joints);
+    drives.bottomRows(joints).setIdentity();
+    B.bottomRows(n) = Eigen::Map<const Matrix>(M.data(), n, n).ldlt().solve(drives);
+  }
   return {{A.data(), A.data() + A.size()}, {B.data(), B.data() + B.size()}};
 }
 
