@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numeric>
 #include <random>
@@ -36,7 +37,8 @@ constexpr double widest_interval = 0.5;
 /// Of fewer samples 2.5 % are less than one.
 constexpr std::size_t least_resamples = 39;
 /// Streams of random numbers: those of the bootstrap's samples come before.
-constexpr std::size_t streams_of_draws = 1'000'000, streams_of_surfaces = 2'000'000;
+constexpr std::size_t streams_of_draws = 1'000'000, streams_of_surfaces = 2'000'000,
+                      streams_of_promises = 3'000'000;
 /// Rounds of a search after CMA-ES, and looks of each.
 constexpr int surface_rounds = 3;
 constexpr std::size_t surface_looks = 4;
@@ -156,18 +158,26 @@ class SubjectFit {
       return std::ranges::any_of(residuals, [](double one) { return std::isnan(one); })
                  ? std::nullopt
                  : error_of(residuals);
-    double sum = 0.;
-    std::size_t count = 0, first = 0;
+    const std::vector<double> each = distances(cases, residuals);
+    return each.empty() ? std::nullopt : std::optional(mean_of(each));
+  }
+
+  /// Mean weighted distance of each of these cases that ran.
+  std::vector<double> distances(const Cases& cases, const Residuals& residuals) const {
+    std::vector<double> each;
+    std::size_t first = 0;
     for (const std::size_t one : cases) {
       const std::size_t size = plan_.cases[one].residuals();
       const double error =
           mean_distance(plan_.cases[one], std::span(residuals).subspan(first, size));
       first += size;
-      if (std::isnan(error)) continue;
-      sum += error;
-      ++count;
+      if (!std::isnan(error)) each.push_back(error);
     }
-    return count == 0 ? std::nullopt : std::optional(sum / static_cast<double>(count));
+    return each;
+  }
+
+  static double mean_of(const std::vector<double>& values) {
+    return std::reduce(values.begin(), values.end()) / static_cast<double>(values.size());
   }
 
   Shares own_or_middle() const {
@@ -456,18 +466,22 @@ class SubjectFit {
     }
   }
 
-  /// As many of these as a search looks at, in their order; drawn from a stream of its own.
-  Cases drawn_from(Cases cases, std::size_t stream) const {
-    if (plan_.most_cases == 0 || plan_.most_cases >= cases.size()) return cases;
-    std::mt19937_64 random = random_of(streams_of_draws + stream);
-    for (std::size_t i = 0; i < plan_.most_cases; ++i)
+  /// At most so many of these, in their order; drawn from a stream of its own.
+  Cases drawn_from(Cases cases, std::size_t stream, std::size_t most) const {
+    if (most >= cases.size()) return cases;
+    std::mt19937_64 random = random_of(stream);
+    for (std::size_t i = 0; i < most; ++i)
       std::swap(cases[i], cases[i + random() % (cases.size() - i)]);
-    cases.resize(plan_.most_cases);
+    cases.resize(most);
     std::ranges::sort(cases);
     return cases;
   }
-  /// Those of the search of all cases.
-  Cases drawn_cases() const { return drawn_from(cases_, 0); }
+  /// Those of these that a search looks at: of all cases number 0, or the fold's.
+  Cases drawn_cases(const Cases& cases, std::size_t number) const {
+    const std::size_t most = plan_.most_cases == 0 ? cases.size() : plan_.most_cases;
+    return drawn_from(cases, streams_of_draws + number, most);
+  }
+  Cases drawn_cases() const { return drawn_cases(cases_, 0); }
 
   static std::size_t looks_of_a_search(const CalibrationPlan& plan) {
     return static_cast<std::size_t>(plan.population) * static_cast<std::size_t>(plan.generations) +
@@ -484,8 +498,7 @@ class SubjectFit {
       if (!residuals) return look_without_value(why);
       outcome.cases.push_back(mean_distance(plan_.cases[one], *residuals));
     }
-    outcome.error = std::reduce(outcome.cases.begin(), outcome.cases.end()) /
-                    static_cast<double>(outcome.cases.size());
+    outcome.error = mean_of(outcome.cases);
     return outcome;
   }
 
@@ -589,23 +602,50 @@ class SubjectFit {
     return true;
   }
 
+  /// Of the cases that a search may see at most so many that it has not looked at, in their order.
+  Cases unseen(const Cases& may_see, const Cases& looked_at, std::size_t number,
+               std::size_t most) const {
+    Cases others;
+    std::ranges::set_difference(may_see, looked_at, std::back_inserter(others));
+    return drawn_from(std::move(others), streams_of_promises + number, most);
+  }
+
+  /// Where the error of `held` cases will be, by what these constants leave of others. The means of
+  /// n and m cases out of many that spread by s differ by t s sqrt(1/n + 1/m) at most, with a
+  /// chance of 95 % (Student's t of n - 1 degrees of freedom).
+  std::optional<PromisedError> promise(const std::vector<ConstantSetting>& constants,
+                                       const Cases& others, std::size_t held) const {
+    const std::vector<double> each = distances(others, predict(constants, others));
+    if (each.size() < 2) return std::nullopt;
+    const double mean = mean_of(each), count = static_cast<double>(each.size());
+    double squares = 0.;
+    for (const double one : each) squares += (one - mean) * (one - mean);
+    const double spread = std::sqrt(squares / (count - 1.));
+    const double reach =
+        student_end(count) * spread * std::sqrt(1. / count + 1. / static_cast<double>(held));
+    return PromisedError{mean, mean - reach, mean + reach};
+  }
+
   /// Each case by constants that were fitted without it; without folds by those of all.
   void predict_folds() {
-    const auto [held, training] = folds_of_cases();
-    if (held.empty()) {
+    if (fold_count(plan_) == 0) {
       Shares place;
       for (const FittedConstant& constant : result_.constants) place.push_back(constant.share);
       result_.residuals = predict(model_.settings_at(place), cases_);
       return;
     }
+    const auto [held, training] = folds_of_cases();
     std::vector<Residuals> each(cases_.size());
     for (std::size_t i = 0; i < held.size(); ++i) {
-      const Cases cases = drawn_from(training[i], i + 1);
+      const Cases cases = drawn_cases(training[i], i + 1);
       const Search found = look_around(i + 1, cases);
       const FitOutcome* best = found.best();
       if (best == nullptr) continue;
-      const Residuals out = predict(model_.settings_at(best->place), held[i]);
-      result_.folds.push_back({held[i], best->error, error_over(held[i], out), best->place});
+      const auto constants = model_.settings_at(best->place);
+      const Residuals out = predict(constants, held[i]);
+      result_.folds.push_back(
+          {held[i], best->error, error_over(held[i], out), best->place,
+           promise(constants, unseen(training[i], cases, i + 1, held[i].size()), held[i].size())});
       result_.records.push_back(
           {FitStage::fold, i + 1, best->place, best->error, found.looked.size(), best->status});
       auto from = out.begin();

@@ -46,11 +46,18 @@ struct FittedConstant {
   std::string reason;               ///< why not, or what is missing
 };
 
+/// Where the error of cases that a fit has not seen will be, with a chance of 95 %.
+struct PromisedError {
+  double error = 0., low = 0., high = 0.;
+};
+
 /// Errors as CalibrationPlan::method has them.
 struct FoldResult {
   std::vector<std::size_t> held_out;  ///< cases
   std::optional<double> training, held;
   Shares place;
+  /// Of cmaes, by cases that the fold may see and that its search did not look at.
+  std::optional<PromisedError> promised{};
 };
 
 struct SubjectCalibration {

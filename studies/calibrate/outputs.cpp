@@ -151,7 +151,8 @@ output::CsvTable folds_table(const CalibrationPlan& plan, const CalibrationResul
   table.header = {"subject", "fold", "held_out"};
   for (const VariedConstant& constant : plan.varied)
     table.header.push_back(constant_title(constant));
-  table.header.insert(table.header.end(), {"training_error", "held_out_error"});
+  table.header.insert(table.header.end(), {"training_error", "held_out_error", "promised_error",
+                                           "promised_low", "promised_high"});
   for_each_subject(
       plan, result, [&](const CalibrationSubject& subject, const SubjectCalibration& found) {
         for (std::size_t i = 0; i < found.folds.size(); ++i) {
@@ -163,6 +164,9 @@ output::CsvTable folds_table(const CalibrationPlan& plan, const CalibrationResul
           row = {subject.info.name, std::to_string(i + 1), held};
           add_values(row, plan, found.constants, fold.place);
           row.insert(row.end(), {number_or_empty(fold.training), number_or_empty(fold.held)});
+          for (double PromisedError::*part :
+               {&PromisedError::error, &PromisedError::low, &PromisedError::high})
+            row.push_back(fold.promised ? output::shortest((*fold.promised).*part) : "");
         }
       });
   return table;

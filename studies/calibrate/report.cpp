@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <optional>
 
 #include "output/figures/plot.h"
 #include "output/text/number.h"
@@ -53,21 +55,27 @@ std::string subject_composition(const SubjectInfo& info) {
   return text;
 }
 
-/// Means of the folds' errors, weighed alike.
-std::optional<double> mean_error(const std::vector<FoldResult>& folds,
-                                 std::optional<double> FoldResult::*error) {
+std::optional<double> promised_error(const FoldResult& fold) {
+  return fold.promised ? std::optional(fold.promised->error) : std::nullopt;
+}
+
+/// Means of the folds' errors, weighed alike; `error` is a part of a FoldResult or a function of
+/// it.
+template <typename Error>
+std::optional<double> mean_error(const std::vector<FoldResult>& folds, Error error) {
   if (folds.empty()) return std::nullopt;
   double sum = 0.;
   for (const FoldResult& fold : folds) {
-    if (!(fold.*error)) return std::nullopt;
-    sum += *(fold.*error) * *(fold.*error);
+    const std::optional<double> one = std::invoke(error, fold);
+    if (!one) return std::nullopt;
+    sum += *one * *one;
   }
   return std::sqrt(sum / static_cast<double>(folds.size()));
 }
 
 std::string subjects_table(const CalibrationPlan& plan, const CalibrationResult& result) {
   HtmlTable table({"subject", "error", "with the scene's constants", "training, folds",
-                   "held out, folds", "what became of it"},
+                   "promised, folds", "held out, folds", "what became of it"},
                   1);
   for (std::size_t i = 0; i < result.subjects.size(); ++i) {
     const SubjectCalibration& found = result.subjects[i];
@@ -75,6 +83,7 @@ std::string subjects_table(const CalibrationPlan& plan, const CalibrationResult&
     table.row({html(info.name) + "<small> " + html(subject_composition(info)) + "</small>",
                error_words(found.error), error_words(found.own_error),
                error_words(mean_error(found.folds, &FoldResult::training)),
+               error_words(mean_error(found.folds, promised_error)),
                error_words(mean_error(found.folds, &FoldResult::held)), html(found.status)});
   }
   return table.text();

@@ -92,11 +92,15 @@ double quantile(std::vector<double> values, double part) {
   return values[below] + (place - static_cast<double>(below)) * (values[above] - values[below]);
 }
 
-double tail_of_interval(double things) {
+double student_end(double things) {
   constexpr double upper = 0.975;
+  const boost::math::students_t_distribution<double> student(std::max(2., things) - 1.);
+  return boost::math::quantile(student, upper);
+}
+
+double tail_of_interval(double things) {
   const double many = std::max(2., things);
-  const boost::math::students_t_distribution<double> student(many - 1.);
-  const double end = boost::math::quantile(student, upper) * std::sqrt(many / (many - 1.));
+  const double end = student_end(many) * std::sqrt(many / (many - 1.));
   return 0.5 * std::erfc(end / std::numbers::sqrt2);
 }
 

@@ -34,6 +34,10 @@ std::vector<std::size_t> fold_of_each(std::size_t count, std::size_t folds, std:
 /// between the values: of n drawn, the k-th from below at k/(n + 1). At most the outermost ones.
 double quantile(std::vector<double> values, double part);
 
+/// Student's t of `things` - 1 degrees of freedom, two at least, beyond which either way lies 2.5
+/// %.
+double student_end(double things);
+
 /// The part of a bootstrap's samples that lies beyond either end of an interval of 95 %, where
 /// `things` independent ones were drawn from: 2.5 % of many. Of few less, as they spread about
 /// their own mean and Student's t is wider than the normal distribution: Phi(-t sqrt(m/(m - 1)))
