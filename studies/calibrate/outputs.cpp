@@ -70,9 +70,10 @@ std::string material_file(const CalibrationPlan& plan, const CalibrationSubject&
 }
 
 std::vector<std::string> calibration_files(const CalibrationPlan& plan) {
-  std::vector<std::string> files{
-      store_folder, "calibration.csv", "correlations.csv", "evaluations.csv", "folds.csv",
-      "curves.csv", "experiment.hook", "scene.hook",       "provenance.json", "report.html"};
+  std::vector<std::string> files{store_folder,      "calibration.csv", "correlations.csv",
+                                 "evaluations.csv", "folds.csv",       "curves.csv",
+                                 "own_curves.csv",  "experiment.hook", "scene.hook",
+                                 "provenance.json", "report.html"};
   for (const CalibrationSubject& subject : plan.subjects)
     files.push_back(material_file(plan, subject));
   for (const std::string& figure : calibration_figure_names(plan))
@@ -172,7 +173,9 @@ output::CsvTable folds_table(const CalibrationPlan& plan, const CalibrationResul
   return table;
 }
 
-output::CsvTable curves_table(const CalibrationPlan& plan, const CalibrationResult& result) {
+/// Every sample, and what each subject has there, by these residuals of it.
+output::CsvTable curves_table(const CalibrationPlan& plan, const CalibrationResult& result,
+                              Residuals SubjectCalibration::*residuals) {
   output::CsvTable table;
   table.header = {"trace", "port", "unit", "time [s]", "measured"};
   for (std::size_t i = 0; i < result.subjects.size(); ++i)
@@ -188,7 +191,7 @@ output::CsvTable curves_table(const CalibrationPlan& plan, const CalibrationResu
                           output::rounded(trace.measured.time[i], curve_digits),
                           output::rounded(values[part], curve_digits)});
         for (const SubjectCalibration& found : result.subjects) {
-          const auto of_trace = residuals_of(found.residuals, trace, first);
+          const auto of_trace = residuals_of(found.*residuals, trace, first);
           const std::vector<double> model =
               of_trace.empty() ? std::vector<double>() : modelled(trace, i, of_trace);
           for (std::size_t part = 0; part < rows.size(); ++part)
@@ -242,7 +245,9 @@ std::vector<std::string> write_calibration_files(const CalibrationPlan& plan,
   write("correlations.csv", correlations_table(plan, result));
   write("evaluations.csv", fits_table(plan, result));
   write("folds.csv", folds_table(plan, result));
-  write("curves.csv", curves_table(plan, result));
+  write("curves.csv", curves_table(plan, result, &SubjectCalibration::residuals));
+  if (!plan.varied.empty())
+    write("own_curves.csv", curves_table(plan, result, &SubjectCalibration::own_residuals));
   const auto write_text = [&](const std::string& name, const std::string& text) {
     if (text.empty()) return;
     output::make_folder_of(folder / name);

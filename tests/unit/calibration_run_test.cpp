@@ -138,7 +138,7 @@ TEST_F(CalibrateFile, TheSameForAnyNumberOfThreadsAndWhenItIsResumed) {
   EXPECT_NE(place_.read("cut/report.html").find("Interrupted"), std::string::npos);
   EXPECT_FALSE(run(*found, "cut", 2, true).interrupted);
   for (const char* file : {"calibration.csv", "correlations.csv", "evaluations.csv", "curves.csv",
-                           "materials/floor_scene.hook", "trace_drop.svg"}) {
+                           "own_curves.csv", "materials/floor_scene.hook", "trace_drop.svg"}) {
     const std::string whole = place_.read(std::filesystem::path("one") / file);
     EXPECT_FALSE(whole.empty()) << file;
     EXPECT_EQ(whole, place_.read(std::filesystem::path("three") / file)) << file;
