@@ -14,6 +14,7 @@
 #include "studies/compare/wall.h"
 #include "studies/schema.h"
 #include "unicode/display.h"
+#include "view/ghosts.h"
 #include "view/panel.h"
 #include "view/schema.h"
 
@@ -211,7 +212,10 @@ std::optional<simulation::Experiment> Application::load(const language::Object& 
   language::Diagnostics diagnostics;
   auto experiment = simulation::load_experiment(root, diagnostics, search_path_);
   // What its windows name must be there, whether or not they are opened.
-  if (experiment) view::make_panel(root, *experiment, {}, diagnostics);
+  if (experiment) {
+    view::make_panel(root, *experiment, {}, diagnostics);
+    view::check_ghosts(root, diagnostics);
+  }
   tell(diagnostics);
   if (diagnostics.error_count() > 0) return std::nullopt;
   return experiment;

@@ -53,17 +53,22 @@ class Watched {
     request.folder = arguments.out.value_or(std::filesystem::path());
     request.trails = arguments.record;
     request.leaves_files = arguments.out.has_value();
-    add("", settings_, request, arguments.movie);
+    add("", "", settings_, request, arguments.movie);
     for (const view::GhostSpec& ghost : view::load_ghosts(loaders_.front()->root())) {
+      if (ghost.settings.empty()) {
+        subjects_.front().name = ghost.label;
+        if (!ghost.colour.empty()) subjects_.front().colour = ghost.colour;
+        continue;
+      }
       application::Settings own = settings_;
       own.trails.insert(own.trails.end(), ghost.settings.begin(), ghost.settings.end());
-      add(ghost.label, own, {}, std::nullopt);
+      add(ghost.label, ghost.colour, own, {}, std::nullopt);
     }
     for (const std::string& words : arguments.view.with) {
       application::Settings own = settings_;
       for (auto& field : application::subject_fields(application_.schema(), words))
         own.world.push_back(std::move(field));
-      add(words, own, {}, std::nullopt);
+      add(words, "", own, {}, std::nullopt);
     }
     view::MakeMeter meters;
     if (subjects_.size() > 1)
@@ -124,7 +129,7 @@ class Watched {
   }
 
  private:
-  void add(const std::string& label, application::Settings settings,
+  void add(const std::string& label, const std::string& colour, application::Settings settings,
            simulation::LiveRunRequest request, const std::optional<std::filesystem::path>& movie) {
     loaders_.push_back(std::make_unique<LiveLoader>(arguments_.file, std::move(settings),
                                                     arguments_.allow_plugins, movie));
@@ -142,8 +147,8 @@ class Watched {
     const simulation::Experiment& experiment = run->experiment();
     const int index = static_cast<int>(subjects_.size());
     view::Subject subject{label.empty() ? application::subject_name(experiment) : label,
-                          output::series_style(index).color, std::move(run), history_of(experiment),
-                          nullptr};
+                          colour.empty() ? output::series_style(index).color : colour,
+                          std::move(run), history_of(experiment), nullptr};
     subjects_.push_back(std::move(subject));
   }
 

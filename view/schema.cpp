@@ -209,16 +209,20 @@ ClassSchema ghost_class(const language::Schema& schema) {
   ClassSchema ghost;
   ghost.name = "Ghost";
   ghost.doc =
-      "the same experiment under another engine, law or integrator, stepped beside the run and "
-      "drawn with it";
+      "the same experiment under another engine, law, integrator or Params, stepped beside the run "
+      "and drawn with it; one that says nothing of these names and colours the run itself";
   ghost.naming = Naming::required;
   ghost.top_level = true;
+  ghost.children = {"Fix"};
   ghost.fields = {
       varied(schema, "engine", "as of a World; if not given, the run's"),
       varied(schema, "settings", "of a peer engine, as of a World; if not given, the run's"),
       varied(schema, "contact", "law, as of a World; if not given, the run's"),
       varied(schema, "integrator", "as of a World; if not given, the run's"),
       text_field(widget_field::label, "in legends; if not given, the name"),
+      between(0., 1.,
+              list_field(widget_field::colour, "", 3, 3, "",
+                         "red, green, blue; if not given, one of the figures'")),
   };
   return ghost;
 }

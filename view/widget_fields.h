@@ -8,6 +8,9 @@ namespace hookpoint::view::widget_field {
 
 inline constexpr const char *width = "width", *height = "height", *size = "size", *label = "label";
 
+// Of a Ghost, which has a label too.
+inline constexpr const char* colour = "colour";
+
 // Of a Window.grob.
 inline constexpr const char *drawer = "drawer", *follow = "follow", *zoom = "zoom",
                             *distance = "distance", *euler1 = "euler1", *euler2 = "euler2",

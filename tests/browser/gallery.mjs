@@ -1,4 +1,4 @@
-// The pictures of the manual's gallery: run.sh BUILD_FOLDER gallery.mjs FOLDER [NAME...]. A run is begun anew, paused, and stepped to
+// The pictures of the manual's gallery and one of a study: run.sh BUILD_FOLDER gallery.mjs FOLDER [NAME...]. A run is begun anew, paused, and stepped to
 // the moment of its picture, so that a picture is made of the same numbers every time.
 import assert from "node:assert/strict";
 import { mkdirSync, writeFileSync } from "node:fs";
@@ -10,7 +10,7 @@ import { configs, eventually, openBrowser, openPage, serve, time, workFolder } f
 export const width = 1280, leastHeight = 500, mostHeight = 1800;
 
 /// `set`: what is moved at the beginning; `time`: of the picture [s]; `deltat`: of the file [s];
-/// `needs`: an engine.
+/// `needs`: engines; `quality`: of the picture, else low; `windows`: those of the file alone, without the panel of subjects.
 export const pictures = {
   window_hexapod: { file: "paper/fig1a_hexapod.hook", time: 3, deltat: 0.0004 },
   window_arm: {
@@ -20,7 +20,10 @@ export const pictures = {
       "controllers.goal_angle#2.value": 0.6, "controllers.pconstant#2.value": 400, "controllers.dconstant#2.value": 20,
     },
   },
-  window_creep: { file: "views/creep_side_by_side.hook", time: 10, deltat: 0.001, needs: "mujoco" },
+  window_creep: { file: "views/creep_side_by_side.hook", time: 10, deltat: 0.001, needs: ["mujoco"] },
+  real_impacts_window: {
+    file: "views/thrown_cube.hook", time: 0.23, deltat: 0.0005, needs: ["ode", "bullet", "mujoco", "dart", "simbody"], quality: "high", windows: true,
+  },
   window_study: { file: "studies/creep.hook", study: true },
 };
 
@@ -45,14 +48,16 @@ async function openRun(test, browser, file, folder, options, picture) {
     ...(picture.set === undefined ? [] : [["set", { values: picture.set }]]), ["step", { count: steps }]]);
   const reached = await time(page);
   assert.ok(Math.abs(reached - picture.time) < picture.deltat / 2, `it stopped at ${reached} s`);
-  await fit(page);
+  if (picture.quality !== undefined) await page.getByRole("combobox", { name: "quality of the picture" }).selectOption(picture.quality);
+  if (picture.windows) await fit(page, "main > .window:not(.creep)", 6);
+  else await fit(page);
   return page;
 }
 
 /// As high as what is in the page, within reason.
-async function fit(page) {
-  const bottom = await page.evaluate(() => Math.max(...[...document.querySelectorAll("main > *")].map((each) => each.getBoundingClientRect().bottom)));
-  await page.setViewportSize({ width, height: Math.min(Math.max(Math.ceil(bottom) + 12, leastHeight), mostHeight) });
+async function fit(page, parts = "main > *", below = 12) {
+  const bottom = await page.evaluate((all) => Math.max(...[...document.querySelectorAll(all)].map((each) => each.getBoundingClientRect().bottom)), parts);
+  await page.setViewportSize({ width, height: Math.min(Math.max(Math.ceil(bottom) + below, leastHeight), mostHeight) });
 }
 
 /// A study that is on its way: half of its rows are there, and it is held.

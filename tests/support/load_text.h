@@ -14,6 +14,7 @@
 #include "reference/engines.h"
 #include "simulation/scene/load.h"
 #include "simulation/scene/schema.h"
+#include "studies/schema.h"
 #include "view/schema.h"
 
 namespace hookpoint {
@@ -23,6 +24,7 @@ inline const language::Schema& experiment_schema() {
     language::Schema classes;
     simulation::add_experiment_classes(classes, reference::peer_choices());
     view::add_display_classes(classes);
+    studies::add_study_classes(classes);  // a Ghost holds Fixes
     return classes;
   }();
   return schema;

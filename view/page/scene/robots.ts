@@ -1,7 +1,7 @@
 // The bodies of one subject: surfaces, edges and outlines of all of them in three draw calls, placed by a texture of poses. The run
 // itself is solid; the others are ghosts: translucent, in their subject's colour.
 import {
-  BackSide, BufferAttribute, BufferGeometry, Color, DataTexture, FloatType, FrontSide, Group, type IUniform, LineSegments, type Matrix4, Mesh,
+  BackSide, BufferAttribute, BufferGeometry, Color, DataTexture, DoubleSide, FloatType, FrontSide, Group, type IUniform, LineSegments, type Matrix4, Mesh,
   MeshBasicMaterial, NearestFilter, Quaternion, RGBAFormat, ShaderMaterial, Vector2, Vector3,
 } from "three";
 import type { Body, Subject } from "../protocol.ts";
@@ -10,6 +10,7 @@ import { type Light, lighting, plainFragment } from "./matte.ts";
 import { trianglesOf } from "./shapes.ts";
 
 const ghostOpacity = 0.45;
+const mostGhosts = 4; // of that opacity; more of them at one place cover no more than these do
 const texels = 3; // of a body: place, orientation, colour
 
 const placing = /* glsl */ `
@@ -41,6 +42,24 @@ varying vec3 shade;
 void main() {
   shade = toDisplay(colour);
   gl_Position = placed();
+}`;
+/// An edge one and a half of the page's pixels wide: enough for the colours of many ghosts to be told apart by their edges.
+const ribbonShader = /* glsl */ `
+${placing}
+${lighting}
+attribute vec3 other;
+attribute float side;
+uniform vec2 resolution;
+uniform float width;
+uniform vec3 colour;
+varying vec3 shade;
+void main() {
+  vec4 clip = placed();
+  vec4 end = projectionMatrix * viewMatrix * vec4(texel(0).xyz + turned(other), 1.);
+  vec2 along = (end.xy / end.w - clip.xy / clip.w) * resolution;
+  if (length(along) > 1e-6) clip.xy += side * normalize(vec2(-along.y, along.x)) * 1.4 * width / resolution * clip.w;
+  shade = toDisplay(colour);
+  gl_Position = clip;
 }`;
 const outlineShader = /* glsl */ `
 ${placing}
@@ -78,15 +97,17 @@ export class Robots {
     private readonly subject: Subject,
     index: number,
     light: Light,
+    ghosts: number, // how many there are
   ) {
     this.ghost = index > 0;
+    const opacity = 1 - (1 - ghostOpacity) ** Math.min(1, mostGhosts / Math.max(1, ghosts));
     this.poses = new Float32Array(Math.max(1, bodies.length) * texels * 4);
     this.texture = new DataTexture(this.poses, texels, Math.max(1, bodies.length), RGBAFormat, FloatType);
     this.texture.minFilter = this.texture.magFilter = NearestFilter;
     this.uniforms = {
       ...light.uniforms,
       poses: { value: this.texture },
-      opacity: { value: this.ghost ? ghostOpacity : 1 },
+      opacity: { value: this.ghost ? opacity : 1 },
       colour: { value: new Color() },
       selection: { value: new Color() },
       selected: { value: -1 },
@@ -127,22 +148,24 @@ export class Robots {
     for (const [name, numbers, size] of [["position", positions, 3], ["normal", normals, 3], ["outline", outlines, 3], ["body", bodyOf, 1]] as const)
       surfaces.setAttribute(name, new BufferAttribute(new Float32Array(numbers), size));
     surfaces.setIndex(indices);
-    const edges = new BufferGeometry();
-    edges.setAttribute("position", new BufferAttribute(new Float32Array(ends), 3));
-    edges.setAttribute("body", new BufferAttribute(new Float32Array(bodyOfEnd), 1));
-
     const { uniforms } = this;
     const common = { fragmentShader: plainFragment, uniforms };
     // Behind its edges; a ghost stands before the run where both are at the same place.
     const offset = { polygonOffset: !this.ghost, polygonOffsetFactor: 1, polygonOffsetUnits: 1 };
     const glassy = { transparent: this.ghost, depthWrite: !this.ghost };
     this.layers.push(new Mesh(surfaces, new ShaderMaterial({ ...common, ...offset, ...glassy, vertexShader: surfaceShader, side: FrontSide })));
-    // A ghost's edges are as solid as the run's: they tell where it is.
-    const opaque = { ...uniforms, opacity: { value: 1 } };
-    this.layers.push(
-      new LineSegments(edges, new ShaderMaterial({ ...common, transparent: this.ghost, vertexShader: edgeShader, uniforms: opaque })));
-    // It has no outline, which would show through.
-    if (!this.ghost) this.layers.push(new Mesh(surfaces, new ShaderMaterial({ ...common, vertexShader: outlineShader, side: BackSide })));
+    if (this.ghost) {
+      // As solid as the run's: they tell where it is. It has no outline, which would show through.
+      const opaque = { ...uniforms, opacity: { value: 1 } };
+      this.layers.push(
+        new Mesh(ribbons(ends, bodyOfEnd), new ShaderMaterial({ ...common, transparent: true, vertexShader: ribbonShader, uniforms: opaque, side: DoubleSide })));
+      return;
+    }
+    const edges = new BufferGeometry();
+    edges.setAttribute("position", new BufferAttribute(new Float32Array(ends), 3));
+    edges.setAttribute("body", new BufferAttribute(new Float32Array(bodyOfEnd), 1));
+    this.layers.push(new LineSegments(edges, new ShaderMaterial({ ...common, vertexShader: edgeShader })));
+    this.layers.push(new Mesh(surfaces, new ShaderMaterial({ ...common, vertexShader: outlineShader, side: BackSide })));
   }
 
   paint(palette: Palette, selection: Color): void {
@@ -194,6 +217,28 @@ export class Robots {
     for (const solid of this.solids) solid.geometry.dispose();
     this.texture.dispose();
   }
+}
+
+/// Lines from end to end as strips of two triangles, whose width the shader gives.
+function ribbons(ends: number[], bodyOfEnd: number[]): BufferGeometry {
+  const [positions, others, sides, bodies, indices]: number[][] = [[], [], [], [], []];
+  for (let end = 0; end < bodyOfEnd.length; end += 2) {
+    const [from, to] = [ends.slice(3 * end, 3 * end + 3), ends.slice(3 * end + 3, 3 * end + 6)];
+    const first = positions.length / 3;
+    // The way to the other end is the opposite one there, and so are its sides.
+    for (const [at, other, side] of [[from, to, 1], [from, to, -1], [to, from, 1], [to, from, -1]] as const) {
+      positions.push(...at);
+      others.push(...other);
+      sides.push(side);
+      bodies.push(bodyOfEnd[end]);
+    }
+    indices.push(first, first + 1, first + 2, first, first + 2, first + 3);
+  }
+  const geometry = new BufferGeometry();
+  for (const [name, numbers, size] of [["position", positions, 3], ["other", others, 3], ["side", sides, 1], ["body", bodies, 1]] as const)
+    geometry.setAttribute(name, new BufferAttribute(new Float32Array(numbers), size));
+  geometry.setIndex(indices);
+  return geometry;
 }
 
 const position = new Vector3();

@@ -123,7 +123,7 @@ export class CameraView {
     const { terrain, bodies } = description.scene;
     this.ground = terrain ? new Ground(terrain, this.light) : null;
     this.stage = new Stage(description, this.ground);
-    this.robots = description.subjects.map((subject, k) => new Robots(bodies, subject, k, this.light));
+    this.robots = description.subjects.map((subject, k) => new Robots(bodies, subject, k, this.light, description.subjects.length - 1));
     this.decorations = new Decorations(this.stage, this.rim);
     this.build();
     this.repaint();
