@@ -399,7 +399,9 @@ ClassSchema cases_class() {
       {required(text("file", "the table of the cases, comma-separated, with titles like `z [m]`")),
        required(words("case", 1,
                       "title of the column that says which case a row is of, here and in the "
-                      "Traces' tables"))},
+                      "Traces' tables")),
+       or_words(
+           values("quick_values", "of a Study, the cases under --quick; default: first and last"))},
       {"Trace", "Only"});
 }
 

@@ -67,6 +67,8 @@ class PlanBuilder {
   void add_word_sweep(const language::Object& block, SweepRole role);
   /// The file that the field names, kept among those that were measured; empty after an error.
   std::filesystem::path measured_file(const language::Object& block, const char* field);
+  /// Leaves those of the cases that run under --quick.
+  void choose_quick_cases(const language::Object& block);
   void read_curves(const language::Object& cases);
   /// Each case lasts up to its last sample.
   void last_as_measured(const language::Object& study);

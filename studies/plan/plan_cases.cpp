@@ -17,9 +17,8 @@ using language::Object;
 namespace {
 
 /// Columns of results.csv, and what else a Table or a Plot calls by such a name.
-const std::vector<std::string> taken_names{"subject",    "engine",   "law",     "contact",
-                                           "integrator", "settings", "terrain", "seed",
-                                           "time",       "status"};
+const std::vector<std::string> taken_names{"subject",  "engine",  "law",  "contact", "integrator",
+                                           "settings", "terrain", "seed", "time",    "status"};
 
 /// The numbers that the cases are called by; nothing where one is called otherwise than results.csv
 /// writes its number.
@@ -68,7 +67,8 @@ void PlanBuilder::add_cases(const Object& block) {
   if (plan_.case_sweep() >= 0)
     return diagnostics_.error(block.position,
                               "a Study has one Cases block: its Traces are of one run each");
-  if (sweep_index(block.name) >= 0 || std::ranges::find(taken_names, block.name) != taken_names.end())
+  if (sweep_index(block.name) >= 0 ||
+      std::ranges::find(taken_names, block.name) != taken_names.end())
     return diagnostics_.error(
         block.position,
         fmt::format("Cases cannot be called `{}`: the study has another column of that name",
@@ -83,8 +83,30 @@ void PlanBuilder::add_cases(const Object& block) {
                          fmt::format("`{}` is swept: the column of {} cannot set it as well",
                                      parameter, file.string()));
   cases_ = std::move(table->cases);
-  if (options_.quick && cases_.size() > 2) cases_ = {cases_.front(), cases_.back()};
+  if (options_.quick) choose_quick_cases(block);
   plan_.sweeps.push_back(sweep_over(block, cases_));
+}
+
+void PlanBuilder::choose_quick_cases(const Object& block) {
+  if (!block.given("quick_values")) {
+    if (cases_.size() > 2) cases_ = {cases_.front(), cases_.back()};
+    return;
+  }
+  const language::Field& field = *block.find("quick_values");
+  std::vector<std::string> names = field.words;
+  if (names.empty())
+    for (const double number : field.numbers) names.push_back(output::shortest(number));
+  std::vector<CaseRow> chosen;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto found = std::ranges::find(cases_, names[i], &CaseRow::name);
+    if (found != cases_.end())
+      chosen.push_back(*found);
+    else
+      diagnostics_.error(i < field.places.size() ? field.places[i] : field.position,
+                         fmt::format("no case is called `{}`", names[i]));
+  }
+  // After an error all stay: what names them is not wrong.
+  if (chosen.size() == names.size()) cases_ = std::move(chosen);
 }
 
 void PlanBuilder::add_curves(const Object& study) {
@@ -130,11 +152,11 @@ void PlanBuilder::last_as_measured(const Object& study) {
     for (const MeasuredCurves& curves : plan_.curves)
       last = std::max(last, curves.cases[i]->measured.time.back());
     if (plan_.settle >= last)
-      return diagnostics_.error(study.find("settle")->position,
-                                fmt::format("{} {} was measured for {} s, which must be longer "
-                                            "than settle",
-                                            sweep.column.name, sweep.texts[i],
-                                            output::shortest(last)));
+      return diagnostics_.error(
+          study.find("settle")->position,
+          fmt::format("{} {} was measured for {} s, which must be longer "
+                      "than settle",
+                      sweep.column.name, sweep.texts[i], output::shortest(last)));
   }
   plan_.duration = std::ranges::max(sweep.durations);
 }

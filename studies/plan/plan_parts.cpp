@@ -505,14 +505,17 @@ void plan_parts(StudyPlan& plan, const Object& study, const std::filesystem::pat
   for (const Object* block : study.children_of("Sweep"))
     if (block->name == ground_sweep) parts.find_grounds(*block);
   for (const Object* block : study.children_of("Sweep")) parts.add_sweep(*block);
-  for (const Object* block : study.children_of("Cases")) parts.add_cases(*block);
+  const auto cases = study.children_of("Cases");
+  for (const Object* block : cases) parts.add_cases(*block);
+  // What else names the cases is not wrong where they could not be read.
+  if (!cases.empty() && plan.case_sweep() < 0) return;
   for (const Object* block : study.children_of("Subject")) parts.add_subject(*block);
   plan.fixes = parts.fixes(study);
   std::unique_ptr<Object> scene;
   Diagnostics untold;
   if (!diagnostics.has_errors()) {
     const bool own = std::ranges::any_of(study.children_of("Measure"), is_own_metric) ||
-                     std::ranges::any_of(study.children_of("Cases"), has_traces);
+                     std::ranges::any_of(cases, has_traces);
     scene = lay_first(plan, scene_file, own ? diagnostics : untold);
   }
   std::optional<SceneNames> known;

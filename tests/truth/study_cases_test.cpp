@@ -12,6 +12,7 @@
 #include "output/text/csv.h"
 #include "output/text/number.h"
 #include "tests/support/command.h"
+#include "tests/support/page_blocks.h"
 
 namespace hookpoint {
 namespace {
@@ -45,8 +46,9 @@ struct Throw {
   double height, speed, spin, drive;
   int samples;  // every 10 ms
 };
-constexpr std::array<Throw, 3> throws{
-    {{"low", 1., 0., 0.5, 2., 21}, {"high", 1.5, 2., -3., -1., 41}, {"hurled", 2.5, -1., 8., 0.5, 11}}};
+constexpr std::array<Throw, 3> throws{{{"low", 1., 0., 0.5, 2., 21},
+                                       {"high", 1.5, 2., -3., -1., 41},
+                                       {"hurled", 2.5, -1., 8., 0.5, 11}}};
 
 // What is measured beside the truth: a vector of 13 mm, 0.05 rad, 0.02 rad in turns, and 0.25 N m
 // that grow from 0 by time.
@@ -88,8 +90,7 @@ std::string fields(const std::vector<double>& numbers) {
 std::string throw_table() {
   std::string text = "throw,height [cm],speed [m/s],spin [rad/s],weather,drive [N.m]\n";
   for (const Throw& one : throws)
-    text += std::string(one.name) +
-            fields({100. * one.height, one.speed, one.spin, 3., one.drive});
+    text += std::string(one.name) + fields({100. * one.height, one.speed, one.spin, 3., one.drive});
   return text;
 }
 
@@ -169,11 +170,9 @@ TEST_F(StudyCases, MeasureHowFarARunIsFromWhatWasMeasured) {
     // The distances are i/n of the last one, i from 1 to n.
     const double n = one.samples - 1;
     EXPECT_NEAR(results.number(row, "torque_last [N.m]"), off_torque, 1e-12);
-    EXPECT_NEAR(results.number(row, "torque_mean [N.m]"), off_torque * (n + 1.) / (2. * n),
-                1e-12);
+    EXPECT_NEAR(results.number(row, "torque_mean [N.m]"), off_torque * (n + 1.) / (2. * n), 1e-12);
     // Of the samples 5 to 10: (25 + 36 + 49 + 64 + 81 + 100)/6.
-    EXPECT_NEAR(results.number(row, "torque_rms [N.m]"), off_torque * sqrt(355. / 6.) / n,
-                1e-12);
+    EXPECT_NEAR(results.number(row, "torque_rms [N.m]"), off_torque * sqrt(355. / 6.) / n, 1e-12);
     // Each row runs up to its own last sample.
     const double t = 0.01 * n;
     EXPECT_NEAR(results.number(row, "fallen [m]"), one.speed * t - 0.5 * gravity * t * t, 1e-12);
@@ -186,8 +185,8 @@ TEST_F(StudyCases, MeasureHowFarARunIsFromWhatWasMeasured) {
 
 TEST_F(StudyCases, AStepThatMissesASampleIsJoinedToTheNextByALine) {
   // Steps of 4 ms: a sample at 10 ms lies half way from 8 to 12, where the chord is g h^2/8 low.
-  const auto run = work_.hookpoint(
-      "study study.hook --out here --only ours --set world.deltat='4 ms'");
+  const auto run =
+      work_.hookpoint("study study.hook --out here --only ours --set world.deltat='4 ms'");
   const Results results(work_, "here");
   ASSERT_EQ(results.rows(), 3U) << run.out << run.err;
   const double low = 1000. * gravity * 0.004 * 0.004 / 8.;
@@ -249,8 +248,15 @@ TEST_F(StudyCases, CalledByNumbersAreRestrictedByThem) {
   EXPECT_EQ(results.text(1, "throw"), "10");
   EXPECT_EQ(results.text(2, "subject"), "again");
   EXPECT_EQ(results.text(4, "throw"), "20");
-  // The first and the last alone.
-  EXPECT_EQ(work_.hookpoint("study study.hook --out quick --quick --only ours").status, 0);
+  // The first and the last alone, or those that are named.
+  EXPECT_EQ(work_.hookpoint("study study.hook --out quick --quick").status, 2);
+  EXPECT_NE(work_.read(".err").find("`10` is no value of the Sweep `throw`; it has 0, 20"),
+            std::string::npos)
+      << work_.read(".err");
+  text.insert(text.find("case = throw;"), "quick_values = 10, 20; ");
+  work_.file("study.hook", text);
+  EXPECT_EQ(work_.hookpoint("study study.hook --out quick --quick --only ours").status, 0)
+      << work_.read(".err");
   const Results quick(work_, "quick");
   ASSERT_EQ(quick.rows(), 2U);
   EXPECT_EQ(quick.text(1, "throw"), "20");
@@ -266,8 +272,8 @@ TEST_F(StudyCases, LastAsLongAsTheStudySaysWhereItSays) {
   for (std::size_t row = 0; row < results.rows(); ++row) {
     const Throw& one = throws[std::array{0, 0, 1, 2, 2}[row]];
     // Of the samples from `settle` on, 2 to 10.
-    EXPECT_NEAR(results.number(row, "torque_mean [N.m]"),
-                off_torque * 6. / (one.samples - 1), 1e-12);
+    EXPECT_NEAR(results.number(row, "torque_mean [N.m]"), off_torque * 6. / (one.samples - 1),
+                1e-12);
   }
 }
 
@@ -290,17 +296,19 @@ TEST_F(StudyCases, WhatIsWrongHasAPlace) {
   };
   for (const Wrong& wrong : std::initializer_list<Wrong>{
            {"trace = position; take", "trace = postion; take",
-            "wrong.hook:13:25: error: no Trace of the study's Cases is called `postion` (did you "
-            "mean `position`?)"},
+            "wrong.hook:13:25: error: no Trace of the study's Cases is called `postion`"
+            "; did you mean `position`?"},
            {"trace = position; take", "trace = position; of = ball.position.x; take",
             "error: a metric is `of` ports or of a `trace`, not both"},
-           {"unit = mm", "unit = s", "wrong.hook:13:57: error: `mean` of `off` is in m, not in s"},
+           {"unit = mm", "unit = s", "wrong.hook:13:55: error: `mean` of `off` is in m, not in s"},
            {"trace = attitude; take", "trace = attitude; unit = mm; take", "is in rad, not in m"},
            {"case = throw", "case = toss", "throws.csv has no column `toss`"},
            {"\"throws.csv\"", "\"thrown.csv\"", "no file \"thrown.csv\" beside the study"},
            {"column = x, y, z", "column = x, y", "a Trace has one column, the three of a vector"},
-           {"column = x, y, z", "column = qx, qy, qz", "in no unit, SCENE.ball.position in m"},
-           {"time = \"t\"; of = world", "time = \"x\"; of = world", "the column `x [mm]` is no time"},
+           {"column = x, y, z", "column = qx, qy, qz",
+            "of curves.csv is in no unit, world.ball.position in m"},
+           {"time = \"t\"; of = world", "time = \"x\"; of = world",
+            "the column `x [mm]` is no time"},
            {"of = world.ball.position", "of = world.bell.position", "did you mean `ball`"},
            {"Subject ours { }", "Subject ours { Fix speed { value = 1 m/s; } }",
             "`speed` is set by the Cases: it cannot be fixed as well"},
@@ -311,13 +319,11 @@ TEST_F(StudyCases, WhatIsWrongHasAPlace) {
            {"Subject ours { }", "Subject ours { } settle = 0.15 s;",
             "throw hurled was measured for 0.1 s, which must be longer than settle"},
            {"case = throw;", "case = throw; Only speed { from = 5 m/s; }", "is a case"},
+           {"case = throw;", "case = throw; Only weather { values = fair; }", "is a case"},
            {"Cases throw {", "Cases subject {", "Cases cannot be called `subject`"},
            {"Measure fallen", "Cases more { file = \"throws.csv\"; case = throw; } Measure fallen",
             "a Study has one Cases block"}}) {
-    std::string said = error_with(wrong.from, wrong.to);
-    const std::string world = "world.ball";
-    for (std::size_t at; (at = said.find(world)) != std::string::npos;)
-      said.replace(at, world.size(), "SCENE.ball");
+    const std::string said = error_with(wrong.from, wrong.to);
     EXPECT_NE(said.find(wrong.said), std::string::npos) << wrong.to << "\n" << said;
     EXPECT_NE(said.find("wrong.hook:"), std::string::npos) << said;
   }
@@ -364,6 +370,48 @@ TEST_F(StudyCases, WithoutTracesNeedADuration) {
   work_.file("study.hook", text);
   EXPECT_EQ(work_.hookpoint("study study.hook --out here").status, 0) << work_.read(".err");
   EXPECT_NEAR(Results(work_, "here").number(4, "fallen [m]"), -0.1 - 0.5 * gravity * 0.01, 1e-12);
+}
+
+// The page's numbers: 0.2, 1.2 mm; 1.2, 1.2, 1.8 mm; 0.8, 1.8, 1.2 mm beside h + v t - g t^2/2.
+TEST(StudyCasesOfThePage, AreMeasuredAsItSays) {
+  const Workplace work;
+  const std::string page =
+      testing::read_file(std::filesystem::path(HOOKPOINT_SOURCE_DIR) / "docs/studies.md");
+  for (const testing::PageBlock& block : testing::blocks_of(page))
+    if (!block.name.empty()) work.file(block.name, block.text);
+  const auto run = work.hookpoint("study throws.hook --out here");
+  EXPECT_EQ(run.status, 0) << run.out << run.err;
+  const Results results(work, "here");
+  ASSERT_EQ(results.rows(), 5U);
+  EXPECT_NEAR(results.number(0, "off [mm]"), sqrt((0.04 + 1.44) / 2.), 1e-9);
+  EXPECT_NEAR(results.number(1, "off [mm]"), sqrt((1.44 + 1.44 + 3.24) / 3.), 1e-9);
+  EXPECT_NEAR(results.number(3, "off [mm]"), sqrt((0.64 + 3.24 + 1.44) / 3.), 1e-9);
+  EXPECT_NEAR(results.number(3, "end [mm]"), 1.2, 1e-9);
+  EXPECT_EQ(results.text(4, "engine"), "ode");
+  EXPECT_EQ(results.text(4, "throw"), "3");
+}
+
+// What a Calibrate without a Vary says of the same throws and constants is 0.0839: half of the
+// position's error in edges and of half of the rotation's in radians.
+TEST(TossedCube, IsAsFarFromItsThrowsAsACalibrateSays) {
+  const Workplace work;
+  const auto run = work.hookpoint("study " + testing::config("studies/tossed_cube.hook") +
+                                  " --only hookpoint --only guessed --out here");
+  EXPECT_EQ(run.status, 0) << run.out << run.err;
+  const Results results(work, "here");
+  ASSERT_EQ(results.rows(), 40U);
+  double error = 0.;
+  for (std::size_t row = 0; row < results.rows(); ++row) {
+    if (results.text(row, "subject") != "hookpoint") continue;
+    error += 0.5 / 20. *
+             (results.number(row, "position_error [mm]") / 104.8 +
+              0.5 * results.number(row, "rotation_error [deg]") * M_PI / 180.);
+  }
+  EXPECT_NEAR(error, 0.0839, 0.002);
+  const auto quick =
+      work.hookpoint("study " + testing::config("studies/tossed_cube.hook") + " --quick --out q");
+  EXPECT_EQ(quick.status, 0) << quick.out << quick.err;
+  EXPECT_EQ(Results(work, "q").rows(), 12U);
 }
 
 }  // namespace
