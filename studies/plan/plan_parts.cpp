@@ -458,14 +458,15 @@ void PlanBuilder::add_seeds(const Object& study) {
   if (field == nullptr) return;
   constexpr const char* seed = "seed";
   const auto is_seed = [&](const Assignment& fix) { return fix.parameter == seed; };
-  bool taken = is_varied(seed) || std::ranges::any_of(plan_.fixes, is_seed);
+  bool taken = sweep_index(seed) >= 0 || std::ranges::any_of(plan_.fixes, is_seed);
   for (const SubjectPlan& subject : plan_.subjects)
     taken = taken || std::ranges::any_of(subject.fixes, is_seed);
   if (taken)
-    return diagnostics_.error(
-        field->position,
-        "`seeds` varies the Param `seed`: it cannot be swept, fixed or set by "
-        "Cases");
+    return diagnostics_.error(field->position,
+                              "`seeds` varies the Param `seed`: it cannot be swept or fixed");
+  if (is_varied(seed))
+    return diagnostics_.error(field->position,
+                              "`seeds` varies the Param `seed`, which the Cases set");
   SweepPlan sweep;
   sweep.column.name = seed;
   sweep.role = SweepRole::seeds;

@@ -26,6 +26,7 @@ Param height = 1 m;
 Param speed = 0 m/s;
 Param spin = 0 rad/s;
 Param drive = 0 N.m;
+Param seed = 1;
 World world {
   gravity = 9.81; deltat = 1 ms; duration = 1 s; integrator = rk4;
   Robot ball {
@@ -88,9 +89,10 @@ std::string fields(const std::vector<double>& numbers) {
 }
 
 std::string throw_table() {
-  std::string text = "throw,height [cm],speed [m/s],spin [rad/s],weather,drive [N.m]\n";
+  std::string text = "throw,height [cm],speed [m/s],spin [rad/s],weather,drive [N.m],seed\n";
   for (const Throw& one : throws)
-    text += std::string(one.name) + fields({100. * one.height, one.speed, one.spin, 3., one.drive});
+    text +=
+        std::string(one.name) + fields({100. * one.height, one.speed, one.spin, 3., one.drive, 1.});
   return text;
 }
 
@@ -319,6 +321,8 @@ TEST_F(StudyCases, WhatIsWrongHasAPlace) {
            {"Subject ours { }", "Subject ours { } settle = 0.15 s;",
             "throw hurled was measured for 0.1 s, which must be longer than settle"},
            {"case = throw;", "case = throw; Only speed { from = 5 m/s; }", "is a case"},
+           {"Subject ours { }", "Subject ours { } seeds = 2;",
+            "error: `seeds` varies the Param `seed`, which the Cases set"},
            {"case = throw;", "case = throw; Only weather { values = fair; }", "is a case"},
            {"Cases throw {", "Cases subject {", "Cases cannot be called `subject`"},
            {"Measure fallen", "Cases more { file = \"throws.csv\"; case = throw; } Measure fallen",
