@@ -113,6 +113,7 @@ void PlanBuilder::add_curves(const Object& study) {
   for (const Object* block : study.children_of("Cases"))
     if (scene_ != nullptr && plan_.case_sweep() >= 0) read_curves(*block);
   if (diagnostics_.has_errors()) return;
+  // The study says none.
   if (plan_.duration == 0.) last_as_measured(study);
 }
 

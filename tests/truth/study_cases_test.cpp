@@ -102,13 +102,14 @@ std::string curve_table(double off = 1.) {
     for (int i = 1; i < one.samples; ++i) {
       const double t = 0.01 * i;
       const double z = one.height + one.speed * t - 0.5 * gravity * t * t;
-      // exp(tilt x) exp(spin t z)
-      const double c = cos(0.5 * tilt), s = sin(0.5 * tilt);
+      // exp(tilt n) exp(spin t z), n = (1, 2, 2)/3
+      const double c = cos(0.5 * tilt), s = sin(0.5 * tilt) / 3.;
       const double cz = cos(0.5 * one.spin * t), sz = sin(0.5 * one.spin * t);
       const double angle = first_angle + 0.5 * one.drive * t * t + (i % 2 ? 1 : -1) * off_angle;
       text += std::string(one.name) +
-              fields({10. * i, 200. * t + 3. * off, 4. * off, 1000. * z + 12. * off, c * cz, s * cz,
-                      -s * sz, c * sz, angle * 180. / M_PI,
+              fields({10. * i, 200. * t + 3. * off, 4. * off, 1000. * z + 12. * off,
+                      c * cz - 2. * s * sz, s * cz + 2. * s * sz, 2. * s * cz - s * sz,
+                      c * sz + 2. * s * cz, angle * 180. / M_PI,
                       one.drive + off_torque * i / (one.samples - 1)});
     }
   }
