@@ -141,7 +141,9 @@ ClassSchema study_class() {
                "the body that metrics of motion look at: a robot, which stands for its base, or a "
                "link; default: the base of the first mobile robot, or else the end of the first "
                "chain"),
-       required(positive(number("duration", "s", "simulated time of every run"))),
+       positive(number("duration", "s",
+                       "simulated time of every run; default, with Cases that have Traces: each "
+                       "up to its last sample")),
        with_default(
            at_least_zero(number("settle", "s", "time from which metrics look: the start may ring")),
            "0"),
@@ -157,7 +159,7 @@ ClassSchema study_class() {
        boolean("expects", true,
                "whether the Expects of the scene are measured and judged too, where the study runs "
                "as long as the scene")},
-      {"Subject", "Sweep", "Measure", "Truth", "Plot", "Table", "Claim", "Fix"});
+      {"Subject", "Sweep", "Cases", "Measure", "Truth", "Plot", "Table", "Claim", "Fix"});
   study.top_level = true;
   return study;
 }
@@ -217,9 +219,12 @@ ClassSchema measure_class() {
   return named(
       "Measure",
       "A metric to measure: by its name one that there is, or one of your own, `of` what ports "
-      "say.",
+      "say, or of the distance from a `trace`.",
       {words("over", 1, "of `anisotropy`: the Sweep of directions; default azimuth"),
        formula("of", "a port or an expression of ports, of every step"),
+       words("trace", 1,
+             "in the place of `of`: a Trace of the study's Cases; the distance of its port from "
+             "what was measured, at every sample"),
        choice("take", simulation::reduction_names(), "last",
               "what becomes of its values; the manual defines each"),
        at_least_zero(number("from", "s", "values before do not count; default: settle")),
@@ -363,7 +368,12 @@ ClassSchema calibrate_class() {
   return calibrate;
 }
 
+/// A Calibrate adds its traces up, each by its weight; Cases may be of a Study, which does not.
 ClassSchema measured_trace_class(std::string within) {
+  FieldSchema weight = number("weight", "?",
+                              "1 over what one takes for its error: 1 / (0.5 mm); of an "
+                              "orientation 1 / (1 deg); a Calibrate needs it");
+  weight.required = within == "Calibrate";
   ClassSchema trace = named(
       "Trace", "A curve that was measured: columns of a table over time.",
       {required(text("file", "the table, comma-separated, with titles like `z [m]`")),
@@ -374,9 +384,7 @@ ClassSchema measured_trace_class(std::string within) {
        required(words("of", 1,
                       "trail of the port that was measured; of a vector or an orientation without "
                       "its parts")),
-       required(number("weight", "?",
-                       "1 over what one takes for its error: 1 / (0.5 mm); of an orientation "
-                       "1 / (1 deg)"))},
+       std::move(weight)},
       {"Fix"});
   trace.only_in = std::move(within);
   return trace;
@@ -386,11 +394,14 @@ ClassSchema cases_class() {
   return named(
       "Cases",
       "Runs that were measured, from tables: a row a case, whose columns set the Params that are "
-      "called like them, and curves of many cases in the tables of its Traces.",
+      "called like them, and curves of many cases in the tables of its Traces. Of a Study it is "
+      "an axis, as a Sweep is.",
       {required(text("file", "the table of the cases, comma-separated, with titles like `z [m]`")),
        required(words("case", 1,
                       "title of the column that says which case a row is of, here and in the "
-                      "Traces' tables"))},
+                      "Traces' tables")),
+       or_words(
+           values("quick_values", "of a Study, the cases under --quick; default: first and last"))},
       {"Trace", "Only"});
 }
 

@@ -18,7 +18,7 @@
 #include "studies/calibrate/outputs.h"
 #include "studies/calibrate/resampling.h"
 #include "studies/calibrate/response_surface.h"
-#include "studies/calibrate/trace_residual.h"
+#include "studies/measurements/trace_residual.h"
 #include "studies/tune/guess.h"
 #include "studies/tune/optimiser.h"
 #include "studies/workers.h"
@@ -169,7 +169,7 @@ class SubjectFit {
     for (const std::size_t one : cases) {
       const std::size_t size = plan_.cases[one].residuals();
       const double error =
-          mean_distance(plan_.cases[one], std::span(residuals).subspan(first, size));
+          mean_distance(plan_.cases[one].traces, std::span(residuals).subspan(first, size));
       first += size;
       if (!std::isnan(error)) each.push_back(error);
     }
@@ -496,7 +496,7 @@ class SubjectFit {
       std::string why;
       const auto residuals = model_.residuals(constants, std::span(&one, 1), &why);
       if (!residuals) return look_without_value(why);
-      outcome.cases.push_back(mean_distance(plan_.cases[one], *residuals));
+      outcome.cases.push_back(mean_distance(plan_.cases[one].traces, *residuals));
     }
     outcome.error = mean_of(outcome.cases);
     return outcome;

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "output/figures/plot.h"
-#include "studies/calibrate/trace_residual.h"
+#include "studies/measurements/trace_residual.h"
 
 namespace hookpoint::studies {
 namespace {

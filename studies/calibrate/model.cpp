@@ -2,66 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <cstdint>
 #include <utility>
 
 #include "simulation/run/world.h"
-#include "studies/calibrate/trace_residual.h"
+#include "studies/measurements/sampled_port.h"
 
 namespace hookpoint::studies {
-namespace {
-
-/// One trace's port, read at the times of its samples while the run goes by.
-class SampledPort {
- public:
-  SampledPort(const TracePlan& trace, const simulation::Experiment& experiment,
-              const std::vector<simulation::Port>& ports)
-      : trace_(trace),
-        value_(trace.parts.size()),
-        last_(trace.parts.size()),
-        model_(trace.parts.size()),
-        residuals_(trace.residuals()) {
-    for (const std::string& part : trace.parts)
-      parts_.push_back(simulation::find_port(experiment, ports, part).value);
-  }
-
-  /// Times are multiples of the step, rounded: a sample at a step is of that step.
-  void observe(double time, double step) {
-    for (std::size_t i = 0; i < parts_.size(); ++i) value_[i] = *parts_[i] * trace_.unit_of_port;
-    if (trace_.is_orientation()) stay_on_one_side();
-    const std::vector<double>& times = trace_.measured.time;
-    for (; next_ < times.size() && times[next_] <= time + 1e-9 * step; ++next_) {
-      const double part = time > time_ ? std::min((times[next_] - time_) / (time - time_), 1.) : 1.;
-      for (std::size_t i = 0; i < value_.size(); ++i)
-        model_[i] = last_[i] + part * (value_[i] - last_[i]);
-      set_residuals(trace_, next_, model_, residuals_);
-    }
-    time_ = time;
-    last_ = value_;
-  }
-  bool complete() const { return next_ == trace_.measured.time.size(); }
-  const Residuals& residuals() const { return residuals_; }
-
- private:
-  /// q and -q are one orientation, and an engine may go over from one to the other.
-  void stay_on_one_side() {
-    double side = 0.;
-    for (std::size_t i = 0; i < value_.size(); ++i) side += value_[i] * last_[i];
-    if (side < 0.)
-      for (double& part : value_) part = -part;
-  }
-
-  const TracePlan& trace_;
-  std::vector<const double*> parts_;
-  std::vector<double> value_, last_, model_;  ///< in SI, one a part
-  double time_ = 0.;
-  std::size_t next_ = 0;
-  Residuals residuals_;
-};
-
-}  // namespace
-
 std::vector<ConstantSetting> CalibrationModel::settings_at(const Shares& place) const {
   std::vector<ConstantSetting> settings;
   for (std::size_t i = 0; i < place.size(); ++i) {

@@ -10,7 +10,7 @@
 #include "output/file.h"
 #include "output/text/number.h"
 #include "studies/calibrate/figures.h"
-#include "studies/calibrate/trace_residual.h"
+#include "studies/measurements/trace_residual.h"
 #include "studies/run/results_csv.h"
 #include "studies/tune/material_text.h"
 

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <map>
 #include <set>
 
 #include "contact/force_law.h"
@@ -15,8 +13,8 @@
 #include "simulation/material_fields.h"
 #include "simulation/run/world.h"
 #include "simulation/wiring/ports.h"
-#include "studies/calibrate/case_table.h"
 #include "studies/calibrate/subject_name.h"
+#include "studies/measurements/trace_blocks.h"
 #include "studies/plan/plan_parts.h"
 
 namespace hookpoint::studies {
@@ -144,103 +142,6 @@ void choose_constants(CalibrationSubject& subject, const std::vector<VariedConst
   }
 }
 
-std::string unit_words(const std::string& unit) { return unit.empty() ? "no unit" : unit; }
-
-/// A Trace's file, ports and weight against one another.
-class TraceReader {
- public:
-  TraceReader(const PlanSource& from, const simulation::Experiment& experiment,
-              const std::vector<simulation::Port>& ports)
-      : from_(from), experiment_(experiment), ports_(ports) {}
-
-  /// By what the case's column calls each; without one the single trace is called "".
-  std::optional<std::map<std::string, TracePlan>> read(const Object& block,
-                                                       const std::string& case_column) const {
-    TracePlan trace;
-    trace.name = block.name;
-    trace.file = from_.find(block, "file");
-    const language::Field& column = *block.find("column");
-    if (trace.file.empty() || !find_ports(block, column.words.size(), trace)) return std::nullopt;
-    trace.column = column.words.front();
-    TraceRequest request{
-        trace.file,
-        column.words,
-        block.given("time") ? block.word("time") : "",
-        case_column,
-        block.find("file")->position,
-        column.position,
-        block.given("time") ? block.find("time")->position : block.find("file")->position};
-    auto measured = read_traces(request, from_.diagnostics);
-    if (!measured || !units_agree(block, measured->begin()->second.unit, trace))
-      return std::nullopt;
-    trace.weight = block.number("weight");
-    if (!(trace.weight > 0.)) {
-      from_.error(block.find("weight")->position, "a weight is greater than 0");
-      return std::nullopt;
-    }
-    std::map<std::string, TracePlan> traces;
-    for (auto& [name, one] : *measured) {
-      traces[name] = trace;
-      traces[name].measured = std::move(one);
-    }
-    return traces;
-  }
-
- private:
-  /// One column is held against a port, three against a vector's parts, four against an
-  /// orientation's.
-  bool find_ports(const Object& block, std::size_t columns, TracePlan& trace) const {
-    static const std::map<std::size_t, std::vector<std::string>> suffixes{
-        {1, {""}}, {3, {".x", ".y", ".z"}}, {4, {".w", ".x", ".y", ".z"}}};
-    const auto suffix = suffixes.find(columns);
-    if (suffix == suffixes.end()) {
-      from_.error(block.find("column")->position,
-                  "a Trace has one column, the three of a vector, or the four of an orientation");
-      return false;
-    }
-    try {
-      for (const std::string& part : suffix->second) {
-        const simulation::Port port =
-            simulation::find_port(experiment_, ports_, block.word("of") + part);
-        trace.parts.push_back(port.trail);
-        trace.port_unit = port.unit;
-      }
-      const std::string& first = trace.parts.front();
-      trace.port = first.substr(0, first.size() - suffix->second.front().size());
-      return true;
-    } catch (const simulation::ExperimentError& error) {
-      from_.error(block.find("of")->position, error.what());
-      return false;
-    }
-  }
-
-  bool units_agree(const Object& block, const language::Unit& measured, TracePlan& trace) const {
-    const language::Unit port = language::parse_unit(trace.port_unit).value_or(language::Unit{});
-    trace.unit_of_port = port.numerator / port.denominator;
-    if (measured.dimension != port.dimension) {
-      from_.error(block.find("column")->position,
-                  fmt::format("the column `{}` of {} is in {}, {} in {}", trace.column,
-                              trace.file.string(), language::describe_dimension(measured.dimension),
-                              trace.port, unit_words(trace.port_unit)));
-      return false;
-    }
-    const language::Dimension radians{0, 0, 0, 1};
-    const language::Dimension& of = trace.is_orientation() ? radians : port.dimension;
-    const language::Dimension inverse{-of.mass, -of.length, -of.time, -of.angle};
-    const language::Field& weight = *block.find("weight");
-    if (language::fits(weight.dimension, inverse)) return true;
-    from_.error(weight.position,
-                fmt::format("a weight is 1 over what one takes for an error, so in {}, not {}",
-                            language::describe_dimension(inverse),
-                            language::describe_dimension(weight.dimension)));
-    return false;
-  }
-
-  const PlanSource& from_;
-  const simulation::Experiment& experiment_;
-  const std::vector<simulation::Port>& ports_;
-};
-
 bool same_settings(const std::vector<ConstantSetting>& one,
                    const std::vector<ConstantSetting>& other) {
   return std::ranges::equal(one, other, [](const auto& a, const auto& b) {
@@ -284,41 +185,45 @@ void add_traces(const PlanSource& from, CalibrationPlan& plan, const TuneScene& 
   }
 }
 
+/// Names of the Params that a table's columns may set.
+std::vector<std::string> parameters_of(const TuneScene& scene) {
+  std::vector<std::string> names = scene.names();
+  std::erase_if(names, [&](const std::string& name) {
+    const auto place = scene.place_of(name);
+    return place != ConstantPlace::scene_parameter && place != ConstantPlace::terrain_parameter;
+  });
+  return names;
+}
+
 /// The cases of a Cases block: each row of its table that its Only blocks admit, set as its columns
 /// say, with the part of each Trace that is of it.
 void add_case_table(const PlanSource& from, CalibrationPlan& plan, const TuneScene& scene,
                     const TraceReader& reader, const Object& block) {
   const std::filesystem::path file = from.find(block, "file");
   if (file.empty()) return;
-  const auto rows = read_cases(block, file, scene, from.diagnostics);
+  const auto rows = read_cases(block, file, parameters_of(scene), from.diagnostics);
   if (!rows) return;
   plan.case_tables.push_back(file);
   for (const VariedConstant& constant : plan.varied)
     if (std::ranges::find(rows->parameters, constant.name) != rows->parameters.end())
       from.error(block.position, fmt::format("`{}` is varied: {} cannot set it as well",
                                              constant.name, file.string()));
-  std::vector<CalibrationCase> cases;
-  for (const CaseRow& row : rows->cases)
-    cases.push_back({block.name + "_" + row.name, row.settings, {}});
   if (block.children_of("Trace").empty())
     from.error(block.position, "Cases need a Trace: nothing was measured");
-  for (const Object* trace : block.children_of("Trace")) {
-    if (!trace->children_of("Fix").empty())
-      from.error(trace->position, "what the cases of a table are set to stands in the table");
-    auto traces = reader.read(*trace, block.word("case"));
-    if (!traces) continue;
-    for (std::size_t i = 0; i < cases.size(); ++i) {
-      const auto measured = traces->find(rows->cases[i].name);
-      if (measured == traces->end()) {
-        from.error(trace->find("file")->position,
-                   fmt::format("no row is of {} {}", block.word("case"), rows->cases[i].name));
-        break;
-      }
-      measured->second.name = cases[i].name + "_" + trace->name;
-      cases[i].traces.push_back(std::move(measured->second));
-    }
+  for (const Object* trace : block.children_of("Trace"))
+    if (!trace->given("weight"))
+      from.error(trace->position, "a Calibrate needs the `weight` of a Trace: it adds them up");
+  auto traces = reader.read_cases(block, rows->cases);
+  if (!traces) return;
+  for (std::size_t i = 0; i < rows->cases.size(); ++i) {
+    const CaseRow& row = rows->cases[i];
+    CalibrationCase& one =
+        plan.cases.emplace_back(CalibrationCase{block.name + "_" + row.name, {}, {}});
+    for (const Assignment& set : row.settings)
+      one.settings.push_back({*scene.place_of(set.parameter), set.parameter, set.text});
+    one.traces = std::move((*traces)[i]);
+    for (TracePlan& trace : one.traces) trace.name = one.name + "_" + trace.name;
   }
-  std::ranges::move(cases, std::back_inserter(plan.cases));
 }
 
 void set_work(CalibrationPlan& plan, const Object& calibrate, bool quick) {
@@ -424,7 +329,19 @@ bool read_traces(const PlanSource& from, CalibrationPlan& plan, const TuneScene&
   try {
     simulation::World world(own->experiment, engine->second.make(own->experiment));
     const std::vector<simulation::Port> ports = world.ports();
-    const TraceReader reader(from, own->experiment, ports);
+    const auto port = [&](const std::string& trail, std::string& why) -> std::optional<TracePort> {
+      try {
+        const simulation::Port found = simulation::find_port(own->experiment, ports, trail);
+        return TracePort{found.trail, found.unit};
+      } catch (const simulation::ExperimentError& error) {
+        why = error.what();
+        return std::nullopt;
+      }
+    };
+    const TraceSource source{
+        [&](const Object& block, const char* field) { return from.find(block, field); }, port,
+        from.diagnostics};
+    const TraceReader reader(source);
     add_traces(from, plan, scene, reader);
     for (const Object* block : from.calibrate.children_of("Cases"))
       add_case_table(from, plan, scene, reader, *block);

@@ -1,6 +1,8 @@
 #include "studies/cluster/run_list.h"
 
 #include <charconv>
+#include <map>
+#include <memory>
 #include <string_view>
 #include <utility>
 
@@ -13,7 +15,7 @@
 namespace hookpoint::studies {
 namespace {
 
-constexpr std::string_view runs_key = "runs[";
+constexpr std::string_view runs_key = "runs[", measured_key = "measured[";
 
 void write_pair(output::JsonWriter& json, const std::string& name, const std::string& value) {
   json.begin_array().value(name).value(value).end_array();
@@ -30,6 +32,7 @@ void write_parameters(output::JsonWriter& json, const char* key,
 enum OwnPart {
   own_name,
   own_expectation,
+  own_trace,
   own_scale,
   own_formula,
   own_take,
@@ -46,7 +49,7 @@ std::string optional_text(const std::optional<double>& value) {
 
 void write_own(output::JsonWriter& json, const UserMetric& metric) {
   const simulation::ReductionSpec& spec = metric.reduction;
-  json.begin_array().value(metric.name).value(metric.expectation);
+  json.begin_array().value(metric.name).value(metric.expectation).value(metric.trace);
   json.value(output::shortest(metric.scale)).value(metric.of == nullptr ? "" : metric.of->text);
   json.value(simulation::reduction_names()[static_cast<std::size_t>(spec.take)]);
   json.value(output::shortest(spec.from)).value(optional_text(spec.to));
@@ -55,7 +58,43 @@ void write_own(output::JsonWriter& json, const UserMetric& metric) {
   json.end_array();
 }
 
-void write_run(output::JsonWriter& json, const RunRequest& run) {
+/// What was measured, each curve once: many runs are held against the same.
+class WrittenTraces {
+ public:
+  explicit WrittenTraces(const RunList& list) {
+    for (const RunRequest& run : list.runs)
+      for (const auto& [name, trace] : run.measurement.traces)
+        if (numbers_.try_emplace(trace.get(), traces_.size()).second)
+          traces_.push_back(trace.get());
+  }
+  void write(output::JsonWriter& json) const {
+    json.key("measured").begin_array();
+    for (const TracePlan* trace : traces_) {
+      json.begin_object().member("unit_of_port", trace->unit_of_port);
+      json.member("weight", trace->weight).key("parts").begin_array();
+      for (const std::string& part : trace->parts) json.value(part);
+      json.end_array();
+      write_numbers(json, "time", trace->measured.time);
+      write_numbers(json, "value", trace->measured.value);
+      json.end_object();
+    }
+    json.end_array();
+  }
+  std::size_t number_of(const TracePlan& trace) const { return numbers_.at(&trace); }
+
+ private:
+  static void write_numbers(output::JsonWriter& json, const char* key,
+                            const std::vector<double>& numbers) {
+    json.key(key).begin_array();
+    for (const double number : numbers) json.value(number);
+    json.end_array();
+  }
+
+  std::vector<const TracePlan*> traces_;
+  std::map<const TracePlan*, std::size_t> numbers_;
+};
+
+void write_run(output::JsonWriter& json, const RunRequest& run, const WrittenTraces& traces) {
   json.begin_object().member("name", run.name).member("identity", run.identity);
   json.member("scene", std::filesystem::absolute(run.scene.file).string());
   write_parameters(json, "parameters", run.scene.options.parameters);
@@ -75,16 +114,59 @@ void write_run(output::JsonWriter& json, const RunRequest& run) {
   json.end_array().key("own").begin_array();
   for (const MetricDefinition* metric : run.measurement.metrics)
     if (metric->user != nullptr) write_own(json, *metric->user);
+  json.end_array().key("traces").begin_array();
+  for (const auto& [name, trace] : run.measurement.traces)
+    write_pair(json, name, std::to_string(traces.number_of(*trace)));
   json.end_array().key("signals").begin_array();
   for (const RecordedSignal& recorded : run.measurement.signals)
     write_pair(json, std::string(recorded.signal->name), recorded.logarithmic ? "log" : "linear");
   json.end_array().member("path", run.measurement.path).end_object();
 }
 
+bool read_number(const std::string& text, double& number) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc{} && end == text.data() + text.size();
+}
+
+/// Reads the leaves of what was measured as they come: "measured[2].time[7]".
+class TraceListReader {
+ public:
+  bool read(std::string_view key, const std::string& value) {
+    const std::size_t dot = key.find('.');
+    if (dot == std::string_view::npos) return false;
+    if (place_ != key.substr(0, dot)) {
+      place_ = key.substr(0, dot);
+      traces_.push_back(std::make_shared<TracePlan>());
+    }
+    TracePlan& trace = *traces_.back();
+    const std::string_view field = key.substr(dot + 1);
+    const std::string_view kind = field.substr(0, field.find('['));
+    if (kind == "unit_of_port") return read_number(value, trace.unit_of_port);
+    if (kind == "weight") return read_number(value, trace.weight);
+    if (kind == "time") return read_number(value, trace.measured.time.emplace_back());
+    if (kind == "value") return read_number(value, trace.measured.value.emplace_back());
+    if (kind != "parts") return false;
+    trace.parts.push_back(value);
+    trace.measured.width = trace.parts.size();
+    return true;
+  }
+  /// The curve of that number; null where there is none, or not as many samples as times.
+  std::shared_ptr<const TracePlan> trace(std::size_t number) const {
+    if (number >= traces_.size()) return nullptr;
+    const auto& found = traces_[number];
+    const MeasuredTrace& measured = found->measured;
+    return measured.value.size() == measured.time.size() * found->parts.size() ? found : nullptr;
+  }
+
+ private:
+  std::string place_;
+  std::vector<std::shared_ptr<TracePlan>> traces_;
+};
+
 /// Reads the leaves of one run as they come.
 class RunReader {
  public:
-  explicit RunReader(RunRequest& run) : run_(run) {}
+  RunReader(RunRequest& run, const TraceListReader& traces) : run_(run), traces_(traces) {}
 
   /// `key` from the run on: "overrides[2][0]". False for what no run has.
   bool read(std::string_view key, const std::string& value) {
@@ -107,13 +189,15 @@ class RunReader {
     else if (kind == "body")
       run_.measurement.body = value;
     else if (kind == "settle")
-      return read_time(value, run_.measurement.settle);
+      return read_number(value, run_.measurement.settle);
     else if (kind == "duration")
-      return read_time(value, run_.measurement.duration);
+      return read_number(value, run_.measurement.duration);
     else if (kind == "metrics")
       return read_metric(value);
     else if (kind == "own")
       return read_own(key, value);
+    else if (kind == "traces")
+      return read_trace(second, value);
     else if (kind == "signals")
       return read_signal(second, value);
     else if (kind == "path")
@@ -138,24 +222,27 @@ class RunReader {
     return true;
   }
   static bool read_optional(const std::string& text, std::optional<double>& number) {
-    return text.empty() || read_time(text, number.emplace());
+    return text.empty() || read_number(text, number.emplace());
   }
   bool add_own(const std::vector<std::string>& parts) {
     if (parts.size() < own_trails) return false;
     UserMetric metric;
     metric.name = parts[own_name];
     metric.expectation = parts[own_expectation];
+    metric.trace = parts[own_trace];
     metric.trails.assign(parts.begin() + own_trails, parts.end());
     const auto take = simulation::find_reduction(parts[own_take]);
     if (!take) return false;
     metric.reduction.take = *take;
-    const bool numbers = read_time(parts[own_scale], metric.scale) &&
-                         read_time(parts[own_from], metric.reduction.from) &&
+    const bool numbers = read_number(parts[own_scale], metric.scale) &&
+                         read_number(parts[own_from], metric.reduction.from) &&
                          read_optional(parts[own_to], metric.reduction.to) &&
                          read_optional(parts[own_level], metric.reduction.level) &&
                          read_optional(parts[own_band], metric.reduction.band);
     if (!numbers) return false;
-    if (metric.expectation.empty()) {
+    if (!metric.trace.empty()) {
+      if (!run_.measurement.traces.contains(metric.trace)) return false;
+    } else if (metric.expectation.empty()) {
       auto formula = language::read_formula(parts[own_formula]);
       if (!formula || formula->names.size() != metric.trails.size()) return false;
       metric.of = std::make_shared<const language::Formula>(std::move(*formula));
@@ -182,9 +269,17 @@ class RunReader {
       overrides.back().value = value;
     return true;
   }
-  static bool read_time(const std::string& text, double& time) {
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), time);
-    return error == std::errc{} && end == text.data() + text.size();
+  bool read_trace(bool second, const std::string& value) {
+    if (!second) {
+      trace_ = value;
+      return true;
+    }
+    std::size_t number = 0;
+    const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
+    if (error != std::errc{} || end != value.data() + value.size()) return false;
+    auto& trace = run_.measurement.traces[trace_];
+    trace = traces_.trace(number);
+    return trace != nullptr;
   }
   bool read_metric(const std::string& name) {
     run_.measurement.metrics.push_back(find_metric(name));
@@ -200,7 +295,8 @@ class RunReader {
   }
 
   RunRequest& run_;
-  std::string parameter_;
+  const TraceListReader& traces_;
+  std::string parameter_, trace_;
   std::vector<std::vector<std::string>> own_;
 };
 
@@ -208,8 +304,11 @@ class RunReader {
 
 std::string run_list_text(const RunList& list) {
   output::JsonWriter json;
-  json.begin_object().member("allow_plugins", list.allow_plugins).key("runs").begin_array();
-  for (const RunRequest& run : list.runs) write_run(json, run);
+  const WrittenTraces traces(list);
+  json.begin_object().member("allow_plugins", list.allow_plugins);
+  traces.write(json);
+  json.key("runs").begin_array();
+  for (const RunRequest& run : list.runs) write_run(json, run, traces);
   json.end_array().end_object();
   return json.text();
 }
@@ -224,10 +323,15 @@ RunList read_run_list(const std::filesystem::path& file) {
   if (!leaves) refuse("it is not JSON");
   RunList list;
   std::string place;
+  TraceListReader traces;
   std::unique_ptr<RunReader> reader;
   for (const auto& [key, value] : *leaves) {
     if (key == "allow_plugins") {
       list.allow_plugins = value == "true";
+      continue;
+    }
+    if (key.starts_with(measured_key)) {
+      if (!traces.read(key, value)) refuse("`" + key + "` is " + value);
       continue;
     }
     const std::size_t dot = key.find('.');
@@ -235,7 +339,7 @@ RunList read_run_list(const std::filesystem::path& file) {
     if (place != key.substr(0, dot)) {
       if (reader && !reader->finish()) refuse("a metric of " + list.runs.back().name);
       place = key.substr(0, dot);
-      reader = std::make_unique<RunReader>(list.runs.emplace_back());
+      reader = std::make_unique<RunReader>(list.runs.emplace_back(), traces);
     }
     if (!reader->read(std::string_view(key).substr(dot + 1), value))
       refuse("`" + key + "` is " + value);

@@ -10,6 +10,8 @@
 #include "output/text/hash.h"
 #include "output/text/number.h"
 #include "simulation/run/expectation.h"
+#include "studies/measurements/sampled_port.h"
+#include "studies/measurements/trace_residual.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -68,6 +70,45 @@ class MeasuredFormula : public Metric {
   std::optional<double> lost_;  ///< when the formula had no value [s]
 };
 
+/// Of the distance from what was measured, reduced over the samples.
+class MeasuredDistance : public Metric {
+ public:
+  MeasuredDistance(const UserMetric& metric, const TracePlan& trace,
+                   const simulation::Experiment& experiment,
+                   const std::vector<simulation::Port>& ports)
+      : metric_(metric),
+        trace_(trace),
+        port_(trace, experiment, ports),
+        deltat_(experiment.deltat),
+        reducer_(metric.reduction) {}
+  void observe(const Observation& observation) override {
+    std::size_t sample = port_.samples();
+    port_.observe(observation.world.time, deltat_);
+    for (; sample < port_.samples(); ++sample)
+      reducer_.observe(trace_.measured.time[sample], distance(trace_, sample, port_.residuals()));
+  }
+  std::optional<double> value() const override {
+    const auto value = reducer_.value();
+    return value ? std::optional(metric_.in_unit(*value)) : std::nullopt;
+  }
+  std::string why_not() const override {
+    const auto& times = trace_.measured.time;
+    const auto end = times.begin() + static_cast<std::ptrdiff_t>(port_.samples());
+    const simulation::ReductionSpec& spec = metric_.reduction;
+    const bool looked_at = std::any_of(times.begin(), end, [&](double time) {
+      return time >= spec.from && (!spec.to || time <= *spec.to);
+    });
+    return looked_at ? "" : "no sample lies in the time that it looks at";
+  }
+
+ private:
+  const UserMetric& metric_;
+  const TracePlan& trace_;
+  SampledPort port_;
+  double deltat_;  ///< [s]
+  simulation::Reducer reducer_;
+};
+
 /// An Expect of the scene.
 class MeasuredExpect : public Metric {
  public:
@@ -92,7 +133,7 @@ std::string own_key(const UserMetric& metric) {
   constexpr std::size_t digits = 16;
   const simulation::ReductionSpec& spec = metric.reduction;
   output::Hash hash;
-  hash.add(metric.of->text);
+  hash.add(metric.of != nullptr ? metric.of->text : "trace " + metric.trace);
   for (const std::string& trail : metric.trails) hash.add(trail);
   hash.add(fmt::format("{} {} {} {} {} {}", static_cast<int>(spec.take),
                        output::shortest(spec.from), spec_text(spec.to), spec_text(spec.level),
@@ -109,7 +150,8 @@ void complete(UserMetric& metric) {
 }
 
 std::unique_ptr<Metric> make_user_metric(const UserMetric& metric, const RunContext& context,
-                                         const std::vector<simulation::Port>& ports) {
+                                         const std::vector<simulation::Port>& ports,
+                                         const MeasuredTraces& traces) {
   const simulation::Experiment& experiment = *context.experiment;
   try {
     if (!metric.expectation.empty()) {
@@ -118,6 +160,9 @@ std::unique_ptr<Metric> make_user_metric(const UserMetric& metric, const RunCont
       return std::make_unique<MeasuredExpect>(
           *spec, simulation::find_port(experiment, ports, spec->trail).value);
     }
+    if (!metric.trace.empty())
+      return std::make_unique<MeasuredDistance>(metric, *traces.at(metric.trace), experiment,
+                                                ports);
     std::vector<const double*> sources;
     for (const std::string& trail : metric.trails)
       sources.push_back(simulation::find_port(experiment, ports, trail).value);

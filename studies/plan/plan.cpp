@@ -20,6 +20,7 @@
 #include "studies/plan/row_forms.h"
 #include "studies/plan/scene_settings.h"
 #include "studies/plan/step_warning.h"
+#include "studies/plan/told_elsewhere.h"
 #include "studies/workers.h"
 
 namespace hookpoint::studies {
@@ -34,6 +35,11 @@ bool Condition::holds(double value) const {
   if (values.empty()) return true;
   return std::any_of(values.begin(), values.end(),
                      [&](double allowed) { return std::abs(allowed - value) <= slack; });
+}
+
+bool SweepPlan::assigns(const std::string& parameter) const {
+  return !settings.empty() && std::ranges::find(settings.front(), parameter,
+                                                &Assignment::parameter) != settings.front().end();
 }
 
 bool StudyPlan::covers(const std::vector<Condition>& conditions, const RowPlan& row) const {
@@ -127,6 +133,9 @@ RowScene StudyPlan::scene_of(const RowPlan& row) const {
     const std::string& text = sweep.texts[static_cast<std::size_t>(row.values[i])];
     if (sweep.role == SweepRole::parameter || sweep.role == SweepRole::seeds)
       parameters.give(name, text);
+    if (sweep.role == SweepRole::cases)
+      for (const Assignment& set : sweep.settings[static_cast<std::size_t>(row.values[i])])
+        parameters.give(set.parameter, set.text);
     if (sweep.role == SweepRole::seeds)
       scene.options.overrides.push_back({scene.timed_world + "." + name, text});
   }
@@ -144,6 +153,46 @@ RowScene StudyPlan::scene_of(const RowPlan& row) const {
 int StudyPlan::seed_sweep() const {
   const bool seeds = !sweeps.empty() && sweeps.back().role == SweepRole::seeds;
   return seeds ? static_cast<int>(sweeps.size()) - 1 : -1;
+}
+
+language::Position StudyPlan::place_in_study(const language::Position& position, const RowPlan& row,
+                                             const std::string& world) const {
+  if (position.file == nullptr) return position;
+  const auto is_of = [&](const std::string& trail) {
+    return position.file->path == "<--set " + trail + ">";
+  };
+  for (std::size_t i = 0; i < sweeps.size(); ++i) {
+    const auto value = static_cast<std::size_t>(row.values[i]);
+    const SweepPlan& sweep = sweeps[i];
+    const std::string prefix = sweep.role == SweepRole::world_field ? world + "." : "";
+    const bool given =
+        sweep.role == SweepRole::cases
+            ? std::ranges::any_of(sweep.settings[value], is_of, &Assignment::parameter)
+            : is_of(prefix + sweep.column.name);
+    if (given) return sweep.places[value];
+  }
+  return position;
+}
+
+std::shared_ptr<const TracePlan> StudyPlan::measured_in(const RowPlan& row,
+                                                        const std::string& trace) const {
+  const auto found = std::ranges::find(curves, trace, &MeasuredCurves::name);
+  const auto one = row.values[static_cast<std::size_t>(case_sweep())];
+  return found->cases[static_cast<std::size_t>(one)];
+}
+
+int StudyPlan::case_sweep() const {
+  const auto found = std::ranges::find(sweeps, SweepRole::cases, &SweepPlan::role);
+  return found == sweeps.end() ? -1 : static_cast<int>(found - sweeps.begin());
+}
+
+double StudyPlan::duration_of(const RowPlan& row, double deltat) const {
+  const int sweep = case_sweep();
+  if (sweep < 0 || sweeps[static_cast<std::size_t>(sweep)].durations.empty()) return duration;
+  const auto index = static_cast<std::size_t>(sweep);
+  const double last = sweeps[index].durations[static_cast<std::size_t>(row.values[index])];
+  // Times are multiples of the step, rounded: a sample at a step is of that step.
+  return std::ceil(last / deltat - 1e-9) * deltat;
 }
 
 bool StudyPlan::varies(const std::string& world_field) const {
@@ -251,7 +300,7 @@ class SceneLoader {
     if (loaded.scene && plan.match) match(plan, row, loaded);
     if (loaded.scene) {
       simulation::Experiment& experiment = loaded.scene->experiment;
-      experiment.duration = plan.duration;
+      experiment.duration = plan.duration_of(row, experiment.deltat);
       loaded.no_body = why_not_measured(experiment, plan.body);
       if (!stepped_.contains(step_of(subject, experiment)))
         loaded.warning = step_warning(experiment);
@@ -267,7 +316,7 @@ class SceneLoader {
     loaded.scene = load_scene(library_, plan.scene_of(ours), untold);
     if (!loaded.scene) return loaded;
     loaded.refusal = first_error(loaded.found);
-    loaded.scene->experiment.duration = plan.duration;
+    loaded.scene->experiment.duration = plan.duration_of(row, loaded.scene->experiment.deltat);
     loaded.scene->experiment.engine = engine;
     loaded.scene->experiment.settings = plan.world_word(row, "settings");
     loaded.scene->printed += engine + loaded.refusal;
@@ -292,6 +341,7 @@ class SceneLoader {
     row.refusal = loaded.refusal;
     row.engine = loaded.scene->experiment.engine;
     row.deltat = loaded.scene->experiment.deltat;
+    row.duration = loaded.scene->experiment.duration;
     row.forms = loaded.forms;
     row.forms.resize(plan.user_metrics.size());
     if (loaded.warning) warn_of_step(plan, study, row, loaded.scene->experiment, *loaded.warning);
@@ -381,10 +431,15 @@ class SceneLoader {
 
   std::optional<std::string> problem_of(const language::Override& setting, const StudyPlan& plan,
                                         const SubjectPlan& subject) const {
-    for (const SweepPlan& sweep : plan.sweeps)
+    for (const SweepPlan& sweep : plan.sweeps) {
+      if (sweep.assigns(setting.trail))
+        return fmt::format("`{}` is set by the cases of {}: it cannot be set as well",
+                           setting.trail, sweep.column.name);
+      if (sweep.role == SweepRole::cases) continue;
       if (setting.trail == sweep.column.name ||
           (of_world(sweep) && setting.trail == world_ + "." + sweep.column.name))
         return fmt::format("`{}` is swept: it cannot be set as well", setting.trail);
+    }
     if (setting.trail == world_ + ".duration")
       return fmt::format("a run lasts as long as its study says: set `{}.duration`", plan.name);
     return setting_problem(setting, world_, subject);
@@ -444,31 +499,12 @@ class SceneLoader {
     return true;
   }
 
-  /// Where the study has what the diagnostic is about: what it sets in the scene has a place there.
-  language::Position place_in_study(const language::Position& position, const StudyPlan& plan,
-                                    const RowPlan& row) const {
-    if (position.file == nullptr) return position;
-    for (std::size_t i = 0; i < plan.sweeps.size(); ++i) {
-      const SweepPlan& sweep = plan.sweeps[i];
-      const std::string trail =
-          (sweep.role == SweepRole::world_field ? world_ + "." : "") + sweep.column.name;
-      if (position.file->path == "<--set " + trail + ">")
-        return sweep.places[static_cast<std::size_t>(row.values[i])];
-    }
-    return position;
-  }
-
   void forward(const Diagnostics& found, const StudyPlan& plan, const Object& study,
                const RowPlan& row) {
     for (const language::Diagnostic& diagnostic : found.all()) {
       if (!told_.insert(diagnostic.message).second) continue;
-      const language::Position position = place_in_study(diagnostic.position, plan, row);
-      if (diagnostic.severity == language::Severity::error)
-        diagnostics_.error(position, diagnostic.message);
-      else if (diagnostic.severity == language::Severity::warning)
-        diagnostics_.warning(position, diagnostic.message);
-      else
-        diagnostics_.note(position, diagnostic.message);
+      const language::Position position = plan.place_in_study(diagnostic.position, row, world_);
+      tell_at(position, diagnostic, diagnostics_);
       if (diagnostic.severity != language::Severity::note)
         diagnostics_.note(study.position, "in study " + study.name + " " + place_of(plan, row));
     }
@@ -577,7 +613,6 @@ bool plan_rows(const StudyPlan& plan, const PlanOptions& options, RowPlanner& pl
       RowPlan row;
       row.values = values;
       row.subject = static_cast<int>(i);
-      row.duration = plan.duration;
       if (!options.only.empty() && std::find(options.only.begin(), options.only.end(),
                                              subject.info.name) == options.only.end())
         continue;
@@ -626,20 +661,34 @@ void plan_body(StudyPlan& plan, const Object& study, Diagnostics& diagnostics) {
                       "`body` is the trail of a robot or of a body of one: arm.leg1.link2");
 }
 
+/// Whether each run is as long as its case was measured: then nothing is cut short under --quick.
+bool lasts_as_measured(const StudyPlan& plan, const Object& study) {
+  return !study.given("duration") && !(plan.quick && study.given("quick_duration"));
+}
+
 void plan_times(StudyPlan& plan, const Object& study, Diagnostics& diagnostics) {
   constexpr double quick_part = 0.2;
   const auto quick = [&](const char* field, double full) {
     return study.find(field) != nullptr ? study.number(field) : quick_part * full;
   };
-  plan.duration = study.number("duration");
+  const bool measured = lasts_as_measured(plan, study);
   plan.settle = study.number("settle");
-  if (plan.quick) {
-    plan.duration = quick("quick_duration", plan.duration);
+  if (plan.quick && (!measured || study.given("quick_settle")))
     plan.settle = quick("quick_settle", plan.settle);
-  }
+  if (measured) return;
+  if (study.given("duration")) plan.duration = study.number("duration");
+  if (plan.quick) plan.duration = quick("quick_duration", plan.duration);
   if (plan.settle >= plan.duration)
-    diagnostics.error(study.find("duration")->position,
+    diagnostics.error(study.find(study.given("duration") ? "duration" : "quick_duration")->position,
                       "duration must be longer than settle: nothing would be measured");
+}
+
+/// Adds all that was measured to what the study's hash is of, and the files to what it read.
+void add_measured(const StudyPlan& plan, output::Hash& hash, std::set<std::string>& inputs) {
+  for (const std::filesystem::path& file : plan.measured_files)
+    inputs.insert(std::filesystem::absolute(file).lexically_normal().string());
+  for (const MeasuredCurves& curves : plan.curves)
+    for (const auto& one : curves.cases) hash.add(trace_hash(*one));
 }
 
 }  // namespace
@@ -677,6 +726,7 @@ std::optional<StudyPlan> make_plan(const Object& root, const Object& study, cons
                        plan.duration));
   RowPlanner planner(plan, study, loader, options.jobs, hash);
   if (!plan_rows(plan, options, planner)) return std::nullopt;
+  add_measured(plan, hash, planner.inputs);
   plan.settable = loader.settable;
   plan.hash = hash.text();
   for (std::string& source : language::sources_of(root)) planner.inputs.insert(std::move(source));

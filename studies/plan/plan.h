@@ -15,7 +15,9 @@
 #include "output/result_folder.h"
 #include "simulation/analysis/matched_ground.h"
 #include "simulation/experiment.h"
+#include "studies/assignment.h"
 #include "studies/engine_table.h"
+#include "studies/measurements/trace_plan.h"
 #include "studies/metric.h"
 #include "studies/metrics/user_metric.h"
 #include "studies/plan/row_scene.h"
@@ -45,8 +47,9 @@ struct Condition {
 };
 
 /// What a Sweep sets: a Param, a field of the World, or the ground.
+/// `cases`: the Params that a Cases block's table has a column of.
 /// `seeds`: the seed of the World's random streams, and a Param `seed` of scene and ground.
-enum class SweepRole { parameter, world_field, ground, seeds };
+enum class SweepRole { parameter, world_field, ground, cases, seeds };
 
 /// A terrain's file, in the place of the scene's ground.
 struct SweptGround {
@@ -59,14 +62,21 @@ struct SweepPlan {
   std::vector<double> si;          ///< the same values in SI; of words 0, 1, 2 ...
   std::vector<std::string> texts;  ///< as the language writes them: "5 deg", "clay"
   SweepRole role = SweepRole::parameter;
-  std::vector<language::Position> places;  ///< where each value is written
-  std::vector<SweptGround> grounds;        ///< one a value of a ground
+  std::vector<language::Position> places;         ///< where each value is written
+  std::vector<SweptGround> grounds;               ///< one a value of a ground
+  std::vector<std::vector<Assignment>> settings;  ///< one list a case
+  /// Of cases of which each lasts up to its last sample: one a case [s]; else empty.
+  std::vector<double> durations;
+
+  /// Whether the table of cases sets the Param.
+  bool assigns(const std::string& parameter) const;
 };
 
-/// A Param and the text of its value.
-struct Assignment {
-  std::string parameter;
-  std::string text;
+/// A Trace of the study's Cases.
+struct MeasuredCurves {
+  std::string name;
+  std::vector<std::string> ports;  ///< trails as the study writes them, one a part
+  std::vector<std::shared_ptr<const TracePlan>> cases;  ///< weights are 1
 };
 
 struct SubjectPlan {
@@ -130,13 +140,16 @@ struct StudyPlan {
   std::string name, title, question, file;
   std::string body;    ///< trail of the body measured; "": the one that nobody asks for
   bool match = false;  ///< laws of our engine get hookpoint's ground
+  /// [s]; the duration is that of the longest case where each has its own.
   double settle = 0., duration = 0.;
   bool quick = false;
   std::vector<SweepPlan> sweeps;
   std::vector<SubjectPlan> subjects;
-  std::vector<Assignment> fixes;              ///< the study's own
-  std::vector<std::string> scene_parameters;  ///< Params of the scene's file
-  std::vector<SubjectInfo> compositions;      ///< engine, law, integrator, settings of rows
+  std::vector<Assignment> fixes;                      ///< the study's own
+  std::vector<std::string> scene_parameters;          ///< Params of the scene's file
+  std::vector<SubjectInfo> compositions;              ///< engine, law, integrator, settings of rows
+  std::vector<MeasuredCurves> curves;                 ///< of its Cases
+  std::vector<std::filesystem::path> measured_files;  ///< tables of these
   std::vector<const MetricDefinition*> metrics;
   std::vector<std::shared_ptr<const UserMetric>> user_metrics;  ///< of those
   std::vector<int> metric_sweeps;  ///< one a metric: index of the sweep that it is over, else -1
@@ -170,6 +183,17 @@ struct StudyPlan {
   std::string world_word(const RowPlan& row, const std::string& field) const;
   /// The sweep of `seeds`; -1 without.
   int seed_sweep() const;
+  /// The sweep of a Cases block; -1 without.
+  int case_sweep() const;
+  /// How long the row runs with steps of `deltat`, all in seconds: as long as the study says, or up
+  /// to the first step that its case's last sample is not after.
+  double duration_of(const RowPlan& row, double deltat) const;
+  /// What was measured in the row's case, of a Trace that there is.
+  std::shared_ptr<const TracePlan> measured_in(const RowPlan& row, const std::string& trace) const;
+  /// Where the study has what a diagnostic of the row's scene is about: what it sets in the scene
+  /// has a place there. `world`: trail of the scene's World. Other positions stay as they are.
+  language::Position place_in_study(const language::Position& position, const RowPlan& row,
+                                    const std::string& world) const;
   /// Whether the field is another from row to row of one subject.
   bool varies(const std::string& world_field) const;
   /// The same as `--set` takes it: "slope=5 deg", "world.engine=ode". Without the row's ground.

@@ -10,6 +10,7 @@
 
 #include "language/diagnostics.h"
 #include "language/tree/object.h"
+#include "studies/measurements/case_table.h"
 #include "studies/plan/plan.h"
 #include "studies/plan/plan_values.h"
 #include "studies/plan/scene_probe.h"
@@ -32,6 +33,10 @@ class PlanBuilder {
   void know(SceneNames* scene) { scene_ = scene; }
 
   void add_sweep(const language::Object& block);
+  /// Of what its table has: an axis of the study.
+  void add_cases(const language::Object& block);
+  /// What the Traces of its Cases have measured, and how long a study without a `duration` runs.
+  void add_curves(const language::Object& study);
   void add_subject(const language::Object& block);
   void add_metric(const language::Object& block);
   /// Those Expects of the scene that say something of a run as long as the study's.
@@ -60,6 +65,15 @@ class PlanBuilder {
   /// Whether the words are what a Subject may say there; else errors.
   bool may_say(const language::Object& block, const language::Field& words);
   void add_word_sweep(const language::Object& block, SweepRole role);
+  /// The file that the field names, kept among those that were measured; empty after an error.
+  std::filesystem::path measured_file(const language::Object& block, const char* field);
+  /// Leaves those of the cases that run under --quick.
+  void choose_quick_cases(const language::Object& block);
+  void read_curves(const language::Object& cases);
+  /// Each case lasts up to its last sample.
+  void last_as_measured(const language::Object& study);
+  /// Whether a Sweep or a table of cases sets the Param.
+  bool is_varied(const std::string& parameter) const;
   /// Whether no field of the block is swept; else an error.
   void check_not_swept(const language::Object& subject);
   /// The places of the words in the sweep.
@@ -84,6 +98,10 @@ class PlanBuilder {
       const language::Formula& formula, bool ports, std::vector<std::string>& trails);
   std::optional<language::FormulaUnit> formula_unit(const language::Formula& formula, bool ports,
                                                     std::vector<std::string>& trails);
+  /// Sets what the metric is of: ports, or a Trace of the Cases. Nothing after an error.
+  std::optional<language::FormulaUnit> set_source(UserMetric& metric,
+                                                  const language::Object& block);
+  std::optional<language::FormulaUnit> set_trace(UserMetric& metric, const language::Object& block);
   void check_fits(const language::Field& field, const std::optional<language::Dimension>& found,
                   const language::Dimension& wanted);
   simulation::ReductionSpec reduction_of(const language::Object& block);
@@ -116,6 +134,7 @@ class PlanBuilder {
   StudyPlan& plan_;
   std::vector<std::string> parameters_;  ///< of the scene and of its grounds
   std::vector<SweptGround> grounds_;
+  std::vector<CaseRow> cases_;  ///< of the Cases block that run
   const PlanOptions& options_;
   language::Diagnostics& diagnostics_;
   SceneNames* scene_ = nullptr;

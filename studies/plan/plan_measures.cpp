@@ -126,6 +126,18 @@ void PlanBuilder::set_unit(UserMetric& metric, const Object& block,
   metric.scale = unit->numerator / unit->denominator;
 }
 
+std::optional<language::FormulaUnit> PlanBuilder::set_source(UserMetric& metric,
+                                                             const Object& block) {
+  const std::string take = spoken(block.word("take"));
+  if (block.given("trace")) {
+    metric.doc = fmt::format("{} of the distance from the trace {}", take, block.word("trace"));
+    return set_trace(metric, block);
+  }
+  metric.of = block.find(of_formula)->formula;
+  metric.doc = fmt::format("{} of {}", take, metric.of->text);
+  return formula_unit(*metric.of, true, metric.trails);
+}
+
 void PlanBuilder::add_own_metric(const Object& block) {
   if (find_metric(block.name) != nullptr)
     return diagnostics_.error(
@@ -133,9 +145,7 @@ void PlanBuilder::add_own_metric(const Object& block) {
         fmt::format("`{}` is a metric that there is; give your own another name", block.name));
   UserMetric metric;
   metric.name = block.name;
-  metric.of = block.find(of_formula)->formula;
-  metric.doc = fmt::format("{} of {}", spoken(block.word("take")), metric.of->text);
-  const auto unit_of_ports = formula_unit(*metric.of, true, metric.trails);
+  const auto unit_of_ports = set_source(metric, block);
   // After an error the metric is kept all the same: what names it is not wrong.
   const language::FormulaUnit found = unit_of_ports.value_or(language::FormulaUnit{});
   metric.reduction = reduction_of(block);
@@ -162,7 +172,10 @@ void PlanBuilder::add_own_metric(const Object& block) {
 }
 
 void PlanBuilder::add_expectations() {
-  if (scene_->tree().children_of("Expect").empty()) return;
+  const int cases = plan_.case_sweep();
+  const bool differ =
+      cases >= 0 && !plan_.sweeps[static_cast<std::size_t>(cases)].durations.empty();
+  if (differ || scene_->tree().children_of("Expect").empty()) return;
   language::Diagnostics untold;
   const auto experiment = simulation::load_experiment(scene_->tree(), untold);
   if (!experiment) return;  // which a row says as well

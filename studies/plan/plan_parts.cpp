@@ -10,6 +10,7 @@
 #include "output/text/number.h"
 #include "studies/plan/plan_builder.h"
 #include "studies/plan/plan_values.h"
+#include "studies/plan/told_elsewhere.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -38,10 +39,16 @@ std::unique_ptr<Object> lay_first(const StudyPlan& plan, const std::filesystem::
   first.scene = std::make_shared<const RowScene>(RowScene{.file = file, .options = {}});
   RowScene scene = plan.scene_of(first);
   scene.options.overrides.clear();
-  return lay_down(*plan.library, scene, diagnostics);
+  Diagnostics found;
+  auto tree = lay_down(*plan.library, scene, found);
+  for (const language::Diagnostic& diagnostic : found.all())
+    tell_at(plan.place_in_study(diagnostic.position, first, ""), diagnostic, diagnostics);
+  return tree;
 }
 
-bool is_own_metric(const Object* block) { return block->given("of"); }
+bool is_own_metric(const Object* block) { return block->given("of") || block->given("trace"); }
+
+bool has_traces(const Object* cases) { return !cases->children_of("Trace").empty(); }
 
 }  // namespace
 
@@ -228,13 +235,20 @@ void PlanBuilder::add_sweep(const Object& block) {
   plan_.sweeps.push_back(std::move(sweep));
 }
 
+bool PlanBuilder::is_varied(const std::string& parameter) const {
+  return sweep_index(parameter) >= 0 ||
+         std::ranges::any_of(plan_.sweeps,
+                             [&](const SweepPlan& sweep) { return sweep.assigns(parameter); });
+}
+
 std::vector<Assignment> PlanBuilder::fixes(const Object& owner) {
   std::vector<Assignment> result;
   for (const Object* block : owner.children_of("Fix")) {
     if (!parameter_exists(*block)) continue;
-    if (sweep_index(block->name) >= 0) {
+    if (is_varied(block->name)) {
       diagnostics_.error(block->position,
-                         fmt::format("`{}` is swept: it cannot be fixed as well", block->name));
+                         fmt::format("`{}` is {}: it cannot be fixed as well", block->name,
+                                     sweep_index(block->name) >= 0 ? "swept" : "set by the Cases"));
       continue;
     }
     result.push_back({block->name, text_of(*block->find("value"))});
@@ -317,7 +331,7 @@ double PlanBuilder::number_in(const Object& block, const char* field, std::strin
 }
 
 void PlanBuilder::add_metric(const Object& block) {
-  if (block.given("of")) return add_own_metric(block);
+  if (is_own_metric(&block)) return add_own_metric(block);
   const MetricDefinition* metric = find_metric(block.name);
   if (metric == nullptr)
     return diagnostics_.error(
@@ -450,6 +464,9 @@ void PlanBuilder::add_seeds(const Object& study) {
   if (taken)
     return diagnostics_.error(field->position,
                               "`seeds` varies the Param `seed`: it cannot be swept or fixed");
+  if (is_varied(seed))
+    return diagnostics_.error(field->position,
+                              "`seeds` varies the Param `seed`, which the Cases set");
   SweepPlan sweep;
   sweep.column.name = seed;
   sweep.role = SweepRole::seeds;
@@ -489,16 +506,22 @@ void plan_parts(StudyPlan& plan, const Object& study, const std::filesystem::pat
   for (const Object* block : study.children_of("Sweep"))
     if (block->name == ground_sweep) parts.find_grounds(*block);
   for (const Object* block : study.children_of("Sweep")) parts.add_sweep(*block);
+  const auto cases = study.children_of("Cases");
+  for (const Object* block : cases) parts.add_cases(*block);
+  // What else names the cases is not wrong where they could not be read.
+  if (!cases.empty() && plan.case_sweep() < 0) return;
   for (const Object* block : study.children_of("Subject")) parts.add_subject(*block);
   plan.fixes = parts.fixes(study);
   std::unique_ptr<Object> scene;
   Diagnostics untold;
   if (!diagnostics.has_errors()) {
-    const bool own = std::ranges::any_of(study.children_of("Measure"), is_own_metric);
+    const bool own = std::ranges::any_of(study.children_of("Measure"), is_own_metric) ||
+                     std::ranges::any_of(cases, has_traces);
     scene = lay_first(plan, scene_file, own ? diagnostics : untold);
   }
   std::optional<SceneNames> known;
   if (scene) parts.know(&known.emplace(*scene));
+  parts.add_curves(study);
   for (const Object* block : study.children_of("Measure")) parts.add_metric(*block);
   if (scene && study.boolean("expects")) parts.add_expectations();
   for (const Object* block : study.children_of("Truth")) parts.add_truth(*block);

@@ -22,10 +22,16 @@ std::optional<double> value_of(const language::Formula& formula, SceneNames& nam
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-RowForm form_of_own(const UserMetric& metric, SceneNames& names,
+/// Names of the ports that a metric of the study's own is of, as the study writes them.
+const std::vector<std::string>& ports_of(const StudyPlan& plan, const UserMetric& metric) {
+  if (metric.of != nullptr) return metric.of->names;
+  return std::ranges::find(plan.curves, metric.trace, &MeasuredCurves::name)->ports;
+}
+
+RowForm form_of_own(const StudyPlan& plan, const UserMetric& metric, SceneNames& names,
                     const simulation::Experiment& experiment) {
   RowForm form;
-  for (const std::string& name : metric.of->names) {
+  for (const std::string& name : ports_of(plan, metric)) {
     std::string why;
     const auto port = names.port(name, why, &experiment);
     if (form.missing.empty()) form.missing = port ? port->missing : why;
@@ -50,7 +56,7 @@ std::vector<RowForm> row_forms(const StudyPlan& plan, const language::Object& tr
   if (plan.user_metrics.empty()) return forms;
   SceneNames names(tree);
   for (const auto& metric : plan.user_metrics)
-    forms.push_back(metric->expectation.empty() ? form_of_own(*metric, names, experiment)
+    forms.push_back(metric->expectation.empty() ? form_of_own(plan, *metric, names, experiment)
                                                 : form_of_expectation(*metric, experiment));
   return forms;
 }

@@ -128,7 +128,7 @@ class Watch {
       metrics_.push_back(nullptr);
       if (metric->make != nullptr) metrics_.back() = metric->make(context);
       if (metric->user != nullptr)
-        metrics_.back() = make_user_metric(*metric->user, context, ports);
+        metrics_.back() = make_user_metric(*metric->user, context, ports, measurement.traces);
     }
     if (std::ranges::any_of(measurement.metrics, &MetricDefinition::needs_stance))
       stance_ = stance_ports(context, world);
@@ -258,11 +258,13 @@ bool Measurement::found_in(const RunRecord& record) const {
 }
 
 Measurement measurement_of(const StudyPlan& plan, const RowPlan& row) {
-  Measurement measurement{plan.settle, plan.duration, {}, {}, plan.measures(MetricScope::subjects)};
+  Measurement measurement{plan.settle, row.duration, {}, {}, plan.measures(MetricScope::subjects)};
   measurement.body = plan.body;
   for (const MetricDefinition* metric : plan.metrics) {
     const bool missing = metric->user != nullptr && !row.forms[metric->user->index].missing.empty();
     if (!metric->timing() && !missing) measurement.metrics.push_back(metric);
+    if (metric->user != nullptr && !missing && !metric->user->trace.empty())
+      measurement.traces[metric->user->trace] = plan.measured_in(row, metric->user->trace);
   }
   for (const PlotPlan& plot : plan.plots)
     if (plot.signal != nullptr && plan.covers(plot.only, row))
@@ -276,11 +278,12 @@ std::string run_identity(const std::string& experiment, const Measurement& measu
   const simulation::EngineDescription description =
       entry == engines.end() ? simulation::EngineDescription{engine, {}, {}, false, {}}
                              : entry->second.description;
-  return output::Hash()
-      .add("measured")
+  output::Hash hash;
+  hash.add("measured")
       .add(fmt::format("{} {} {}", measurement.settle, measurement.duration, measurement.body))
-      .add(simulation::run_hash(experiment, description))
-      .text();
+      .add(simulation::run_hash(experiment, description));
+  for (const auto& [name, trace] : measurement.traces) hash.add(name).add(trace_hash(*trace));
+  return hash.text();
 }
 
 Trace trace_of(const KeptCurve& curve) {

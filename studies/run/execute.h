@@ -40,6 +40,8 @@ struct Measurement {
 
   std::string body = {};  ///< trail of the body measured (studies/measured_body.h)
 
+  MeasuredTraces traces = {};  ///< that its metrics are of
+
   /// Whether `record` has all of it.
   bool found_in(const RunRecord& record) const;
 };
@@ -47,8 +49,9 @@ struct Measurement {
 /// What the row of the plan is measured for; timing is not.
 Measurement measurement_of(const StudyPlan& plan, const RowPlan& row);
 
-/// What decides the numbers of a run, whatever study it stands in: experiment, times, program,
-/// engine; as 32 hexadecimal digits. `experiment`: its hash (simulation/identity.h).
+/// What decides the numbers of a run, whatever study it stands in: experiment, times, what it is
+/// held against, program, engine; as 32 hexadecimal digits. `experiment`: its hash
+/// (simulation/identity.h).
 std::string run_identity(const std::string& experiment, const Measurement& measurement,
                          const std::string& engine, const EngineTable& engines);
 

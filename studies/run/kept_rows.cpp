@@ -20,11 +20,10 @@ Record there(std::optional<Record> record) {
 }  // namespace
 
 std::vector<std::string> run_identities(const StudyPlan& plan, const EngineTable& engines) {
-  const Measurement times{plan.settle, plan.duration, {}, {}, false};
   std::vector<std::string> identities;
   identities.reserve(plan.rows.size());
   for (const RowPlan& row : plan.rows)
-    identities.push_back(run_identity(row.hash, times, row.engine, engines));
+    identities.push_back(run_identity(row.hash, measurement_of(plan, row), row.engine, engines));
   return identities;
 }
 

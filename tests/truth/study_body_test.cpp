@@ -59,6 +59,18 @@ TEST(StudyBody, IsTheOneThatIsAskedFor) {
         "Measure spin_max; Truth spin_max { equals = value; value = 2 rad/s; tolerance = 1e-6; }");
 }
 
+TEST(StudyBody, OfAnotherIsAnotherRun) {
+  const Workplace work;
+  work.file("scene.hook", scene);
+  const std::string truth =
+      "Measure creep_speed; Truth creep_speed { equals = value; value = 2 m/s; tolerance = 1e-9; }";
+  work.file("study.hook", study("body = rig.rail.cart;", truth));
+  EXPECT_NE(work.hookpoint("study study.hook --out out").status, 0);
+  work.file("study.hook", study("body = ball;", truth));
+  const auto resumed = work.hookpoint("study study.hook --out out --resume");
+  EXPECT_EQ(resumed.status, 0) << resumed.out << resumed.err;
+}
+
 TEST(StudyBody, WithoutAMobileRobotItIsTheEndOfTheFirstChain) {
   const Workplace work;
   std::string alone = scene;

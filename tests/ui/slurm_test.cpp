@@ -94,6 +94,33 @@ TEST_F(Slurm, MakesTheSameBytesAsOneMachine) {
   expect_same("there");
 }
 
+TEST_F(Slurm, WhatWasMeasuredGoesAlong) {
+  work_.file(
+      "scene.hook",
+      "Param height = 1 m;\nWorld world { gravity = 9.81; deltat = 1 ms; Robot ball { "
+      "Base.mobile { location = 0, 0, height; mass = 1; inertia = 1, 1, 1, 0, 0, 0; } } }\n");
+  work_.file("drops.csv", "drop,height [m]\na,1\nb,2\n");
+  work_.file(
+      "curves.csv",
+      "drop,t [s],x [m],y [m],z [m],qw,qx,qy,qz\na,0.1,0,0,1,1,0,0,0\na,0.3,0,0,0.5,1,0,0,0\n"
+      "b,0.1,0.1,0.2,2,0.8,0.6,0,0\nb,0.4355,0.1,0.3,1,0.8,0,0.6,0\n");
+  work_.file(
+      "drops.hook",
+      "Study drops { scene = \"scene.hook\"; Cases drop { file = \"drops.csv\"; case = drop;\n"
+      "  Trace place { file = \"curves.csv\"; column = x, y, z; time = \"t\"; of = "
+      "ball.position; }\n"
+      "  Trace turn { file = \"curves.csv\"; column = qw, qx, qy, qz; time = \"t\"; of = "
+      "ball.orientation; } }\n"
+      "  Subject ours { } Subject ode { engine = ode; } body = ball;\n"
+      "  Measure off { trace = place; take = rms; } Measure turned { trace = turn; }\n"
+      "  Measure self_error; }\n");
+  ASSERT_EQ(work_.hookpoint("study drops.hook --out here").status, 0);
+  const CommandResult result = work_.hookpoint("study drops.hook --slurm --chunk 3 --out away");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.err.find("4 runs in"), std::string::npos) << result.err;
+  EXPECT_EQ(work_.read("away/results.csv"), work_.read("here/results.csv"));
+}
+
 TEST_F(Slurm, NamesAreNoCommands) {
   const std::string awkward = "it's a \"$(touch pwned)\" %j folder; \\x";
   fs::create_directory(work_.folder() / awkward);

@@ -392,6 +392,11 @@ TEST_F(CalibrateCases, WhatIsWrongWithATableIsToldBeforeAnythingRuns) {
       refused("Cases drop { file = \"states.csv\"; case = drop; }\n" + std::string(two_constants),
               "Cases need a Trace"))
       << told_;
+  const std::string weight = "weight = 1 / (0.01 mm);";
+  std::string bare = cases();
+  EXPECT_TRUE(refused(bare.erase(bare.find(weight), weight.size()) + two_constants,
+                      "needs the `weight` of a Trace"))
+      << told_;
 }
 
 TEST_F(CalibrateFile, SubjectsByTheirNames) {

@@ -1,5 +1,5 @@
 // Tables of measured traces, good and bad.
-#include "studies/calibrate/trace_file.h"
+#include "studies/measurements/trace_file.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Differences of traces that have parts: vectors, and orientations as rotations.
-#include "studies/calibrate/trace_residual.h"
+#include "studies/measurements/trace_residual.h"
 
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ std::vector<double> turned(double angle) {
 
 TEST(TraceResidual, OfAnOrientationIsTheRotationTheShorterWayRound) {
   const TracePlan trace = orientation(turned(0.3));
-  Residuals residuals(3);
+  std::vector<double> residuals(3);
   for (const double angle : {0.3, 0.5, -2.5, 0.3 + 1.9 * std::numbers::pi}) {
     for (const double side : {1., -1.}) {
       std::vector<double> model = turned(angle);
@@ -43,17 +43,17 @@ TEST(TraceResidual, OfAnOrientationIsTheRotationTheShorterWayRound) {
 }
 
 TEST(TraceResidual, CurveAfterCurveAndTheirMeanDistance) {
-  CalibrationCase one;
-  one.traces.reserve(2);
-  TracePlan& place = one.traces.emplace_back();
+  std::vector<TracePlan> traces;
+  traces.reserve(2);
+  TracePlan& place = traces.emplace_back();
   place.parts = {"p.x", "p.y", "p.z"};
   place.port_unit = "mm";
   place.unit_of_port = 1e-3;
   place.weight = 10.;
   place.measured = {{0., 1.}, {1., 2., 3., 4., 5., 6.}, 3, {}};
-  one.traces.push_back(orientation(turned(0.)));
-  EXPECT_EQ(one.residuals(), 9U);
-  Residuals residuals(9);
+  traces.push_back(orientation(turned(0.)));
+  EXPECT_EQ(traces[0].residuals() + traces[1].residuals(), 9U);
+  std::vector<double> residuals(9);
   const std::span<double> of_place = std::span(residuals).first(6);
   set_residuals(place, 0, std::vector<double>{1.3, 2.4, 3.}, of_place);
   set_residuals(place, 1, std::vector<double>{4., 5., 6.}, of_place);
@@ -62,12 +62,12 @@ TEST(TraceResidual, CurveAfterCurveAndTheirMeanDistance) {
   EXPECT_NEAR(distance(place, 0, of_place), 5., 1e-12);
   EXPECT_NEAR(modelled(place, 0, of_place)[1], 2400., 1e-9);
   EXPECT_EQ(measured(place, 1), (std::vector<double>{4000., 5000., 6000.}));
-  set_residuals(one.traces[1], 0, turned(0.25), std::span(residuals).last(3));
+  set_residuals(traces[1], 0, turned(0.25), std::span(residuals).last(3));
   // 2.5 over both samples of the one, 0.5 of the other.
-  EXPECT_NEAR(mean_distance(one, residuals), 0.5 * (2.5 + 0.5), 1e-12);
+  EXPECT_NEAR(mean_distance(traces, residuals), 0.5 * (2.5 + 0.5), 1e-12);
   residuals[0] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_TRUE(residuals_of(residuals, place, 0).empty());
-  EXPECT_EQ(residuals_of(residuals, one.traces[1], 6).size(), 3U);
+  EXPECT_EQ(residuals_of(residuals, traces[1], 6).size(), 3U);
 }
 
 }  // namespace

@@ -1,11 +1,11 @@
-#include "studies/calibrate/case_table.h"
+#include "studies/measurements/case_table.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <set>
 
-#include "studies/calibrate/trace_file.h"
+#include "studies/measurements/trace_file.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -16,7 +16,6 @@ using language::Object;
 /// A column that sets a Param, which has its name.
 struct SettingColumn {
   std::size_t column = 0;
-  ConstantPlace place = ConstantPlace::scene_parameter;
   ColumnTitle title;
 };
 
@@ -26,6 +25,11 @@ struct AdmittedColumn {
   double to_si = 1.;
   const Object* only = nullptr;
 
+  /// Of words or strings: what a field says, not its number.
+  const std::vector<std::string>* words() const {
+    const language::Field* values = only->find("values");
+    return values == nullptr || values->words.empty() ? nullptr : &values->words;
+  }
   bool admits(double value) const {
     const language::Field* values = only->find("values");
     if (values != nullptr && std::ranges::find(values->numbers, value) == values->numbers.end())
@@ -42,31 +46,26 @@ class CaseReader {
              Diagnostics& diagnostics)
       : block_(block), file_(file), table_(table), diagnostics_(diagnostics) {}
 
-  std::optional<CaseTable> read(const TuneScene& scene) {
+  std::optional<CaseTable> read(const std::vector<std::string>& parameters) {
     const language::Field& field = *block_.find("case");
     const auto name = column_of(table_, block_.word("case"), file_, field.position, diagnostics_);
     if (!name || !find_admitted()) return std::nullopt;
-    find_settings(scene);
+    find_settings(parameters);
     CaseTable read;
     for (const SettingColumn& setting : settings_) read.parameters.push_back(setting.title.name);
     std::set<std::string> known;
     for (std::size_t row = 0; row < table_.rows.size(); ++row) {
       const std::string& text = table_.rows[row][*name];
       if (!known.insert(text).second) return wrong(row, fmt::format("`{}` is there already", text));
-      bool admitted = true;
-      for (const AdmittedColumn& column : admitted_) {
-        const auto value = number(row, column.column);
-        if (!value) return std::nullopt;
-        admitted = admitted && column.admits(*value * column.to_si);
-      }
-      if (!admitted) continue;
+      const auto admitted = is_admitted(row);
+      if (!admitted) return std::nullopt;
+      if (!*admitted) continue;
       CaseRow& one = read.cases.emplace_back(CaseRow{text, {}});
       for (const SettingColumn& setting : settings_) {
         if (!number(row, setting.column)) return std::nullopt;
         const std::string& unit = setting.title.unit;
-        one.settings.push_back(
-            {setting.place, setting.title.name,
-             table_.rows[row][setting.column] + (unit.empty() ? "" : " " + unit)});
+        one.settings.push_back({setting.title.name, table_.rows[row][setting.column] +
+                                                        (unit.empty() ? "" : " " + unit)});
       }
     }
     if (!read.cases.empty()) return read;
@@ -75,13 +74,28 @@ class CaseReader {
   }
 
  private:
-  void find_settings(const TuneScene& scene) {
+  void find_settings(const std::vector<std::string>& parameters) {
     for (std::size_t i = 0; i < table_.header.size(); ++i) {
       const ColumnTitle title = parts_of(table_.header[i]);
-      const auto place = scene.place_of(title.name);
-      if (place == ConstantPlace::scene_parameter || place == ConstantPlace::terrain_parameter)
-        settings_.push_back({i, *place, title});
+      if (std::ranges::find(parameters, title.name) != parameters.end())
+        settings_.push_back({i, title});
     }
+  }
+
+  /// Whether the Only blocks let the row in; nothing after an error.
+  std::optional<bool> is_admitted(std::size_t row) {
+    bool admitted = true;
+    for (const AdmittedColumn& column : admitted_) {
+      if (const std::vector<std::string>* words = column.words()) {
+        const std::string& text = table_.rows[row][column.column];
+        admitted = admitted && std::ranges::find(*words, text) != words->end();
+        continue;
+      }
+      const auto value = number(row, column.column);
+      if (!value) return std::nullopt;
+      admitted = admitted && column.admits(*value * column.to_si);
+    }
+    return admitted;
   }
 
   bool find_admitted() {
@@ -114,10 +128,11 @@ class CaseReader {
 }  // namespace
 
 std::optional<CaseTable> read_cases(const Object& block, const std::filesystem::path& file,
-                                    const TuneScene& scene, Diagnostics& diagnostics) {
+                                    const std::vector<std::string>& parameters,
+                                    Diagnostics& diagnostics) {
   const auto table = read_table(file, block.find("file")->position, diagnostics);
   if (!table) return std::nullopt;
-  return CaseReader(block, file, *table, diagnostics).read(scene);
+  return CaseReader(block, file, *table, diagnostics).read(parameters);
 }
 
 }  // namespace hookpoint::studies

@@ -6,15 +6,16 @@
 #include <string>
 #include <vector>
 
-#include "language/document.h"
-#include "studies/tune/scene.h"
+#include "language/diagnostics.h"
+#include "language/tree/object.h"
+#include "studies/assignment.h"
 
 namespace hookpoint::studies {
 
 /// A row: what it is called, and what it sets.
 struct CaseRow {
   std::string name;
-  std::vector<ConstantSetting> settings;
+  std::vector<Assignment> settings;
 };
 
 struct CaseTable {
@@ -22,11 +23,12 @@ struct CaseTable {
   std::vector<CaseRow> cases;           ///< that the block's Only admits, in the order of the table
 };
 
-/// Of a Cases block, whose table is `file`. Nothing after errors: a column that there is not, one
-/// that sets a Param and has a field that is no number, the same case twice, no case that Only
-/// admits.
+/// Of a Cases block, whose table is `file`; its columns set those of `parameters`, the scene's,
+/// that are called like them. Nothing after errors: a column that there is not, one that sets a
+/// Param and has a field that is no number, the same case twice, no case that Only admits.
 std::optional<CaseTable> read_cases(const language::Object& block,
-                                    const std::filesystem::path& file, const TuneScene& scene,
+                                    const std::filesystem::path& file,
+                                    const std::vector<std::string>& parameters,
                                     language::Diagnostics& diagnostics);
 
 }  // namespace hookpoint::studies

@@ -6,8 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "studies/calibrate/least_squares.h"
-#include "studies/calibrate/problem.h"
+#include "studies/measurements/trace_plan.h"
 
 namespace hookpoint::studies {
 
@@ -21,7 +20,7 @@ void set_residuals(const TracePlan& trace, std::size_t sample, std::span<const d
 
 /// The residuals of a trace, which begin at `first` among those of all cases; empty where the run
 /// has none.
-std::span<const double> residuals_of(const Residuals& all, const TracePlan& trace,
+std::span<const double> residuals_of(std::span<const double> all, const TracePlan& trace,
                                      std::size_t first);
 
 /// What the model had at a sample, one value a part, in the port's unit, from the trace's
@@ -35,8 +34,8 @@ std::vector<double> measured(const TracePlan& trace, std::size_t sample);
 /// The residuals' length at a sample of their trace.
 double distance(const TracePlan& trace, std::size_t sample, std::span<const double> residuals);
 
-/// Mean over a case's traces of the mean over their samples of the residuals' lengths: the weighted
-/// distance of model and measurement. `residuals` of the whole case.
-double mean_distance(const CalibrationCase& one, std::span<const double> residuals);
+/// Mean over the traces of a case of the mean over their samples of the residuals' lengths: the
+/// weighted distance of model and measurement. `residuals` of all of them.
+double mean_distance(std::span<const TracePlan> traces, std::span<const double> residuals);
 
 }  // namespace hookpoint::studies

@@ -1,4 +1,4 @@
-#include "studies/calibrate/trace_file.h"
+#include "studies/measurements/trace_file.h"
 
 #include <fmt/format.h>
 

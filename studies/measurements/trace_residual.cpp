@@ -1,4 +1,4 @@
-#include "studies/calibrate/trace_residual.h"
+#include "studies/measurements/trace_residual.h"
 
 #include <cmath>
 
@@ -38,10 +38,10 @@ void set_residuals(const TracePlan& trace, std::size_t sample, std::span<const d
   residuals[2 * samples + sample] = trace.weight * turn.z;
 }
 
-std::span<const double> residuals_of(const Residuals& all, const TracePlan& trace,
+std::span<const double> residuals_of(std::span<const double> all, const TracePlan& trace,
                                      std::size_t first) {
   if (all.empty() || std::isnan(all[first])) return {};
-  return std::span(all).subspan(first, trace.residuals());
+  return all.subspan(first, trace.residuals());
 }
 
 std::vector<double> modelled(const TracePlan& trace, std::size_t sample,
@@ -77,9 +77,9 @@ double distance(const TracePlan& trace, std::size_t sample, std::span<const doub
   return std::sqrt(squares);
 }
 
-double mean_distance(const CalibrationCase& one, std::span<const double> residuals) {
+double mean_distance(std::span<const TracePlan> traces, std::span<const double> residuals) {
   double sum = 0.;
-  for (const TracePlan& trace : one.traces) {
+  for (const TracePlan& trace : traces) {
     const std::size_t samples = trace.measured.time.size();
     double lengths = 0.;
     for (std::size_t sample = 0; sample < samples; ++sample)
@@ -87,7 +87,7 @@ double mean_distance(const CalibrationCase& one, std::span<const double> residua
     sum += lengths / static_cast<double>(samples);
     residuals = residuals.subspan(trace.residuals());
   }
-  return sum / static_cast<double>(one.traces.size());
+  return sum / static_cast<double>(traces.size());
 }
 
 }  // namespace hookpoint::studies

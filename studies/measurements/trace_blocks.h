@@ -1,0 +1,61 @@
+// Trace blocks, read: each one's columns against the port that they were measured of.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "language/diagnostics.h"
+#include "language/tree/object.h"
+#include "studies/measurements/case_table.h"
+#include "studies/measurements/trace_plan.h"
+
+namespace hookpoint::studies {
+
+/// A port that something may have been measured of.
+struct TracePort {
+  std::string trail;  ///< as a run knows it
+  std::string unit;   ///< "m"; "?" where its class leaves it open
+};
+
+/// What Trace blocks are read from.
+struct TraceSource {
+  /// The file that a field of the block names; empty after an error.
+  std::function<std::filesystem::path(const language::Object& block, const char* field)> file;
+  /// Nothing, with `why`, where the scene has no such port.
+  std::function<std::optional<TracePort>(const std::string& trail, std::string& why)> port;
+  language::Diagnostics& diagnostics;
+};
+
+/// How the parts of a port that is measured by so many columns are called behind its trail: "" of
+/// one; .x .y .z of three; .w .x .y .z of four. Null for another number.
+const std::vector<std::string>* trace_parts(std::size_t columns);
+
+class TraceReader {
+ public:
+  /// `source` outlives it.
+  explicit TraceReader(const TraceSource& source) : source_(source) {}
+
+  /// By what the case's column calls each; without one ("") the single trace is called "". A trace
+  /// whose block has no `weight` has 1. Nothing after errors: no such file, column or port; columns
+  /// of another dimension than the port; a weight that is not 1 over an error.
+  std::optional<std::map<std::string, TracePlan>> read(const language::Object& block,
+                                                       const std::string& case_column) const;
+
+  /// The traces of each of `cases`, of a Cases block, in the order of its Trace blocks, by which
+  /// they are called. Nothing after errors: as above, and a case that a table has no row of.
+  std::optional<std::vector<std::vector<TracePlan>>> read_cases(
+      const language::Object& block, const std::vector<CaseRow>& cases) const;
+
+ private:
+  bool find_ports(const language::Object& block, std::size_t columns, TracePlan& trace) const;
+  bool units_agree(const language::Object& block, const language::Unit& measured,
+                   TracePlan& trace) const;
+
+  const TraceSource& source_;
+};
+
+}  // namespace hookpoint::studies
