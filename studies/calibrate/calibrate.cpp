@@ -42,6 +42,9 @@ constexpr std::size_t streams_of_draws = 1'000'000, streams_of_surfaces = 2'000'
 /// Rounds of a search after CMA-ES, and looks of each.
 constexpr int surface_rounds = 3;
 constexpr std::size_t surface_looks = 4;
+/// A fold's search that begins where the first one ended is so wide at first [parts of the range],
+/// and takes half of the generations.
+constexpr double width_of_a_fold = 0.3;
 /// Of a constant with which every run is the same, bit for bit.
 constexpr const char* unread = "no trace changes with it";
 
@@ -74,7 +77,8 @@ class SubjectFit {
   static std::size_t rows_of(const CalibrationPlan& plan, const CalibrationSubject& subject) {
     if (!subject.refusal.empty()) return 0;
     if (plan.method == FitMethod::cmaes)
-      return subject.constants.size() + (1 + fold_count(plan)) * looks_of_a_search(plan);
+      return subject.constants.size() + looks_of_a_search(plan, plan.generations) +
+             fold_count(plan) * looks_of_a_search(plan, generations_of_folds(plan));
     return subject.constants.size() + 2 + plan.starts + refined_starts + refits(plan) +
            fold_count(plan);
   }
@@ -318,10 +322,14 @@ class SubjectFit {
                                    false, "its interval is not known"});
   }
 
-  void linearise_at_optimum() {
+  Shares place_of_answer() const {
     Shares place;
     for (const FittedConstant& constant : result_.constants) place.push_back(constant.share);
-    auto found = linearise(model_of(cases_), place, fit_of_runs.difference);
+    return place;
+  }
+
+  void linearise_at_optimum() {
+    auto found = linearise(model_of(cases_), place_of_answer(), fit_of_runs.difference);
     if (!found) return;
     optimum_ = std::move(*found);
     result_.residuals = optimum_.residuals;
@@ -483,8 +491,16 @@ class SubjectFit {
   }
   Cases drawn_cases() const { return drawn_cases(cases_, 0); }
 
-  static std::size_t looks_of_a_search(const CalibrationPlan& plan) {
-    return static_cast<std::size_t>(plan.population) * static_cast<std::size_t>(plan.generations) +
+  /// Whether the first search has looked at all cases, so that a fold may not begin where it ended.
+  static bool folds_begin_anew(const CalibrationPlan& plan) {
+    return plan.most_cases == 0 || plan.most_cases >= plan.cases.size();
+  }
+  static int generations_of_folds(const CalibrationPlan& plan) {
+    return folds_begin_anew(plan) ? plan.generations : (plan.generations + 1) / 2;
+  }
+
+  static std::size_t looks_of_a_search(const CalibrationPlan& plan, int generations) {
+    return static_cast<std::size_t>(plan.population) * static_cast<std::size_t>(generations) +
            surface_rounds * surface_looks;
   }
 
@@ -528,9 +544,11 @@ class SubjectFit {
 
   /// CMA-ES over these cases, then rounds of looks where the surface over its places is least: for
   /// the cases as they are, and for samples of them, so that places lie as close as the cases tell
-  /// them apart. `number`: 0, or the fold.
-  Search look_around(std::size_t number, const Cases& cases) {
+  /// them apart. `number`: 0, all over the box; or the fold, `about` a place.
+  Search look_around(std::size_t number, const Cases& cases,
+                     const std::optional<Shares>& about = std::nullopt) {
     Search found{cases.size()};
+    const int generations = number == 0 ? plan_.generations : generations_of_folds(plan_);
     const auto look_at = [&](std::span<const Shares> places, int generation) {
       const auto outcomes = rows_.run(
           {places.size(),
@@ -546,8 +564,9 @@ class SubjectFit {
       }
       return scores;
     };
-    search({SearchMethod::cmaes, subject_.constants.size(), 1, plan_.population, plan_.generations,
-            plan_.seed, first_guesses()},
+    search({SearchMethod::cmaes, subject_.constants.size(), 1, plan_.population, generations,
+            plan_.seed + number, about ? std::vector<Shares>{*about} : first_guesses(),
+            about ? width_of_a_fold : 1.},
            look_at);
     found.fit_surface();
     if (found.best() == nullptr) return found;
@@ -556,7 +575,7 @@ class SubjectFit {
       std::vector<Shares> places{*found.least(std::vector<int>(cases.size(), 1))};
       while (places.size() < surface_looks)
         places.push_back(*found.least(draw_with_replacement(cases.size(), random)));
-      look_at(places, plan_.generations + round);
+      look_at(places, generations + round);
     }
     return found;
   }
@@ -626,19 +645,20 @@ class SubjectFit {
     return PromisedError{mean, mean - reach, mean + reach};
   }
 
-  /// Each case by constants that were fitted without it; without folds by those of all.
+  /// Each case by constants that were fitted without it; without folds by those of all. A fold's
+  /// search begins where the first one ended, and so none holds out what that has looked at.
   void predict_folds() {
     if (fold_count(plan_) == 0) {
-      Shares place;
-      for (const FittedConstant& constant : result_.constants) place.push_back(constant.share);
-      result_.residuals = predict(model_.settings_at(place), cases_);
+      result_.residuals = predict(model_.settings_at(place_of_answer()), cases_);
       return;
     }
-    const auto [held, training] = folds_of_cases();
+    const bool anew = folds_begin_anew(plan_);
+    const auto [held, training] = folds_of_cases(anew ? Cases() : drawn_cases());
+    const auto about = anew ? std::nullopt : std::optional(place_of_answer());
     std::vector<Residuals> each(cases_.size());
     for (std::size_t i = 0; i < held.size(); ++i) {
       const Cases cases = drawn_cases(training[i], i + 1);
-      const Search found = look_around(i + 1, cases);
+      const Search found = look_around(i + 1, cases, about);
       const FitOutcome* best = found.best();
       if (best == nullptr) continue;
       const auto constants = model_.settings_at(best->place);
@@ -688,20 +708,23 @@ class SubjectFit {
   struct Folds {
     std::vector<Cases> held, training;
   };
-  Folds folds_of_cases() const {
+  /// `never_held`: cases that all folds may see, in order.
+  Folds folds_of_cases(const Cases& never_held) const {
     const std::size_t folds = fold_count(plan_);
     const auto fold = fold_of_each(plan_.cases.size(), folds, plan_.seed);
     Folds all{std::vector<Cases>(folds), std::vector<Cases>(folds)};
-    for (const std::size_t one : cases_)
+    for (const std::size_t one : cases_) {
+      const bool seen = std::ranges::binary_search(never_held, one);
       for (std::size_t part = 0; part < folds; ++part)
-        (fold[one] == part ? all.held : all.training)[part].push_back(one);
+        (fold[one] == part && !seen ? all.held : all.training)[part].push_back(one);
+    }
     return all;
   }
 
   void cross_validate() {
     const std::size_t folds = fold_count(plan_);
     if (folds == 0 || optimum_.residuals.empty()) return;
-    const auto parts = folds_of_cases();
+    const auto parts = folds_of_cases({});
     const auto outcomes = rows_.run(
         {folds, [&](std::size_t i) { return identity("fold", i, optimum_.place); },
          [&](std::size_t i) {

@@ -147,13 +147,15 @@ std::string search_words(const CalibrationPlan& plan) {
       "the error, is the mean over cases of the mean weighted distance of model and measurement. "
       "A quadratic surface over the best places says where to look further, and answers {} "
       "bootstrap "
-      "samples over those cases without a run. Each fold is searched anew, "
-      "over as many of the cases that it may see. A "
+      "samples over those cases without a run. Each fold is a search of its own over as many of "
+      "the cases that it may see{}. A "
       "constant is told unless its interval spans more than half of its range or reaches an end "
       "of it.",
       plan.generations, plan.population,
       plan.most_cases == 0 ? plan.cases.size() : std::min(plan.most_cases, plan.cases.size()),
-      plan.resamples);
+      plan.resamples,
+      plan.most_cases == 0 ? ""
+                           : ", from where the first search ended, whose cases none holds out");
 }
 
 std::string method_words(const CalibrationPlan& plan, const CalibrationResult& result) {

@@ -108,6 +108,11 @@ pagmo::population first_generation(const SearchOptions& options,
   std::mt19937_64 random(options.seed);
   std::vector<Point> points =
       latin_hypercube(static_cast<std::size_t>(options.population), options.constants, random);
+  if (options.width < 1.) {
+    for (Point& point : points)
+      for (std::size_t i = 0; i < point.size(); ++i)
+        point[i] = std::clamp(options.first.front()[i] + (point[i] - 0.5) * options.width, 0., 1.);
+  }
   const std::size_t given = std::min(options.first.size(), points.size());
   std::copy_n(options.first.begin(), given, points.begin());
   pagmo::population population(pagmo::problem(BoxProblem{shared}), 0, narrow(options.seed));
@@ -131,7 +136,8 @@ void search_by_nsga2(const SearchOptions& options, const std::shared_ptr<SharedS
 void search_by_cmaes(const SearchOptions& options, const std::shared_ptr<SharedSearch>& shared,
                      pagmo::population population) {
   constexpr double automatic = -1., first_width = 0.3, never = 0.;
-  pagmo::cmaes cmaes(1, automatic, automatic, automatic, automatic, first_width, never, never,
+  pagmo::cmaes cmaes(1, automatic, automatic, automatic, automatic, first_width * options.width,
+                     never, never,
                      /*memory=*/true, /*force_bounds=*/true, narrow(options.seed));
   while (++shared->generation < options.generations) {
     shared->rehearsed = true;

@@ -30,12 +30,14 @@ struct SearchOptions {
   int generations = 25;  ///< batches that are scored, the first included
   std::uint64_t seed = 1;
   std::vector<std::vector<double>> first;  ///< points that are in the first batch
+  double width = 1.;  ///< of the box about first[0] that the others of that batch are in; 1: all
 };
 
 /// Scores `generations` batches of `population` points. The first is a Latin hypercube with the
-/// points of `first` in it. A feasible point is better than any that is not, and of two that are
-/// not the one that misses less (Deb's rule: Deb et al. 2002, IEEE Trans. Evol. Comp. 6(2),
-/// section VI); CMA-ES takes one objective. The same options and scores give the same points.
+/// points of `first` in it, over the whole box or one of `width` about the first of them. A
+/// feasible point is better than any that is not, and of two that are not the one that misses less
+/// (Deb's rule: Deb et al. 2002, IEEE Trans. Evol. Comp. 6(2), section VI); CMA-ES takes one
+/// objective. The same options and scores give the same points.
 void search(const SearchOptions& options, const BatchScore& score);
 
 }  // namespace hookpoint::studies
