@@ -491,10 +491,6 @@ class SubjectFit {
   }
   Cases drawn_cases() const { return drawn_cases(cases_, 0); }
 
-  /// Whether the first search has looked at all cases, so that a fold may not begin where it ended.
-  static bool folds_begin_anew(const CalibrationPlan& plan) {
-    return plan.most_cases == 0 || plan.most_cases >= plan.cases.size();
-  }
   static int generations_of_folds(const CalibrationPlan& plan) {
     return folds_begin_anew(plan) ? plan.generations : (plan.generations + 1) / 2;
   }
@@ -657,6 +653,7 @@ class SubjectFit {
     const auto about = anew ? std::nullopt : std::optional(place_of_answer());
     std::vector<Residuals> each(cases_.size());
     for (std::size_t i = 0; i < held.size(); ++i) {
+      if (held[i].empty()) continue;
       const Cases cases = drawn_cases(training[i], i + 1);
       const Search found = look_around(i + 1, cases, about);
       const FitOutcome* best = found.best();
@@ -793,6 +790,10 @@ std::string_view name_of(FitStage stage) {
 
 std::string_view range_end(double share) {
   return share < end_part ? "lower" : share > 1. - end_part ? "upper" : "";
+}
+
+bool folds_begin_anew(const CalibrationPlan& plan) {
+  return plan.most_cases == 0 || 2 * plan.most_cases > plan.cases.size();
 }
 
 std::optional<double> error_of(const Residuals& residuals) {

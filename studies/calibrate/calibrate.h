@@ -97,6 +97,11 @@ struct CalibrationRun {
   std::unique_ptr<output::ResultFolder> files;  ///< locks the folder
 };
 
+/// Of cmaes: whether folds search all over the box, as the first search does. It is so where that
+/// looks at more than half of the cases; else they begin where it ended, and none holds out what it
+/// has looked at.
+bool folds_begin_anew(const CalibrationPlan& plan);
+
 /// Root mean square; nothing of none.
 std::optional<double> error_of(const Residuals& residuals);
 

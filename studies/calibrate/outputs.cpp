@@ -173,7 +173,6 @@ output::CsvTable folds_table(const CalibrationPlan& plan, const CalibrationResul
   return table;
 }
 
-/// Every sample, and what each subject has there, by these residuals of it.
 output::CsvTable curves_table(const CalibrationPlan& plan, const CalibrationResult& result,
                               Residuals SubjectCalibration::*residuals) {
   output::CsvTable table;
@@ -245,7 +244,7 @@ std::vector<std::string> write_calibration_files(const CalibrationPlan& plan,
   write("correlations.csv", correlations_table(plan, result));
   write("evaluations.csv", fits_table(plan, result));
   write("folds.csv", folds_table(plan, result));
-  write("curves.csv", curves_table(plan, result, &SubjectCalibration::residuals));
+  write("curves.csv", curves_table(plan, result));
   if (!plan.varied.empty())
     write("own_curves.csv", curves_table(plan, result, &SubjectCalibration::own_residuals));
   const auto write_text = [&](const std::string& name, const std::string& text) {

@@ -21,8 +21,11 @@ output::CsvTable correlations_table(const CalibrationPlan& plan, const Calibrati
 /// Every place that was looked at or fitted, in order.
 output::CsvTable fits_table(const CalibrationPlan& plan, const CalibrationResult& result);
 output::CsvTable folds_table(const CalibrationPlan& plan, const CalibrationResult& result);
-/// Every sample: measured, and what each subject makes of it; in SI.
-output::CsvTable curves_table(const CalibrationPlan& plan, const CalibrationResult& result);
+/// Every sample: measured, and what each subject makes of it by these residuals of it; each in its
+/// port's unit.
+output::CsvTable curves_table(
+    const CalibrationPlan& plan, const CalibrationResult& result,
+    Residuals SubjectCalibration::*residuals = &SubjectCalibration::residuals);
 
 /// The value of a fitted constant as it is written: six digits, in its unit.
 std::string value_text(const CalibrationPlan& plan, const FittedConstant& constant, double share);

@@ -154,8 +154,8 @@ std::string search_words(const CalibrationPlan& plan) {
       plan.generations, plan.population,
       plan.most_cases == 0 ? plan.cases.size() : std::min(plan.most_cases, plan.cases.size()),
       plan.resamples,
-      plan.most_cases == 0 ? ""
-                           : ", from where the first search ended, whose cases none holds out");
+      folds_begin_anew(plan) ? ""
+                             : ", from where the first search ended, whose cases none holds out");
 }
 
 std::string method_words(const CalibrationPlan& plan, const CalibrationResult& result) {
