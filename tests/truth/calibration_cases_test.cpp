@@ -119,23 +119,32 @@ class MeasuredCases : public ::testing::Test {
         .result.subjects[0];
   }
 
-  /// How many of twelve noises leave the truth inside the interval.
-  int inside_of_twelve(const std::function<SubjectCalibration(std::uint64_t seed)>& fit,
-                       double truth) {
+  /// What is made up: the scene, the Param `begin` of its cases, their truth, and what is asked.
+  struct Question {
+    const char* scene;
+    const char* unit;
+    double from, to;
+    double (*truth)(double time, double begin);
+    const char* port;
+    const char* constant;
+  };
+
+  /// Twelve noises, of which enough leave the constant's value inside the interval.
+  void expect_told(const Question& asked, double value) {
+    place_.file("scene.hook", asked.scene);
     int inside = 0;
     for (std::uint64_t seed = 1; seed <= 12; ++seed) {
-      const SubjectCalibration found = fit(seed);
-      if (found.constants.size() != 1) {
-        ADD_FAILURE() << "seed " << seed << ": " << found.status;
-        continue;
-      }
+      measure(asked.unit, asked.from, asked.to, asked.truth, seed);
+      const SubjectCalibration found = calibrate(
+          asked.port, std::string(asked.constant) + " { from = 0; to = 1; }", "folds = 0;");
+      ASSERT_EQ(found.constants.size(), 1U) << "seed " << seed << ": " << found.status;
       const FittedConstant& constant = found.constants.front();
       EXPECT_TRUE(constant.told) << "seed " << seed << ": " << constant.reason;
       EXPECT_LT(*constant.high - *constant.low, 0.02) << "seed " << seed;
       EXPECT_NEAR(*found.error, mean_noise, 0.1) << "seed " << seed;
-      if (*constant.low <= truth && truth <= *constant.high) ++inside;
+      if (*constant.low <= value && value <= *constant.high) ++inside;
     }
-    return inside;
+    EXPECT_GE(inside, least_of_twelve);
   }
 
   Workplace place_;
@@ -143,21 +152,12 @@ class MeasuredCases : public ::testing::Test {
 };
 
 TEST_F(MeasuredCases, ADropTellsTheRestitution) {
-  place_.file("scene.hook", drop_scene);
-  const auto fit = [&](std::uint64_t seed) {
-    measure("m", 0.05, 0.23, bouncing, seed);
-    return calibrate("point.base.location.z", "restitution { from = 0; to = 1; }", "folds = 0;");
-  };
-  EXPECT_GE(inside_of_twelve(fit, restitution), least_of_twelve);
+  expect_told({drop_scene, "m", 0.05, 0.23, bouncing, "point.base.location.z", "restitution"},
+              restitution);
 }
 
 TEST_F(MeasuredCases, ASlideTellsTheFriction) {
-  place_.file("scene.hook", slide_scene);
-  const auto fit = [&](std::uint64_t seed) {
-    measure("m/s", 0.6, 1.95, sliding, seed);
-    return calibrate("point.base.location.x", "mu { from = 0; to = 1; }", "folds = 0;");
-  };
-  EXPECT_GE(inside_of_twelve(fit, friction), least_of_twelve);
+  expect_told({slide_scene, "m/s", 0.6, 1.95, sliding, "point.base.location.x", "mu"}, friction);
 }
 
 TEST_F(MeasuredCases, WhatAFoldHasNotSeenIsAsItPromised) {

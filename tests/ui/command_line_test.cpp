@@ -150,6 +150,8 @@ TEST(CommandLine, DynamicsOfFreeFallIsGravity) {
   EXPECT_NE(result.out.find("\"linear_acceleration\": [0, 0, -9.81"), std::string::npos)
       << result.out;
   EXPECT_NE(result.out.find("\"potential_energy\": 98.1"), std::string::npos) << result.out;
+  // Nothing drives a body without joints.
+  EXPECT_NE(result.out.find("\"B\": []"), std::string::npos) << result.out;
 }
 
 TEST(CommandLine, HelpAndListsSucceed) {
