@@ -1,10 +1,9 @@
 #include "integrators/arkode.h"
 
-#include <arkode/arkode_arkstep.h>
-
 #include <algorithm>
 
 #include "integrators/sundials_memory.h"
+#include "integrators/sundials_version.h"
 
 namespace hookpoint::integrators {
 namespace {
@@ -33,29 +32,29 @@ class Arkode final : public AdaptiveStepper {
     between_ = sundials::vector_over(unknowns_, context_.get());
     memory_.reset(ARKStepCreate(explicit_part_, implicit_part_, 0., y_.get(), context_.get()));
     sundials::require_made(memory_, "ARKODE");
-    ARKStepSetErrHandlerFn(memory_, sundials::silent, nullptr);
-    require(ARKStepSetUserData(memory_, static_cast<AdaptiveStepper*>(this)), "ARKStepSetUserData");
-    require(ARKStepSStolerances(memory_, tolerances_.relative, tolerances_.absolute),
-            "ARKStepSStolerances");
-    require(ARKStepSetMaxErrTestFails(memory_, most_rejections), "ARKStepSetMaxErrTestFails");
+    sundials::silence_arkode(memory_);
+    require(ARKodeSetUserData(memory_, static_cast<AdaptiveStepper*>(this)), "ARKodeSetUserData");
+    require(ARKodeSStolerances(memory_, tolerances_.relative, tolerances_.absolute),
+            "ARKodeSStolerances");
+    require(ARKodeSetMaxErrTestFails(memory_, most_rejections), "ARKodeSetMaxErrTestFails");
     // A higher interpolant evaluates rates of its own, and whether it does depends on more than
     // this step: a run that is resumed would count others.
-    require(ARKStepSetInterpolantDegree(memory_, 3), "ARKStepSetInterpolantDegree");
+    require(ARKodeSetInterpolantDegree(memory_, 3), "ARKodeSetInterpolantDegree");
     if (events_ > 0) {
-      require(ARKStepRootInit(memory_, events_, sundials::events), "ARKStepRootInit");
-      require(ARKStepSetNoInactiveRootWarn(memory_), "ARKStepSetNoInactiveRootWarn");
+      require(ARKodeRootInit(memory_, events_, sundials::events), "ARKodeRootInit");
+      require(ARKodeSetNoInactiveRootWarn(memory_), "ARKodeSetNoInactiveRootWarn");
     }
     if (implicit_part_ != nullptr) {
       require(
           ARKStepSetTableNum(memory_, ARKODE_ARK436L2SA_DIRK_6_3_4, ARKODE_ARK436L2SA_ERK_6_3_4),
           "ARKStepSetTableNum");
       linear_ = sundials::make_linear_solver(y_.get(), unknowns_.size(), band(), context_.get());
-      require(ARKStepSetLinearSolver(memory_, linear_.solver.get(), linear_.matrix.get()),
-              "ARKStepSetLinearSolver");
+      require(ARKodeSetLinearSolver(memory_, linear_.solver.get(), linear_.matrix.get()),
+              "ARKodeSetLinearSolver");
       // By default Newton's iteration is trusted after one correction where the ones before went
       // well. The implicit part here is linear off contact, all of them go well, and the one with
       // an old matrix is far off: errors of 1e-2 at a tolerance of 1e-6.
-      require(ARKStepSetNonlinCRDown(memory_, 1.), "ARKStepSetNonlinCRDown");
+      require(ARKodeSetNonlinCRDown(memory_, 1.), "ARKodeSetNonlinCRDown");
     } else {
       require(ARKStepSetTableNum(memory_, ARKODE_DIRK_NONE, ARKODE_DORMAND_PRINCE_7_4_5),
               "ARKStepSetTableNum");
@@ -66,34 +65,34 @@ class Arkode final : public AdaptiveStepper {
     longest_ = 0.;
     if (!sundials::is_over(y_.get(), unknowns_)) create();
     return ARKStepReInit(memory_, explicit_part_, implicit_part_, time, y_.get()) == ARK_SUCCESS &&
-           ARKStepSetStopTime(memory_, end) == ARK_SUCCESS &&
-           ARKStepSetMinStep(memory_, least_step * end) == ARK_SUCCESS &&
-           ARKStepSetInitStep(memory_, next_step_) == ARK_SUCCESS;  // 0: the library's own guess
+           ARKodeSetStopTime(memory_, end) == ARK_SUCCESS &&
+           ARKodeSetMinStep(memory_, least_step * end) == ARK_SUCCESS &&
+           ARKodeSetInitStep(memory_, next_step_) == ARK_SUCCESS;  // 0: the library's own guess
   }
 
   Arrival advance(double end) override {
     double time = 0.;
-    const int flag = ARKStepEvolve(memory_, end, y_.get(), &time, ARK_ONE_STEP);
+    const int flag = ARKodeEvolve(memory_, end, y_.get(), &time, ARK_ONE_STEP);
     double taken = 0.;
-    ARKStepGetLastStep(memory_, &taken);
+    ARKodeGetLastStep(memory_, &taken);
     longest_ = std::max(longest_, taken);
     if (flag == ARK_SUCCESS) return {Arrival::Kind::inside, time};
     if (flag == ARK_TSTOP_RETURN) return {Arrival::Kind::at_end, time};
     if (flag != ARK_ROOT_RETURN) return {};
-    if (ARKStepGetRootInfo(memory_, directions_.data()) != ARK_SUCCESS) return {};
+    if (ARKodeGetRootInfo(memory_, directions_.data()) != ARK_SUCCESS) return {};
     return {Arrival::Kind::event, time};
   }
 
   bool interpolate(double time, std::span<double> y) override {
     N_VSetArrayPointer(y.data(), between_.get());
-    return ARKStepGetDky(memory_, time, 0, between_.get()) == ARK_SUCCESS;
+    return ARKodeGetDky(memory_, time, 0, between_.get()) == ARK_SUCCESS;
   }
 
   void count() override {
     long errors = 0, divergences = 0, jacobians = 0;
-    ARKStepGetNumErrTestFails(memory_, &errors);
-    if (linear_.solver) ARKStepGetNumNonlinSolvConvFails(memory_, &divergences);
-    if (linear_.solver) ARKStepGetNumJacEvals(memory_, &jacobians);
+    ARKodeGetNumErrTestFails(memory_, &errors);
+    if (linear_.solver) ARKodeGetNumNonlinSolvConvFails(memory_, &divergences);
+    if (linear_.solver) ARKodeGetNumJacEvals(memory_, &jacobians);
     statistics_.rejected += static_cast<double>(errors + divergences);
     statistics_.jacobians += static_cast<double>(jacobians);
     // The library's own proposal is cut short by the end of the interval; the longest step that it
@@ -108,7 +107,7 @@ class Arkode final : public AdaptiveStepper {
   sundials::Owner<N_Vector> y_;
   sundials::Owner<N_Vector> between_;  ///< over what `interpolate` is given
   sundials::LinearSolver linear_;
-  sundials::SolverMemory<ARKStepFree> memory_;
+  sundials::SolverMemory<ARKodeFree> memory_;
   double longest_ = 0.;  ///< step taken since `begin` [s]
 };
 

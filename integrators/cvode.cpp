@@ -4,6 +4,7 @@
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
 #include "integrators/sundials_memory.h"
+#include "integrators/sundials_version.h"
 
 namespace hookpoint::integrators {
 namespace {
@@ -28,7 +29,7 @@ class Cvode final : public AdaptiveStepper {
     between_ = sundials::vector_over(unknowns_, context_.get());
     memory_.reset(CVodeCreate(method_, context_.get()));
     sundials::require_made(memory_, "CVODE");
-    CVodeSetErrHandlerFn(memory_, sundials::silent, nullptr);
+    sundials::silence_cvode(memory_);
     require(CVodeInit(memory_, sundials::rates<&AdaptiveStepper::rates>, 0., y_.get()),
             "CVodeInit");
     require(CVodeSetUserData(memory_, static_cast<AdaptiveStepper*>(this)), "CVodeSetUserData");

@@ -17,6 +17,7 @@
 #include <string>
 
 #include "integrators/adaptive.h"
+#include "integrators/sundials_version.h"
 
 namespace hookpoint::integrators::sundials {
 
@@ -63,7 +64,7 @@ void require_made(const Pointer& made, const char* what) {
 
 inline Owner<SUNContext> make_context() {
   SUNContext context = nullptr;
-  const int flag = SUNContext_Create(nullptr, &context);
+  const int flag = create_context(&context);
   Owner<SUNContext> owner(context);
   require(flag, "SUNContext_Create");
   return owner;
@@ -101,9 +102,6 @@ inline LinearSolver make_linear_solver(N_Vector y, std::size_t size, std::size_t
   require_made(linear.solver, "linear solver");
   return linear;
 }
-
-/// Messages go to the caller by the returned flags; nothing is printed.
-inline void silent(int, const char*, const char*, char*, void*) {}
 
 inline AdaptiveStepper& stepper(void* user) { return *static_cast<AdaptiveStepper*>(user); }
 

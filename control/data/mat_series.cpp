@@ -67,7 +67,7 @@ matvar_t* field(matvar_t* variable, const char* name) {
 
 std::vector<std::string> variables_of(mat_t& file) {
   std::size_t count = 0;
-  char** names = Mat_GetDir(&file, &count);
+  char* const* names = Mat_GetDir(&file, &count);
   return names == nullptr ? std::vector<std::string>{}
                           : std::vector<std::string>(names, names + count);
 }
@@ -175,7 +175,7 @@ class FirstLook {
 Series read_mat_series(const std::filesystem::path& path, const std::string& column) {
   const std::string name = path.string();
   // Its own messages would go to the terminal beside ours.
-  Mat_LogInitFunc("hookpoint", [](int, char*) {});
+  Mat_LogInitFunc("hookpoint", [](int, auto) {});
   const std::unique_ptr<mat_t, CloseFile> file(
       FirstLook(name).is_sound() ? Mat_Open(name.c_str(), MAT_ACC_RDONLY) : nullptr);
   if (!file) throw std::runtime_error(name + ": cannot be read as a MAT file");

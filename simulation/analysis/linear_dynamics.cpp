@@ -133,8 +133,8 @@ Eigen::MatrixXd RobotAtRest::joint_levers() const { return root_.bottomRows(robo
 Eigen::VectorXd RobotAtRest::base_motion(const Vector3d& rotation,
                                          const Vector3d& translation) const {
   Eigen::VectorXd q = Eigen::VectorXd::Zero(size());
-  q.head(3) = eigen(rotation);
-  q.segment(3, 3) = eigen(translation);
+  q.head<3>() = eigen(rotation);
+  q.segment<3>(3) = eigen(translation);
   for (Eigen::Index k = 0; k < 6; ++k)
     if (is_held(robot_->model(), k)) q[k] = 0.;
   root_.triangularView<Eigen::Lower>().solveInPlace(q);
