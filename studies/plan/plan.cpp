@@ -15,6 +15,7 @@
 #include "language/names.h"
 #include "output/text/hash.h"
 #include "simulation/identity.h"
+#include "simulation/step_count.h"
 #include "studies/measured_body.h"
 #include "studies/plan/plan_parts.h"
 #include "studies/plan/row_forms.h"
@@ -129,15 +130,15 @@ RowScene StudyPlan::scene_of(const RowPlan& row) const {
   const bool ours = row.under_ours || engine.empty() || engine == "dts";
   for (std::size_t i = 0; i < sweeps.size(); ++i) {
     const SweepPlan& sweep = sweeps[i];
-    const std::string& name = sweep.column.name;
+    const std::string& column = sweep.column.name;
     const std::string& text = sweep.texts[static_cast<std::size_t>(row.values[i])];
     if (sweep.role == SweepRole::parameter || sweep.role == SweepRole::seeds)
-      parameters.give(name, text);
+      parameters.give(column, text);
     if (sweep.role == SweepRole::cases)
       for (const Assignment& set : sweep.settings[static_cast<std::size_t>(row.values[i])])
         parameters.give(set.parameter, set.text);
     if (sweep.role == SweepRole::seeds)
-      scene.options.overrides.push_back({scene.timed_world + "." + name, text});
+      scene.options.overrides.push_back({scene.timed_world + "." + column, text});
   }
   for (const std::string field : {"engine", "contact", "integrator", "settings"}) {
     // A peer has a contact and an integrator of its own, and we have no settings.
@@ -151,8 +152,8 @@ RowScene StudyPlan::scene_of(const RowPlan& row) const {
 }
 
 int StudyPlan::seed_sweep() const {
-  const bool seeds = !sweeps.empty() && sweeps.back().role == SweepRole::seeds;
-  return seeds ? static_cast<int>(sweeps.size()) - 1 : -1;
+  const bool last = !sweeps.empty() && sweeps.back().role == SweepRole::seeds;
+  return last ? static_cast<int>(sweeps.size()) - 1 : -1;
 }
 
 language::Position StudyPlan::place_in_study(const language::Position& position, const RowPlan& row,
@@ -342,6 +343,7 @@ class SceneLoader {
     row.engine = loaded.scene->experiment.engine;
     row.deltat = loaded.scene->experiment.deltat;
     row.duration = loaded.scene->experiment.duration;
+    if (!check_length(plan, study, row)) return false;
     row.forms = loaded.forms;
     row.forms.resize(plan.user_metrics.size());
     if (loaded.warning) warn_of_step(plan, study, row, loaded.scene->experiment, *loaded.warning);
@@ -353,6 +355,25 @@ class SceneLoader {
   std::vector<std::string> settable;    ///< names at the scene's top
 
  private:
+  /// Reports a row that is too long to be counted in steps, where its length is said.
+  bool check_length(const StudyPlan& plan, const Object& study, const RowPlan& row) {
+    const std::string problem = simulation::step_count_problem(row.duration, row.deltat);
+    if (problem.empty()) return true;
+    const int cases = plan.case_sweep();
+    if (cases >= 0 && !plan.sweeps[static_cast<std::size_t>(cases)].durations.empty()) {
+      const SweepPlan& sweep = plan.sweeps[static_cast<std::size_t>(cases)];
+      const auto place = static_cast<std::size_t>(row.values[static_cast<std::size_t>(cases)]);
+      diagnostics_.error(sweep.places[place],
+                         fmt::format("{} {} was measured until then: {}", sweep.column.name,
+                                     sweep.texts[place], problem));
+    } else {
+      const bool quick = plan.quick && study.given("quick_duration");
+      diagnostics_.error(study.find(quick ? "quick_duration" : "duration")->position, problem);
+    }
+    diagnostics_.note(study.position, "in study " + study.name + " " + place_of(plan, row));
+    return false;
+  }
+
   /// Gives the row of our engine hookpoint's ground; a peer has its own.
   void match(const StudyPlan& plan, const RowPlan& row, LoadedRow& loaded) const {
     if (loaded.scene->experiment.engine != "dts") return;
