@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 #include <sqlite3.h>
+#include <sys/resource.h>
 
-#include <cerrno>
 #include <cstdint>
 #include <initializer_list>
 #include <map>
@@ -46,6 +46,14 @@ std::string digits_of(std::string_view bytes) {
   std::string digits;
   for (const char byte : bytes) digits += fmt::format("{:02x}", static_cast<unsigned char>(byte));
   return digits;
+}
+
+/// Whether a write may have failed for a limit of this process: the library says nothing of it.
+bool may_be_limited(int answer) {
+  rlimit limit{};
+  const int kind = answer & 0xff;
+  return (kind == SQLITE_FULL || kind == SQLITE_IOERR) && getrlimit(RLIMIT_FSIZE, &limit) == 0 &&
+         limit.rlim_cur != RLIM_INFINITY;
 }
 
 /// What the user can do about an answer of the library.
@@ -158,10 +166,10 @@ class RunStore::Connection {
  private:
   [[noreturn]] void fail(const char* doing, int answer) const {
     const char* reason = database_ == nullptr ? sqlite3_errstr(answer) : sqlite3_errmsg(database_);
-    const bool limited = database_ != nullptr && sqlite3_system_errno(database_) == EFBIG;
-    throw StoreError(fmt::format("cannot {} {}: {}{}; {}", doing, file_.string(), reason,
-                                 limited ? " (the limit of file sizes, `ulimit -f`)" : "",
-                                 remedy(answer)));
+    throw StoreError(
+        fmt::format("cannot {} {}: {}{}; {}", doing, file_.string(), reason,
+                    may_be_limited(answer) ? " (or the limit of file sizes, `ulimit -f`)" : "",
+                    remedy(answer)));
   }
 
   /// Ends a statement that takes more work than any of this program's.

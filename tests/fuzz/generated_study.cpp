@@ -55,7 +55,7 @@ class StudyDrawing : DrawnText {
     std::string text =
         "Param mu = 0.4;\nParam stiffness = 20 kN/m;\nParam height = 1 cm;\n"
         "Param speed = 0 m/s;\nParam slope = 4 deg;\nParam soil = clay;\n";
-    const bool fixed_time = chance(0.7);
+    const bool fixed_time = chance(0.9);
     text += "World world { gravity = 9.81; deltat = " + std::string(fixed_time ? "1 ms" : "auto") +
             "; duration = 0.02 s; seed = 3;\n";
     if (chance(0.5)) text += "contact = " + one_of(choices("World", "contact")) + ";\n";
@@ -67,7 +67,7 @@ class StudyDrawing : DrawnText {
     if (chance(0.15)) {
       const GeneratedRobot drawn = generate_robot(random_(), 0.);
       files_.insert(files_.end(), drawn.files.begin(), drawn.files.end());
-      text += "Include \"" + drawn.files.front().name + "\" (name = block, rest_on = ground" +
+      text += "Include \"" + drawn.files.front().name + "\" (name = block, location = 0, 0, 0.4" +
               drawn.arguments + ");\n";
     } else {
       text +=
@@ -90,18 +90,18 @@ class StudyDrawing : DrawnText {
         {"ground.hook",
          "Param angle = 2 deg;\nMaterial felt { static_friction = 0.7; }\nTerrain.Slope "
          "laid { angle = angle; material = felt; }\n" +
-             std::string(chance(0.1) ? "Plugin \"none.so\";\n" : "")});
+             std::string(chance(0.03) ? "Plugin \"none.so\";\n" : "")});
   }
 
   /// Blocks that pass a height on, in a row.
   std::string signals() {
     const std::string from = "block.base.location.z";
     const Words blocks{
-        "Filter f { time_constant = 2 ms; Wire FROM " + from + " TO input; }\n",
+        "Filter f { frequency = 50 Hz; Wire FROM " + from + " TO input; }\n",
         "Delay d { time = 3 ms; Wire FROM " + from + " TO input; }\n",
-        "Sample s { rate = 200; Wire FROM " + from + " TO input; }\n",
-        "Switch w { Wire FROM " + from + " TO a; Wire FROM " + from + " TO b; }\n",
-        "Expression e { in = " + from + "; formula = \"in / 1 m + previous\"; }\n",
+        "Sample s { rate = 200 Hz; Wire FROM " + from + " TO input; }\n",
+        "Switch w { in = 1, 2; threshold = 0.05; Wire FROM " + from + " TO control; }\n",
+        "Expression e { formula = \"" + from + " / 1 m + 0.5 * previous\"; }\n",
         "StateMachine m { State up { output = \"1\"; } State down { output = \"time_in_state / 1 "
         "s\"; } Transition fall { from = up; to = down; when = \"time_in_state > 2 ms\"; } }\n"};
     std::string text;
@@ -163,8 +163,8 @@ class StudyDrawing : DrawnText {
     maybe(0.3, "seeds", std::to_string(1 + below(3)));
     if (chance(0.1)) write("match = hookpoint;");
     maybe(0.2, "expects", chance(0.5) ? "true" : "false");
-    for (std::size_t i = 0, count = 1 + below(3); i < count; ++i) subject();
     for (std::size_t i = below(3); i > 0; --i) sweep();
+    for (std::size_t i = 0, count = 1 + below(3); i < count; ++i) subject();
     for (std::size_t i = 1 + below(4); i > 0; --i) measure();
     for (std::size_t i = below(3); i > 0; --i) truth();
     for (std::size_t i = below(3); i > 0; --i) plot();
@@ -177,7 +177,10 @@ class StudyDrawing : DrawnText {
   void subject() {
     const std::string name = "s" + std::to_string(subjects_.size());
     write("Subject " + name + " {");
-    if (chance(0.3)) {
+    const bool free = !is_swept("engine") && !is_swept("contact");
+    if (!free) {
+      write("integrator = semi_implicit_euler;");
+    } else if (chance(0.3)) {
       write("engine = " + one_of(choices("World", "engine")) + ";");
       maybe(0.5, "settings", one_of(Words{"default", "recommended", "matched"}));
     } else {
@@ -192,7 +195,7 @@ class StudyDrawing : DrawnText {
   void sweep() {
     const std::string name =
         one_of(Words{"mu", "slope", "height", "soil", "engine", "contact", "terrain", "speed"});
-    if (std::ranges::find(sweeps_, name) != sweeps_.end()) return;
+    if (is_swept(name)) return;
     write("Sweep " + name + " {");
     if (name == "soil") {
       write("values = clay, oak;");
@@ -221,6 +224,10 @@ class StudyDrawing : DrawnText {
     sweeps_.push_back(name);
   }
 
+  bool is_swept(const std::string& name) const {
+    return std::ranges::find(sweeps_, name) != sweeps_.end();
+  }
+
   void only() {
     const std::string name = rarely_wrong(sweeps_.empty() ? "mu" : one_of(sweeps_));
     if (name.find_first_not_of("abcdefghijklmnopqrstuvwxyz") != std::string::npos) return;
@@ -239,19 +246,26 @@ class StudyDrawing : DrawnText {
     const std::string name = "own" + std::to_string(measures_.size());
     write("Measure " + name + " {");
     const bool trace = traces_ && chance(0.5);
+    static const std::vector<std::pair<std::string, std::string>> ports{
+        {"world.block.base.location.z", "5 cm"},
+        {"world.block.base.velocity.x", "0.1 m/s"},
+        {"abs(world.block.base.velocity.z)", "1 mm/s"},
+        {"world.time", "3 ms"}};
+    const auto& [port, level] = one_of(ports);
     if (trace)
       write("trace = zz;");
     else
-      field("of", one_of(Words{"world.block.base.location.z", "world.block.base.velocity.x",
-                               "abs(world.block.base.velocity.z)",
-                               "1 / world.block.base.velocity.y", "world.time"}));
-    field("take", one_of(simulation::reduction_names()));
+      field("of", chance(0.05) ? "1 / world.block.base.velocity.y" : port);
+    const std::string take = one_of(simulation::reduction_names());
+    field("take", take);
     maybe(0.3, "from", "1 ms");
     maybe(0.2, "to", "4 ms");
-    maybe(0.3, "level", one_of(Words{"5 cm", "0 m/s", "3 ms"}));
-    maybe(0.3, "band", "1 mm");
-    maybe(0.2, "unit", "mm");
-    maybe(0.2, "predicted", one_of(Words{"height", "height / mu", "height / (mu - 0.4)"}));
+    const bool about = take == "time_at" || take.ends_with("_above");
+    if (about || chance(degenerate_)) field("level", trace ? "5 cm" : level);
+    if (take == "settle_time") field("band", trace ? "1 cm" : level);
+    maybe(degenerate_, "unit", "mm");
+    if (level == "5 cm" && !trace)
+      maybe(0.3, "predicted", one_of(Words{"height", "height / mu", "height / (mu - 0.4)"}));
     write("}");
     measures_.insert(name);
   }
@@ -292,19 +306,15 @@ class StudyDrawing : DrawnText {
 
   void plot() {
     write("Plot p" + std::to_string(named_++) + " {");
-    const bool over_time = chance(0.3);
-    write("x = " +
-          rarely_wrong(over_time         ? "time"
-                       : sweeps_.empty() ? metric()
-                                         : one_of(sweeps_)) +
-          ";");
+    const bool over_time = sweeps_.empty() || chance(0.3);
+    write("x = " + rarely_wrong(over_time ? "time" : one_of(sweeps_)) + ";");
     write("y = " +
           (over_time ? one_of(Words{"displacement", "speed", "penetration", "energy"}) : metric()) +
           ";");
     maybe(0.3, "scale", one_of(Words{"linear", "log", "log_x", "log_log"}));
     maybe(0.2, "series", axis());
-    maybe(0.2, "panels", axis());
-    maybe(0.1, "colour", metric());
+    if (!sweeps_.empty()) maybe(0.2, "panels", one_of(sweeps_));
+    if (sweeps_.size() > 1) maybe(degenerate_, "colour", metric());
     maybe(0.2, "floor", "1e-9");
     if (chance(0.2)) write("Reference line { value = " + rarely_wrong("0.01") + "; }");
     if (chance(0.2)) only();
@@ -312,15 +322,18 @@ class StudyDrawing : DrawnText {
   }
 
   void table() {
-    write("Table t" + std::to_string(named_++) + " { rows = " + axis() + "; columns = " + axis() +
-          "; value = " + metric() + "; }");
+    if (sweeps_.empty()) return;
+    write("Table t" + std::to_string(named_++) + " { rows = subject; columns = " +
+          rarely_wrong(one_of(sweeps_)) + "; value = " + metric() + "; }");
   }
 
   void claim() {
     write("Claim c" + std::to_string(named_++) + " { text = \"It is {" +
           one_of(Words{"", "least ", "largest ", "predicted ", "subject of least "}) + metric() +
           (chance(0.5) ? " of " + subjects_.front() : "") + "}, " +
-          one_of(Words{"", "twice", "{", "{" + metric() + " / " + metric() + "}"}) + ".\"; }");
+          one_of(Words{"", "twice", chance(degenerate_) ? "{" : "",
+                       "{" + metric() + " / " + metric() + "}"}) +
+          ".\"; }");
   }
 
   // Tune and Calibrate.
@@ -335,7 +348,7 @@ class StudyDrawing : DrawnText {
     const std::vector<std::pair<std::string, std::string>> ranges{
         {"normal_damping", "from = 10 N.s/m; to = 300 N.s/m;"},
         {"tangential_stiffness", "from = 1 kN/m; to = 100 kN/m; scale = log;"},
-        {"height", "from = 0; to = 2 cm;"},
+        {"height", "from = 0 cm; to = 2 cm;"},
         {"mu", "from = 0.1; to = 1;"},
         {"stiffness", "from = 5 kN/m; to = 50 kN/m; scale = log;"}};
     std::set<std::size_t> taken;
@@ -360,7 +373,7 @@ class StudyDrawing : DrawnText {
     maybe(0.6, "duration", "10 ms");
     maybe(0.3, "settle", "2 ms");
     maybe(0.3, "seed", "5");
-    static const Words metrics{"penetration_max", "penetration_mean", "creep_speed", "step_time",
+    static const Words metrics{"penetration_max", "penetration_mean", "creep_speed",
                                "contact_breaks",  "energy_gain",      "stable_step"};
     std::set<std::string> chosen;
     for (std::size_t i = one ? 1 : 1 + below(2); i > 0; --i) chosen.insert(one_of(metrics));

@@ -125,6 +125,25 @@ TEST(StepCounts, BeyondADoublesWholeNumbersAreRefusedAtTheirPlace) {
                   "are 1e+12 steps: at a million steps a second they take 12 days"));
 }
 
+TEST(SweptTerrain, LoadsNoPlugin) {
+  const Workplace work;
+  work.file("library.so", "");
+  work.file("scene.hook",
+            "World w { deltat = 1 ms; Terrain.Flat g { } Robot ball { Base.mobile { mass = "
+            "1; inertia = 1, 1, 1, 0, 0, 0; } } }\n");
+  work.file("ground.hook", "Plugin \"library.so\"; Terrain.Flat laid { }\n");
+  work.file("study.hook",
+            "Study s { scene = \"scene.hook\"; duration = 10 ms; Subject ours { } Measure "
+            "fell; Sweep terrain { values = \"ground.hook\"; } }\n");
+  const CommandResult result = work.hookpoint("study study.hook --out out");
+  EXPECT_EQ(result.status, 2);
+  EXPECT_TRUE(has(result.err,
+                  "ground.hook:1:1: error: a terrain's file holds a Terrain and Materials "
+                  "alone: its Plugin "))
+      << result.err;
+  EXPECT_FALSE(fs::exists(work.folder() / "out"));
+}
+
 // A variable of a script that is not set.
 TEST(EmptyArguments, NameNothing) {
   const Workplace work;
