@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <iostream>
 
 #include "application/application.h"
@@ -15,6 +16,9 @@ namespace {
 
 using simulation::Advice;
 using simulation::GroundAdvice;
+
+/// Where nothing springs back, any step is stable.
+std::string step_text(double step) { return std::isfinite(step) ? output::rounded(step) : "any"; }
 
 void print_ground(const GroundAdvice& ground) {
   fmt::print(
@@ -38,8 +42,8 @@ void print_text(const simulation::Experiment& experiment, const Advice& advice) 
   for (const GroundAdvice& ground : advice.grounds) print_ground(ground);
   fmt::print("\nlargest stable step [s]  {:>12} {:>12}\n", "present", "advised");
   for (const simulation::StepAdvice& step : advice.steps)
-    fmt::print("  {:<22} {:>12} {:>12}\n", step.integrator, output::rounded(step.present),
-               output::rounded(step.advised));
+    fmt::print("  {:<22} {:>12} {:>12}\n", step.integrator, step_text(step.present),
+               step_text(step.advised));
   if (!advice.controllers.empty())
     fmt::print("  with the loops of {}\n", simulation::first_of(advice.controllers));
   if (!advice.left_out.empty())

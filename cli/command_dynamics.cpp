@@ -127,6 +127,14 @@ void print_robot(const RobotDynamics& robot) {
   }
 }
 
+void print_text(const simulation::Experiment& experiment, const DynamicsReport& report) {
+  fmt::print("world {}, at its initial state (world axes)\n", report.world);
+  for (const RobotDynamics& robot : report.robots) print_robot(robot);
+  if (report.largest_stable_step)
+    fmt::print("largest stable step of {}: {:.4g} s\n", experiment.integrator,
+               *report.largest_stable_step);
+}
+
 }  // namespace
 
 int dynamics(const std::filesystem::path& file, const application::Settings& settings, bool json,
@@ -136,17 +144,17 @@ int dynamics(const std::filesystem::path& file, const application::Settings& set
   if (!root) return wrong_input;
   const auto experiment = application.load(*root);
   if (!experiment) return wrong_input;
-  const DynamicsReport report = simulation::evaluate_dynamics(*experiment);
-  if (json) {
-    print_json(*experiment, report);
+  try {
+    const DynamicsReport report = simulation::evaluate_dynamics(*experiment);
+    if (json)
+      print_json(*experiment, report);
+    else
+      print_text(*experiment, report);
     return fine;
+  } catch (const simulation::ExperimentError& error) {
+    application::print_error(error.what());
+    return wrong_input;
   }
-  fmt::print("world {}, at its initial state (world axes)\n", report.world);
-  for (const RobotDynamics& robot : report.robots) print_robot(robot);
-  if (report.largest_stable_step)
-    fmt::print("largest stable step of {}: {:.4g} s\n", experiment->integrator,
-               *report.largest_stable_step);
-  return fine;
 }
 
 }  // namespace hookpoint::cli

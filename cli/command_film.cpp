@@ -25,6 +25,7 @@ using view::FilmFormat;
 
 constexpr int least_side = 16, greatest_side = 8192;
 constexpr double greatest_rate = 1000.;
+constexpr int most_pictures = 1'000'000;
 
 /// "1280x720".
 void read_size(const std::string& text, Film& film) {
@@ -84,6 +85,11 @@ std::vector<std::int64_t> steps_of(const FilmArguments& arguments, double rate,
   if (to < from)
     throw FilmError(fmt::format("--to, {} s, lies before --from, {} s", output::shortest(to),
                                 output::shortest(from)));
+  if (const double pictures = (to - from) * rate; !(pictures <= most_pictures))
+    throw FilmError(
+        fmt::format("{} pictures are more than a film may have ({}): choose a part with "
+                    "--from and --to, or a lower --fps",
+                    output::rounded(pictures), most_pictures));
   return view::film_steps(from, to, rate, deltat);
 }
 

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <set>
 
@@ -74,6 +75,10 @@ void print_json(const std::string& world, const std::vector<Port>& ports, PortTe
   std::cout << json.text();
 }
 
+std::string value_text(const Port& port) {
+  return std::isfinite(*port.value) ? output::rounded(*port.value, 6) : "none";
+}
+
 /// A line a number or vector, which `--record` takes as it stands there.
 void print_table(const std::vector<Port>& ports, PortTexts& texts) {
   struct Line {
@@ -84,9 +89,9 @@ void print_table(const std::vector<Port>& ports, PortTexts& texts) {
   for (std::size_t i = 0; i < ports.size();) {
     const std::string whole(simulation::whole_of(ports[i].trail));
     const std::size_t first = i;
-    std::string value = output::rounded(*ports[i].value, 6);
+    std::string value = value_text(ports[i]);
     while (++i < ports.size() && !whole.empty() && simulation::whole_of(ports[i].trail) == whole)
-      value += ", " + output::rounded(*ports[i].value, 6);
+      value += ", " + value_text(ports[i]);
     const std::string& trail = i > first + 1 ? whole : ports[first].trail;
     PortText text = texts.of(ports[first]);
     lines.push_back({trail, ports[first].unit, text.kind, std::move(value), std::move(text.doc)});

@@ -1,11 +1,10 @@
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "cli/commands.h"
 #include "cli/exit_status.h"
 #include "cli/opened_movie.h"
 #include "cli/run_loop.h"
+#include "simulation/step_count.h"
 
 namespace hookpoint::cli {
 namespace {
@@ -15,8 +14,8 @@ std::int64_t last_step(const RunArguments& arguments, const simulation::Experime
                        std::int64_t first) {
   const double duration =
       arguments.duration ? seconds(*arguments.duration, "--for") : experiment.duration;
-  const auto steps = static_cast<std::int64_t>(std::llround(duration / experiment.deltat));
-  const std::int64_t last = arguments.duration ? first + steps : steps;
+  const double begin = arguments.duration ? static_cast<double>(first) * experiment.deltat : 0.;
+  const std::int64_t last = simulation::step_count(begin + duration, experiment.deltat);
   if (last > first) return last;
   throw output::MovieError(
       fmt::format("nothing is left to run from {} s on: the World's duration is {} s; say --for "

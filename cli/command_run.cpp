@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <cmath>
 #include <iostream>
 #include <utility>
 
@@ -11,6 +10,7 @@
 #include "cli/exit_status.h"
 #include "cli/run_loop.h"
 #include "simulation/scene/load.h"
+#include "simulation/step_count.h"
 
 namespace hookpoint::cli {
 namespace {
@@ -105,8 +105,7 @@ int run(const RunArguments& arguments) {
          application.describe_engine(*experiment), language::sources_of(*root)});
     tell_windows(*root, arguments.file);
     tell_stability(*experiment);
-    const auto steps =
-        static_cast<std::int64_t>(std::llround(experiment->duration / experiment->deltat));
+    const std::int64_t steps = simulation::step_count(experiment->duration, experiment->deltat);
     // Truths are about the scene's own duration.
     std::optional<simulation::Expectations> expectations;
     if (!arguments.duration) expectations.emplace(*experiment, world.ports());

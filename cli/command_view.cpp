@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -17,6 +16,7 @@
 #include "cli/open_browser.h"
 #include "cli/run_loop.h"
 #include "output/figures/plot.h"
+#include "simulation/step_count.h"
 #include "unicode/display.h"
 #include "view/description.h"
 #include "view/ghosts.h"
@@ -33,7 +33,8 @@ using simulation::LiveRun;
 /// last five minutes.
 view::History history_of(const simulation::Experiment& experiment) {
   constexpr double between = 0.02;
-  return view::History(std::max<std::int64_t>(10, std::llround(between / experiment.deltat)));
+  return view::History(std::max<std::int64_t>(
+      10, simulation::step_count(std::min(between, experiment.duration), experiment.deltat)));
 }
 
 /// What is wrong with the file, as the loader tells it.

@@ -23,7 +23,7 @@ inline constexpr ExitMeaning exit_meanings[] = {
     {truth_failed, "a truth failed, a run diverged, files differ, or results could not be kept"},
     {wrong_input, "wrong input"},
     {missing, "something is missing on this machine"},
-    {130, "interrupted (143 by SIGTERM)"},
+    {130, "interrupted (143 by SIGTERM, 129 by SIGHUP)"},
 };
 
 }  // namespace hookpoint::cli

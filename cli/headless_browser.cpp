@@ -1,6 +1,5 @@
 #include "cli/headless_browser.h"
 
-#include <stdlib.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -16,15 +15,6 @@ namespace {
 bool can_be_run(const std::filesystem::path& file) {
   std::error_code ignored;
   return std::filesystem::is_regular_file(file, ignored) && ::access(file.c_str(), X_OK) == 0;
-}
-
-std::filesystem::path fresh_profile() {
-  std::string pattern =
-      (std::filesystem::temp_directory_path() / "hookpoint-browser-XXXXXX").string();
-  if (mkdtemp(pattern.data()) == nullptr)
-    throw output::FileError("cannot create a folder in " +
-                            std::filesystem::temp_directory_path().string());
-  return pattern;
 }
 
 /// A page that only leads to `url`. The folder that it lies in is its owner's alone.
@@ -95,27 +85,19 @@ std::filesystem::path find_headless_browser() {
       "apt-get install chromium), or name one in HOOKPOINT_BROWSER");
 }
 
-HeadlessBrowser::HeadlessBrowser(const std::string& url, int width, int height) {
+HeadlessBrowser::HeadlessBrowser(const std::string& url, int width, int height)
+    : folder_("browser") {
   const std::filesystem::path program = find_headless_browser();
-  folder_ = fresh_profile();
+  const std::filesystem::path& folder = folder_.path();
   try {
     program_ = std::make_unique<ChildProgram>(
-        program, arguments_for(folder_, write_opener(folder_, url), width, height));
+        program, arguments_for(folder, write_opener(folder, url), width, height));
   } catch (const std::system_error& error) {
-    remove_folder();
     throw BrowserMissing(error.what());
   }
 }
 
-HeadlessBrowser::~HeadlessBrowser() {
-  program_.reset();
-  remove_folder();
-}
-
-void HeadlessBrowser::remove_folder() const {
-  std::error_code ignored;
-  std::filesystem::remove_all(folder_, ignored);
-}
+HeadlessBrowser::~HeadlessBrowser() = default;
 
 std::optional<std::string> HeadlessBrowser::ended() {
   const bool running = program_->running();

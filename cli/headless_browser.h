@@ -8,6 +8,7 @@
 #include <string>
 
 #include "cli/child_program.h"
+#include "output/temporary_folder.h"
 
 namespace hookpoint::cli {
 
@@ -36,10 +37,8 @@ class HeadlessBrowser {
   std::optional<std::string> ended();
 
  private:
-  void remove_folder() const;
-
-  std::filesystem::path folder_;  ///< its profile
-  std::unique_ptr<ChildProgram> program_;
+  output::TemporaryFolder folder_;         ///< its profile
+  std::unique_ptr<ChildProgram> program_;  ///< ends before its folder is removed
 };
 
 }  // namespace hookpoint::cli

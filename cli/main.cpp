@@ -526,7 +526,30 @@ std::vector<std::string> with_command(const CLI::App& app, std::vector<std::stri
   return {};
 }
 
+/// What is wrong with an argument that is empty, which names no file, number or port: a variable of
+/// a script that was not set. "" where none is.
+std::string problem_of_empty(const std::vector<std::string>& words) {
+  const auto is_option = [](const std::string& word) { return word.starts_with("--"); };
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::string& word = words[i];
+    const bool joined = is_option(word) && word.find('=') == word.size() - 1;
+    if (!word.empty() && !joined) continue;
+    const std::string name = joined                             ? word.substr(0, word.size() - 1)
+                             : i > 0 && is_option(words[i - 1]) ? words[i - 1]
+                                                                : "";
+    return (name.empty() ? "argument " + std::to_string(i + 1) + " is empty"
+                         : "the value of " + name + " is empty") +
+           ": give it one, or leave it out";
+  }
+  return "";
+}
+
 int main_with(int count, char** words) {
+  const std::vector<std::string> given(words + 1, words + count);
+  if (const std::string problem = problem_of_empty(given); !problem.empty()) {
+    application::print_error(problem);
+    return wrong_input;
+  }
   CLI::App app(about(), "hookpoint");
   app.require_subcommand(1);
   app.set_version_flag("-V,--version", version_text,
@@ -541,8 +564,8 @@ int main_with(int count, char** words) {
   add_inspection(app, request);
   add_advise(app, request);
   add_compare(app, request);
-  std::vector<std::string> wanted = with_command(app, {words + 1, words + count});
-  if (wanted.empty() && count > 1) return wrong_input;
+  std::vector<std::string> wanted = with_command(app, given);
+  if (wanted.empty() && !given.empty()) return wrong_input;
   std::reverse(wanted.begin(), wanted.end());  // CLI11 takes the words last first
   try {
     app.parse(wanted);
@@ -574,8 +597,12 @@ int guarded_main(int count, char** words) {
     application::print_error("there is not enough memory for what was asked");
     return missing;
   } catch (const std::system_error& error) {
+    const bool no_thread = error.code() == std::errc::resource_unavailable_try_again;
     // Where it is of standard output, that is told once, at the end.
-    if (std::ferror(stdout) == 0) application::print_error(error.what());
+    if (std::ferror(stdout) == 0)
+      application::print_error(no_thread ? "no further thread can be started (`ulimit -u`): try "
+                                           "fewer with --jobs"
+                                         : error.what());
     return missing;
   } catch (const std::exception& error) {
     application::print_error(error.what());

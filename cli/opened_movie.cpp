@@ -2,33 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <cstdlib>
-
 #include "cli/exit_status.h"
 #include "language/document.h"
 #include "simulation/scene/load.h"
 
 namespace hookpoint::cli {
-namespace {
-
-std::filesystem::path fresh_folder() {
-  std::string pattern =
-      (std::filesystem::temp_directory_path() / "hookpoint-movie-XXXXXX").string();
-  if (mkdtemp(pattern.data()) == nullptr)
-    throw output::FileError("cannot create a folder in " +
-                            std::filesystem::temp_directory_path().string());
-  return pattern;
-}
-
-}  // namespace
-
 OpenedMovie::OpenedMovie(const std::filesystem::path& file, bool allow_plugins)
-    : reader_(file), application_(allow_plugins), folder_(fresh_folder()) {}
-
-OpenedMovie::~OpenedMovie() {
-  std::error_code ignored;
-  std::filesystem::remove_all(folder_, ignored);
-}
+    : reader_(file), application_(allow_plugins), folder_("movie") {}
 
 simulation::Experiment OpenedMovie::load() {
   const output::MovieHeader& header = reader_.header();
@@ -36,11 +16,12 @@ simulation::Experiment OpenedMovie::load() {
   for (std::size_t i = 0; i < header.files.size(); ++i) {
     const output::MovieFile& file = header.files[i];
     const std::filesystem::path place =
-        folder_ / fmt::format("{}-{}", i, std::filesystem::path(file.name).filename().string());
+        folder_.path() /
+        fmt::format("{}-{}", i, std::filesystem::path(file.name).filename().string());
     output::write_file(place, file.content);
     files.push_back({file.name, place.string()});
   }
-  const std::filesystem::path text = folder_ / "experiment.hook";
+  const std::filesystem::path text = folder_.path() / "experiment.hook";
   output::write_file(text, header.experiment);
   const auto fail = [] {
     throw output::MovieError("the experiment inside the movie cannot be loaded");

@@ -8,6 +8,7 @@
 
 #include "application/application.h"
 #include "output/movies/movie.h"
+#include "output/temporary_folder.h"
 #include "simulation/run/rewind.h"
 
 namespace hookpoint::cli {
@@ -16,7 +17,6 @@ class OpenedMovie {
  public:
   /// Throws output::MovieError.
   explicit OpenedMovie(const std::filesystem::path& file, bool allow_plugins);
-  ~OpenedMovie();
   OpenedMovie(const OpenedMovie&) = delete;
   OpenedMovie& operator=(const OpenedMovie&) = delete;
 
@@ -36,7 +36,7 @@ class OpenedMovie {
   output::MovieReader reader_;
   application::Application application_;
   std::unique_ptr<language::Object> root_;
-  std::filesystem::path folder_;  ///< of the files taken out; gone with this
+  output::TemporaryFolder folder_;  ///< of the files taken out
 };
 
 /// "2.5 s", "300 ms", "2.5" as seconds. `option`: for the message. Throws output::MovieError.

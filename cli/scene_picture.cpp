@@ -1,7 +1,5 @@
 #include "cli/scene_picture.h"
 
-#include <stdlib.h>
-
 #include <chrono>
 #include <exception>
 #include <optional>
@@ -9,6 +7,7 @@
 
 #include "cli/child_program.h"
 #include "cli/headless_browser.h"
+#include "output/temporary_folder.h"
 
 namespace hookpoint::cli {
 namespace {
@@ -22,25 +21,6 @@ constexpr seconds drawing_time{60};
 constexpr milliseconds between_pictures{20};
 constexpr int width = 960, height = 600;
 constexpr const char* name = "scene.png";
-
-/// A folder that is gone with everything in it.
-class PassingFolder {
- public:
-  PassingFolder() {
-    std::string pattern = (fs::temp_directory_path() / "hookpoint-picture-XXXXXX").string();
-    if (mkdtemp(pattern.data()) != nullptr) path_ = pattern;
-  }
-  ~PassingFolder() {
-    std::error_code ignored;
-    if (!path_.empty()) fs::remove_all(path_, ignored);
-  }
-  PassingFolder(const PassingFolder&) = delete;
-  PassingFolder& operator=(const PassingFolder&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 /// The address of the viewer's page; none where it ended, or it is late.
 std::optional<std::string> wait_for_address(ChildProgram& viewer, Clock::time_point until,
@@ -89,10 +69,8 @@ std::string draw_into(const fs::path& folder, const PictureRequest& request,
 }  // namespace
 
 std::string draw_scene_picture(const PictureRequest& request, const std::atomic<bool>& stop) {
-  const PassingFolder folder;
   try {
-    return folder.path().empty() ? "there is no room for what passes"
-                                 : draw_into(folder.path(), request, stop);
+    return draw_into(output::TemporaryFolder("picture").path(), request, stop);
   } catch (const std::exception& error) {
     return error.what();
   }

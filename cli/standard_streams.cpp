@@ -29,6 +29,8 @@ bool reader_has_gone() {
 
 void take_standard_streams() {
   std::signal(SIGPIPE, SIG_IGN);
+  // A write beyond the limit of file sizes then fails as one to a full disk does.
+  std::signal(SIGXFSZ, SIG_IGN);
   for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (::fcntl(descriptor, F_GETFD) != -1 || errno != EBADF) continue;
     // The lowest free number is this one; what is opened the other way round refuses all use.

@@ -93,7 +93,7 @@ class SpawnPlan {
     posix_spawnattr_init(&attributes_);
     sigset_t usual;
     sigemptyset(&usual);
-    sigaddset(&usual, SIGPIPE);
+    for (const int number : {SIGPIPE, SIGXFSZ}) sigaddset(&usual, number);
     posix_spawnattr_setsigdefault(&attributes_, &usual);
     posix_spawnattr_setpgroup(&attributes_, 0);
     posix_spawnattr_setflags(
@@ -117,23 +117,29 @@ class SpawnPlan {
 /// Until when a child may run.
 class Deadline {
  public:
-  explicit Deadline(double seconds) : limited_(std::isfinite(seconds)) {
+  Deadline(double seconds, const std::atomic<bool>* stop)
+      : timed_(std::isfinite(seconds)), stop_(stop) {
     using namespace std::chrono;
-    if (limited_)
-      end_ = steady_clock::now() + duration_cast<milliseconds>(duration<double>(seconds));
+    if (timed_) end_ = steady_clock::now() + duration_cast<milliseconds>(duration<double>(seconds));
   }
-  bool limited() const { return limited_; }
-  bool over() const { return limited_ && std::chrono::steady_clock::now() >= end_; }
-  /// For poll(): what is left [ms], -1 for any time.
+  bool limited() const { return timed_ || stop_ != nullptr; }
+  bool over() const {
+    return (timed_ && std::chrono::steady_clock::now() >= end_) || (stop_ != nullptr && *stop_);
+  }
+  /// For poll(): time until the next check [ms], -1 for any time.
   int left() const {
     using namespace std::chrono;
-    if (!limited_) return -1;
-    return static_cast<int>(
-        std::max<std::int64_t>(0, ceil<milliseconds>(end_ - steady_clock::now()).count()));
+    constexpr std::int64_t between_checks = 200;
+    if (!limited()) return -1;
+    std::int64_t left = between_checks;
+    if (timed_) left = ceil<milliseconds>(end_ - steady_clock::now()).count();
+    if (stop_ != nullptr) left = std::min(left, between_checks);
+    return static_cast<int>(std::max<std::int64_t>(0, left));
   }
 
  private:
-  bool limited_;
+  bool timed_;
+  const std::atomic<bool>* stop_;
   std::chrono::steady_clock::time_point end_;
 };
 
@@ -189,7 +195,7 @@ std::optional<ChildResult> run_program(const std::string& name,
   std::vector<std::string> words{name}, variables = child_environment();
   words.insert(words.end(), arguments.begin(), arguments.end());
   Pipe output(program), errors(program);
-  const Deadline deadline(options.most_seconds);
+  const Deadline deadline(options.most_seconds, options.stop);
   const bool limited =
       deadline.limited() || options.most_bytes != std::numeric_limits<std::size_t>::max();
   pid_t child = 0;

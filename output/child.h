@@ -1,6 +1,7 @@
 // Other programs, started without a shell: what stands in an argument is never a command.
 #pragma once
 
+#include <atomic>
 #include <filesystem>
 #include <limits>
 #include <optional>
@@ -13,13 +14,14 @@ struct ChildResult {
   int status = -1;       ///< exit status; 128 + the signal that ended it
   std::string output;    ///< what it wrote to standard output and, unless apart, standard error
   std::string errors;    ///< what it wrote to standard error, apart
-  bool stopped = false;  ///< with all that it started, for a limit
+  bool stopped = false;  ///< with all that it started, for a limit or a stop
 };
 
 struct ChildOptions {
   bool errors_apart = false;
   double most_seconds = std::numeric_limits<double>::infinity();
   std::size_t most_bytes = std::numeric_limits<std::size_t>::max();  ///< that it writes
+  const std::atomic<bool>* stop = nullptr;  ///< once true, the program is stopped
 };
 
 /// Runs the program that PATH's absolute folders hold under `name`, in `folder`, with C's locale

@@ -14,7 +14,8 @@ namespace hookpoint::output {
 void fail_file(std::string_view doing, const std::filesystem::path& file) {
   const int reason = errno;
   throw FileError("cannot " + std::string(doing) + " " + file.string() + ": " +
-                  std::strerror(reason));
+                  std::strerror(reason) +
+                  (reason == EFBIG ? " (the limit of file sizes, `ulimit -f`)" : ""));
 }
 
 std::filesystem::path partial_name(std::filesystem::path path, std::string_view suffix) {

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "output/file.h"
+#include "simulation/step_count.h"
 
 namespace hookpoint::view {
 namespace {
@@ -74,7 +75,7 @@ std::vector<std::int64_t> film_steps(double from, double to, double rate, double
   std::vector<std::int64_t> steps;
   const double last = std::floor((to - from) * rate + tolerance);
   for (double i = 0.; i <= last; ++i)
-    steps.push_back(static_cast<std::int64_t>(std::llround((from + i / rate) / deltat)));
+    steps.push_back(simulation::step_count(from + i / rate, deltat));
   return steps;
 }
 

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
+#include "simulation/step_count.h"
 #include "view/keep_picture.h"
 
 namespace hookpoint::view {
@@ -266,9 +266,8 @@ std::string LiveSession::perform(const Seek& command) {
   const double deltat = subjects_.run().experiment().deltat;
   paused_ = true;
   pace_.begin_anew();
-  const double last = static_cast<double>(subjects_.run().newest());
-  return subjects_.seek(
-      static_cast<std::int64_t>(std::llround(std::clamp(command.time / deltat, 0., last))));
+  const double last = static_cast<double>(subjects_.run().newest()) * deltat;
+  return subjects_.seek(simulation::step_count(std::clamp(command.time, 0., last), deltat));
 }
 
 std::string LiveSession::perform(const Reset& /*command*/) {

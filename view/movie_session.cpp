@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "simulation/step_count.h"
 #include "simulation/wiring/ports.h"
 #include "view/keep_picture.h"
 
@@ -83,7 +84,8 @@ void MovieSession::advance(Clock::time_point until) {
   if (pace_.asked() == 0.) {
     reel_.aim(reel_.last());
   } else {
-    const double due = pace_.due(now, time) / movie_.experiment.deltat;
+    const double due = std::min(pace_.due(now, time) / movie_.experiment.deltat,
+                                static_cast<double>(reel_.last()));
     reel_.aim(std::max(reel_.step(), static_cast<std::int64_t>(std::floor(due + 1e-6))));
   }
   if (reel_.go(until) && reel_.step() == reel_.last()) paused_ = true;
@@ -188,9 +190,9 @@ void MovieSession::carry_out(const Asked& asked, const SetSpeed& command) {
 }
 
 void MovieSession::carry_out(const Asked& asked, const Seek& command) {
-  const double last = static_cast<double>(reel_.last());
-  const double step = std::clamp(command.time / movie_.experiment.deltat, 0., last);
-  go_to(asked, std::llround(step));
+  const double deltat = movie_.experiment.deltat;
+  const double last = static_cast<double>(reel_.last()) * deltat;
+  go_to(asked, simulation::step_count(std::clamp(command.time, 0., last), deltat));
 }
 
 void MovieSession::carry_out(const Asked& asked, const Reset& /*command*/) {

@@ -8,6 +8,8 @@ namespace {
 __extension__ using Wide = __int128;
 
 constexpr std::int64_t most_under_way = 10'000'000;
+/// Steps; the arrival of what a run sends at its last step can still be counted.
+constexpr std::int64_t longest_delay = std::int64_t{1} << 53;
 
 /// Samples that can be under way at once: those of delay + 1 successive steps.
 std::size_t ring_size(std::int64_t delay, std::int64_t shortest_interval) {
@@ -21,7 +23,10 @@ std::size_t ring_size(std::int64_t delay, std::int64_t shortest_interval) {
 
 std::int64_t delay_steps(const Rational& delay, const Rational& dt) {
   if (delay < Rational(0)) throw std::invalid_argument("a delay must not be negative");
-  return (delay / dt).ceiling();
+  const std::int64_t steps = (delay / dt).ceiling();
+  if (steps > longest_delay)
+    throw std::invalid_argument("the delay is longer than a run can last: shorten it");
+  return steps;
 }
 
 }  // namespace

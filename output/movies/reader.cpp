@@ -4,6 +4,7 @@
 #include "output/movies/format.h"
 #include "output/movies/movie.h"
 #include "output/records/hdf5_file.h"
+#include "output/text/number.h"
 
 namespace hookpoint::output {
 namespace {
@@ -62,6 +63,16 @@ std::vector<hsize_t> extent_of(hid_t dataset, int rank) {
   if (bytes > most_compressed * static_cast<double>(H5Dget_storage_size(dataset)))
     throw FileError("extent");
   return extent;
+}
+
+/// Whether these can be the times of a run; a comparison with a NaN is false.
+bool ascend_from_zero(const std::vector<double>& times) {
+  double before = 0.;
+  for (const double time : times) {
+    if (!(time >= before && std::isfinite(time))) return false;
+    before = time;
+  }
+  return true;
 }
 
 std::vector<std::string> names_in(hid_t group) {
@@ -137,8 +148,8 @@ MovieReader::MovieReader(const std::filesystem::path& path)
                      " is an HDF5 file, but no movie: `hookpoint run FILE --movie` writes one");
   try {
     if (const double version = read_number(file, movie_mark); version != movie_version)
-      throw MovieError(name + " is a movie of layout " + std::to_string(std::lround(version)) +
-                       "; this program reads layout " + std::to_string(std::lround(movie_version)) +
+      throw MovieError(name + " is a movie of layout " + rounded(version) +
+                       "; this program reads layout " + rounded(movie_version) +
                        ": use the hookpoint that wrote it");
     read_header();
   } catch (const FileError&) {
@@ -168,7 +179,7 @@ void MovieReader::read_header() {
   if (extent[1] != times_.size() ||
       (!times_.empty() &&
        H5Dread(time, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, times_.data()) < 0) ||
-      !std::ranges::is_sorted(times_))
+      !ascend_from_zero(times_) || !(header_.period > 0. && std::isfinite(header_.period)))
     throw FileError("time");
   header_.size = extent[0];
 }

@@ -51,8 +51,13 @@ void append_value(std::string& bytes, std::string_view type, double value) {
   bytes += '}';
 }
 
-/// The nearest nanosecond; whole seconds apart, so that hours lose no digits.
+/// The nearest nanosecond; whole seconds apart, so that hours lose no digits. Throws FileError
+/// where 64 bits do not hold it.
 std::uint64_t nanoseconds(double time) {
+  constexpr double latest = 1.8e10;  // [s]: 2^64 ns are 1.84e10 s
+  if (!(time <= latest))
+    throw FileError("MCAP counts time in nanoseconds, up to " + rounded(latest) +
+                    " s: choose another format");
   const double whole = std::floor(time);
   return static_cast<std::uint64_t>(whole) * 1'000'000'000U +
          static_cast<std::uint64_t>(std::llround((time - whole) * 1e9));

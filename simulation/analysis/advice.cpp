@@ -120,6 +120,24 @@ void advise_constants(GroundAdvice& ground, const contact::AnyForceLaw& law,
   }
 }
 
+/// Refuses to advise on a ground that nothing rests on, and numbers beyond a computer's.
+void check_ground(const GroundAdvice& ground) {
+  if (ground.load == 0.)
+    throw ExperimentError(fmt::format(
+        "robot {} does not press on {}: without a load there is no depth to advise on (gravity?)",
+        ground.robot, ground.material));
+  // In millimetres, as they are printed.
+  bool finite = std::isfinite(1e3 * ground.depth) && std::isfinite(ground.survival_present) &&
+                std::isfinite(ground.survival_advised);
+  for (const ConstantAdvice& constant : ground.constants)
+    finite = finite && std::isfinite(constant.advised);
+  if (!finite)
+    throw ExperimentError(fmt::format(
+        "the advice for robot {} on {} is beyond the range of numbers: make gravity, masses and "
+        "wishes smaller",
+        ground.robot, ground.material));
+}
+
 /// One a material under the robot's carrying points.
 std::vector<GroundAdvice> advise_robot(const Experiment& experiment, int index,
                                        const contact::Terrain& terrain, const WorldInputs& inputs,
@@ -143,6 +161,7 @@ std::vector<GroundAdvice> advise_robot(const Experiment& experiment, int index,
     advise_constants(ground, law, spec.constants, wishes.impact_speed);
     ground.survival_present = survival_speed(law, ground, spec.constants);
     ground.survival_advised = survival_speed(law, ground, ground.advised);
+    check_ground(ground);
     grounds.push_back(std::move(ground));
   }
   return grounds;

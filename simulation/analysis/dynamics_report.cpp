@@ -52,6 +52,25 @@ RobotDynamics robot_dynamics(const Experiment& experiment, int index,
   return report;
 }
 
+/// Throws ExperimentError where a number of the report is none, or beyond all.
+void check_finite(const RobotDynamics& robot) {
+  const auto finite = [](const Vector3d& v) { return std::isfinite(v.x + v.y + v.z); };
+  bool good = finite(robot.base_acceleration) && finite(robot.base_angular_acceleration) &&
+              finite(robot.linear_momentum) && finite(robot.angular_momentum) &&
+              std::isfinite(robot.kinetic_energy) && std::isfinite(robot.potential_energy);
+  for (const ChainDynamics& chain : robot.chains) {
+    good = good && finite(chain.hip_force) && finite(chain.hip_moment);
+    for (const double acceleration : chain.joint_accelerations)
+      good = good && std::isfinite(acceleration);
+  }
+  for (const ContactReport& contact : robot.contacts) good = good && finite(contact.force);
+  if (!good)
+    throw ExperimentError(
+        "the dynamics of robot " + robot.name +
+        " are beyond the range of numbers: make its masses, speeds and distances, "
+        "or gravity, of usual size");
+}
+
 }  // namespace
 
 DynamicsReport evaluate_dynamics(const Experiment& experiment) {
@@ -66,6 +85,7 @@ DynamicsReport evaluate_dynamics(const Experiment& experiment) {
     const auto end = first_body + static_cast<std::ptrdiff_t>(body_count(experiment.robots[i]));
     report.robots.push_back(robot_dynamics(experiment, static_cast<int>(i),
                                            ground ? &*ground : nullptr, inputs, {first_body, end}));
+    check_finite(report.robots.back());
     first_body = end;
   }
   const double step = stability_bound(experiment).step;

@@ -44,7 +44,7 @@ struct DynamicsReport {
 };
 
 /// Always by the DTS engine, whatever engine the experiment names. Under an impulse law, which has
-/// no forces, the ground is left out.
+/// no forces, the ground is left out. Throws ExperimentError where a number overflows.
 DynamicsReport evaluate_dynamics(const Experiment& experiment);
 
 }  // namespace hookpoint::simulation

@@ -194,7 +194,8 @@ std::optional<double> ExpectationResult::error() const {
   if (!measured) return std::nullopt;
   const double difference = std::abs(*measured - spec->expected);
   const bool relative = spec->tolerance > 0. && spec->expected != 0.;
-  return relative ? difference / std::abs(spec->expected) : difference;
+  const double error = relative ? difference / std::abs(spec->expected) : difference;
+  return std::isfinite(error) ? std::optional(error) : std::nullopt;
 }
 
 bool ExpectationResult::ok() const {

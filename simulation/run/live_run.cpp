@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "output/text/number.h"
+#include "simulation/step_count.h"
 
 namespace hookpoint::simulation {
 
@@ -120,7 +121,7 @@ const World& LiveRun::world() const { return track_->world; }
 const std::vector<std::string>& LiveRun::overrides() const { return track_->overrides; }
 
 std::int64_t LiveRun::last_step() const {
-  return static_cast<std::int64_t>(std::llround(experiment().duration / experiment().deltat));
+  return step_count(experiment().duration, experiment().deltat);
 }
 
 std::vector<std::string> LiveRun::names() const {

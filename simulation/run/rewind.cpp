@@ -9,6 +9,7 @@
 
 #include "output/text/number.h"
 #include "simulation/run/movies.h"
+#include "simulation/step_count.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -46,8 +47,13 @@ Rewind::Rewind(const Experiment& experiment, const output::MovieReader& movie, W
         HOOKPOINT_VERSION, version_of(movie.header()),
         first_difference(movie.header().layout, here)));
   if (movie.times().empty()) throw MovieError("the movie has no instant");
-  for (const double time : movie.times())
-    steps_.push_back(static_cast<std::int64_t>(std::llround(time / experiment.deltat)));
+  for (const double time : movie.times()) {
+    if (!step_count_problem(time, experiment.deltat).empty())
+      throw MovieError(
+          fmt::format("the movie is damaged: no run with steps of {} s reaches its time {} s",
+                      output::rounded(experiment.deltat), output::rounded(time)));
+    steps_.push_back(step_count(time, experiment.deltat));
+  }
   recorded_.resize(movie.header().size);
   computed_.resize(movie.header().size);
 }

@@ -7,6 +7,7 @@
 
 #include "simulation/analysis/automatic_step.h"
 #include "simulation/scene/load_parts.h"
+#include "simulation/step_count.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -97,14 +98,18 @@ std::optional<Experiment> load_experiment(const language::Object& root,
   if (!worlds.empty() && is_automatic(*worlds[0])) {
     language::Diagnostics untold;
     const auto experiment = load_with_step(root, untold, search_path, given, chosen);
-    // What is wrong otherwise is told below.
+    // Other errors are reported by the load below.
     if (experiment) chosen = choose_step(*experiment);
     if (!chosen.problem.empty()) {
       diagnostics.error(place_of(*worlds[0], deltat_field), "deltat = auto: " + chosen.problem);
       return std::nullopt;
     }
   }
-  return load_with_step(root, diagnostics, search_path, given, chosen);
+  auto experiment = load_with_step(root, diagnostics, search_path, given, chosen);
+  if (experiment && !check_duration(place_of(*worlds[0], duration_field), experiment->duration,
+                                    experiment->deltat, diagnostics))
+    return std::nullopt;
+  return experiment;
 }
 
 void write_chosen_step(const Experiment& experiment, language::Object& root) {

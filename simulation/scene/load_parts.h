@@ -50,7 +50,8 @@ struct Loading {
 
 // Fields that more than one file of the load step works on, by the class that declares them.
 
-inline constexpr const char* deltat_field = "deltat";  ///< of a World
+inline constexpr const char* deltat_field = "deltat";      ///< of a World
+inline constexpr const char* duration_field = "duration";  ///< of a World
 namespace base_field {
 inline constexpr const char *location = "location", *orientation = "orientation",
                             *velocity = "velocity", *angular_velocity = "angular_velocity",

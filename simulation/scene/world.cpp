@@ -61,7 +61,7 @@ Fields<Experiment> world_fields(const PeerChoices& peers) {
                                 "CFM of ODE's world instead of the library's 1e-10: a contact "
                                 "gives way at it times its force; 0 makes four corners singular; "
                                 "at settings = matched contacts have their own")),
-      positive(number_field("duration", "s", &Experiment::duration, "simulated time of a run")),
+      positive(number_field(duration_field, "s", &Experiment::duration, "simulated time of a run")),
       not_negative(integer_field("seed", &Experiment::seed, "seed of all random streams")),
       port_only(Direction::output, number_field("time", "s", "", "simulated time, step * deltat")),
       port_only(Direction::output, number_field("step", "", "", "steps taken")),

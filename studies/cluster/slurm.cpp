@@ -31,11 +31,21 @@ constexpr int most_submissions = 2;
 constexpr int patience = 4;
 constexpr milliseconds shortest_wait{200}, longest_wait{5000};
 
+/// Time for an answer of Slurm's programs [s]; they themselves wait for a busy controller.
+constexpr double most_patience = 120., most_patience_for_version = 10.;
+
 output::ChildResult ask_slurm(const std::string& program, const std::vector<std::string>& words,
-                              const fs::path& folder) {
-  auto result = output::run_program(program, words, folder);
+                              const fs::path& folder, const std::atomic<bool>* stop,
+                              double most_seconds = most_patience) {
+  auto result =
+      output::run_program(program, words, folder, {.most_seconds = most_seconds, .stop = stop});
   if (!result) throw NoSlurm(no_slurm);
   return std::move(*result);
+}
+
+std::string no_answer(const char* program, double seconds) {
+  return fmt::format("{} has not answered within {} s: see whether Slurm's `sinfo` answers",
+                     program, seconds);
 }
 
 std::vector<std::string> lines_of(const std::string& text) {
@@ -70,13 +80,18 @@ std::string last_words(const fs::path& log) {
 
 }  // namespace
 
-void need_slurm() { ask_slurm("sbatch", {"--version"}, fs::current_path()); }
+void need_slurm() {
+  const auto answer =
+      ask_slurm("sbatch", {"--version"}, fs::current_path(), nullptr, most_patience_for_version);
+  if (answer.stopped) throw NoSlurm(no_answer("sbatch --version", most_patience_for_version));
+}
 
 SlurmRuns::SlurmRuns(Options options) : options_(std::move(options)) {}
 SlurmRuns::~SlurmRuns() = default;
 
 bool SlurmRuns::run(std::size_t count, const Request& request, const Done& done,
                     const std::atomic<bool>& stop) {
+  stop_ = &stop;
   for (std::size_t i = 0; i < count; ++i) wanted_[request(i).identity].push_back(i);
   if (options_.resume)
     take_up_earlier(done);
@@ -87,8 +102,9 @@ bool SlurmRuns::run(std::size_t count, const Request& request, const Done& done,
     if (stop) {
       std::string numbers;
       for (const Job& job : jobs_) numbers += " " + job.numbers.back();
-      options_.tell("what is in Slurm's queue goes on there: --resume waits for it, `scancel" +
-                    numbers + "` ends it");
+      if (!numbers.empty())
+        options_.tell("what is in Slurm's queue goes on there: --resume waits for it, `scancel" +
+                      numbers + "` ends it");
       return false;
     }
     const std::size_t before = wanted_.size();
@@ -122,7 +138,7 @@ void SlurmRuns::give_up_earlier() {
   for (const fs::path& folder : earlier_folders()) {
     const std::vector<std::string> numbers =
         lines_of(output::read_file(folder / job_file).value_or(""));
-    if (!numbers.empty()) ask_slurm("scancel", numbers, folder);
+    if (!numbers.empty()) ask_slurm("scancel", numbers, folder, stop_);
     std::error_code error;
     fs::remove_all(folder, error);
     if (error) throw output::FileError("cannot remove " + folder.string() + ": " + error.message());
@@ -139,7 +155,8 @@ void SlurmRuns::take_up_earlier(const Done& done) {
       // The front end ended between the submission and its number.
       const auto named = ask_slurm(
           "squeue",
-          {"--noheader", "--name=" + job_name(options_.place.name, folder), "--format=%A"}, folder);
+          {"--noheader", "--name=" + job_name(options_.place.name, folder), "--format=%A"}, folder,
+          stop_);
       if (named.status == 0) job.numbers = lines_of(named.output);
     }
     const auto queued = job.numbers.empty() ? std::nullopt : queued_tasks(job);
@@ -152,7 +169,7 @@ void SlurmRuns::take_up_earlier(const Done& done) {
     }
     if (std::ranges::all_of(job.tasks, [](const Task& task) { return task.missing.empty(); })) {
       // What it would make is no longer asked for.
-      ask_slurm("scancel", job.numbers, folder);
+      ask_slurm("scancel", job.numbers, folder, stop_);
       continue;
     }
     options_.tell(
@@ -193,17 +210,21 @@ void SlurmRuns::make_job(const Request& request) {
   place.name = job_name(place.name, job.folder);
   output::write_file(job.folder / script_file,
                      slurm_script(options_.settings, place, job.folder, job.tasks.size()));
-  submit(job, "");
+  if (!submit(job, "")) return;
   options_.tell(fmt::format("job {}: {} runs in {} tasks", job.numbers.back(), left.size(),
                             job.tasks.size()));
   jobs_.push_back(std::move(job));
 }
 
-void SlurmRuns::submit(Job& job, const std::string& array) {
+bool SlurmRuns::submit(Job& job, const std::string& array) {
   std::vector<std::string> words{"--parsable"};
   if (!array.empty()) words.push_back("--array=" + array);
   words.emplace_back(script_file);
-  const output::ChildResult answer = ask_slurm("sbatch", words, job.folder);
+  const output::ChildResult answer = ask_slurm("sbatch", words, job.folder, stop_);
+  if (answer.stopped && *stop_) return false;
+  if (answer.stopped)
+    throw NoSlurm(no_answer("sbatch", most_patience) +
+                  "; if it has taken the job after all, --resume finds it");
   const auto number = job_number(answer.output);
   if (answer.status != 0 || !number) {
     std::string why = answer.output;
@@ -217,6 +238,7 @@ void SlurmRuns::submit(Job& job, const std::string& array) {
   std::string text;
   for (const std::string& known : job.numbers) text += known + "\n";
   output::write_file(job.folder / job_file, text);
+  return true;
 }
 
 void SlurmRuns::hand_on(const std::pair<std::string, RunRecord>& entry, const Done& done) {
@@ -241,7 +263,7 @@ std::optional<std::set<std::size_t>> SlurmRuns::queued_tasks(const Job& job) {
   for (const std::string& number : job.numbers) numbers += (numbers.empty() ? "" : ",") + number;
   // %K: the task's place in its array; --array: those that wait one by one too.
   const output::ChildResult answer = ask_slurm(
-      "squeue", {"--noheader", "--array", "--jobs=" + numbers, "--format=%K"}, job.folder);
+      "squeue", {"--noheader", "--array", "--jobs=" + numbers, "--format=%K"}, job.folder, stop_);
   std::set<std::size_t> queued;
   if (answer.status != 0) {
     // A job that ended some minutes ago.
@@ -273,7 +295,7 @@ void SlurmRuns::look_after(Job& job) {
     again += (again.empty() ? "" : ",") + std::to_string(i);
   }
   if (again.empty()) return;
-  submit(job, again);
+  if (!submit(job, again)) return;
   options_.tell("tasks " + again + " ended without all their runs: submitted once more as job " +
                 job.numbers.back());
 }

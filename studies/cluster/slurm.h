@@ -72,7 +72,8 @@ class SlurmRuns : public RemoteRuns {
   void give_up_earlier();
   void take_up_earlier(const Done& done);
   void make_job(const Request& request);
-  void submit(Job& job, const std::string& array);
+  /// False when it was interrupted before Slurm answered. Throws NoSlurm, SlurmRefusal.
+  bool submit(Job& job, const std::string& array);
   void read_journals(Job& job, const Done& done);
   /// Looks after the tasks that ended without their runs; throws for those that failed twice.
   void look_after(Job& job);
@@ -84,6 +85,7 @@ class SlurmRuns : public RemoteRuns {
   std::map<std::string, std::vector<std::size_t>> wanted_;
   std::vector<Job> jobs_;
   bool controller_silent_ = false;
+  const std::atomic<bool>* stop_ = nullptr;  ///< of `run`
 };
 
 }  // namespace hookpoint::studies

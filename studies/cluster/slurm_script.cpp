@@ -21,6 +21,27 @@ bool consists_of(const std::string& text, std::string_view marks) {
   });
 }
 
+/// Whether Slurm takes `text` as a time limit: whole numbers joined by colons, at most three, and
+/// days before a dash.
+bool is_time_limit(std::string_view text) {
+  const auto is_number = [](std::string_view digits) {
+    constexpr std::size_t most_digits = 8;
+    return !digits.empty() && digits.size() <= most_digits &&
+           digits.find_first_not_of("0123456789") == std::string_view::npos;
+  };
+  if (const std::size_t dash = text.find('-'); dash != std::string_view::npos) {
+    if (!is_number(text.substr(0, dash))) return false;
+    text.remove_prefix(dash + 1);
+  }
+  for (int parts = 1; parts <= 3; ++parts) {
+    const std::size_t colon = text.find(':');
+    if (!is_number(text.substr(0, colon))) return false;
+    if (colon == std::string_view::npos) return true;
+    text.remove_prefix(colon + 1);
+  }
+  return false;
+}
+
 /// One word for bash, whatever is in it: a quote is closed, written by itself, and opened again.
 std::string quoted(const std::string& text) {
   std::string word = "'";
@@ -40,9 +61,10 @@ std::optional<std::string> problem_of(const SlurmSettings& settings) {
   for (const auto& [option, name] : names)
     if (!consists_of(*name, "_-.,@+"))
       return fmt::format("{} takes a name of Slurm's, not `{}`", option, *name);
-  if (!consists_of(settings.time, ":-"))
+  if (!settings.time.empty() && !is_time_limit(settings.time))
     return fmt::format(
-        "--time takes minutes or [days-]hours:minutes:seconds as Slurm does, not `{}`",
+        "--time takes minutes, minutes:seconds, hours:minutes:seconds, days-hours, "
+        "days-hours:minutes or days-hours:minutes:seconds as Slurm does, not `{}`",
         settings.time);
   return std::nullopt;
 }

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <mutex>
 #include <optional>
 #include <utility>
@@ -15,6 +14,7 @@
 #include "simulation/run/energy_watch.h"
 #include "simulation/run/expectation.h"
 #include "simulation/run/world.h"
+#include "simulation/step_count.h"
 #include "studies/compare/wall.h"
 #include "studies/run/results_csv.h"
 #include "studies/run/row_runner.h"
@@ -46,7 +46,7 @@ void run_scene(const simulation::Experiment& experiment, const EngineEntry& engi
                const std::atomic<bool>& stop, RunRecord& record) {
   simulation::World world(experiment, engine.make(experiment));
   simulation::Expectations expectations(experiment, world.ports());
-  const std::int64_t steps = std::llround(experiment.duration / experiment.deltat);
+  const std::int64_t steps = simulation::step_count(experiment.duration, experiment.deltat);
   simulation::EnergyWatch energy(experiment, world, steps);
   expectations.observe(0.);
   for (std::int64_t step = 0; step < steps && world.ended().empty(); ++step) {

@@ -15,6 +15,7 @@
 #include "language/names.h"
 #include "output/text/hash.h"
 #include "simulation/identity.h"
+#include "simulation/step_count.h"
 #include "studies/measured_body.h"
 #include "studies/plan/plan_parts.h"
 #include "studies/plan/row_forms.h"
@@ -342,6 +343,7 @@ class SceneLoader {
     row.engine = loaded.scene->experiment.engine;
     row.deltat = loaded.scene->experiment.deltat;
     row.duration = loaded.scene->experiment.duration;
+    if (!check_length(plan, study, row)) return false;
     row.forms = loaded.forms;
     row.forms.resize(plan.user_metrics.size());
     if (loaded.warning) warn_of_step(plan, study, row, loaded.scene->experiment, *loaded.warning);
@@ -353,6 +355,25 @@ class SceneLoader {
   std::vector<std::string> settable;    ///< names at the scene's top
 
  private:
+  /// Reports a row that is too long to be counted in steps, where its length is said.
+  bool check_length(const StudyPlan& plan, const Object& study, const RowPlan& row) {
+    const std::string problem = simulation::step_count_problem(row.duration, row.deltat);
+    if (problem.empty()) return true;
+    const int cases = plan.case_sweep();
+    if (cases >= 0 && !plan.sweeps[static_cast<std::size_t>(cases)].durations.empty()) {
+      const SweepPlan& sweep = plan.sweeps[static_cast<std::size_t>(cases)];
+      const auto place = static_cast<std::size_t>(row.values[static_cast<std::size_t>(cases)]);
+      diagnostics_.error(sweep.places[place],
+                         fmt::format("{} {} was measured until then: {}", sweep.column.name,
+                                     sweep.texts[place], problem));
+    } else {
+      const bool quick = plan.quick && study.given("quick_duration");
+      diagnostics_.error(study.find(quick ? "quick_duration" : "duration")->position, problem);
+    }
+    diagnostics_.note(study.position, "in study " + study.name + " " + place_of(plan, row));
+    return false;
+  }
+
   /// Gives the row of our engine hookpoint's ground; a peer has its own.
   void match(const StudyPlan& plan, const RowPlan& row, LoadedRow& loaded) const {
     if (loaded.scene->experiment.engine != "dts") return;

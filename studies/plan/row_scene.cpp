@@ -51,6 +51,12 @@ std::unique_ptr<Object> lay_down(language::Library& library, const RowGround& gr
     diagnostics.error(tree->position, "the terrain's file holds no Terrain");
     return nullptr;
   }
+  if (!tree->plugins.empty()) {
+    diagnostics.error(tree->position,
+                      "a terrain's file holds a Terrain and Materials alone: its Plugin " +
+                          tree->plugins.front() + " is not loaded; name it in the scene");
+    return nullptr;
+  }
   for (const auto& child : tree->children) {
     if (child->implicit || is_terrain(*child) || child->type == "Material" ||
         child->type == "Group")

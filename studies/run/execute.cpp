@@ -15,6 +15,7 @@
 #include "simulation/identity.h"
 #include "simulation/run/energy_watch.h"
 #include "simulation/run/world.h"
+#include "simulation/step_count.h"
 #include "studies/predictions/predictions.h"
 #include "studies/run/stance_ports.h"
 
@@ -133,7 +134,8 @@ class Watch {
     if (std::ranges::any_of(measurement.metrics, &MetricDefinition::needs_stance))
       stance_ = stance_ports(context, world);
     if (measurement.path) path_.emplace(measurement.duration);
-    const std::int64_t settle = std::llround(measurement.settle / context.experiment->deltat);
+    const std::int64_t settle =
+        simulation::step_count(measurement.settle, context.experiment->deltat);
     recordings_.reserve(measurement.signals.size());
     for (const RecordedSignal& recorded : measurement.signals)
       recordings_.emplace_back(recorded, recorded.signal->since_settle ? settle : 0, steps);
@@ -196,9 +198,13 @@ RunRecord not_run(const Measurement& measurement, RunRecord record, std::string 
 void predict_all(const Measurement& measurement, const RunContext& context,
                  const EngineEntry& engine, RunRecord& record) {
   const PeerContact peer = peer_contact(engine, *context.experiment);
-  for (const MetricDefinition* metric : measurement.metrics)
-    if (metric->user == nullptr)
-      record.values[kept_name(*metric)].predicted = predict(metric->name, context, peer);
+  for (const MetricDefinition* metric : measurement.metrics) {
+    if (metric->user != nullptr) continue;
+    std::optional<double> value = predict(metric->name, context, peer);
+    // Of what never comes: the stopping distance without friction.
+    if (value && !std::isfinite(*value)) value.reset();
+    record.values[kept_name(*metric)].predicted = value;
+  }
 }
 
 /// As `execute`, of an engine that is there; may throw.
@@ -206,7 +212,7 @@ std::optional<RunRecord> step_through(const Measurement& measurement, const RunC
                                       const EngineEntry& engine, RunRecord record,
                                       const std::atomic<bool>& stop) {
   const simulation::Experiment& experiment = *context.experiment;
-  const std::int64_t steps = std::llround(measurement.duration / experiment.deltat);
+  const std::int64_t steps = simulation::step_count(measurement.duration, experiment.deltat);
   auto made = engine.make(experiment);
   if (std::ranges::any_of(measurement.metrics, &MetricDefinition::needs_forces))
     made->publish_ground_forces();

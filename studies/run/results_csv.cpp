@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "output/file.h"
 #include "output/text/number.h"
@@ -13,9 +14,9 @@
 namespace hookpoint::studies {
 namespace {
 
-std::string field(const std::optional<double>& value) {
-  return value ? output::shortest(*value) : std::string();
-}
+/// No value where it is none: after an overflow, as in a smaller unit.
+std::string field(double value) { return std::isfinite(value) ? output::shortest(value) : ""; }
+std::string field(const std::optional<double>& value) { return value ? field(*value) : ""; }
 std::string field(const std::optional<bool>& value) {
   return value ? (*value ? "true" : "false") : std::string();
 }
@@ -86,7 +87,7 @@ void write_traces(const std::filesystem::path& folder, const StudyResult& result
       table.header = {output::column_title(plot.x_label.empty() ? "time" : plot.x_label, "s"),
                       output::column_title(plot.y, plot.y_unit)};
       for (std::size_t k = 0; k < trace.time.size(); ++k)
-        table.rows.push_back({output::shortest(trace.time[k]), output::shortest(trace.value[k])});
+        table.rows.push_back({field(trace.time[k]), field(trace.value[k])});
       output::write_csv(folder / trace_file(plot.name, row), table);
     }
   }
@@ -111,7 +112,7 @@ void write_distances(const std::filesystem::path& folder, const StudyResult& res
       table.rows.push_back(swept);
       table.rows.back().insert(table.rows.back().end(),
                                {result.subjects[subject].name, result.subjects[other].name,
-                                output::shortest(*matrix.distances[cell])});
+                                field(*matrix.distances[cell])});
     }
   }
   output::write_csv(folder / "peer_distance.csv", table);
@@ -134,15 +135,15 @@ void write_pivot(const std::filesystem::path& folder, const StudyResult& result,
       if (cell.rows == 0) continue;
       const bool told = cell.values > 0;
       table.rows.push_back({pivot.rows[row], pivot.columns[column], field(cell.mean),
-                            told ? output::shortest(cell.least) : "",
-                            told ? output::shortest(cell.largest) : "", field(cell.predicted)});
+                            told ? field(cell.least) : "", told ? field(cell.largest) : "",
+                            field(cell.predicted)});
       for (const int count : {cell.rows, cell.values, cell.passed, cell.failed})
         table.rows.back().push_back(std::to_string(count));
       if (pivot.seeds == 0) continue;
       const auto& difference = cell.difference;
-      table.rows.back().push_back(cell.interval ? output::shortest(cell.interval->half_width) : "");
-      table.rows.back().push_back(difference ? output::shortest(difference->mean) : "");
-      table.rows.back().push_back(difference ? output::shortest(difference->half_width) : "");
+      table.rows.back().push_back(cell.interval ? field(cell.interval->half_width) : "");
+      table.rows.back().push_back(difference ? field(difference->mean) : "");
+      table.rows.back().push_back(difference ? field(difference->half_width) : "");
     }
   output::write_csv(folder / (spec.name + ".csv"), table);
 }

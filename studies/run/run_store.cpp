@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <sqlite3.h>
+#include <sys/resource.h>
 
 #include <cstdint>
 #include <initializer_list>
@@ -20,6 +21,10 @@ namespace fs = std::filesystem;
 constexpr int application_id = 0x686b7074;
 constexpr int table_version = 1;
 constexpr int wait_for_lock = 2000;  ///< [ms]
+/// A run has a number for each metric and a thousand numbers for each curve; both are far less.
+constexpr int most_row_bytes = 16 << 20;
+/// A statement finds or writes one row by its key: some hundred operations of the library.
+constexpr int work_per_call = 10'000, most_work = 100;
 
 constexpr const char* tables = R"(
   CREATE TABLE run(identity BLOB PRIMARY KEY, numbers TEXT NOT NULL, samples BLOB NOT NULL);
@@ -43,6 +48,14 @@ std::string digits_of(std::string_view bytes) {
   return digits;
 }
 
+/// Whether a write may have failed for a limit of this process: the library says nothing of it.
+bool may_be_limited(int answer) {
+  rlimit limit{};
+  const int kind = answer & 0xff;
+  return (kind == SQLITE_FULL || kind == SQLITE_IOERR) && getrlimit(RLIMIT_FSIZE, &limit) == 0 &&
+         limit.rlim_cur != RLIM_INFINITY;
+}
+
 /// What the user can do about an answer of the library.
 const char* remedy(int answer) {
   switch (answer & 0xff) {
@@ -56,6 +69,10 @@ const char* remedy(int answer) {
     case SQLITE_NOTADB:
       return "move it away, or name another folder with --out; `sqlite3 FILE .recover` reads what "
              "is left of it";
+    case SQLITE_TOOBIG:
+    case SQLITE_INTERRUPT:
+      return "it holds what hookpoint does not write; move it away, or name another folder with "
+             "--out";
     default:
       return "see whether it may be read and written, or name another folder with --out";
   }
@@ -73,6 +90,10 @@ class RunStore::Connection {
     try {
       if (answer != SQLITE_OK) fail("open", answer);
       sqlite3_busy_timeout(database_, wait_for_lock);
+      // Somebody else may have written the file: what it makes the library do is bounded.
+      sqlite3_limit(database_, SQLITE_LIMIT_LENGTH, most_row_bytes);
+      sqlite3_db_config(database_, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
+      sqlite3_progress_handler(database_, work_per_call, count_work, this);
       // Exclusive: no memory shared with other processes, which a network's file system lacks. It
       // must be chosen before the log is.
       execute("PRAGMA locking_mode = EXCLUSIVE");
@@ -97,6 +118,7 @@ class RunStore::Connection {
   Connection& operator=(const Connection&) = delete;
 
   void execute(const std::string& command) {
+    work_ = 0;
     const int answer = sqlite3_exec(database_, command.c_str(), nullptr, nullptr, nullptr);
     if (answer == SQLITE_OK) return;
     fail("write", answer);
@@ -110,6 +132,7 @@ class RunStore::Connection {
 
   /// The first row that `question` has, its columns as bytes; nothing for none.
   std::optional<Row> ask(const char* question, std::initializer_list<Value> values) {
+    work_ = 0;
     sqlite3_stmt* statement = prepared(question);
     bind(statement, values);
     const int answer = sqlite3_step(statement);
@@ -144,7 +167,14 @@ class RunStore::Connection {
   [[noreturn]] void fail(const char* doing, int answer) const {
     const char* reason = database_ == nullptr ? sqlite3_errstr(answer) : sqlite3_errmsg(database_);
     throw StoreError(
-        fmt::format("cannot {} {}: {}; {}", doing, file_.string(), reason, remedy(answer)));
+        fmt::format("cannot {} {}: {}{}; {}", doing, file_.string(), reason,
+                    may_be_limited(answer) ? " (or the limit of file sizes, `ulimit -f`)" : "",
+                    remedy(answer)));
+  }
+
+  /// Ends a statement that takes more work than any of this program's.
+  static int count_work(void* connection) {
+    return ++static_cast<Connection*>(connection)->work_ > most_work ? 1 : 0;
   }
 
   int number_of(const char* question) {
@@ -165,6 +195,20 @@ class RunStore::Connection {
           "{} is a store of another version of hookpoint (tables {}, here {}): go on with that "
           "one, move the file away, or name another folder with --out",
           file_.string(), version, table_version));
+    check_tables();
+  }
+
+  /// A view or a trigger under a table's name could do anything; each is refused before it is used.
+  void check_tables() {
+    const auto others =
+        ask("SELECT count(*), group_concat(type || ' ' || name, ', ') FROM sqlite_schema "
+            "WHERE sql IS NOT NULL AND instr(?, sql || ';') = 0",
+            {std::string_view(tables)});
+    if (others && others->front() != "0")
+      throw StoreError(fmt::format(
+          "{} is a store that something else has changed ({}); move it away, or name another "
+          "folder with --out",
+          file_.string(), others->back().substr(0, 100)));
   }
 
   sqlite3_stmt* prepared(const char* question) {
@@ -201,6 +245,7 @@ class RunStore::Connection {
 
   fs::path file_;
   sqlite3* database_ = nullptr;
+  int work_ = 0;  ///< calls of count_work since the statement began
   std::map<std::string_view, sqlite3_stmt*> statements_;
 };
 

@@ -10,6 +10,7 @@
 #include "output/text/hash.h"
 #include "output/text/number.h"
 #include "simulation/identity.h"
+#include "simulation/step_count.h"
 #include "studies/plan/plan_parts.h"
 
 namespace hookpoint::studies {
@@ -150,7 +151,8 @@ void set_search(TunePlan& plan, const Object& tune, bool quick) {
   plan.samples = std::min(plan.samples, quick_samples);
 }
 
-void check_search(const TunePlan& plan, const Object& tune, Diagnostics& diagnostics) {
+void check_search(const TunePlan& plan, const Object& tune, double deltat,
+                  Diagnostics& diagnostics) {
   if (plan.varied.empty())
     diagnostics.error(tune.position, "a Tune needs a Vary: nothing is to be tuned");
   if (plan.objectives.empty())
@@ -163,6 +165,11 @@ void check_search(const TunePlan& plan, const Object& tune, Diagnostics& diagnos
                       "cmaes takes one Objective; nsga2 takes several, and Require what must hold");
   if (plan.method == SearchMethod::nsga2 && plan.population % 4 != 0)
     diagnostics.error(at("population"), "nsga2 pairs its candidates: a multiple of 4");
+  if (const std::string problem = simulation::step_count_problem(plan.runs.duration, deltat);
+      !problem.empty())
+    diagnostics.error(
+        at(tune.given("quick_duration") && !tune.given("duration") ? "quick_duration" : "duration"),
+        problem);
   if (plan.runs.settle >= plan.runs.duration)
     diagnostics.error(at("settle"),
                       "settle must be shorter than the duration: nothing would be measured");
@@ -284,7 +291,7 @@ std::optional<TunePlan> make_tune_plan(const Object& root, const Object& tune,
   const auto own = plan.scene->load({}, 1, diagnostics);
   if (!own) return std::nullopt;
   set_times(plan, tune, quick, own->experiment.duration);
-  check_search(plan, tune, diagnostics);
+  check_search(plan, tune, own->experiment.deltat, diagnostics);
   if (diagnostics.has_errors()) return std::nullopt;
   for (const double share : {0., 1.})
     if (!load_corner(plan, tune, share, diagnostics)) return std::nullopt;

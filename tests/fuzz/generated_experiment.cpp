@@ -1,53 +1,29 @@
 #include "tests/fuzz/generated_experiment.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
-#include <random>
 #include <set>
+#include <utility>
 
-#include "language/schema/describe.h"
 #include "simulation/scene/schema.h"
-#include "tests/support/drawn.h"
+#include "tests/fuzz/drawn_text.h"
+#include "tests/fuzz/generated_robot.h"
 
 namespace hookpoint::fuzz {
 namespace {
 
 using language::ClassSchema;
 using language::Direction;
-using language::FieldSchema;
 using language::FieldType;
-
-/// Where values of a unit usually lie: magnitudes, log-uniform.
-struct Usual {
-  double least, greatest;
-};
-
-Usual usual(const std::string& unit) {
-  static const std::map<std::string, Usual> table{
-      {"m", {0.02, 0.5}},     {"kg", {0.1, 5.}},       {"rad", {0.02, 1.5}},
-      {"s", {1e-3, 0.1}},     {"m/s", {0.01, 1.}},     {"rad/s", {0.01, 3.}},
-      {"N", {0.1, 30.}},      {"N.m", {0.1, 10.}},     {"N/m", {1e3, 1e5}},
-      {"N.s/m", {1., 300.}},  {"Hz", {20., 1000.}},    {"m/s^2", {1., 10.}},
-      {"N.m/rad", {1., 50.}}, {"kg.m^2", {1e-3, 0.1}}, {"N.m.s/rad", {0.01, 1.}}};
-  const auto found = table.find(unit);
-  return found == table.end() ? Usual{0.1, 2.} : found->second;
-}
 
 /// A port that a wire may start at or end at.
 struct Port {
   std::string trail, unit;
 };
 
-class Generator {
+class Generator : DrawnText {
  public:
-  Generator(const language::Schema& schema, std::uint64_t seed)
-      : schema_(schema),
-        random_(seed * 2654435761u + 1),
-        degenerate_(seed % 3 == 0   ? 0.
-                    : seed % 3 == 1 ? 0.01
-                                    : 0.08) {}
+  using DrawnText::DrawnText;
 
   GeneratedExperiment world() {
     const std::string contact = one_of(choices("World", "contact"));
@@ -71,62 +47,18 @@ class Generator {
     for (std::size_t i = below(3); i > 0; --i) object("Material", "m", materials_, {});
     if (!chance(0.2)) terrain();
     for (std::size_t i = 1 + below(2); i > 0; --i) robot();
+    if (chance(0.15)) described_robot();
     for (std::size_t i = below(3); i > 0; --i) force();
     for (std::size_t i = below(5); i > 0; --i) component();
+    if (chance(0.2)) trajectory();
+    if (chance(0.2)) record();
+    if (chance(0.1)) write("Movie seen { }");
     write("}");
-    return {std::move(text_), std::move(trails_)};
+    if (chance(0.3)) expect();
+    return {GeneratedCommand::run, std::move(text_), std::move(trails_), std::move(files_)};
   }
 
  private:
-  std::size_t below(std::size_t n) { return n == 0 ? 0 : random_() % n; }
-  bool chance(double part) { return test_support::drawn_part(random_) < part; }
-  double between(double least, double greatest) {
-    return test_support::drawn(random_, least, greatest);
-  }
-  template <class Element>
-  const Element& one_of(const std::vector<Element>& list) {
-    return list[below(list.size())];
-  }
-
-  void write(const std::string& line) { text_ += line + "\n"; }
-  static std::string number(double value) { return language::number_text(value); }
-  const std::vector<std::string>& choices(const std::string& type, const std::string& field) {
-    return schema_.find(type)->find(field)->choices;
-  }
-
-  static bool in_range(const FieldSchema& field, double value) {
-    const bool above = field.exclusive_minimum ? value > field.minimum : value >= field.minimum;
-    const bool below = field.exclusive_maximum ? value < field.maximum : value <= field.maximum;
-    return above && below;
-  }
-
-  double degenerate_number(const FieldSchema& field) {
-    static constexpr std::array values{0.,  -1.,  5e-324, 1e-300,  1e-12,  1e-6,
-                                       1e6, 1e12, 1e300,  1.7e308, -1e-12, -1e12};
-    for (int tries = 0; tries < 8; ++tries) {
-      const double value = values[below(values.size())];
-      if (in_range(field, value) || chance(0.03)) return value;
-    }
-    return std::isfinite(field.minimum) && !field.exclusive_minimum ? field.minimum : 1.;
-  }
-
-  double usual_number(const FieldSchema& field) {
-    Usual range = usual(field.unit);
-    char* end = nullptr;
-    const double preset = std::strtod(field.default_text.c_str(), &end);
-    if (end != field.default_text.c_str() && *end == '\0' && preset != 0. &&
-        std::abs(preset) < 1e6 && chance(0.7))
-      range = {0.3 * std::abs(preset), 3. * std::abs(preset)};
-    double value = range.least * std::pow(range.greatest / range.least, between(0., 1.));
-    if (field.minimum < 0. && chance(0.4)) value = -value;
-    value = std::min(std::max(value, field.minimum), field.maximum);
-    return in_range(field, value) ? value : 1.;
-  }
-
-  std::string one_number(const FieldSchema& field) {
-    return number(chance(degenerate_) ? degenerate_number(field) : usual_number(field));
-  }
-
   std::string inertia() {
     const double a = between(0.5, 1.), size = 1e-2 * std::pow(10., between(-1., 1.));
     return number(a * size) + "," + number(size) + "," + number(1.2 * size) + ",0,0,0";
@@ -219,7 +151,59 @@ class Generator {
     write("}");
   }
 
+  /// A robot of a URDF file.
+  void described_robot() {
+    const GeneratedRobot drawn = generate_robot(random_(), degenerate_);
+    files_.insert(files_.end(), drawn.files.begin(), drawn.files.end());
+    const std::string name = "u" + std::to_string(named_++);
+    std::string arguments = "name = " + name + drawn.arguments;
+    if (!terrains_.empty() && chance(0.5)) arguments += ", rest_on = " + one_of(terrains_);
+    write("Include \"" + drawn.files.front().name + "\" (" + arguments + ");");
+    trails_.push_back("w." + name + ".base.location.z");
+  }
+
+  void trajectory() {
+    files_.push_back(
+        {"path.csv", "t [s],a,b\n0,1,2\n" +
+                         one_of(std::vector<std::string>{"0.001,2,3\n0.1,3,4\n", "0.001,2\n",
+                                                         "0,2,3\n", "1e300,0,0\n", "0.002,nan,3\n",
+                                                         "", "0.002,1e308,-1e308\n"})});
+    write("Trajectory path { file = \"path.csv\"; }");
+  }
+
+  void record() {
+    const std::string trail = trails_.empty() ? "w.time" : one_of(trails_);
+    write("Record written { trails = " + trail.substr(2) +
+          "; format = " + one_of(choices("Record", "format")) + ";");
+    fields("Record", {"trails", "format"});
+    write("}");
+  }
+
+  void expect() {
+    if (trails_.empty()) return;
+    write("Expect e { of = " + one_of(trails_) + ";");
+    fields("Expect", {"of"}, {"within", "equals"});
+    write("}");
+  }
+
+  /// Heights as text, next to the file.
+  void grid(const std::string& name) {
+    std::string heights;
+    for (int row = 0; row < 3; ++row)
+      heights += number(between(-0.1, 0.1)) + " 0.01 " +
+                 one_number(*schema_.find("Link")->find("dhlength")) +
+                 (chance(degenerate_) ? " x\n" : "\n");
+    files_.push_back({"heights.txt", heights});
+    write("Terrain.Grid " + name + " { file = \"heights.txt\"; spacing = 0.5;");
+    fields("Terrain.Grid", {"spacing"}, {"material"});
+    write("}");
+  }
+
   void terrain() {
+    if (chance(0.1)) {
+      terrains_.push_back("g" + std::to_string(named_++));
+      return grid(terrains_.back());
+    }
     static const std::vector<std::string> kinds{"Terrain.Flat", "Terrain.Slope", "Terrain.Steps",
                                                 "Terrain.Rough"};
     const std::string& kind = one_of(kinds);
@@ -387,14 +371,11 @@ class Generator {
     write("}");
   }
 
-  const language::Schema& schema_;
-  std::mt19937_64 random_;
-  const double degenerate_;  ///< part of values that are
   const double step_ = 1e-5 * std::pow(10., between(0., 2.5));
-  std::string text_;
   std::vector<std::string> trails_, materials_, terrains_, robots_, links_, bodies_, moving_,
       components_;
   std::vector<Port> sources_, drives_;
+  std::vector<GeneratedFile> files_;
   std::size_t named_ = 0;
 };
 

@@ -11,9 +11,19 @@
 
 namespace hookpoint::fuzz {
 
+/// A file beside the experiment.
+struct GeneratedFile {
+  std::string name, content;
+};
+
+/// What runs it.
+enum class GeneratedCommand { run, study, tune };
+
 struct GeneratedExperiment {
-  std::string text;                 ///< of a .hook file with one World, `w`
-  std::vector<std::string> trails;  ///< scalar ports of it, to be recorded
+  GeneratedCommand command = GeneratedCommand::run;
+  std::string text;                  ///< of a .hook file: one World, `w`, or what is run of a scene
+  std::vector<std::string> trails;   ///< scalar ports of a World, to be recorded
+  std::vector<GeneratedFile> files;  ///< that it names
 };
 
 /// The experiment of `seed`. Of three files one has no degenerate value, one a few, one many.

@@ -1,8 +1,8 @@
 // Runs experiments drawn at random (generated_experiment.h), each in a process of its own:
-//   fuzz_generated [--first SEED] [--count N] [--print SEED]
+//   fuzz_generated [--kind experiments|studies] [--first SEED] [--count N] [--print SEED]
 // A finding is one that ends by a signal, needs more than its processor time, ends with a status
 // that the manual does not know, says what only a programmer understands, or ends well with a
-// number that is none.
+// number that is none, an empty file, or one that was not completed.
 #include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -23,8 +23,10 @@
 #include "output/file.h"
 #include "reference/engines.h"
 #include "simulation/scene/schema.h"
+#include "studies/schema.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/generated_experiment.h"
+#include "tests/fuzz/generated_study.h"
 #include "tests/support/text.h"
 
 namespace hookpoint::fuzz {
@@ -47,7 +49,7 @@ bool has_non_finite(std::string text) {
   return false;
 }
 
-/// The experiment run as the command does it, and every third one's dynamics. Does not return.
+/// What the commands do with the drawn file. Does not return.
 [[noreturn]] void run_alone(const std::filesystem::path& folder, const GeneratedExperiment& drawn,
                             bool dynamics) {
   const rlimit limit{processor_seconds, processor_seconds};
@@ -59,12 +61,22 @@ bool has_non_finite(std::string text) {
   std::freopen((folder / "stderr").c_str(), "w", stderr);
   int status = cli::missing;
   try {
-    cli::RunArguments arguments;
-    arguments.file = folder / "drawn.hook";
-    arguments.out = folder / "out";
-    arguments.record = drawn.trails;
-    status = cli::run(arguments);
-    if (dynamics) status = std::max(status, cli::dynamics(arguments.file, {}, true, false));
+    const std::filesystem::path file = folder / "drawn.hook", out = folder / "out";
+    if (drawn.command == GeneratedCommand::run) {
+      cli::RunArguments arguments;
+      arguments.file = file;
+      arguments.out = out;
+      arguments.record = drawn.trails;
+      status = cli::run(arguments);
+      if (dynamics) status = std::max(status, cli::dynamics(file, {}, true, false));
+    } else {
+      application::StudyArguments arguments;
+      arguments.file = file;
+      arguments.out = out;
+      arguments.jobs = 1;
+      status = drawn.command == GeneratedCommand::study ? cli::study(arguments, std::nullopt)
+                                                        : cli::tune(arguments);
+    }
   } catch (const output::FileError& error) {
     std::fprintf(stderr, "%s\n", error.what());
   } catch (const std::exception& error) {
@@ -72,6 +84,23 @@ bool has_non_finite(std::string text) {
   }
   std::fflush(nullptr);
   _exit(status);
+}
+
+/// "" or what is wrong with what was written.
+std::string finding_in(const std::filesystem::path& out, int code) {
+  std::error_code none;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(out, none)) {
+    if (!entry.is_regular_file()) continue;
+    const std::filesystem::path& file = entry.path();
+    const std::string type = file.extension().string(), name = file.filename().string();
+    const bool store = name.starts_with("runs.sqlite");
+    if (entry.file_size() == 0 && !store) return "an empty file " + name;
+    if (code == cli::fine && type == ".partial") return "a file that was not completed: " + name;
+    const bool numbers = type == ".csv" || type == ".json" || type == ".svg";
+    if (code == cli::fine && numbers && has_non_finite(testing::read_file(file)))
+      return "it ends well with a number that is none in " + name;
+  }
+  return "";
 }
 
 /// "" or what is wrong with how an experiment ended.
@@ -90,11 +119,11 @@ std::string finding(int status, const std::filesystem::path& folder) {
   if (code > cli::missing) return "status " + std::to_string(code);
   if (code == cli::wrong_input && std::filesystem::exists(folder / "out"))
     return "wrong input, and yet something is written";
-  if (code == cli::fine && has_non_finite(testing::read_file(folder / "out" / "trace.csv") +
-                                          testing::read_file(folder / "stdout")))
+  if (code == cli::fine && has_non_finite(testing::read_file(folder / "stdout")))
     return "it ends well with a number that is none";
   if (code != cli::fine && told.empty()) return "it fails without a word";
-  return "";
+  if (told.find("error: \n") != std::string::npos) return "an error without a word";
+  return code == cli::fine || code == cli::truth_failed ? finding_in(folder / "out", code) : "";
 }
 
 struct Tally {
@@ -102,11 +131,16 @@ struct Tally {
   std::size_t findings = 0;
 };
 
-void run_one(const language::Schema& schema, std::uint64_t seed, const Folder& home, Tally& tally) {
-  const GeneratedExperiment drawn = generate_experiment(schema, seed);
+using Generate = GeneratedExperiment (*)(const language::Schema&, std::uint64_t);
+
+void run_one(const language::Schema& schema, Generate generate, std::uint64_t seed,
+             const Folder& home, Tally& tally) {
+  const GeneratedExperiment drawn = generate(schema, seed);
   const std::filesystem::path folder = home.path() / std::to_string(seed);
   std::filesystem::create_directories(folder);
   std::ofstream(folder / "drawn.hook") << drawn.text;
+  for (const GeneratedFile& file : drawn.files)
+    std::ofstream(folder / file.name, std::ios::binary) << file.content;
   std::fflush(nullptr);
   const pid_t child = fork();
   if (child == 0) run_alone(folder, drawn, seed % 3 == 0);
@@ -123,6 +157,13 @@ void run_one(const language::Schema& schema, std::uint64_t seed, const Folder& h
   std::filesystem::remove_all(folder);
 }
 
+/// As `hookpoint print` would have it, with the files beside it.
+void print(const GeneratedExperiment& drawn) {
+  std::printf("%s", drawn.text.c_str());
+  for (const GeneratedFile& file : drawn.files)
+    std::printf("\n// file %s\n%s", file.name.c_str(), file.content.c_str());
+}
+
 std::uint64_t whole_number(const char* text) { return std::strtoull(text, nullptr, 10); }
 
 }  // namespace
@@ -133,11 +174,16 @@ int main(int count, char** words) {
   std::uint64_t first = 1, wanted = 100;
   language::Schema schema;
   simulation::add_experiment_classes(schema, reference::peer_choices());
+  studies::add_study_classes(schema);
+  fuzz::Generate generate = fuzz::generate_experiment;
   for (int i = 1; i + 1 < count; i += 2) {
     const std::string option = words[i];
+    if (option == "--kind") {
+      if (words[i + 1] == std::string("studies")) generate = fuzz::generate_study;
+      continue;
+    }
     if (option == "--print") {
-      std::fputs(fuzz::generate_experiment(schema, fuzz::whole_number(words[i + 1])).text.c_str(),
-                 stdout);
+      fuzz::print(generate(schema, fuzz::whole_number(words[i + 1])));
       return 0;
     }
     (option == "--first" ? first : wanted) = fuzz::whole_number(words[i + 1]);
@@ -145,14 +191,14 @@ int main(int count, char** words) {
   const fuzz::Folder home;
   fuzz::Tally tally;
   for (std::uint64_t seed = first; seed < first + wanted; ++seed)
-    fuzz::run_one(schema, seed, home, tally);
+    fuzz::run_one(schema, generate, seed, home, tally);
   std::printf(
       "%llu experiments from seed %llu: %zu ran, %zu stopped with a message, %zu refused, %zu "
       "lacked an engine, %zu findings\n",
       static_cast<unsigned long long>(wanted), static_cast<unsigned long long>(first),
       tally.ended[0], tally.ended[1], tally.ended[2], tally.ended[3], tally.findings);
   // Files of which most are refused test the checker alone.
-  const bool enough = 4 * tally.ended[0] >= wanted;
+  const bool enough = 4 * (tally.ended[0] + tally.ended[1]) >= wanted;
   if (!enough) std::printf("too few ran\n");
   return tally.findings == 0 && enough ? 0 : 1;
 }

@@ -18,6 +18,7 @@
 #include "output/text/csv.h"
 #include "output/text/hash.h"
 #include "output/text/json_reader.h"
+#include "simulation/run/changes.h"
 #include "simulation/scene/terrain/ascii_grid.h"
 #include "simulation/scene/terrain/png_grid.h"
 #include "simulation/scene/urdf/hull.h"
@@ -27,6 +28,7 @@
 #include "studies/cluster/run_list.h"
 #include "studies/run/run_folder.h"
 #include "studies/run/run_record.h"
+#include "studies/run/run_store.h"
 #include "tests/fuzz/fuzz.h"
 #include "unicode/display.h"
 #include "unicode/utf8.h"
@@ -149,6 +151,22 @@ void read_table(const std::string& bytes) {
   for (const auto& row : table->rows)
     fuzz::require(row.size() == table->header.size(), "a row of another width");
   fuzz::require(output::parse_csv(table->text())->rows == table->rows, "a table that changes");
+  for (const simulation::Change& change : simulation::read_changes(written(bytes, "changes.csv")))
+    fuzz::require(std::isfinite(change.time), "a change at no time");
+}
+
+/// As the runs of a folder that is resumed: what is in them, then one more.
+void read_store(const std::string& bytes) {
+  static const fuzz::Folder folder("store");
+  for (const char* suffix : {"", "-wal", "-shm", "-journal"})
+    std::filesystem::remove(folder.path() / (std::string("runs.sqlite") + suffix));
+  std::ofstream(folder.path() / "runs.sqlite", std::ios::binary) << bytes;
+  studies::RunStore store(folder.path(), true);
+  const std::string identity(32, '0');
+  store.load(store.assigned("creep", 3).value_or(identity));
+  store.timing(identity);
+  store.save("creep", 4, identity, {});
+  fuzz::require(store.assigned("creep", 4) == identity, "a run that is not its row's");
 }
 
 void read_png(const std::string& bytes) {
@@ -214,9 +232,9 @@ void read_text(const std::string& bytes) {
 
 void run(char kind, const std::string& bytes) {
   constexpr void (*readers[])(const std::string&) = {
-      read_csv,   read_mat,   read_grid,  read_unit,   read_rational,
-      read_robot, read_movie, read_spool, read_json,   read_table,
-      read_png,   read_elf,   read_row,   read_folder, read_text};
+      read_csv,   read_mat,    read_grid, read_unit,  read_rational, read_robot,
+      read_movie, read_spool,  read_json, read_table, read_png,      read_elf,
+      read_row,   read_folder, read_text, read_store};
   try {
     readers[static_cast<unsigned char>(kind) % std::size(readers)](bytes);
   } catch (const std::exception&) {

@@ -323,6 +323,92 @@ TEST(UrdfMesh, WhatCannotBeReadIsRefusedAtItsName) {
             std::string::npos);
 }
 
+/// The text of `whole` with `now` in the place of `was`.
+std::string changed(std::string whole, const std::string& was, const std::string& now) {
+  const std::size_t at = whole.find(was);
+  EXPECT_NE(at, std::string::npos) << was;
+  return whole.replace(at, was.size(), now);
+}
+
+TEST(UrdfMesh, ColladaThatContradictsItselfIsRefused) {
+  const std::string whole = collada(brick());  // 36 vertices, 108 numbers
+  const auto problem = [&](const std::string& was, const std::string& now) {
+    return simulation::read_collada(changed(whole, was, now)).problem;
+  };
+  for (const char* meter : {"0", "-1", "x", "", "nan", "inf", "1e400", "1 2", "0x1"})
+    EXPECT_EQ(
+        problem("meter=\"0.001\"", "meter=\"" + std::string(meter) + "\""),
+        "<unit meter=\"" + std::string(meter) + "\">: a length in metres above 0 is expected");
+  for (const char* stride : {"4294967296", "4294967299", "-3", "3.5", "x", "", "1e30"})
+    EXPECT_EQ(problem("stride=\"3\"", "stride=\"" + std::string(stride) + "\""),
+              "<accessor stride=\"" + std::string(stride) +
+                  "\">: a whole number from 0 to 30000000 is expected");
+  EXPECT_EQ(problem("stride=\"3\"", "stride=\"2\""), "its positions have fewer than three numbers");
+  EXPECT_EQ(problem("stride=\"3\"", "stride=\"1000\""),
+            "an <accessor> takes 36 vertices of 1000 numbers each, and there are 108 numbers from "
+            "its offset 0 on");
+  EXPECT_EQ(problem("stride=\"3\" count=\"36\"", "stride=\"1000\""),
+            "an <accessor> takes 0 vertices of 1000 numbers each, and there are 108 numbers from "
+            "its offset 0 on");
+  EXPECT_EQ(problem("stride=\"3\"", "offset=\"9\" stride=\"3\""),
+            "an <accessor> takes 36 vertices of 3 numbers each, and there are 99 numbers from its "
+            "offset 9 on");
+  EXPECT_EQ(problem("count=\"36\"", "count=\"35\""),
+            "an <accessor> takes 35 vertices of 3 numbers each, and there are 108 numbers from its "
+            "offset 0 on");
+  EXPECT_EQ(problem("count=\"108\"", "count=\"105\""),
+            "<float_array count=\"105\"> has 108 numbers");
+  for (const char* reference : {"url=\"#g\"", "url=\"#n\"", "url=\"#s\"", "source=\"#p\""})
+    EXPECT_TRUE(problem(reference, changed(reference, "#", "#no"))
+                    .ends_with(": the file has no such element"))
+        << reference;
+  EXPECT_EQ(problem("POSITION", "NORMAL"), "its <vertices> have no input of semantic POSITION");
+  EXPECT_EQ(problem("2 0 0 0  0 2 0 0", "2 0 0 0  0 0 0 0"),
+            "a <matrix> of its scene leaves nothing of a volume");
+  EXPECT_EQ(problem("0 0 0 1</matrix>", "0 0 0 2</matrix>"),
+            "the last row of a <matrix> of its scene is not 0 0 0 1");
+  EXPECT_EQ(problem("<rotate>1 0 0 180", "<rotate>0 0 0 180"),
+            "a <rotate> of its scene has an axis of length 0");
+  EXPECT_EQ(problem("<translate>20 0 0</translate>", "<scale>1 0 1</scale>"),
+            "a <scale> of its scene leaves nothing of a volume");
+  // Both defaults and what a file may leave out.
+  EXPECT_EQ(problem("stride=\"3\" count=\"36\"", ""), "");
+  EXPECT_EQ(problem("<unit name=\"mm\" meter=\"0.001\"/>", ""), "");
+  EXPECT_EQ(problem("<rotate>1 0 0 180", "<rotate>0 0 0 0"), "");
+}
+
+TEST(UrdfMesh, StlThatSaysFewerOrMoreTrianglesIsRefused) {
+  const auto said = [](std::uint32_t triangles) {
+    std::string bytes = binary_stl(brick());
+    std::memcpy(bytes.data() + 80, &triangles, sizeof triangles);
+    return simulation::read_stl(bytes).problem;
+  };
+  EXPECT_EQ(said(12), "");
+  EXPECT_EQ(said(11), "it says 11 triangles and has 12");
+  EXPECT_EQ(said(0), "it says 0 triangles and has 12");
+  EXPECT_EQ(said(13), "it says 13 triangles and ends after 12");
+  EXPECT_EQ(said(4'294'967'295U), "it says 4294967295 triangles and ends after 12");
+  EXPECT_EQ(simulation::read_stl("solid\nvertex 0 0 0\nvertex 0 0 1\n").problem,
+            "it ends within a triangle");
+}
+
+TEST(UrdfMesh, ObjWhoseFacesNameNoVertexIsRefused) {
+  const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  const auto problem = [&](const std::string& more) {
+    return simulation::read_obj(triangle + more).problem;
+  };
+  for (const char* good :
+       {"f 1 2 3", "f 1/1 2/2 3/3", "f 1//1 2//1 3//1\n", "f -1 -2 -3\r\n", "f 1 2 4\nv 0 0 1",
+        "v 0 0 1 1", "v 0 0 1 0.5 0.5 0.5\n", "l 1 2", "p 3"})
+    EXPECT_EQ(problem(good), "") << good;
+  EXPECT_EQ(problem("f 1 2 4"), "a face names vertex 4 of 3");
+  EXPECT_EQ(problem("f 1 2 1e300"), "a face names vertex 1e+300 of 3");
+  for (const char* index : {"0", "-4", "x", "1.5", "/1", "nan"})
+    EXPECT_EQ(problem("f 1 2 " + std::string(index)),
+              "line 4: `" + std::string(index) + "` names no vertex");
+  EXPECT_EQ(problem("v 0 0 1 red"), "line 4: a vertex has three numbers");
+}
+
 TEST(UrdfMesh, BrokenFilesGiveVerticesOrAProblem) {
   std::mt19937 random(5);
   using Reader = MeshPoints (*)(std::string_view);

@@ -36,7 +36,7 @@ class ChildProcess {
     setpgid(process_, process_);
     if (process_ != 0) return;
     prctl(PR_SET_PDEATHSIG, SIGKILL);
-    for (const int number : {SIGINT, SIGTERM}) ::signal(number, SIG_DFL);
+    for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGXFSZ}) ::signal(number, SIG_DFL);
     for (const int number : ignored) ::signal(number, SIG_IGN);
     if (chdir(folder.c_str()) != 0) _exit(126);
     dup2(open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDOUT_FILENO);

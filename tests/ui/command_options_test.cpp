@@ -68,6 +68,116 @@ TEST(ShortForms, CountInAFileThatNeedsASetting) {
   EXPECT_EQ(count(without.err, "the Param `height` has no value"), 1U) << without.err;
 }
 
+// 2^53 = 9007199254740992: above it, not every whole number of steps has a double of its own.
+TEST(StepCounts, BeyondADoublesWholeNumbersAreRefusedAtTheirPlace) {
+  const Workplace work;
+  work.file("ball.hook", ball());
+  work.file("long.hook",
+            "World w { deltat = 1 ms;\n  duration = 1e300 s; Robot ball { Base.mobile { "
+            "mass = 1; inertia = 1, 1, 1, 0, 0, 0; } } }\n");
+  work.file("cases.csv", "drop\na\nb\n");
+  work.file("curves.csv", "drop,t [s],z [m]\na,0.01,1\na,0.02,1\nb,0.01,1\nb,1e297,1\n");
+  const std::string cases =
+      "Cases drop { file = \"cases.csv\"; case = drop; Trace z { file = \"curves.csv\"; column = "
+      "z; "
+      "time = \"t\"; of = w.ball.base.location.z; } } ";
+  work.file("study.hook",
+            "Study s { scene = \"ball.hook\"; Subject ours { } Measure fell;\n"
+            "  duration = 1e300 s; }\n");
+  work.file("cases.hook",
+            "Study s { scene = \"ball.hook\"; Subject ours { } Measure fell;\n  " + cases + "}\n");
+  work.file("tune.hook",
+            "Tune t { scene = \"ground.hook\"; Vary k { from = 1; to = 2; } Objective "
+            "penetration_max { minimise; }\n  duration = 1e300 s; }\n");
+  work.file("ground.hook",
+            "Param k = 1; World w { deltat = 1 ms; duration = 1 s; Material m { "
+            "normal_stiffness = k * 1 kN/m; } Terrain.Flat g { material = m; } Robot "
+            "ball { Base.mobile { mass = 1; inertia = 1, 1, 1, 0, 0, 0; } } }\n");
+  work.file("wall.hook", "Wall all { Scene long { file = \"long.hook\"; } Subject ours { } }\n");
+  const struct {
+    const char *arguments, *place;
+  } table[] = {
+      {"run ball.hook --for 1e17s --out out", "1e+17 s in steps of 0.001 s are more steps than"},
+      {"run ball.hook --for 9.1e12s --out out",
+       "9.1e+12 s in steps of 0.001 s are more steps than"},
+      {"run long.hook --out out", "long.hook:2:"},
+      {"check long.hook", "long.hook:2:"},
+      {"dynamics long.hook", "long.hook:2:"},
+      {"view long.hook --no-open --out out", "long.hook:2:"},
+      {"study study.hook --out out", "study.hook:2:"},
+      {"study study.hook --quick --out out", "study.hook:2:"},
+      {"study cases.hook --out out", "drop b was measured until then: 1e+297 s in steps of"},
+      {"study wall.hook --out out", "are more steps than"},
+      {"tune tune.hook --out out", "tune.hook:2:"},
+  };
+  for (const auto& [arguments, place] : table) {
+    const CommandResult result = work.hookpoint(arguments);
+    EXPECT_EQ(result.status, 2) << arguments << result.out << result.err;
+    EXPECT_TRUE(has(result.err, place)) << arguments << ": " << result.err;
+    EXPECT_TRUE(has(result.err, "are more steps than a run can count (9007199254740992)"))
+        << arguments << ": " << result.err;
+    EXPECT_FALSE(fs::exists(work.folder() / "out")) << arguments;
+  }
+  const CommandResult days = work.hookpoint("check ball.hook");
+  EXPECT_EQ(days.err, "");
+  work.file("days.hook", "World w { deltat = 1 ms; duration = 1e9 s; }\n");
+  EXPECT_TRUE(has(work.hookpoint("check days.hook").err,
+                  "are 1e+12 steps: at a million steps a second they take 12 days"));
+}
+
+TEST(SweptTerrain, LoadsNoPlugin) {
+  const Workplace work;
+  work.file("library.so", "");
+  work.file("scene.hook",
+            "World w { deltat = 1 ms; Terrain.Flat g { } Robot ball { Base.mobile { mass = "
+            "1; inertia = 1, 1, 1, 0, 0, 0; } } }\n");
+  work.file("ground.hook", "Plugin \"library.so\"; Terrain.Flat laid { }\n");
+  work.file("study.hook",
+            "Study s { scene = \"scene.hook\"; duration = 10 ms; Subject ours { } Measure "
+            "fell; Sweep terrain { values = \"ground.hook\"; } }\n");
+  const CommandResult result = work.hookpoint("study study.hook --out out");
+  EXPECT_EQ(result.status, 2);
+  EXPECT_TRUE(has(result.err,
+                  "ground.hook:1:1: error: a terrain's file holds a Terrain and Materials "
+                  "alone: its Plugin "))
+      << result.err;
+  EXPECT_FALSE(fs::exists(work.folder() / "out"));
+}
+
+// A variable of a script that is not set.
+TEST(EmptyArguments, NameNothing) {
+  const Workplace work;
+  work.file("ball.hook", ball());
+  work.file("study.hook",
+            "Study s { scene = \"ball.hook\"; Subject ours { } Measure fell; duration = "
+            "1 s; }\n");
+  const std::size_t before = work.entries();
+  for (const char* option :
+       {"--out", "--record", "--movie", "--resume", "--at", "--changes", "--for", "--engine",
+        "--dt", "--bind", "--token", "--with", "--set", "--port"}) {
+    const std::string message = "the value of " + std::string(option) + " is empty";
+    for (const char* written : {" ''", "="}) {
+      const CommandResult run = work.hookpoint("run ball.hook " + std::string(option) + written);
+      EXPECT_EQ(run.status, 2) << option << written;
+      EXPECT_TRUE(has(run.err, message)) << option << written << run.err;
+    }
+  }
+  for (const char* arguments :
+       {"study study.hook --out ''", "study study.hook --only ''",
+        "study study.hook --slurm "
+        "--partition ''",
+        "tune study.hook --out ''", "replay movie.h5 --film ''", "replay movie.h5 --at ''",
+        "runs list.json --journal ''", "compare a b --tolerance ''", "describe --plugin ''",
+        "run ''", "check ''", "''", "fmt ball.hook ''"}) {
+    const CommandResult result = work.hookpoint(arguments);
+    EXPECT_EQ(result.status, 2) << arguments;
+    EXPECT_TRUE(has(result.err, " is empty: give it one, or leave it out"))
+        << arguments << result.err;
+  }
+  EXPECT_EQ(work.entries(), before);
+  EXPECT_EQ(work.hookpoint("print ball.hook --set=w.deltat=2ms").status, 0);
+}
+
 TEST(RecordOption, TakesVectorsAndGlobs) {
   const Workplace work;
   const auto header = [&](const std::string& trails) {

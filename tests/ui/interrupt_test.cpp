@@ -5,6 +5,7 @@
 
 #include "tests/support/child_process.h"
 #include "tests/support/command.h"
+#include "tests/support/record_scene.h"
 
 namespace hookpoint {
 namespace {
@@ -48,7 +49,7 @@ void put_stalling_plugin(const Workplace& place) {
 
 class Interrupt : public ::testing::TestWithParam<int> {};
 
-INSTANTIATE_TEST_SUITE_P(Signals, Interrupt, ::testing::Values(SIGINT, SIGTERM));
+INSTANTIATE_TEST_SUITE_P(Signals, Interrupt, ::testing::Values(SIGINT, SIGTERM, SIGHUP));
 
 TEST_P(Interrupt, OfARunKeepsWhatWasRecorded) {
   const Workplace place;
@@ -120,6 +121,28 @@ TEST(IgnoredInterrupt, StaysIgnored) {
   ASSERT_TRUE(run.wait_until([&] { return is_larger(trace, size + 20'000); })) << run.err();
   run.signal(SIGTERM);
   EXPECT_EQ(run.wait(), 128 + SIGTERM);
+}
+
+// As a full disk: `ulimit -f` is no signal that ends the program without a word.
+TEST(FileSizeLimit, IsSaidAndWhatIsThereStays) {
+  const Workplace place;
+  place.file("run.hook", falling);
+  place.file("block.hook", block);
+  place.file("study.hook",
+             "Study s { scene = \"block.hook\"; duration = 0.1 s; Measure slip_distance; "
+             "seeds = 200; Subject dts { engine = dts; contact = hookpoint; } }");
+  const auto limited = [&](const std::vector<std::string>& words, int status) {
+    const testing::FileSizeLimit limit(60'000);
+    ChildProcess process(place.folder(), words);
+    EXPECT_EQ(process.wait(), status) << words.front() << process.err();
+    EXPECT_NE(process.err().find("`ulimit -f`"), std::string::npos) << process.err();
+  };
+  limited({"run", "run.hook", "--out", "out", "--record", "w.time"}, 3);
+  EXPECT_TRUE(place.read("out/trace.csv.partial").starts_with("time [s]"));
+  limited({"study", "study.hook", "--out", "study", "--jobs", "1"}, 1);
+  const testing::CommandResult resumed =
+      place.hookpoint("study study.hook --resume --out study --jobs 1");
+  EXPECT_EQ(resumed.status, 0) << resumed.err;
 }
 
 TEST(InterruptedStudy, BeginsNoOther) {

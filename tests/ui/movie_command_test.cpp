@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "control/data/table.h"
+#include "tests/support/child_process.h"
 #include "tests/support/command.h"
 #include "tests/support/read_record.h"
 
@@ -208,6 +209,39 @@ TEST_F(MovieCommand, WrongInputIsSaid) {
   expect_refused("replay record/r.h5", "record/r.h5 is an HDF5 file, but no movie");
 }
 
+// The files that a movie holds lie in a temporary folder while it is replayed.
+TEST_F(MovieCommand, AKilledReplayLeavesNothingForLong) {
+  write();
+  fine("run scene.hook --for 0.2 --movie m.h5");
+  const std::filesystem::path temporary = place.folder() / "tmp";
+  std::filesystem::create_directory(temporary);
+  setenv("TMPDIR", temporary.c_str(), 1);
+  const auto left = [&] {
+    return std::distance(std::filesystem::directory_iterator(temporary),
+                         std::filesystem::directory_iterator());
+  };
+  {
+    testing::ChildProcess replay(place.folder(), {"replay", "m.h5", "--no-open"});
+    ASSERT_TRUE(replay.wait_until([&] { return replay.out().find("http") != std::string::npos; }));
+    EXPECT_EQ(left(), 1);
+    fine("replay m.h5 --at 0.1");
+    EXPECT_EQ(left(), 1) << "the one in use stays";
+    replay.signal(SIGKILL);
+    EXPECT_EQ(replay.wait(), 1000 + SIGKILL);
+    EXPECT_EQ(left(), 1);
+  }
+  fine("replay m.h5 --at 0.1");
+  EXPECT_EQ(left(), 0);
+  {
+    testing::ChildProcess replay(place.folder(), {"replay", "m.h5", "--no-open"});
+    ASSERT_TRUE(replay.wait_until([&] { return replay.out().find("http") != std::string::npos; }));
+    replay.signal(SIGHUP);
+    EXPECT_EQ(replay.wait(), 0) << "as the interrupt key ends a window";
+  }
+  EXPECT_EQ(left(), 0);
+  unsetenv("TMPDIR");
+}
+
 TEST_F(MovieCommand, MoviesOfOtherProgramsAreRefused) {
   ASSERT_EQ(testing::missing_h5py(), "");
   write();
@@ -234,6 +268,24 @@ TEST_F(MovieCommand, MoviesOfOtherProgramsAreRefused) {
   expect_refused("run --resume seed.h5 --at 0.1 --for 1s", "the run does not repeat");
   changed("text.h5", replacing("experiment", "gravity", "gravty"));
   expect_refused("replay text.h5 --at 0.1", "the experiment inside the movie cannot be loaded");
+  // Times that no run has.
+  const char* times[] = {"f[\"time\"][2] = float(\"nan\")",
+                         "f[\"time\"][-1] = float(\"inf\")",
+                         "f[\"time\"][0] = -1.",
+                         "f[\"time\"][2] = 0.1999",
+                         "f.attrs[\"period\"] = float(\"nan\")",
+                         "f.attrs[\"period\"] = 0."};
+  for (std::size_t i = 0; i < std::size(times); ++i) {
+    const std::string name = "times" + std::to_string(i) + ".h5";
+    changed(name.c_str(), times[i]);
+    for (const char* option : {" --about", " --at 0.1"})
+      expect_refused("replay " + name + option, name + " is damaged: not all of it can be read");
+  }
+  changed("far.h5", "f[\"time\"][-1] = 1e300");
+  expect_refused("replay far.h5 --at 0.1",
+                 "the movie is damaged: no run with steps of 0.001 s reaches its time 1e+300 s");
+  changed("none.h5", "f.attrs[\"hookpoint_movie\"] = float(\"nan\")");
+  expect_refused("replay none.h5", "is a movie of layout nan");
 }
 
 TEST_F(MovieCommand, EnginesThatHideTheirStateAreRefusedBeforeAnythingIsWritten) {

@@ -31,6 +31,29 @@ constexpr const char* fall_study =
     "  Measure slip_acceleration; Measure penetration_max; Measure peer_distance;\n"
     "  Plot shift { x = time; y = displacement; Only slope { values = 20 deg; } } }\n";
 
+// Without a Slurm: what stands in for its program does not answer.
+TEST(SilentSlurm, IsNotWaitedForWithoutEnd) {
+  const Workplace work;
+  work.file("study.hook", fall_study);
+  fs::permissions(work.file("sbatch", "#!/bin/sh\nsleep 1000\n"), fs::perms::owner_all);
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", (work.folder().string() + ":" + path).c_str(), 1);
+  const CommandResult result = work.hookpoint("study study.hook --slurm --out out");
+  EXPECT_EQ(result.status, 3);
+  EXPECT_NE(result.err.find("sbatch --version has not answered within 10 s"), std::string::npos)
+      << result.err;
+  // The version comes at once, the submission does not: the interrupt key ends it.
+  work.file("sbatch", "#!/bin/sh\ntest \"$1\" = --version || { touch asked; sleep 1000; }\n");
+  {
+    ChildProcess front(work.folder(), {"study", "study.hook", "--slurm", "--out", "out"});
+    const fs::path asked = work.folder() / "out/cluster/00000/asked";
+    ASSERT_TRUE(front.wait_until([&] { return fs::exists(asked); })) << front.err();
+    front.signal(SIGINT);
+    EXPECT_EQ(front.wait(), 130) << front.err();
+  }
+  setenv("PATH", path.c_str(), 1);
+}
+
 class Slurm : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {

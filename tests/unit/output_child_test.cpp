@@ -1,8 +1,10 @@
 // Programs that are started: words stay words, and what they say and how they end comes back.
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <chrono>
 #include <csignal>
+#include <thread>
 
 #include "output/child.h"
 
@@ -42,6 +44,25 @@ TEST(Child, ItsStreamsComeApartWhereAsked) {
   EXPECT_EQ(result->errors, "err\n");
   EXPECT_EQ(result->status, 3);
   EXPECT_FALSE(result->stopped);
+}
+
+TEST(Child, IsStoppedWhereItsCallerIsInterrupted) {
+  using namespace std::chrono;
+  std::atomic<bool> stop{false};
+  const auto start = steady_clock::now();
+  std::thread interrupts([&] {
+    std::this_thread::sleep_for(100ms);
+    stop = true;
+  });
+  const auto result = run_program("sleep", {"60"}, "/", {.stop = &stop});
+  interrupts.join();
+  ASSERT_TRUE(result.has_value());
+  EXPECT_TRUE(result->stopped);
+  EXPECT_LT(steady_clock::now() - start, 30s);
+  stop = false;
+  const auto whole = run_program("sh", {"-c", "sleep 0.5; echo out"}, "/", {.stop = &stop});
+  EXPECT_EQ(whole->output, "out\n");
+  EXPECT_FALSE(whole->stopped);
 }
 
 /// Alive or not, with its streams open or closed, and with a program of its own that waits.

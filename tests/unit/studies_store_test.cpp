@@ -159,6 +159,44 @@ TEST(Store, RefusesWhatIsNotItsOwn) {
   testing::alter_database(work.folder() / "runs.sqlite", "INSERT INTO mine VALUES(1)");
 }
 
+TEST(Store, RefusesTablesThatSomethingElseHasChanged) {
+  constexpr const char* endless =
+      "WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n) SELECT x'00' AS identity, "
+      "'' AS numbers, x'' AS samples FROM n";
+  const std::string changes[] = {
+      std::string("DROP TABLE run; CREATE VIEW run AS ") + endless,
+      std::string("CREATE TRIGGER t AFTER INSERT ON run BEGIN DELETE FROM timing WHERE EXISTS (") +
+          endless + " WHERE i < 0); END",
+      "DROP TABLE run; CREATE TABLE run(identity BLOB, numbers TEXT, samples BLOB)",
+      "CREATE INDEX more ON run(numbers)"};
+  for (const std::string& change : changes) {
+    const Workplace work;
+    RunStore(work.folder(), false).save("creep", 3, first_identity, awkward_record());
+    EXPECT_EQ(refusal(work), "");
+    testing::alter_database(work.folder() / "runs.sqlite", change);
+    for (const bool keep : {true, false})
+      EXPECT_NE(refusal(work, keep).find("is a store that something else has changed"),
+                std::string::npos)
+          << change << ": " << refusal(work, keep);
+  }
+}
+
+TEST(Store, RefusesARowThatNoRunHas) {
+  const Workplace work;
+  RunStore(work.folder(), false).save("creep", 3, first_identity, awkward_record());
+  testing::alter_database(work.folder() / "runs.sqlite",
+                          "UPDATE run SET numbers = hex(zeroblob(20000000))");
+  const RunStore store(work.folder(), true);
+  try {
+    store.load(first_identity);
+    FAIL() << "40 MB of numbers";
+  } catch (const StoreError& error) {
+    EXPECT_NE(std::string(error.what()).find("it holds what hookpoint does not write; move it"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(Store, LeavesOneOfAnotherVersionAlone) {
   const Workplace work;
   RunStore(work.folder(), false).save("creep", 3, first_identity, awkward_record());
@@ -309,6 +347,24 @@ TEST(SlurmScript, GivesEachMachineSomethingToDoAndSlurmNotTooMuch) {
 }
 
 // The program of the script is echo here: what bash makes of the words is what it would be told.
+// The formats of sbatch's manual: "minutes", "minutes:seconds", "hours:minutes:seconds",
+// "days-hours", "days-hours:minutes" and "days-hours:minutes:seconds".
+TEST(SlurmScript, TakesTimesAsSbatchDoes) {
+  SlurmSettings settings;
+  EXPECT_FALSE(problem_of(settings));
+  for (const char* time : {"90", "0", "90:30", "2:00:00", "1-0", "1-12", "1-12:30", "1-12:30:15"}) {
+    settings.time = time;
+    EXPECT_FALSE(problem_of(settings)) << time;
+  }
+  for (const char* time : {"x", "1:2:3:4", "1-", "-1", "-", ":", "1:", ":30", "1::2", "1-2-3",
+                           "1.5", "2h", "1-2:3:4:5", " 5", "5 ", "+5", "1e3", "123456789"}) {
+    settings.time = time;
+    ASSERT_TRUE(problem_of(settings)) << time;
+    EXPECT_NE(problem_of(settings)->find("--time takes minutes, minutes:seconds"),
+              std::string::npos);
+  }
+}
+
 TEST(SlurmScript, HandsPathsOnAsTheyAre) {
   const Workplace work;
   const std::filesystem::path folder = work.folder() / "it's \"$(touch pwned)\" `id` \\ %j\n;&";

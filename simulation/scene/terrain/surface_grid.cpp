@@ -24,7 +24,7 @@ std::string extent_problem(const Extent& extent) {
   const bool too_many = columns * rows > contact::most_grid_vertices;
   if (!too_many && longest <= contact::most_grid_side) return "";
   return fmt::format(
-      "{:g} x {:g} m at a spacing of {:g} m makes {:.0f} x {:.0f} vertices, more than {}; raise "
+      "{:g} x {:g} m at a spacing of {:g} m makes {:.6g} x {:.6g} vertices, more than {}; raise "
       "the "
       "spacing or lower the size",
       extent.size_x, extent.size_y, extent.spacing, columns, rows,

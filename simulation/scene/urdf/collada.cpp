@@ -2,7 +2,7 @@
 // transforms of its nodes.
 #include <fmt/format.h>
 
-#include <array>
+#include <cmath>
 #include <numbers>
 #include <pugixml.hpp>
 #include <unordered_map>
@@ -14,10 +14,13 @@
 namespace hookpoint::simulation {
 namespace {
 
-constexpr std::size_t most_vertices = 10'000'000;
+constexpr std::size_t most_vertices = 10'000'000, most_numbers = 3 * most_vertices;
 // Nodes may stand in one another by name, and a file may say so of a hundred in ten lines.
 constexpr std::size_t most_nodes = 100'000;
 constexpr int most_depth = 100;
+
+/// The beginning of a text of the file, for a message.
+std::string_view shown(std::string_view text) { return text.substr(0, 40); }
 
 /// x -> A x + t.
 struct Affine {
@@ -34,10 +37,11 @@ class ColladaScene {
     const pugi::xml_node root = document_.document_element();
     if (std::string_view(root.name()) != "COLLADA") return {{}, "it is no Collada file"};
     index(root);
-    const double metre = root.child("asset").child("unit").attribute("meter").as_double(1.);
-    const Affine X{metre * Matrix3d::identity(), {}};
-    pugi::xml_node scene = find(root.child("scene").child("instance_visual_scene"), "url");
-    if (!scene) scene = root.child("library_visual_scenes").child("visual_scene");
+    const Affine X{read_metre(root.child("asset").child("unit")) * Matrix3d::identity(), {}};
+    pugi::xml_node scene = root.child("library_visual_scenes").child("visual_scene");
+    if (const pugi::xml_node shown = root.child("scene").child("instance_visual_scene"))
+      scene = find(shown, "url");
+    if (failed()) return std::move(mesh_);
     if (scene) {
       for (const pugi::xml_node& node : scene.children("node")) add_node(node, X, 0);
     } else {
@@ -65,11 +69,40 @@ class ColladaScene {
     pugi::xml_node(root).traverse(walker);
   }
 
-  /// What `attribute` of `node` names: "#id".
-  pugi::xml_node find(const pugi::xml_node& node, const char* attribute) const {
+  /// Length of the file's unit in metres, 1 where it is not given.
+  double read_metre(const pugi::xml_node& unit) {
+    const pugi::xml_attribute meter = unit.attribute("meter");
+    if (!meter) return 1.;
+    std::string_view text = meter.value();
+    const std::optional<double> metre = mesh_number(next_word(text));
+    if (metre && *metre > 0. && next_word(text).empty()) return *metre;
+    fail(fmt::format("<unit meter=\"{}\">: a length in metres above 0 is expected",
+                     shown(meter.value())));
+    return 1.;
+  }
+
+  /// A whole number from 0 to `most_numbers`, `otherwise` where it is not given.
+  std::size_t whole(const pugi::xml_node& node, const char* attribute, std::size_t otherwise) {
+    const pugi::xml_attribute given = node.attribute(attribute);
+    if (!given) return otherwise;
+    std::string_view text = given.value();
+    const std::optional<double> number = mesh_number(next_word(text));
+    if (number && *number >= 0. && *number <= static_cast<double>(most_numbers) &&
+        *number == std::floor(*number) && next_word(text).empty())
+      return static_cast<std::size_t>(*number);
+    fail(fmt::format("<{} {}=\"{}\">: a whole number from 0 to {} is expected", node.name(),
+                     attribute, shown(given.value()), most_numbers));
+    return otherwise;
+  }
+
+  /// The element that `attribute` of `node` names: "#id". None after an error.
+  pugi::xml_node find(const pugi::xml_node& node, const char* attribute) {
     const std::string_view url = node.attribute(attribute).value();
     const auto found = url.starts_with('#') ? ids_.find(url.substr(1)) : ids_.end();
-    return found == ids_.end() ? pugi::xml_node() : found->second;
+    if (found != ids_.end()) return found->second;
+    fail(fmt::format("<{} {}=\"{}\">: the file has no such element", node.name(), attribute,
+                     shown(url)));
+    return {};
   }
 
   void add_node(const pugi::xml_node& node, Affine X, int depth) {
@@ -85,7 +118,8 @@ class ColladaScene {
       } else if (name == "instance_geometry") {
         add_geometry(find(part, "url"), X);
       } else if (name == "instance_controller") {
-        add_geometry(find(find(part, "url").child("skin"), "source"), X);
+        if (const pugi::xml_node skin = find(part, "url").child("skin"))
+          add_geometry(find(skin, "source"), X);
       } else if (name == "instance_node") {
         if (const pugi::xml_node other = find(part, "url")) add_node(other, X, depth + 1);
       } else if (name == "node") {
@@ -104,35 +138,65 @@ class ColladaScene {
       return {};
     }
     if (name == "translate") return {Matrix3d::identity(), {x[0], x[1], x[2]}};
-    if (name == "scale") return {{x[0], 0., 0., 0., x[1], 0., 0., 0., x[2]}, {}};
-    if (name == "matrix")
-      return {{x[0], x[1], x[2], x[4], x[5], x[6], x[8], x[9], x[10]}, {x[3], x[7], x[11]}};
+    if (name == "scale") return whole_space({x[0], 0., 0., 0., x[1], 0., 0., 0., x[2]}, {}, name);
+    if (name == "matrix") {
+      if (x[12] != 0. || x[13] != 0. || x[14] != 0. || x[15] != 1.)
+        fail("the last row of a <matrix> of its scene is not 0 0 0 1");
+      return whole_space({x[0], x[1], x[2], x[4], x[5], x[6], x[8], x[9], x[10]},
+                         {x[3], x[7], x[11]}, name);
+    }
     const Vector3d axis{x[0], x[1], x[2]};
-    if (!(norm(axis) > 0.)) return {};
     const double angle = x[3] * std::numbers::pi / 180.;
+    if (!(norm(axis) > 0.)) {
+      if (angle != 0.) fail("a <rotate> of its scene has an axis of length 0");
+      return {};
+    }
     return {rotation_matrix(exponential((angle / norm(axis)) * axis)), {}};
+  }
+
+  /// Refuses what maps space to a plane, a line or a point.
+  Affine whole_space(const Matrix3d& A, const Vector3d& t, std::string_view name) {
+    if (!(std::abs(determinant(A)) > 0.))
+      fail(fmt::format("a <{}> of its scene leaves nothing of a volume", name));
+    return {A, t};
   }
 
   void add_geometry(const pugi::xml_node& geometry, const Affine& X) {
     for (const pugi::xml_node& vertices : geometry.child("mesh").children("vertices")) {
       const pugi::xml_node input =
           vertices.find_child_by_attribute("input", "semantic", "POSITION");
-      add_positions(find(input, "source"), X);
+      if (!input) return fail("its <vertices> have no input of semantic POSITION");
+      if (const pugi::xml_node source = find(input, "source")) add_positions(source, X);
     }
   }
 
   void add_positions(const pugi::xml_node& source, const Affine& X) {
     const pugi::xml_node accessor = source.child("technique_common").child("accessor");
-    const std::size_t stride = accessor.attribute("stride").as_uint(3);
-    const std::size_t offset = accessor.attribute("offset").as_uint(0);
+    const pugi::xml_node array =
+        accessor.attribute("source") ? find(accessor, "source") : source.child("float_array");
     std::vector<double> numbers;
-    read_numbers(source.child("float_array").text().get(), numbers, 3 * most_vertices);
+    read_numbers(array.text().get(), numbers, most_numbers);
+    if (numbers.size() > most_numbers)
+      return fail(fmt::format("it has more than {} numbers", most_numbers));
+    if (const std::size_t said = whole(array, "count", numbers.size()); said != numbers.size())
+      fail(fmt::format("<float_array count=\"{}\"> has {} numbers", said, numbers.size()));
+    const std::size_t stride = whole(accessor, "stride", 3), offset = whole(accessor, "offset", 0);
     if (stride < 3) fail("its positions have fewer than three numbers");
     if (failed()) return;
-    for (std::size_t i = offset; i + 3 <= numbers.size(); i += stride) {
-      if (mesh_.vertices.size() == most_vertices)
-        return fail(fmt::format("it has more than {} vertices", most_vertices));
-      mesh_.vertices.push_back(X.A * Vector3d{numbers[i], numbers[i + 1], numbers[i + 2]} + X.t);
+    const std::size_t behind = numbers.size() - std::min(offset, numbers.size());
+    const std::size_t there = behind / stride, left = behind % stride;
+    const std::size_t count = whole(accessor, "count", there);
+    if (count != there || left != 0)
+      fail(
+          fmt::format("an <accessor> takes {} vertices of {} numbers each, and there are {} "
+                      "numbers from its offset {} on",
+                      count, stride, behind, offset));
+    if (mesh_.vertices.size() + count > most_vertices)
+      fail(fmt::format("it has more than {} vertices", most_vertices));
+    if (failed()) return;
+    for (std::size_t i = 0; i < count; ++i) {
+      const double* p = numbers.data() + offset + stride * i;
+      mesh_.vertices.push_back(X.A * Vector3d{p[0], p[1], p[2]} + X.t);
     }
   }
 
@@ -140,7 +204,7 @@ class ColladaScene {
   void read_numbers(std::string_view text, std::vector<double>& numbers, std::size_t most) {
     for (std::string_view word = next_word(text); !word.empty(); word = next_word(text)) {
       const std::optional<double> number = mesh_number(word);
-      if (!number) return fail(fmt::format("`{}` is no number", word.substr(0, 40)));
+      if (!number) return fail(fmt::format("`{}` is no number", shown(word)));
       numbers.push_back(*number);
       if (numbers.size() > most) return;
     }

@@ -40,9 +40,19 @@ std::optional<Vector3d> next_vertex(std::string_view& text) {
   return Vector3d{numbers[0], numbers[1], numbers[2]};
 }
 
-MeshPoints broken_vertex(std::string_view bytes, std::string_view rest) {
+/// The line of the file in which `rest` begins.
+MeshPoints broken_line(std::string_view bytes, std::string_view rest, std::string_view problem) {
   const auto line = 1 + std::ranges::count(bytes.substr(0, bytes.size() - rest.size()), '\n');
-  return {{}, fmt::format("line {}: a vertex has three numbers", line)};
+  return {{}, fmt::format("line {}: {}", line, problem)};
+}
+
+constexpr std::string_view broken_vertex = "a vertex has three numbers";
+
+/// What may follow a vertex: a weight, a colour.
+bool only_numbers(std::string_view line) {
+  for (std::string_view word = next_word(line); !word.empty(); word = next_word(line))
+    if (!mesh_number(word)) return false;
+  return true;
 }
 
 // A header of 80 bytes, the number of triangles, 50 bytes each: a normal, three vertices, 2 bytes.
@@ -67,11 +77,34 @@ MeshPoints read_ascii_stl(std::string_view bytes) {
   for (std::string_view word = next_word(rest); !word.empty(); word = next_word(rest)) {
     if (word != "vertex" && word != "VERTEX") continue;
     const std::optional<Vector3d> vertex = next_vertex(rest);
-    if (!vertex) return broken_vertex(bytes, rest);
+    if (!vertex) return broken_line(bytes, rest, broken_vertex);
     mesh.vertices.push_back(*vertex);
   }
+  if (mesh.vertices.size() % 3 != 0) return {{}, "it ends within a triangle"};
   return mesh;
 }
+
+/// Vertex indices of an OBJ file's faces, lines and points, of which only the first number of
+/// `v/vt/vn` counts: from 1, or from -1 backwards from the last vertex so far.
+class ObjIndices {
+ public:
+  /// "" or what is wrong with a line that had `vertices` before it.
+  std::string add(std::string_view line, std::size_t vertices) {
+    for (std::string_view word = next_word(line); !word.empty(); word = next_word(line)) {
+      const std::optional<double> index = mesh_number(word.substr(0, word.find('/')));
+      if (!index || *index != std::floor(*index) || *index == 0. ||
+          *index < -static_cast<double>(vertices))
+        return fmt::format("`{}` names no vertex", word.substr(0, 40));
+      greatest_ = std::max(greatest_, *index);
+    }
+    return "";
+  }
+  /// Greatest index, which may name a vertex that follows.
+  double greatest() const { return greatest_; }
+
+ private:
+  double greatest_ = 0.;
+};
 
 /// What is wrong with the vertices; "" if nothing is.
 std::string problem_with(const std::vector<Vector3d>& vertices) {
@@ -93,12 +126,13 @@ MeshPoints read_stl(std::string_view bytes) {
     std::memcpy(&triangles, bytes.data() + stl_header - sizeof triangles, sizeof triangles);
     const std::size_t body = bytes.size() - stl_header;
     const std::size_t wanted = stl_triangle * triangles;
-    // Some programs begin a binary file with the word of the other kind: the length tells.
-    if (body == wanted || (body > wanted && !may_be_text)) return read_binary_stl(bytes, triangles);
+    // Some programs begin a binary file with the word of the other kind: the length decides.
+    const bool whole = body / stl_triangle == triangles;
+    if (body == wanted || (whole && !may_be_text)) return read_binary_stl(bytes, triangles);
     if (!may_be_text)
-      return {
-          {},
-          fmt::format("it says {} triangles and ends after {}", triangles, body / stl_triangle)};
+      return {{},
+              fmt::format("it says {} triangles and {} {}", triangles,
+                          body < wanted ? "ends after" : "has", body / stl_triangle)};
   }
   if (!may_be_text) return {{}, "it is no STL: neither `solid` nor a whole header"};
   return read_ascii_stl(bytes);
@@ -106,15 +140,24 @@ MeshPoints read_stl(std::string_view bytes) {
 
 MeshPoints read_obj(std::string_view bytes) {
   MeshPoints mesh;
-  std::string_view rest = bytes;
-  while (!rest.empty()) {
+  ObjIndices indices;
+  for (std::string_view rest = bytes; !rest.empty();) {
+    const std::string_view here = rest;
     std::string_view line = rest.substr(0, rest.find('\n'));
     rest.remove_prefix(std::min(line.size() + 1, rest.size()));
-    if (next_word(line) != "v") continue;
+    const std::string_view kind = next_word(line);
+    if (kind == "f" || kind == "l" || kind == "p") {
+      if (const std::string problem = indices.add(line, mesh.vertices.size()); !problem.empty())
+        return broken_line(bytes, here, problem);
+    }
+    if (kind != "v") continue;
     const std::optional<Vector3d> vertex = next_vertex(line);
-    if (!vertex) return broken_vertex(bytes.substr(0, bytes.size() - rest.size() - 1), "");
+    if (!vertex || !only_numbers(line)) return broken_line(bytes, here, broken_vertex);
     mesh.vertices.push_back(*vertex);
   }
+  if (indices.greatest() > static_cast<double>(mesh.vertices.size()))
+    return {{},
+            fmt::format("a face names vertex {} of {}", indices.greatest(), mesh.vertices.size())};
   return mesh;
 }
 
