@@ -291,8 +291,8 @@ std::vector<ReportFigure> draw_tune_figures(const TunePlan& plan, const TuneResu
   for (const ObjectivePlan& objective : plan.objectives)
     figures.add(one_at_a_time_figure(plan, result, objective),
                 "One constant at a time over its whole range, on the scale on which it is "
-                "searched; means over the seeds. A cross: a run that gave no value. Black, dashed: "
-                "the target, where there is one.");
+                "searched; means over the seeds. A cross: a run that gave no value." +
+                    std::string(objective.target ? " Black, dashed: the target." : ""));
   if (!result.indices.empty())
     figures.add(indices_figure(plan, result),
                 "Sobol's indices over the whole box. First order: the part of the variance that "

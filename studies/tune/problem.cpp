@@ -56,6 +56,7 @@ class TuneBuilder {
               "a Tune compares nothing with a closed form: leave `predicted` out");
       builder.add_metric(*block);
       check_ports(*block, names, own.experiment);
+      check_from(*block);
     }
   }
 
@@ -85,7 +86,7 @@ class TuneBuilder {
     require.within = number(block, "within", *metric).value_or(0.);
     if (!require.equals && !require.above && !require.below)
       error(block.position, "a Require says `equals`, `above` or `below`");
-    require.words = words_of(require);
+    require.words = words_of(block, require);
     plan_.requirements.push_back(std::move(require));
   }
 
@@ -113,6 +114,16 @@ class TuneBuilder {
       if (port && !port->missing.empty())
         error(block.position, fmt::format("no run has `{}`: {}", block.name, port->missing));
     }
+  }
+
+  /// A run lasts until the Measure begins.
+  void check_from(const Object& block) {
+    if (!block.given("from") || block.number("from") < plan_.runs.duration) return;
+    error(block.find("from")->position,
+          fmt::format("a run ends at {} s{}: nothing would be measured from {} s on",
+                      output::rounded(plan_.runs.duration, 6),
+                      plan_.runs.quick ? " under --quick (`quick_duration`)" : "",
+                      output::rounded(block.number("from"), 6)));
   }
 
   /// Its index among the metrics of a run.
@@ -159,19 +170,18 @@ class TuneBuilder {
            (unit.text.empty() ? "" : " " + unit.text);
   }
 
-  std::string words_of(const RequirementPlan& require) const {
-    const MetricDefinition& metric = *plan_.runs.metrics[require.metric];
-    const auto value = [&](double number) {
-      return output::rounded(number, 6) +
-             (metric.unit.empty() ? "" : " " + std::string(metric.unit));
+  /// "stable_step is above 0.5 ms", in the units that the block writes.
+  std::string words_of(const Object& block, const RequirementPlan& require) const {
+    const auto value = [&](const char* field) {
+      return written_text(*block.find(field), require.metric);
     };
     std::vector<std::string> parts;
     if (require.equals)
-      parts.push_back("equals " + value(*require.equals) +
-                      (require.within > 0. ? " within " + value(require.within) : ""));
-    if (require.above) parts.push_back("is above " + value(*require.above));
-    if (require.below) parts.push_back("is below " + value(*require.below));
-    return std::string(metric.name) + " " + language::join(parts, " and ");
+      parts.push_back("equals " + value("equals") +
+                      (require.within > 0. ? " within " + value("within") : ""));
+    if (require.above) parts.push_back("is above " + value("above"));
+    if (require.below) parts.push_back("is below " + value("below"));
+    return block.name + " " + language::join(parts, " and ");
   }
 
   TunePlan& plan_;

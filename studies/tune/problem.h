@@ -61,7 +61,7 @@ struct RequirementPlan {
   std::size_t metric = 0;
   std::optional<double> equals, above, below;
   double within = 0.;
-  std::string words;  ///< "stable_step is above 0.0005 s"
+  std::string words;  ///< "stable_step is above 0.5 ms"
 
   /// How far a value is from what is required, as a part of the bound's magnitude (of 1 where that
   /// is 0); 0 where it holds.

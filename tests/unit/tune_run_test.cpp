@@ -257,6 +257,7 @@ TEST_F(TuneFile, SaysWhatIsWrongWithATune) {
       {good + " Measure sink { of = point.postion.z; }", "did you mean `position`?"},
       {good + " Measure sink { of = point.position.z; predicted = height; }",
        "leave `predicted` out"},
+      {good + " Measure sink { of = point.position.z; from = 4 s; }", "a run ends at 4 s"},
       {good + " Measure sink { trace = drop; }", "no Trace of the study's Cases"},
       {good + " Measure sink { of = point.position.z; } Require sink { below = 1 s; }",
        "`below` is in m"},
