@@ -30,8 +30,8 @@ view::BoardStudy without_columns(const studies::StudyResult& table) {
   board.question = table.question;
   const std::vector<int> styles = studies::subject_styles(table);
   for (std::size_t i = 0; i < table.subjects.size(); ++i)
-    board.subjects.push_back({table.subjects[i].name, output::series_style(styles[i]).color,
-                              studies::composition(table.subjects[i])});
+    board.subjects.push_back(
+        {table.subjects[i].name, styles[i], studies::composition(table.subjects[i])});
   return board;
 }
 

@@ -219,9 +219,7 @@ std::string text_of(const MeanInterval& interval) {
 
 std::string interval_note(const Pivot& pivot) {
   if (pivot.seeds == 0) return "";
-  const std::string over = "over " + std::to_string(pivot.seeds) + " seeds";
-  return "± half the 95 % interval (Student's t) " + over +
-         (pivot.first.empty() ? "" : "; difference to " + pivot.first + ", paired by seed");
+  return "± half the 95 % interval (Student's t) over " + std::to_string(pivot.seeds) + " seeds";
 }
 
 std::vector<TableSpec> shown_tables(const StudyResult& study) {

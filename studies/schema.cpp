@@ -312,7 +312,7 @@ ClassSchema tune_class() {
                                    "of Sobol's indices: each is samples (constants + 2) "
                                    "candidates; 0: none")),
                     "32")},
-      {"Subject", "Vary", "Objective", "Require", "Fix"});
+      {"Subject", "Vary", "Measure", "Objective", "Require", "Fix"});
   add_varied_scene(tune, "what is tuned for, first thing in the report");
   return tune;
 }
@@ -417,8 +417,11 @@ void add_tune_classes(Schema& schema) {
       {required(number("from", "?", "least value")), required(number("to", "?", "greatest value")),
        choice("scale", {"linear", "log"}, "linear", "how its range is searched")}));
   schema.add(
-      named("Objective", "A metric to make small or great, by its name.",
-            {choice("take", {"mean", "worst"}, "mean", "what is taken of the seeds' values")},
+      named("Objective", "A metric to make small or great, or to bring to a target, by its name.",
+            {choice("take", {"mean", "worst"}, "mean", "what is taken of the seeds' values"),
+             number("target", "?",
+                    "in the place of minimise and maximise: what the metric should be; minimised "
+                    "is its distance from it, run by run")},
             {"minimise", "maximise"}));
   schema.add(direction_class("minimise", "the less the better"));
   schema.add(direction_class("maximise", "the more the better"));

@@ -40,8 +40,9 @@ void write_column(JsonWriter& json, const BoardColumn& column) {
 }
 
 void write_subject(JsonWriter& json, const BoardSubject& subject) {
-  json.begin_object().member("name", subject.name).member("colour", subject.colour);
-  json.member("composition", subject.composition).end_object();
+  const output::SeriesStyle style = output::series_style(subject.style);
+  json.begin_object().member("name", subject.name).member("colour", style.color);
+  json.member("marker", style.shape).member("composition", subject.composition).end_object();
 }
 
 void write_cell(JsonWriter& json, const BoardCell& cell) {
@@ -73,9 +74,12 @@ void write_curve(JsonWriter& json, std::string_view name, const output::Curve& c
 
 void write_series(JsonWriter& json, const output::Series& series) {
   json.begin_object().member("label", series.label);
-  json.member("colour", output::series_style(series.style).color);
-  json.member("marker", series.style / output::style_colors);
-  json.member("reference", series.reference);
+  const output::SeriesStyle style = output::series_style(series.style);
+  json.member("colour", style.color).member("marker", style.shape);
+  json.member("reference", series.reference).key("dashes").begin_array();
+  for (const int length : series.reference ? output::reference_dashes(series.style) : style.dashes)
+    json.value(length);
+  json.end_array();
   write_curve(json, "measured", series.measured);
   write_curve(json, "predicted", series.predicted);
   json.key("unfinished").numbers(series.unfinished).end_object();

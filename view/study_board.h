@@ -28,7 +28,7 @@ struct BoardColumn {
 
 struct BoardSubject {
   std::string name;         ///< "dts_hookpoint"
-  std::string colour;       ///< "#0072B2", as in figures
+  int style = 0;            ///< its look in figures (output::series_style)
   std::string composition;  ///< "dts, hookpoint, semi_implicit_euler"
 };
 

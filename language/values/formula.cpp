@@ -90,8 +90,8 @@ class FormulaMaker {
         stack.push_back(truth(instruction.operation == Operation::push_true, place));
         return true;
       case Operation::push_text:
-        report_.error(place, "a string has no number: expected a name or a number");
-        return false;
+        push(std::string(evaluator_.text(instruction.span)), place, stack);
+        return true;
       case Operation::push_trail:
         return push_name(instruction, place, stack);
       case Operation::call:
@@ -165,18 +165,21 @@ class FormulaMaker {
       stack.push_back({add_constant(Op::number, {std::numbers::pi, {}}, place), closed, "pi"});
       return true;
     }
-    const std::optional<std::string> name = evaluator_.trail_text(trail);
-    if (!name) return false;
-    auto found = std::ranges::find(formula_.names, *name);
+    std::optional<std::string> name = evaluator_.trail_text(trail);
+    if (name) push(std::move(*name), place, stack);
+    return name.has_value();
+  }
+
+  void push(std::string name, const Position& place, std::vector<Part>& stack) {
+    auto found = std::ranges::find(formula_.names, name);
     if (found == formula_.names.end()) {
-      formula_.names.push_back(*name);
+      formula_.names.push_back(name);
       formula_.places.push_back(place);
       found = formula_.names.end() - 1;
     }
     const std::uint32_t node = add(Op::name, place, {});
     formula_.nodes[node].name = static_cast<std::uint32_t>(found - formula_.names.begin());
-    stack.push_back({node, closed, *name});
-    return true;
+    stack.push_back({node, closed, std::move(name)});
   }
 
   void call(const Instruction& instruction, const Position& place, std::vector<Part>& stack) {

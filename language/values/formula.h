@@ -50,7 +50,7 @@ struct FormulaNode {
 struct Formula {
   std::vector<FormulaNode> nodes;
   std::vector<std::uint32_t> operands;  ///< nodes
-  std::vector<std::string> names;       ///< trails, each once, in the order of the text
+  std::vector<std::string> names;       ///< trails, or strings in quotes; each once, as written
   std::vector<Position> places;         ///< where each name stands first
   std::string text;                     ///< as the language reads it back, its variables replaced
   Position position;

@@ -27,17 +27,29 @@ double bar_row(const BarChart& chart, std::size_t group, std::size_t series) {
   return -static_cast<double>(group) + of_group * (0.5 * (bars - 1.) - static_cast<double>(series));
 }
 
+bool has_no_intervals(const BarSeries& bars) { return bars.low.empty(); }
+
 Series legend_series(const BarSeries& bars) { return {bars.label, bars.style, {}, {}, {}}; }
 
 }  // namespace
 
 std::string bar_chart_data(const BarChart& chart) {
   CsvTable table;
-  table.header = {"group", "series", column_title(chart.value.label, chart.value.unit), "row"};
-  for (std::size_t s = 0; s < chart.series.size(); ++s)
-    for (std::size_t g = 0; g < chart.groups.size(); ++g)
-      table.rows.push_back({chart.groups[g], chart.series[s].label,
-                            shortest(chart.series[s].values[g]), rounded(bar_row(chart, g, s), 6)});
+  const std::string title = column_title(chart.value.label, chart.value.unit);
+  const bool intervals = !std::ranges::all_of(chart.series, has_no_intervals);
+  table.header = {"group", "series", title, "row"};
+  if (intervals) table.header.insert(table.header.end(), {"low", "high"});
+  for (std::size_t s = 0; s < chart.series.size(); ++s) {
+    const BarSeries& bars = chart.series[s];
+    for (std::size_t g = 0; g < chart.groups.size(); ++g) {
+      std::vector<std::string>& row = table.rows.emplace_back();
+      row = {chart.groups[g], bars.label, shortest(bars.values[g]),
+             rounded(bar_row(chart, g, s), 6)};
+      if (!intervals) continue;
+      row.push_back(has_no_intervals(bars) ? "" : shortest(bars.low[g]));
+      row.push_back(has_no_intervals(bars) ? "" : shortest(bars.high[g]));
+    }
+  }
   return table.text();
 }
 
@@ -58,9 +70,11 @@ std::string bar_chart_script(const BarChart& chart) {
                   .top = PlotPage::bottom_margin + groups * of_group});
   double least = 0., greatest = 1.;
   for (const BarSeries& bars : chart.series) {
-    for (const double value : bars.values) {
-      least = std::min(least, value);
-      greatest = std::max(greatest, value);
+    for (const auto* values : {&bars.values, &bars.low, &bars.high}) {
+      for (const double value : *values) {
+        least = std::min(least, value);
+        greatest = std::max(greatest, value);
+      }
     }
   }
   out << "set border 1 lw 1\nset xtics out nomirror scale 0.6\n"
@@ -80,10 +94,14 @@ std::string bar_chart_script(const BarChart& chart) {
   }
   for (std::size_t s = 0; s < chart.series.size(); ++s) {
     const std::size_t first = s * chart.groups.size();
-    out << (s == 0 ? "plot \\\n  " : ", \\\n  ") << gnuplot_quoted(chart.name + ".csv")
-        << " skip 1 every ::" << first << "::" << first + chart.groups.size() - 1
-        << " using (0):4:3:(0) with vectors nohead lw 9 lc rgb '"
+    const std::string rows = gnuplot_quoted(chart.name + ".csv") +
+                             " skip 1 every ::" + std::to_string(first) +
+                             "::" + std::to_string(first + chart.groups.size() - 1) + " using ";
+    out << (s == 0 ? "plot \\\n  " : ", \\\n  ") << rows
+        << "(0):4:3:(0) with vectors nohead lw 9 lc rgb '"
         << series_style(chart.series[s].style).color << "'";
+    if (!has_no_intervals(chart.series[s]))
+      out << ", \\\n  " << rows << "3:4:5:6 with xerrorbars pt -1 lw 1.2 lt 1 lc rgb '#333333'";
   }
   out << "\n";
   return out.str();

@@ -14,6 +14,8 @@ struct BarSeries {
   std::string label;
   int style = 0;               ///< its colour, as of a Series
   std::vector<double> values;  ///< one a group, finite
+  /// Ends of an interval about each value, drawn as a thin bar; empty for none.
+  std::vector<double> low{}, high{};
 };
 
 /// Groups stand one below the other, bars lie.
@@ -26,7 +28,8 @@ struct BarChart {
   std::vector<BarSeries> series;
 };
 
-/// Rows `group, series, value, row`, a series' rows together.
+/// Rows `group, series, value, row`, a series' rows together; where a series has intervals, their
+/// ends besides.
 std::string bar_chart_data(const BarChart& chart);
 /// The script that draws `<name>.svg` from `<name>.csv` in the folder where it is run.
 std::string bar_chart_script(const BarChart& chart);

@@ -34,7 +34,7 @@ struct Series {
   Curve measured;
   Curve predicted;                 ///< dashed; empty for none
   std::vector<double> unfinished;  ///< x of the runs that gave no value
-  /// A line to hold the others against: only `predicted`, dashed and black whatever the style.
+  /// A line to hold the others against: only `predicted`, black; the style says which dashes.
   bool reference = false;
   /// Every point by itself, no line from one to the next.
   bool scattered = false;
@@ -49,14 +49,29 @@ struct Plot {
   std::vector<Series> series;
 };
 
-/// How many colours there are: styles s and s + style_colors share a colour and differ in marker.
-inline constexpr int style_colors = 8;
+/// How many colours there are: styles s and s + style_colors share a colour and differ in marker,
+/// or where the markers are used up in the dashes of the line.
+inline constexpr int style_colors = 20;
+/// The style of this colour is grey.
+inline constexpr int grey_style = 7;
 
-/// Colour (colour-blind safe) and marker of a series. Both together repeat after 40.
+/// Lengths of strokes and of the gaps after them, in turns; empty for a solid line.
+using Dashes = std::vector<int>;
+/// "dt (7,4)", as gnuplot takes it, with a blank before it; "" for a solid line.
+std::string dash_type(const Dashes& dashes);
+/// The dashes of a closed form.
+Dashes predicted_dashes();
+/// The dashes of a reference line; the closed form's for style 0. They repeat after four.
+Dashes reference_dashes(int style);
+
+/// Colour, marker and dashes of a series. All three together repeat after 400 styles.
 struct SeriesStyle {
   std::string color;  ///< "#0072B2"
-  int filled_marker;  ///< gnuplot's point type
-  int hollow_marker;
+  int shape = 0;      ///< of the marker: circle, square, triangle, diamond, pentagon
+  Dashes dashes;      ///< of the line through measured points
+  /// gnuplot's point types.
+  int filled_marker() const;
+  int hollow_marker() const { return filled_marker() - 1; }
 };
 SeriesStyle series_style(int style);
 

@@ -152,11 +152,13 @@ class AxesScript {
   void plot_predicted_of(std::size_t i) {
     const Rows& rows = rows_[i].predicted;
     if (rows.count == 0) return;
-    const std::string color = " lc rgb '" + line_color(plot_.series[i]) + "'";
-    if (!plot_.x.names.empty() && !plot_.series[i].reference) return add_bars(rows, color);
-    const std::string pen = "lines lw 1.3" + std::string(dashes) + color;
+    const Series& series = plot_.series[i];
+    const std::string color = " lc rgb '" + line_color(series) + "'";
+    if (!plot_.x.names.empty() && !series.reference) return add_bars(rows, color);
+    const Dashes dashes = series.reference ? reference_dashes(series.style) : predicted_dashes();
+    const std::string pen = "lines lw 1.3" + dash_type(dashes) + color;
     add_rows(rows.all(), "shown($4)", pen);
-    if (!vanishes(plot_.series[i].predicted)) return;
+    if (!vanishes(series.predicted)) return;
     add_rows(rows.all(), "vanishing($4, " + lane(i) + ")", pen);
   }
 
@@ -173,7 +175,7 @@ class AxesScript {
     constexpr const char* half_width = "0.3";
     add(gnuplot_quoted(file_) + " skip 1 " + rows.all() + " using ($3 - " + half_width +
         "):(shown($4)):(2*" + half_width + "):(0) with vectors nohead lw 1.3" +
-        std::string(dashes) + color);
+        dash_type(predicted_dashes()) + color);
   }
 
   void plot_measured(std::size_t i) {
@@ -182,14 +184,16 @@ class AxesScript {
     const Series& series = plot_.series[i];
     const SeriesStyle style = series_style(series.style);
     const std::string color = " lc rgb '" + style.color + "'";
-    const std::string pen = "lines lw 1.6" + color;
+    const std::string dashed = dash_type(style.dashes) + color;
+    const std::string pen = "lines lw 1.6" + dashed;
     const std::string points = series.scattered ? rows.all() : rows.some(i, plot_.series.size());
     const std::string filled =
-        "points ps 0.8 lw 1.4 pt " + std::to_string(style.filled_marker) + color;
+        "points ps 0.8 lw 1.4 pt " + std::to_string(style.filled_marker()) + color;
     const std::string hollow =
-        "points ps 0.8 lw 1.4 pt " + std::to_string(style.hollow_marker) + color;
+        "points ps 0.8 lw 1.4 pt " + std::to_string(style.hollow_marker()) + color;
     const bool is_joined = joined(series);
-    const std::string faint = "lines lw 0.8 lc rgb '#80" + style.color.substr(1) + "'";
+    const std::string faint =
+        "lines lw 0.8" + dash_type(style.dashes) + " lc rgb '#80" + style.color.substr(1) + "'";
     if (!series.scattered) add_rows(rows.all(), "shown($4)", is_joined ? pen : faint);
     // The bars first: gnuplot clears the place of their points.
     if (!series.half_widths.empty()) add_intervals(rows, color);

@@ -90,9 +90,11 @@ void PlotPage::entry(double x, double y, const std::string& name, const std::str
 
 void PlotPage::legend_entry(double x, double y, const Series& series) {
   if (series.reference)
-    return entry(x, y, series.label, line_color(series), "1.3" + std::string(dashes), 0);
-  entry(x, y, series.label, line_color(series), joined(series) ? "1.6" : "",
-        series_style(series.style).filled_marker);
+    return entry(x, y, series.label, line_color(series),
+                 "1.3" + dash_type(reference_dashes(series.style)), 0);
+  const SeriesStyle style = series_style(series.style);
+  entry(x, y, series.label, line_color(series),
+        joined(series) ? "1.6" + dash_type(style.dashes) : "", style.filled_marker());
 }
 
 void PlotPage::legend_notes(double x, double y, const Notes& notes) {
@@ -100,7 +102,7 @@ void PlotPage::legend_notes(double x, double y, const Notes& notes) {
     entry(x, y, text, note_color, line, marker);
     y -= 16.;
   };
-  if (notes.predicted) note("closed form", "1.3" + std::string(dashes), 0);
+  if (notes.predicted) note("closed form", "1.3" + dash_type(predicted_dashes()), 0);
   if (notes.negative) note("hollow: negative", "", 6);
   if (notes.unfinished) note("did not finish", "", 2);
 }

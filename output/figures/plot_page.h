@@ -57,7 +57,5 @@ double title_height(const std::string& subtitle);
 double legend_width(const std::vector<Series>& series);
 /// How a series' lines are coloured: "#0072B2".
 std::string line_color(const Series& series);
-/// The dashes of a closed form and of a reference.
-inline constexpr const char* dashes = " dt (7,4)";
 
 }  // namespace hookpoint::output

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -196,17 +197,26 @@ class SubjectFit {
   void leave_out_unread() {
     const Shares middle = own_or_middle();
     const Cases cases = drawn_cases();
-    const auto outcomes = rows_.run(
-        {middle.size(), [&](std::size_t i) { return identity("reads", i, middle); },
-         [&](std::size_t i) {
-           Shares less = middle, more = middle;
-           less[i] = 0.25;
-           more[i] = 0.75;
-           const auto one = model_.residuals(model_.settings_at(less), cases);
-           const auto other = model_.residuals(model_.settings_at(more), cases);
-           const bool same = one && other && *one == *other;
-           return FitOutcome{same ? unread : "ok", std::nullopt, std::nullopt, 2, Shares{}, {}};
-         }});
+    const auto outcomes =
+        rows_.run({middle.size(), [&](std::size_t i) { return identity("reads", i, middle); },
+                   [&](std::size_t i) {
+                     std::size_t models = 0;
+                     const auto at = [&](double share) {
+                       ++models;
+                       Shares shares = middle;
+                       shares[i] = share;
+                       return model_.residuals(model_.settings_at(shares), cases);
+                     };
+                     // Of an even or a periodic function not all of these have the same value.
+                     constexpr std::array others{0.75, 0.37, 0.61, 0.13};
+                     const auto one = at(0.25);
+                     const bool same = one && std::ranges::all_of(others, [&](double share) {
+                                         const auto other = at(share);
+                                         return other && *one == *other;
+                                       });
+                     return FitOutcome{
+                         same ? unread : "ok", std::nullopt, std::nullopt, models, Shares{}, {}};
+                   }});
     stop_if_unfinished(outcomes);
     std::vector<std::size_t> read;
     for (std::size_t i = 0; i < middle.size(); ++i) {

@@ -35,8 +35,14 @@ std::vector<PlacedTrace> drawn_traces(const CalibrationPlan& plan) {
 std::string curve_name(const TracePlan& trace) { return "trace_" + trace.name; }
 std::string rest_name(const TracePlan& trace) { return "residuals_" + trace.name; }
 
-/// Grey, with a marker that none of the first four subjects has.
-constexpr int measured_style = 3 * output::style_colors - 1;
+/// What was measured is grey, and no subject is.
+constexpr int measured_style = output::grey_style + 2 * output::style_colors;
+
+int subject_style(std::size_t subject) {
+  constexpr int others = output::style_colors - 1;
+  const int number = static_cast<int>(subject), color = number % others;
+  return color + (color < output::grey_style ? 0 : 1) + output::style_colors * (number / others);
+}
 
 /// The value of a sample from the trace's residuals.
 using SampleValue = double (*)(const TracePlan&, std::size_t sample, std::span<const double>);
@@ -71,7 +77,7 @@ void add_subjects(Plot& plot, const CalibrationPlan& plan, const CalibrationResu
   for (std::size_t i = 0; i < result.subjects.size(); ++i) {
     const auto residuals = residuals_of(result.subjects[i].residuals, *placed.trace, placed.first);
     if (residuals.empty()) continue;
-    Series series{plan.subjects[i].info.name, static_cast<int>(i), {}, {}, {}};
+    Series series{plan.subjects[i].info.name, subject_style(i), {}, {}, {}};
     // Their points are samples of one run: a line.
     series.measured = curve_of(*placed.trace, residuals, value);
     plot.series.push_back(std::move(series));

@@ -1,19 +1,13 @@
 #include "studies/calibrate/resampling.h"
 
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 #include "studies/tune/random_place.h"
 
 namespace hookpoint::studies {
 namespace {
-
-std::size_t draw(std::mt19937_64& random, std::size_t count) {
-  return static_cast<std::size_t>(random_place(random) * static_cast<double>(count));
-}
 
 double mean_of_part(std::span<const double> values) {
   return std::accumulate(values.begin(), values.end(), 0.) / static_cast<double>(values.size());
@@ -37,12 +31,6 @@ std::size_t decorrelation_lag(std::span<const double> curve) {
 
 }  // namespace
 
-std::vector<int> draw_with_replacement(std::size_t count, std::mt19937_64& random) {
-  std::vector<int> drawn(count, 0);
-  for (std::size_t i = 0; i < count; ++i) ++drawn[draw(random, count)];
-  return drawn;
-}
-
 Residuals shift_of_blocks(const Residuals& at_optimum, std::span<const std::size_t> sizes,
                           std::size_t block, std::size_t constants, std::mt19937_64& random) {
   Residuals shift(at_optimum.size());
@@ -55,7 +43,7 @@ Residuals shift_of_blocks(const Residuals& at_optimum, std::span<const std::size
     const double mean = mean_of_part(curve);
     std::size_t from = 0;
     for (std::size_t i = 0; i < size; ++i, ++from) {
-      if (i % block == 0) from = draw(random, size);
+      if (i % block == 0) from = random_index(random, size);
       shift[first + i] = widened * (curve[from % size] - mean) - curve[i];
     }
     first += size;
@@ -79,29 +67,8 @@ std::vector<std::size_t> fold_of_each(std::size_t count, std::size_t folds, std:
   std::mt19937_64 random(seed);
   std::vector<std::size_t> fold(count);
   for (std::size_t i = 0; i < count; ++i) fold[i] = i % folds;
-  for (std::size_t i = count; i > 1; --i) std::swap(fold[i - 1], fold[draw(random, i)]);
+  for (std::size_t i = count; i > 1; --i) std::swap(fold[i - 1], fold[random_index(random, i)]);
   return fold;
-}
-
-double quantile(std::vector<double> values, double part) {
-  std::ranges::sort(values);
-  const auto count = static_cast<double>(values.size());
-  const double place = std::clamp(part * (count + 1.) - 1., 0., count - 1.);
-  const auto below = static_cast<std::size_t>(place);
-  const std::size_t above = std::min(below + 1, values.size() - 1);
-  return values[below] + (place - static_cast<double>(below)) * (values[above] - values[below]);
-}
-
-double student_end(double things) {
-  constexpr double upper = 0.975;
-  const boost::math::students_t_distribution<double> student(std::max(2., things) - 1.);
-  return boost::math::quantile(student, upper);
-}
-
-double tail_of_interval(double things) {
-  const double many = std::max(2., things);
-  const double end = student_end(many) * std::sqrt(many / (many - 1.));
-  return 0.5 * std::erfc(end / std::numbers::sqrt2);
 }
 
 double correlation(std::span<const double> one, std::span<const double> other) {

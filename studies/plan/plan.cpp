@@ -305,7 +305,7 @@ class SceneLoader {
       loaded.no_body = why_not_measured(experiment, plan.body);
       if (!stepped_.contains(step_of(subject, experiment)))
         loaded.warning = step_warning(experiment);
-      loaded.forms = row_forms(plan, *loaded.scene->tree, experiment);
+      loaded.forms = row_forms(plan, row, *loaded.scene->tree, experiment);
       return loaded;
     }
     const std::string engine = plan.world_word(row, "engine");

@@ -56,17 +56,23 @@ std::optional<std::vector<std::optional<Dimension>>> PlanBuilder::dimensions_of(
   if (scene_ == nullptr) return std::nullopt;
   std::vector<std::optional<Dimension>> dimensions;
   bool good = true;
-  for (std::size_t i = 0; i < formula.names.size(); ++i) {
+  const auto wrong = [&](std::size_t name, const std::string& why) {
+    good = false;
+    diagnostics_.error(formula.places[name], why);
+  };
+  if (!ports) {
+    for (const auto& number : scene_->numbers(formula, wrong))
+      dimensions.push_back(number ? number->dimension : std::nullopt);
+  }
+  for (std::size_t i = 0; i < formula.names.size() && ports; ++i) {
     std::string why;
-    const auto port = ports ? scene_->port(formula.names[i], why) : std::nullopt;
-    const auto number = ports ? std::nullopt : scene_->number(formula.names[i], why);
-    if (!port && !number) {
-      good = false;
-      diagnostics_.error(formula.places[i], why);
+    const auto port = scene_->port(formula.names[i], why);
+    if (!port) {
+      wrong(i, why);
       continue;
     }
-    dimensions.push_back(port ? port->dimension : number->dimension);
-    if (port) trails.push_back(port->trail);
+    dimensions.push_back(port->dimension);
+    trails.push_back(port->trail);
   }
   return good ? std::optional(std::move(dimensions)) : std::nullopt;
 }

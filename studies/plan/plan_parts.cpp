@@ -10,6 +10,7 @@
 #include "output/text/number.h"
 #include "studies/plan/plan_builder.h"
 #include "studies/plan/plan_values.h"
+#include "studies/plan/scene_words.h"
 #include "studies/plan/told_elsewhere.h"
 
 namespace hookpoint::studies {
@@ -29,14 +30,19 @@ std::vector<double> in_unit(const std::vector<double>& si, const WrittenUnit& un
   return values;
 }
 
+RowPlan first_row(const StudyPlan& plan, const std::filesystem::path& scene_file) {
+  RowPlan first;
+  first.values.assign(plan.sweeps.size(), 0);
+  first.scene = std::make_shared<const RowScene>(RowScene{.file = scene_file, .options = {}});
+  return first;
+}
+
 /// The scene as the study's first run has it, but for fields of its World. Null where it cannot be
 /// laid down; what is wrong goes to `diagnostics`.
 std::unique_ptr<Object> lay_first(const StudyPlan& plan, const std::filesystem::path& file,
                                   Diagnostics& diagnostics) {
   if (plan.subjects.empty()) return nullptr;
-  RowPlan first;
-  first.values.assign(plan.sweeps.size(), 0);
-  first.scene = std::make_shared<const RowScene>(RowScene{.file = file, .options = {}});
+  const RowPlan first = first_row(plan, file);
   RowScene scene = plan.scene_of(first);
   scene.options.overrides.clear();
   Diagnostics found;
@@ -520,7 +526,7 @@ void plan_parts(StudyPlan& plan, const Object& study, const std::filesystem::pat
     scene = lay_first(plan, scene_file, own ? diagnostics : untold);
   }
   std::optional<SceneNames> known;
-  if (scene) parts.know(&known.emplace(*scene));
+  if (scene) parts.know(&known.emplace(*scene, words_of(plan, first_row(plan, scene_file))));
   parts.add_curves(study);
   for (const Object* block : study.children_of("Measure")) parts.add_metric(*block);
   if (scene && study.boolean("expects")) parts.add_expectations();

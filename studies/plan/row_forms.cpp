@@ -6,15 +6,14 @@
 #include <string>
 
 #include "studies/plan/scene_probe.h"
+#include "studies/plan/scene_words.h"
 
 namespace hookpoint::studies {
 namespace {
 
 std::optional<double> value_of(const language::Formula& formula, SceneNames& names) {
   std::vector<double> values;
-  for (const std::string& name : formula.names) {
-    std::string untold;
-    const auto number = names.number(name, untold);
+  for (const auto& number : names.numbers(formula)) {
     if (!number) return std::nullopt;
     values.push_back(number->value);
   }
@@ -50,11 +49,12 @@ RowForm form_of_expectation(const UserMetric& metric, const simulation::Experime
 
 }  // namespace
 
-std::vector<RowForm> row_forms(const StudyPlan& plan, const language::Object& tree,
+std::vector<RowForm> row_forms(const StudyPlan& plan, const RowPlan& row,
+                               const language::Object& tree,
                                const simulation::Experiment& experiment) {
   std::vector<RowForm> forms;
   if (plan.user_metrics.empty()) return forms;
-  SceneNames names(tree);
+  SceneNames names(tree, words_of(plan, row), &experiment);
   for (const auto& metric : plan.user_metrics)
     forms.push_back(metric->expectation.empty() ? form_of_own(plan, *metric, names, experiment)
                                                 : form_of_expectation(*metric, experiment));

@@ -3,9 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <utility>
 
 #include "language/names.h"
+#include "language/syntax/syntax.h"
 #include "language/units.h"
+#include "simulation/material_fields.h"
+#include "simulation/scene/load.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -16,10 +21,47 @@ std::optional<language::Dimension> unit_dimension(const language::Target& target
   return parsed ? std::optional(parsed->dimension) : std::nullopt;
 }
 
+bool is_string(const std::string& name) { return name.starts_with('"'); }
+
+/// How the names of a formula are used.
+struct NameUse {
+  bool as_number = false, as_word = false;
+};
+
+std::vector<NameUse> uses_of(const language::Formula& formula,
+                             const std::function<bool(const std::string&)>& holds_word) {
+  using Op = language::FormulaOperation;
+  std::vector<NameUse> uses(formula.names.size());
+  const auto node_of = [&](const language::FormulaNode& node,
+                           std::uint32_t operand) -> const auto& {
+    return formula.nodes[formula.operands[node.operands.begin + operand]];
+  };
+  for (const language::FormulaNode& node : formula.nodes) {
+    bool words = false;
+    if (node.operation == Op::equal || node.operation == Op::not_equal) {
+      const auto &one = node_of(node, 0), &other = node_of(node, 1);
+      words = one.operation == Op::name && other.operation == Op::name &&
+              (holds_word(formula.names[one.name]) || holds_word(formula.names[other.name]));
+    }
+    for (std::uint32_t i = 0; i < node.operands.size(); ++i) {
+      const language::FormulaNode& operand = node_of(node, i);
+      if (operand.operation == Op::name)
+        (words ? uses[operand.name].as_word : uses[operand.name].as_number) = true;
+    }
+  }
+  const language::FormulaNode& whole = formula.nodes.back();
+  if (whole.operation == Op::name) uses[whole.name].as_number = true;
+  return uses;
+}
+
 }  // namespace
 
-SceneNames::SceneNames(const language::Object& tree)
-    : tree_(tree), trails_(simulation::trails_of(tree)) {
+SceneNames::SceneNames(const language::Object& tree, std::map<std::string, std::string> words,
+                       const simulation::Experiment* experiment)
+    : tree_(tree),
+      words_(std::move(words)),
+      experiment_(experiment),
+      trails_(simulation::trails_of(tree)) {
   const auto worlds = tree.children_of("World");
   if (!worlds.empty()) world_ = worlds.front();
 }
@@ -34,6 +76,10 @@ std::optional<language::Target> SceneNames::resolve(const std::string& trail, st
 
 std::optional<ScenePort> SceneNames::port(const std::string& trail, std::string& why,
                                           const simulation::Experiment* experiment) {
+  if (is_string(trail)) {
+    why = trail + " is a string, no number of a run";
+    return std::nullopt;
+  }
   const auto target = resolve(trail, why);
   if (!target) return std::nullopt;
   const auto object = trails_.find(target->object);
@@ -54,7 +100,76 @@ std::optional<ScenePort> SceneNames::port(const std::string& trail, std::string&
   return port;
 }
 
+std::vector<std::optional<SceneNumber>> SceneNames::numbers(
+    const language::Formula& formula,
+    const std::function<void(std::size_t, const std::string&)>& wrong) {
+  const auto uses = uses_of(formula, [this](const std::string& name) { return holds_word(name); });
+  std::vector<std::optional<SceneNumber>> found;
+  for (std::size_t i = 0; i < formula.names.size(); ++i) {
+    const std::string& name = formula.names[i];
+    std::string why;
+    found.push_back(uses[i].as_number ? number(name, why) : word(name, why));
+    if (found.back() && uses[i].as_number && uses[i].as_word) {
+      found.back().reset();
+      why = fmt::format("`{}` is a number, and compared with a word", name);
+    }
+    if (!found.back() && wrong) wrong(i, why);
+  }
+  return found;
+}
+
+bool SceneNames::holds_word(const std::string& name) const {
+  return is_string(name) || words_.contains(name);
+}
+
+std::string SceneNames::with_word(const std::string& name) const {
+  const std::size_t end = name.find('.');
+  const auto held = words_.find(name.substr(0, end));
+  return end == std::string::npos || held == words_.end() ? name : held->second + name.substr(end);
+}
+
+std::optional<SceneNumber> SceneNames::word(const std::string& name, std::string& why) {
+  const auto held = words_.find(name);
+  const std::string text = is_string(name)        ? language::unquote(name)
+                           : held != words_.end() ? held->second
+                                                  : name;
+  const bool number = std::ranges::find(tree_.parameters, name, &language::ParameterValue::name) !=
+                      tree_.parameters.end();
+  if (number && held == words_.end()) {
+    why = fmt::format("`{}` is a number, and compared with a word", name);
+    return std::nullopt;
+  }
+  auto place = std::ranges::find(compared_, text);
+  if (place == compared_.end()) place = compared_.insert(place, text);
+  return SceneNumber{static_cast<double>(place - compared_.begin()), language::Dimension{}};
+}
+
+std::optional<double> SceneNames::loaded_constant(const language::Target& target) {
+  if (target.object->type != "Material" || target.field == nullptr) return std::nullopt;
+  if (experiment_ == nullptr) {
+    language::Diagnostics untold;
+    loaded_ = simulation::load_experiment(tree_, untold);
+    if (!loaded_) return std::nullopt;
+    experiment_ = &*loaded_;
+  }
+  const auto constants = simulation::material_fields();
+  const auto constant = std::ranges::find_if(
+      constants, [&](const auto& each) { return each.name == target.field->name; });
+  const auto material = std::ranges::find(experiment_->materials, target.object->name,
+                                          &simulation::MaterialSpec::name);
+  if (constant == constants.end() || material == experiment_->materials.end()) return std::nullopt;
+  return material->constants.*(constant->member);
+}
+
 std::optional<SceneNumber> SceneNames::number(const std::string& name, std::string& why) {
+  if (holds_word(name)) {
+    why = is_string(name) ? name + " is a string, no number"
+                          : fmt::format(
+                                "`{}` holds the word `{}`, which is no number: compare it "
+                                "with another word, or take a field, such as `{}.FIELD`",
+                                name, words_.at(name), name);
+    return std::nullopt;
+  }
   const auto parameter = std::ranges::find(tree_.parameters, name, &language::ParameterValue::name);
   if (parameter != tree_.parameters.end())
     return SceneNumber{parameter->value, parameter->dimension};
@@ -65,7 +180,7 @@ std::optional<SceneNumber> SceneNames::number(const std::string& name, std::stri
                       language::did_you_mean(name, known));
     return std::nullopt;
   }
-  const auto target = resolve(name, why);
+  const auto target = resolve(with_word(name), why);
   if (!target) return std::nullopt;
   const language::Field* field =
       target->field == nullptr ? nullptr : target->object->find(target->field->name);
@@ -73,6 +188,8 @@ std::optional<SceneNumber> SceneNames::number(const std::string& name, std::stri
   const bool number = field != nullptr && part < field->numbers.size() &&
                       (target->part >= 0 || field->numbers.size() == 1);
   if (number) return SceneNumber{field->numbers[part], unit_dimension(*target)};
+  if (const auto constant = loaded_constant(*target); constant && field == nullptr)
+    return SceneNumber{*constant, unit_dimension(*target)};
   why = fmt::format("`{}` is no number that the scene's file holds", name);
   return std::nullopt;
 }

@@ -1,6 +1,9 @@
 #include "studies/report/figures.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -45,13 +48,16 @@ std::string series_label(const StudyResult& study, const PlotSpec& spec, const S
 }
 
 /// The subject's style. Where a series is a subject at one value of a sweep: the subject's colour
-/// with a marker for the value or, when there is only one subject, a style for the value.
+/// with a variant for the value, another than those of the subjects that share the colour; when
+/// there is only one subject, a style for the value.
 int series_style(const StudyResult& study, const PlotSpec& spec, const SeriesKey& key) {
-  if (!sweep_index(study, spec.series))
-    return subject_styles(study)[static_cast<std::size_t>(key.subject)];
-  if (study.subjects.size() == 1) return key.value;
-  const int color = subject_styles(study)[static_cast<std::size_t>(key.subject)];
-  return color % output::style_colors + output::style_colors * key.value;
+  const auto sweep = sweep_index(study, spec.series);
+  if (sweep && study.subjects.size() == 1) return key.value;
+  const int style = subject_styles(study)[static_cast<std::size_t>(key.subject)];
+  if (!sweep) return style;
+  const int color = style % output::style_colors, member = style / output::style_colors;
+  const int values = static_cast<int>(study.sweeps[*sweep].values.size());
+  return color + output::style_colors * (member * values + key.value);
 }
 
 /// The curve cut into buckets along x, each with its least and its largest value: more cannot be
@@ -211,12 +217,23 @@ output::Plot axes_of(const StudyResult& study, const PlotSpec& spec) {
   return plot;
 }
 
+/// Labels of the block's references, each once: the place of one is its style.
+std::vector<std::string> reference_labels(const PlotSpec& spec) {
+  std::vector<std::string> labels;
+  for (const ReferenceLine& reference : spec.references)
+    if (std::ranges::find(labels, reference.label) == labels.end())
+      labels.push_back(reference.label);
+  return labels;
+}
+
 /// A horizontal line across the x of all that is drawn; empty where no run of the block has the
 /// reference's values.
 output::Series reference_line(const StudyResult& study, const PlotSpec& spec,
                               const ReferenceLine& reference, const output::Plot& plot) {
+  const std::vector<std::string> labels = reference_labels(spec);
+  const auto style = std::ranges::find(labels, reference.label) - labels.begin();
   output::Series line{.label = reference.label,
-                      .style = 0,
+                      .style = static_cast<int>(style),
                       .measured = {},
                       .predicted = {},
                       .unfinished = {},
@@ -259,11 +276,10 @@ std::string caption_of(const StudyResult& study, const PlotSpec& spec, const out
     caption += " Bars: the mean's 95 % interval over the seeds (Student's t).";
   else if (study.runs != nullptr)
     caption += " Means over the seeds.";
-  std::vector<std::string> labels;
-  for (const ReferenceLine& reference : spec.references)
-    if (std::ranges::find(labels, reference.label) == labels.end())
-      labels.push_back(reference.label);
-  for (const std::string& label : labels) caption += " Black, dashed: " + label + ".";
+  constexpr std::array lines{"dashed", "dotted", "dash-dotted", "dash-dot-dotted"};
+  const std::vector<std::string> labels = reference_labels(spec);
+  for (std::size_t i = 0; i < labels.size(); ++i)
+    caption += fmt::format(" Black, {}: {}.", lines[i % lines.size()], labels[i]);
   if (spec.x == "time" && !undecided_sweeps(study, spec).empty())
     caption += " Of the runs that differ in " + undecided_sweeps(study, spec) +
                ", the one that goes farthest.";
@@ -317,14 +333,25 @@ std::size_t panels_across(const StudyResult& study, const PlotSpec& spec) {
 }  // namespace
 
 std::vector<int> subject_styles(const StudyResult& study) {
+  // Subjects that have a run come first: the others take no colour from them.
+  std::vector<bool> runs(study.subjects.size(), false);
+  for (const RunResult& row : study.rows) {
+    const auto subject = static_cast<std::size_t>(row.subject);
+    runs[subject] = study.subjects[subject].available;
+  }
+  std::vector<std::size_t> order;
+  for (const bool running : {true, false})
+    for (std::size_t i = 0; i < runs.size(); ++i)
+      if (runs[i] == running) order.push_back(i);
   std::vector<std::string> families;
   std::vector<int> members(output::style_colors, 0);
-  std::vector<int> styles;
+  std::vector<int> styles(study.subjects.size(), 0);
   const bool one_law =
       std::all_of(study.subjects.begin(), study.subjects.end(), [&](const SubjectInfo& subject) {
         return !subject.law.empty() && subject.law == study.subjects.front().law;
       });
-  for (const SubjectInfo& subject : study.subjects) {
+  for (const std::size_t i : order) {
+    const SubjectInfo& subject = study.subjects[i];
     const std::string& family = one_law               ? subject.integrator
                                 : subject.law.empty() ? subject.engine
                                                       : subject.law;
@@ -332,7 +359,7 @@ std::vector<int> subject_styles(const StudyResult& study) {
     const auto color = (place - families.begin()) % output::style_colors;
     if (place == families.end()) families.push_back(family);
     int& member = members[static_cast<std::size_t>(color)];
-    styles.push_back(static_cast<int>(color) + output::style_colors * member++);
+    styles[i] = static_cast<int>(color) + output::style_colors * member++;
   }
   return styles;
 }

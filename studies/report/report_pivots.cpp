@@ -54,7 +54,11 @@ std::string pivot_tables(const StudyResult& study) {
     }
     text += "</tbody></table></div>\n";
     if (pivot.seeds > 0)
-      text += text_block("note soft", "Mean " + html(interval_note(pivot)) + ".");
+      text += text_block(
+          "note soft",
+          html("Mean " + interval_note(pivot) +
+               (pivot.first.empty() ? "" : "; difference to " + pivot.first + ", paired by seed") +
+               "."));
     if (pivot.several && pivot.seeds == 0)
       text += text_block("note soft",
                          "Where several runs fall into a cell: their mean, below it the least and "

@@ -193,7 +193,8 @@ std::string run_row(const StudyResult& study, const std::vector<NeededColumns>& 
 
 std::string swatch(int subject_style) {
   const output::SeriesStyle style = output::series_style(subject_style);
-  const std::string name = std::array{"■", "●", "▲", "▼", "◆", "⬟"}[(style.filled_marker - 5) / 2];
+  const std::string name =
+      std::array{"●", "■", "▲", "◆", "⬟"}[static_cast<std::size_t>(style.shape)];
   return "<span class=\"swatch\" style=\"color:" + style.color + "\">" + name + "</span>";
 }
 

@@ -82,8 +82,16 @@ double take_of(const ObjectivePlan& objective, std::span<const double> values) {
   return objective.maximise ? least : greatest;
 }
 
+std::optional<std::vector<double>> objective_of_seeds(const ObjectivePlan& objective,
+                                                      const Candidate& candidate) {
+  auto values = values_of_seeds(candidate, objective.metric);
+  if (values)
+    for (double& value : *values) value = objective.of_run(value);
+  return values;
+}
+
 std::optional<double> value_of(const ObjectivePlan& objective, const Candidate& candidate) {
-  const auto values = values_of_seeds(candidate, objective.metric);
+  const auto values = objective_of_seeds(objective, candidate);
   return values ? std::optional(take_of(objective, *values)) : std::nullopt;
 }
 

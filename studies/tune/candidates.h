@@ -41,6 +41,9 @@ double standard_error_of(std::span<const double> values);
 
 /// What an objective makes of the seeds' values.
 double take_of(const ObjectivePlan& objective, std::span<const double> values);
+/// The objective of each seed's run; nothing where one has no value.
+std::optional<std::vector<double>> objective_of_seeds(const ObjectivePlan& objective,
+                                                      const Candidate& candidate);
 std::optional<double> value_of(const ObjectivePlan& objective, const Candidate& candidate);
 
 /// Whether every seed has a value that the requirement allows.

@@ -158,8 +158,8 @@ std::vector<ObjectiveComparison> compare_candidates(const TunePlan& plan, const 
     comparison.other = value_of(objective, other);
     if (comparison.tuned && !comparison.other) comparison.verdict = Verdict::better;
     if (!comparison.tuned || !comparison.other || tuned.seeds() < 2) continue;
-    const auto ours = values_of_seeds(tuned, objective.metric);
-    const auto theirs = values_of_seeds(other, objective.metric);
+    const auto ours = objective_of_seeds(objective, tuned);
+    const auto theirs = objective_of_seeds(objective, other);
     Scores differences;
     for (std::size_t i = 0; i < ours->size(); ++i) differences.push_back((*ours)[i] - (*theirs)[i]);
     comparison.difference = mean_of(differences);

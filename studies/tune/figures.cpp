@@ -29,8 +29,19 @@ std::string with_blanks(std::string name) {
   return name;
 }
 
+std::string label_text(const TunePlan& plan, const ObjectivePlan& objective) {
+  return with_blanks(plan.label_of(objective));
+}
+
 Axis axis_of(const TunePlan& plan, const ObjectivePlan& objective) {
-  return {.label = with_blanks(plan.name_of(objective)), .unit = plan.unit_of(objective)};
+  return {.label = label_text(plan, objective), .unit = plan.unit_of(objective)};
+}
+
+/// The metric that an objective is of, mean over the seeds.
+std::optional<double> metric_of(const ObjectivePlan& objective, const Candidate& candidate) {
+  if (!objective.target) return value_of(objective, candidate);
+  const auto values = values_of_seeds(candidate, objective.metric);
+  return values ? std::optional(mean_of(*values)) : std::nullopt;
 }
 
 /// A logarithmic axis where positive values reach over more than two decades.
@@ -65,7 +76,7 @@ Plot front_figure(const TunePlan& plan, const TuneResult& result, std::size_t ot
   const ObjectivePlan &one = plan.objectives[0], &two = plan.objectives[other];
   Plot plot;
   plot.name = front_name(plan, other);
-  plot.title = with_blanks(plan.name_of(one)) + " and " + with_blanks(plan.name_of(two));
+  plot.title = label_text(plan, one) + " and " + label_text(plan, two);
   plot.x = axis_of(plan, one);
   plot.y = axis_of(plan, two);
   Series all = points_of("candidates", candidate_style);
@@ -116,7 +127,8 @@ Plot convergence_figure(const TunePlan& plan, const TuneResult& result,
   }
   Plot plot;
   plot.name = convergence_name(plan, objective);
-  plot.title = "The best " + with_blanks(plan.name_of(objective)) + " so far";
+  plot.title = std::string(objective.target ? "The least " : "The best ") +
+               label_text(plan, objective) + " so far";
   plot.x = {.label = "generation", .unit = ""};
   plot.y = axis_of(plan, objective);
   Series found{"best of the search", tuned_style, {}, {}, {}};
@@ -153,13 +165,13 @@ Plot one_at_a_time_figure(const TunePlan& plan, const TuneResult& result,
   plot.title = with_blanks(plan.name_of(objective)) + ", one constant at a time";
   plot.subtitle = "the others as recommended";
   plot.x = {.label = "place in the constant's range, 0 least, 1 greatest", .unit = ""};
-  plot.y = axis_of(plan, objective);
+  plot.y = {.label = with_blanks(plan.name_of(objective)), .unit = plan.unit_of(objective)};
   std::vector<double> all;
   for (std::size_t i = 0; i < result.one_at_a_time.size(); ++i) {
     const OneAtATime& one = result.one_at_a_time[i];
     Series series{with_blanks(plan.varied[i].name), static_cast<int>(i), {}, {}, {}};
     for (std::size_t k = 0; k < one.shares.size(); ++k) {
-      const auto value = value_of(objective, result.candidates[one.candidates[k]]);
+      const auto value = metric_of(objective, result.candidates[one.candidates[k]]);
       if (value) {
         add_point(series.measured, one.shares[k], *value);
         all.push_back(*value);
@@ -169,6 +181,12 @@ Plot one_at_a_time_figure(const TunePlan& plan, const TuneResult& result,
     }
     plot.series.push_back(std::move(series));
   }
+  if (objective.target && !plot.series.empty()) {
+    Series line{"target", 0, {}, {{0., 1.}, {*objective.target, *objective.target}}, {}};
+    line.reference = true;
+    plot.series.push_back(std::move(line));
+    all.push_back(*objective.target);
+  }
   choose_scale(plot.y, all);
   return plot;
 }
@@ -176,20 +194,28 @@ Plot one_at_a_time_figure(const TunePlan& plan, const TuneResult& result,
 constexpr const char* indices_name = "sobol_indices";
 constexpr const char* depth_name = "depth_over_time";
 
+void add_bar(output::BarSeries& bars, double value, const IndexInterval& interval) {
+  bars.values.push_back(value);
+  bars.low.push_back(interval.low);
+  bars.high.push_back(interval.high);
+}
+
 output::BarChart indices_figure(const TunePlan& plan, const TuneResult& result) {
   output::BarChart chart;
   chart.name = indices_name;
   chart.title = "What part of an objective's variance each constant explains";
+  chart.subtitle = "thin bars: 95 % intervals";
   chart.value = {.label = "Sobol index", .unit = ""};
   chart.series = {{"alone (first order)", tuned_style, {}},
                   {"in all (total order)", front_style, {}}};
   for (std::size_t i = 0; i < result.indices.size(); ++i) {
     if (!result.indices[i]) continue;
     for (std::size_t c = 0; c < plan.varied.size(); ++c) {
-      chart.groups.push_back(with_blanks(plan.name_of(plan.objectives[i])) + ": " +
+      chart.groups.push_back(label_text(plan, plan.objectives[i]) + ": " +
                              with_blanks(plan.varied[c].name));
-      chart.series[0].values.push_back(result.indices[i]->first[c]);
-      chart.series[1].values.push_back(result.indices[i]->total[c]);
+      const SobolIndices& indices = *result.indices[i];
+      add_bar(chart.series[0], indices.first[c], indices.first_interval[c]);
+      add_bar(chart.series[1], indices.total[c], indices.total_interval[c]);
     }
   }
   return chart;
@@ -265,12 +291,14 @@ std::vector<ReportFigure> draw_tune_figures(const TunePlan& plan, const TuneResu
   for (const ObjectivePlan& objective : plan.objectives)
     figures.add(one_at_a_time_figure(plan, result, objective),
                 "One constant at a time over its whole range, on the scale on which it is "
-                "searched; means over the seeds. A cross: a run that gave no value.");
+                "searched; means over the seeds. A cross: a run that gave no value." +
+                    std::string(objective.target ? " Black, dashed: the target." : ""));
   if (!result.indices.empty())
     figures.add(indices_figure(plan, result),
                 "Sobol's indices over the whole box. First order: the part of the variance that "
                 "goes if the constant were known. Total order: the part that stays if all others "
-                "were; where it is larger, the constant acts together with others.");
+                "were; where it is larger, the constant acts together with others. Thin bars: 95 % "
+                "intervals by a bootstrap over the samples.");
   for (const ObjectivePlan& objective : plan.objectives)
     figures.add(convergence_figure(plan, result, objective),
                 "The best value of a candidate that meets the requirements, generation by "

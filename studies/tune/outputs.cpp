@@ -36,11 +36,32 @@ std::string status_of(const Candidate& candidate) {
   return failed == candidate.statuses.end() ? "ok" : *failed;
 }
 
+/// "sink_distance": of an objective with a target, what is minimised.
+std::string distance_column(const TunePlan& plan, const ObjectivePlan& objective) {
+  return plan.name_of(objective) + "_distance";
+}
+
+void add_titles(output::CsvTable& table, const std::string& name, std::string_view unit,
+                std::initializer_list<const char*> parts) {
+  for (const char* part : parts) table.header.push_back(output::column_title(name + part, unit));
+}
+
+/// A value made of the seeds and its standard error; empty without.
+void add_value(std::vector<std::string>& row, const std::optional<double>& value,
+               const std::optional<std::vector<double>>& seeds) {
+  row.push_back(empty_or(value));
+  row.push_back(seeds ? shortest(standard_error_of(*seeds)) : "");
+}
+
+void add_objective(std::vector<std::string>& row, const ObjectivePlan& objective,
+                   const Candidate& candidate) {
+  add_value(row, value_of(objective, candidate), objective_of_seeds(objective, candidate));
+}
+
 /// Mean, standard error and "1.5 2.5", the seeds' values, of one metric.
 void add_metric(std::vector<std::string>& row, const Candidate& candidate, std::size_t metric) {
   const auto values = values_of_seeds(candidate, metric);
-  row.push_back(values ? shortest(mean_of(*values)) : "");
-  row.push_back(values ? shortest(standard_error_of(*values)) : "");
+  add_value(row, values ? std::optional(mean_of(*values)) : std::nullopt, values);
   std::string each;
   for (const auto& measured : candidate.measured)
     each += (each.empty() ? "" : " ") + (measured[metric] ? shortest(*measured[metric]) : "-");
@@ -91,6 +112,7 @@ void write_reference(output::JsonWriter& json, const TunePlan& plan, const TuneR
   for (std::size_t i = 0; i < reference.comparisons.size(); ++i) {
     const ObjectiveComparison& comparison = reference.comparisons[i];
     json.key(plan.name_of(plan.objectives[i])).begin_object();
+    if (plan.objectives[i].target) json.member("of", plan.label_of(plan.objectives[i]));
     write_value(json, "recommended", comparison.tuned);
     write_value(json, reference.key, comparison.other);
     json.member("difference", comparison.difference).member("margin_95", comparison.margin);
@@ -99,16 +121,29 @@ void write_reference(output::JsonWriter& json, const TunePlan& plan, const TuneR
   json.end_object().end_object();
 }
 
+const char* direction_of(const ObjectivePlan& objective) {
+  return objective.target ? "target" : objective.maximise ? "maximise" : "minimise";
+}
+
 void write_objectives(output::JsonWriter& json, const TunePlan& plan, const TuneResult& result) {
   json.key("objectives").begin_object();
   for (const ObjectivePlan& objective : plan.objectives) {
     json.key(plan.name_of(objective)).begin_object();
     json.member("unit", plan.unit_of(objective));
-    json.member("direction", objective.maximise ? "maximise" : "minimise");
-    write_value(json, "value", value_of(objective, result.best()));
+    json.member("direction", direction_of(objective));
     const auto values = values_of_seeds(result.best(), objective.metric);
-    write_value(json, "standard_error",
-                values ? std::optional(standard_error_of(*values)) : std::nullopt);
+    const auto error_of = [](const std::optional<std::vector<double>>& seeds) {
+      return seeds ? std::optional(standard_error_of(*seeds)) : std::nullopt;
+    };
+    if (objective.target) {
+      json.member("target", *objective.target);
+      write_value(json, "value", values ? std::optional(mean_of(*values)) : std::nullopt);
+      write_value(json, "distance", value_of(objective, result.best()));
+      write_value(json, "distance_error", error_of(objective_of_seeds(objective, result.best())));
+    } else {
+      write_value(json, "value", value_of(objective, result.best()));
+    }
+    write_value(json, "standard_error", error_of(values));
     json.end_object();
   }
   json.end_object();
@@ -155,11 +190,11 @@ output::CsvTable evaluations_table(const TunePlan& plan, const TuneResult& resul
   table.header = {"evaluation", "stage", "generation"};
   add_constant_titles(table, plan);
   table.header.insert(table.header.end(), {"feasible", "violation"});
-  for (const MetricDefinition* metric : plan.runs.metrics) {
-    const std::string name(metric->name);
-    for (const char* part : {"", "_error", "_seeds"})
-      table.header.push_back(output::column_title(name + part, metric->unit));
-  }
+  for (const MetricDefinition* metric : plan.runs.metrics)
+    add_titles(table, std::string(metric->name), metric->unit, {"", "_error", "_seeds"});
+  for (const ObjectivePlan& objective : plan.objectives)
+    if (objective.target)
+      add_titles(table, distance_column(plan, objective), plan.unit_of(objective), {"", "_error"});
   table.header.insert(table.header.end(), {"first_seed", "seeds", "status"});
   for (std::size_t i = 0; i < result.candidates.size(); ++i) {
     const Candidate& candidate = result.candidates[i];
@@ -171,6 +206,8 @@ output::CsvTable evaluations_table(const TunePlan& plan, const TuneResult& resul
     row.insert(row.end(), {violation > 0. ? "no" : "yes", shortest(violation)});
     for (std::size_t metric = 0; metric < plan.runs.metrics.size(); ++metric)
       add_metric(row, candidate, metric);
+    for (const ObjectivePlan& objective : plan.objectives)
+      if (objective.target) add_objective(row, objective, candidate);
     row.insert(row.end(), {std::to_string(candidate.first_seed), std::to_string(candidate.seeds()),
                            status_of(candidate)});
   }
@@ -183,8 +220,8 @@ output::CsvTable pareto_table(const TunePlan& plan, const TuneResult& result) {
   add_constant_titles(table, plan);
   for (const ObjectivePlan& objective : plan.objectives) {
     const std::string unit = plan.unit_of(objective);
-    table.header.push_back(output::column_title(plan.name_of(objective), unit));
-    table.header.push_back(output::column_title(plan.name_of(objective) + "_error", unit));
+    add_titles(table, plan.name_of(objective), unit, {"", "_error"});
+    if (objective.target) add_titles(table, distance_column(plan, objective), unit, {"", "_error"});
   }
   table.header.emplace_back("recommended");
   for (const std::size_t member : result.pareto) {
@@ -193,9 +230,9 @@ output::CsvTable pareto_table(const TunePlan& plan, const TuneResult& result) {
     row.push_back(number_text(member));
     add_constants(row, candidate);
     for (const ObjectivePlan& objective : plan.objectives) {
-      const auto values = *values_of_seeds(candidate, objective.metric);
-      row.push_back(shortest(take_of(objective, values)));
-      row.push_back(shortest(standard_error_of(values)));
+      const auto values = values_of_seeds(candidate, objective.metric);
+      if (objective.target) add_value(row, mean_of(*values), values);
+      add_objective(row, objective, candidate);
     }
     row.emplace_back(member == result.recommended->candidate ? "yes" : "");
   }
@@ -204,14 +241,20 @@ output::CsvTable pareto_table(const TunePlan& plan, const TuneResult& result) {
 
 output::CsvTable indices_table(const TunePlan& plan, const TuneResult& result) {
   output::CsvTable table;
-  table.header = {"objective", "constant", "first_order", "total_order", "samples"};
+  table.header = {"objective", "constant"};
+  for (const std::string order : {"first_order", "total_order"})
+    table.header.insert(table.header.end(), {order, order + "_low", order + "_high"});
+  table.header.emplace_back("samples");
   for (std::size_t i = 0; i < result.indices.size(); ++i) {
     if (!result.indices[i]) continue;
     const SobolIndices& indices = *result.indices[i];
-    for (std::size_t c = 0; c < plan.varied.size(); ++c)
+    for (std::size_t c = 0; c < plan.varied.size(); ++c) {
+      const IndexInterval &first = indices.first_interval[c], &total = indices.total_interval[c];
       table.rows.push_back({plan.name_of(plan.objectives[i]), plan.varied[c].name,
-                            shortest(indices.first[c]), shortest(indices.total[c]),
+                            shortest(indices.first[c]), shortest(first.low), shortest(first.high),
+                            shortest(indices.total[c]), shortest(total.low), shortest(total.high),
                             std::to_string(indices.used)});
+    }
   }
   return table;
 }

@@ -13,11 +13,13 @@ namespace hookpoint::studies {
 std::vector<std::string> tune_files(const TunePlan& plan);
 
 /// Every candidate in order: stage, generation, constants, whether it meets the requirements; of
-/// each metric mean, standard error and the seeds' values; and what became of its runs.
+/// each metric mean, standard error and the seeds' values; of each objective with a target the
+/// distance from it and its standard error; and what became of its runs.
 output::CsvTable evaluations_table(const TunePlan& plan, const TuneResult& result);
-/// The Pareto set: number of the evaluation, constants, objectives, and which is recommended.
+/// The Pareto set: number of the evaluation, constants, objectives (of one with a target the metric
+/// and its distance), and which is recommended.
 output::CsvTable pareto_table(const TunePlan& plan, const TuneResult& result);
-/// Sobol's indices: a row an objective and constant.
+/// Sobol's indices with their 95 % intervals: a row an objective and constant.
 output::CsvTable indices_table(const TunePlan& plan, const TuneResult& result);
 /// recommended.json.
 std::string recommended_json(const TunePlan& plan, const TuneResult& result);

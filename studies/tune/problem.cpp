@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 
@@ -11,7 +12,9 @@
 #include "output/text/number.h"
 #include "simulation/identity.h"
 #include "simulation/step_count.h"
+#include "studies/plan/plan_builder.h"
 #include "studies/plan/plan_parts.h"
+#include "studies/run/execute.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -40,15 +43,37 @@ class TuneBuilder {
       plan_.varied.push_back(std::move(*constant));
   }
 
+  /// Metrics of the user's own, of ports of the scene `own`.
+  void add_measures(const Object& tune, const TunedScene& own) {
+    SceneNames names(*own.tree);
+    const PlanOptions options;
+    PlanBuilder builder(plan_.runs, options, diagnostics_);
+    builder.know(&names);
+    for (const Object* block : tune.children_of("Measure")) {
+      const MetricDefinition* known = find_metric(block->name);
+      if (known != nullptr && !is_of_one_run(*block, *known)) continue;
+      if (block->given("predicted"))
+        error(block->find("predicted")->position,
+              "a Tune compares nothing with a closed form: leave `predicted` out");
+      builder.add_metric(*block);
+      check_ports(*block, names, own.experiment);
+      check_from(*block);
+    }
+  }
+
   void add_objective(const Object& block) {
     const auto metric = metric_of(block);
     if (!metric) return;
     const bool less = !block.children_of("minimise").empty();
     const bool more = !block.children_of("maximise").empty();
-    if (less == more) error(block.position, "an Objective says either `minimise;` or `maximise;`");
-    plan_.objectives.push_back(
-        {*metric, more,
-         block.word("take") == "worst" ? ObjectivePlan::Take::worst : ObjectivePlan::Take::mean});
+    ObjectivePlan objective{
+        *metric, more,
+        block.word("take") == "worst" ? ObjectivePlan::Take::worst : ObjectivePlan::Take::mean};
+    objective.target = number(block, "target", *metric);
+    if (less + more + objective.target.has_value() != 1)
+      error(block.position, "an Objective says one of `minimise;`, `maximise;` and `target = `");
+    if (objective.target) objective.target_text = written_text(*block.find("target"), *metric);
+    plan_.objectives.push_back(std::move(objective));
   }
 
   void add_requirement(const Object& block) {
@@ -62,7 +87,7 @@ class TuneBuilder {
     require.within = number(block, "within", *metric).value_or(0.);
     if (!require.equals && !require.above && !require.below)
       error(block.position, "a Require says `equals`, `above` or `below`");
-    require.words = words_of(require);
+    require.words = words_of(block, require);
     plan_.requirements.push_back(std::move(require));
   }
 
@@ -71,30 +96,59 @@ class TuneBuilder {
     diagnostics_.error(position, std::move(message));
   }
 
+  bool is_of_one_run(const Object& block, const MetricDefinition& metric) {
+    if (metric.scope == MetricScope::run) return true;
+    error(block.position, fmt::format("`{}` is {}: a tuning takes metrics of one run", block.name,
+                                      metric.timing() ? "a time, which is never the same twice"
+                                                      : "of several runs together"));
+    return false;
+  }
+
+  /// The run's engine and law publish what the metric is of.
+  void check_ports(const Object& block, SceneNames& names,
+                   const simulation::Experiment& experiment) {
+    const language::Field* of = block.find("of");
+    if (of == nullptr || diagnostics_.has_errors()) return;
+    for (const std::string& name : of->formula->names) {
+      std::string why;
+      const auto port = names.port(name, why, &experiment);
+      if (port && !port->missing.empty())
+        error(block.position, fmt::format("no run has `{}`: {}", block.name, port->missing));
+    }
+  }
+
+  /// A run lasts until the Measure begins.
+  void check_from(const Object& block) {
+    if (!block.given("from") || block.number("from") < plan_.runs.duration) return;
+    error(block.find("from")->position,
+          fmt::format("a run ends at {} s{}: nothing would be measured from {} s on",
+                      output::rounded(plan_.runs.duration, 6),
+                      plan_.runs.quick ? " under --quick (`quick_duration`)" : "",
+                      output::rounded(block.number("from"), 6)));
+  }
+
   /// Its index among the metrics of a run.
   std::optional<std::size_t> metric_of(const Object& block) {
+    auto& metrics = plan_.runs.metrics;
+    const auto found = std::ranges::find(metrics, block.name, &MetricDefinition::name);
+    if (found != metrics.end()) return static_cast<std::size_t>(found - metrics.begin());
     const MetricDefinition* metric = find_metric(block.name);
     if (metric == nullptr) {
       std::vector<std::string> names;
+      for (const MetricDefinition* own : metrics) names.emplace_back(own->name);
       for (const MetricDefinition& known : metric_table()) names.emplace_back(known.name);
-      error(block.position, fmt::format("no metric is called `{}`{}", block.name,
-                                        language::did_you_mean(block.name, names)));
+      error(block.position,
+            fmt::format("no metric is called `{}` (a Measure defines one of your own){}",
+                        block.name, language::did_you_mean(block.name, names)));
       return std::nullopt;
     }
-    if (metric->scope != MetricScope::run) {
-      error(block.position, fmt::format("`{}` is {}: a tuning takes metrics of one run", block.name,
-                                        metric->timing() ? "a time, which is never the same twice"
-                                                         : "of several runs together"));
-      return std::nullopt;
-    }
-    auto& metrics = plan_.runs.metrics;
-    const auto found = std::ranges::find(metrics, metric);
-    if (found != metrics.end()) return static_cast<std::size_t>(found - metrics.begin());
+    if (!is_of_one_run(block, *metric)) return std::nullopt;
     metrics.push_back(metric);
     plan_.runs.metric_sweeps.push_back(-1);
     return metrics.size() - 1;
   }
 
+  /// What the field holds, in the metric's unit.
   std::optional<double> number(const Object& block, const char* name, std::size_t metric) {
     const language::Field* given = block.find(name);
     if (given == nullptr) return std::nullopt;
@@ -103,22 +157,32 @@ class TuneBuilder {
       error(given->position, fmt::format("`{}` is in {}, not {}", name,
                                          language::describe_dimension(unit->dimension),
                                          language::describe_dimension(given->dimension)));
-    return block.number(name);
+    return block.number(name) * (unit ? unit->denominator / unit->numerator : 1.);
   }
 
-  std::string words_of(const RequirementPlan& require) const {
-    const MetricDefinition& metric = *plan_.runs.metrics[require.metric];
-    const auto value = [&](double number) {
-      return output::rounded(number, 6) +
-             (metric.unit.empty() ? "" : " " + std::string(metric.unit));
+  /// The number in the unit that the file writes, else in the metric's.
+  std::string written_text(const language::Field& field, std::size_t metric) const {
+    WrittenUnit unit = written_unit(field);
+    if (unit.text.empty()) {
+      unit.text = plan_.runs.metrics[metric]->unit;
+      unit.unit = language::parse_unit(unit.text).value_or(language::Unit{});
+    }
+    return output::rounded(unit.from_si(field.numbers.at(0)), 6) +
+           (unit.text.empty() ? "" : " " + unit.text);
+  }
+
+  /// "stable_step is above 0.5 ms", in the units that the block writes.
+  std::string words_of(const Object& block, const RequirementPlan& require) const {
+    const auto value = [&](const char* field) {
+      return written_text(*block.find(field), require.metric);
     };
     std::vector<std::string> parts;
     if (require.equals)
-      parts.push_back("equals " + value(*require.equals) +
-                      (require.within > 0. ? " within " + value(require.within) : ""));
-    if (require.above) parts.push_back("is above " + value(*require.above));
-    if (require.below) parts.push_back("is below " + value(*require.below));
-    return std::string(metric.name) + " " + language::join(parts, " and ");
+      parts.push_back("equals " + value("equals") +
+                      (require.within > 0. ? " within " + value("within") : ""));
+    if (require.above) parts.push_back("is above " + value("above"));
+    if (require.below) parts.push_back("is below " + value("below"));
+    return block.name + " " + language::join(parts, " and ");
   }
 
   TunePlan& plan_;
@@ -223,20 +287,32 @@ std::optional<TunedScene> load_corner(const TunePlan& plan, const Object& tune, 
   return scene;
 }
 
-/// A constant that changes nothing is a mistake: of a Param that another ground leaves unused.
+/// A constant that changes nothing is a mistake, as a Param is that another ground leaves unused.
+/// Tried at a few places of its range, the others having their own values or lying in theirs.
 void check_effects(const TunePlan& plan, const Object& tune, Diagnostics& diagnostics) {
+  // Irregular: an even or a periodic function has not the same value at all of them.
+  constexpr std::array places{1., 0.37, 0.61, 0.13, 0.5, 0.83, 0.249, 0.731};
+  constexpr std::array<std::optional<double>, 3> places_of_others{std::nullopt, 0.29, 0.67};
+  const std::vector<VariedConstant>& constants = plan.varied;
+  const auto text_at = [&](std::size_t varied, double place, std::optional<double> others) {
+    std::vector<ConstantSetting> settings;
+    for (std::size_t i = 0; i < constants.size(); ++i)
+      if (i == varied || others)
+        settings.push_back(constants[i].setting(constants[i].at(i == varied ? place : *others)));
+    Diagnostics untold;
+    const auto tree = plan.scene->compose(settings, 1, untold);
+    return tree == nullptr ? std::string() : language::print(*tree);
+  };
   const auto blocks = tune.children_of("Vary");
-  for (std::size_t i = 0; i < plan.varied.size(); ++i) {
-    const VariedConstant& constant = plan.varied[i];
-    const auto text = [&](double share) {
-      const std::vector<ConstantSetting> one{constant.setting(constant.at(share))};
-      const auto tree = plan.scene->compose(one, 1, diagnostics);
-      return tree == nullptr ? std::string() : language::print(*tree);
-    };
-    const std::string least = text(0.);
-    if (!diagnostics.has_errors() && least == text(1.))
+  for (std::size_t i = 0; i < constants.size(); ++i) {
+    const bool changes = std::ranges::any_of(places_of_others, [&](const auto& others) {
+      const std::string least = text_at(i, 0., others);
+      return std::ranges::any_of(places,
+                                 [&](double place) { return text_at(i, place, others) != least; });
+    });
+    if (!changes)
       diagnostics.error(blocks[i]->position,
-                        fmt::format("`{}` changes nothing in the scene", constant.name));
+                        fmt::format("`{}` changes nothing in the scene", constants[i].name));
   }
 }
 
@@ -248,7 +324,7 @@ void set_hashes(TunePlan& plan, const TunedScene& own, const EngineTable& engine
   output::Hash hash;
   hash.add(simulation::experiment_hash(runs.scene_printed, own.experiment));
   hash.add(fmt::format("{} {}", runs.settle, runs.duration));
-  for (const MetricDefinition* metric : runs.metrics) hash.add(metric->name);
+  for (const MetricDefinition* metric : runs.metrics) hash.add(kept_name(*metric));
   for (const output::InputFile& input : simulation::hashed(inputs)) hash.add(input.hash);
   const auto engine = engines.find(own.experiment.engine);
   plan.runs_hash = simulation::run_hash(
@@ -283,14 +359,15 @@ std::optional<TunePlan> make_tune_plan(const Object& root, const Object& tune,
   plan.scene =
       std::make_shared<const TuneScene>(library, std::move(source), tune.position, diagnostics);
   if (diagnostics.has_errors()) return std::nullopt;
-  TuneBuilder builder(plan, diagnostics);
-  for (const Object* block : tune.children_of("Vary")) builder.add_constant(*block);
-  for (const Object* block : tune.children_of("Objective")) builder.add_objective(*block);
-  for (const Object* block : tune.children_of("Require")) builder.add_requirement(*block);
-  set_search(plan, tune, quick);
   const auto own = plan.scene->load({}, 1, diagnostics);
   if (!own) return std::nullopt;
   set_times(plan, tune, quick, own->experiment.duration);
+  TuneBuilder builder(plan, diagnostics);
+  for (const Object* block : tune.children_of("Vary")) builder.add_constant(*block);
+  builder.add_measures(tune, *own);
+  for (const Object* block : tune.children_of("Objective")) builder.add_objective(*block);
+  for (const Object* block : tune.children_of("Require")) builder.add_requirement(*block);
+  set_search(plan, tune, quick);
   check_search(plan, tune, own->experiment.deltat, diagnostics);
   if (diagnostics.has_errors()) return std::nullopt;
   for (const double share : {0., 1.})
@@ -381,6 +458,12 @@ std::string TunePlan::unit_of(const ObjectivePlan& objective) const {
 
 std::string TunePlan::name_of(const ObjectivePlan& objective) const {
   return std::string(runs.metrics[objective.metric]->name);
+}
+
+std::string TunePlan::label_of(const ObjectivePlan& objective) const {
+  const std::string metric = name_of(objective);
+  return objective.target ? fmt::format("distance of {} from {}", metric, objective.target_text)
+                          : metric;
 }
 
 std::vector<ConstantSetting> TunePlan::settings(const std::vector<double>& values) const {

@@ -2,6 +2,7 @@
 // searched.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -41,12 +42,18 @@ std::optional<VariedConstant> varied_constant(const language::Object& block, con
 void complete_subject(SubjectInfo& info, const simulation::Experiment& experiment,
                       const EngineTable& engines);
 
-/// An Objective block.
+/// An Objective block. What is minimised or maximised is the metric or, where there is a target,
+/// minimised the distance of the metric from it in each run, in the metric's unit.
 struct ObjectivePlan {
   enum class Take { mean, worst };
   std::size_t metric = 0;  ///< index into TunePlan::runs.metrics
   bool maximise = false;
   Take take = Take::mean;
+  std::optional<double> target = {};  ///< in the metric's unit
+  std::string target_text = {};       ///< as its author wrote it: "3 mm"
+
+  /// What the objective is for a run with this value of the metric.
+  double of_run(double value) const { return target ? std::abs(value - *target) : value; }
 };
 
 /// A Require block.
@@ -54,7 +61,7 @@ struct RequirementPlan {
   std::size_t metric = 0;
   std::optional<double> equals, above, below;
   double within = 0.;
-  std::string words;  ///< "stable_step is above 0.0005 s"
+  std::string words;  ///< "stable_step is above 0.5 ms"
 
   /// How far a value is from what is required, as a part of the bound's magnitude (of 1 where that
   /// is 0); 0 where it holds.
@@ -77,7 +84,9 @@ struct TunePlan {
   std::string runs_hash;  ///< of all that decides the numbers of a run but its constants and seed
 
   std::string unit_of(const ObjectivePlan& objective) const;
-  std::string name_of(const ObjectivePlan& objective) const;
+  std::string name_of(const ObjectivePlan& objective) const;  ///< the metric's: "sink"
+  /// What is made small or great: "foot_slip", "distance of sink from 3 mm".
+  std::string label_of(const ObjectivePlan& objective) const;
   std::filesystem::path folder() const { return folder_of(label, runs.hash); }
   std::size_t runs_of_a_generation() const {
     return static_cast<std::size_t>(population) * static_cast<std::size_t>(seeds);

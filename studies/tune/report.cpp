@@ -20,14 +20,28 @@ std::string number_with(double value, const std::string& unit) {
   return output::rounded(value) + (unit.empty() ? "" : " " + unit);
 }
 
-/// "0.02 ± 0.001 m"
+/// "0.02 ± 0.001 m" of what is made of the seeds' values.
+std::string seeds_text(double value, std::span<const double> seeds, const std::string& unit) {
+  if (seeds.size() < 2) return number_with(value, unit);
+  return output::rounded(value) + " ± " + number_with(standard_error_of(seeds), unit);
+}
+
+/// "0.02 ± 0.001 m"; of an objective with a target "2.9 ± 0.1 mm, 0.1 ± 0.1 mm off".
 std::string with_error(const ObjectivePlan& objective, const Candidate& candidate,
                        const std::string& unit) {
   const auto values = values_of_seeds(candidate, objective.metric);
   if (!values) return "no value";
-  const std::string value = output::rounded(take_of(objective, *values));
-  if (values->size() < 2) return value + (unit.empty() ? "" : " " + unit);
-  return value + " ± " + number_with(standard_error_of(*values), unit);
+  const auto wanted = *objective_of_seeds(objective, candidate);
+  const std::string text = seeds_text(take_of(objective, wanted), wanted, unit);
+  return objective.target ? seeds_text(mean_of(*values), *values, unit) + ", " + text + " off"
+                          : text;
+}
+
+/// "minimise foot_slip", "sink = 3 mm".
+std::string goal_text(const TunePlan& plan, const ObjectivePlan& objective) {
+  const std::string name = plan.name_of(objective);
+  if (objective.target) return name + " = " + objective.target_text;
+  return (objective.maximise ? "maximise " : "minimise ") + name;
 }
 
 std::string constant_text(const VariedConstant& constant, const std::optional<double>& value) {
@@ -87,9 +101,8 @@ std::string comparison_table(const TunePlan& plan, const TuneResult& result) {
   for (std::size_t i = 0; i < plan.objectives.size(); ++i) {
     const ObjectivePlan& objective = plan.objectives[i];
     const std::string unit = plan.unit_of(objective);
-    std::vector<std::string> row{
-        html(std::string(objective.maximise ? "maximise " : "minimise ") + plan.name_of(objective)),
-        html(with_error(objective, tuned, unit))};
+    std::vector<std::string> row{html(goal_text(plan, objective)),
+                                 html(with_error(objective, tuned, unit))};
     for (const TuneReference& reference : result.references) {
       const std::size_t other = checked ? *reference.fresh : reference.candidate;
       row.push_back(html(with_error(objective, result.candidates[other], unit)));
@@ -139,7 +152,7 @@ std::string front_table(const TunePlan& plan, const TuneResult& result) {
   for (const VariedConstant& constant : plan.varied)
     head.push_back(html(output::column_title(constant.name, constant.unit.text)));
   for (const ObjectivePlan& objective : plan.objectives)
-    head.push_back(html(output::column_title(plan.name_of(objective), plan.unit_of(objective))));
+    head.push_back(html(output::column_title(plan.label_of(objective), plan.unit_of(objective))));
   HtmlTable table(head, 0);
   for (std::size_t i = 0; i < std::min(most, result.pareto.size()); ++i) {
     const std::size_t member = result.pareto[i];
@@ -160,25 +173,37 @@ std::string front_table(const TunePlan& plan, const TuneResult& result) {
   return text;
 }
 
+/// "0.72 (0.5 to 0.9)"
+std::string index_text(double value, const IndexInterval& interval) {
+  return fmt::format("{} ({} to {})", output::rounded(value, 3), output::rounded(interval.low, 2),
+                     output::rounded(interval.high, 2));
+}
+
 std::string indices_rows(const TunePlan& plan, const TuneResult& result) {
   if (result.indices.empty()) return "";
-  HtmlTable table({"objective", "constant", "first order", "total order", "samples"}, 2);
+  HtmlTable table({"objective", "constant", "first order (95 % interval)",
+                   "total order (95 % interval)", "samples"},
+                  2);
   for (std::size_t i = 0; i < result.indices.size(); ++i) {
-    const std::string name = html(plan.name_of(plan.objectives[i]));
+    const std::string name = html(plan.label_of(plan.objectives[i]));
     if (!result.indices[i]) {
       table.row(
           {name, "nothing to tell: it never changes, or too many runs have no value", "", "", ""});
       continue;
     }
+    const SobolIndices& indices = *result.indices[i];
     for (std::size_t c = 0; c < plan.varied.size(); ++c)
-      table.row({name, html(plan.varied[c].name), output::rounded(result.indices[i]->first[c], 3),
-                 output::rounded(result.indices[i]->total[c], 3),
-                 std::to_string(result.indices[i]->used)});
+      table.row(
+          {name, html(plan.varied[c].name), index_text(indices.first[c], indices.first_interval[c]),
+           index_text(indices.total[c], indices.total_interval[c]), std::to_string(indices.used)});
   }
   return section("Which constants matter") + table.text() +
          text_block("note soft",
                     "Sobol's indices over the whole box, infeasible candidates with a value "
-                    "included. With few samples an estimate may lie below 0 or above 1.");
+                    "included; intervals by a bootstrap over the samples. With few samples an "
+                    "estimate may lie below 0 or above 1, and a first-order index above the "
+                    "total-order one, which it cannot exceed: what lies within the intervals is no "
+                    "finding. Four times the `samples` halve them.");
 }
 
 std::size_t run_count(const TuneResult& result) {

@@ -15,8 +15,7 @@ namespace {
 RunRecord unloadable(const Measurement& measurement, const language::Diagnostics& found) {
   RunRecord record;
   record.status = "cannot run: " + first_error_of(found);
-  for (const MetricDefinition* metric : measurement.metrics)
-    record.values[std::string(metric->name)] = {};
+  for (const MetricDefinition* metric : measurement.metrics) record.values[kept_name(*metric)] = {};
   return record;
 }
 
@@ -67,7 +66,7 @@ std::optional<WantedOutcome> RunBatches::outcome_of(std::size_t run) const {
   if (!record || !measurement_.found_in(*record)) return std::nullopt;
   WantedOutcome outcome{record->status, {}};
   for (const MetricDefinition* metric : measurement_.metrics)
-    outcome.measured.push_back(record->values.at(std::string(metric->name)).measured);
+    outcome.measured.push_back(record->values.at(kept_name(*metric)).measured);
   return outcome;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 
+#include "studies/tune/bootstrap.h"
 #include "studies/tune/random_place.h"
 
 namespace hookpoint::studies {
@@ -53,34 +54,88 @@ class DesignValues {
 /// Fewer samples say nothing: the error of an index goes as one over their square root.
 constexpr std::size_t least_samples = 16;
 
-std::optional<SobolIndices> indices_of(const DesignValues& values, std::size_t constants,
-                                       std::size_t samples) {
-  SobolIndices indices{BoxPoint(constants), BoxPoint(constants), 0., 0};
-  double sum = 0.;
-  for (std::size_t j = 0; j < samples; ++j) {
-    if (!values.complete(j)) continue;
-    ++indices.used;
-    sum += *values.at(j, 0) + *values.at(j, 1);
-  }
-  if (indices.used < least_samples) return std::nullopt;
-  const auto used = static_cast<double>(indices.used);
-  const double mean = sum / (2. * used);
-  for (std::size_t j = 0; j < samples; ++j) {
-    if (!values.complete(j)) continue;
-    const double a = *values.at(j, 0), b = *values.at(j, 1);
-    indices.variance += (a - mean) * (a - mean) + (b - mean) * (b - mean);
-    for (std::size_t i = 0; i < constants; ++i) {
-      const double mixed = *values.at(j, i + 2);
-      indices.first[i] += (b - mixed) * (b - mixed);
-      indices.total[i] += (a - mixed) * (a - mixed);
+/// Resamples of the bootstrap.
+constexpr std::size_t index_resamples = 1000;
+
+/// What the estimators add up over the samples, one row a complete sample: f(A) + f(B) and
+/// f(A)^2 + f(B)^2, both less the mean; the squared differences of the first-order indices, one a
+/// constant; and those of the total-order ones.
+class EstimatorTerms {
+ public:
+  EstimatorTerms(const DesignValues& values, std::size_t constants, std::size_t samples)
+      : constants_(constants) {
+    double sum = 0.;
+    std::vector<std::size_t> complete;
+    for (std::size_t j = 0; j < samples; ++j) {
+      if (!values.complete(j)) continue;
+      complete.push_back(j);
+      sum += *values.at(j, 0) + *values.at(j, 1);
+    }
+    const double mean = sum / (2. * static_cast<double>(complete.size()));
+    for (const std::size_t j : complete) {
+      const double a = *values.at(j, 0), b = *values.at(j, 1);
+      std::vector<double>& row = rows_.emplace_back(2 + 2 * constants);
+      row[0] = (a - mean) + (b - mean);
+      row[1] = (a - mean) * (a - mean) + (b - mean) * (b - mean);
+      for (std::size_t i = 0; i < constants; ++i) {
+        const double mixed = *values.at(j, i + 2);
+        row[2 + i] = (b - mixed) * (b - mixed);
+        row[2 + constants + i] = (a - mixed) * (a - mixed);
+      }
     }
   }
-  indices.variance /= 2. * used - 1.;
-  if (!(indices.variance > 0.)) return std::nullopt;
-  for (std::size_t i = 0; i < constants; ++i) {
-    indices.first[i] = 1. - indices.first[i] / (2. * used) / indices.variance;
-    indices.total[i] = indices.total[i] / (2. * used) / indices.variance;
+
+  std::size_t samples() const { return rows_.size(); }
+
+  /// The indices where each sample counts so often; nothing where the output does not vary.
+  std::optional<SobolIndices> indices(const std::vector<int>& counts) const {
+    std::vector<double> sums(2 + 2 * constants_);
+    for (std::size_t j = 0; j < rows_.size(); ++j)
+      for (std::size_t k = 0; k < sums.size() && counts[j] > 0; ++k)
+        sums[k] += counts[j] * rows_[j][k];
+    const double values = 2. * static_cast<double>(rows_.size());
+    SobolIndices found{BoxPoint(constants_), BoxPoint(constants_), {}, {}, 0., rows_.size()};
+    found.variance = (sums[1] - sums[0] * sums[0] / values) / (values - 1.);
+    if (!(found.variance > 0.)) return std::nullopt;
+    for (std::size_t i = 0; i < constants_; ++i) {
+      found.first[i] = 1. - sums[2 + i] / values / found.variance;
+      found.total[i] = sums[2 + constants_ + i] / values / found.variance;
+    }
+    return found;
   }
+
+ private:
+  std::size_t constants_;
+  std::vector<std::vector<double>> rows_;
+};
+
+std::vector<IndexInterval> intervals_of(const std::vector<std::vector<double>>& resampled,
+                                        double tail) {
+  std::vector<IndexInterval> intervals;
+  for (const std::vector<double>& values : resampled)
+    intervals.push_back({quantile(values, tail), quantile(values, 1. - tail)});
+  return intervals;
+}
+
+std::optional<SobolIndices> indices_of(const DesignValues& values, std::size_t constants,
+                                       std::size_t samples, std::uint64_t seed) {
+  const EstimatorTerms terms(values, constants, samples);
+  if (terms.samples() < least_samples) return std::nullopt;
+  auto indices = terms.indices(std::vector<int>(terms.samples(), 1));
+  if (!indices) return std::nullopt;
+  std::mt19937_64 random(seed);
+  std::vector<std::vector<double>> first(constants), total(constants);
+  for (std::size_t resample = 0; resample < index_resamples; ++resample) {
+    const auto drawn = terms.indices(draw_with_replacement(terms.samples(), random));
+    if (!drawn) continue;  // it drew none of the samples in which the output varies
+    for (std::size_t i = 0; i < constants; ++i) {
+      first[i].push_back(drawn->first[i]);
+      total[i].push_back(drawn->total[i]);
+    }
+  }
+  const double tail = tail_of_interval(static_cast<double>(terms.samples()));
+  indices->first_interval = intervals_of(first, tail);
+  indices->total_interval = intervals_of(total, tail);
   return indices;
 }
 
@@ -103,7 +158,7 @@ std::vector<std::optional<SobolIndices>> sobol_indices(std::size_t constants, st
   const auto found = values(design);
   std::vector<std::optional<SobolIndices>> all;
   for (std::size_t output = 0; output < outputs; ++output)
-    all.push_back(indices_of(DesignValues(found, constants, output), constants, samples));
+    all.push_back(indices_of(DesignValues(found, constants, output), constants, samples, seed));
   return all;
 }
 

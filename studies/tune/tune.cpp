@@ -131,7 +131,7 @@ class Tuning {
       }
       const std::string unit = plan_.unit_of(objective);
       if (best)
-        report.best.push_back(plan_.name_of(objective) + " " + output::rounded(*best, 3) +
+        report.best.push_back(plan_.label_of(objective) + " " + output::rounded(*best, 3) +
                               (unit.empty() ? "" : " " + unit));
     }
     options_.generation(report);

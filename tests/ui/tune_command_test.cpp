@@ -49,6 +49,31 @@ TEST(TuneCommand, LeavesWhatItSaysAndExitsWithZero) {
   EXPECT_EQ(place.hookpoint("tune.hook --out out --resume").status, 0);
 }
 
+TEST(TuneCommand, BringsAMeasureToItsTarget) {
+  const Workplace place;
+  place.file("block.hook", block);
+  place.file("tune.hook", R"(Tune deep {
+  scene = "block.hook"; duration = 0.5 s; settle = 0.3 s;
+  Vary normal_stiffness { from = 0.5 kN/m; to = 100 kN/m; scale = log; }
+  Measure sink { of = 0.05 m - block.position.z; take = mean; unit = mm; }
+  Objective sink { target = 1 mm; }
+  Require penetration_max { below = 4 mm; }
+  method = cmaes; population = 8; generations = 6; seeds = 1; samples = 0;
+}
+)");
+  const CommandResult result = place.hookpoint("tune tune.hook --out out --jobs 2");
+  EXPECT_EQ(result.status, 0) << result.err;
+  for (const char* part : {"mm off", "required: penetration_max is below 4 mm"})
+    EXPECT_NE(result.out.find(part), std::string::npos) << result.out;
+  EXPECT_NE(result.err.find("distance of sink from 1 mm"), std::string::npos) << result.err;
+  // A mass of 1 kg on four corners sinks m g/(4 k): 1 mm at 2.45 kN/m.
+  const std::string json = place.read("out/recommended.json");
+  const std::size_t value = json.find("\"value\": ");
+  ASSERT_NE(value, std::string::npos);
+  EXPECT_NEAR(std::stod(json.substr(value + 9)), 2.4517, 0.1) << json;
+  EXPECT_EQ(place.hookpoint("check tune.hook").status, 0);
+}
+
 TEST(TuneCommand, RefusesWhatItCannotTune) {
   const Workplace place;
   place.file("block.hook", block);

@@ -116,6 +116,29 @@ class CalibrateFile : public ::testing::Test {
   int files_ = 0;
 };
 
+TEST_F(CalibrateFile, AnEvenFunctionOfAConstantIsNoneThatChangesNothing) {
+  place_.file("even.hook", R"(
+Param tilt = 0.2;
+World world {
+  gravity = 9.81 * (0.75 + tilt^2);
+  deltat = 1 ms;
+  integrator = rk4;
+  Material floor { normal_stiffness = 8 kN/m; normal_damping = 18 N.s/m; }
+  Terrain.Flat ground { material = floor; }
+  Robot point { Base.mobile { mass = 1; inertia = 1, 1, 1, 0, 0, 0; ContactPoint tip { location = 0, 0, 0; } } }
+}
+)");
+  const auto found =
+      plan("Calibrate even {\n  scene = \"even.hook\"; starts = 4; resamples = 0;\n" + trace() +
+           "Vary tilt { from = -1; to = 1; }\n}\n");
+  ASSERT_TRUE(found) << told_;
+  const CalibrationResult result = run(*found, "even");
+  EXPECT_TRUE(result.subjects[0].left_out.empty());
+  ASSERT_EQ(result.subjects[0].constants.size(), 1U);
+  // Gravity is 9.81 at 0.5 and at -0.5.
+  EXPECT_NEAR(std::abs(found->varied[0].at(result.subjects[0].constants[0].share)), 0.5, 0.01);
+}
+
 TEST_F(CalibrateFile, TheSameForAnyNumberOfThreadsAndWhenItIsResumed) {
   const auto found = plan(block(std::string("resamples = 40;\n") + trace() + two_constants));
   ASSERT_TRUE(found) << told_;

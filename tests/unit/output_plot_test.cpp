@@ -1,10 +1,13 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <array>
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <set>
+#include <tuple>
 
 #include "output/figures/inline_svg.h"
 #include "output/figures/plot.h"
@@ -43,10 +46,45 @@ class Figures : public ::testing::Test {
   fs::path folder_;
 };
 
-TEST(PlotStyle, FortySubjectsLookDifferent) {
-  std::set<std::pair<std::string, int>> looks;
-  for (int i = 0; i < 40; ++i) looks.emplace(series_style(i).color, series_style(i).filled_marker);
-  EXPECT_EQ(looks.size(), 40u);
+TEST(PlotStyle, FourHundredSeriesLookDifferent) {
+  std::set<std::tuple<std::string, int, Dashes>> looks;
+  for (int i = 0; i < 400; ++i) {
+    const SeriesStyle style = series_style(i);
+    looks.emplace(style.color, style.filled_marker(), style.dashes);
+    EXPECT_NE(style.dashes, predicted_dashes());
+  }
+  EXPECT_EQ(looks.size(), 400u);
+}
+
+/// CIELAB of "#0072B2" (sRGB, D65).
+std::array<double, 3> lab_of(const std::string& color) {
+  std::array<double, 3> linear{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double shown = std::stoi(color.substr(1 + 2 * i, 2), nullptr, 16) / 255.;
+    linear[i] = shown <= 0.04045 ? shown / 12.92 : std::pow((shown + 0.055) / 1.055, 2.4);
+  }
+  const auto [r, g, b] = linear;
+  const auto f = [](double t) {
+    return t > 216. / 24389. ? std::cbrt(t) : (24389. / 27. * t + 16.) / 116.;
+  };
+  const double x = f((0.4124564 * r + 0.3575761 * g + 0.1804375 * b) / 0.95047);
+  const double y = f(0.2126729 * r + 0.7151522 * g + 0.0721750 * b);
+  const double z = f((0.0193339 * r + 0.1191920 * g + 0.9503041 * b) / 1.08883);
+  return {116. * y - 16., 500. * (x - y), 200. * (y - z)};
+}
+
+TEST(PlotStyle, ColoursAreFarApartAndSeenOnWhiteAndOnBlack) {
+  for (int i = 0; i < style_colors; ++i) {
+    const auto one = lab_of(series_style(i).color);
+    EXPECT_GT(one[0], 37.) << i;
+    EXPECT_LT(one[0], 73.) << i;
+    for (int j = 0; j < i; ++j) {
+      const auto other = lab_of(series_style(j).color);
+      // A distance of 2.3 is just noticeable (Mahy et al. 1994).
+      EXPECT_GT(std::hypot(one[0] - other[0], one[1] - other[1], one[2] - other[2]), 20.)
+          << i << " " << j;
+    }
+  }
 }
 
 TEST(PlotData, HoldsEveryPointAsGiven) {

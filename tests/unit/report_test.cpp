@@ -5,8 +5,11 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <set>
 #include <sstream>
+#include <tuple>
 
+#include "output/figures/plot.h"
 #include "studies/report/figures.h"
 #include "studies/report/terminal_table.h"
 #include "studies/summary.h"
@@ -19,6 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::count;
 using testing::synthetic_creep;
+using testing::synthetic_row;
 using testing::synthetic_study;
 
 bool contains(const std::string& text, const std::string& part) {
@@ -167,7 +171,81 @@ TEST(Figures, AFamilySharesAColourAndItsMembersDifferInMarker) {
   StudyResult study = synthetic_study();
   study.subjects[2].law = "hookpoint";
   study.subjects[4].engine = "ode_quickstep";
-  EXPECT_EQ(subject_styles(study), (std::vector<int>{0, 1, 8, 2, 10, 3}));
+  const int next = output::style_colors;
+  EXPECT_EQ(subject_styles(study), (std::vector<int>{0, 1, next, 2, next + 2, 3}));
+}
+
+/// The first study with as many subjects, each a family of its own.
+StudyResult study_of_families(int families) {
+  StudyResult study = synthetic_study();
+  study.subjects.clear();
+  study.rows.clear();
+  for (int i = 0; i < families; ++i) {
+    const std::string name = "law_" + std::to_string(i);
+    study.subjects.push_back({name, "dts", name, "", "", true});
+    for (const double slope : study.sweeps[0].values) {
+      study.rows.push_back(synthetic_row(0, slope, 1.));
+      study.rows.back().subject = i;
+    }
+  }
+  return study;
+}
+
+/// Colour, marker and dashes of every series of the figure.
+std::set<std::tuple<std::string, int, output::Dashes>> looks_of(const Figure& figure) {
+  std::set<std::tuple<std::string, int, output::Dashes>> looks;
+  for (const output::Series& series : figure.plot.series) {
+    const output::SeriesStyle style = output::series_style(series.style);
+    looks.emplace(style.color, style.shape, style.dashes);
+  }
+  return looks;
+}
+
+TEST(Figures, NoTwoSeriesLookTheSame) {
+  const StudyResult few = study_of_families(17);
+  std::set<std::string> colors;
+  for (const int style : subject_styles(few)) colors.insert(output::series_style(style).color);
+  EXPECT_EQ(colors.size(), 17u);
+  for (const int families : {25, 60}) {
+    const Figure figure = make_figure(study_of_families(families), 0);
+    EXPECT_EQ(looks_of(figure).size(), static_cast<std::size_t>(families));
+  }
+  // Two members of a family, at each value of a sweep.
+  StudyResult study = study_of_families(2);
+  study.subjects[1].law = study.subjects[0].law;
+  study.plots[0].series = "dt";
+  for (const RunResult& row : std::vector(study.rows))
+    for (const double dt : {0.1, 10.}) {
+      study.rows.push_back(row);
+      study.rows.back().parameters[1] = dt;
+    }
+  study.plots[0].where.clear();
+  const Figure figure = make_figure(study, 0);
+  EXPECT_EQ(figure.plot.series.size(), 6u);
+  EXPECT_EQ(looks_of(figure).size(), 6u);
+}
+
+TEST(Figures, ASubjectWithoutARunTakesNoColour) {
+  StudyResult study = study_of_families(3);
+  std::erase_if(study.rows, [](const RunResult& row) { return row.subject == 0; });
+  EXPECT_EQ(subject_styles(study), (std::vector<int>{2, 0, 1}));
+  study = study_of_families(3);
+  study.subjects[1].available = false;
+  EXPECT_EQ(subject_styles(study), (std::vector<int>{0, 2, 1}));
+}
+
+TEST(Figures, ReferencesDifferInTheirDashes) {
+  StudyResult study = synthetic_study();
+  study.plots[0].references = {{.label = "rigid", .value = 0.5, .where = {}},
+                               {.label = "soft", .value = 0.1, .where = {}},
+                               {.label = "rigid", .value = 0.6, .where = {}}};
+  const Figure figure = make_figure(study, 0);
+  std::vector<int> styles;
+  for (const output::Series& series : figure.plot.series)
+    if (series.reference) styles.push_back(series.style);
+  EXPECT_EQ(styles, (std::vector<int>{0, 1, 0}));
+  EXPECT_NE(output::reference_dashes(0), output::reference_dashes(1));
+  EXPECT_TRUE(contains(figure.caption, "Black, dashed: rigid. Black, dotted: soft."));
 }
 
 TEST(Figures, DrawOnlyTheRowsThatTheBlockChooses) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 
 #include "language/values/formula.h"
 #include "studies/claims.h"
@@ -136,6 +137,86 @@ TEST_F(StudyMeasure, SaysWhatIsWrongWithADefinition) {
            {"Measure way { of = block.position.x; predicted = slope; }", "not in rad"}}) {
     const std::string said = error_with(wrong.measure);
     EXPECT_NE(said.find(wrong.message), std::string::npos) << wrong.measure << "\n" << said;
+  }
+}
+
+/// A ground and a robot that are named by words; two Materials state one coefficient of friction.
+constexpr const char* worded_scene = R"(
+Param soil = clay;
+Param usual = soil;
+Param robot = "low.hook";
+Param mu = 0.4;
+World world {
+  deltat = 10 ms;
+  Material clay { kinetic_friction = 0.9; }
+  Material oak { static_friction = mu; kinetic_friction = 0.3; }
+  Material ice { static_friction = 0.1; }
+  Terrain.Slope ground { angle = 10 deg; material = soil; }
+  Robot block { Base.mobile { rest_on = ground; Include robot; } }
+}
+)";
+
+/// With these closed forms, of a length.
+std::string worded_study(const std::vector<std::string>& forms) {
+  std::string text = R"(
+Study worded {
+  scene = "worded.hook";
+  duration = 0.1 s;
+  Sweep soil { values = clay, oak, ice; }
+  Sweep contact { values = hookpoint, lugre; }
+  Subject low { Fix robot { value = "low.hook"; } }
+  Subject high { Fix robot { value = "high.hook"; } }
+)";
+  for (std::size_t i = 0; i < forms.size(); ++i)
+    text += "  Measure way" + std::to_string(i) +
+            " { of = block.position.x; take = change; predicted = " + forms[i] + "; }\n";
+  return text + "}\n";
+}
+
+TEST_F(StudyMeasure, AClosedFormSeesWordsAndTheMaterialsThatTheyName) {
+  write("worded.hook", worded_scene);
+  for (const char* box : {"low.hook", "high.hook"})
+    write(box, "Shape.Box { dimensions = 0.2, 0.2, 0.1; mass = 1 kg; }\n");
+  const auto plan = this->plan(worded_study(
+      {"soil.static_friction * 1 m", "soil.kinetic_friction * 1 m", "clay.static_friction * 1 m",
+       "soil == oak ? 1 m : 2 m", "contact != lugre && soil == usual ? 1 m : 2 m",
+       "robot == \"low.hook\" ? 3 m : mu * 1 m",
+       "soil == ice ? ice.kinetic_friction * 1 m : 5 m"}));
+  ASSERT_TRUE(plan) << messages();
+  const StudyResult result = run(*plan, "out").result;
+  ASSERT_EQ(result.rows.size(), 12u);
+  const std::map<std::string, std::pair<double, double>> frictions{
+      {"clay", {0.9, 0.9}}, {"oak", {0.4, 0.3}}, {"ice", {0.1, 0.1}}};
+  for (const RunResult& row : result.rows) {
+    const std::string soil = result.sweeps[0].words[static_cast<std::size_t>(row.parameters[0])];
+    const bool lugre = row.parameters[1] == 1.;
+    const auto [mu_s, mu_k] = frictions.at(soil);
+    // `usual` is the name of `soil`, and holds what that holds.
+    const double expected[] = {mu_s,
+                               mu_k,
+                               0.9,
+                               soil == "oak" ? 1. : 2.,
+                               lugre ? 2. : 1.,
+                               row.subject == 0 ? 3. : 0.4,
+                               soil == "ice" ? 0.1 : 5.};
+    for (std::size_t i = 0; i < std::size(expected); ++i)
+      EXPECT_DOUBLE_EQ(row.metrics[i].predicted.value_or(-1.), expected[i]) << soil << " " << i;
+  }
+}
+
+TEST_F(StudyMeasure, SaysWhatIsWrongWithAWordInAClosedForm) {
+  write("worded.hook", worded_scene);
+  for (const char* box : {"low.hook", "high.hook"})
+    write(box, "Shape.Box { dimensions = 0.2, 0.2, 0.1; mass = 1 kg; }\n");
+  for (const auto& [form, message] : std::initializer_list<std::pair<const char*, const char*>>{
+           {"soil * 1 m", "`soil` holds the word `clay`"},
+           {"soil == mu ? 1 m : 2 m", "`mu` is a number, and compared with a word"},
+           {"soil.statik_friction * 1 m", "did you mean `static_friction`"},
+           {"\"clay\" * 1 m", "is a string, no number"},
+           {"soil == oak ? 1 m : oak * 1 m", "no Param of the scene that is a number"},
+           {"soil < oak ? 1 m : 2 m", "`soil` holds the word `clay`"}}) {
+    EXPECT_FALSE(plan(worded_study({form}))) << form;
+    EXPECT_NE(messages().find(message), std::string::npos) << form << "\n" << messages();
   }
 }
 

@@ -100,8 +100,13 @@ TEST(Seeds, ATableHasMeansTheirIntervalsAndPairedDifferences) {
   }
   const std::string terminal = terminal_table(study);
   EXPECT_TRUE(says(terminal, "37.5 ± 40")) << terminal;
-  EXPECT_TRUE(says(terminal, "difference 2.5 ± 2.1")) << terminal;
-  EXPECT_TRUE(says(terminal, "over 4 seeds; difference to one, paired by seed")) << terminal;
+  // Differences stand below, without the subject that they are to.
+  EXPECT_TRUE(says(terminal,
+                   "difference to one, paired by seed\n"
+                   "subject           5          10\n"
+                   "two       2.5 ± 2.1   2.5 ± 2.1\n"))
+      << terminal;
+  EXPECT_TRUE(says(terminal, "over 4 seeds")) << terminal;
   EXPECT_TRUE(says(pivot_tables(over_seeds(study)), "difference 2.5 ± 2.1"));
 }
 

@@ -17,6 +17,7 @@ using testing::Workplace;
 /// A unit mass on one point whose spring and damper along the ground say next to nothing.
 constexpr const char* point_scene = R"(
 Param height = 0 m;
+Param unused = 1;
 World world {
   gravity = 9.81;
   deltat = 1 ms;
@@ -247,7 +248,21 @@ TEST_F(TuneFile, SaysWhatIsWrongWithATune) {
       {"Vary normal_stiffness { from = 1 m; to = 2 m; } Objective fell { minimise; }", "N/m"},
       {"Vary normal_stiffness { from = 1; to = 2; }", "needs an Objective"},
       {"Objective fell { minimise; }", "needs a Vary"},
-      {good + " Objective unrest;", "either `minimise;` or `maximise;`"},
+      {good + " Objective unrest;", "one of `minimise;`, `maximise;` and `target = `"},
+      {good + " Objective unrest { minimise; target = 0.1; }", "one of `minimise;`"},
+      {good + " Objective stable_step { target = 1 m; }", "`target` is in s"},
+      {good + " Objective sink { minimise; }", "a Measure defines one of your own"},
+      {good + " Measure sink { of = point.position.z; } Objective sinks { minimise; }",
+       "did you mean `sink`?"},
+      {good + " Measure sink { of = point.postion.z; }", "did you mean `position`?"},
+      {good + " Measure sink { of = point.position.z; predicted = height; }",
+       "leave `predicted` out"},
+      {good + " Measure sink { of = point.position.z; from = 4 s; }", "a run ends at 4 s"},
+      {good + " Measure sink { trace = drop; }", "no Trace of the study's Cases"},
+      {good + " Measure sink { of = point.position.z; } Require sink { below = 1 s; }",
+       "`below` is in m"},
+      {good + " Measure step_time;", "never the same twice"},
+      {good + " Vary unused { from = 1; to = 2; }", "`unused` changes nothing in the scene"},
       {good + " Objective fel { minimise; }", "did you mean `fell`?"},
       {good + " Objective step_time { minimise; }", "never the same twice"},
       {good + " Objective peer_distance { minimise; }", "several runs together"},
@@ -265,6 +280,80 @@ TEST_F(TuneFile, SaysWhatIsWrongWithATune) {
     EXPECT_NE(told_.find(message), std::string::npos) << text << "\n" << told_;
   }
   EXPECT_EQ(plans(with(good)).size(), 1u) << told_;
+}
+
+/// A metric of the user's own, which the floor is to make 3 mm.
+constexpr const char* wanted_sink = R"(
+Tune sink_of_3_mm {
+  scene = "scene.hook";
+  settle = 3 s;
+  Vary normal_stiffness { from = 1 kN/m; to = 100 kN/m; scale = log; }
+  Measure sink { of = -point.position.z; take = mean; unit = mm; }
+  Objective sink { target = 3 mm; }
+  Require sink { above = 1 mm; below = 5 mm; }
+  method = cmaes; population = 8; generations = 12; seeds = 2; samples = 16;
+}
+)";
+
+TEST_F(TuneFile, BringsAMetricOfTheUsersOwnToItsTarget) {
+  const auto found = plans(wanted_sink);
+  ASSERT_EQ(found.size(), 1u) << told_;
+  const TunePlan& plan = found[0];
+  EXPECT_EQ(plan.unit_of(plan.objectives[0]), "mm");
+  EXPECT_EQ(plan.label_of(plan.objectives[0]), "distance of sink from 3 mm");
+  EXPECT_EQ(plan.requirements[0].words, "sink is above 1 mm and is below 5 mm");
+  const TuneResult result = run(plan, "out", 2);
+  EXPECT_TRUE(result.holds(plan));
+  // It rests m g/k deep.
+  const double stiffness = 9.81 / 3e-3 / 1e3;  // [kN/m]
+  EXPECT_NEAR(*result.best().values[0], stiffness, 2e-3 * stiffness);
+  const double sink = 9.81 / *result.best().values[0];  // [mm]
+  EXPECT_NEAR(*value_of(plan.objectives[0], result.best()), std::abs(sink - 3.), 1e-4);
+  // The files' own 5 kN/m are 1.962 mm deep.
+  EXPECT_NEAR(*result.references[0].comparisons[0].other, 3. - 1.962, 1e-4);
+  EXPECT_EQ(result.references[0].comparisons[0].verdict, ObjectiveComparison::Verdict::better);
+  const std::string json = place_.read("out/recommended.json");
+  for (const char* part : {R"("unit": "mm")", R"("direction": "target")", R"("target": 3)",
+                           R"("distance": )", R"("of": "distance of sink from 3 mm")"})
+    EXPECT_NE(json.find(part), std::string::npos) << part << "\n" << json;
+  EXPECT_NE(place_.read("out/evaluations.csv")
+                .find("sink [mm],sink_error [mm],sink_seeds [mm],sink_distance [mm],"
+                      "sink_distance_error [mm]"),
+            std::string::npos);
+  EXPECT_NE(place_.read("out/pareto.csv")
+                .find("sink [mm],sink_error [mm],sink_distance [mm],sink_distance_error [mm]"),
+            std::string::npos);
+  const std::string page = place_.read("out/report.html");
+  for (const char* part : {"sink = 3 mm", " off", "distance of sink from 3 mm"})
+    EXPECT_NE(page.find(part), std::string::npos) << part;
+}
+
+TEST_F(TuneFile, AnotherDefinitionOfAMeasureIsAnotherRun) {
+  const auto one = plans(wanted_sink);
+  std::string text = wanted_sink;
+  text.replace(text.find("take = mean"), 11, "take = last");
+  const auto other = plans(text);
+  ASSERT_EQ(one.size() + other.size(), 2u) << told_;
+  EXPECT_NE(one[0].runs_hash, other[0].runs_hash);
+}
+
+TEST_F(TuneFile, AnEvenFunctionAndAFactorOfZeroMayBeVaried) {
+  std::string scene = point_scene;
+  scene.replace(scene.find("Param height = 0 m;"), 19,
+                "Param height = 0 m; Param tilt = 0; Param part = 0; Param turn = 0;");
+  scene.replace(scene.find("location = 0, 0, height"), 23,
+                "location = tilt^2 * 1 m, tilt * part * 1 m, height + sin(2 * pi * turn) * 1 m");
+  place_.file("even.hook", scene);
+  const auto found = plans(R"(
+Tune even {
+  scene = "even.hook";
+  Vary tilt { from = -1; to = 1; }
+  Vary part { from = -1; to = 1; }
+  Vary turn { from = -1; to = 1; }
+  Objective penetration_max { minimise; }
+}
+)");
+  EXPECT_EQ(found.size(), 1u) << told_;
 }
 
 TEST_F(TuneFile, TunesEachSubjectByItself) {

@@ -225,6 +225,91 @@ TEST(Sobol, LeavesOutSamplesWithoutAValue) {
   EXPECT_NEAR(all[0]->total[1], 0., 1e-12);
 }
 
+/// Ishigami's indices, first order and total, from its closed form.
+struct IshigamiTruth {
+  double first[3], total[3];
+};
+
+IshigamiTruth ishigami_truth() {
+  const double pi4 = std::pow(std::numbers::pi, 4.);
+  const double v1 = 0.5 * (1. + ishigami_b * pi4 / 5.) * (1. + ishigami_b * pi4 / 5.);
+  const double v2 = ishigami_a * ishigami_a / 8.;
+  const double v13 = ishigami_b * ishigami_b * pi4 * pi4 * (1. / 18. - 1. / 50.);
+  const double variance = v1 + v2 + v13;
+  return {{v1 / variance, v2 / variance, 0.},
+          {(v1 + v13) / variance, v2 / variance, v13 / variance}};
+}
+
+SobolIndices ishigami_indices(std::size_t samples, std::uint64_t seed) {
+  const auto all = sobol_indices(3, 1, samples, seed, [](std::span<const Point> points) {
+    std::vector<std::vector<std::optional<double>>> values;
+    for (const Point& point : points) values.push_back({ishigami(point)});
+    return values;
+  });
+  return *all[0];
+}
+
+TEST(Sobol, IntervalsCoverIshigamisIndices) {
+  const IshigamiTruth truth = ishigami_truth();
+  constexpr int searches = 100;
+  int covered = 0, all = 0;
+  for (int seed = 1; seed <= searches; ++seed) {
+    const SobolIndices found = ishigami_indices(64, static_cast<std::uint64_t>(seed));
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto inside = [](const IndexInterval& interval, double value) {
+        return interval.low <= value && value <= interval.high;
+      };
+      covered += inside(found.first_interval[i], truth.first[i]) ? 1 : 0;
+      covered += inside(found.total_interval[i], truth.total[i]) ? 1 : 0;
+      all += 2;
+      EXPECT_LE(found.first_interval[i].low, found.first[i]);
+      EXPECT_LE(found.total[i], found.total_interval[i].high);
+    }
+  }
+  // 95 % of 600, less three standard deviations of a binomial count.
+  EXPECT_GE(covered, 0.95 * all - 3. * std::sqrt(0.95 * 0.05 * all));
+}
+
+TEST(Sobol, IntervalsNarrowAsOneOverTheRootOfTheSamples) {
+  const SobolIndices few = ishigami_indices(64, 3), many = ishigami_indices(4096, 3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double ratio = (few.total_interval[i].high - few.total_interval[i].low) /
+                         (many.total_interval[i].high - many.total_interval[i].low);
+    EXPECT_NEAR(ratio, 8., 3.) << i;
+  }
+  const SobolIndices again = ishigami_indices(64, 3);
+  EXPECT_EQ(again.first_interval[0].low, few.first_interval[0].low);
+  EXPECT_EQ(again.total_interval[2].high, few.total_interval[2].high);
+}
+
+TEST(Sobol, AFirstOrderIndexAboveTheTotalLiesWithinTheIntervals) {
+  // No function has such indices; 16 samples do for the second constant, whose two are equal.
+  int above = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    const SobolIndices found = ishigami_indices(16, seed);
+    if (found.first[1] <= found.total[1] + 0.1) continue;
+    ++above;
+    EXPECT_LE(found.first_interval[1].low, found.total_interval[1].high) << seed;
+  }
+  EXPECT_GT(above, 0);
+}
+
+TEST(Choice, OfATargetTheDistanceOfEachRunIsMinimised) {
+  TunePlan plan = plan_of(1);
+  plan.objectives[0].target = 3.;
+  Candidate near = candidate_of({0.}), scattered = candidate_of({0.});
+  near.measured = {{3.5}, {2.5}};
+  scattered.measured = {{1.}, {5.}};  // its mean is the target itself
+  EXPECT_DOUBLE_EQ(*value_of(plan.objectives[0], near), 0.5);
+  EXPECT_DOUBLE_EQ(*value_of(plan.objectives[0], scattered), 2.);
+  EXPECT_EQ(pareto_set(plan, {scattered, near}), (std::vector<std::size_t>{1}));
+  plan.objectives[0].take = ObjectivePlan::Take::worst;
+  near.measured = {{3.5}, {2.}};
+  EXPECT_DOUBLE_EQ(*value_of(plan.objectives[0], near), 1.);
+  // Distances, seed by seed: 0.5 less 2, 1 less 2.
+  EXPECT_DOUBLE_EQ(compare_candidates(plan, near, scattered)[0].difference, -1.25);
+}
+
 TEST(Choice, ParetoSetIsWhatNoOtherDominates) {
   const TunePlan plan = plan_of(2);
   std::vector<Candidate> all;

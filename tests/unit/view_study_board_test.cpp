@@ -19,7 +19,8 @@ Leaves leaves_of(const std::string& message) {
 }
 
 output::PanelPlot two_points() {
-  output::Series series{"hook", 8 + 1, {{1., 2.}, {3., 4.}}, {{1.}, {3.5}}, {5.}};
+  output::Series series{
+      "hook", 1 + 5 * output::style_colors, {{1., 2.}, {3., 4.}}, {{1.}, {3.5}}, {5.}};
   output::Plot plot{"by_slope",
                     "Creep",
                     "mu = 0.8",
@@ -35,7 +36,7 @@ BoardStudy small_study() {
   study.name = "creep";
   study.title = "Does it \"creep\"?";
   study.question = "On a slope.";
-  study.subjects = {{"hook", "#0072B2", "dts, hookpoint"}};
+  study.subjects = {{"hook", 3, "dts, hookpoint"}};
   study.columns = {{"slope", "deg", true, {}}, {"creep_speed", "m/s", false, {}}};
   study.rows = {{0, {10.}, "", "", {{}}}, {0, {20.}, "", "", {{}}}};
   study.figures = {{"What is drawn.", two_points()}};
@@ -55,7 +56,8 @@ TEST(StudyBoard, TheDescriptionSaysAllThatThereIs) {
                         {"studies[1].title", "Does it \"creep\"?"},
                         {"studies[0].state", "waiting"},
                         {"studies[0].progress.total", "2"},
-                        {"studies[0].subjects[0].colour", "#0072B2"},
+                        {"studies[0].subjects[0].colour", "#CC79A7"},
+                        {"studies[0].subjects[0].marker", "3"},
                         {"studies[0].columns[0].varied", "true"},
                         {"studies[0].columns[1].unit", "m/s"},
                         {"studies[0].rows[1].varied[0]", "20"},
@@ -67,9 +69,11 @@ TEST(StudyBoard, TheDescriptionSaysAllThatThereIs) {
                         {"studies[0].figures[0].panels[0].series[0].measured.y[1]", "4"},
                         {"studies[0].figures[0].panels[0].series[0].predicted.y[0]", "3.5"},
                         {"studies[0].figures[0].panels[0].series[0].unfinished[0]", "5"},
-                        // The second colour of the figures, and the second of its markers.
+                        // The second colour of the figures, and its first line that is not solid.
                         {"studies[0].figures[0].panels[0].series[0].colour", "#D55E00"},
-                        {"studies[0].figures[0].panels[0].series[0].marker", "1"}};
+                        {"studies[0].figures[0].panels[0].series[0].marker", "1"},
+                        {"studies[0].figures[0].panels[0].series[0].dashes[0]", "2"},
+                        {"studies[0].figures[0].panels[0].series[0].dashes[1]", "3"}};
   for (const auto& [path, value] : expected) {
     ASSERT_TRUE(leaves.contains(path)) << path;
     EXPECT_EQ(leaves.at(path), value) << path;

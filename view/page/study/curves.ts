@@ -9,6 +9,7 @@ import type { Axis, CurvesFigure, FigureSeries } from "./protocol.ts";
 
 const height = 260;
 const markSize = 3.2; // CSS pixels, from the middle
+const predictedDashes = [7, 4]; // CSS pixels, as in the report
 const mostMarks = 60; // beyond, a curve is a line alone
 const reach = 24; // of the cursor, CSS pixels
 
@@ -58,11 +59,12 @@ export class CurvesView {
       ink.scale(2, 2);
       ink.strokeStyle = ink.fillStyle = each.reference ? styleValue("--ink") : each.colour;
       ink.lineWidth = 1.25;
-      if (each.reference) ink.setLineDash([3, 2]);
+      ink.setLineDash(each.dashes.map((length) => length / 2));
       ink.beginPath();
       ink.moveTo(0, 5);
       ink.lineTo(18, 5);
       ink.stroke();
+      ink.setLineDash([]);
       if (!each.reference) drawMark(ink, each.marker, 9, 5, markSize, false);
       return element("span", {}, sample, each.label);
     }));
@@ -190,10 +192,11 @@ class PanelView {
       const colour = series.reference ? styleValue("--ink") : series.colour;
       ink.strokeStyle = ink.fillStyle = colour;
       ink.lineWidth = 1.25 * pixels;
-      ink.setLineDash([5 * pixels, 3 * pixels]);
+      ink.setLineDash((series.reference ? series.dashes : predictedDashes).map((length) => length * pixels));
       this.drawLine(chart, series.predicted);
-      ink.setLineDash([]);
+      ink.setLineDash(series.dashes.map((length) => length * pixels));
       if (series.measured.x.length > 1) this.drawLine(chart, series.measured);
+      ink.setLineDash([]);
       if (series.measured.x.length <= mostMarks)
         series.measured.x.forEach((x, i) => {
           const { at, hollow } = this.place(series.measured.y[i]);
@@ -281,8 +284,8 @@ function aired(axis: Axis, values: number[]): Range {
 
 /// Filled or hollow; the five shapes of the figures.
 function drawMark(ink: CanvasRenderingContext2D, marker: number, x: number, y: number, size: number, hollow: boolean): void {
-  const corners = [0, 4, 3, 4, 3][marker % 5];
-  const turn = [0, Math.PI / 4, -Math.PI / 2, 0, Math.PI / 2][marker % 5];
+  const corners = [0, 4, 3, 4, 5][marker];
+  const turn = [0, Math.PI / 4, -Math.PI / 2, 0, -Math.PI / 2][marker];
   ink.beginPath();
   if (corners === 0) ink.arc(x, y, size, 0, 2 * Math.PI);
   for (let i = 0; i < corners; ++i) ink.lineTo(x + 1.25 * size * Math.cos(turn + (2 * Math.PI * i) / corners), y + 1.25 * size * Math.sin(turn + (2 * Math.PI * i) / corners));

@@ -23,6 +23,7 @@ export interface Study extends State {
 export interface StudySubject {
   name: string;
   colour: string;
+  marker: number; // as of a series
   composition: string;
 }
 
@@ -69,7 +70,8 @@ export interface Curve {
 export interface FigureSeries {
   label: string;
   colour: string;
-  marker: number;
+  marker: number; // circle, square, triangle, diamond, pentagon
+  dashes: number[]; // of the line: strokes and gaps in turns; none: solid
   reference: boolean;
   measured: Curve;
   predicted: Curve;

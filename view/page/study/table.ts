@@ -5,6 +5,7 @@ import { formatNumber, formatUnit, unknown } from "../numbers.ts";
 import type { Cell, Column, Row, Study } from "./protocol.ts";
 
 const digits = 4;
+const markSigns = ["●", "■", "▲", "◆", "⬟"]; // of a subject's marker in the figures
 const pauseOfSorting = 500; // ms: a table that is filling should not jump about
 
 type Value = number | string | null; // of a cell, as it is sorted
@@ -81,8 +82,8 @@ export class RunTable {
       const name = nameOf(columns[at], value);
       line.append(element("td", { class: name === null ? null : "text" }, name ?? formatVaried(value)));
     });
-    const swatch = element("span", { class: "swatch", "aria-hidden": "true" });
-    swatch.style.background = subject.colour;
+    const swatch = element("span", { class: "swatch", "aria-hidden": "true" }, markSigns[subject.marker]);
+    swatch.style.color = subject.colour;
     line.append(element("th", { scope: "row", class: "text", title: subject.composition }, swatch, subject.name));
     for (const cell of row.cells) line.append(makeCell(cell, row.outcome !== ""));
     line.append(element("td", { class: "text status" }, statusOf(row)));

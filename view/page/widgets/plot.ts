@@ -10,8 +10,11 @@ import { csvOf } from "../series.ts";
 import { TraceFeed } from "../trace_feed.ts";
 import { axisNumbers, decadeName, decadesWithin, paddedByDecades, phasePath, padded, rangeOf } from "./plot_scales.ts";
 
-/// The colours of the figures' series, for the traces of a plot in their order.
-export const traceColours = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#AA3377", "#7F7F7F"];
+/// The colours of the figures' series (output/figures/plot_style.cpp), for the traces of a plot in their order.
+export const traceColours = [
+  "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#AA3377", "#7F7F7F", "#666600", "#6622EE",
+  "#CC0022", "#8888EE", "#22CC00", "#AAAA66", "#226666", "#66AAAA", "#AA6666", "#CC44EE", "#6666AA", "#886644",
+];
 const defaultHeight = 200;
 
 /// What is drawn otherwise than a file's plots are.
