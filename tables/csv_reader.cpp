@@ -166,7 +166,8 @@ std::optional<Table> read_foreign(std::string_view text, Fault& fault) {
   for (const char separator : {';', '\t', ','}) {
     const Dialect dialect{separator, true};
     auto table = Reader(whole, dialect, fault).read();
-    if (table && (table->header.size() > 1 || separator == ',')) {
+    // One column is a table where the header has no separator.
+    if (table && (table->header.size() > 1 || (separator == ',' && !first))) {
       if (separator != ',') replace_decimal_commas(*table);
       return table;
     }

@@ -10,9 +10,12 @@ namespace {
 
 /// A smaller sum than the optimum's by this part of the bound's margin is another optimum.
 constexpr double better_part = 0.1;
-/// A sum within these factors of what the linearised model expects confirms it: the end follows
-/// from the parabola through it.
-constexpr double confirmed_from = 0.5, confirmed_to = 2.;
+/// The first place is this much farther out than the linearised model expects the end. Where the
+/// excess there is beyond the bound, by no more than this factor, it confirms the model: the end
+/// follows from the parabola through it. (Within the bound the sum may level off.)
+constexpr double first_beyond = 1.2, confirmed_to = 2.;
+/// An excess below this part of the margin needs no refit: it is within the bound as it is.
+constexpr double surely_inside = 0.5;
 /// Distances below this part of the range are not resolved.
 constexpr double finest = 1e-4;
 /// Refits begin this far inside the box: at its very edge no step leaves it.
@@ -71,12 +74,12 @@ class Walk {
 
  private:
   double first_distance() const {
-    const double expected = std::sqrt(margin_ / linear_.curvature);
+    const double expected = first_beyond * std::sqrt(margin_ / linear_.curvature);
     return expected < room_ ? std::max(std::min(finest, room_), expected) : room_;
   }
 
   bool confirmed(double excess) const {
-    return excess >= confirmed_from * margin_ && excess <= confirmed_to * margin_;
+    return excess >= margin_ && excess <= confirmed_to * margin_;
   }
 
   double wider(double distance, double excess) const {
@@ -136,7 +139,7 @@ class Walk {
         place = std::move(along);
       }
     }
-    if (sum - least_ > confirmed_from * margin_ && fit_.place.size() > 1 && std::isfinite(sum))
+    if (sum - least_ > surely_inside * margin_ && fit_.place.size() > 1 && std::isfinite(sum))
       refit(place, sum);
     const double excess = sum - least_;
     if (excess < -better_part * margin_) end_.better = LeastSquaresFit{place, sum, 0};

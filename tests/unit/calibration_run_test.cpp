@@ -338,7 +338,7 @@ TEST_F(CalibrateFile, AClockThatBeginsLateIsReportedAndItsOffsetGivenOrFitted) {
   EXPECT_NEAR(given->varied[0].at(known.subjects[0].constants[0].share), 8., 0.03);
   EXPECT_LT(*known.subjects[0].error, 1.);
   const auto fitted = plan(
-      block("resamples = 40; starts = 8;\n" +
+      block("resamples = 40;\n" +
             trace("Vary offset { from = 12.21 s; to = 12.28 s; }", "late.csv") + two_constants));
   ASSERT_TRUE(fitted) << told_;
   EXPECT_EQ(warned_, "");

@@ -61,6 +61,17 @@ TEST(Profile, OfAFlatDirectionGoesAsFarAsItIsFlat) {
   }
 }
 
+TEST(Profile, OfASumThatLevelsOffWithinTheBoundGoesAsFarAsItDoes) {
+  // Beside the optimum a parabola that would reach the bound of 1 at a distance of 0.1; from 0.09
+  // on it stays at 0.81.
+  const ResidualModel levels = [](const Shares& place) -> std::optional<Residuals> {
+    return Residuals{1., 10. * std::min(0.09, std::abs(place[0] - 0.3))};
+  };
+  const Ends ends = ends_of(levels, {0.3}, 0, 1.);
+  EXPECT_EQ(ends.high.share, 1.);
+  EXPECT_EQ(ends.low.share, 0.);
+}
+
 TEST(Profile, OfAStepGoesToTheEdgesOfItsPlateau) {
   // The derivative is 0 wherever it is taken.
   const ResidualModel steps = [](const Shares& place) -> std::optional<Residuals> {
