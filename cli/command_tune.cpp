@@ -110,6 +110,10 @@ int calibrate_one(const application::Application& application,
   std::cout << studies::calibration_terminal_text(plan, run->result)
             << "report: " << (folder / "report.html").string() << '\n';
   if (run->result.interrupted) return interrupted_in(arguments, folder, command, guard);
+  const bool fitted = std::ranges::any_of(
+      run->result.subjects,
+      [](const studies::SubjectCalibration& one) { return one.error.has_value(); });
+  if (!fitted) return truth_failed;
   return undrawn.empty() ? fine : missing;
 }
 

@@ -73,6 +73,7 @@ class TuneRunner {
       materials[py::str(plan.subjects[i].info.name)] =
           studies::material_text(plan, plan.subjects[i], result.subjects[i], command_);
     made["materials"] = materials;
+    for (std::string& misfit : studies::misfits(plan, result)) told.push_back(std::move(misfit));
     made["notices"] = told;
     return made;
   }

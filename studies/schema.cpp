@@ -384,8 +384,12 @@ ClassSchema measured_trace_class(std::string within) {
        required(words("of", 1,
                       "trail of the port that was measured; of a vector or an orientation without "
                       "its parts")),
+       number("offset", "s",
+              "what the clock of the times reads at time 0 of the scene; default: 0, and a warning "
+              "where the clock begins late. `Vary offset` of a Calibrate's Trace fits it"),
        std::move(weight)},
-      {"Fix"});
+      within == "Calibrate" ? std::vector<std::string>{"Fix", "Vary"}
+                            : std::vector<std::string>{"Fix"});
   trace.only_in = std::move(within);
   return trace;
 }

@@ -5,53 +5,34 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <stdexcept>
+
+#include "tables/csv_reader.h"
 
 namespace hookpoint::control {
 namespace {
 
-std::string trimmed(const std::string& text) {
-  const std::size_t first = text.find_first_not_of(" \t\r");
-  if (first == std::string::npos) return "";
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
-
-/// Fields of one line; "" inside quotes is a quote.
-std::vector<std::string> split_fields(const std::string& line) {
-  std::vector<std::string> fields(1);
-  bool quoted = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    if (line[i] == '"') {
-      const bool doubled = quoted && i + 1 < line.size() && line[i + 1] == '"';
-      if (doubled) fields.back() += line[i++];
-      if (!doubled) quoted = !quoted;
-    } else if (line[i] == ',' && !quoted) {
-      fields.emplace_back();
-    } else {
-      fields.back() += line[i];
-    }
-  }
-  for (std::string& field : fields) field = trimmed(field);
-  return fields;
-}
-
 /// "force [N]" -> "force".
 std::string without_unit(const std::string& title) {
   const std::size_t open = title.rfind(" [");
-  return open != std::string::npos && title.back() == ']' ? trimmed(title.substr(0, open)) : title;
+  if (open == std::string::npos || title.back() != ']') return title;
+  return title.substr(0, title.find_last_not_of(' ', open) + 1);
 }
 
-/// Refuses what no text editor wrote, by its first bytes.
-void check_text(std::ifstream& file, const std::string& name) {
-  char bytes[1024];
-  file.read(bytes, sizeof bytes);
-  const bool text = std::all_of(bytes, bytes + file.gcount(), [](char c) {
+/// The text of a file. Refuses what no text editor wrote, by its first bytes.
+std::string text_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw std::runtime_error(path.string() + ": cannot be read");
+  std::string text(std::istreambuf_iterator<char>(file), {});
+  if (file.bad()) throw std::runtime_error(path.string() + ": reading it failed");
+  constexpr std::size_t most = 1024;
+  const bool readable = std::ranges::all_of(text.substr(0, most), [](char c) {
     const bool blank = c == '\t' || c == '\r' || c == '\n';
     return blank || static_cast<unsigned char>(c) >= ' ';
   });
-  if (!text) throw std::runtime_error(name + ": this is not a text file");
-  file.clear();
-  file.seekg(0);
+  if (!readable) throw std::runtime_error(path.string() + ": this is not a text file");
+  return text;
 }
 
 /// A field as it may be shown: short and printable.
@@ -75,8 +56,7 @@ double parse_number(const std::string& text, const std::string& where, const std
   return number;
 }
 
-void read_header(const std::string& line, const std::string& where, Table& table) {
-  std::vector<std::string> titles = split_fields(line);
+void read_header(const std::vector<std::string>& titles, const std::string& where, Table& table) {
   if (titles.size() < 2) {
     throw std::runtime_error(where +
                              ": expected a time column and at least one more, separated by commas");
@@ -90,12 +70,7 @@ void read_header(const std::string& line, const std::string& where, Table& table
   table.columns.resize(table.names.size());
 }
 
-void read_row(const std::string& line, const std::string& where, Table& table) {
-  const std::vector<std::string> fields = split_fields(line);
-  if (fields.size() != table.columns.size() + 1) {
-    throw std::runtime_error(where + ": expected " + std::to_string(table.columns.size() + 1) +
-                             " fields, found " + std::to_string(fields.size()));
-  }
+void read_row(const std::vector<std::string>& fields, const std::string& where, Table& table) {
   const double time = parse_number(fields[0], where, "time");
   if (!table.time.empty() && time <= table.time.back()) {
     throw std::runtime_error(where + ": time " + fields[0] +
@@ -110,22 +85,16 @@ void read_row(const std::string& line, const std::string& where, Table& table) {
 }  // namespace
 
 Table read_csv_table(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  if (!file) throw std::runtime_error(path.string() + ": cannot be read");
-  check_text(file, path.string());
+  const auto where = [&](std::size_t line) { return path.string() + ":" + std::to_string(line); };
+  tables::Fault fault;
+  const auto text = tables::read_foreign(text_of(path), fault);
+  if (!text && fault.kind == tables::Fault::Kind::empty)
+    throw std::runtime_error(path.string() + ": holds no row of numbers");
+  if (!text) throw std::runtime_error(where(fault.line) + ": " + fault.text());
   Table table;
-  std::string line;
-  for (std::size_t number = 1; std::getline(file, line); ++number) {
-    const std::string where = path.string() + ":" + std::to_string(number);
-    const std::string text = trimmed(line);
-    if (text.empty() || text.front() == '#') continue;
-    if (table.columns.empty()) {
-      read_header(text, where, table);
-    } else {
-      read_row(text, where, table);
-    }
-  }
-  if (file.bad()) throw std::runtime_error(path.string() + ": reading it failed");
+  read_header(text->header, where(text->header_line), table);
+  for (std::size_t i = 0; i < text->rows.size(); ++i)
+    read_row(text->rows[i], where(text->lines[i]), table);
   if (table.time.empty()) throw std::runtime_error(path.string() + ": holds no row of numbers");
   return table;
 }

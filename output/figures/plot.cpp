@@ -110,7 +110,15 @@ PlotOutcome draw_files(const std::string& name, const std::string& data, const s
                 "gnuplot could not draw " + (folder / (name + ".gp")).string() + ": " + run->output,
             .svg = ""};
   }
-  return {.drawn = true, .message = "", .svg = read_file(svg).value_or("")};
+  std::string drawing = read_file(svg).value_or("");
+  if (drawing.empty()) {
+    std::filesystem::remove(svg, ignored);
+    return {.drawn = false,
+            .message = "gnuplot drew nothing from " + (folder / (name + ".gp")).string() +
+                       ": the figure has no point",
+            .svg = ""};
+  }
+  return {.drawn = true, .message = "", .svg = std::move(drawing)};
 }
 
 }  // namespace hookpoint::output

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "output/text/number.h"
+#include "tables/csv_reader.h"
 
 namespace hookpoint::output {
 namespace {
@@ -46,33 +47,10 @@ std::string CsvTable::text() const {
 }
 
 std::optional<CsvTable> parse_csv(std::string_view text) {
-  CsvTable table;
-  std::vector<std::string> row;
-  std::string field;
-  bool in_quotes = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (c == '\r' && !in_quotes && i + 1 < text.size() && text[i + 1] == '\n') continue;
-    const bool doubled = in_quotes && c == '"' && i + 1 < text.size() && text[i + 1] == '"';
-    if (doubled) {
-      field += text[++i];
-    } else if (c == '"') {
-      in_quotes = !in_quotes;
-    } else if (in_quotes || (c != ',' && c != '\n')) {
-      field += c;
-    } else {
-      row.push_back(std::exchange(field, {}));
-      if (c == ',') continue;
-      if (table.header.empty())
-        table.header = std::exchange(row, {});
-      else if (row.size() == table.header.size())
-        table.rows.push_back(std::exchange(row, {}));
-      else
-        return std::nullopt;
-    }
-  }
-  if (in_quotes || table.header.empty()) return std::nullopt;
-  return table;
+  tables::Fault fault;
+  auto table = tables::read(text, {}, fault);
+  if (!table) return std::nullopt;
+  return CsvTable{std::move(table->header), std::move(table->rows)};
 }
 
 void write_csv(const std::filesystem::path& path, const CsvTable& table) {

@@ -17,6 +17,7 @@
 #include "studies/calibrate/fit_rows.h"
 #include "studies/calibrate/model.h"
 #include "studies/calibrate/outputs.h"
+#include "studies/calibrate/profile.h"
 #include "studies/calibrate/resampling.h"
 #include "studies/calibrate/response_surface.h"
 #include "studies/measurements/trace_residual.h"
@@ -30,11 +31,23 @@ namespace {
 /// Of an engine. A run is a smooth function of its constants but for small jumps, where a point
 /// touches a step earlier or later: differences are taken wide of those.
 constexpr FitOptions fit_of_runs{5e-4, 60, 1e-8}, refit_of_runs{5e-4, 30, 1e-6};
+/// Places along each constant's axis at which other valleys are looked for; rounds of that.
+constexpr std::size_t axis_places = 12, axis_rounds = 3;
+/// Of the interval of a constant: at most so many places each side of the optimum.
+constexpr ProfileOptions profile_of_runs{{5e-4, 20, 1e-4}, 16, 0.05};
+/// A profile that finds a better optimum begins again there, at most so often in all.
+constexpr std::size_t profile_rounds = 3;
+/// Root mean squares that differ by less than this part of the weight's error are equal: how the
+/// numbers of a table are rounded makes more.
+constexpr double equal_errors = 1e-6;
 
 /// A constant within this part of its range from an end is at it.
 constexpr double end_part = 2e-3;
-/// A constant whose interval is a greater part of its range is not told by the data.
+/// A constant whose interval is a greater part of its range is not identified by the data.
 constexpr double widest_interval = 0.5;
+/// Places that are farther apart than this part of a range, and than the interval is wide, are two
+/// optima.
+constexpr double least_gap = 0.01;
 /// Of fewer samples 2.5 % are less than one.
 constexpr std::size_t least_resamples = 39;
 /// Streams of random numbers: those of the bootstrap's samples come before.
@@ -48,6 +61,9 @@ constexpr std::size_t surface_looks = 4;
 constexpr double width_of_a_fold = 0.3;
 /// Of a constant with which every run is the same, bit for bit.
 constexpr const char* unread = "no trace changes with it";
+/// What became of a profile.
+constexpr const char* no_run_beyond = "no run beyond has a value";
+constexpr const char* better_optimum = "a better optimum";
 
 using Cases = std::vector<std::size_t>;
 
@@ -80,7 +96,9 @@ class SubjectFit {
     if (plan.method == FitMethod::cmaes)
       return subject.constants.size() + looks_of_a_search(plan, plan.generations) +
              fold_count(plan) * looks_of_a_search(plan, generations_of_folds(plan));
-    return subject.constants.size() + 2 + plan.starts + refined_starts + refits(plan) +
+    return subject.constants.size() + 2 + plan.starts + refined_starts +
+           axis_rounds * (axis_places * subject.constants.size() + refined_starts) +
+           profile_rounds * profiles_of(plan, subject.constants.size()) + refits(plan) +
            fold_count(plan);
   }
 
@@ -102,6 +120,10 @@ class SubjectFit {
  private:
   static std::size_t refits(const CalibrationPlan& plan) {
     return plan.bootstrap == Bootstrap::refits ? plan.resamples : 0;
+  }
+  /// Ends of intervals that are looked for in a round, and the fit from a better optimum.
+  static std::size_t profiles_of(const CalibrationPlan& plan, std::size_t constants) {
+    return plan.resamples < least_resamples ? 0 : 2 * constants + 1;
   }
   static std::size_t fold_count(const CalibrationPlan& plan) {
     const std::size_t folds = std::min(plan.folds, plan.cases.size());
@@ -142,10 +164,10 @@ class SubjectFit {
   }
 
   /// Residuals of these cases, case after case; those of a run that breaks off are not numbers.
-  Residuals predict(const std::vector<ConstantSetting>& constants, const Cases& cases) const {
+  Residuals predict(const Shares& place, const Cases& cases) const {
     std::vector<Residuals> each(cases.size());
     work_through(cases.size(), rows_.jobs(), [&](std::size_t i) {
-      auto run = model_.residuals(constants, std::span(cases).subspan(i, 1));
+      auto run = model_.residuals(place, std::span(cases).subspan(i, 1));
       each[i] = run ? std::move(*run)
                     : Residuals(plan_.cases[cases[i]].residuals(),
                                 std::numeric_limits<double>::quiet_NaN());
@@ -205,7 +227,7 @@ class SubjectFit {
                        ++models;
                        Shares shares = middle;
                        shares[i] = share;
-                       return model_.residuals(model_.settings_at(shares), cases);
+                       return model_.residuals(shares, cases);
                      };
                      // Of an even or a periodic function not all of these have the same value.
                      constexpr std::array others{0.75, 0.37, 0.61, 0.13};
@@ -235,17 +257,21 @@ class SubjectFit {
     TunePlan guessed;
     guessed.scene = subject_.scene;
     bool known = true;
-    for (const std::size_t constant : subject_.constants) {
+    std::vector<std::size_t> of_scene;
+    for (std::size_t i = 0; i < subject_.constants.size(); ++i) {
+      const std::size_t constant = subject_.constants[i];
+      known = known && plan_.own[constant];
+      if (plan_.offset_of(constant) != nullptr) continue;
+      of_scene.push_back(i);
       guessed.varied.push_back(plan_.varied[constant]);
       guessed.own.push_back(plan_.own[constant]);
-      known = known && plan_.own[constant];
     }
     if (known) first.push_back(own_or_middle());
     std::string untold;
     if (const auto guess = analytic_guess(guessed, untold)) {
-      Shares& place = first.emplace_back();
+      Shares& place = first.emplace_back(own_or_middle());
       for (std::size_t i = 0; i < guess->values.size(); ++i)
-        place.push_back(guessed.varied[i].share_of(guess->values[i]));
+        place[of_scene[i]] = guessed.varied[i].share_of(guess->values[i]);
     }
     return first;
   }
@@ -256,22 +282,13 @@ class SubjectFit {
   }
 
   ResidualModel model_of(const Cases& cases) const {
-    return [this, &cases](const Shares& place) {
-      return model_.residuals(model_.settings_at(place), cases);
-    };
+    return [this, &cases](const Shares& place) { return model_.residuals(place, cases); };
   }
 
   /// False when no start has a value.
   bool search_box() {
     const std::vector<Shares> all = starts();
-    const auto looked = rows_.run(
-        {all.size(), [&](std::size_t i) { return identity("start", i, all[i]); },
-         [&](std::size_t i) {
-           std::string why;
-           const auto residuals = model_.residuals(model_.settings_at(all[i]), cases_, &why);
-           return residuals ? FitOutcome{"ok", error_of(*residuals), std::nullopt, 1, all[i], {}}
-                            : look_without_value(why);
-         }});
+    const auto looked = look_at_all("start", all);
     record(FitStage::start, looked, all);
     stop_if_unfinished(looked);
     const std::vector<Shares> best = best_of(looked);
@@ -279,17 +296,78 @@ class SubjectFit {
       result_.status = "no run has a value: " + looked.front()->status;
       return false;
     }
-    const auto refined =
-        rows_.run({best.size(), [&](std::size_t i) { return identity("refined", i, best[i]); },
-                   [&](std::size_t i) {
-                     const auto fit = refine(model_of(cases_), best[i], fit_of_runs);
-                     return fit ? outcome_of(*fit, plan_.residuals())
-                                : look_without_value("no run beside it has a value");
-                   }});
+    const auto refined = refine_all(best);
     record(FitStage::refined, refined, best);
     stop_if_unfinished(refined);
+    for (std::size_t round = 0; round < axis_rounds && search_axes(round); ++round) continue;
     linearise_at_optimum();
     return true;
+  }
+
+  /// Looks for other valleys along each constant's axis through the optimum, over its whole range,
+  /// and refines from the best where the fit misses its own weights or is not the least. Whether
+  /// that found a better optimum.
+  bool search_axes(std::size_t round) {
+    const Shares optimum = place_of_answer();
+    const double error = *result_.error;
+    std::vector<Shares> places;
+    for (std::size_t i = 0; i < optimum.size(); ++i) {
+      for (std::size_t part = 0; part < axis_places; ++part) {
+        places.push_back(optimum);
+        places.back()[i] = (static_cast<double>(part) + 0.5) / axis_places;
+      }
+    }
+    const auto looked = look_at_all("axis", places);
+    record(FitStage::axis, looked, places, round * places.size());
+    stop_if_unfinished(looked);
+    if (!(error > greatest_error_of_a_fit) && !(*result_.error < error)) return false;
+    std::vector<Shares> best = best_of(axis_valleys(looked, optimum, error));
+    const auto refined = refine_all(best);
+    record(FitStage::refined, refined, best, refined_starts * (round + 1));
+    stop_if_unfinished(refined);
+    return *result_.error < error;
+  }
+
+  /// Those that are better than the optimum, or a least one of their axis that is not in the
+  /// optimum's own valley.
+  std::vector<std::optional<FitOutcome>> axis_valleys(
+      const std::vector<std::optional<FitOutcome>>& looked, const Shares& optimum,
+      double error) const {
+    std::vector<std::optional<FitOutcome>> valleys;
+    const auto error_at = [&](std::size_t number) {
+      return looked[number]->error.value_or(std::numeric_limits<double>::infinity());
+    };
+    for (std::size_t number = 0; number < looked.size(); ++number) {
+      if (!looked[number]->error) continue;
+      const std::size_t constant = number / axis_places, part = number % axis_places;
+      const double here = error_at(number);
+      const double distance = std::abs(looked[number]->place[constant] - optimum[constant]);
+      const bool least = (part == 0 || here <= error_at(number - 1)) &&
+                         (part + 1 == axis_places || here <= error_at(number + 1));
+      if (here < error || (least && distance * axis_places > 1.)) valleys.push_back(looked[number]);
+    }
+    return valleys;
+  }
+
+  std::vector<std::optional<FitOutcome>> look_at_all(const char* stage,
+                                                     const std::vector<Shares>& places) {
+    return rows_.run({places.size(), [&](std::size_t i) { return identity(stage, i, places[i]); },
+                      [&](std::size_t i) {
+                        std::string why;
+                        const auto residuals = model_.residuals(places[i], cases_, &why);
+                        if (!residuals) return look_without_value(why);
+                        return FitOutcome{"ok", error_of(*residuals), std::nullopt, 1, places[i],
+                                          {}};
+                      }});
+  }
+
+  std::vector<std::optional<FitOutcome>> refine_all(const std::vector<Shares>& from) {
+    return rows_.run({from.size(), [&](std::size_t i) { return identity("refined", i, from[i]); },
+                      [&](std::size_t i) {
+                        const auto fit = refine(model_of(cases_), from[i], fit_of_runs);
+                        return fit ? outcome_of(*fit, plan_.residuals())
+                                   : look_without_value("no run beside it has a value");
+                      }});
   }
 
   static FitOutcome outcome_of(const LeastSquaresFit& fit, std::size_t samples) {
@@ -312,12 +390,12 @@ class SubjectFit {
 
   /// Keeps what was found, and takes the best for the answer so far.
   void record(FitStage stage, const std::vector<std::optional<FitOutcome>>& outcomes,
-              const std::vector<Shares>& asked) {
+              const std::vector<Shares>& asked, std::size_t first = 0) {
     for (std::size_t i = 0; i < outcomes.size(); ++i) {
       if (!outcomes[i]) continue;
       const FitOutcome& outcome = *outcomes[i];
       const FitRecord& one = result_.records.emplace_back(
-          FitRecord{stage, i + 1, outcome.error ? outcome.place : asked[i], outcome.error,
+          FitRecord{stage, first + i + 1, outcome.error ? outcome.place : asked[i], outcome.error,
                     outcome.models, outcome.status});
       if (!one.error || (result_.error && !(*one.error < *result_.error))) continue;
       result_.error = one.error;
@@ -380,9 +458,9 @@ class SubjectFit {
   LeastSquaresFit fit_sample(const ResidualModel& model, const Linearisation& start) const {
     if (plan_.bootstrap == Bootstrap::refits) return refine(model, start, refit_of_runs);
     Shares place = start.place;
-    if (const auto step = gauss_newton_step(start))
-      for (std::size_t i = 0; i < place.size(); ++i)
-        place[i] = std::clamp(place[i] + (*step)[i], 0., 1.);
+    const Shares step = gauss_newton_step(start);
+    for (std::size_t i = 0; i < place.size(); ++i)
+      place[i] = std::clamp(place[i] + step[i], 0., 1.);
     return {std::move(place), sum_of_squares(start.residuals), 0};
   }
 
@@ -432,8 +510,82 @@ class SubjectFit {
         start);
   }
 
+  /// A sum of squares up to which a place explains the data as well as the optimum does: of one
+  /// constant that is moved, with 95 % (F(1, n - p) is t^2), where as many independent residuals as
+  /// the correlated ones are worth say how large the noise is.
+  double bound_of_noise() const {
+    const double count = static_cast<double>(plan_.residuals());
+    const double constants = static_cast<double>(subject_.constants.size());
+    const double worth = statistical_inefficiency(optimum_.residuals, trace_sizes());
+    const double things = plan_.resamples_cases() ? static_cast<double>(plan_.cases.size())
+                                                  : count / worth - constants + 1.;
+    const double t = student_end(things), sum = sum_of_squares(optimum_.residuals);
+    const double variance = sum / std::max(1., count - constants);
+    return sum + std::max(worth * variance * t * t, count * equal_errors * equal_errors);
+  }
+
+  /// Both ends of each constant's interval by its profile, from the lower end of the first on;
+  /// empty where a profile leads to ever better optima.
+  std::vector<ProfileEnd> find_profiles() {
+    for (std::size_t round = 0; round < profile_rounds; ++round) {
+      const std::size_t count = 2 * subject_.constants.size();
+      const double bound = bound_of_noise();
+      const ResidualModel model = model_of(cases_);
+      const auto outcomes = rows_.run(
+          {count, [&](std::size_t i) { return identity("profile", i, optimum_.place); },
+           [&](std::size_t i) {
+             const ProfileEnd end =
+                 profile_end(model, optimum_, i / 2, i % 2 == 1, bound, profile_of_runs);
+             FitOutcome outcome = outcome_of(
+                 end.better ? *end.better : LeastSquaresFit{end.place, end.sum, end.models},
+                 plan_.residuals());
+             outcome.models = end.models;
+             outcome.end = end.share;
+             if (end.without_runs) outcome.status = no_run_beyond;
+             if (end.better) outcome.status = better_optimum;
+             return outcome;
+           }});
+      std::vector<ProfileEnd> ends;
+      const FitOutcome* better = nullptr;
+      for (std::size_t i = 0; i < outcomes.size(); ++i) {
+        if (!outcomes[i]) continue;
+        const FitOutcome& one = *outcomes[i];
+        result_.records.push_back({FitStage::profile, round * count + i + 1, one.place, one.error,
+                                   one.models, one.status});
+        if (one.status == better_optimum && (better == nullptr || *one.error < *better->error))
+          better = &one;
+        ends.push_back({one.end.value_or(0.), one.place, 0., one.status == no_run_beyond});
+      }
+      stop_if_unfinished(outcomes);
+      if (better == nullptr) return ends;
+      if (!move_to(better->place)) break;
+    }
+    return {};
+  }
+
+  /// Refines from a place that is better than the optimum. False where there is no run.
+  bool move_to(const Shares& from) {
+    const auto refined = refine_all({from});
+    record(FitStage::refined, refined, {from});
+    stop_if_unfinished(refined);
+    linearise_at_optimum();
+    return !optimum_.residuals.empty();
+  }
+
+  /// Places of the search that explain the data as well as the optimum.
+  std::vector<Shares> places_within_noise() const {
+    const double greatest = std::sqrt(bound_of_noise() / static_cast<double>(plan_.residuals()));
+    std::vector<Shares> places;
+    for (const FitRecord& one : result_.records)
+      if (one.stage != FitStage::resample && one.error && *one.error <= greatest)
+        places.push_back(one.place);
+    return places;
+  }
+
   void find_intervals() {
     if (optimum_.residuals.empty()) return;
+    std::vector<ProfileEnd> ends;
+    if (plan_.resamples >= least_resamples) ends = find_profiles();
     result_.block = plan_.resamples_cases() ? 0 : block_length(optimum_.residuals, trace_sizes());
     const auto fit = [&](std::size_t i) {
       std::mt19937_64 random = random_of(i);
@@ -457,10 +609,13 @@ class SubjectFit {
       }
       stop_if_unfinished(outcomes);
     }
-    judge(places);
+    judge(places, ends, places_within_noise());
   }
 
-  void judge(const std::vector<Shares>& places) {
+  /// Intervals from the places of a bootstrap, the ends of the constants' profiles, and places that
+  /// explain the data as well.
+  void judge(const std::vector<Shares>& places, const std::vector<ProfileEnd>& ends,
+             const std::vector<Shares>& as_good) {
     result_.resamples = places.size();
     if (places.size() < least_resamples) {
       for (FittedConstant& constant : result_.constants)
@@ -474,9 +629,25 @@ class SubjectFit {
     const double tail = interval_tail();
     for (std::size_t i = 0; i < columns.size(); ++i) {
       FittedConstant& constant = result_.constants[i];
-      constant.low = quantile(columns[i], tail);
-      constant.high = quantile(columns[i], 1. - tail);
-      constant.reason = why_untold(constant);
+      Interval interval{quantile(columns[i], tail), quantile(columns[i], 1. - tail)};
+      interval.include(constant.share);
+      std::string beyond;
+      for (std::size_t side = 0; side < (ends.empty() ? 0 : 2); ++side) {
+        const ProfileEnd& end = ends[2 * i + side];
+        interval.include(end.share);
+        if (end.without_runs)
+          beyond = fmt::format("no run has a value beyond the {} end of its interval",
+                               side == 0 ? "lower" : "upper");
+      }
+      const auto apart = interval.include(as_good, i);
+      constant.low = interval.low;
+      constant.high = interval.high;
+      constant.reason = why_not_identifiable(constant);
+      if (constant.reason.empty()) constant.reason = beyond;
+      if (constant.reason.empty() && apart)
+        constant.reason = fmt::format("{} and {}{} explain the data equally well",
+                                      value_text(plan_, constant, constant.share),
+                                      value_text(plan_, constant, *apart), unit_of(constant));
       constant.told = constant.reason.empty();
       std::vector<double>& row = result_.correlations.emplace_back();
       for (const std::vector<double>& other : columns)
@@ -513,10 +684,9 @@ class SubjectFit {
   /// What a place leaves of each of these cases.
   FitOutcome look(const Shares& place, const Cases& cases) const {
     FitOutcome outcome{"ok", std::nullopt, std::nullopt, 1, place, {}};
-    const auto constants = model_.settings_at(place);
     for (const std::size_t one : cases) {
       std::string why;
-      const auto residuals = model_.residuals(constants, std::span(&one, 1), &why);
+      const auto residuals = model_.residuals(place, std::span(&one, 1), &why);
       if (!residuals) return look_without_value(why);
       outcome.cases.push_back(mean_distance(plan_.cases[one].traces, *residuals));
     }
@@ -623,8 +793,41 @@ class SubjectFit {
       std::mt19937_64 random = random_of(i);
       places.push_back(*found.least(draw_with_replacement(cases.size(), random)));
     }
-    judge(places);
+    judge(places, ends_of(places_as_near(found, *best)), {});
     return true;
+  }
+
+  /// Places whose mean distance is not greater than the best one's by more than chance makes it,
+  /// case by case (Student's t, one constant of 95 %).
+  static std::vector<Shares> places_as_near(const Search& found, const FitOutcome& best) {
+    std::vector<Shares> places;
+    for (const FitOutcome& one : found.looked) {
+      if (!one.error) continue;
+      const double count = static_cast<double>(one.cases.size());
+      double sum = 0., squares = 0.;
+      for (std::size_t i = 0; i < one.cases.size(); ++i) {
+        const double more = one.cases[i] - best.cases[i];
+        sum += more;
+        squares += more * more;
+      }
+      const double variance =
+          std::max(0., (squares - sum * sum / count) / std::max(1., count - 1.));
+      if (sum / count <= student_end(count) * std::sqrt(variance / count))
+        places.push_back(one.place);
+    }
+    return places;
+  }
+
+  /// The ends of the box about these places, of which there is one at least.
+  static std::vector<ProfileEnd> ends_of(const std::vector<Shares>& places) {
+    std::vector<ProfileEnd> ends;
+    for (std::size_t i = 0; i < places.front().size(); ++i) {
+      const auto [low, high] =
+          std::ranges::minmax(places, {}, [i](const Shares& place) { return place[i]; });
+      ends.push_back({low[i], low});
+      ends.push_back({high[i], high});
+    }
+    return ends;
   }
 
   /// Of the cases that a search may see at most so many that it has not looked at, in their order.
@@ -638,9 +841,9 @@ class SubjectFit {
   /// Where the error of `held` cases will be, by what these constants leave of others. The means of
   /// n and m cases out of many that spread by s differ by t s sqrt(1/n + 1/m) at most, with a
   /// chance of 95 % (Student's t of n - 1 degrees of freedom).
-  std::optional<PromisedError> promise(const std::vector<ConstantSetting>& constants,
-                                       const Cases& others, std::size_t held) const {
-    const std::vector<double> each = distances(others, predict(constants, others));
+  std::optional<PromisedError> promise(const Shares& place, const Cases& others,
+                                       std::size_t held) const {
+    const std::vector<double> each = distances(others, predict(place, others));
     if (each.size() < 2) return std::nullopt;
     const double mean = mean_of(each), count = static_cast<double>(each.size());
     double squares = 0.;
@@ -655,7 +858,7 @@ class SubjectFit {
   /// search begins where the first one ended, and so none holds out what that has looked at.
   void predict_folds() {
     if (fold_count(plan_) == 0) {
-      result_.residuals = predict(model_.settings_at(place_of_answer()), cases_);
+      result_.residuals = predict(place_of_answer(), cases_);
       return;
     }
     const bool anew = folds_begin_anew(plan_);
@@ -668,11 +871,11 @@ class SubjectFit {
       const Search found = look_around(i + 1, cases, about);
       const FitOutcome* best = found.best();
       if (best == nullptr) continue;
-      const auto constants = model_.settings_at(best->place);
-      const Residuals out = predict(constants, held[i]);
+      const Residuals out = predict(best->place, held[i]);
       result_.folds.push_back(
           {held[i], best->error, error_over(held[i], out), best->place,
-           promise(constants, unseen(training[i], cases, i + 1, held[i].size()), held[i].size())});
+           promise(best->place, unseen(training[i], cases, i + 1, held[i].size()),
+                   held[i].size())});
       result_.records.push_back(
           {FitStage::fold, i + 1, best->place, best->error, found.looked.size(), best->status});
       auto from = out.begin();
@@ -699,7 +902,39 @@ class SubjectFit {
     return tail_of_interval(blocks - static_cast<double>(subject_.constants.size()));
   }
 
-  static std::string why_untold(const FittedConstant& constant) {
+  /// The values of a constant that explain the data, in shares.
+  struct Interval {
+    double low = 0., high = 0.;
+
+    void include(double share) {
+      low = std::min(low, share);
+      high = std::max(high, share);
+    }
+    /// Includes those of these places; the one farthest from the interval that is another one, not
+    /// its continuation.
+    std::optional<double> include(const std::vector<Shares>& places, std::size_t constant) {
+      const Interval before = *this;
+      const double gap = std::max(least_gap, before.high - before.low);
+      double farthest = gap;
+      std::optional<double> apart;
+      for (const Shares& place : places) {
+        const double share = place[constant];
+        include(share);
+        const double distance = std::max(before.low - share, share - before.high);
+        if (!(distance > farthest)) continue;
+        farthest = distance;
+        apart = share;
+      }
+      return apart;
+    }
+  };
+
+  std::string unit_of(const FittedConstant& constant) const {
+    const std::string& unit = plan_.varied[constant.constant].unit.text;
+    return unit.empty() ? "" : " " + unit;
+  }
+
+  static std::string why_not_identifiable(const FittedConstant& constant) {
     if (const std::string_view end = range_end(constant.share); !end.empty())
       return fmt::format("the fit ends at the {} end of its range", end);
     const double width = *constant.high - *constant.low;
@@ -732,16 +967,17 @@ class SubjectFit {
     const std::size_t folds = fold_count(plan_);
     if (folds == 0 || optimum_.residuals.empty()) return;
     const auto parts = folds_of_cases({});
-    const auto outcomes = rows_.run(
-        {folds, [&](std::size_t i) { return identity("fold", i, optimum_.place); },
-         [&](std::size_t i) {
-           const Linearisation start = optimum_over(parts.training[i]);
-           const LeastSquaresFit fit = refine(model_of(parts.training[i]), start, refit_of_runs);
-           const auto out = model_.residuals(model_.settings_at(fit.place), parts.held[i]);
-           FitOutcome outcome = outcome_of(fit, start.residuals.size());
-           if (out) outcome.held_out = error_of(*out);
-           return outcome;
-         }});
+    const auto outcomes =
+        rows_.run({folds, [&](std::size_t i) { return identity("fold", i, optimum_.place); },
+                   [&](std::size_t i) {
+                     const Linearisation start = optimum_over(parts.training[i]);
+                     const LeastSquaresFit fit =
+                         refine(model_of(parts.training[i]), start, refit_of_runs);
+                     const auto out = model_.residuals(fit.place, parts.held[i]);
+                     FitOutcome outcome = outcome_of(fit, start.residuals.size());
+                     if (out) outcome.held_out = error_of(*out);
+                     return outcome;
+                   }});
     for (std::size_t i = 0; i < folds; ++i) {
       if (!outcomes[i]) continue;
       const FitOutcome& outcome = *outcomes[i];
@@ -790,6 +1026,10 @@ std::string_view name_of(FitStage stage) {
       return "refined";
     case FitStage::search:
       return "search";
+    case FitStage::axis:
+      return "axis";
+    case FitStage::profile:
+      return "profile";
     case FitStage::resample:
       return "resample";
     case FitStage::fold:

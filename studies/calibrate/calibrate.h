@@ -20,7 +20,7 @@
 namespace hookpoint::studies {
 
 /// What a row of evaluations.csv is of.
-enum class FitStage { start, refined, search, resample, fold };
+enum class FitStage { start, refined, axis, search, profile, resample, fold };
 std::string_view name_of(FitStage stage);
 
 /// "lower" or "upper" where a share stands at that end of its range, else "".
@@ -42,9 +42,13 @@ struct FittedConstant {
   double share = 0.;
   /// Of 95 %; nothing while it is not known.
   std::optional<double> low, high;  ///< shares
-  bool told = false;                ///< whether the data tell it
+  bool told = false;                ///< whether the data identify it
   std::string reason;               ///< why not, or what is missing
 };
+
+/// A fit whose error is greater misses its own weights: 1 is expected where those are 1 over the
+/// noise.
+constexpr double greatest_error_of_a_fit = 2.;
 
 /// Where the error of cases that a fit has not seen will be, with a chance of 95 %.
 struct PromisedError {

@@ -146,8 +146,11 @@ std::vector<ReportFigure> draw_calibration_figures(const CalibrationPlan& plan,
                                 " and each subject's run with its own "
                                 "calibrated constants.",
                             folder));
-    figures.push_back(drawn(rest_figure(plan, result, placed),
-                            "What is left: of a model that fits, noise of size 1 without a "
+    // A case that no fold holds out has been predicted by none.
+    const Plot rest = rest_figure(plan, result, placed);
+    if (rest.series.empty()) continue;
+    figures.push_back(drawn(rest,
+                            "Residuals: of a model that fits, noise of size 1 without a "
                             "pattern, where the weight is 1 over the noise.",
                             folder));
   }

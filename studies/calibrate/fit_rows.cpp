@@ -12,6 +12,7 @@ namespace {
 constexpr const char* error_name = "error";
 constexpr const char* held_out_name = "held_out";
 constexpr const char* models_name = "models";
+constexpr const char* end_name = "end";
 
 std::string share_name(std::size_t number) { return "share_" + std::to_string(number); }
 std::string case_name(std::size_t number) { return "case_" + std::to_string(number); }
@@ -26,6 +27,7 @@ RunRecord record_of_fit(const FitOutcome& outcome) {
     record.values[share_name(i)].measured = outcome.place[i];
   for (std::size_t i = 0; i < outcome.cases.size(); ++i)
     record.values[case_name(i)].measured = outcome.cases[i];
+  if (outcome.end) record.values[end_name].measured = outcome.end;
   return record;
 }
 
@@ -47,6 +49,7 @@ FitOutcome fit_in(const RunRecord& record) {
     outcome.place.push_back(value(share_name(i)).value_or(0.));
   for (std::size_t i = 0; record.values.contains(case_name(i)); ++i)
     outcome.cases.push_back(value(case_name(i)).value_or(0.));
+  if (record.values.contains(end_name)) outcome.end = value(end_name);
   return outcome;
 }
 

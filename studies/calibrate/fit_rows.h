@@ -25,6 +25,7 @@ struct FitOutcome {
   std::size_t models = 0;          ///< places at which the cases were run
   Shares place;                    ///< where it ended; empty: nowhere
   std::vector<double> cases{};     ///< error of each case; empty: not told apart
+  std::optional<double> end{};     ///< of a profile: the share at which the interval ends
 };
 
 /// Some fits of one kind.

@@ -206,12 +206,32 @@ std::optional<std::vector<std::vector<double>>> covariance(const Linearisation& 
   return result;
 }
 
-std::optional<Shares> gauss_newton_step(const Linearisation& fit) {
+Shares gauss_newton_step(const Linearisation& fit) {
   const MatrixXd derivative = matrix_of(fit);
-  const Eigen::ColPivHouseholderQR<MatrixXd> factors(derivative);
-  if (factors.rank() < derivative.cols()) return std::nullopt;
-  const VectorXd step = factors.solve(-VectorXd::Map(fit.residuals.data(), derivative.rows()));
-  return Shares(step.begin(), step.end());
+  const VectorXd step = derivative.completeOrthogonalDecomposition().solve(
+      -VectorXd::Map(fit.residuals.data(), derivative.rows()));
+  return {step.begin(), step.end()};
+}
+
+LinearProfile linear_profile(const Linearisation& fit, std::size_t constant) {
+  const auto rows = static_cast<Index>(fit.residuals.size());
+  const std::size_t count = fit.place.size();
+  const MatrixXd derivative = matrix_of(fit);
+  LinearProfile linear{0., Shares(count, 0.)};
+  VectorXd rest = derivative.col(static_cast<Index>(constant));
+  if (count > 1) {
+    MatrixXd others(rows, static_cast<Index>(count) - 1);
+    Index at = 0;
+    for (std::size_t i = 0; i < count; ++i)
+      if (i != constant) others.col(at++) = derivative.col(static_cast<Index>(i));
+    const VectorXd moved = others.completeOrthogonalDecomposition().solve(-rest);
+    rest += others * moved;
+    at = 0;
+    for (std::size_t i = 0; i < count; ++i)
+      if (i != constant) linear.others[i] = moved(at++);
+  }
+  linear.curvature = rest.squaredNorm();
+  return linear;
 }
 
 }  // namespace hookpoint::studies

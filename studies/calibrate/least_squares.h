@@ -63,8 +63,16 @@ std::vector<Shares> spread_starts(std::size_t constants, std::vector<Shares> fir
 /// not more residuals than constants.
 std::optional<std::vector<std::vector<double>>> covariance(const Linearisation& fit);
 
-/// The step from the place of `fit` to the least sum of squares of its linearised residuals;
-/// nothing where that is not one place.
-std::optional<Shares> gauss_newton_step(const Linearisation& fit);
+/// The step from the place of `fit` to the least sum of squares of its linearised residuals; where
+/// constants, or combinations of them, change no residual, the shortest such step: it leaves those
+/// where they are and does not touch the others (pseudo-inverse).
+Shares gauss_newton_step(const Linearisation& fit);
+
+/// What the linearised residuals say of moving one constant with the others refitted.
+struct LinearProfile {
+  double curvature = 0.;  ///< the sum of squares is the least one + curvature distance^2
+  Shares others;          ///< by how much each other constant moves with it; 0 of itself
+};
+LinearProfile linear_profile(const Linearisation& fit, std::size_t constant);
 
 }  // namespace hookpoint::studies

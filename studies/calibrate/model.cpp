@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <utility>
 
@@ -9,32 +11,51 @@
 #include "studies/measurements/sampled_port.h"
 
 namespace hookpoint::studies {
+namespace {
+
+/// Squares of residuals below this, and sums of them, are numbers.
+constexpr double greatest = 1e150;
+
+}  // namespace
+
 std::vector<ConstantSetting> CalibrationModel::settings_at(const Shares& place) const {
   std::vector<ConstantSetting> settings;
   for (std::size_t i = 0; i < place.size(); ++i) {
+    if (plan_.offset_of(subject_.constants[i]) != nullptr) continue;
     const VariedConstant& constant = plan_.varied[subject_.constants[i]];
     settings.push_back(constant.setting(exact_value(constant, place[i])));
   }
   return settings;
 }
 
-std::optional<Residuals> CalibrationModel::residuals(std::span<const ConstantSetting> constants,
+double CalibrationModel::offset_at(const Shares& place, const TracePlan& trace) const {
+  for (const FittedOffset& offset : plan_.offsets) {
+    if (offset.trace != trace.name) continue;
+    const VariedConstant& constant = plan_.varied[offset.constant];
+    const auto found = std::ranges::find(subject_.constants, offset.constant);
+    const auto index = static_cast<std::size_t>(found - subject_.constants.begin());
+    return constant.unit.to_si(index < place.size() ? exact_value(constant, place[index])
+                                                    : *plan_.own[offset.constant]);
+  }
+  return 0.;
+}
+
+std::optional<Residuals> CalibrationModel::residuals(const Shares& place,
                                                      std::span<const std::size_t> cases,
                                                      std::string* why) const {
   Residuals all;
   std::string problem;
   for (const std::size_t one : cases) {
-    if (add_case(constants, plan_.cases[one], all, problem)) continue;
+    if (add_case(place, plan_.cases[one], all, problem)) continue;
     if (why != nullptr) *why = std::move(problem);
     return std::nullopt;
   }
   return all;
 }
 
-bool CalibrationModel::add_case(std::span<const ConstantSetting> constants,
-                                const CalibrationCase& one, Residuals& residuals,
-                                std::string& why) const {
-  std::vector<ConstantSetting> settings(constants.begin(), constants.end());
+bool CalibrationModel::add_case(const Shares& place, const CalibrationCase& one,
+                                Residuals& residuals, std::string& why) const {
+  std::vector<ConstantSetting> settings = settings_at(place);
   settings.insert(settings.end(), one.settings.begin(), one.settings.end());
   language::Diagnostics found;
   auto scene = subject_.scene->load(settings, 1, found);
@@ -43,12 +64,19 @@ bool CalibrationModel::add_case(std::span<const ConstantSetting> constants,
     return false;
   }
   simulation::Experiment& experiment = scene->experiment;
-  experiment.duration = one.duration();
+  std::vector<double> offsets;
+  experiment.duration = 0.;
+  for (const TracePlan& trace : one.traces) {
+    offsets.push_back(offset_at(place, trace));
+    experiment.duration =
+        std::max(experiment.duration, trace.measured.time.back() - offsets.back());
+  }
   try {
     simulation::World world(experiment, engines_.at(experiment.engine).make(experiment));
     const std::vector<simulation::Port> ports = world.ports();
     std::vector<SampledPort> sampled;
-    for (const TracePlan& trace : one.traces) sampled.emplace_back(trace, experiment, ports);
+    for (std::size_t i = 0; i < one.traces.size(); ++i)
+      sampled.emplace_back(one.traces[i], experiment, ports, offsets[i]);
     const auto observe = [&] {
       for (SampledPort& port : sampled) port.observe(world.state().time, experiment.deltat);
     };
@@ -66,8 +94,15 @@ bool CalibrationModel::add_case(std::span<const ConstantSetting> constants,
                         : fmt::format("stopped at {:.6g} s: {}", status.time, status.advice);
       return false;
     }
-    for (const SampledPort& port : sampled)
-      residuals.insert(residuals.end(), port.residuals().begin(), port.residuals().end());
+    for (std::size_t i = 0; i < sampled.size(); ++i) {
+      const std::vector<double>& of_trace = sampled[i].residuals();
+      if (std::ranges::any_of(of_trace,
+                              [](double residual) { return !(std::abs(residual) < greatest); })) {
+        why = fmt::format("the residuals of {} are too large to be squared", one.traces[i].name);
+        return false;
+      }
+      residuals.insert(residuals.end(), of_trace.begin(), of_trace.end());
+    }
     return true;
   } catch (const simulation::ExperimentError& error) {
     why = error.what();

@@ -22,20 +22,21 @@ class CalibrationModel {
                    const EngineTable& engines, const std::atomic<bool>& stop)
       : plan_(plan), subject_(subject), engines_(engines), stop_(stop) {}
 
-  /// Weight times (model less measured) of every sample of these cases, one after the other, with
-  /// `values` in the units of the subject's constants; between two steps a port lies on the line
-  /// that joins them. Nothing where a run cannot be made or breaks off: then `why` says it. From
-  /// any thread. Throws CalibrationInterrupted.
-  std::optional<Residuals> residuals(std::span<const ConstantSetting> constants,
-                                     std::span<const std::size_t> cases,
+  /// Weight times (model less measured) of every sample of these cases, one after the other, at a
+  /// place of the box of the subject's constants; an empty place has those of the scene itself.
+  /// Between two steps a port lies on the line that joins them. Nothing where a run cannot be made
+  /// or breaks off, or where residuals are too large: then `why` says it. From any thread. Throws
+  /// CalibrationInterrupted.
+  std::optional<Residuals> residuals(const Shares& place, std::span<const std::size_t> cases,
                                      std::string* why = nullptr) const;
 
-  /// The settings of the subject's constants at a place of their box.
-  std::vector<ConstantSetting> settings_at(const Shares& place) const;
-
  private:
-  bool add_case(std::span<const ConstantSetting> constants, const CalibrationCase& one,
-                Residuals& residuals, std::string& why) const;
+  /// The settings of the subject's constants that are of the scene.
+  std::vector<ConstantSetting> settings_at(const Shares& place) const;
+  /// What the clock of a trace reads at time 0, where that is fitted; else 0, as its times are.
+  double offset_at(const Shares& place, const TracePlan& trace) const;
+  bool add_case(const Shares& place, const CalibrationCase& one, Residuals& residuals,
+                std::string& why) const;
 
   const CalibrationPlan& plan_;
   const CalibrationSubject& subject_;

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "output/file.h"
+#include "output/text/json.h"
 #include "output/text/number.h"
 #include "studies/calibrate/figures.h"
 #include "studies/measurements/trace_residual.h"
@@ -53,13 +54,79 @@ std::vector<ConstantSetting> fitted_settings(const CalibrationPlan& plan,
                                              const SubjectCalibration& result) {
   std::vector<ConstantSetting> settings;
   for (const FittedConstant& constant : result.constants) {
+    if (plan.offset_of(constant.constant) != nullptr) continue;
     const VariedConstant& varied = plan.varied[constant.constant];
     settings.push_back(varied.setting(varied.at(constant.share)));
   }
   return settings;
 }
 
+/// "misses its own weights: ...", with what to try; "" of a fit that does not.
+std::string misfit_of(const CalibrationPlan& plan, const SubjectCalibration& found) {
+  const bool misses = plan.method == FitMethod::least_squares && !plan.varied.empty() &&
+                      found.error && *found.error > greatest_error_of_a_fit;
+  if (!misses) return "";
+  std::string ends;
+  for (const FittedConstant& constant : found.constants)
+    if (!range_end(constant.share).empty())
+      ends += (ends.empty() ? "" : ", ") + plan.varied[constant.constant].name;
+  return fmt::format(
+      "misses its own weights: error {}, where 1 is expected if each weight is 1 over the noise. "
+      "Try more `starts` (now {}), {}, another clock `offset`, or another law: this one may not "
+      "make "
+      "the measured curve",
+      output::rounded(*found.error), plan.starts,
+      ends.empty() ? "wider ranges" : "a wider range of " + ends);
+}
+
 }  // namespace
+
+std::vector<std::string> misfits(const CalibrationPlan& plan, const CalibrationResult& result) {
+  std::vector<std::string> sentences;
+  for_each_subject(plan, result,
+                   [&](const CalibrationSubject& subject, const SubjectCalibration& found) {
+                     const std::string misfit = misfit_of(plan, found);
+                     if (!misfit.empty()) sentences.push_back(subject.info.name + " " + misfit);
+                   });
+  return sentences;
+}
+
+std::string calibration_json(const CalibrationPlan& plan, const CalibrationResult& result) {
+  output::JsonWriter json;
+  json.begin_object().member("name", plan.runs.name).member("interrupted", result.interrupted);
+  json.key("subjects").begin_object();
+  for_each_subject(
+      plan, result, [&](const CalibrationSubject& subject, const SubjectCalibration& found) {
+        const auto number = [&](const char* key, const std::optional<double>& value) {
+          json.key(key);
+          if (value)
+            json.value(*value);
+          else
+            json.null();
+        };
+        json.key(subject.info.name).begin_object().member("status", found.status);
+        number("error", found.error);
+        number("own_error", found.own_error);
+        json.member("misfit", misfit_of(plan, found)).key("constants").begin_object();
+        for (const FittedConstant& constant : found.constants) {
+          const VariedConstant& varied = plan.varied[constant.constant];
+          const auto value = [&](const std::optional<double>& share) {
+            return share ? std::optional(varied.at(*share)) : std::nullopt;
+          };
+          json.key(varied.name).begin_object().member("unit", varied.unit.text);
+          number("value", constant.told || !constant.low ? value(constant.share) : std::nullopt);
+          number("low", value(constant.low));
+          number("high", value(constant.high));
+          json.member("identifiable", constant.told).member("reason", constant.reason);
+          json.end_object();
+        }
+        json.end_object().key("left_out").begin_object();
+        for (const LeftOut& left : found.left_out)
+          json.member(plan.varied[left.constant].name, left.reason);
+        json.end_object().end_object();
+      });
+  return json.end_object().end_object().text();
+}
 
 std::string value_text(const CalibrationPlan& plan, const FittedConstant& constant, double share) {
   return shortest(plan.varied[constant.constant].at(share));
@@ -70,10 +137,10 @@ std::string material_file(const CalibrationPlan& plan, const CalibrationSubject&
 }
 
 std::vector<std::string> calibration_files(const CalibrationPlan& plan) {
-  std::vector<std::string> files{store_folder,      "calibration.csv", "correlations.csv",
-                                 "evaluations.csv", "folds.csv",       "curves.csv",
-                                 "own_curves.csv",  "experiment.hook", "scene.hook",
-                                 "provenance.json", "report.html"};
+  std::vector<std::string> files{store_folder,       "calibration.csv", "calibration.json",
+                                 "correlations.csv", "evaluations.csv", "folds.csv",
+                                 "curves.csv",       "own_curves.csv",  "experiment.hook",
+                                 "scene.hook",       "provenance.json", "report.html"};
   for (const CalibrationSubject& subject : plan.subjects)
     files.push_back(material_file(plan, subject));
   for (const std::string& figure : calibration_figure_names(plan))
@@ -97,7 +164,8 @@ output::CsvTable calibration_table(const CalibrationPlan& plan, const Calibratio
             return share ? value_text(plan, *fitted, *share) : std::string();
           };
           if (fitted != found.constants.end()) {
-            // An interval that is too wide is told, the number in it is not.
+            // Of a constant that is not identifiable the interval stands there, the number does
+            // not.
             const bool known = fitted->told || !fitted->low;
             row.insert(row.end(), {known ? share_text(fitted->share) : "", share_text(fitted->low),
                                    share_text(fitted->high), fitted->told ? "yes" : "no",
@@ -216,12 +284,13 @@ std::string material_text(const CalibrationPlan& plan, const CalibrationSubject&
   for (const FittedConstant& constant : result.constants) {
     const VariedConstant& varied = plan.varied[constant.constant];
     const std::string unit = varied.unit.text.empty() ? "" : " " + varied.unit.text;
-    text += comment_line(
-        constant.told ? fmt::format("{} = {}{}, 95 % from {} to {}", varied.name,
-                                    value_text(plan, constant, constant.share), unit,
-                                    value_text(plan, constant, *constant.low),
-                                    value_text(plan, constant, *constant.high))
-                      : fmt::format("{}: not told by the data, {}", varied.name, constant.reason));
+    text +=
+        comment_line(constant.told ? fmt::format("{} = {}{}, 95 % from {} to {}", varied.name,
+                                                 value_text(plan, constant, constant.share), unit,
+                                                 value_text(plan, constant, *constant.low),
+                                                 value_text(plan, constant, *constant.high))
+                                   : fmt::format("{}: not identifiable from these data, {}",
+                                                 varied.name, constant.reason));
   }
   for (const LeftOut& left : result.left_out)
     text += comment_line(plan.varied[left.constant].name + ": left out, " + left.reason);
@@ -257,6 +326,7 @@ std::vector<std::string> write_calibration_files(const CalibrationPlan& plan,
       plan, result, [&](const CalibrationSubject& subject, const SubjectCalibration& found) {
         write_text(material_file(plan, subject), material_text(plan, subject, found, command));
       });
+  write_text("calibration.json", calibration_json(plan, result));
   write_text("experiment.hook", plan.runs.printed);
   write_text("scene.hook", plan.runs.scene_printed);
   write_text("provenance.json", provenance_json(run.provenance));

@@ -14,8 +14,8 @@ namespace hookpoint::studies {
 std::vector<std::string> calibration_files(const CalibrationPlan& plan);
 
 /// A row a subject and constant: value and 95 % interval in the constant's unit, whether the data
-/// tell it, and the end of its range where the fit ends there; of one that they do not tell, or
-/// that was left out, no value but the reason.
+/// identify it (`told`), and the end of its range where the fit ends there; of one that they do not
+/// identify, or that was left out, no value but the reason.
 output::CsvTable calibration_table(const CalibrationPlan& plan, const CalibrationResult& result);
 output::CsvTable correlations_table(const CalibrationPlan& plan, const CalibrationResult& result);
 /// Every place that was looked at or fitted, in order.
@@ -30,10 +30,16 @@ output::CsvTable curves_table(
 /// The value of a fitted constant as it is written: six digits, in its unit.
 std::string value_text(const CalibrationPlan& plan, const FittedConstant& constant, double share);
 
+/// A sentence for each subject whose fit misses its own weights, and what to try.
+std::vector<std::string> misfits(const CalibrationPlan& plan, const CalibrationResult& result);
+
+/// The subjects with their errors, misfits and constants.
+std::string calibration_json(const CalibrationPlan& plan, const CalibrationResult& result);
+
 /// "materials/surface_hunt_crossley.hook".
 std::string material_file(const CalibrationPlan& plan, const CalibrationSubject& subject);
-/// Its Material with the fitted constants; those that the data do not tell are named as such. ""
-/// without a fit.
+/// Its Material with the fitted constants; those that the data do not identify are named as such.
+/// "" without a fit.
 std::string material_text(const CalibrationPlan& plan, const CalibrationSubject& subject,
                           const SubjectCalibration& result, const std::string& command);
 

@@ -166,6 +166,31 @@ std::vector<ConstantSetting> case_settings(const PlanSource& from, const Object&
   return settings;
 }
 
+/// The offset of a Trace that is fitted: a constant after those of the scene, which begins where
+/// the Trace says or in the middle of its range.
+void add_offset(const PlanSource& from, CalibrationPlan& plan, const Object& trace) {
+  for (const Object* vary : trace.children_of("Vary")) {
+    if (vary->name != "offset") {
+      from.error(vary->position,
+                 fmt::format("a Trace has no number `{}` to vary: only its `offset`; "
+                             "constants of the scene vary in the Calibrate",
+                             vary->name));
+      continue;
+    }
+    const language::Dimension time{0, 0, 1, 0};
+    for (const char* end : {"from", "to"})
+      if (!language::fits(vary->find(end)->dimension, time))
+        from.error(vary->find(end)->position, "an offset is a time, as 12.3 s");
+    VariedConstant constant = varied_range(*vary, from.diagnostics);
+    constant.name = trace.name + ".offset";
+    plan.offsets.push_back({plan.varied.size(), trace.name});
+    plan.own.resize(plan.varied.size());
+    plan.own.push_back(trace.given("offset") ? constant.unit.from_si(trace.number("offset"))
+                                             : exact_value(constant, 0.5));
+    plan.varied.push_back(std::move(constant));
+  }
+}
+
 void add_traces(const PlanSource& from, CalibrationPlan& plan, const TuneScene& scene,
                 const TraceReader& reader) {
   for (const Object* block : from.calibrate.children_of("Trace")) {
@@ -173,6 +198,7 @@ void add_traces(const PlanSource& from, CalibrationPlan& plan, const TuneScene& 
     auto traces = reader.read(*block, "");
     if (!traces) continue;
     TracePlan& trace = traces->begin()->second;
+    add_offset(from, plan, *block);
     const auto known = std::ranges::find_if(plan.cases, [&](const CalibrationCase& one) {
       return same_settings(one.settings, settings);
     });
@@ -353,12 +379,6 @@ bool read_traces(const PlanSource& from, CalibrationPlan& plan, const TuneScene&
 
 }  // namespace
 
-double CalibrationCase::duration() const {
-  double last = 0.;
-  for (const TracePlan& trace : traces) last = std::max(last, trace.measured.time.back());
-  return last;
-}
-
 std::size_t CalibrationCase::residuals() const {
   std::size_t count = 0;
   for (const TracePlan& trace : traces) count += trace.residuals();
@@ -369,6 +389,11 @@ std::size_t CalibrationPlan::residuals() const {
   std::size_t count = 0;
   for (const CalibrationCase& one : cases) count += one.residuals();
   return count;
+}
+
+const FittedOffset* CalibrationPlan::offset_of(std::size_t constant) const {
+  const auto found = std::ranges::find(offsets, constant, &FittedOffset::constant);
+  return found == offsets.end() ? nullptr : &*found;
 }
 
 bool CalibrationPlan::resamples_cases() const { return cases.size() >= least_cases_to_resample; }
@@ -397,15 +422,21 @@ std::optional<CalibrationPlan> make_calibration_plan(const Object& root, const O
   for (const Object* block : calibrate.children_of("Vary"))
     if (auto constant = varied_constant(*block, *scene, diagnostics))
       plan.varied.push_back(std::move(*constant));
-  if (plan.varied.empty() && calibrate.children_of("Cases").empty())
+  const bool fits_offsets =
+      std::ranges::any_of(calibrate.children_of("Trace"),
+                          [](const Object* trace) { return !trace->children_of("Vary").empty(); });
+  if (plan.varied.empty() && !fits_offsets && calibrate.children_of("Cases").empty())
     from.error(calibrate.position, "a Calibrate needs a Vary: nothing is to be found");
   if (calibrate.children_of("Trace").empty() && calibrate.children_of("Cases").empty())
     from.error(calibrate.position, "a Calibrate needs a Trace: nothing was measured");
   if (diagnostics.has_errors() || !read_traces(from, plan, *scene)) return std::nullopt;
   set_work(plan, calibrate, quick);
-  for (const VariedConstant& constant : plan.varied) {
+  plan.own.resize(plan.varied.size());
+  for (std::size_t i = 0; i < plan.varied.size(); ++i) {
+    if (plan.offset_of(i) != nullptr) continue;
+    const VariedConstant& constant = plan.varied[i];
     const auto value = scene->own_value(constant.setting(constant.from));
-    plan.own.push_back(value ? std::optional(constant.unit.from_si(*value)) : std::nullopt);
+    if (value) plan.own[i] = constant.unit.from_si(*value);
   }
   SubjectMaker maker(from, plan);
   for (const AskedSubject& asked : asked_subjects(from, scene->world_schema())) maker.add(asked);

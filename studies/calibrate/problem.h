@@ -27,7 +27,6 @@ struct CalibrationCase {
   std::vector<ConstantSetting> settings;
   std::vector<TracePlan> traces;
 
-  double duration() const;        ///< up to the last sample [s]
   std::size_t residuals() const;  ///< of all its traces
 };
 
@@ -59,11 +58,18 @@ enum class FitMethod {
   cmaes           ///< the mean distance, without derivatives
 };
 
+/// A constant that is no constant of the scene: what the clock of a trace reads at time 0.
+struct FittedOffset {
+  std::size_t constant = 0;  ///< index into CalibrationPlan::varied
+  std::string trace;         ///< name
+};
+
 struct CalibrationPlan {
   StudyPlan runs;  ///< name, file, texts, hash and inputs, for what tells of the folder; no rows
   std::string material;
   std::vector<VariedConstant> varied;
   std::vector<std::optional<double>> own;  ///< values of the scene itself, one a constant
+  std::vector<FittedOffset> offsets;
   std::vector<CalibrationCase> cases;
   std::vector<CalibrationSubject> subjects;
   std::vector<std::filesystem::path> case_tables;
@@ -76,6 +82,8 @@ struct CalibrationPlan {
   std::uint64_t seed = 1;
 
   std::size_t residuals() const;  ///< of all cases
+  /// The offset that a constant is; null where it is one of the scene.
+  const FittedOffset* offset_of(std::size_t constant) const;
   std::filesystem::path folder() const { return runs.folder(); }
   /// Whether cases are resampled, not the samples of each.
   bool resamples_cases() const;

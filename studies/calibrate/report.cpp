@@ -23,12 +23,15 @@ std::string spaced_unit(const VariedConstant& constant) {
   return constant.unit.text.empty() ? "" : " " + constant.unit.text;
 }
 
-/// A value and its interval rounded to what the interval tells.
+/// A value and its interval, rounded to five digits; of one that the data do not identify the
+/// interval alone.
 std::string value_words(const CalibrationPlan& plan, const FittedConstant& constant) {
   const VariedConstant& varied = plan.varied[constant.constant];
   const auto text = [&](double share) { return output::rounded(exact_value(varied, share), 5); };
   if (!constant.low) return text(constant.share) + spaced_unit(varied);
-  if (!constant.told) return "not told";
+  if (!constant.told)
+    return fmt::format("not identifiable ({} to {}{})", text(*constant.low), text(*constant.high),
+                       spaced_unit(varied));
   return fmt::format("{} ({} to {}){}", text(constant.share), text(*constant.low),
                      text(*constant.high), spaced_unit(varied));
 }
@@ -75,7 +78,7 @@ std::optional<double> mean_error(const std::vector<FoldResult>& folds, Error err
 
 std::string subjects_table(const CalibrationPlan& plan, const CalibrationResult& result) {
   HtmlTable table({"subject", "error", "with the scene's constants", "training, folds",
-                   "promised, folds", "held out, folds", "what became of it"},
+                   "expected, folds", "held out, folds", "status"},
                   1);
   for (std::size_t i = 0; i < result.subjects.size(); ++i) {
     const SubjectCalibration& found = result.subjects[i];
@@ -111,11 +114,12 @@ std::string range_ends_note(const CalibrationResult& result) {
     return std::ranges::any_of(found.constants, at_end);
   });
   if (!any) return "";
-  return text_block("note soft",
-                    "A fit that ends at the end of a range would go on beyond it. Either the range "
-                    "is too narrow, or the model lacks what the data show and the constant stands "
-                    "in for it: its value says where the range ends, not what the ground is, and "
-                    "the other constants of that subject are fitted around it.");
+  return text_block(
+      "note soft",
+      "A fit that ends at the end of a range would continue beyond it. Either the range "
+      "is too narrow, or the model lacks what the data show and the constant stands "
+      "in for it: its value says where the range ends, not what the ground is, and "
+      "the other constants of that subject are fitted around it.");
 }
 
 std::string correlations_of_subjects(const CalibrationPlan& plan, const CalibrationResult& result) {
@@ -136,8 +140,9 @@ std::string correlations_of_subjects(const CalibrationPlan& plan, const Calibrat
   if (!any) return "";
   return section("Correlations") + table.text() +
          text_block("note soft",
-                    "Over the samples of the bootstrap. Near 1 or -1 the data tell a combination "
-                    "of the two, not each.");
+                    "Over the samples of the bootstrap. Near 1 or -1 the data identify a "
+                    "combination of the two, not each; 0 also where a constant does not change "
+                    "anything nearby.");
 }
 
 std::string search_words(const CalibrationPlan& plan) {
@@ -148,9 +153,10 @@ std::string search_words(const CalibrationPlan& plan) {
       "A quadratic surface over the best places says where to look further, and answers {} "
       "bootstrap "
       "samples over those cases without a run. Each fold is a search of its own over as many of "
-      "the cases that it may see{}. A "
-      "constant is told unless its interval spans more than half of its range or reaches an end "
-      "of it.",
+      "the cases that it may see{}. Places whose mean distance is not greater than the best "
+      "one's by more than chance makes it, case by case, count into the intervals. A constant is "
+      "identifiable unless its interval spans more than half of its range or reaches an end of "
+      "it.",
       plan.generations, plan.population,
       plan.most_cases == 0 ? plan.cases.size() : std::min(plan.most_cases, plan.cases.size()),
       plan.resamples,
@@ -161,7 +167,7 @@ std::string search_words(const CalibrationPlan& plan) {
 std::string method_words(const CalibrationPlan& plan, const CalibrationResult& result) {
   if (plan.method == FitMethod::cmaes) return search_words(plan);
   const std::string refits = plan.bootstrap == Bootstrap::refits
-                                 ? "fitted anew from the optimum on"
+                                 ? "fitted again from the optimum on"
                                  : "solved with the model linearised at the optimum";
   std::string drawn = "over whole cases";
   if (!plan.resamples_cases()) {
@@ -181,9 +187,13 @@ std::string method_words(const CalibrationPlan& plan, const CalibrationResult& r
       "one, and {} points all over the ranges; the best {} of them refined by "
       "Levenberg-Marquardt; {} bootstrap samples {}, each {}. The error is the root mean square "
       "of weight (model - measured): 1 where the weight is 1 over the noise and the model is "
-      "right. A constant is told unless its interval spans more than half of its range or reaches "
-      "an end of it. Its interval is of the data's noise alone: of a subject with an error well "
-      "above 1 it is about a constant of a model that does not make this curve.",
+      "right. The interval of a constant is the wider of the bootstrap's and the profile's: how "
+      "far "
+      "it can move, the others refitted, before the error rises by more than noise makes it; other "
+      "places of the search that fit as well are in it. A constant is identifiable unless its "
+      "interval spans more than half of its range, reaches an end of it, or has two values apart "
+      "that fit equally well. An interval is of the data's noise alone: of a subject with an error "
+      "well above 1 it is about a constant of a model that does not make this curve.",
       plan.starts, refined_starts, plan.resamples, drawn, refits);
 }
 
@@ -204,6 +214,14 @@ std::string traces_table(const CalibrationPlan& plan) {
                                                 "figures; curves.csv has all.",
                                                 most_trace_figures, rows));
   return text;
+}
+
+/// The sentences of all subjects that miss their own weights, as notes.
+std::string misfit_notes(const CalibrationPlan& plan, const CalibrationResult& result) {
+  std::string notes;
+  for (const std::string& misfit : misfits(plan, result))
+    notes += text_block("note bad", html(misfit));
+  return notes;
 }
 
 std::string verdict_words(const CalibrationPlan& plan, const CalibrationResult& result) {
@@ -241,7 +259,7 @@ std::string calibration_html(const CalibrationPlan& plan, const CalibrationResul
   page += text_block("kicker", "Calibration · " + html(plan.runs.file));
   page += "<h1>" + html(calibration_title(plan)) + "</h1>\n";
   if (!plan.runs.question.empty()) page += text_block("question", html(plan.runs.question));
-  page += verdict_words(plan, result);
+  page += verdict_words(plan, result) + misfit_notes(plan, result);
   page += text_block(
       "facts", html(fmt::format("{}, {}, {} samples{}.", counted(plan.subjects.size(), "subject"),
                                 counted(plan.cases.size(), "case"), plan.residuals(),
@@ -279,6 +297,7 @@ std::string calibration_terminal_text(const CalibrationPlan& plan,
       text += fmt::format("    {:<22} {}, training {}\n", "held-out error", error_words(held),
                           error_words(mean_error(found.folds, &FoldResult::training)));
   }
+  for (const std::string& misfit : misfits(plan, result)) text += "  " + misfit + "\n";
   return text;
 }
 

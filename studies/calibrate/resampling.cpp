@@ -13,19 +13,25 @@ double mean_of_part(std::span<const double> values) {
   return std::accumulate(values.begin(), values.end(), 0.) / static_cast<double>(values.size());
 }
 
-/// The first lag at which the curve's residuals hang together no more than chance lets them
+/// Shorter curves say nothing of how their residuals are correlated.
+constexpr std::size_t least_correlated = 8;
+
+/// Sum of the products of residuals that are `lag` samples apart, each less their mean.
+double autocovariance(std::span<const double> curve, std::size_t lag) {
+  const double mean = mean_of_part(curve);
+  double sum = 0.;
+  for (std::size_t i = lag; i < curve.size(); ++i)
+    sum += (curve[i] - mean) * (curve[i - lag] - mean);
+  return sum;
+}
+
+/// The first lag at which the residuals of a curve are correlated no more than by chance
 /// (2/sqrt(n)).
 std::size_t decorrelation_lag(std::span<const double> curve) {
   const std::size_t count = curve.size();
-  const double mean = mean_of_part(curve);
-  const auto product = [&](std::size_t lag) {
-    double sum = 0.;
-    for (std::size_t i = lag; i < count; ++i) sum += (curve[i] - mean) * (curve[i - lag] - mean);
-    return sum;
-  };
-  const double chance = 2. / std::sqrt(static_cast<double>(count)) * product(0);
+  const double chance = 2. / std::sqrt(static_cast<double>(count)) * autocovariance(curve, 0);
   std::size_t lag = 1;
-  while (lag < count && std::abs(product(lag)) > chance) ++lag;
+  while (lag < count && std::abs(autocovariance(curve, lag)) > chance) ++lag;
   return lag;
 }
 
@@ -56,11 +62,29 @@ std::size_t block_length(const Residuals& at_optimum, std::span<const std::size_
   for (const std::size_t size : sizes) {
     const std::span<const double> curve(at_optimum.data() + first, size);
     first += size;
-    if (size < 8) continue;
+    if (size < least_correlated) continue;
     const auto root = static_cast<std::size_t>(std::cbrt(static_cast<double>(size)));
     length = std::max(length, std::min(std::max(root, 2 * decorrelation_lag(curve)), size / 4));
   }
   return length;
+}
+
+double statistical_inefficiency(const Residuals& at_optimum, std::span<const std::size_t> sizes) {
+  double sum = 0., samples = 0.;
+  std::size_t first = 0;
+  for (const std::size_t size : sizes) {
+    const std::span<const double> curve(at_optimum.data() + first, size);
+    first += size;
+    const auto count = static_cast<double>(size);
+    double inefficiency = 1.;
+    const double variance = autocovariance(curve, 0);
+    if (size >= least_correlated && variance > 0.)
+      for (std::size_t lag = 1, end = decorrelation_lag(curve); lag < end; ++lag)
+        inefficiency += 2. * autocovariance(curve, lag) / variance;
+    sum += count * std::clamp(inefficiency, 1., count);
+    samples += count;
+  }
+  return samples > 0. ? sum / samples : 1.;
 }
 
 std::vector<std::size_t> fold_of_each(std::size_t count, std::size_t folds, std::uint64_t seed) {
@@ -80,8 +104,14 @@ double correlation(std::span<const double> one, std::span<const double> other) {
     first += a * a;
     second += b * b;
   }
-  const double scale = std::sqrt(first * second);
-  return scale > 0. ? both / scale : 0.;
+  // A row that changes by rounding alone does not change.
+  constexpr double rounding = 1e-12;
+  const double count = static_cast<double>(one.size());
+  const auto changes = [&](double squares, double mean) {
+    return std::sqrt(squares / count) > rounding * std::abs(mean);
+  };
+  if (!changes(first, mean_one) || !changes(second, mean_other)) return 0.;
+  return both / std::sqrt(first * second);
 }
 
 }  // namespace hookpoint::studies

@@ -24,11 +24,16 @@ Residuals shift_of_blocks(const Residuals& at_optimum, std::span<const std::size
 /// over which residuals hang together, within a quarter of the length.
 std::size_t block_length(const Residuals& at_optimum, std::span<const std::size_t> sizes);
 
+/// How many correlated residuals say as much as one independent one, mean over the curves of
+/// `sizes` samples: 1 + 2 sum of the autocorrelations up to the lag at which chance explains them;
+/// 1 of white noise, (1 + a)/(1 - a) of noise whose autocorrelation is a^lag.
+double statistical_inefficiency(const Residuals& at_optimum, std::span<const std::size_t> sizes);
+
 /// Which of `folds` parts each of `count` things is in, drawn by `seed`, as equally large as can
 /// be.
 std::vector<std::size_t> fold_of_each(std::size_t count, std::size_t folds, std::uint64_t seed);
 
-/// Correlation of two equally long rows; 0 where one of them never changes.
+/// Correlation of two equally long rows; 0 where one of them does not change but by rounding.
 double correlation(std::span<const double> one, std::span<const double> other);
 
 }  // namespace hookpoint::studies

@@ -42,7 +42,7 @@ struct AdmittedColumn {
 /// A Cases block and its table.
 class CaseReader {
  public:
-  CaseReader(const Object& block, const std::filesystem::path& file, const output::CsvTable& table,
+  CaseReader(const Object& block, const std::filesystem::path& file, const tables::Table& table,
              Diagnostics& diagnostics)
       : block_(block), file_(file), table_(table), diagnostics_(diagnostics) {}
 
@@ -113,13 +113,13 @@ class CaseReader {
     return number_at(table_, row, column, file_, block_.find("file")->position, diagnostics_);
   }
   std::nullopt_t wrong(std::size_t row, const std::string& what) {
-    tell_wrong_row(file_, row, what, block_.find("file")->position, diagnostics_);
+    tell_wrong_row(file_, table_, row, what, block_.find("file")->position, diagnostics_);
     return std::nullopt;
   }
 
   const Object& block_;
   const std::filesystem::path& file_;
-  const output::CsvTable& table_;
+  const tables::Table& table_;
   Diagnostics& diagnostics_;
   std::vector<SettingColumn> settings_;
   std::vector<AdmittedColumn> admitted_;

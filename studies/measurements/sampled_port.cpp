@@ -8,8 +8,9 @@
 namespace hookpoint::studies {
 
 SampledPort::SampledPort(const TracePlan& trace, const simulation::Experiment& experiment,
-                         const std::vector<simulation::Port>& ports)
+                         const std::vector<simulation::Port>& ports, double offset)
     : trace_(trace),
+      offset_(offset),
       value_(trace.parts.size()),
       last_(trace.parts.size()),
       model_(trace.parts.size()),
@@ -23,8 +24,9 @@ void SampledPort::observe(double time, double step) {
   if (trace_.is_orientation()) stay_on_one_side();
   const std::vector<double>& times = trace_.measured.time;
   // Times are multiples of the step, rounded: a sample at a step is of that step.
-  for (; next_ < times.size() && times[next_] <= time + 1e-9 * step; ++next_) {
-    const double part = time > time_ ? std::min((times[next_] - time_) / (time - time_), 1.) : 1.;
+  for (; next_ < times.size() && times[next_] - offset_ <= time + 1e-9 * step; ++next_) {
+    const double sample = times[next_] - offset_;
+    const double part = time > time_ ? std::min((sample - time_) / (time - time_), 1.) : 1.;
     for (std::size_t i = 0; i < value_.size(); ++i)
       model_[i] = last_[i] + part * (value_[i] - last_[i]);
     set_residuals(trace_, next_, model_, residuals_);

@@ -12,10 +12,11 @@ namespace hookpoint::studies {
 
 class SampledPort {
  public:
-  /// `trace` and what `ports` point to outlive it. Throws simulation::ExperimentError where the run
-  /// has no such port.
+  /// `trace` and what `ports` point to outlive it. `offset` [s]: what the trace's clock reads at
+  /// time 0 of the run; samples before that are compared with the run's first state. Throws
+  /// simulation::ExperimentError where the run has no such port.
   SampledPort(const TracePlan& trace, const simulation::Experiment& experiment,
-              const std::vector<simulation::Port>& ports);
+              const std::vector<simulation::Port>& ports, double offset = 0.);
 
   /// Once at time 0 and once after every step of `step`, in seconds. Samples that lie at or before
   /// `time` are then held against the line that joins this step and the one before.
@@ -30,6 +31,7 @@ class SampledPort {
   void stay_on_one_side();
 
   const TracePlan& trace_;
+  double offset_;
   std::vector<const double*> parts_;
   std::vector<double> value_, last_, model_;  ///< in SI, one a part
   double time_ = 0.;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace hookpoint::studies {
@@ -37,6 +39,9 @@ std::optional<std::map<std::string, TracePlan>> TraceReader::read(
       block.find("file")->position,
       column.position,
       block.given("time") ? block.find("time")->position : block.find("file")->position};
+  const bool fitted = !block.children_of("Vary").empty();
+  if (block.given("offset") && !fitted) request.offset = block.number("offset");
+  request.may_be_early = fitted;
   auto measured = read_traces(request, source_.diagnostics);
   if (!measured || !units_agree(block, measured->begin()->second.unit, trace)) return std::nullopt;
   trace.weight = block.given("weight") ? block.number("weight") : 1.;
@@ -44,6 +49,8 @@ std::optional<std::map<std::string, TracePlan>> TraceReader::read(
     source_.diagnostics.error(block.find("weight")->position, "a weight is greater than 0");
     return std::nullopt;
   }
+  if (!weight_suits(block, *measured, trace)) return std::nullopt;
+  if (!block.given("offset") && !fitted) report_late_clock(block, *measured);
   std::map<std::string, TracePlan> traces;
   for (auto& [name, one] : *measured) {
     traces[name] = trace;
@@ -77,6 +84,43 @@ std::optional<std::vector<std::vector<TracePlan>>> TraceReader::read_cases(
     }
   }
   return good ? std::optional(std::move(found)) : std::nullopt;
+}
+
+/// Squares of residuals, and their sums, must be numbers.
+bool TraceReader::weight_suits(const Object& block,
+                               const std::map<std::string, MeasuredTrace>& measured,
+                               const TracePlan& trace) const {
+  constexpr double greatest_residual = 1e100;
+  double greatest = 1.;
+  for (const auto& [name, one] : measured)
+    for (const double value : one.value) greatest = std::max(greatest, std::abs(value));
+  if (greatest * trace.weight <= greatest_residual) return true;
+  source_.diagnostics.error(
+      block.find(block.given("weight") ? "weight" : "column")->position,
+      fmt::format("the weight {:.6g} times measured values up to {:.6g} (in SI) is too large to be "
+                  "squared: a weight is 1 over the error of a sample",
+                  trace.weight, greatest));
+  return false;
+}
+
+/// A clock that begins much later than the scene does: by more than two intervals of its samples
+/// and by a tenth of what it measures.
+void TraceReader::report_late_clock(const Object& block,
+                                    const std::map<std::string, MeasuredTrace>& measured) const {
+  constexpr double intervals = 2., part = 0.1;
+  for (const auto& [name, one] : measured) {
+    const double first = one.time.front(), span = one.time.back() - first;
+    const double interval = span / static_cast<double>(one.time.size() - 1);
+    if (!(first > std::max(intervals * interval, part * span))) continue;
+    source_.diagnostics.warning(
+        block.find("file")->position,
+        fmt::format(
+            "the clock of {}{} begins at {:.6g} s, {:.6g} s before its last sample, and the "
+            "scene at 0 s: if both begin together, say `offset = {:.6g} s;`, or fit it; "
+            "`offset = 0 s;` if the scene is measured from {:.6g} s on",
+            block.name, name.empty() ? "" : " " + name, first, span, first, first));
+    return;
+  }
 }
 
 /// One column is held against a port, three against a vector's parts, four against an

@@ -40,8 +40,10 @@ class TraceReader {
   explicit TraceReader(const TraceSource& source) : source_(source) {}
 
   /// By what the case's column calls each; without one ("") the single trace is called "". A trace
-  /// whose block has no `weight` has 1. Nothing after errors: no such file, column or port; columns
-  /// of another dimension than the port; a weight that is not 1 over an error.
+  /// whose block has no `weight` has 1. Times are the clock's less the block's `offset`; where that
+  /// is fitted (a Vary), the clock's. Nothing after errors: no such file, column or port; columns
+  /// of another dimension than the port; a weight that is not 1 over an error, or too large. Warns
+  /// of a clock that begins late.
   std::optional<std::map<std::string, TracePlan>> read(const language::Object& block,
                                                        const std::string& case_column) const;
 
@@ -54,6 +56,11 @@ class TraceReader {
   bool find_ports(const language::Object& block, std::size_t columns, TracePlan& trace) const;
   bool units_agree(const language::Object& block, const language::Unit& measured,
                    TracePlan& trace) const;
+  bool weight_suits(const language::Object& block,
+                    const std::map<std::string, MeasuredTrace>& measured,
+                    const TracePlan& trace) const;
+  void report_late_clock(const language::Object& block,
+                         const std::map<std::string, MeasuredTrace>& measured) const;
 
   const TraceSource& source_;
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <utility>
 
 #include "language/names.h"
 #include "output/file.h"
@@ -16,7 +17,7 @@ namespace {
 using language::Diagnostics;
 using language::Position;
 
-std::optional<language::Unit> unit_of_column(const output::CsvTable& table, std::size_t column,
+std::optional<language::Unit> unit_of_column(const tables::Table& table, std::size_t column,
                                              const TraceRequest& request, const Position& place,
                                              Diagnostics& diagnostics) {
   const ColumnTitle title = parts_of(table.header[column]);
@@ -43,7 +44,7 @@ double in_si(double value, const language::Unit& unit) {
 /// Turns a table's rows into samples.
 class TraceRows {
  public:
-  TraceRows(const TraceRequest& request, const output::CsvTable& table, const TraceColumns& columns,
+  TraceRows(const TraceRequest& request, const tables::Table& table, const TraceColumns& columns,
             Diagnostics& diagnostics)
       : request_(request), table_(table), columns_(columns), diagnostics_(diagnostics) {}
 
@@ -66,8 +67,18 @@ class TraceRows {
   bool add_sample(std::size_t row, MeasuredTrace& trace) {
     const auto time = field(row, columns_.time);
     if (!time) return false;
-    const double seconds = in_si(*time, columns_.time_unit);
-    if (seconds < 0.) return wrong(row, "begins before 0 s, where the scene does");
+    const double seconds = in_si(*time, columns_.time_unit) - request_.offset;
+    if (seconds < 0. && !request_.may_be_early)
+      return wrong(row, request_.offset == 0.
+                            ? std::string("begins before 0 s, where the scene does")
+                            : fmt::format("begins before the scene does: the clock's {} s less the "
+                                          "offset of {} s",
+                                          output::rounded(seconds + request_.offset, 6),
+                                          output::rounded(request_.offset, 6)));
+    if (seconds > latest_sample)
+      return wrong(row,
+                   fmt::format("its time, {} s, is beyond {} s: no run is that long",
+                               output::rounded(seconds, 6), output::rounded(latest_sample, 6)));
     if (!trace.time.empty() && !(seconds > trace.time.back()))
       return wrong(row, fmt::format("its time, {} s, is not after that of the sample before it",
                                     output::shortest(seconds)));
@@ -83,7 +94,7 @@ class TraceRows {
     return number_at(table_, row, column, request_.file, request_.file_place, diagnostics_);
   }
   bool wrong(std::size_t row, const std::string& what) {
-    tell_wrong_row(request_.file, row, what, request_.file_place, diagnostics_);
+    tell_wrong_row(request_.file, table_, row, what, request_.file_place, diagnostics_);
     return false;
   }
   bool too_few(const std::string& name) {
@@ -96,13 +107,13 @@ class TraceRows {
   }
 
   const TraceRequest& request_;
-  const output::CsvTable& table_;
+  const tables::Table& table_;
   const TraceColumns& columns_;
   Diagnostics& diagnostics_;
 };
 
-std::optional<TraceColumns> columns_of(const TraceRequest& request, const output::CsvTable& table,
-                                       Diagnostics& diagnostics) {
+std::optional<TraceColumns> trace_columns(const TraceRequest& request, const tables::Table& table,
+                                          Diagnostics& diagnostics) {
   TraceColumns columns;
   const auto find = [&](const std::string& title, const Position& place) {
     return column_of(table, title, request.file, place, diagnostics);
@@ -139,15 +150,29 @@ std::optional<TraceColumns> columns_of(const TraceRequest& request, const output
   return std::nullopt;
 }
 
-}  // namespace
-
-void tell_wrong_row(const std::filesystem::path& file, std::size_t row, const std::string& what,
-                    const Position& place, Diagnostics& diagnostics) {
-  constexpr std::size_t first_row = 2;  // behind the header, counted from 1
-  diagnostics.error(place, fmt::format("{}, row {}: {}", file.string(), row + first_row, what));
+/// "its columns are `time (s)`, `z`, separated by semicolons".
+std::string columns_of(const tables::Table& table) {
+  constexpr std::size_t most = 20;
+  std::vector<std::string> titles;
+  for (std::size_t i = 0; i < std::min(most, table.header.size()); ++i)
+    titles.push_back("`" + table.header[i] + "`");
+  if (table.header.size() > most)
+    titles.push_back(fmt::format("{} more", table.header.size() - most));
+  if (titles.size() == 1)
+    return "its one column is " + titles.front() +
+           ": fields are separated by commas, semicolons or tabs";
+  return fmt::format("its columns are {}, separated by {}", language::join(titles, ", "),
+                     tables::separators(table.separator));
 }
 
-std::optional<double> number_at(const output::CsvTable& table, std::size_t row, std::size_t column,
+}  // namespace
+
+void tell_wrong_row(const std::filesystem::path& file, const tables::Table& table, std::size_t row,
+                    const std::string& what, const Position& place, Diagnostics& diagnostics) {
+  diagnostics.error(place, fmt::format("{}, row {}: {}", file.string(), table.lines[row], what));
+}
+
+std::optional<double> number_at(const tables::Table& table, std::size_t row, std::size_t column,
                                 const std::filesystem::path& file, const Position& place,
                                 Diagnostics& diagnostics) {
   const std::string& text = table.rows[row][column];
@@ -156,19 +181,25 @@ std::optional<double> number_at(const output::CsvTable& table, std::size_t row, 
   if (error == std::errc{} && end == text.data() + text.size() && std::isfinite(value))
     return value;
   tell_wrong_row(
-      file, row,
+      file, table, row,
       fmt::format("`{}` in the column `{}` is not a finite number", text, table.header[column]),
       place, diagnostics);
   return std::nullopt;
 }
 
 ColumnTitle parts_of(const std::string& title) {
-  const std::size_t open = title.rfind(" [");
-  if (open == std::string::npos || !title.ends_with(']')) return {title, ""};
-  return {title.substr(0, open), title.substr(open + 2, title.size() - open - 3)};
+  for (const auto& [opening, closing] : {std::pair{" [", ']'}, std::pair{" (", ')'}}) {
+    const std::size_t open = title.rfind(opening);
+    if (open == std::string::npos || !title.ends_with(closing)) continue;
+    const std::string inside = title.substr(open + 2, title.size() - open - 3);
+    // A remark may stand between parentheses, too.
+    if (closing == ')' && !language::parse_unit(inside)) continue;
+    return {title.substr(0, open), inside};
+  }
+  return {title, ""};
 }
 
-std::optional<std::size_t> column_of(const output::CsvTable& table, const std::string& wanted,
+std::optional<std::size_t> column_of(const tables::Table& table, const std::string& wanted,
                                      const std::filesystem::path& file, const Position& place,
                                      Diagnostics& diagnostics) {
   std::optional<std::size_t> named;
@@ -180,33 +211,38 @@ std::optional<std::size_t> column_of(const output::CsvTable& table, const std::s
     named = i;
   }
   if (named && !several) return named;
-  diagnostics.error(place, fmt::format("{} has {} column `{}`{}", file.string(),
-                                       several ? "more than one" : "no", wanted,
-                                       several ? std::string(": say its unit, too")
-                                               : language::did_you_mean(wanted, table.header)));
+  if (several)
+    diagnostics.error(place, fmt::format("{} has more than one column `{}`: say its unit, too",
+                                         file.string(), wanted));
+  else
+    diagnostics.error(place,
+                      fmt::format("{} has no column `{}`{}; {}", file.string(), wanted,
+                                  language::did_you_mean(wanted, table.header), columns_of(table)));
   return std::nullopt;
 }
 
-std::optional<output::CsvTable> read_table(const std::filesystem::path& file, const Position& place,
-                                           Diagnostics& diagnostics) {
+std::optional<tables::Table> read_table(const std::filesystem::path& file, const Position& place,
+                                        Diagnostics& diagnostics) {
   const auto text = output::read_file(file);
   if (!text) {
     diagnostics.error(place, "cannot read " + file.string());
     return std::nullopt;
   }
-  auto table = output::parse_csv(text->ends_with('\n') ? *text : *text + "\n");
-  if (table && !table->header.empty()) return table;
-  diagnostics.error(
-      place,
-      file.string() + " is no table: a header, and rows with as many fields, between commas");
-  return std::nullopt;
+  tables::Fault fault;
+  auto table = tables::read_foreign(*text, fault);
+  if (!table)
+    diagnostics.error(place, fault.kind == tables::Fault::Kind::empty
+                                 ? file.string() + " is no table: it is empty"
+                                 : fmt::format("{} is no table: row {}: {}", file.string(),
+                                               fault.line, fault.text()));
+  return table;
 }
 
 std::optional<std::map<std::string, MeasuredTrace>> read_traces(const TraceRequest& request,
                                                                 Diagnostics& diagnostics) {
   const auto table = read_table(request.file, request.file_place, diagnostics);
   if (!table) return std::nullopt;
-  const auto columns = columns_of(request, *table, diagnostics);
+  const auto columns = trace_columns(request, *table, diagnostics);
   if (!columns) return std::nullopt;
   std::map<std::string, MeasuredTrace> traces;
   if (!TraceRows(request, *table, *columns, diagnostics).read(traces)) return std::nullopt;

@@ -397,7 +397,14 @@ std::optional<VariedConstant> varied_constant(const Object& block, const TuneSce
                                   block.name, language::did_you_mean(block.name, scene.names())));
     return std::nullopt;
   }
-  VariedConstant constant{block.name, *place, written_unit(*block.find("from")), 0., 1., false};
+  VariedConstant constant = varied_range(block, diagnostics);
+  constant.place = *place;
+  return constant;
+}
+
+VariedConstant varied_range(const Object& block, Diagnostics& diagnostics) {
+  VariedConstant constant{
+      block.name, ConstantPlace::scene_parameter, written_unit(*block.find("from")), 0., 1., false};
   if (!language::fits(block.find("to")->dimension, block.find("from")->dimension) ||
       !language::fits(block.find("from")->dimension, block.find("to")->dimension))
     diagnostics.error(block.find("to")->position, "`from` and `to` are of different units");

@@ -37,6 +37,9 @@ struct VariedConstant {
 std::optional<VariedConstant> varied_constant(const language::Object& block, const TuneScene& scene,
                                               language::Diagnostics& diagnostics);
 
+/// The range of a Vary block, whatever it is of; errors go to `diagnostics`.
+VariedConstant varied_range(const language::Object& block, language::Diagnostics& diagnostics);
+
 /// Engine, law, integrator and settings as the experiment has them, and whether the engine is
 /// there.
 void complete_subject(SubjectInfo& info, const simulation::Experiment& experiment,

@@ -80,5 +80,50 @@ class Cube(unittest.TestCase):
         self.assertLess(bias.unbalanced, 0.02)
 
 
+class Pairs(unittest.TestCase):
+    """Which of two subjects leads, of differences whose answer is known."""
+
+    def results(self, differences):
+        one = lambda position: {"position": position / 100, "rotation": 1.0}
+        return {
+            "impulse": {n: one(5 + d) for n, d in enumerate(differences)},
+            "mujoco_matched": {n: one(5) for n in range(len(differences))},
+        }
+
+    def verdict(self, differences):
+        rows = list(script.nearer_rows(self.results(differences)))
+        self.assertEqual(rows[0][:4], ["impulse", "mujoco_matched", "position", "% of the edge"])
+        mean, low, high, median, nearer, nearer_low, nearer_high = map(float, rows[0][5:])
+        self.assertLessEqual(low, mean)
+        self.assertLessEqual(mean, high)
+        return script.lead(low, high, nearer_low, nearer_high), median, nearer
+
+    def test_a_mean_that_a_few_tosses_make_is_no_lead_by_share(self):
+        # Of 100 tosses 10 are nearer by 20, 90 farther by 0.1: -1.91 in the mean.
+        verdict, median, nearer = self.verdict([-20] * 10 + [0.1] * 90)
+        self.assertEqual((verdict, nearer), ("leads in the mean only", 10))
+        self.assertAlmostEqual(median, 0.1)
+
+    def test_leads_and_differences_that_are_none(self):
+        self.assertEqual(self.verdict([-1, -2, -3, 1] * 25)[0], "leads")
+        self.assertEqual(self.verdict([-4, 4, 5, -5] * 25)[0], "no difference")
+
+    def test_share_of_wilson(self):
+        # 10 of 100: 5.52 to 17.44 % (Brown, Cai & DasGupta 2001, the formula with z = 1.96).
+        share, low, high = script.share_interval(10, 100)
+        self.assertEqual(share, 0.1)
+        self.assertAlmostEqual(low, 0.0552, delta=1e-4)
+        self.assertAlmostEqual(high, 0.1744, delta=1e-4)
+
+
+class TablesOfThePage(unittest.TestCase):
+    def test_an_interval_without_a_width_is_none(self):
+        rows = list(script.table_constants())
+        reversal = next(row for row in rows if row.startswith("| impulse_reversal | restitution "))
+        self.assertIn("did not vary", reversal)
+        self.assertNotIn("0.235 to 0.235", "".join(rows))
+        self.assertNotIn("e-14", "".join(script.table_correlations()))
+
+
 if __name__ == "__main__":
     unittest.main()

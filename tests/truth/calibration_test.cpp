@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <random>
 
 #include "application/calibration_plans.h"
@@ -190,6 +191,82 @@ TEST_F(KnownConstants, OfHuntAndCrossleysLawFromAnIntegrationOfItsEquation) {
   EXPECT_GE(recovered.inside[0], 18);
   EXPECT_GE(recovered.inside[1], 18);
   EXPECT_EQ(recovered.told, 40);
+}
+
+/// A point that is pulled along the ground and sticks: m x'' = F sin(2 pi f t) - k x - c x' from
+/// rest, in closed form: what is forced, and what dies away.
+Motion pulled_and_sticking(double stiffness, double damping, double force, double frequency) {
+  const double w = 2. * std::numbers::pi * frequency, rate = 0.5 * damping;
+  const double own = std::sqrt(stiffness - rate * rate), stiff = stiffness - w * w;
+  const double scale = force / (stiff * stiff + damping * damping * w * w);
+  const double sine = scale * stiff, cosine = -scale * damping * w;
+  // x(0) = x'(0) = 0.
+  const double a = -cosine, b = -(w * sine + rate * cosine) / own;
+  return [=](double time) {
+    return sine * std::sin(w * time) + cosine * std::cos(w * time) +
+           std::exp(-rate * time) * (a * std::cos(own * time) + b * std::sin(own * time));
+  };
+}
+
+/// Friction that never slips says only that it is more than the greatest pull needs.
+TEST_F(KnownConstants, OfAPointThatSticksItsFrictionIsNotIdentifiable) {
+  constexpr double stiffness = 3000., damping = 20., force = 6., frequency = 2.;
+  place_.file("scene.hook", R"(
+Param kt = 2 kN/m;
+Param mu = 0.9;
+World world {
+  gravity = 9.81;
+  deltat = 0.5 ms;
+  integrator = rk4;
+  contact = hookpoint;
+  Material floor { normal_stiffness = 20 kN/m; normal_damping = 30 N.s/m; tangential_stiffness = kt; tangential_damping = 20 N.s/m; static_friction = mu; kinetic_friction = mu; }
+  Terrain.Flat ground { material = floor; }
+  Robot point { Base.mobile { location = 0, 0, -0.0004905; mass = 1; inertia = 1, 1, 1, 0, 0, 0; ContactPoint tip { } } }
+  Force pull { body = point.base; }
+  Signal.Sine s { amplitude = 6; frequency = 2 Hz; Wire FROM output TO pull.force.x; }
+}
+)");
+  const Motion motion = pulled_and_sticking(stiffness, damping, force, frequency);
+  // The scene's friction just holds the greatest of F - m x'' = k x + c x'.
+  double greatest = 0.;
+  for (double time = 0.; time < sample_interval * samples; time += 1e-5) {
+    const double speed = (motion(time + 1e-6) - motion(time - 1e-6)) / 2e-6;
+    greatest = std::max(greatest, std::abs(stiffness * motion(time) + damping * speed));
+  }
+  const double least = greatest / gravity;
+  ASSERT_LT(least, 0.85);
+  int inside = 0;
+  for (const char* bootstrap : {"one_step", "refits"}) {
+    for (unsigned seed = 1; seed <= 20; ++seed) {
+      const std::string number = std::string(bootstrap) + std::to_string(seed);
+      measure("pull" + number + ".csv", motion, 200e-6, seed);
+      const auto result = calibrate(
+          "calibrate" + number + ".hook",
+          R"(Calibrate pulled {
+  scene = "scene.hook";
+  Trace x { file = "pull)" +
+              number + R"(.csv"; column = "z [mm]"; of = point.position.x; weight = 1 / (0.2 mm); }
+  Vary kt { from = 300 N/m; to = 30 kN/m; scale = log; }
+  Vary mu { from = 0.1; to = 2; }
+  starts = 6; resamples = 60; bootstrap = )" +
+              bootstrap + "; seed = " + std::to_string(seed) + ";\n}\n",
+          "out" + number);
+      ASSERT_EQ(result.subjects.size(), 1U);
+      const auto& constants = result.subjects[0].constants;
+      ASSERT_EQ(constants.size(), 2U) << result.subjects[0].status;
+      EXPECT_TRUE(constants[0].told) << number << ": " << constants[0].reason;
+      const double truth = share_of_log(stiffness, 300., 30e3);
+      inside += *constants[0].low <= truth && truth <= *constants[0].high ? 1 : 0;
+      // Not of width 0 because the friction is singular, nor much wider than it is known.
+      EXPECT_GT(*constants[0].high - *constants[0].low, 1e-3) << number;
+      EXPECT_FALSE(constants[1].told) << number;
+      EXPECT_GT(*constants[1].high, 0.999) << number;
+      const double low = 0.1 + 1.9 * *constants[1].low;
+      EXPECT_LT(low, least + 0.05) << number;
+      EXPECT_GT(low, least - 0.15) << number;
+    }
+  }
+  EXPECT_GE(inside, 36);
 }
 
 }  // namespace

@@ -77,6 +77,7 @@ class CalibrateFile : public ::testing::Test {
 
   std::optional<CalibrationPlan> plan(const std::string& text) {
     told_.clear();
+    warned_.clear();
     application::StudyArguments arguments;
     const std::string name = "calibrate" + std::to_string(++files_) + ".hook";
     arguments.file = place_.file(name, text);
@@ -98,20 +99,22 @@ class CalibrateFile : public ::testing::Test {
       if (stop_after > 0 && progress.done >= stop_after) stop = true;
     };
     const CalibrationRun run = run_calibration(plan, application_.engines(), options, stop);
-    application::write_calibration(run, plan, "hookpoint tune calibrate.hook");
+    undrawn_ = application::write_calibration(run, plan, "hookpoint tune calibrate.hook");
     return run.result;
   }
 
   void tell(const language::Diagnostics& found) {
     for (const language::Diagnostic& diagnostic : found.all())
-      if (diagnostic.severity == language::Severity::error) told_ += diagnostic.message + "\n";
+      (diagnostic.severity == language::Severity::error ? told_ : warned_) +=
+          diagnostic.message + "\n";
   }
   bool refused(const std::string& inside, const std::string& why) {
     return !plan(block(inside)) && told_.find(why) != std::string::npos;
   }
 
   Workplace place_;
-  std::string told_;
+  std::string told_, warned_;
+  std::vector<std::string> undrawn_;
   application::Application application_;
   int files_ = 0;
 };
@@ -286,7 +289,112 @@ TEST_F(CalibrateFile, AConstantAtTheEndOfItsRangeIsNotToldAsANumber) {
   EXPECT_NE(table.find("scene,normal_stiffness,kN/m,,"), std::string::npos) << table;
   EXPECT_NE(table.find("no,lower,the fit ends at the lower end of its range"), std::string::npos)
       << table;
-  EXPECT_NE(place_.read("out/report.html").find("would go on beyond it"), std::string::npos);
+  EXPECT_NE(place_.read("out/report.html").find("would continue beyond it"), std::string::npos);
+}
+
+// A plain spring has a scale: where two constants are seen as a product alone, neither is known.
+TEST_F(CalibrateFile, ConstantsOfWhichOnlyACombinationIsSeenAreNotIdentifiable) {
+  std::string scene = point_scene;
+  scene.insert(0, "Param factor = 1;\nParam base_stiffness = 10 kN/m;\n");
+  const std::string given = "normal_stiffness = 10 kN/m;";
+  scene.replace(scene.find(given), given.size(), "normal_stiffness = factor * base_stiffness;");
+  place_.file("scene.hook", scene);
+  for (const char* bootstrap : {"one_step", "refits"}) {
+    const auto found =
+        plan(block(std::string("resamples = 40; bootstrap = ") + bootstrap + ";\n" + trace() +
+                   "Vary factor { from = 0.1; to = 10; scale = log; }\n"
+                   "Vary base_stiffness { from = 1 kN/m; to = 100 kN/m; scale = log; }\n"
+                   "Vary normal_damping { from = 1 N.s/m; to = 100 N.s/m; scale = log; }\n"));
+    ASSERT_TRUE(found) << told_;
+    const CalibrationResult result = run(*found, std::string("product_") + bootstrap);
+    const auto& constants = result.subjects[0].constants;
+    ASSERT_EQ(constants.size(), 3U);
+    EXPECT_LT(*result.subjects[0].error, 1.);
+    EXPECT_FALSE(constants[0].told) << bootstrap;
+    EXPECT_FALSE(constants[1].told) << bootstrap;
+    EXPECT_TRUE(constants[2].told) << bootstrap << constants[2].reason;
+    EXPECT_NEAR(found->varied[2].at(constants[2].share), 18., 0.3);
+  }
+}
+
+TEST_F(CalibrateFile, AFitThatMissesItsOwnWeightsSaysSo) {
+  const std::string one = "Vary normal_damping { from = 1 N.s/m; to = 2 N.s/m; }\n";
+  const auto found = plan(block("resamples = 40;\n" + trace() + one));
+  ASSERT_TRUE(found) << told_;
+  const CalibrationResult result = run(*found, "out");
+  EXPECT_GT(*result.subjects[0].error, 10.);
+  const auto sentences = misfits(*found, result);
+  ASSERT_EQ(sentences.size(), 1U);
+  EXPECT_NE(sentences[0].find("scene misses its own weights: error "), std::string::npos);
+  EXPECT_NE(sentences[0].find("a wider range of normal_damping"), std::string::npos);
+  EXPECT_NE(place_.read("out/report.html").find("misses its own weights"), std::string::npos);
+  EXPECT_NE(place_.read("out/calibration.json").find("misses its own weights"), std::string::npos);
+  const auto good = plan(block("resamples = 40;\n" + trace() + two_constants));
+  ASSERT_TRUE(good) << told_;
+  EXPECT_TRUE(misfits(*good, run(*good, "good")).empty());
+  EXPECT_EQ(place_.read("good/report.html").find("misses its own weights"), std::string::npos);
+}
+
+/// The drop by a clock that reads 12.25 s when it begins.
+std::string late_drop() {
+  std::string text = "Time (s);z (mm)\n";
+  for (int i = 0; i <= 60; ++i) {
+    const double time = 2.5e-3 * i;
+    text += std::to_string(12.25 + time) + ";" +
+            std::to_string(1e3 * height_at(time, 1., stiffness) + 0.01 * std::sin(1.7 * i * i)) +
+            "\n";
+  }
+  return text;
+}
+
+TEST_F(CalibrateFile, AClockThatBeginsLateIsReportedAndItsOffsetGivenOrFitted) {
+  place_.file("late.csv", late_drop());
+  // Compared as it stands the whole drop is over; that is said.
+  ASSERT_TRUE(plan(block("resamples = 0;\n" + trace("", "late.csv") + two_constants))) << told_;
+  EXPECT_NE(warned_.find("begins at 12.25 s"), std::string::npos) << warned_;
+  EXPECT_NE(warned_.find("`offset = 12.25 s;`"), std::string::npos) << warned_;
+  const auto given =
+      plan(block("resamples = 0;\n" + trace("offset = 12.25 s;", "late.csv") + two_constants));
+  ASSERT_TRUE(given) << told_;
+  EXPECT_EQ(warned_, "");
+  const CalibrationResult known = run(*given, "given");
+  EXPECT_NEAR(given->varied[0].at(known.subjects[0].constants[0].share), 8., 0.03);
+  EXPECT_LT(*known.subjects[0].error, 1.);
+  const auto fitted = plan(
+      block("resamples = 40;\n" +
+            trace("Vary offset { from = 12.21 s; to = 12.28 s; }", "late.csv") + two_constants));
+  ASSERT_TRUE(fitted) << told_;
+  EXPECT_EQ(warned_, "");
+  ASSERT_EQ(fitted->varied.size(), 3U);
+  EXPECT_EQ(fitted->varied[2].name, "drop.offset");
+  const CalibrationResult found = run(*fitted, "fitted");
+  const auto& constants = found.subjects[0].constants;
+  EXPECT_NEAR(fitted->varied[2].at(constants[2].share), 12.25, 2e-4);
+  EXPECT_NEAR(fitted->varied[0].at(constants[0].share), 8., 0.05);
+  EXPECT_LT(*found.subjects[0].error, 1.);
+  EXPECT_TRUE(constants[2].told) << constants[2].reason;
+  // It is no constant of the material.
+  EXPECT_NE(place_.read("fitted/materials/floor_scene.hook").find("drop.offset = "),
+            std::string::npos);
+  EXPECT_TRUE(refused(trace("Vary height { from = 1 m; to = 2 m; }") + two_constants,
+                      "a Trace has no number `height` to vary"))
+      << told_;
+  EXPECT_TRUE(refused(trace("Vary offset { from = 1 m; to = 2 m; }") + two_constants,
+                      "an offset is a time"))
+      << told_;
+}
+
+TEST_F(CalibrateFile, WeightsAndSamplesThatCannotBeSquaredAreErrors) {
+  const auto weighing = [](const std::string& weight, const std::string& file) {
+    return "Trace drop { file = \"" + file +
+           "\"; column = \"z\"; of = point.base.location.z; weight = " + weight + "; }\n" +
+           two_constants;
+  };
+  EXPECT_TRUE(refused(weighing("1e300 / (1 m)", "drop.csv"), "too large to be squared")) << told_;
+  place_.file("huge.csv", "time [s],z [m]\n0,0\n0.1,1e308\n");
+  EXPECT_TRUE(refused(weighing("1 / (1 mm)", "huge.csv"), "too large to be squared")) << told_;
+  place_.file("long.csv", "time [ms],z [m]\n0,0\n1e300,0\n");
+  EXPECT_TRUE(refused(weighing("1 / (1 mm)", "long.csv"), "row 3")) << told_;
 }
 
 TEST_F(CalibrateFile, WhatCannotBeCalibratedIsToldBeforeAnythingRuns) {
@@ -391,6 +499,27 @@ TEST_F(CalibrateCases, DistancesByCmaesAreTheSameHoweverTheyAreRun) {
     EXPECT_FALSE(whole.empty()) << file;
     EXPECT_EQ(whole, place_.read(std::filesystem::path("three") / file)) << file;
     EXPECT_EQ(whole, place_.read(std::filesystem::path("cut") / file)) << file;
+  }
+}
+
+// The case that the first search looked at is held out by no fold: it has no prediction, and its
+// figure of residuals nothing to show.
+TEST_F(CalibrateCases, ACaseThatNoFoldHoldsOutHasNoFigureOfResiduals) {
+  const auto found = plan(block(cases("Only drop { to = 2; }") +
+                                "method = cmaes; population = 8; generations = 2; most_cases = 1; "
+                                "folds = 3; resamples = 0;\n" +
+                                two_constants));
+  ASSERT_TRUE(found) << told_;
+  const CalibrationResult result = run(*found, "out");
+  std::vector<bool> held(3, false);
+  for (const FoldResult& fold : result.subjects[0].folds)
+    for (const std::size_t one : fold.held_out) held[one] = true;
+  EXPECT_EQ(std::ranges::count(held, false), 1);
+  EXPECT_TRUE(undrawn_.empty()) << undrawn_.front();
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::string name = "drop_" + std::to_string(i) + "_height.svg";
+    EXPECT_FALSE(place_.read("out/trace_" + name).empty());
+    EXPECT_EQ(place_.read("out/residuals_" + name).empty(), !held[i]) << name;
   }
 }
 

@@ -91,7 +91,9 @@ TEST(Data, SaysWhatIsWrongWithAFileAndWhere) {
   EXPECT_EQ(error("time,force\n0,1\n1,inf\n"),
             ":3: 'inf' in column 'force' is not a finite number");
   EXPECT_EQ(error("time,force\n0,1\n\n0,2\n"), ":4: time 0 is not after that of the row before");
-  EXPECT_EQ(error("time,force\n0,1,2\n"), ":2: expected 2 fields, found 3");
+  EXPECT_EQ(error("time,force\n0,1,2\n"),
+            ":2: expected 2 fields, found 3, separated by commas; where commas stand in numbers, "
+            "separate the fields by semicolons");
   EXPECT_EQ(error("0,1\n1,2\n"), ":1: expected a row of column names before the numbers");
   EXPECT_EQ(error("time\n0\n"),
             ":1: expected a time column and at least one more, separated by commas");

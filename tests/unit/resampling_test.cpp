@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <random>
 
 namespace hookpoint::studies {
 namespace {
@@ -99,6 +100,25 @@ TEST(Resampling, IntervalsHoldTheTruthInNineteenOfTwentyCases) {
     inside += quantile(slopes, tail) <= 0. && 0. <= quantile(slopes, 1. - tail) ? 1 : 0;
   }
   EXPECT_NEAR(static_cast<double>(inside) / lines, 0.95, 0.015);
+}
+
+TEST(Resampling, CorrelatedResidualsAreWorthFewerIndependentOnes) {
+  // x_i = a x_(i-1) + e_i: its autocorrelation is a^lag, and 1 + 2 sum a^lag = (1 + a)/(1 - a).
+  const std::array<std::size_t, 1> sizes{40000};
+  std::mt19937_64 random(13);
+  for (const double a : {0., 0.5, 0.8}) {
+    Residuals residuals;
+    double last = 0.;
+    for (std::size_t i = 0; i < sizes[0]; ++i)
+      residuals.push_back(last = a * last + normal_number(random));
+    const double expected = (1. + a) / (1. - a);
+    EXPECT_NEAR(statistical_inefficiency(residuals, sizes), expected, 0.1 * expected) << a;
+  }
+  // Never less than 1, nor of what is too short.
+  Residuals alternating;
+  for (int i = 0; i < 40; ++i) alternating.push_back(i % 2 == 0 ? 1. : -1.);
+  const std::array<std::size_t, 2> parts{36, 4};
+  EXPECT_EQ(statistical_inefficiency(alternating, parts), 1.);
 }
 
 TEST(Resampling, FoldsAreEquallyLargeAndDrawnBySeed) {

@@ -61,7 +61,64 @@ TEST_F(TraceFile, WhatIsWrongIsToldWithItsRow) {
   EXPECT_TRUE(refused("time [s],z [m]\n0,1x\n1,2\n", "z", "`1x`")) << error_;
   EXPECT_TRUE(refused("time [s],z [m]\n0,1,2\n", "z", "is no table")) << error_;
   EXPECT_TRUE(refused("time [s],z [m]\n0,1\n", "z", "fewer than two")) << error_;
-  EXPECT_TRUE(refused("", "z", "no column `z`")) << error_;
+  EXPECT_TRUE(refused("", "z", "it is empty")) << error_;
+  // Runs of decades are refused, not begun.
+  EXPECT_TRUE(
+      refused("time [s],z [m]\n0,1\n1e297,2\n", "z", "row 3: its time, 1e+297 s, is beyond"))
+      << error_;
+  EXPECT_TRUE(refused("time [ms],z [m]\n0,1\n1e300,2\n", "z", "row 3")) << error_;
+}
+
+TEST_F(TraceFile, TablesOfOtherPrograms) {
+  const std::vector<double> time{0., 0.01}, value{0.0015, -0.02};
+  for (const char* text :
+       {"Time (s);z (mm)\n0;1,5\n0,01;-20\n", "Time (s),z (mm)\n0,1.5\n0.01,-20\n",
+        "# logger 3\n\nTime [s]\tz [mm]\n0\t1.5\n# pause\n0.01\t-20\n",
+        "Time (ms) ; z [mm] ; note\n0;1.5;a, b\n10;-20;\n"}) {
+    const auto trace = read(text, "z");
+    ASSERT_TRUE(trace) << text << error_;
+    ASSERT_EQ(trace->value.size(), 2U);
+    for (std::size_t i = 0; i < 2; ++i) {
+      EXPECT_DOUBLE_EQ(trace->time[i], time[i]) << text;
+      EXPECT_DOUBLE_EQ(trace->value[i], value[i]) << text;
+    }
+  }
+  EXPECT_TRUE(read("Time (s);z (mm)\n0;1\n1;2\n", "z (mm)", "Time")) << error_;
+  // What stands between parentheses and is no unit is part of the name.
+  EXPECT_TRUE(read("t [s],z (left) [mm]\n0,1\n1,2\n", "z (left)")) << error_;
+  EXPECT_EQ(parts_of("force (left)").name, "force (left)");
+  EXPECT_EQ(parts_of("v (mm/s)").unit, "mm/s");
+  // Rows are those of the file, comments and all.
+  EXPECT_TRUE(refused("# a\ntime [s];z [m]\n# b\n0;1\n0;2\n", "z", "row 5")) << error_;
+  EXPECT_TRUE(refused("time [s];z [m]\n0;1\n1;2;3\n", "z",
+                      "row 3: expected 2 fields, found 3, separated by semicolons"))
+      << error_;
+  EXPECT_TRUE(refused("time [s];x [m];y [m]\n0;1;1\n1;2;1\n", "z",
+                      "no column `z`; its columns are `time [s]`, `x [m]`, `y [m]`, separated by "
+                      "semicolons"))
+      << error_;
+  EXPECT_TRUE(refused("time [s] z [m]\n0 1\n1 2\n", "z", "its one column is `time [s] z [m]`"))
+      << error_;
+}
+
+TEST_F(TraceFile, TheOffsetOfAClockIsTakenFromItsTimes) {
+  const auto read_with = [&](double offset, bool may_be_early) {
+    language::Diagnostics diagnostics;
+    TraceRequest request{
+        place_.file("trace.csv", "time [s],z [m]\n12.25,1\n12.5,2\n"), {"z"}, "", "", {}, {}, {}};
+    request.offset = offset;
+    request.may_be_early = may_be_early;
+    auto traces = read_traces(request, diagnostics);
+    error_ = diagnostics.all().empty() ? "" : diagnostics.all().front().message;
+    return traces ? traces->at("").time : std::vector<double>();
+  };
+  EXPECT_EQ(read_with(12., false), (std::vector<double>{0.25, 0.5}));
+  EXPECT_TRUE(read_with(12.375, false).empty());
+  EXPECT_NE(error_.find("row 2: begins before the scene does: the clock's 12.25 s less the offset "
+                        "of 12.375 s"),
+            std::string::npos)
+      << error_;
+  EXPECT_EQ(read_with(12.375, true), (std::vector<double>{-0.125, 0.125}));
 }
 
 TEST_F(TraceFile, CurvesOfManyCasesAndOfSeveralColumns) {
