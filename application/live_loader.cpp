@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "language/document.h"
+#include "output/text/number.h"
 #include "simulation/scene/load.h"
 
 namespace hookpoint::application {
@@ -20,11 +21,12 @@ std::string text_of(const language::Diagnostics& diagnostics) {
 }  // namespace
 
 LiveLoader::LiveLoader(std::filesystem::path file, Settings settings, bool allow_plugins,
-                       std::optional<std::filesystem::path> movie)
+                       std::optional<std::filesystem::path> movie, const LiveLoader* leader)
     : file_(std::move(file)),
       settings_(std::move(settings)),
       allow_plugins_(allow_plugins),
-      movie_(std::move(movie)) {}
+      movie_(std::move(movie)),
+      leader_(leader) {}
 
 /// Files are read once in an application's life.
 void LiveLoader::read_anew() {
@@ -56,10 +58,13 @@ std::optional<simulation::LoadedExperiment> LiveLoader::evaluate(
   told_.clear();
   std::unique_ptr<language::Object> root;
   if (application_->load_plugins(found_)) {
-    std::vector<std::string> all = settings_.trails;
+    std::vector<std::string> all;
+    if (leader_ != nullptr) all = leader_->step_;
+    all.insert(all.end(), settings_.trails.begin(), settings_.trails.end());
     for (const auto& [field, value] : settings_.world)
       std::ranges::move(application_->world_settings(found_, field, value, settings_.trails),
                         std::back_inserter(all));
+    if (!overrides.empty()) all.insert(all.end(), step_.begin(), step_.end());
     // What is edited last counts.
     all.insert(all.end(), overrides.begin(), overrides.end());
     root = application_->evaluate(found_, all);
@@ -70,6 +75,11 @@ std::optional<simulation::LoadedExperiment> LiveLoader::evaluate(
     problem = told_;
     while (problem.ends_with('\n')) problem.pop_back();
     return std::nullopt;
+  }
+  if (overrides.empty()) {
+    step_.clear();
+    if (experiment->chosen_from)
+      step_.push_back(experiment->world + ".deltat=" + output::shortest(experiment->deltat));
   }
   try {
     simulation::write_chosen_step(*experiment, *root);

@@ -7,14 +7,29 @@
 #include "cli/commands.h"
 #include "cli/exit_status.h"
 #include "output/file.h"
+#include "simulation/analysis/step_warning.h"
 
 namespace hookpoint::cli {
 namespace {
 
+/// The warning that a run of the file's World begins with.
+void warn_of_step(const application::Application& application, const language::Object& root,
+                  const simulation::Experiment& experiment) {
+  const auto warning = simulation::step_warning(experiment);
+  if (!warning) return;
+  language::Diagnostics diagnostics;
+  diagnostics.warning(root.children_of("World").front()->position, *warning);
+  application.tell(diagnostics);
+}
+
 /// What `run`, `study` and `tune` would find before anything runs, found.
 bool can_run(application::Application& application, const language::Object& root,
              const std::filesystem::path& file, bool allow_plugins) {
-  if (!root.children_of("World").empty() && !application.load(root)) return false;
+  if (!root.children_of("World").empty()) {
+    const auto experiment = application.load(root);
+    if (!experiment) return false;
+    warn_of_step(application, root, *experiment);
+  }
   application::StudyArguments arguments;
   arguments.file = file;
   arguments.allow_plugins = allow_plugins;

@@ -45,6 +45,7 @@ int go_on(const RunArguments& arguments) {
                               {std::filesystem::absolute(*arguments.resume).string()}},
                              first);
   rewind.arrive(first);
+  tell_stability(experiment);
   const int status = step_through(experiment, world, files, last);
   files.close();
   tell_files(files.folder(), files.names());

@@ -95,7 +95,9 @@ class Watched {
                   [](const auto& change) { return change.first.starts_with("Simulator."); });
     std::vector<std::string> settings;
     for (const auto& [trail, value] : latest) settings.push_back(trail + "=" + value);
-    LiveLoader loader(arguments_.file, settings_, arguments_.allow_plugins);
+    // With the step of the run, not one for what was changed.
+    LiveLoader loader(arguments_.file, settings_, arguments_.allow_plugins, std::nullopt,
+                      loaders_.front().get());
     auto changed = loader.load(settings, problem);
     if (!changed) {
       // Not every port is a field: those that are none are left out.
@@ -132,8 +134,10 @@ class Watched {
  private:
   void add(const std::string& label, const std::string& colour, application::Settings settings,
            simulation::LiveRunRequest request, const std::optional<std::filesystem::path>& movie) {
+    // All are stepped together: those beside the run take the step that was chosen for it.
+    const LiveLoader* leader = loaders_.empty() ? nullptr : loaders_.front().get();
     loaders_.push_back(std::make_unique<LiveLoader>(arguments_.file, std::move(settings),
-                                                    arguments_.allow_plugins, movie));
+                                                    arguments_.allow_plugins, movie, leader));
     LiveLoader& loader = *loaders_.back();
     std::string problem;
     const simulation::LoadedExperiment* first = loader.load_first(problem);

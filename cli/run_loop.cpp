@@ -14,6 +14,7 @@
 #include "output/text/number.h"
 #include "simulation/analysis/automatic_step.h"
 #include "simulation/analysis/stability.h"
+#include "simulation/analysis/step_warning.h"
 #include "simulation/robot_tree.h"
 #include "simulation/run/energy_watch.h"
 
@@ -64,25 +65,18 @@ void tell_stability(const Experiment& experiment) {
                             : bound.controllers.empty()
                                 ? "none, without damping it is unstable at any"
                                 : "none, its loops are unstable at any";
-  const std::string chosen = experiment.chosen_from
-                                 ? fmt::format(", auto: at most {:g} of it", simulation::safe_part)
-                                 : std::string();
+  const std::string chosen =
+      experiment.chosen_from
+          ? fmt::format(", auto: at most {:g} of it and {:g} s", simulation::safe_part,
+                        simulation::largest_automatic_step)
+          : std::string();
   std::cerr << fmt::format("largest stable step of {} for {}{}: {} (deltat is {:.4g} s{})\n",
                            experiment.integrator, bound.robot, scope, limit, experiment.deltat,
                            chosen);
   if (!bound.left_out.empty())
     std::cerr << "feedback that is not in it: " << simulation::first_of(bound.left_out) << '\n';
-  if (experiment.deltat > bound.step) {
-    const char* softer = bound.contacts == Contacts::none ? "" : "the ground softer, ";
-    const std::string controllers = simulation::controller_advice(bound);
-    std::cerr << fmt::format(
-        "hookpoint: warning: deltat is above the largest stable step: what springs back will gain "
-        "energy; {}\n",
-        controllers.empty()
-            ? fmt::format("make the step smaller (deltat = auto), {}or choose another integrator",
-                          softer)
-            : controllers);
-  }
+  if (const auto warning = simulation::step_warning(experiment, bound))
+    std::cerr << "hookpoint: warning: " << *warning << '\n';
   if (std::isfinite(bound.resolved_speed)) {
     std::cerr << fmt::format(
         "under {} the step resolves how friction builds up to {:.3g} m/s of sliding; above, it is "

@@ -183,9 +183,11 @@ void LiveSession::log_end() {
 
 void LiveSession::publish() {
   next_snapshot_ = std::max(next_snapshot_ + Pace::between_snapshots, Clock::now());
-  for (const std::string& notice : subjects_.take_notices()) audience_.tell_notice("note", notice);
   tell_changes();
+  // Messages wait for the first viewer.
   if (audience_.empty()) return;
+  for (const Notice& notice : subjects_.take_notices())
+    audience_.tell_notice(notice.level, notice.text);
   const simulation::WorldState& state = subjects_.run().world().state();
   const double deltat = subjects_.run().experiment().deltat;
   SessionState session;

@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "simulation/analysis/step_warning.h"
+
 namespace hookpoint::view {
 namespace {
 
@@ -46,8 +48,24 @@ void Subjects::begin() {
   }
   take_ = run().take();
   told_ = 0;
+  warn_of_steps();
   keep();
 }
+
+/// Again after a change, which may have made the ground stiffer; the same warning only once.
+void Subjects::warn_of_steps() {
+  for (Subject& subject : subjects_) {
+    const std::string warning =
+        simulation::step_warning(subject.run->experiment()).value_or(std::string());
+    if (warning == subject.step_warning) continue;
+    subject.step_warning = warning;
+    if (warning.empty()) continue;
+    const bool alone = subjects_.size() == 1;
+    notices_.push_back({"warning", alone ? warning : subject.name + ": " + warning});
+  }
+}
+
+void Subjects::add_note(std::string text) { notices_.push_back({"note", std::move(text)}); }
 
 /// From the present instant on; again whenever the run's world is another one.
 void Subjects::begin_measuring(Subject& subject, const Tally& behind) {
@@ -95,7 +113,7 @@ StepStatus Subjects::step() {
     if (own.ok()) continue;
     subject.stopped =
         fmt::format("{} stopped at {:.6g} s: {}: {}", subject.name, own.time, own.body, own.advice);
-    notices_.push_back(subject.stopped);
+    add_note(subject.stopped);
   }
   observe();
   keep();
@@ -117,10 +135,11 @@ std::string Subjects::edit(const std::string& trail, const std::string& value) {
   follow_takes();
   for (Subject& subject : std::span(subjects_).subspan(1)) {
     if (std::string problem = subject.run->edit(trail, value); !problem.empty())
-      notices_.push_back(fmt::format("{} goes on without the change: {}", subject.name, problem));
+      add_note(fmt::format("{} continues without the change: {}", subject.name, problem));
   }
   for (Subject& subject : subjects_)
     begin_measuring(subject, subject.meter ? subject.meter->tally_before_change() : Tally{});
+  warn_of_steps();
   return "";
 }
 
@@ -128,7 +147,7 @@ std::string Subjects::reset() {
   if (std::string problem = run().reset(); !problem.empty()) return problem;
   for (Subject& subject : std::span(subjects_).subspan(1)) {
     if (std::string problem = subject.run->reset(); !problem.empty())
-      notices_.push_back(fmt::format("{}: {}", subject.name, problem));
+      add_note(fmt::format("{}: {}", subject.name, problem));
   }
   begin();
   return "";
@@ -214,10 +233,9 @@ std::span<const SubjectState> Subjects::states() {
   return states_;
 }
 
-std::vector<std::string> Subjects::take_notices() {
+std::vector<Notice> Subjects::take_notices() {
   const std::vector<std::string>& said = run().world().state().notices;
-  for (told_ = std::min(told_, said.size()); told_ < said.size(); ++told_)
-    notices_.push_back(said[told_]);
+  for (told_ = std::min(told_, said.size()); told_ < said.size(); ++told_) add_note(said[told_]);
   return std::exchange(notices_, {});
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "simulation/run/live_run.h"
@@ -24,6 +25,14 @@ struct Subject {
   Reading reading{};
   std::vector<simulation::ContactView> contacts{};
   std::string stopped{};  ///< why it goes no further, "" while it does
+  /// Warning of its step, "" where that is stable; the viewers have been sent it.
+  std::string step_warning{};
+};
+
+/// A message for the viewers.
+struct Notice {
+  std::string_view level;  ///< "note" or "warning"
+  std::string text;
 };
 
 class Subjects {
@@ -59,8 +68,8 @@ class Subjects {
   std::vector<std::string> displacements() const;
   /// For snapshots, at the present instant. Valid until the next call.
   std::span<const SubjectState> states();
-  /// What those who look on should know, each once.
-  std::vector<std::string> take_notices();
+  /// Messages for the viewers since the last call.
+  std::vector<Notice> take_notices();
 
  private:
   void begin();
@@ -69,12 +78,14 @@ class Subjects {
   void read(Subject& subject);
   void keep();
   void follow_takes();
+  void warn_of_steps();
+  void add_note(std::string text);
   bool shown(const Subject& subject) const;
 
   std::vector<Subject> subjects_;
   MakeMeter make_meter_;
   std::vector<SubjectState> states_;
-  std::vector<std::string> notices_;
+  std::vector<Notice> notices_;
   std::size_t told_ = 0;  ///< notices of the run itself
   std::uint64_t take_ = 0;
 };

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <string>
 #include <vector>
 
-#include "contact/force_law.h"
 #include "integrators/stepper.h"
 #include "simulation/analysis/stability.h"
 
@@ -46,39 +46,30 @@ double round_step(int n) {
   return step;
 }
 
-std::string why_no_bound(const Experiment& experiment) {
-  if (experiment.engine != "dts") return "engine " + experiment.engine + " tells none";
-  const contact::LawDescription* law = contact::find_law(experiment.contact);
-  if (law != nullptr && law->is_impulse_law)
-    return "contact law " + experiment.contact + " advances time from impact to impact";
+/// Largest stable step under engine dts [s].
+double bound_under_dts(const Experiment& experiment) {
   const integrators::StepperDescription* stepper = integrators::find_stepper(experiment.integrator);
-  if (stepper != nullptr && stepper->adaptive())
-    return experiment.integrator + " chooses its own steps, and deltat is how often it tells";
-  return "";
+  if (stepper != nullptr && stepper->adaptive()) return HUGE_VAL;
+  if (experiment.engine == Experiment{}.engine) return stability_bound(experiment).step;
+  Experiment ours = experiment;
+  ours.engine = Experiment{}.engine;
+  return stability_bound(ours).step;
 }
 
 }  // namespace
 
 ChosenStep choose_step(const Experiment& experiment) {
-  std::string why = why_no_bound(experiment);
-  const double bound = why.empty() ? stability_bound(experiment).step : HUGE_VAL;
-  if (why.empty() && !std::isfinite(bound)) why = "nothing in it springs back";
-  if (!why.empty())
-    return {0., bound,
-            "there is no largest stable step to choose it from: " + why + "; give deltat a number"};
-  if (!(bound > 0.))
-    return {0., bound,
-            fmt::format("no step is stable under {}: give deltat a number, and what vibrates some "
-                        "damping",
-                        experiment.integrator)};
+  const double bound = bound_under_dts(experiment);
+  const double limit =
+      bound > 0. ? std::min(largest_automatic_step, safe_part * bound) : largest_automatic_step;
   const std::vector<double> rates = rates_of(experiment);
-  int largest = static_cast<int>(std::ceil(3. * std::log10(safe_part * bound))) + 3;
-  while (round_step(largest) > safe_part * bound) --largest;
+  int largest = static_cast<int>(std::ceil(3. * std::log10(limit))) + 3;
+  while (round_step(largest) > limit) --largest;
   constexpr int tries = 6;  // two decades
   for (int n = largest; n > largest - tries; --n) {
-    if (divides(round_step(n), rates)) return {round_step(n), bound, ""};
+    if (divides(round_step(n), rates)) return {round_step(n), bound};
   }
-  return {round_step(largest), bound, ""};
+  return {round_step(largest), bound};
 }
 
 }  // namespace hookpoint::simulation

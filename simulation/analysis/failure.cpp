@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "simulation/analysis/stability.h"
+#include "simulation/analysis/step_warning.h"
 
 namespace hookpoint::simulation {
 
@@ -18,13 +19,7 @@ StepStatus with_advice(StepStatus status, const Experiment& experiment) {
     return status;
   }
   status.kind = StepStatus::Kind::step_too_large;
-  const std::string controllers = controller_advice(bound);
-  status.advice = fmt::format("deltat {:.4g} s is above the largest stable step {:.4g} s of {}: {}",
-                              experiment.deltat, bound.step, experiment.integrator,
-                              controllers.empty()
-                                  ? "make the step smaller, the ground softer, or choose another "
-                                    "integrator"
-                                  : controllers);
+  status.advice = *step_warning(experiment, bound);
   return status;
 }
 

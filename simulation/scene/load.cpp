@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -41,7 +42,7 @@ void check_strays(const language::Object& root, Loading& loading) {
   }
 }
 
-/// `deltat = auto`.
+/// `deltat = auto`, written or by default.
 bool is_automatic(const language::Object& world) {
   return !world.find(deltat_field)->words.empty();
 }
@@ -57,19 +58,49 @@ void load_signals(const language::Object& root, Loading& loading) {
   load_expectations(root, loading);
 }
 
-/// A load with `deltat` [s] where the World says auto.
-std::optional<Experiment> load_with_step(const language::Object& root,
-                                         language::Diagnostics& diagnostics,
-                                         const std::vector<std::filesystem::path>& search_path,
-                                         const std::vector<FileSpec>& given,
-                                         const ChosenStep& chosen) {
+/// So fine that hardly a rate is too high for it [s].
+constexpr double finest_step = 1e-6;
+
+/// Chooses the step of an experiment whose robots, ground and materials are loaded. Controllers,
+/// wires and rates decide it too, and are themselves checked against it: they are loaded into a
+/// copy with a step that they allow. Where they allow none, what is wrong is reported when they are
+/// loaded for good.
+void choose_deltat(const language::Object& root, Loading& loading) {
+  loading.experiment.deltat = largest_automatic_step;
+  for (const double step : {largest_automatic_step, finest_step}) {
+    language::Diagnostics unreported;
+    Loading trial{unreported,
+                  loading.search_path,
+                  loading.given,
+                  loading.experiment,
+                  loading.materials,
+                  loading.bodies,
+                  loading.bases,
+                  {},
+                  {},
+                  {},
+                  {}};
+    trial.experiment.deltat = step;
+    load_signals(root, trial);
+    if (unreported.has_errors()) continue;
+    const ChosenStep chosen = choose_step(trial.experiment);
+    loading.experiment.deltat = chosen.step;
+    loading.experiment.chosen_from = chosen.bound;
+    return;
+  }
+}
+
+}  // namespace
+
+std::optional<Experiment> load_experiment(const language::Object& root,
+                                          language::Diagnostics& diagnostics,
+                                          const std::vector<std::filesystem::path>& search_path,
+                                          const std::vector<FileSpec>& given) {
   Loading loading{diagnostics, search_path, given, {}, {}, {}, {}, {}, {}, {}};
   const std::size_t errors_before = diagnostics.error_count();
   const language::Object* world = find_world(root, loading);
   check_strays(root, loading);
   if (world == nullptr) return std::nullopt;
-  if (is_automatic(*world)) loading.experiment.deltat = chosen.step;
-  if (chosen.bound > 0.) loading.experiment.chosen_from = chosen.bound;
   load_world(*world, loading);
   load_materials(root, loading);
   load_terrain(*world, loading);
@@ -79,37 +110,14 @@ std::optional<Experiment> load_with_step(const language::Object& root,
   check_combinations(*world, loading);
   // A pose on the ground means something only for robots and ground that are right.
   if (diagnostics.error_count() == errors_before) place_on_terrain(loading);
+  if (diagnostics.error_count() == errors_before && is_automatic(*world))
+    choose_deltat(root, loading);
+  if (diagnostics.error_count() == errors_before)
+    check_duration(place_of(*world, duration_field), loading.experiment.duration,
+                   loading.experiment.deltat, diagnostics);
   if (diagnostics.error_count() == errors_before) load_signals(root, loading);
   if (diagnostics.error_count() != errors_before) return std::nullopt;
   return std::move(loading.experiment);
-}
-
-/// So fine that hardly a rate is too high for it [s].
-constexpr double finest_step = 1e-6;
-
-}  // namespace
-
-std::optional<Experiment> load_experiment(const language::Object& root,
-                                          language::Diagnostics& diagnostics,
-                                          const std::vector<std::filesystem::path>& search_path,
-                                          const std::vector<FileSpec>& given) {
-  const auto worlds = root.children_of("World");
-  ChosenStep chosen{finest_step, 0., ""};
-  if (!worlds.empty() && is_automatic(*worlds[0])) {
-    language::Diagnostics untold;
-    const auto experiment = load_with_step(root, untold, search_path, given, chosen);
-    // Other errors are reported by the load below.
-    if (experiment) chosen = choose_step(*experiment);
-    if (!chosen.problem.empty()) {
-      diagnostics.error(place_of(*worlds[0], deltat_field), "deltat = auto: " + chosen.problem);
-      return std::nullopt;
-    }
-  }
-  auto experiment = load_with_step(root, diagnostics, search_path, given, chosen);
-  if (experiment && !check_duration(place_of(*worlds[0], duration_field), experiment->duration,
-                                    experiment->deltat, diagnostics))
-    return std::nullopt;
-  return experiment;
 }
 
 void write_chosen_step(const Experiment& experiment, language::Object& root) {
@@ -121,12 +129,16 @@ void write_chosen_step(const Experiment& experiment, language::Object& root) {
         self(self, *child);
         continue;
       }
-      for (language::Field& given : child->fields) {
-        if (given.schema->name != deltat_field) continue;
-        given.words.clear();
-        given.numbers = {experiment.deltat};
-        given.dimension = language::Dimension{.time = 1};
+      const language::FieldSchema* schema = child->schema->find(deltat_field);
+      auto at = std::ranges::lower_bound(child->fields, schema, {}, &language::Field::schema);
+      if (at == child->fields.end() || at->schema != schema) {
+        at = child->fields.insert(at, language::Field());
+        at->schema = schema;
+        at->given = true;
+        at->position = child->position;
       }
+      at->words.clear();
+      at->numbers = {experiment.deltat};
     }
   };
   write(write, root);

@@ -21,8 +21,8 @@ std::optional<Experiment> load_experiment(
     const std::vector<std::filesystem::path>& search_path = {},
     const std::vector<FileSpec>& given = {});
 
-/// Puts the step that was chosen where the World of `root` says `deltat = auto`, so that what is
-/// printed of it runs the same.
+/// Writes the step that was chosen into the World of `root` where it says `deltat = auto` or
+/// nothing, so that what is printed of it runs the same.
 void write_chosen_step(const Experiment& experiment, language::Object& root);
 
 }  // namespace hookpoint::simulation

@@ -37,14 +37,21 @@ Field<Experiment> settings_field(const PeerChoices& peers) {
   return choice_field("settings", names, &Experiment::settings, doc);
 }
 
+Field<Experiment> step_field() {
+  constexpr const char* automatic = "auto";
+  Field<Experiment> field = or_word(
+      automatic, positive(number_field(deltat_field, "s", &Experiment::deltat,
+                                       "time step; auto: half the largest stable one, at most 1 "
+                                       "ms, rounded down to 1, 2 or 5 times a power of ten")));
+  field.default_text = automatic;
+  return field;
+}
+
 Fields<Experiment> world_fields(const PeerChoices& peers) {
   return {
       list_field(gravity_field, "m/s^2", 1, 3, text_of(-Experiment{}.gravity.z),
                  "a number g means 0,0,-g; three numbers are the vector"),
-      or_word("auto", positive(number_field(
-                          deltat_field, "s", &Experiment::deltat,
-                          "time step; auto: a safe part of the largest stable one, where there is "
-                          "one"))),
+      step_field(),
       choice_field(
           "integrator", integrator_names(), &Experiment::integrator,
           "how engine dts integrates a contact force law; an impulse law advances time itself"),

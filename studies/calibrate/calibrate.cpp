@@ -23,6 +23,7 @@
 #include "studies/measurements/trace_residual.h"
 #include "studies/tune/guess.h"
 #include "studies/tune/optimiser.h"
+#include "studies/tune/step_warnings.h"
 #include "studies/workers.h"
 
 namespace hookpoint::studies {
@@ -1016,6 +1017,21 @@ std::string told_of(const CalibrationSubject& subject, const SubjectCalibration&
                      result.error ? output::rounded(*result.error) : "not known");
 }
 
+/// Warning of the step with the fitted constants; none where nothing was fitted.
+std::optional<std::string> step_warning_of(const CalibrationPlan& plan,
+                                           const CalibrationSubject& subject,
+                                           const SubjectCalibration& result) {
+  if (result.constants.empty()) return std::nullopt;
+  std::vector<ConstantSetting> settings;
+  for (const FittedConstant& fitted : result.constants) {
+    const VariedConstant& constant = plan.varied[fitted.constant];
+    settings.push_back(constant.setting(exact_value(constant, fitted.share)));
+  }
+  auto warning = step_warning(*subject.scene, settings);
+  if (warning) warning = subject.info.name + ", fitted constants: " + *warning;
+  return warning;
+}
+
 }  // namespace
 
 std::string_view name_of(FitStage stage) {
@@ -1066,6 +1082,8 @@ CalibrationRun run_calibration(const CalibrationPlan& plan, const EngineTable& e
     const bool whole = fit.run();
     run.result.subjects.push_back(fit.take());
     if (options.tell) options.tell(told_of(subject, run.result.subjects.back()));
+    const auto warning = step_warning_of(plan, subject, run.result.subjects.back());
+    if (warning && options.run.tell) options.run.tell(*warning);
     run.result.interrupted = !whole;
     if (!whole) break;
   }

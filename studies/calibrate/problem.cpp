@@ -16,6 +16,7 @@
 #include "studies/calibrate/subject_name.h"
 #include "studies/measurements/trace_blocks.h"
 #include "studies/plan/plan_parts.h"
+#include "studies/tune/step_warnings.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -288,6 +289,8 @@ class SubjectMaker {
     const bool peer = !asked.plan.engine.empty() && asked.plan.engine != "dts";
     if (own) {
       complete_subject(subject.info, own->experiment, from_.engines);
+      warn_of_step(own->experiment, asked.position, "with subject = " + subject.info.name,
+                   from_.diagnostics);
     } else if (peer) {
       // What it lacks is told in the report, as a study tells it.
       subject.info.engine = asked.plan.engine;

@@ -14,13 +14,13 @@
 #include "contact/force_law.h"
 #include "language/names.h"
 #include "output/text/hash.h"
+#include "simulation/analysis/step_warning.h"
 #include "simulation/identity.h"
 #include "simulation/step_count.h"
 #include "studies/measured_body.h"
 #include "studies/plan/plan_parts.h"
 #include "studies/plan/row_forms.h"
 #include "studies/plan/scene_settings.h"
-#include "studies/plan/step_warning.h"
 #include "studies/plan/told_elsewhere.h"
 #include "studies/workers.h"
 
@@ -304,7 +304,7 @@ class SceneLoader {
       experiment.duration = plan.duration_of(row, experiment.deltat);
       loaded.no_body = why_not_measured(experiment, plan.body);
       if (!stepped_.contains(step_of(subject, experiment)))
-        loaded.warning = step_warning(experiment);
+        loaded.warning = simulation::step_warning(experiment);
       loaded.forms = row_forms(plan, row, *loaded.scene->tree, experiment);
       return loaded;
     }

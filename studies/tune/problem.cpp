@@ -15,6 +15,7 @@
 #include "studies/plan/plan_builder.h"
 #include "studies/plan/plan_parts.h"
 #include "studies/run/execute.h"
+#include "studies/tune/step_warnings.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -274,17 +275,20 @@ SceneSource source_of(const Object& tune, const Object* subject, const SubjectPl
   return source;
 }
 
-/// Loads the scene with every constant at the end `share` of its range.
-std::optional<TunedScene> load_corner(const TunePlan& plan, const Object& tune, double share,
-                                      Diagnostics& diagnostics) {
+/// Loads the scene with every constant at the end `share` of its range. False after errors.
+bool check_corner(const TunePlan& plan, const Object& tune, double share,
+                  Diagnostics& diagnostics) {
   std::vector<double> values;
   values.reserve(plan.varied.size());
   for (const VariedConstant& constant : plan.varied) values.push_back(constant.at(share));
-  auto scene = plan.scene->load(plan.settings(values), 1, diagnostics);
-  if (!scene)
-    diagnostics.note(tune.position, std::string("with every constant at its ") +
-                                        (share == 0. ? "least" : "greatest") + " value");
-  return scene;
+  const auto scene = plan.scene->load(plan.settings(values), 1, diagnostics);
+  const std::string where =
+      std::string("with every constant at its ") + (share == 0. ? "least" : "greatest") + " value";
+  if (scene)
+    warn_of_step(scene->experiment, tune.position, where, diagnostics);
+  else
+    diagnostics.note(tune.position, where);
+  return scene.has_value();
 }
 
 /// A constant that changes nothing is a mistake, as a Param is that another ground leaves unused.
@@ -361,6 +365,7 @@ std::optional<TunePlan> make_tune_plan(const Object& root, const Object& tune,
   if (diagnostics.has_errors()) return std::nullopt;
   const auto own = plan.scene->load({}, 1, diagnostics);
   if (!own) return std::nullopt;
+  warn_of_step(own->experiment, tune.position, "", diagnostics);
   set_times(plan, tune, quick, own->experiment.duration);
   TuneBuilder builder(plan, diagnostics);
   for (const Object* block : tune.children_of("Vary")) builder.add_constant(*block);
@@ -371,7 +376,7 @@ std::optional<TunePlan> make_tune_plan(const Object& root, const Object& tune,
   check_search(plan, tune, own->experiment.deltat, diagnostics);
   if (diagnostics.has_errors()) return std::nullopt;
   for (const double share : {0., 1.})
-    if (!load_corner(plan, tune, share, diagnostics)) return std::nullopt;
+    if (!check_corner(plan, tune, share, diagnostics)) return std::nullopt;
   check_effects(plan, tune, diagnostics);
   if (diagnostics.has_errors()) return std::nullopt;
   for (const VariedConstant& constant : plan.varied) {

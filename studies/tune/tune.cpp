@@ -8,6 +8,7 @@
 #include "studies/tune/guess.h"
 #include "studies/tune/outputs.h"
 #include "studies/tune/run_batches.h"
+#include "studies/tune/step_warnings.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -36,6 +37,7 @@ class Tuning {
       evaluate_references();
       search_box();
       choose();
+      warn_of_step();
       check_on_fresh_seeds();
       vary_one_at_a_time();
       find_indices();
@@ -212,6 +214,13 @@ class Tuning {
           }
           return outputs;
         });
+  }
+
+  void warn_of_step() const {
+    const auto warning =
+        step_warning(*plan_.scene, plan_.settings(wanted_values(result_.recommended->candidate)));
+    if (warning && options_.run.tell)
+      options_.run.tell(plan_.label + ", recommended constants: " + *warning);
   }
 
   /// One more run of each set, for a picture.

@@ -88,6 +88,25 @@ TEST(TuneCommand, RefusesWhatItCannotTune) {
   EXPECT_FALSE(fs::exists(place.folder() / "out"));
 }
 
+// 1 kg on four corners: their stiffness decides which step is stable.
+TEST(TuneCommand, WarnsOfUnstableStepsBeforeAndAfterTheSearch) {
+  const Workplace place;
+  place.file("block.hook", block);
+  place.file("tune.hook", tune_of("0.05 s"));
+  EXPECT_EQ(place.hookpoint("check tune.hook").err, "") << "each candidate has a step of its own";
+  std::string coarse = block;
+  coarse.insert(coarse.find("Material"), "deltat = 5 ms; ");
+  place.file("block.hook", coarse);
+  const CommandResult tuned = place.hookpoint("tune tune.hook --quick --out out --jobs 2");
+  EXPECT_NE(tuned.err.find("warning: deltat 0.005 s is above the largest stable step"),
+            std::string::npos)
+      << tuned.err;
+  EXPECT_NE(tuned.err.find("with every constant at its greatest value"), std::string::npos)
+      << tuned.err;
+  EXPECT_NE(tuned.err.find("recommended constants: deltat 0.005 s is above"), std::string::npos)
+      << tuned.err;
+}
+
 TEST(TuneCommand, EndsWithOneWhereNothingMeetsTheRequirements) {
   const Workplace place;
   place.file("block.hook", block);

@@ -235,6 +235,35 @@ TEST_F(ViewWindow, DisplacementsAreSinceTheStartThroughHistoryAndChange) {
   }
 }
 
+TEST_F(ViewWindow, WarnsOfAnUnstableStep) {
+  std::string coarse = pushed_block;
+  coarse.replace(coarse.find("deltat = 1 ms"), 13, "deltat = 20 ms");
+  place.file("scene.hook", coarse);
+  open();
+  EXPECT_TRUE(told("deltat 0.02 s is above the largest stable step"));
+  say("quit");
+  EXPECT_EQ(ends(), 0) << program->err();
+  EXPECT_NE(program->err().find("warning: deltat 0.02 s is above"), std::string::npos);
+}
+
+// The state of a run means nothing with another step: it stays as it was chosen, and is warned of.
+TEST_F(ViewWindow, KeepsTheChosenStepUntilAReset) {
+  std::string chosen = pushed_block;
+  chosen.replace(chosen.find("deltat = 1 ms;"), 14, "");
+  place.file("scene.hook", chosen);
+  open();
+  ask("pause");
+  const double begun = read("w.time");
+  step(20);
+  EXPECT_NEAR(read("w.time"), begun + 0.01, 1e-12);
+  EXPECT_EQ(edit("w.clay.normal_stiffness", "20 MN/m")["ok"], "true");
+  EXPECT_TRUE(told("deltat 0.0005 s is above the largest stable step"));
+  step(20);
+  EXPECT_NEAR(read("w.time"), begun + 0.02, 1e-12);
+  say("quit");
+  EXPECT_EQ(ends(), 0) << program->err();
+}
+
 TEST_F(ViewWindow, AFileThatIsSavedBrokenLeavesTheRunAsItWas) {
   open(recorded);
   ask("pause");

@@ -1,9 +1,12 @@
 // What a file is warned of though it runs, and a step that is chosen for it.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "contact/force_law.h"
 #include "language/document.h"
 #include "simulation/analysis/stability.h"
+#include "simulation/analysis/step_warning.h"
 #include "tests/support/load_text.h"
 
 namespace hookpoint {
@@ -95,32 +98,107 @@ TEST(AutomaticStep, IsARoundPartOfTheBoundThatDividesTheRates) {
   EXPECT_DOUBLE_EQ(recorded.experiment->deltat, 1e-4);
 }
 
-TEST(AutomaticStep, IsWrittenIntoWhatIsPrinted) {
-  const std::filesystem::path file = std::filesystem::path(::testing::TempDir()) / "auto.hook";
-  std::ofstream(file) << world("deltat = auto; Terrain.Flat f { }");
-  language::Library library(experiment_schema(), {});
-  language::Diagnostics diagnostics;
-  const auto root = library.evaluate(file, {}, diagnostics);
-  ASSERT_TRUE(root);
-  EXPECT_NE(language::print(*root).find("deltat = auto;"), std::string::npos);
-  const auto experiment = simulation::load_experiment(*root, diagnostics);
-  ASSERT_TRUE(experiment);
-  simulation::write_chosen_step(*experiment, *root);
-  const Loaded again = load_text(language::print(*root));
-  ASSERT_TRUE(again.experiment) << again.diagnostics;
-  EXPECT_EQ(again.experiment->deltat, experiment->deltat);
-  EXPECT_FALSE(again.experiment->chosen_from);
+/// A ball of 1 kg without friction or damping, k = `stiffness` N/m: it bounces on one spring, for
+/// which semi-implicit Euler bears 2/sqrt(k/m), 2/sqrt(k) s.
+std::string ball(const std::string& fields, double stiffness) {
+  return "World w { " + fields +
+         " Material m { static_friction = 0; kinetic_friction = 0; normal_damping = 0; "
+         "normal_stiffness = " +
+         std::to_string(stiffness) +
+         "; } Terrain.Flat f { material = m; } Robot b { Base.mobile { rest_on = f; Shape.Sphere { "
+         "radius = 0.1; mass = 1; } } } }";
 }
 
-TEST(AutomaticStep, AsksForANumberWhereThereIsNoBound) {
-  for (const char* fields : {"engine = ode;", "contact = impulse; Material m { restitution = 0; }",
-                             "integrator = cvode_bdf;"}) {
-    const Loaded loaded =
-        load_text(world(std::string("deltat = auto; ") + fields + " Terrain.Flat f { }"));
-    EXPECT_FALSE(loaded.experiment) << fields;
-    EXPECT_NE(loaded.diagnostics.find("error 1:20 deltat = auto"), std::string::npos)
-        << loaded.diagnostics;
-    EXPECT_NE(loaded.diagnostics.find("give deltat a number"), std::string::npos);
+TEST(AutomaticStep, IsTheDefaultHalfTheBoundAndAtMostOneMillisecond) {
+  const Loaded stiff = load_text(ball("", 3e6));  // 1.1547 ms
+  ASSERT_TRUE(stiff.experiment) << stiff.diagnostics;
+  EXPECT_NEAR(stiff.experiment->chosen_from.value_or(0.), 2. / std::sqrt(3e6), 1e-9);
+  EXPECT_DOUBLE_EQ(stiff.experiment->deltat, 5e-4);
+  const Loaded soft = load_text(ball("", 1e3));  // 63 ms
+  ASSERT_TRUE(soft.experiment) << soft.diagnostics;
+  EXPECT_DOUBLE_EQ(soft.experiment->deltat, 1e-3);
+  const Loaded written = load_text(ball("deltat = 3 ms;", 3e6));
+  ASSERT_TRUE(written.experiment) << written.diagnostics;
+  EXPECT_DOUBLE_EQ(written.experiment->deltat, 3e-3);
+  EXPECT_FALSE(written.experiment->chosen_from);
+}
+
+// Whoever computes it, a file has one step, and none that loaded with 1 ms is refused.
+TEST(AutomaticStep, IsThatOfEngineDtsForAllAndOneMillisecondWhereThereIsNoBound) {
+  const Loaded peer = load_text(ball("engine = ode;", 3e6));
+  ASSERT_TRUE(peer.experiment) << peer.diagnostics;
+  EXPECT_DOUBLE_EQ(peer.experiment->deltat, 5e-4);
+  EXPECT_FALSE(simulation::step_warning(*peer.experiment));
+  for (const char* fields : {"contact = impulse;", "integrator = cvode_bdf;",
+                             "engine = ode; "
+                             "contact = impulse;"}) {
+    const Loaded loaded = load_text(ball(fields, 3e6));
+    ASSERT_TRUE(loaded.experiment) << loaded.diagnostics;
+    EXPECT_DOUBLE_EQ(loaded.experiment->deltat, 1e-3) << fields;
+    EXPECT_TRUE(std::isinf(*loaded.experiment->chosen_from)) << fields;
+  }
+  const Loaded free = load_text(
+      "World w { Robot b { Base.mobile { mass = 1; inertia = 1,1,1,0,0,0; "
+      "} } }");
+  ASSERT_TRUE(free.experiment) << free.diagnostics;
+  EXPECT_DOUBLE_EQ(free.experiment->deltat, 1e-3);
+}
+
+TEST(AutomaticStep, LetsAControllerAndARecordHaveTheirRates) {
+  // 1 ms would be too long for 4 kHz, and a delay of 0.3 ms no delay.
+  const Loaded loaded =
+      load_text(ball("Record r { rate = 4 kHz; trails = w.b.base.location; }", 1e3) +
+                " Gain one { Wire FROM two.output TO input { delay = 0.3 ms; } } Gain two { Wire "
+                "FROM one.output TO input { delay = 0.3 ms; } }");
+  ASSERT_TRUE(loaded.experiment) << loaded.diagnostics;
+  EXPECT_DOUBLE_EQ(loaded.experiment->deltat, 5e-5);  // 0.25 ms is no multiple of 0.2 or 0.1 ms
+}
+
+// Undamped, explicit Euler is unstable with every step: what ran with 1 ms still does, warned of.
+TEST(AutomaticStep, IsOneMillisecondWhereNoStepIsStable) {
+  const Loaded loaded = load_text(ball("integrator = explicit_euler;", 1e3));
+  ASSERT_TRUE(loaded.experiment) << loaded.diagnostics;
+  EXPECT_DOUBLE_EQ(loaded.experiment->deltat, 1e-3);
+  EXPECT_EQ(*loaded.experiment->chosen_from, 0.);
+  const auto warning = simulation::step_warning(*loaded.experiment);
+  ASSERT_TRUE(warning);
+  EXPECT_EQ(*warning,
+            "no step of explicit_euler is stable under the law hookpoint: what springs back gains "
+            "energy; give what vibrates some damping, or choose another integrator");
+}
+
+TEST(StepWarning, SaysHowLargeTheStepMayBeAndWhatToDo) {
+  const Loaded loaded = load_text(ball("deltat = 2 ms;", 3e6));
+  ASSERT_TRUE(loaded.experiment) << loaded.diagnostics;
+  const auto warning = simulation::step_warning(*loaded.experiment);
+  ASSERT_TRUE(warning);
+  EXPECT_EQ(
+      *warning,
+      "deltat 0.002 s is above the largest stable step 0.001155 s of semi_implicit_euler "
+      "under the law hookpoint: what springs back gains energy; make the step smaller (deltat "
+      "= auto) or the ground softer, or choose another integrator");
+  EXPECT_FALSE(simulation::step_warning(*load_text(ball("deltat = 1 ms;", 3e6)).experiment));
+}
+
+// A default too: without it the printed file would choose again.
+TEST(AutomaticStep, IsWrittenIntoWhatIsPrinted) {
+  for (const char* field : {"deltat = auto; ", ""}) {
+    const std::filesystem::path file = std::filesystem::path(::testing::TempDir()) / "auto.hook";
+    std::ofstream(file) << world(std::string(field) + "Terrain.Flat f { }");
+    language::Library library(experiment_schema(), {});
+    language::Diagnostics diagnostics;
+    const auto root = library.evaluate(file, {}, diagnostics);
+    ASSERT_TRUE(root);
+    EXPECT_EQ(language::print(*root).find("deltat = auto;") != std::string::npos, field[0] != 0);
+    const auto experiment = simulation::load_experiment(*root, diagnostics);
+    ASSERT_TRUE(experiment);
+    simulation::write_chosen_step(*experiment, *root);
+    const std::string printed = language::print(*root);
+    const Loaded again = load_text(printed);
+    ASSERT_TRUE(again.experiment) << again.diagnostics;
+    EXPECT_EQ(again.experiment->deltat, experiment->deltat);
+    EXPECT_FALSE(again.experiment->chosen_from);
+    EXPECT_EQ(printed.find("deltat"), printed.rfind("deltat"));
   }
 }
 

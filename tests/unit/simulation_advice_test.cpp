@@ -89,7 +89,8 @@ TEST(Advice, NamesTheConstantThatMakesTheStepTooLarge) {
 // ground, and there its second stiffness, of 1e9 N/m, is what makes the step too large.
 TEST(Advice, NamesConstantsWithWhichTheStepIsStable) {
   const std::string nominal =
-      "World w { contact = nominal; Material m { normal_stiffness = 1e9; nominal_stiffness = 1e4; "
+      "World w { deltat = 1 ms; contact = nominal; Material m { normal_stiffness = 1e9; "
+      "nominal_stiffness = 1e4; "
       "nominal_penetration = 1 mm; } Terrain.Flat g { material = m; } Robot b { Base.mobile { "
       "rest_on = g; Shape.Box { dimensions = 0.2, 0.2, 0.1; mass = 20; } } } }";
   for (const std::string& text :
