@@ -197,8 +197,12 @@ void predict_all(const Measurement& measurement, const RunContext& context,
                  const EngineEntry& engine, RunRecord& record) {
   const PeerContact peer = peer_contact(engine, *context.experiment);
   for (const MetricDefinition* metric : measurement.metrics)
-    if (metric->user == nullptr)
-      record.values[kept_name(*metric)].predicted = predict(metric->name, context, peer);
+    if (metric->user == nullptr) {
+      const Prediction form = predict(metric->name, context, peer);
+      KeptValue& value = record.values[kept_name(*metric)];
+      value.predicted = form.value();
+      value.no_form = form.why();
+    }
 }
 
 /// As `execute`, of an engine that is there; may throw.
@@ -312,6 +316,7 @@ std::optional<RunRecord> execute(const Measurement& measurement,
   try {
     RunContext context =
         make_context(experiment, measurement.settle, measurement.duration, measurement.body);
+    if (engine != engines.end()) context.one_friction = engine->second.has_one_friction(experiment);
     record.regime = regime_of(context);
     if (!why_not.empty()) return not_run(measurement, std::move(record), why_not);
     context.make = engine->second.make;
