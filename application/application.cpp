@@ -85,7 +85,7 @@ Application::Application(bool allow_plugins, Told tell)
   engines_["dts"] = {simulation::describe_dts(), simulation::make_dts, nullptr};
   for (const reference::Peer& peer : reference::known_peers())
     engines_[std::string(peer.name)] = {peer.describe(), peer.make, peer.creep,
-                                        peer.static_softness};
+                                        peer.static_softness, peer.one_friction_settings()};
 }
 
 void Application::tell(const language::Diagnostics& diagnostics) const {

@@ -33,7 +33,7 @@ class StudyMeter final : public view::Meter {
   StudyMeter(const studies::PeerContact& peer, RunContext context, const Tally& behind)
       : context_(std::move(context)), observer_(context_, true), behind_(behind) {
     const auto predicted = [&](const char* metric) {
-      return studies::predict(metric, context_, peer).value_or(unknown);
+      return studies::predict(metric, context_, peer).value().value_or(unknown);
     };
     give_in_ = known_or(predicted("stick_displacement"), 0.);
     way_.speed = predicted("creep_speed");
@@ -43,7 +43,7 @@ class StudyMeter final : public view::Meter {
       way_.speed = unknown;
     }
     penetration_ = predicted("penetration_mean");
-    load_ = studies::support_force(context_).value_or(unknown);
+    load_ = studies::support_force(context_).value().value_or(unknown);
     slip_ = studies::find_metric("slip_distance")->make(context_);
     way_of_points_ = studies::find_metric("stick_displacement")->make(context_);
   }
@@ -123,6 +123,7 @@ std::unique_ptr<view::Meter> make_meter(const simulation::Experiment& experiment
     RunContext context = studies::make_context(experiment, 0., experiment.duration);
     if (!context.ground) return nullptr;
     context.make = engine->second.make;
+    context.one_friction = engine->second.has_one_friction(experiment);
     return std::make_unique<StudyMeter>(studies::peer_contact(engine->second, experiment),
                                         std::move(context), behind);
   } catch (const simulation::ExperimentError&) {

@@ -114,6 +114,7 @@ int run(const RunArguments& arguments) {
     files.close();
     tell_files(files.folder(), files.names());
     print_summary(*experiment, world.state());
+    if (status == fine) print_not_judged(*experiment, expectations.has_value());
     if (status != fine || !expectations) return status;
     return print_expectations(*expectations);
   } catch (const simulation::ExperimentError& error) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <utility>
@@ -122,6 +123,19 @@ int print_expectations(const simulation::Expectations& expectations) {
     if (!result.ok()) status = truth_failed;
   }
   return status;
+}
+
+void print_not_judged(const Experiment& experiment, bool whole) {
+  const auto count = std::ranges::count_if(
+      experiment.expectations,
+      [&](const simulation::ExpectationSpec& spec) { return !whole || !spec.covers(experiment); });
+  if (count == 0) return;
+  const std::string why = !whole ? std::string("the run does not last as long as its scene says")
+                                 : fmt::format("of contact {} with integrator {}",
+                                               experiment.contact, experiment.integrator) +
+                                       (count == 1 ? " it says nothing" : " they say nothing");
+  fmt::print("  {} not judged: {}\n",
+             count == 1 ? "1 Expect is" : fmt::format("{} Expects are", count), why);
 }
 
 int step_through(const Experiment& experiment, simulation::World& world,

@@ -30,6 +30,10 @@ int step_through(simulation::LiveRun& run);
 /// On stderr: where the files of a run that is over are. Nothing when it leaves none.
 void tell_files(const std::filesystem::path& folder, const std::vector<std::string>& names);
 
+/// A line on how many of the scene's Expects the run does not judge, and why; nothing where it
+/// judges all. `whole`: it lasts as long as the scene says.
+void print_not_judged(const simulation::Experiment& experiment, bool whole);
+
 /// The truths that came with the scene beside what the run made of them, on stdout. Returns the
 /// exit status.
 int print_expectations(const simulation::Expectations& expectations);

@@ -10,8 +10,10 @@
 #include "python/run_beside.h"
 #include "python/tables.h"
 #include "python/temporary_folder.h"
+#include "studies/idleness.h"
 #include "studies/pivot.h"
 #include "studies/run/results_csv.h"
+#include "studies/run/verdict.h"
 
 namespace hookpoint::python {
 namespace {
@@ -42,6 +44,18 @@ py::dict result_of(const studies::StudyRun& run) {
     truths.append(entry);
   }
   made["truths"] = truths;
+  const std::vector<studies::IdleBlock> idle = studies::idle_blocks(run.result);
+  py::list nothing;
+  for (const studies::IdleBlock& block : idle) {
+    py::dict entry;
+    entry["kind"] = block.kind;
+    entry["name"] = block.name;
+    entry["why"] = block.idleness.why;
+    entry["fault"] = block.idleness.idle == studies::Idle::fault;
+    nothing.append(entry);
+  }
+  made["idle"] = nothing;
+  made["holds"] = studies::all_truths_hold(run.result);
   made["notices"] = list_of(run.notices);
   return made;
 }

@@ -10,6 +10,13 @@ std::vector<std::string> Peer::settings_names() const {
   return names;
 }
 
+std::vector<std::string> Peer::one_friction_settings() const {
+  if (std::ranges::find(gaps, feature::two_frictions, &OwnGap::feature) != gaps.end())
+    return settings_names();
+  if (one_friction_setting.empty()) return {};
+  return {std::string(one_friction_setting)};
+}
+
 simulation::EngineDescription Peer::describe() const {
   // Each world checks by a static_assert that its library runs in double precision.
   return {std::string(name), std::string(version), "double",

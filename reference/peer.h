@@ -11,6 +11,7 @@
 
 #include "reference/experiment_checks.h"
 #include "reference/settings.h"
+#include "simulation/closed_form.h"
 #include "simulation/creep_velocity.h"
 #include "simulation/engine.h"
 
@@ -42,18 +43,24 @@ struct Peer {
   /// prediction made of these holds as far as the solver converges, so not for few iterations
   /// (docs/reference_engines.md). Null for contacts that are no such rows.
   ConstraintConstants (*constraint_constants)(const simulation::Experiment& experiment) = nullptr;
-  /// Velocity of the origin of one body that rests on a plane; nothing where no closed form holds:
-  /// where the experiment is not one body whose touching points are known (resting_body.h), and
-  /// where the body turns, so that its speed changes. Null for an engine without any.
-  std::optional<simulation::CreepVelocity> (*creep)(const simulation::Experiment& experiment) =
+  /// Velocity of the origin of one body that rests on a plane; no closed form where the experiment
+  /// is not one body whose touching points are known (resting_body.h), and where the body turns, so
+  /// that its speed changes.
+  simulation::ClosedForm<simulation::CreepVelocity> (*creep)(
+      const simulation::Experiment& experiment) = nullptr;
+  /// Depth per newton of a contact at rest [m/N].
+  simulation::ClosedForm<double> (*static_softness)(const simulation::Experiment& experiment) =
       nullptr;
-  /// Depth per newton of a contact at rest [m/N]; nothing where no closed form holds.
-  std::optional<double> (*static_softness)(const simulation::Experiment& experiment) = nullptr;
+  /// Of an engine with two coefficients of friction, the setting at which it reads the kinetic one
+  /// alone; "" for none.
+  std::string_view one_friction_setting{};
 
   /// Whether this build has the library.
   bool found() const { return make_world != nullptr; }
   /// Names that `settings =` accepts, in the order of Settings.
   std::vector<std::string> settings_names() const;
+  /// Those at which it has one coefficient of friction, the kinetic one.
+  std::vector<std::string> one_friction_settings() const;
   simulation::EngineDescription describe() const;
 };
 

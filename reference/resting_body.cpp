@@ -1,69 +1,99 @@
 #include "reference/resting_body.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
+#include <string>
+#include <utility>
 #include <variant>
 
+#include "contact/terrain/footprint.h"
 #include "reference/ground.h"
 #include "reference/touching_points.h"
 
 namespace hookpoint::reference {
 namespace {
 
-/// Points of the body that may touch: those of touching_points.h, or the corners of its one box.
-std::vector<Vector3d> candidates(const simulation::Experiment& experiment) {
+/// What of a body may touch a plane, in body axes: its points, or the corners of its one box. Empty
+/// for other shapes.
+std::vector<contact::Foot> candidates(const simulation::Experiment& experiment) {
   const simulation::BodySpec& base = experiment.robots[0].base;
-  if (touches_by_points(experiment, 0)) return base.boundary_points;
+  std::vector<contact::Foot> points;
+  if (touches_by_points(experiment, 0)) {
+    for (std::size_t i = 0; i < base.boundary_points.size(); ++i)
+      points.push_back({base.boundary_points[i], base.boundary_radius(i), i});
+    return points;
+  }
   if (base.shapes.size() != 1) return {};
   const auto* box = std::get_if<simulation::Box>(&base.shapes[0].geometry);
   if (box == nullptr) return {};
-  std::vector<Vector3d> corners;
   const Vector3d half = 0.5 * box->dimensions;
   for (const double x : {-half.x, half.x})
     for (const double y : {-half.y, half.y})
       for (const double z : {-half.z, half.z})
-        corners.push_back(base.shapes[0].location +
-                          rotate(base.shapes[0].orientation, Vector3d{x, y, z}));
-  return corners;
+        points.push_back(
+            {base.shapes[0].location + rotate(base.shapes[0].orientation, Vector3d{x, y, z})});
+  return points;
+}
+
+/// How much higher than the lowest contact others may come to carry [m].
+constexpr double unlevel = 5e-3;
+
+/// Why the experiment is no single body on a plane; "" where it is.
+std::string not_alone_on_plane(const simulation::Experiment& experiment) {
+  if (!experiment.terrain) return "there is no ground";
+  if (experiment.robots.size() != 1) return "the scene has more than one robot";
+  const simulation::RobotSpec& robot = experiment.robots[0];
+  if (!robot.mobile) return "the robot's base is fixed";
+  if (robot.plane_normal) return "the robot's base is kept in a plane";
+  if (!robot.chains.empty()) return "the robot has chains";
+  if (!std::holds_alternative<GroundPlane>(ground_of(*experiment.terrain)))
+    return "the ground is no plane";
+  return "";
 }
 
 }  // namespace
 
-std::optional<RestingBody> resting_body(const simulation::Experiment& experiment) {
-  if (!experiment.terrain || experiment.robots.size() != 1) return std::nullopt;
+simulation::ClosedForm<RestingBody> resting_body(const simulation::Experiment& experiment) {
+  using simulation::NoClosedForm;
+  if (std::string why = not_alone_on_plane(experiment); !why.empty())
+    return NoClosedForm{std::move(why)};
   const simulation::RobotSpec& robot = experiment.robots[0];
-  if (!robot.mobile || robot.plane_normal || !robot.chains.empty()) return std::nullopt;
-  const Ground ground = ground_of(*experiment.terrain);
-  const auto* plane = std::get_if<GroundPlane>(&ground);
-  if (plane == nullptr) return std::nullopt;
-  const Vector3d along = tangential(experiment.gravity, plane->normal);
+  const auto plane = std::get<GroundPlane>(ground_of(*experiment.terrain));
+  const Vector3d along = tangential(experiment.gravity, plane.normal);
   const double mass = robot.base.mass.mass, slide = norm(along);
-  if (!(slide > 0.)) return std::nullopt;
+  if (!(slide > 0.)) return NoClosedForm{"the ground is level: nothing pulls the body along it"};
   RestingBody body{&robot.base.mass,
                    robot.orientation,
-                   plane->normal,
+                   plane.normal,
                    (1. / slide) * along,
-                   (1. / slide) * cross(plane->normal, along),
+                   (1. / slide) * cross(plane.normal, along),
                    mass * slide,
-                   -mass * dot(experiment.gravity, plane->normal),
+                   -mass * dot(experiment.gravity, plane.normal),
+                   {},
                    {},
                    -rotate(robot.orientation, robot.base.mass.center_of_mass)};
-  const auto height = [&](const Vector3d& point) {
-    return dot(rotate(robot.orientation, point), plane->normal);
-  };
-  const std::vector<Vector3d> points = candidates(experiment);
-  double lowest = std::numeric_limits<double>::infinity();
-  for (const Vector3d& point : points) lowest = std::min(lowest, height(point));
-  for (const Vector3d& point : points)
-    if (height(point) - lowest < 1e-6)
-      body.arms.push_back(rotate(robot.orientation, point - body.mass->center_of_mass));
-  if (body.arms.empty()) return std::nullopt;
+  std::vector<contact::Foot> feet = candidates(experiment);
+  if (feet.empty())
+    return NoClosedForm{"engine " + experiment.engine +
+                        " alone knows where the shapes of the body meet the ground"};
+  for (contact::Foot& foot : feet)
+    foot.position = rotate(robot.orientation, foot.position - body.mass->center_of_mass);
+  const contact::Footprint footprint = contact::footprint_of(feet, plane.normal);
+  if (footprint.in_line() &&
+      contact::footprint_of(feet, plane.normal, unlevel).feet.size() > footprint.feet.size())
+    return NoClosedForm{"the contacts are not level: which of them carry the body is not known"};
+  if (footprint.rolls()) return NoClosedForm{"the body rolls"};
+  for (const contact::Foot& foot : footprint.feet) {
+    body.arms.push_back(foot.position);
+    body.radii.push_back(foot.radius);
+  }
   return body;
 }
 
-std::optional<Vector3d> normal_loads(const RestingBody& body, double friction) {
-  if (body.arms.size() < 3) return std::nullopt;
+simulation::ClosedForm<Vector3d> normal_loads(const RestingBody& body, double friction) {
+  contact::Footprint footprint;
+  for (const Vector3d& arm : body.arms) footprint.feet.push_back({arm});
+  if (footprint.in_line())
+    return simulation::NoClosedForm{
+        "the body touches in fewer than three places, or along a line: it may tip"};
   Symmetric3d sums;
   for (const Vector3d& arm : body.arms) {
     const auto [x, y, z] = body.in_slope(arm);

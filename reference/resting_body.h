@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "simulation/closed_form.h"
 #include "simulation/experiment.h"
 
 namespace hookpoint::reference {
@@ -16,8 +17,11 @@ struct RestingBody {
   Vector3d downhill;             ///< unit, along the fall
   Vector3d across;               ///< normal x downhill
   double pull = 0., press = 0.;  ///< parts of m g along the fall and into the ground [N]
-  std::vector<Vector3d> arms;    ///< of the touching points from the centre of mass, world axes [m]
-  Vector3d origin;               ///< of the body's frame from the centre of mass, world axes [m]
+  /// From the centre of mass to where it touches: touching points, or the lowest points of balls
+  /// about them; world axes [m].
+  std::vector<Vector3d> arms;
+  std::vector<double> radii;  ///< of the balls that touch there; 0 of a point [m]
+  Vector3d origin;            ///< of the body's frame from the centre of mass, world axes [m]
 
   /// `a` of world axes along downhill, across and the normal.
   Vector3d in_slope(const Vector3d& a) const {
@@ -25,15 +29,16 @@ struct RestingBody {
   }
 };
 
-/// The experiment's one robot on its slope; `mass` points into the experiment. Nothing where there
-/// is another robot, a chain, a grid, no fall, or a shape that is no single box.
-std::optional<RestingBody> resting_body(const simulation::Experiment& experiment);
+/// The experiment's one robot on its slope; `mass` points into the experiment. No closed form where
+/// there is another robot, a chain, a grid, no fall, a shape that is no single box, or where the
+/// body can roll.
+simulation::ClosedForm<RestingBody> resting_body(const simulation::Experiment& experiment);
 
 /// Normal loads a + b x + c y [N, N/m, N/m] of touching points at x downhill and y across from the
 /// centre of mass: those of equal springs under a rigid body. They add up to `press`, and their
-/// moment about the centre of mass is that of a `friction` [N] up the slope. Nothing for fewer than
-/// three points.
-std::optional<Vector3d> normal_loads(const RestingBody& body, double friction);
+/// moment about the centre of mass is that of a `friction` [N] up the slope. No closed form for
+/// fewer than three points, or points on one line.
+simulation::ClosedForm<Vector3d> normal_loads(const RestingBody& body, double friction);
 /// The load on the touching point `arm`.
 double load_at(const RestingBody& body, const Vector3d& loads, const Vector3d& arm);
 

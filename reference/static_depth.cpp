@@ -4,8 +4,10 @@
 
 namespace hookpoint::reference {
 
-std::optional<double> matched_softness(const simulation::Experiment& experiment) {
-  if (experiment.settings != "matched") return std::nullopt;
+simulation::ClosedForm<double> matched_softness(const simulation::Experiment& experiment) {
+  if (experiment.settings != "matched")
+    return simulation::NoClosedForm{
+        "how deep a contact rests in other engines is known at `settings = matched` alone"};
   return 1. / ground_material(experiment).normal_stiffness;
 }
 

@@ -32,8 +32,8 @@ Symmetric3d damping_at(const RestingBody& body, const std::vector<FrictionDamper
 
 }  // namespace
 
-std::optional<SteadyCreep> steady_creep(const RestingBody& body,
-                                        const std::vector<FrictionDamper>& dampers) {
+simulation::ClosedForm<SteadyCreep> steady_creep(const RestingBody& body,
+                                                 const std::vector<FrictionDamper>& dampers) {
   // The balance J^T C(u) J u = (pull, 0, 0) is that of the least of a convex function of u, and C
   // falls with speed: solved for u with the last C, again and again, it goes to the solution.
   constexpr int turns = 1000;
@@ -53,30 +53,32 @@ std::optional<SteadyCreep> steady_creep(const RestingBody& body,
     }
     return creep;
   }
-  return std::nullopt;
+  return simulation::NoClosedForm{"friction does not carry the body"};
 }
 
-std::optional<std::vector<FrictionDamper>> limits_without_friction(const RestingBody& body,
-                                                                   double friction) {
+simulation::ClosedForm<std::vector<FrictionDamper>> limits_without_friction(const RestingBody& body,
+                                                                            double friction) {
   const auto loads = normal_loads(body, 0.);
-  if (!loads) return std::nullopt;
+  if (!loads) return loads.none();
   std::vector<FrictionDamper> dampers;
   for (const Vector3d& arm : body.arms)
     dampers.push_back({0., 0., friction * load_at(body, *loads, arm)});
   return dampers;
 }
 
-std::optional<SteadyCreep> creep_by_mixing(const RestingBody& body, double friction,
-                                           double mixing) {
-  auto dampers = limits_without_friction(body, friction);
-  if (!dampers) return std::nullopt;
-  for (FrictionDamper& damper : *dampers) damper.along = damper.across = 1. / mixing;
-  return steady_creep(body, *dampers);
+simulation::ClosedForm<SteadyCreep> creep_by_mixing(const RestingBody& body, double friction,
+                                                    double mixing) {
+  const auto limits = limits_without_friction(body, friction);
+  if (!limits) return limits.none();
+  std::vector<FrictionDamper> dampers = *limits;
+  for (FrictionDamper& damper : dampers) damper.along = damper.across = 1. / mixing;
+  return steady_creep(body, dampers);
 }
 
-std::optional<simulation::CreepVelocity> lasting(const SteadyCreep& creep,
-                                                 const simulation::Experiment& experiment) {
-  if (std::abs(creep.spin) * experiment.duration > 0.2) return std::nullopt;
+simulation::ClosedForm<simulation::CreepVelocity> lasting(
+    const SteadyCreep& creep, const simulation::Experiment& experiment) {
+  if (std::abs(creep.spin) * experiment.duration > 0.2)
+    return simulation::NoClosedForm{"the creeping body turns by more than 0.2 rad within the run"};
   return creep.velocity;
 }
 

@@ -1,7 +1,6 @@
 // How a body creeps down a slope on dampers that carry no more than a limit each.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "reference/resting_body.h"
@@ -24,21 +23,26 @@ struct SteadyCreep {
 };
 
 /// The motion at which `dampers`, one for each of the body's arms, carry its pull and leave no
-/// moment about the normal (docs/reference_engines.md, Creep on dampers). Nothing where they cannot
-/// carry it.
-std::optional<SteadyCreep> steady_creep(const RestingBody& body,
-                                        const std::vector<FrictionDamper>& dampers);
+/// moment about the normal (docs/reference_engines.md, Creep on dampers). No closed form where they
+/// cannot carry it.
+simulation::ClosedForm<SteadyCreep> steady_creep(const RestingBody& body,
+                                                 const std::vector<FrictionDamper>& dampers);
 
 /// One damper an arm, without damping as yet, each with the limit of a friction row whose load is
 /// that of the body without friction: `friction` [1] times it, as dWorldStep and DART have it.
-/// Nothing where these loads are not known (normal_loads).
-std::optional<std::vector<FrictionDamper>> limits_without_friction(const RestingBody& body,
-                                                                   double friction);
+/// No closed form where these loads are not known (normal_loads).
+simulation::ClosedForm<std::vector<FrictionDamper>> limits_without_friction(const RestingBody& body,
+                                                                            double friction);
 /// On friction rows that yield by `mixing` [m/(N s)], > 0, times their force, up to such limits.
-std::optional<SteadyCreep> creep_by_mixing(const RestingBody& body, double friction, double mixing);
+simulation::ClosedForm<SteadyCreep> creep_by_mixing(const RestingBody& body, double friction,
+                                                    double mixing);
 
 /// The velocity, unless a turn of more than 0.2 rad within the run makes it another one.
-std::optional<simulation::CreepVelocity> lasting(const SteadyCreep& creep,
-                                                 const simulation::Experiment& experiment);
+simulation::ClosedForm<simulation::CreepVelocity> lasting(const SteadyCreep& creep,
+                                                          const simulation::Experiment& experiment);
+
+/// A touching point carries as much friction as it can: what others then do has no closed form.
+inline const simulation::NoClosedForm point_at_limit{
+    "a touching point slips while others hold the body"};
 
 }  // namespace hookpoint::reference

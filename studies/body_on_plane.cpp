@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
+#include "contact/terrain/footprint.h"
 #include "simulation/kinematics.h"
 
 namespace hookpoint::studies {
@@ -16,16 +18,7 @@ using simulation::Pose;
 /// joint: rounding.
 constexpr double rounding_load = 1e-9;
 
-/// Whether the scene is one robot on a plane, without forces, that does not turn at the start and
-/// touches the ground with points (not balls) of its base.
-bool alone_on_plane(const RunContext& context) {
-  const simulation::Experiment& experiment = *context.experiment;
-  return experiment.terrain && experiment.robots.size() == 1 && experiment.forces.empty() &&
-         moves_as_if_free(context) && norm(context.robot_spec().angular_velocity) == 0. &&
-         !context.robot_spec().base.boundary_points.empty() &&
-         context.robot_spec().base.boundary_radii.empty() &&
-         !std::holds_alternative<contact::GridSurface>(experiment.terrain->surface);
-}
+constexpr const char* turns_at_the_start = "the robot turns at the start";
 
 /// X_WB of every body at the start.
 std::vector<Pose> world_poses(const simulation::RobotSpec& robot) {
@@ -34,41 +27,265 @@ std::vector<Pose> world_poses(const simulation::RobotSpec& robot) {
   return poses;
 }
 
-/// Whether gravity g moves no joint of a robot whose bodies have the poses `X_WB`.
-bool unloaded_joints(const simulation::RobotSpec& robot, const Vector3d& g,
-                     const std::vector<Pose>& X_WB, double weight) {
-  struct Load {
-    Vector3d force, moment;  // of all further out, about the body's origin
-  };
-  std::vector<Load> loads(X_WB.size());
+/// The places at which the bodies of a robot may touch, world axes; `bodies` gets the body of each.
+std::vector<contact::Foot> feet_of(const simulation::RobotSpec& robot,
+                                   const std::vector<Pose>& X_WB,
+                                   std::vector<std::size_t>& bodies) {
+  std::vector<contact::Foot> feet;
+  std::size_t body = 0;
+  simulation::for_each_body(robot, [&](const simulation::BodySpec& spec) {
+    const Pose& X_WL = X_WB[body];
+    for (std::size_t i = 0; i < spec.boundary_points.size(); ++i) {
+      feet.push_back({X_WL.position + rotate(X_WL.orientation, spec.boundary_points[i]),
+                      spec.boundary_radius(i), feet.size()});
+      bodies.push_back(body);
+    }
+    ++body;
+  });
+  return feet;
+}
+
+/// What acts on a part of a robot: a force, and its moment about the origin of a body.
+struct Load {
+  Vector3d force, moment;
+};
+
+/// Adds `force` at `point` of `body` to the loads of all joints that carry it.
+void add_load(std::vector<Load>& loads, const std::vector<std::size_t>& carriers,
+              const std::vector<Pose>& X_WB, std::size_t body, const Vector3d& point,
+              const Vector3d& force) {
+  for (; body > 0; body = carriers[body]) {
+    loads[body].force += force;
+    loads[body].moment += cross(point - X_WB[body].position, force);
+  }
+}
+
+/// Why the joints of a robot that stands on the ground do not rest by themselves; "" where they do.
+std::string why_joints_move(const RunContext& context, const std::vector<Pose>& X_WB) {
+  const simulation::RobotSpec& robot = context.robot_spec();
+  const Vector3d& g = context.experiment->gravity;
   const std::vector<std::size_t> carriers = simulation::carriers_of(robot);
-  bool unloaded = true;
+  std::vector<Load> of_gravity(X_WB.size()), of_ground(X_WB.size());
   simulation::for_each_link(robot, [&](const simulation::TreeLink& at) {
     const simulation::MassSpec& mass = at.link.body.mass;
     const Pose& X_WL = X_WB[at.body];
-    const Vector3d center = X_WL.position + rotate(X_WL.orientation, mass.center_of_mass);
-    for (std::size_t body = at.body; body > 0; body = carriers[body]) {
-      loads[body].force += mass.mass * g;
-      loads[body].moment += cross(center - X_WB[body].position, mass.mass * g);
-    }
+    add_load(of_gravity, carriers, X_WB, at.body,
+             X_WL.position + rotate(X_WL.orientation, mass.center_of_mass), mass.mass * g);
   });
+  std::vector<std::size_t> bodies;
+  const std::vector<contact::Foot> feet = feet_of(robot, X_WB, bodies);
+  for (const contact::Foot& foot : contact::footprint_of(feet, context.normal).feet)
+    add_load(of_ground, carriers, X_WB, bodies[foot.index], foot.position,
+             context.weight * context.normal);
+  std::string why;
   simulation::for_each_link(robot, [&](const simulation::TreeLink& at) {
     const simulation::LinkSpec& link = at.link;
-    const bool moves = link.rate != 0. || link.torque != 0. || !link.body.boundary_radii.empty();
-    const bool springs = link.stiffness != 0. && link.angle != link.rest_angle;
     const bool turns = simulation::joint_type(link.joint).turns;
     const Vector3d axis = rotate(X_WB[at.body].orientation, Vector3d{0., 0., 1.});
-    const Load& load = loads[at.body];
-    const double along = dot(axis, turns ? load.moment : load.force);
-    unloaded = unloaded && !moves && !springs && std::abs(along) <= rounding_load * weight;
+    const auto loaded = [&](const Load& load) {
+      return std::abs(dot(axis, turns ? load.moment : load.force)) > rounding_load * context.weight;
+    };
+    if (!why.empty()) return;
+    const std::string joint = "the joint of " + at.chain.name + "." + link.body.name;
+    if (link.rate != 0. || link.torque != 0. ||
+        (link.stiffness != 0. && link.angle != link.rest_angle))
+      why = joint + " moves at the start";
+    else if (loaded(of_gravity[at.body]))
+      why = "gravity loads " + joint;
+    else if (loaded(of_ground[at.body]))
+      why = "the ground loads " + joint;
   });
-  return unloaded;
+  return why;
+}
+
+/// Where the measured robot touches its plane at the start.
+contact::Footprint footprint_at_start(const RunContext& context) {
+  std::vector<std::size_t> bodies;
+  const std::vector<contact::Foot> feet =
+      feet_of(context.robot_spec(), world_poses(context.robot_spec()), bodies);
+  return contact::footprint_of(feet, context.normal);
+}
+
+/// What carries a robot that has come to rest on its plane.
+struct Stand {
+  contact::Footprint footprint;
+  bool uneven = false;  ///< contacts are not level: the robot tilts as it comes to rest
+};
+
+/// Of contacts at different heights those that carry a rigid body, each on the same linear spring:
+/// depths d_i = a + b x_i + c y_i - h_i, x along the fall and y across it from the centre of mass,
+/// at the least of sum k max(0, d_i)^2/2 - N a - M b, M the moment of the friction that holds the
+/// body. Empty where it tips over.
+contact::Footprint carrying(const RunContext& context, const contact::Footprint& near) {
+  const simulation::RobotSpec& robot = context.robot_spec();
+  const Vector3d& n = context.normal;
+  const Vector3d across = cross(n, context.downhill);
+  const Vector3d center =
+      robot.location + rotate(robot.orientation, robot.base.mass.center_of_mass);
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const contact::Foot& foot : near.feet) lowest = std::min(lowest, dot(foot.position, n));
+  struct Spring {
+    double x, y, height;
+  };
+  std::vector<Spring> springs;
+  double size = 0., load = 0.;
+  for (const contact::Foot& foot : near.feet) {
+    const Vector3d arm = foot.position - center;
+    springs.push_back(
+        {dot(arm, context.downhill), dot(arm, across), dot(foot.position, n) - lowest});
+    size = std::max(size, norm(tangential(arm, n)));
+  }
+  const Vector3d weight = robot.base.mass.mass * context.experiment->gravity;
+  load = -dot(weight, n);
+  const double rise = dot(center, n) - lowest;
+  const Vector3d wanted{load, norm(tangential(weight, n)) * rise, 0.};
+  const auto law = contact::find_force_law(context.experiment->contact);
+  const int material = context.ground->query(context.start).material;
+  const bool ours = context.experiment->engine == "dts" && law;
+  constexpr double rigid = 1e-6;  // [m]
+  const double depth =
+      ours ? contact::static_depth(
+                 *law, load,
+                 context.experiment->materials[static_cast<std::size_t>(material)].constants)
+           : rigid;
+  const double stiffness = load / depth;
+  const auto depth_of = [](const Spring& spring, const Vector3d& plane) {
+    return plane.x + plane.y * spring.x + plane.z * spring.y - spring.height;
+  };
+  const auto energy = [&](const Vector3d& plane) {
+    double sum = -dot(wanted, plane);
+    for (const Spring& spring : springs) {
+      const double d = std::max(0., depth_of(spring, plane));
+      sum += 0.5 * stiffness * d * d;
+    }
+    return sum;
+  };
+  Vector3d plane{depth, 0., 0.};
+  constexpr int most_steps = 200;
+  for (int i = 0; i < most_steps; ++i) {
+    Symmetric3d curvature{1e-9, 1e-9 * size * size, 1e-9 * size * size, 0., 0., 0.};
+    Vector3d left = wanted;
+    for (const Spring& spring : springs) {
+      const double d = depth_of(spring, plane);
+      if (!(d > 0.)) continue;
+      left -= stiffness * d * Vector3d{1., spring.x, spring.y};
+      curvature += Symmetric3d{1.,       spring.x * spring.x, spring.y * spring.y, spring.x,
+                               spring.y, spring.x * spring.y};
+    }
+    const bool rests =
+        std::abs(left.x) <= 1e-9 * load && std::hypot(left.y, left.z) <= 1e-9 * load * size;
+    if (rests) {
+      constexpr double steepest = 0.02;  // [rad]: beyond, the body stands otherwise
+      if (std::hypot(plane.y, plane.z) > steepest) return {};
+      contact::Footprint footprint;
+      for (std::size_t k = 0; k < springs.size(); ++k)
+        if (depth_of(springs[k], plane) > 0.) footprint.feet.push_back(near.feet[k]);
+      return footprint;
+    }
+    Vector3d step = (1. / stiffness) * (inverse(curvature) * left);
+    const double before = energy(plane);
+    for (int halved = 0; halved < 60 && energy(plane + step) > before; ++halved) step = 0.5 * step;
+    plane += step;
+  }
+  return {};
+}
+
+Stand stand_of(const RunContext& context) {
+  const contact::Footprint lowest = footprint_at_start(context);
+  if (!lowest.in_line()) return {lowest, false};
+  std::vector<std::size_t> bodies;
+  const std::vector<contact::Foot> feet =
+      feet_of(context.robot_spec(), world_poses(context.robot_spec()), bodies);
+  double size = 0.;
+  for (const contact::Foot& foot : feet)
+    size = std::max(size, norm(tangential(foot.position - feet.front().position, context.normal)));
+  constexpr double slight = 0.02;  // of the size: what a small tilt brings down
+  const contact::Footprint near = contact::footprint_of(feet, context.normal, slight * size);
+  if (near.feet.size() == lowest.feet.size()) return {lowest, false};
+  contact::Footprint carried = carrying(context, near);
+  if (carried.feet.empty()) return {lowest, false};
+  return {std::move(carried), true};
+}
+
+/// "contact point d": the last part of its trail; "a corner" of a shape that has no name.
+std::string name_of_point(const RunContext& context, std::size_t point) {
+  for (const simulation::PointSpec& named : context.experiment->points)
+    if (named.robot == context.robot && named.body == 0 && named.point == static_cast<int>(point))
+      return "contact point " + named.trail.substr(named.trail.rfind('.') + 1);
+  return "a boundary point";
+}
+
+/// Why a single body can roll on its ground; "" where it cannot.
+std::string why_it_rolls(const RunContext& context) {
+  const contact::Footprint footprint = stand_of(context).footprint;
+  if (!footprint.rolls()) return "";
+  const auto ball = std::ranges::find_if(
+      footprint.feet, [](const contact::Foot& foot) { return foot.radius > 0.; });
+  const std::string name = name_of_point(context, ball->index);
+  if (footprint.feet.size() == 1) return "the body rolls: " + name + " is a ball";
+  return "the body rolls: " + name + " is a ball, and all contacts lie on one line";
 }
 
 }  // namespace
 
 double BodyOnPlane::slip_acceleration() const {
   return contact::slip_acceleration(gravity, std::atan2(sine, cosine), material.kinetic_friction);
+}
+
+bool BodyOnPlane::friction_drops() const {
+  if (!(material.static_friction > material.kinetic_friction)) return false;
+  // A law with Stribeck's curve has friction fall with speed instead.
+  return !peer && !(law && contact::reads(*law, &contact::Constants::stribeck_speed));
+}
+
+bool BodyOnPlane::linear_normal_force() const {
+  const double once = contact::static_depth(*law, normal_load(), material);
+  const double twice = contact::static_depth(*law, 2. * normal_load(), material);
+  return std::abs(twice - 2. * once) <= 1e-12 * once;
+}
+
+double BodyOnPlane::tangential_stiffness() const {
+  return law ? contacts() * contact::linearise(*law, normal_load(), material).tangential_stiffness
+             : 0.;
+}
+
+double BodyOnPlane::overshoot() const {
+  const double stiffness = tangential_stiffness();
+  if (stiffness == 0.) return 1.;
+  // Of x'' + 2 zeta w x' + w^2 x = w^2 from rest, x + 2 zeta x'/w is at most 1 + e, e the rebound
+  // of the same spring and damper: both are exp(-2 zeta acos(zeta)/sqrt(1 - zeta^2)).
+  const double damping =
+      contacts() * contact::linearise(*law, normal_load(), material).tangential_damping;
+  return 1. + contact::kelvin_voigt_restitution(damping / (2. * std::sqrt(stiffness * mass)));
+}
+
+std::optional<NormalLoads> BodyOnPlane::normal_loads(double moment, const Vector3d& along,
+                                                     const Vector3d& normal) const {
+  if (uneven) return std::nullopt;
+  contact::Footprint places;
+  for (const Vector3d& point : footprint) places.feet.push_back({point});
+  const double weight = normal_load() * contacts();
+  if (footprint.size() == 1) {
+    // Its body has to balance on it: the load's moment about the point, over the weight, is an arm.
+    constexpr double balanced = 1e-9;  // [m]
+    const bool stands =
+        norm(footprint.front() - moment / weight * along) <= balanced + 1e-9 * std::abs(height);
+    return stands ? std::optional(NormalLoads{{weight}, 0.}) : std::nullopt;
+  }
+  if (places.in_line()) return std::nullopt;
+  const Vector3d across = cross(normal, along);
+  Symmetric3d sums;
+  for (const Vector3d& point : footprint) {
+    const double x = dot(point, along), y = dot(point, across);
+    sums += Symmetric3d{1., x * x, y * y, x, y, x * y};
+  }
+  const Vector3d plane = inverse(sums) * Vector3d{weight, moment, 0.};
+  NormalLoads loads{{}, plane.z};
+  for (const Vector3d& point : footprint) {
+    loads.at_points.push_back(plane.x + plane.y * dot(point, along) + plane.z * dot(point, across));
+    if (!(loads.at_points.back() > 0.)) return std::nullopt;
+  }
+  return loads;
 }
 
 double BodyOnPlane::friction_load() const {
@@ -87,19 +304,53 @@ bool moves_as_if_free(const RunContext& context) {
          std::abs(across(experiment.gravity)) <= rounding_load * norm(experiment.gravity);
 }
 
-bool one_rigid_body(const RunContext& context) {
-  return alone_on_plane(context) && context.robot_spec().chains.empty();
-}
-
-bool stands_as_one_body(const RunContext& context) {
+std::string not_alone_on_plane(const RunContext& context) {
   const simulation::Experiment& experiment = *context.experiment;
   const simulation::RobotSpec& robot = context.robot_spec();
+  if (!experiment.terrain) return "there is no ground";
+  if (std::holds_alternative<contact::GridSurface>(experiment.terrain->surface))
+    return "the ground is a grid of heights, no plane";
+  if (experiment.robots.size() != 1) return "the scene has more than one robot";
+  if (!experiment.forces.empty()) return "the Force " + experiment.forces.front().name + " acts";
+  if (!robot.mobile) return "the robot's base is fixed";
+  if (!moves_as_if_free(context))
+    return "the plane that keeps the robot's base does not hold gravity and the ground's normal";
+  if (robot.base.boundary_points.empty()) return "the robot's base has nothing that touches";
+  return "";
+}
+
+std::string not_one_rigid_body(const RunContext& context) {
+  if (std::string why = not_alone_on_plane(context); !why.empty()) return why;
+  if (!context.robot_spec().chains.empty()) return "the robot has chains";
+  if (norm(context.robot_spec().angular_velocity) > 0.) return turns_at_the_start;
+  return why_it_rolls(context);
+}
+
+bool is_ball(const RunContext& context) {
+  const simulation::RobotSpec& robot = context.robot_spec();
+  return robot.chains.empty() && robot.base.boundary_points.size() == 1 &&
+         robot.base.boundary_radius(0) > 0.;
+}
+
+std::string not_resting_as_one_body(const RunContext& context) {
+  const simulation::Experiment& experiment = *context.experiment;
+  const simulation::RobotSpec& robot = context.robot_spec();
+  if (std::string why = not_alone_on_plane(context); !why.empty()) return why;
+  if (norm(robot.angular_velocity) > 0.) return turns_at_the_start;
   const bool level = norm(tangential(experiment.gravity, context.normal)) <=
                      rounding_load * norm(experiment.gravity);
-  if (!alone_on_plane(context) || robot.chains.empty() || !level || norm(robot.velocity) > 0. ||
-      !experiment.components.empty())
-    return false;
-  return unloaded_joints(robot, experiment.gravity, world_poses(robot), context.weight);
+  const bool single = robot.chains.empty();
+  if (!level) return single ? why_it_rolls(context) : "the robot has chains and the ground slopes";
+  if (norm(robot.velocity) > 0.)
+    return single ? why_it_rolls(context) : "the robot has chains and moves at the start";
+  if (single) return "";
+  if (!experiment.components.empty()) return "controllers may move the joints";
+  return why_joints_move(context, world_poses(robot));
+}
+
+double lowest_gap(const RunContext& context) {
+  const contact::Footprint footprint = footprint_at_start(context);
+  return footprint.feet.empty() ? 0. : height_over_ground(context, footprint.feet.front().position);
 }
 
 BodyOnPlane body_on_plane(const RunContext& context) {
@@ -114,30 +365,26 @@ BodyOnPlane body_on_plane(const RunContext& context) {
   if (!body.peer) body.law = contact::find_force_law(experiment.contact);
   const int material = context.ground->query(context.start).material;
   body.material = experiment.materials[static_cast<std::size_t>(material)].constants;
-  // A peer has one coefficient of friction, the kinetic (reference/experiment_checks.h).
-  if (body.peer) body.material.static_friction = body.material.kinetic_friction;
+  if (context.one_friction) body.material.static_friction = body.material.kinetic_friction;
 
   const std::vector<const simulation::BodySpec*> bodies = simulation::bodies_of(robot);
   const std::vector<Pose> poses = world_poses(robot);
   Vector3d moment;
-  std::vector<Vector3d> points;
+  std::size_t points = 0;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const simulation::MassSpec& mass = bodies[i]->mass;
     body.mass += mass.mass;
     moment += mass.mass * (poses[i].position + rotate(poses[i].orientation, mass.center_of_mass));
-    for (const Vector3d& point : bodies[i]->boundary_points)
-      points.push_back(poses[i].position + rotate(poses[i].orientation, point));
+    points += bodies[i]->boundary_points.size();
   }
   const Vector3d center = (1. / body.mass) * moment;
-  body.single_point = points.size() == 1;
-  double lowest = std::numeric_limits<double>::infinity();
-  for (const Vector3d& point : points)
-    lowest = std::min(lowest, dot(point - robot.location, context.normal));
-  for (const Vector3d& point : points) {
-    if (dot(point - robot.location, context.normal) - lowest > 1e-6) continue;
-    body.footprint.push_back(tangential(point - center, context.normal));
-    body.height = dot(center - point, context.normal);
-    body.gap = -context.ground->query(point).depth;
+  body.single_point = points == 1;
+  const Stand stand = stand_of(context);
+  body.uneven = stand.uneven;
+  for (const contact::Foot& foot : stand.footprint.feet) {
+    body.footprint.push_back(tangential(foot.position - center, context.normal));
+    body.height = dot(center - foot.position, context.normal);
+    body.gap = -context.ground->query(foot.position).depth;
   }
   return body;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "output/text/number.h"
+#include "studies/idleness.h"
 #include "studies/selection.h"
 
 namespace hookpoint::studies {
@@ -74,10 +75,13 @@ std::string named_subject_of(const StudyResult& study, const ClaimSpec& claim,
   return name;
 }
 
+bool names_subject(const ClaimValue& value) {
+  return value.take == ClaimTake::subject_of_least || value.take == ClaimTake::subject_of_largest;
+}
+
 std::string words_of(const StudyResult& study, const ClaimSpec& claim, const ClaimPart& part) {
   const ClaimValue& value = *part.value;
-  if (value.take == ClaimTake::subject_of_least || value.take == ClaimTake::subject_of_largest)
-    return named_subject_of(study, claim, value);
+  if (names_subject(value)) return named_subject_of(study, claim, value);
   const auto number = number_of(study, claim, value);
   if (!number) return "";
   constexpr int digits = 3;
@@ -93,7 +97,7 @@ std::string words_of(const StudyResult& study, const ClaimSpec& claim, const Cla
 std::string runs(int count) { return std::to_string(count) + (count == 1 ? " run" : " runs"); }
 
 void judge_by_truths(const StudyResult& study, const ClaimSpec& claim, SaidClaim& said) {
-  std::string failing, holding;
+  std::string failing, holding, idle;
   for (const int index : claim.truths) {
     const TruthResult& truth = study.truths[static_cast<std::size_t>(index)];
     const int all = truth.passed + truth.failed;
@@ -102,16 +106,36 @@ void judge_by_truths(const StudyResult& study, const ClaimSpec& claim, SaidClaim
                  std::to_string(truth.failed) + " of " + runs(all);
     else if (all > 0)
       holding += (holding.empty() ? "" : ", ") + truth.name + " in " + runs(all);
+    else
+      idle += (idle.empty() ? "" : ", ") + truth.name;
   }
   said.verdict = !failing.empty()   ? ClaimVerdict::fails
                  : !holding.empty() ? ClaimVerdict::holds
                                     : ClaimVerdict::unjudged;
   said.why = !failing.empty()   ? "does not hold: it fails " + failing
              : !holding.empty() ? "holds: " + holding
+             : !idle.empty()    ? "not judged: nothing is judged by the Truth " + idle
                                 : "no Truth judges it";
 }
 
 }  // namespace
+
+Idleness idleness_of(const StudyResult& study, const ClaimSpec& claim) {
+  for (const ClaimPart& part : claim.parts)
+    for (const auto& value : {part.value, part.divisor}) {
+      if (!value) continue;
+      RunSelection selection{{}, {&claim.where, &value->where}};
+      if (value->subject >= 0) selection.subjects = {value->subject};
+      Idleness found =
+          why_no_value(study, selection, {value->metric, value->take == ClaimTake::predicted});
+      if (found.idle != Idle::no) return found;
+    }
+  const bool finite = std::ranges::all_of(claim.parts, [&](const ClaimPart& part) {
+    return !part.divisor || std::isfinite(*number_of(study, claim, *part.value) /
+                                          *number_of(study, claim, *part.divisor));
+  });
+  return finite ? Idleness{} : Idleness{Idle::fault, "a ratio of its numbers is not finite"};
+}
 
 SaidClaim said_of(const StudyResult& study, const ClaimSpec& claim) {
   SaidClaim said;
@@ -128,7 +152,9 @@ SaidClaim said_of(const StudyResult& study, const ClaimSpec& claim) {
   judge_by_truths(study, claim, said);
   if (!whole && said.verdict != ClaimVerdict::fails) {
     said.verdict = ClaimVerdict::unsaid;
-    said.why = "cannot be said: no run has all its numbers";
+    const Idleness idleness = idleness_of(study.runs != nullptr ? *study.runs : study, claim);
+    said.why = "cannot be said: " + idleness.why;
+    said.excused = claim.may_be_empty || idleness.idle == Idle::left_out;
   }
   return said;
 }

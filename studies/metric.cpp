@@ -38,8 +38,10 @@ constexpr auto metrics = std::to_array<MetricDefinition>({
     {"stopping_distance", "m", "displacement at the end, if the body rests then",
      make_stopping_distance},
     {"slip_onset", "rad",
-     "angle of the driving force, weight and external forces, from the ground's normal when the "
-     "speed along the ground first exceeds 1 mm/s for 10 ms on end; nothing if it never does",
+     "angle of the driving force, weight and external forces, from the ground's normal when, after "
+     "`settle`, the speed along the ground first exceeds 1 mm/s for 10 ms on end; nothing if it "
+     "never "
+     "does",
      make_slip_onset},
     {"threshold_error", "rad", "slip_onset less atan(mu_s)", make_threshold_error},
     {"direction_error", "rad", "angle between the displacement after `settle` and downhill",

@@ -36,6 +36,8 @@ struct RunContext {
   Vector3d downhill;   ///< unit, in the ground's plane: steepest descent; on the level, along the
                        ///< base's initial velocity
   double weight = 0.;  ///< m |g| [N], of the whole robot
+  /// Of an engine with one coefficient of friction, the kinetic one (EngineEntry::one_friction).
+  bool one_friction = false;
   simulation::EngineFactory make =
       nullptr;  ///< of the run's engine, where a metric may run another
 
@@ -193,6 +195,8 @@ void for_each_body(const RunContext& context, const simulation::WorldState& worl
 
 /// Speed along the ground from which a body counts as slipping, and below which as at rest [m/s].
 inline constexpr double onset_speed = 1e-3;
+/// How long it goes on so where a slip begins [s].
+inline constexpr double slip_lasts = 0.01;
 
 /// A peer keeps a resting body within its own margin of the surface, so a touching point may lie
 /// that far above it [m].

@@ -43,10 +43,11 @@ struct SubjectInfo {
 };
 
 struct MetricColumn {
-  std::string name;              ///< "creep_speed"
-  std::string unit;              ///< "m/s"
-  bool timing = false;           ///< goes to timing.csv, not to results.csv
-  Regime regime = Regime::none;  ///< the only one in which it says something; none: any
+  std::string name;               ///< "creep_speed"
+  std::string unit;               ///< "m/s"
+  bool timing = false;            ///< goes to timing.csv, not to results.csv
+  Regime regime = Regime::none;   ///< the only one in which it says something; none: any
+  bool may_be_predicted = false;  ///< there are runs in which it has a closed form
 };
 
 struct MetricValue {
@@ -54,6 +55,7 @@ struct MetricValue {
   std::optional<double> predicted;        ///< the closed form, where there is one
   std::optional<bool> ok;                 ///< verdict of the Truth that covers it, if any
   std::optional<double> half_width = {};  ///< of a mean over seeds: of its 95 % interval
+  std::string no_form = {};               ///< why there is no closed form, where that is known
 };
 
 /// A recorded curve of one run: displacement over time.
@@ -113,6 +115,7 @@ struct PlotSpec {
   bool show_predicted = true;  ///< dashed line of the closed form beside the points
   std::vector<int> subjects;   ///< that are drawn, indices; empty: all
   SweepValues where;           ///< other rows are left out
+  bool may_be_empty = false;   ///< it may show nothing
 };
 
 /// A Table block: a metric over two of what the study varied.
@@ -123,6 +126,7 @@ struct TableSpec {
   std::string value;          ///< a metric
   std::vector<int> subjects;  ///< that enter, indices; empty: all
   SweepValues where;          ///< other rows are left out
+  bool may_be_empty = false;  ///< it may show nothing
 };
 
 /// What a number in a Claim is of the runs that it speaks of; of the last two the name of a
@@ -154,17 +158,34 @@ struct ClaimPart {
 struct ClaimSpec {
   std::string name;
   std::vector<ClaimPart> parts;
-  std::vector<int> truths;  ///< that it stands and falls with, indices
-  SweepValues where;        ///< other rows are left out
+  std::vector<int> truths;    ///< that it stands and falls with, indices
+  SweepValues where;          ///< other rows are left out
+  bool may_be_empty = false;  ///< it may lack a number
+};
+
+/// Whether a block of a study judges or shows nothing.
+enum class Idle {
+  no,        ///< it judges or shows some run
+  fault,     ///< it is about no run, or the runs that it is about lack what it needs
+  allowed,   ///< the same, which the file allows
+  left_out,  ///< its runs were left out here: by --quick, by --only, or for want of an engine
+};
+
+struct Idleness {
+  Idle idle = Idle::no;
+  std::string why = {};  ///< in one line
 };
 
 /// A Truth and how many of the values that it covers agree.
 struct TruthResult {
   std::string name;
-  std::string words;           ///< "creep_speed equals predicted within 1 %"
-  int metric = 0;              ///< index into StudyResult::metrics
-  int passed = 0, failed = 0;  ///< rows
-  int first_failure = -1;      ///< index into StudyResult::rows
+  std::string words;              ///< "creep_speed equals predicted within 1 %"
+  int metric = 0;                 ///< index into StudyResult::metrics
+  int passed = 0, failed = 0;     ///< rows
+  int first_failure = -1;         ///< index into StudyResult::rows
+  Idleness idleness = {};         ///< where it judges no run
+  int unjudged = 0;               ///< rows that ran, which it is about and cannot judge
+  std::string unjudged_why = {};  ///< of the first of these
 };
 
 /// What `match` chose for one run.
@@ -192,9 +213,11 @@ struct StudyResult {
   std::vector<TableSpec> tables;
   std::vector<ClaimSpec> claims;
   std::vector<TruthResult> truths;
-  std::vector<PeerDistances> peer_distances;   ///< where `peer_distance` is measured
-  std::vector<MatchedRun> matched;             ///< where the study has `match`, of our engine
-  std::vector<std::string> warnings;           ///< the plan's
+  std::vector<PeerDistances> peer_distances;  ///< where `peer_distance` is measured
+  std::vector<MatchedRun> matched;            ///< where the study has `match`, of our engine
+  std::vector<std::string> warnings;          ///< the plan's
+  bool quick = false;
+  std::vector<int> unselected = {};            ///< subjects that --only leaves out, indices
   std::optional<std::size_t> seed_sweep = {};  ///< of `seeds`: index into `sweeps`
   const StudyResult* runs = nullptr;  ///< of rows that are means over seeds: the runs themselves
 };

@@ -108,6 +108,10 @@ FieldSchema required(FieldSchema field) {
   return field;
 }
 
+FieldSchema may_be_empty(const std::string& what) {
+  return boolean("may_be_empty", false, "whether it is no failure that " + what);
+}
+
 /// A field of World as a Subject may set it: the same choices, no default.
 FieldSchema of_world(const Schema& schema, const std::string& name, std::string doc) {
   const ClassSchema* world = schema.find("World");
@@ -145,7 +149,9 @@ ClassSchema study_class() {
                        "simulated time of every run; default, with Cases that have Traces: each "
                        "up to its last sample")),
        with_default(
-           at_least_zero(number("settle", "s", "time from which metrics look: the start may ring")),
+           at_least_zero(number("settle", "s",
+                                "time from which metrics are measured: the start may ring; the "
+                                "manual says which metrics are of the whole run")),
            "0"),
        positive(number("quick_duration", "s", "duration under --quick; default: a fifth")),
        at_least_zero(number("quick_settle", "s", "settle under --quick; default: a fifth")),
@@ -209,7 +215,8 @@ ClassSchema table_class() {
              required(words("rows", 1, "what runs down: subject, or a sweep")),
              required(words("columns", 1, "what runs across: subject, or a sweep")),
              required(words("value", 1, "the metric in the cells")),
-             words("subjects", 100, "subjects that enter; default: all")},
+             words("subjects", 100, "subjects that enter; default: all"),
+             may_be_empty("no run of it has a value")},
             {"Only"});
   table.only_in = "Study";
   return table;
@@ -229,7 +236,7 @@ ClassSchema measure_class() {
               "what becomes of its values; the manual defines each"),
        at_least_zero(number("from", "s", "values before do not count; default: settle")),
        positive(number("to", "s", "values after do not count; default: the run's end")),
-       words("unit", 1, "of its values: mm, \"m/s\"; default: the SI unit of `of`"),
+       words("unit", 1, "of its values: mm, \"m/s\", deg; default: the SI unit"),
        number("level", "?",
               "of `time_at`, `count_above`, `time_above`; of `settle_time` what it settles about, "
               "if not where it ends"),
@@ -251,7 +258,8 @@ ClassSchema truth_class() {
        number("above", "?", "the metric must be greater"),
        number("below", "?", "the metric must be less"),
        words("same_over", 1, "the value must be that at this sweep's first value"),
-       words("subjects", 100, "subjects that it covers; default: all")},
+       words("subjects", 100, "subjects that it covers; default: all"),
+       may_be_empty("it judges no run")},
       {"Only"});
   return truth;
 }
@@ -263,7 +271,8 @@ ClassSchema claim_class() {
                      "the sentence; in braces [least, largest or predicted] METRIC [of SUBJECT] "
                      "[at SWEEP = VALUE], two with / between them, or subject of least METRIC")),
        words("truth", 100,
-             "Truths that it stands and falls with; default: those of the metrics that it names")},
+             "Truths that it stands and falls with; default: those of the metrics that it names"),
+       may_be_empty("no run has one of its numbers")},
       {"Only"});
   claim.only_in = "Study";
   return claim;
@@ -483,7 +492,8 @@ void add_study_classes(Schema& schema) {
                        "what counts as zero where y is logarithmic; default: 1e-16 of y's unit")),
        words("subjects", 100, "subjects that are drawn; default: all"),
        choice("scale", {"linear", "log", "log_x", "log_log"}, "linear",
-              "axes that are logarithmic: log is y; of a map log is the colour")},
+              "axes that are logarithmic: log is y; of a map log is the colour"),
+       may_be_empty("no run of it has a value")},
       {"Only", "Reference"});
   plot.only_in = "Study";
   schema.add(std::move(plot));

@@ -41,6 +41,8 @@ MetricValue mean_value(const StudyResult& study, std::span<const std::size_t> ro
   if (!measured.empty()) value.measured = arithmetic_mean(measured);
   if (const auto interval = mean_interval(measured)) value.half_width = interval->half_width;
   if (!predicted.empty()) value.predicted = arithmetic_mean(predicted);
+  for (const std::size_t row : rows)
+    if (value.no_form.empty()) value.no_form = study.rows[row].metrics[metric].no_form;
   value.ok = study.rows[rows.front()].metrics[metric].ok;
   const bool agree = std::ranges::all_of(
       rows, [&](std::size_t row) { return study.rows[row].metrics[metric].ok == value.ok; });

@@ -38,6 +38,10 @@ constinit const Peer bullet_peer{
                                  ground_material(experiment))
               .constraint;
         },
+    .creep =
+        [](const simulation::Experiment&) -> simulation::ClosedForm<simulation::CreepVelocity> {
+      return simulation::NoClosedForm{"Bullet's iterations end before they converge"};
+    },
     .static_softness = matched_softness,
 };
 

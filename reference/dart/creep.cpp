@@ -16,28 +16,35 @@ double row_diagonal(const RestingBody& body, const Vector3d& arm, const Vector3d
 
 }  // namespace
 
-std::optional<simulation::CreepVelocity> dart_creep(const simulation::Experiment& experiment) {
+simulation::ClosedForm<simulation::CreepVelocity> dart_creep(
+    const simulation::Experiment& experiment) {
   const Settings kind = settings_of(experiment, dart_peer);
   const auto material = ground_material(experiment);
   const DartSettings settings = dart_settings(kind, experiment.deltat, material);
   const auto body = resting_body(experiment);
-  if (!body || (settings.tessellated && !touches_by_points(experiment, 0))) return std::nullopt;
+  if (!body) return body.none();
+  if (settings.tessellated && !touches_by_points(experiment, 0))
+    return simulation::NoClosedForm{"DART's contacts of a mesh are those of its triangles"};
   const double friction = single_friction(material);
   if (settings.own_mixing) {
     const auto creep = creep_by_mixing(*body, friction, settings.constraint.tangential_mixing);
-    return creep && !creep->limited ? lasting(*creep, experiment) : std::nullopt;
+    if (!creep) return creep.none();
+    if (creep->limited) return point_at_limit;
+    return lasting(*creep, experiment);
   }
-  auto dampers = limits_without_friction(*body, friction);
-  if (!dampers) return std::nullopt;
+  const auto limits = limits_without_friction(*body, friction);
+  if (!limits) return limits.none();
+  std::vector<FrictionDamper> dampers = *limits;
   const double mixing = settings.constraint.relative_mixing * experiment.deltat;
   for (std::size_t i = 0; i < body->arms.size(); ++i) {
-    (*dampers)[i].along = 1. / (mixing * row_diagonal(*body, body->arms[i], body->downhill));
-    (*dampers)[i].across = 1. / (mixing * row_diagonal(*body, body->arms[i], body->across));
+    dampers[i].along = 1. / (mixing * row_diagonal(*body, body->arms[i], body->downhill));
+    dampers[i].across = 1. / (mixing * row_diagonal(*body, body->arms[i], body->across));
   }
-  const auto creep = steady_creep(*body, *dampers);
+  const auto creep = steady_creep(*body, dampers);
   // Its friction is a box along and across the fall: at the limit as steady_creep has it only where
   // the body goes straight down.
-  if (!creep || (creep->limited && !creep->straight)) return std::nullopt;
+  if (!creep) return creep.none();
+  if (creep->limited && !creep->straight) return point_at_limit;
   return lasting(*creep, experiment);
 }
 

@@ -1,8 +1,7 @@
 // How a DART contact at rest creeps, in closed form.
 #pragma once
 
-#include <optional>
-
+#include "simulation/closed_form.h"
 #include "simulation/creep_velocity.h"
 #include "simulation/experiment.h"
 
@@ -11,6 +10,7 @@ namespace hookpoint::reference {
 /// At `matched` DART's friction rows yield by CFM times their force, else by
 /// CFM (J M^-1 J^T)_ii dt, as impulses do. Nothing for meshes, whose contacts are those of
 /// triangles.
-std::optional<simulation::CreepVelocity> dart_creep(const simulation::Experiment& experiment);
+simulation::ClosedForm<simulation::CreepVelocity> dart_creep(
+    const simulation::Experiment& experiment);
 
 }  // namespace hookpoint::reference

@@ -8,6 +8,7 @@
 #include "reference/mujoco/settings.h"
 #include "reference/resting_body.h"
 #include "reference/static_depth.h"
+#include "reference/steady_creep.h"
 #include "simulation/robot_tree.h"
 
 namespace hookpoint::reference {
@@ -75,12 +76,12 @@ struct Rest {
   simulation::CreepVelocity velocity;
   double depth;
 };
-std::optional<Rest> rest(const Load& load, const MujocoSettings& settings,
-                         const Reference& reference, double d) {
+simulation::ClosedForm<Rest> rest(const Load& load, const MujocoSettings& settings,
+                                  const Reference& reference, double d) {
   const double softness = (1. - d) / d * load.inverse_weight;
   const double mu = load.friction;
   if (settings.elliptic) {
-    if (load.tangential > mu * load.least * load.normal) return std::nullopt;
+    if (load.tangential > mu * load.least * load.normal) return point_at_limit;
     return Rest{{softness / settings.friction_impedance * load.tangential / reference.damping, 0.},
                 softness * load.normal / (reference.stiffness * d)};
   }
@@ -88,7 +89,9 @@ std::optional<Rest> rest(const Load& load, const MujocoSettings& settings,
   const double part = load.tangential / (mu * load.normal);
   const auto pyramid =
       pyramid_at_rest(part * load.along, part * load.across, load.least, load.largest);
-  if (!pyramid) return std::nullopt;
+  if (!pyramid)
+    return simulation::NoClosedForm{
+        "a contact of MuJoCo's pyramid slips, or lacks a row that another one has"};
   // With downhill = a first + b second, sideways is a second - b first, and the speed along each
   // tangent has the sign of a or b.
   const double speed = row * load.normal / (reference.damping * mu);
@@ -107,12 +110,15 @@ void spread(const RestingBody& body, const Vector3d& loads, Load& load) {
   }
 }
 
-std::optional<Load> load_at_rest(const simulation::Experiment& experiment) {
+simulation::ClosedForm<Load> load_at_rest(const simulation::Experiment& experiment) {
   const auto body = resting_body(experiment);
   const double friction = single_friction(ground_material(experiment));
-  if (!body || !(body->press > 0.) || !(friction > 0.)) return std::nullopt;
+  if (!body) return body.none();
+  if (!(body->press > 0.))
+    return simulation::NoClosedForm{"nothing presses the body on its ground"};
+  if (!(friction > 0.)) return simulation::NoClosedForm{"the ground has no friction"};
   const auto loads = normal_loads(*body, body->pull);
-  if (!loads) return std::nullopt;
+  if (!loads) return loads.none();
   Load load;
   const auto count = static_cast<double>(body->arms.size());
   load.inverse_weight = 1. / body->mass->mass;
@@ -149,28 +155,33 @@ bool mujoco_keeps_spring(const simulation::Experiment& experiment) {
 
 }  // namespace
 
-std::optional<simulation::CreepVelocity> mujoco_creep(const simulation::Experiment& experiment) {
+simulation::ClosedForm<simulation::CreepVelocity> mujoco_creep(
+    const simulation::Experiment& experiment) {
   const auto load = load_at_rest(experiment);
-  if (!load) return std::nullopt;
+  if (!load) return load.none();
   const auto material = ground_material(experiment);
   const MujocoSettings settings =
       mujoco_settings(settings_of(experiment, mujoco_peer), experiment.deltat, material);
-  if (settings.no_slip_iterations > 0) return std::nullopt;
+  if (settings.no_slip_iterations > 0)
+    return simulation::NoClosedForm{"MuJoCo's no-slip iterations end before they converge"};
   const MujocoRow row = mujoco_row(settings, experiment.deltat, material, load->inverse_weight);
   const Reference reference = reference_of(row, experiment.deltat);
   double depth = 0.;
-  std::optional<Rest> found;
+  simulation::CreepVelocity velocity;
   for (int i = 0; i < 20; ++i) {  // d changes by a few percent with depth: each turn gains a digit
-    found = rest(*load, settings, reference, impedance_at(row.impedance, depth));
-    if (!found) return std::nullopt;
+    const auto found = rest(*load, settings, reference, impedance_at(row.impedance, depth));
+    if (!found) return found.none();
     depth = found->depth;
+    velocity = found->velocity;
   }
-  return found->velocity;
+  return velocity;
 }
 
-std::optional<double> mujoco_softness(const simulation::Experiment& experiment) {
-  if (settings_of(experiment, mujoco_peer) != Settings::matched) return std::nullopt;
-  return mujoco_keeps_spring(experiment) ? matched_softness(experiment) : std::nullopt;
+simulation::ClosedForm<double> mujoco_softness(const simulation::Experiment& experiment) {
+  if (settings_of(experiment, mujoco_peer) == Settings::matched && !mujoco_keeps_spring(experiment))
+    return simulation::NoClosedForm{
+        "MuJoCo's impedance is cut off at a bound: its contact is softer than the material"};
+  return matched_softness(experiment);
 }
 
 }  // namespace hookpoint::reference

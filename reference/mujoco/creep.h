@@ -1,8 +1,7 @@
 // What of a MuJoCo contact at rest has a closed form: how it creeps, and how deep it stands.
 #pragma once
 
-#include <optional>
-
+#include "simulation/closed_form.h"
 #include "simulation/creep_velocity.h"
 #include "simulation/experiment.h"
 
@@ -14,10 +13,11 @@ namespace hookpoint::reference {
 /// out. Nothing where that has no closed form: other robots and grounds, and where a contact slips
 /// or lacks a row that another one has (the friction's moment takes load off the uphill contacts).
 /// The impedance d is taken at the mean depth. Nothing with no-slip iterations.
-std::optional<simulation::CreepVelocity> mujoco_creep(const simulation::Experiment& experiment);
+simulation::ClosedForm<simulation::CreepVelocity> mujoco_creep(
+    const simulation::Experiment& experiment);
 
 /// Depth per newton [m/N]: at `matched` the material's spring, while the impedance is not cut off
 /// (mujoco_row). Nothing otherwise.
-std::optional<double> mujoco_softness(const simulation::Experiment& experiment);
+simulation::ClosedForm<double> mujoco_softness(const simulation::Experiment& experiment);
 
 }  // namespace hookpoint::reference

@@ -45,7 +45,6 @@ constinit const Peer ode_peer{
     .static_softness = ode_softness,
 };
 
-// Its iterations end before they have converged: no closed form of its creep.
 constinit const Peer ode_quickstep_peer{
     .name = "ode_quickstep",
     .library = "ODE",
@@ -63,6 +62,10 @@ constinit const Peer ode_quickstep_peer{
           return ode_constraint_constants(experiment, settings_of(experiment, ode_quickstep_peer),
                                           OdeSolver::quickstep);
         },
+    .creep =
+        [](const simulation::Experiment&) -> simulation::ClosedForm<simulation::CreepVelocity> {
+      return simulation::NoClosedForm{"the iterations of ODE's QuickStep end before they converge"};
+    },
     .static_softness = matched_softness,
 };
 

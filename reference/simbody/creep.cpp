@@ -20,30 +20,36 @@ double stiction_speed(double share) {
 
 }  // namespace
 
-std::optional<simulation::CreepVelocity> simbody_creep(const simulation::Experiment& experiment) {
-  auto body = resting_body(experiment);
-  if (!body) return std::nullopt;
+simulation::ClosedForm<simulation::CreepVelocity> simbody_creep(
+    const simulation::Experiment& experiment) {
+  const auto resting = resting_body(experiment);
+  if (!resting) return resting.none();
+  RestingBody body = *resting;
   const SimbodySettings settings = simbody_settings(settings_of(experiment, simbody_peer));
   const auto material = ground_material(experiment);
   if (!settings.penalty) {
     // All points at one speed have one coefficient, so that how they share the load is no matter.
-    const double share = body->pull / (material.static_friction * body->press);
-    if (!(share < 1.)) return std::nullopt;
+    const double share = body.pull / (material.static_friction * body.press);
+    if (!(share < 1.)) return simulation::NoClosedForm{"friction does not carry the body"};
     return simulation::CreepVelocity{settings.transition_velocity * stiction_speed(share), 0.};
   }
-  if (touches_by_points(experiment, 0))  // each is a ball, which touches below the point
-    for (Vector3d& arm : body->arms) arm -= point_ball_radius * body->normal;
-  const auto loads = normal_loads(*body, body->pull);
-  if (!loads) return std::nullopt;
+  // A point is a ball on a ground that is lowered by its radius, and touches below the point; a
+  // ball of the scene is as large and the ground where it is.
+  if (touches_by_points(experiment, 0))
+    for (std::size_t i = 0; i < body.arms.size(); ++i)
+      if (body.radii[i] == 0.) body.arms[i] -= point_ball_radius * body.normal;
+  const auto loads = normal_loads(body, body.pull);
+  if (!loads) return loads.none();
   const double damping = material.tangential_damping;
   std::vector<FrictionDamper> dampers;
-  for (const Vector3d& arm : body->arms) {
-    const double load = load_at(*body, *loads, arm);
-    if (!(load > 0.)) return std::nullopt;  // the body would tip
+  for (const Vector3d& arm : body.arms) {
+    const double load = load_at(body, *loads, arm);
+    if (!(load > 0.)) return simulation::NoClosedForm{"the body would tip"};
     dampers.push_back({damping, damping, material.kinetic_friction * load});
   }
-  const auto creep = steady_creep(*body, dampers);
-  return creep ? lasting(*creep, experiment) : std::nullopt;
+  const auto creep = steady_creep(body, dampers);
+  if (!creep) return creep.none();
+  return lasting(*creep, experiment);
 }
 
 }  // namespace hookpoint::reference

@@ -1,8 +1,7 @@
 // How a Simbody contact at rest creeps, in closed form.
 #pragma once
 
-#include <optional>
-
+#include "simulation/closed_form.h"
 #include "simulation/creep_velocity.h"
 #include "simulation/experiment.h"
 
@@ -11,6 +10,7 @@ namespace hookpoint::reference {
 /// Simbody's friction is a function of speed. At `matched` c_t v, at each point up to mu N there;
 /// else N mu_s (10 x^3 - 15 x^4 + 6 x^5), x = v/v_t, of its stiction (stribeck() in
 /// CompliantContactSubsystem.cpp).
-std::optional<simulation::CreepVelocity> simbody_creep(const simulation::Experiment& experiment);
+simulation::ClosedForm<simulation::CreepVelocity> simbody_creep(
+    const simulation::Experiment& experiment);
 
 }  // namespace hookpoint::reference

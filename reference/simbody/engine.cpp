@@ -40,6 +40,7 @@ constinit const Peer simbody_peer{
     .settings_table = simbody_settings_table,
     .creep = simbody_creep,
     .static_softness = matched_softness,
+    .one_friction_setting = "matched",
 };
 
 }  // namespace hookpoint::reference

@@ -59,6 +59,7 @@ struct WallResult {
   std::vector<std::string> warnings;  ///< the plan's
   int passed() const;
   int failed() const;
+  int left_out() const;  ///< truths that no run judges, for want of an engine
 };
 
 /// A Wall that ran, before its files are written.

@@ -97,10 +97,17 @@ std::string wall_table(const WallResult& wall) {
   return table + "</tbody></table></div>\n";
 }
 
+/// ", 2 of them left out for want of an engine".
+std::string left_out_words(const WallResult& wall) {
+  const int left_out = wall.left_out();
+  return left_out == 0 ? "" : fmt::format(", {} of them left out for want of an engine", left_out);
+}
+
 std::string verdict(const WallResult& wall) {
   const int passed = wall.passed(), failed = wall.failed();
-  const std::string counted =
-      fmt::format(" ({} scenes, {} truths)", wall.scenes.size(), wall.lines.size());
+  const std::string counted = fmt::format(" ({} scenes, {} truths{})", wall.scenes.size(),
+                                          wall.lines.size(), left_out_words(wall));
+  if (passed + failed == 0) return fmt::format("<p class=\"verdict\">No verdict{}.</p>\n", counted);
   if (failed == 0)
     return fmt::format("<p class=\"verdict good\">✓ All {} verdicts hold{}.</p>\n", passed,
                        counted);
@@ -181,9 +188,9 @@ std::string wall_terminal_table(const WallResult& wall, const TableStyle& style)
   }
   group.measure();
   std::string text = print_groups({&group}, style.color) + "\n" + failures(wall, style);
-  return text + fmt::format("{} of {} verdicts hold: {} truths of {} scenes under {} subjects\n",
+  return text + fmt::format("{} of {} verdicts hold: {} truths of {} scenes under {} subjects{}\n",
                             wall.passed(), wall.passed() + wall.failed(), wall.lines.size(),
-                            wall.scenes.size(), wall.subjects.size());
+                            wall.scenes.size(), wall.subjects.size(), left_out_words(wall));
 }
 
 }  // namespace hookpoint::studies

@@ -177,6 +177,12 @@ RunResult empty_wall_row(const RowPlan& row) {
 
 int WallResult::passed() const { return count_cells(*this, true); }
 int WallResult::failed() const { return count_cells(*this, false); }
+int WallResult::left_out() const {
+  return static_cast<int>(std::ranges::count_if(lines, [](const WallLine& line) {
+    return std::ranges::all_of(
+        line.cells, [](const WallCell& cell) { return cell.status.empty() || skipped(cell); });
+  }));
+}
 
 std::optional<WallRun> run_wall(const WallPlan& plan, const EngineTable& engines,
                                 const RunOptions& options, const std::atomic<bool>& stop) {

@@ -16,13 +16,13 @@ Vector3d driving_force(const RunContext& context, const Observation& observation
   return force;
 }
 
-/// Faster than `onset_speed` for `lasting` on end; a solver's twitch of a step is no slip.
+/// Faster than `onset_speed` for `slip_lasts` on end after `settle`; a solver's twitch of a step is
+/// no slip.
 class SlipOnset : public Metric {
  public:
-  static constexpr double lasting = 0.01;  ///< [s]
   explicit SlipOnset(const RunContext& context) : context_(context) {}
   void observe(const Observation& observation) override {
-    if (slips_) return;
+    if (slips_ || !settled(context_, observation)) return;
     if (norm(tangential(observation.body.velocity, context_.normal)) <= onset_speed) {
       since_.reset();
       return;
@@ -32,7 +32,7 @@ class SlipOnset : public Metric {
       const Vector3d force = driving_force(context_, observation);
       angle_ = std::atan2(norm(tangential(force, context_.normal)), -dot(force, context_.normal));
     }
-    slips_ = observation.world.time - *since_ >= lasting - 1e-9;
+    slips_ = observation.world.time - *since_ >= slip_lasts - 1e-9;
   }
   std::optional<double> value() const override {
     return slips_ ? std::optional(angle_) : std::nullopt;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <numeric>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -33,9 +34,25 @@ bool Condition::holds(double value) const {
   const double slack = 1e-9 * std::abs(value);
   if (from && value < *from - slack) return false;
   if (to && value > *to + slack) return false;
-  if (values.empty()) return true;
-  return std::any_of(values.begin(), values.end(),
+  if (!values) return true;
+  return std::any_of(values->begin(), values->end(),
                      [&](double allowed) { return std::abs(allowed - value) <= slack; });
+}
+
+std::string SweepPlan::values_near(std::optional<double> value) const {
+  constexpr std::size_t most = 10, nearest = 3;
+  if (declared.size() <= most || !value || !declared_words.empty())
+    return language::join(declared_texts, ", ");
+  std::vector<std::size_t> order(declared.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(order, {},
+                           [&](std::size_t i) { return std::abs(declared[i] - *value); });
+  order.resize(nearest);
+  std::ranges::sort(order);
+  std::vector<std::string> texts;
+  for (const std::size_t i : order) texts.push_back(declared_texts[i]);
+  return fmt::format("{} values, of which the nearest are {}", declared.size(),
+                     language::join(texts, ", "));
 }
 
 bool SweepPlan::assigns(const std::string& parameter) const {
@@ -48,6 +65,18 @@ bool StudyPlan::covers(const std::vector<Condition>& conditions, const RowPlan& 
     const auto sweep = static_cast<std::size_t>(condition.sweep);
     return condition.holds(sweeps[sweep].si[static_cast<std::size_t>(row.values[sweep])]);
   });
+}
+
+SweepValues StudyPlan::admitted(const std::vector<Condition>& conditions) const {
+  SweepValues values;
+  for (const Condition& condition : conditions) {
+    const SweepPlan& sweep = sweeps[static_cast<std::size_t>(condition.sweep)];
+    std::vector<double> held;
+    for (std::size_t i = 0; i < sweep.si.size(); ++i)
+      if (condition.holds(sweep.si[i])) held.push_back(sweep.column.values[i]);
+    values.emplace_back(sweep.column.name, std::move(held));
+  }
+  return values;
 }
 
 bool StudyPlan::measures(MetricScope scope) const {
@@ -722,6 +751,7 @@ std::optional<StudyPlan> make_plan(const Object& root, const Object& study, cons
   plan.file = file;
   plan.library = &library;
   plan.quick = options.quick;
+  plan.only = options.only;
   if (study.find("title") != nullptr) plan.title = study.word("title");
   if (study.find("question") != nullptr) plan.question = study.word("question");
   plan_body(plan, study, diagnostics);

@@ -41,7 +41,8 @@ struct PlanOptions {
 /// An `Only` block: some values of a swept Param.
 struct Condition {
   int sweep = 0;
-  std::vector<double> values;      ///< SI; empty: any within the bounds
+  /// SI; none: any within the bounds. Empty where --quick leaves out all that it names.
+  std::optional<std::vector<double>> values;
   std::optional<double> from, to;  ///< SI
   bool holds(double value) const;
 };
@@ -61,6 +62,11 @@ struct SweepPlan {
   SweepColumn column;
   std::vector<double> si;          ///< the same values in SI; of words 0, 1, 2 ...
   std::vector<std::string> texts;  ///< as the language writes them: "5 deg", "clay"
+  /// All values that the file gives, of which --quick leaves some out: SI or, of words, 0, 1, 2
+  /// ...; and as the language writes them.
+  std::vector<double> declared;
+  std::vector<std::string> declared_texts;
+  std::vector<std::string> declared_words;  ///< where it has words
   SweepRole role = SweepRole::parameter;
   std::vector<language::Position> places;         ///< where each value is written
   std::vector<SweptGround> grounds;               ///< one a value of a ground
@@ -68,6 +74,8 @@ struct SweepPlan {
   /// Of cases of which each lasts up to its last sample: one a case [s]; else empty.
   std::vector<double> durations;
 
+  /// "4 deg, 12 deg": all declared values, or of many those nearest to `value` (SI).
+  std::string values_near(std::optional<double> value) const;
   /// Whether the table of cases sets the Param.
   bool assigns(const std::string& parameter) const;
 };
@@ -96,6 +104,7 @@ struct TruthPlan {
   bool of_scene = false;      ///< an Expect's: each run says what is allowed
   std::vector<int> subjects;  ///< empty: all
   std::vector<Condition> only;
+  bool may_be_empty = false;
   std::string name, words;
 };
 
@@ -108,6 +117,7 @@ struct PlotPlan {
 /// What the user's own definition says of a metric of one run.
 struct RowForm {
   std::optional<double> predicted = {};  ///< in the metric's unit
+  std::string no_form = {};              ///< why there is none
   double allowed = 0.;                   ///< by the scene's own Truth: greatest difference from it
   std::string missing = {};              ///< why the run cannot have the metric; "": it can
 };
@@ -131,6 +141,12 @@ struct RowPlan {
   std::vector<simulation::MatchedMaterial> matched = {};
 };
 
+/// The unit in which a study has a metric. A run has one of the user's own in this unit already.
+struct ShownUnit {
+  std::string text;   ///< "mm/s"
+  double scale = 1.;  ///< of a run's value by it
+};
+
 /// A row's inputs are not what they were when it was planned. The message says what to do.
 struct ChangedInput : std::runtime_error {
   using std::runtime_error::runtime_error;
@@ -138,8 +154,9 @@ struct ChangedInput : std::runtime_error {
 
 struct StudyPlan {
   std::string name, title, question, file;
-  std::string body;    ///< trail of the body measured; "": the one that nobody asks for
-  bool match = false;  ///< laws of our engine get hookpoint's ground
+  std::string body;               ///< trail of the body measured; "": the one that nobody asks for
+  bool match = false;             ///< laws of our engine get hookpoint's ground
+  std::vector<std::string> only;  ///< subjects that run, where --only names some
   /// [s]; the duration is that of the longest case where each has its own.
   double settle = 0., duration = 0.;
   bool quick = false;
@@ -152,6 +169,7 @@ struct StudyPlan {
   std::vector<std::filesystem::path> measured_files;  ///< tables of these
   std::vector<const MetricDefinition*> metrics;
   std::vector<std::shared_ptr<const UserMetric>> user_metrics;  ///< of those
+  std::vector<ShownUnit> units;    ///< one a metric: that of its values in tables and Truths
   std::vector<int> metric_sweeps;  ///< one a metric: index of the sweep that it is over, else -1
   std::vector<TruthPlan> truths;
   std::vector<PlotPlan> plots;
@@ -173,6 +191,8 @@ struct StudyPlan {
   std::vector<std::string> warnings;
 
   bool covers(const std::vector<Condition>& conditions, const RowPlan& row) const;
+  /// The values of the sweeps that the conditions let in, in the sweeps' units.
+  SweepValues admitted(const std::vector<Condition>& conditions) const;
   /// Where its results go unless the user says otherwise: runs/<name>-<hash>.
   std::filesystem::path folder() const;
   /// What a row is called: "creep (dts_hookpoint, slope = 5 deg)".

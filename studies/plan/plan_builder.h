@@ -76,8 +76,18 @@ class PlanBuilder {
   bool is_varied(const std::string& parameter) const;
   /// Whether no field of the block is swept; else an error.
   void check_not_swept(const language::Object& subject);
-  /// The places of the words in the sweep.
+  /// All values that the block gives, in the unit; empty where it lacks some.
+  std::vector<double> declared_values(const language::Object& block, const WrittenUnit& unit);
+  /// The places in the sweep of those of the words that run; errors for words that it lacks.
   std::vector<double> word_values(const SweepPlan& sweep, const language::Field& field);
+  /// The numbers; errors for those that the sweep lacks.
+  std::vector<double> number_values(const SweepPlan& sweep, const language::Field& field);
+  /// "`13 deg` is no value of the Sweep `slope`; it has 4 deg, 12 deg"; `value` in SI, if it is a
+  /// number.
+  static std::string no_such_value(const SweepPlan& sweep, const std::string& text,
+                                   std::optional<double> value);
+  /// Those values of the sweep that the condition lets in.
+  std::vector<std::string> admitted_texts(const Condition& condition) const;
   Condition condition(const language::Object& block, int sweep);
   std::vector<Condition> conditions(const language::Object& owner);
   std::string conditions_words(const std::vector<Condition>& conditions) const;
@@ -109,13 +119,18 @@ class PlanBuilder {
                 const std::optional<language::Dimension>& dimension);
   void add_expectation(const language::Object& block, const simulation::ExpectationSpec& spec);
   void keep(UserMetric metric);
-  /// " within 1 % or 2 mm"; `unit` with a blank before it.
-  static std::string allowed_words(const TruthPlan& truth, const std::string& unit);
+  /// The unit that the block's `unit` names, where it fits `dimension`; else nothing, after an
+  /// error.
+  std::optional<language::Unit> given_unit(const language::Object& block,
+                                           const std::optional<language::Dimension>& dimension);
+  /// The number in the unit that the field has it in, else in `unit`: "0.5 deg".
+  static std::string number_text(const language::Object& block, const char* field,
+                                 const std::string& unit);
+  /// " within 1 % or 2 mm"; `within` is the text of the latter.
+  static std::string allowed_words(const TruthPlan& truth, const std::string& within);
   /// The number that the block has in `field`, with an error where its unit is not of the kind of
   /// `unit`.
   double number_in(const language::Object& block, const char* field, std::string_view unit);
-  /// For figures: the values of the sweeps that the conditions let in, in the sweeps' units.
-  SweepValues admitted(const std::vector<Condition>& conditions) const;
   /// Adds the value of the sweep `name` that `value` is to `where`; false after an error.
   bool is_claim_place(const language::Object& block, const std::string& name,
                       const std::string& value, SweepValues& where);

@@ -34,11 +34,14 @@ std::optional<std::vector<double>> numbers_of(const std::vector<CaseRow>& cases)
   return numbers;
 }
 
-SweepPlan sweep_over(const Object& block, std::vector<CaseRow>& cases) {
+/// `all`: names of the cases of the table, of which --quick leaves some out.
+SweepPlan sweep_over(const Object& block, const std::vector<CaseRow>& cases,
+                     const std::vector<CaseRow>& all) {
   SweepPlan sweep;
   sweep.column = {block.name, "", {}, {}};
   sweep.role = SweepRole::cases;
-  const auto numbers = numbers_of(cases);
+  const auto every = numbers_of(all);
+  const auto numbers = every ? numbers_of(cases) : std::nullopt;
   for (std::size_t i = 0; i < cases.size(); ++i) {
     sweep.si.push_back(numbers ? (*numbers)[i] : static_cast<double>(i));
     if (!numbers) sweep.column.words.push_back(cases[i].name);
@@ -47,6 +50,11 @@ SweepPlan sweep_over(const Object& block, std::vector<CaseRow>& cases) {
     sweep.settings.push_back(cases[i].settings);
   }
   sweep.column.values = sweep.si;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    sweep.declared.push_back(every ? (*every)[i] : static_cast<double>(i));
+    sweep.declared_texts.push_back(all[i].name);
+    if (!every) sweep.declared_words.push_back(all[i].name);
+  }
   return sweep;
 }
 
@@ -82,9 +90,9 @@ void PlanBuilder::add_cases(const Object& block) {
       diagnostics_.error(block.find("file")->position,
                          fmt::format("`{}` is swept: the column of {} cannot set it as well",
                                      parameter, file.string()));
-  cases_ = std::move(table->cases);
+  cases_ = table->cases;
   if (options_.quick) choose_quick_cases(block);
-  plan_.sweeps.push_back(sweep_over(block, cases_));
+  plan_.sweeps.push_back(sweep_over(block, cases_, table->cases));
 }
 
 void PlanBuilder::choose_quick_cases(const Object& block) {

@@ -71,16 +71,21 @@ bool PlanBuilder::is_claim_place(const Object& block, const std::string& name,
   const SweepPlan& sweep = plan_.sweeps[static_cast<std::size_t>(index)];
   const bool words = !sweep.column.words.empty();
   const auto number = words ? std::nullopt : language::number_of(value, sweep.column.unit);
-  for (std::size_t i = 0; i < sweep.si.size(); ++i) {
-    const bool same =
-        words ? value == sweep.column.words[i] : number && same_value(*number, sweep.si[i]);
-    if (!same) continue;
-    where.emplace_back(name, std::vector{sweep.column.values[i]});
-    return true;
+  const bool declared = words ? std::ranges::count(sweep.declared_words, value) > 0
+                              : number && std::ranges::any_of(sweep.declared, [&](double v) {
+                                  return same_value(*number, v);
+                                });
+  if (!declared) {
+    diagnostics_.error(place, no_such_value(sweep, value, number));
+    return false;
   }
-  diagnostics_.error(place, fmt::format("`{}` is no value of the Sweep `{}`; it has {}", value,
-                                        name, language::join(sweep.texts, ", ")));
-  return false;
+  // Empty where --quick leaves it out.
+  std::vector<double>& values = where.emplace_back(name, std::vector<double>{}).second;
+  for (std::size_t i = 0; i < sweep.si.size(); ++i) {
+    const bool same = words ? value == sweep.column.words[i] : same_value(*number, sweep.si[i]);
+    if (same) values.push_back(sweep.column.values[i]);
+  }
+  return true;
 }
 
 std::optional<ClaimValue> PlanBuilder::claim_value(const Object& block, const std::string& text) {
@@ -194,7 +199,8 @@ std::vector<int> PlanBuilder::claim_truths(const Object& block,
 void PlanBuilder::add_claim(const Object& block) {
   ClaimSpec claim;
   claim.name = block.name;
-  claim.where = admitted(conditions(block));
+  claim.where = plan_.admitted(conditions(block));
+  claim.may_be_empty = block.boolean("may_be_empty");
   if (!claim_parts(block, claim.parts)) return;
   claim.truths = claim_truths(block, claim.parts);
   plan_.claims.push_back(std::move(claim));

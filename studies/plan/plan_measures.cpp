@@ -9,6 +9,7 @@
 
 #include "language/names.h"
 #include "language/tree/references.h"
+#include "output/text/number.h"
 #include "simulation/run/expectation.h"
 #include "simulation/scene/load.h"
 #include "studies/plan/plan_builder.h"
@@ -26,7 +27,7 @@ namespace {
 constexpr const char* of_formula = "of";
 
 /// Fields that say something of a formula alone.
-constexpr std::array own_fields{"take", "from", "to", "unit", "level", "band", "predicted"};
+constexpr std::array own_fields{"take", "from", "to", "level", "band", "predicted"};
 
 }  // namespace
 
@@ -115,21 +116,27 @@ void PlanBuilder::set_unit(UserMetric& metric, const Object& block,
                            const std::optional<Dimension>& dimension) {
   if (dimension) metric.unit = language::unit_text(*dimension);
   if (!block.given("unit")) return;
+  const auto unit = given_unit(block, dimension);
+  if (!unit) return;
+  metric.unit = block.find("unit")->words.front();
+  metric.scale = unit->numerator / unit->denominator;
+}
+
+std::optional<language::Unit> PlanBuilder::given_unit(const Object& block,
+                                                      const std::optional<Dimension>& dimension) {
   const Field& field = *block.find("unit");
   const auto unit = language::parse_unit(field.words.front());
   if (!unit)
-    return diagnostics_.error(
-        field.position,
-        fmt::format("`{}` is no unit{}", field.words.front(),
-                    language::did_you_mean(field.words.front(), language::unit_names())));
-  if (dimension && !language::fits(*dimension, unit->dimension) &&
-      !language::fits(unit->dimension, *dimension))
-    diagnostics_.error(field.position,
-                       fmt::format("`{}` of `{}` is in {}, not in {}", block.word("take"),
-                                   block.name, language::describe_dimension(*dimension),
-                                   language::describe_dimension(unit->dimension)));
-  metric.unit = field.words.front();
-  metric.scale = unit->numerator / unit->denominator;
+    diagnostics_.error(field.position, fmt::format("`{}` is no unit{}", field.words.front(),
+                                                   language::did_you_mean(field.words.front(),
+                                                                          language::unit_names())));
+  if (!unit || !dimension || language::fits(*dimension, unit->dimension) ||
+      language::fits(unit->dimension, *dimension))
+    return unit;
+  diagnostics_.error(field.position, fmt::format("`{}` is in {}, not in {}", block.name,
+                                                 language::describe_dimension(*dimension),
+                                                 language::describe_dimension(unit->dimension)));
+  return std::nullopt;
 }
 
 std::optional<language::FormulaUnit> PlanBuilder::set_source(UserMetric& metric,
@@ -219,7 +226,7 @@ void PlanBuilder::add_expectation(const Object& block, const simulation::Expecta
   truth.name = spec.name;
   const std::string unit = metric.unit.empty() ? "" : " " + metric.unit;
   truth.words = fmt::format("{} equals the scene's {}{}", spec.name, spec.formula,
-                            allowed_words(truth, unit));
+                            allowed_words(truth, output::rounded(spec.within) + unit));
   plan_.truths.push_back(std::move(truth));
   keep(std::move(metric));
 }
@@ -229,6 +236,7 @@ void PlanBuilder::keep(UserMetric metric) {
   auto kept = std::make_shared<UserMetric>(std::move(metric));
   complete(*kept);
   plan_.metrics.push_back(&kept->definition);
+  plan_.units.push_back({kept->unit});
   plan_.metric_sweeps.push_back(-1);
   plan_.user_metrics.push_back(std::move(kept));
 }

@@ -12,6 +12,7 @@
 #include "studies/plan/plan_values.h"
 #include "studies/plan/scene_words.h"
 #include "studies/plan/told_elsewhere.h"
+#include "studies/selection.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -114,6 +115,16 @@ void PlanBuilder::check_size(const Object& study) {
 std::vector<double> PlanBuilder::sweep_values(const Object& block, const WrittenUnit& unit) {
   if (options_.quick && block.find("quick_values") != nullptr)
     return in_unit(block.numbers("quick_values"), unit);
+  std::vector<double> values = declared_values(block, unit);
+  if (values.empty())
+    diagnostics_.error(block.position,
+                       "a Sweep needs `values`, or `from`, `to` and a `step` > 0 (or a "
+                       "`count`; on a log scale both ends > 0)");
+  if (options_.quick && values.size() > 2) return {values.front(), values.back()};
+  return values;
+}
+
+std::vector<double> PlanBuilder::declared_values(const Object& block, const WrittenUnit& unit) {
   std::vector<double> values;
   if (block.find("values") != nullptr) {
     values = in_unit(block.numbers("values"), unit);
@@ -130,11 +141,6 @@ std::vector<double> PlanBuilder::sweep_values(const Object& block, const Written
       values = spaced(from, to, static_cast<int>(count), logarithmic);
     }
   }
-  if (values.empty())
-    diagnostics_.error(block.position,
-                       "a Sweep needs `values`, or `from`, `to` and a `step` > 0 (or a "
-                       "`count`; on a log scale both ends > 0)");
-  if (options_.quick && values.size() > 2) return {values.front(), values.back()};
   return values;
 }
 
@@ -160,14 +166,30 @@ void PlanBuilder::find_grounds(const Object& block) {
 std::vector<double> PlanBuilder::word_values(const SweepPlan& sweep, const Field& field) {
   std::vector<double> values;
   for (std::size_t i = 0; i < field.words.size(); ++i) {
-    const auto& words = sweep.column.words;
-    const auto found = std::ranges::find(words, field.words[i]);
-    if (found == words.end())
-      unknown(field.places[i], "value of the Sweep " + sweep.column.name, field.words[i], words);
-    else
-      values.push_back(static_cast<double>(found - words.begin()));
+    const std::string& word = field.words[i];
+    if (std::ranges::find(sweep.declared_words, word) == sweep.declared_words.end())
+      unknown(field.places[i], "value of the Sweep " + sweep.column.name, word,
+              sweep.declared_words);
+    const auto found = std::ranges::find(sweep.column.words, word);
+    if (found != sweep.column.words.end())
+      values.push_back(static_cast<double>(found - sweep.column.words.begin()));
   }
   return values;
+}
+
+std::vector<double> PlanBuilder::number_values(const SweepPlan& sweep, const Field& field) {
+  const WrittenUnit unit = written_unit(field);
+  for (const double value : field.numbers)
+    if (std::ranges::none_of(sweep.declared, [&](double v) { return same_value(v, value); }))
+      diagnostics_.error(field.position,
+                         no_such_value(sweep, unit.with_unit(tidy(unit.from_si(value))), value));
+  return field.numbers;
+}
+
+std::string PlanBuilder::no_such_value(const SweepPlan& sweep, const std::string& text,
+                                       std::optional<double> value) {
+  return fmt::format("`{}` is no value of the Sweep `{}`; it has {}", text, sweep.column.name,
+                     sweep.values_near(value));
 }
 
 bool PlanBuilder::may_say(const Object& block, const Field& words) {
@@ -190,6 +212,7 @@ void PlanBuilder::add_word_sweep(const Object& block, SweepRole role) {
   const std::vector<std::string> texts = word_texts(field);
   SweepPlan all;
   all.column = {block.name, "", {}, field.words};
+  all.declared_words = field.words;
   std::vector<double> taken;
   for (std::size_t i = 0; i < texts.size(); ++i) {
     taken.push_back(static_cast<double>(i));
@@ -216,6 +239,9 @@ void PlanBuilder::add_word_sweep(const Object& block, SweepRole role) {
     if (role == SweepRole::ground) sweep.grounds.push_back(grounds_[i]);
   }
   sweep.column.values = sweep.si;
+  for (std::size_t i = 0; i < texts.size(); ++i) sweep.declared.push_back(static_cast<double>(i));
+  sweep.declared_texts = texts;
+  sweep.declared_words = field.words;
   plan_.sweeps.push_back(std::move(sweep));
 }
 
@@ -237,6 +263,10 @@ void PlanBuilder::add_sweep(const Object& block) {
     sweep.si.push_back(unit.to_si(value));
     sweep.texts.push_back(unit.with_unit(value));
     sweep.places.push_back(first == nullptr ? block.position : first->position);
+  }
+  for (const double value : options_.quick ? declared_values(block, unit) : sweep.column.values) {
+    sweep.declared.push_back(unit.to_si(value));
+    sweep.declared_texts.push_back(unit.with_unit(value));
   }
   plan_.sweeps.push_back(std::move(sweep));
 }
@@ -273,7 +303,7 @@ Condition PlanBuilder::condition(const Object& block, int sweep) {
           values->position,
           fmt::format("the values of `{}` are {}", swept.column.name,
                       words ? "words: " + language::join(swept.texts, ", ") : "numbers"));
-    condition.values = words ? word_values(swept, *values) : values->numbers;
+    condition.values = words ? word_values(swept, *values) : number_values(swept, *values);
   }
   for (const char* end : {"from", "to"})
     if (words && block.find(end) != nullptr)
@@ -282,6 +312,12 @@ Condition PlanBuilder::condition(const Object& block, int sweep) {
           fmt::format("`{}` has words, which have no order: give `values`", swept.column.name));
   if (block.find("from") != nullptr) condition.from = block.number("from");
   if (block.find("to") != nullptr) condition.to = block.number("to");
+  const bool ranged = !words && (condition.from || condition.to) && !condition.values;
+  if (ranged && std::ranges::none_of(swept.declared, [&](double v) { return condition.holds(v); }))
+    diagnostics_.error(
+        block.position,
+        fmt::format("no value of the Sweep `{}` lies there; it has {}", swept.column.name,
+                    swept.values_near(condition.from ? condition.from : condition.to)));
   return condition;
 }
 
@@ -360,8 +396,23 @@ void PlanBuilder::add_metric(const Object& block) {
     diagnostics_.error(over->position,
                        fmt::format("`{}` is of one run, not over a Sweep", block.name));
   }
+  ShownUnit shown{std::string(metric->unit)};
+  if (block.given("unit")) {
+    const auto own = language::parse_unit(metric->unit);
+    if (const auto unit = given_unit(block, own ? own->dimension : language::Dimension{}))
+      shown = {block.find("unit")->words.front(), unit->numerator / unit->denominator};
+  }
   plan_.metrics.push_back(metric);
+  plan_.units.push_back(std::move(shown));
   plan_.metric_sweeps.push_back(sweep);
+}
+
+std::vector<std::string> PlanBuilder::admitted_texts(const Condition& condition) const {
+  const SweepPlan& sweep = plan_.sweeps[static_cast<std::size_t>(condition.sweep)];
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < sweep.si.size(); ++i)
+    if (condition.holds(sweep.si[i])) texts.push_back(sweep.texts[i]);
+  return texts;
 }
 
 /// ", mu = 0.8, slope from 15 deg".
@@ -369,10 +420,9 @@ std::string PlanBuilder::conditions_words(const std::vector<Condition>& conditio
   std::string words;
   for (const Condition& condition : conditions) {
     const SweepPlan& sweep = plan_.sweeps[static_cast<std::size_t>(condition.sweep)];
-    std::vector<std::string> held;
-    for (std::size_t i = 0; i < sweep.si.size(); ++i)
-      if (condition.holds(sweep.si[i])) held.push_back(sweep.texts[i]);
-    const bool all_given = held.size() < 3 || !condition.values.empty();
+    const std::vector<std::string> held = admitted_texts(condition);
+    if (held.empty()) continue;
+    const bool all_given = held.size() < 3 || condition.values;
     words += ", " + sweep.column.name +
              (all_given ? " = " + language::join(held, " or ")
                         : " from " + held.front() + " to " + held.back());
@@ -380,29 +430,39 @@ std::string PlanBuilder::conditions_words(const std::vector<Condition>& conditio
   return words;
 }
 
-std::string PlanBuilder::allowed_words(const TruthPlan& truth, const std::string& unit) {
+std::string PlanBuilder::allowed_words(const TruthPlan& truth, const std::string& within) {
   std::string words;
-  if (truth.tolerance > 0.)
-    words += " within " + output::shortest(tidy(100. * truth.tolerance)) + " %";
-  if (truth.within > 0.)
-    words +=
-        (truth.tolerance > 0. ? " or " : " within ") + output::shortest(tidy(truth.within)) + unit;
+  if (truth.tolerance > 0.) words += " within " + output::rounded(100. * truth.tolerance) + " %";
+  if (truth.within > 0.) words += (truth.tolerance > 0. ? " or " : " within ") + within;
   return words;
 }
 
+std::string PlanBuilder::number_text(const Object& block, const char* field,
+                                     const std::string& unit) {
+  const Field* given = block.find(field);
+  if (given == nullptr) return "";
+  const WrittenUnit written = written_unit(*given);
+  const WrittenUnit shown =
+      written.text.empty()
+          ? WrittenUnit{unit, language::parse_unit(unit).value_or(language::Unit{})}
+          : written;
+  return output::rounded(shown.from_si(block.number(field))) +
+         (shown.text.empty() ? "" : " " + shown.text);
+}
+
 std::string PlanBuilder::truth_words(const Object& block, const TruthPlan& truth) {
-  const MetricDefinition& metric = *plan_.metrics[truth.metric];
-  const std::string unit = metric.unit.empty() ? "" : " " + std::string(metric.unit);
-  const auto number = [&](double value) { return output::shortest(tidy(value)) + unit; };
-  std::string words(metric.name);
+  const auto number = [&](const char* field) {
+    return number_text(block, field, plan_.units[truth.metric].text);
+  };
+  std::string words(plan_.metrics[truth.metric]->name);
   if (truth.predicted) words += " equals predicted";
-  if (truth.value) words += " equals " + number(*truth.value);
+  if (truth.value) words += " equals " + number("value");
   if (truth.same_over >= 0)
     words +=
         " is the same over " + plan_.sweeps[static_cast<std::size_t>(truth.same_over)].column.name;
-  words += allowed_words(truth, unit);
-  if (truth.above) words += " is above " + number(*truth.above);
-  if (truth.below) words += " is below " + number(*truth.below);
+  words += allowed_words(truth, number("within"));
+  if (truth.above) words += " is above " + number("above");
+  if (truth.below) words += " is below " + number("below");
   words += conditions_words(truth.only);
   if (block.find("subjects") != nullptr)
     words += " (" + language::join(block.find("subjects")->words, ", ") + ")";
@@ -415,7 +475,7 @@ void PlanBuilder::add_truth(const Object& block) {
   const std::ptrdiff_t found = measured_index(metric);
   if (found < 0) return unknown(block.position, "Measure of this study", metric, measured_names());
   truth.metric = static_cast<std::size_t>(found);
-  const std::string_view unit = plan_.metrics[truth.metric]->unit;
+  const std::string_view unit = plan_.units[truth.metric].text;
   const auto number = [&](const char* field) {
     return block.find(field) == nullptr ? std::nullopt
                                         : std::optional(number_in(block, field, unit));
@@ -440,6 +500,7 @@ void PlanBuilder::add_truth(const Object& block) {
                        "a Truth equals the prediction or a value, not both");
   truth.subjects = named_subjects(block);
   truth.only = conditions(block);
+  truth.may_be_empty = block.boolean("may_be_empty");
   truth.name = block.name;
   truth.words = truth_words(block, truth);
   plan_.truths.push_back(std::move(truth));

@@ -22,7 +22,7 @@ std::string PlanBuilder::sweep_unit(const Object& block, const char* field) {
 /// The unit of the metric that `field` names and the study measures.
 std::string PlanBuilder::metric_unit(const Object& block, const char* field) {
   const std::ptrdiff_t metric = measured_index(block.word(field));
-  if (metric >= 0) return std::string(plan_.metrics[static_cast<std::size_t>(metric)]->unit);
+  if (metric >= 0) return plan_.units[static_cast<std::size_t>(metric)].text;
   std::vector<std::string> known = metric_names();
   for (std::string& name : measured_names()) known.push_back(std::move(name));
   unknown(block.find(field)->position, "Measure of this study", block.word(field), known);
@@ -54,18 +54,6 @@ void PlanBuilder::set_map(PlotSpec& spec, const Object& block) {
   metric_unit(block, "outline");
 }
 
-SweepValues PlanBuilder::admitted(const std::vector<Condition>& conditions) const {
-  SweepValues values;
-  for (const Condition& condition : conditions) {
-    const SweepPlan& sweep = plan_.sweeps[static_cast<std::size_t>(condition.sweep)];
-    std::vector<double> drawn;
-    for (std::size_t i = 0; i < sweep.si.size(); ++i)
-      if (condition.holds(sweep.si[i])) drawn.push_back(sweep.column.values[i]);
-    values.emplace_back(sweep.column.name, std::move(drawn));
-  }
-  return values;
-}
-
 void PlanBuilder::set_panels(PlotSpec& spec, const Object& block) {
   if (block.find("panels") == nullptr) return;
   spec.panels = block.find("panels")->words;
@@ -84,7 +72,7 @@ void PlanBuilder::set_references(PlotSpec& spec, const Object& block) {
     const bool titled = line->find("title") != nullptr;
     spec.references.push_back({.label = titled ? line->word("title") : spoken(line->name),
                                .value = number_in(*line, "value", spec.y_unit),
-                               .where = admitted(conditions(*line))});
+                               .where = plan_.admitted(conditions(*line))});
   }
 }
 
@@ -128,7 +116,8 @@ void PlanBuilder::add_plot(const Object& block) {
     unknown(block.find("series")->position, "Sweep", spec.series, sweep_names());
   spec.subjects = named_subjects(block);
   plot.only = conditions(block);
-  spec.where = admitted(plot.only);
+  spec.where = plan_.admitted(plot.only);
+  spec.may_be_empty = block.boolean("may_be_empty");
   if (map && (block.find("panels") != nullptr || !block.children_of("Reference").empty()))
     diagnostics_.error(block.position,
                        "a map has a panel a subject: it takes neither `panels` nor Reference");

@@ -37,7 +37,8 @@ void PlanBuilder::add_table(const Object& block) {
                        fmt::format("`{}` already runs down the rows", table.columns));
   metric_unit(block, "value");
   table.subjects = named_subjects(block);
-  table.where = admitted(conditions(block));
+  table.where = plan_.admitted(conditions(block));
+  table.may_be_empty = block.boolean("may_be_empty");
   plan_.tables.push_back(std::move(table));
 }
 

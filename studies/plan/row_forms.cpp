@@ -2,23 +2,31 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "simulation/closed_form.h"
 #include "studies/plan/scene_probe.h"
 #include "studies/plan/scene_words.h"
 
 namespace hookpoint::studies {
 namespace {
 
-std::optional<double> value_of(const language::Formula& formula, SceneNames& names) {
+simulation::ClosedForm<double> value_of(const language::Formula& formula, SceneNames& names) {
   std::vector<double> values;
-  for (const auto& number : names.numbers(formula)) {
-    if (!number) return std::nullopt;
+  std::string why;
+  const auto say_why = [&](std::size_t, const std::string& reason) {
+    if (why.empty()) why = reason;
+  };
+  for (const auto& number : names.numbers(formula, say_why)) {
+    if (!number) return simulation::NoClosedForm{std::move(why)};
     values.push_back(number->value);
   }
   const double value = language::FormulaEvaluator(formula)(values);
-  return std::isfinite(value) ? std::optional(value) : std::nullopt;
+  if (!std::isfinite(value))
+    return simulation::NoClosedForm{"`" + formula.text + "` is no finite number here"};
+  return value;
 }
 
 /// Names of the ports that a metric of the study's own is of, as the study writes them.
@@ -35,16 +43,28 @@ RowForm form_of_own(const StudyPlan& plan, const UserMetric& metric, SceneNames&
     const auto port = names.port(name, why, &experiment);
     if (form.missing.empty()) form.missing = port ? port->missing : why;
   }
-  if (metric.predicted == nullptr) return form;
-  if (const auto value = value_of(*metric.predicted, names))
+  if (metric.predicted == nullptr) {
+    form.no_form = "the Measure has no `predicted`";
+    return form;
+  }
+  const auto value = value_of(*metric.predicted, names);
+  if (value)
     form.predicted = metric.in_unit(*value);
+  else
+    form.no_form = value.why();
   return form;
 }
 
 RowForm form_of_expectation(const UserMetric& metric, const simulation::Experiment& experiment) {
   const auto* spec = expectation_of(experiment, metric.expectation);
-  if (spec == nullptr) return {};
-  return {spec->expected, std::max(spec->within, spec->tolerance * std::abs(spec->expected)), ""};
+  RowForm form;
+  if (spec == nullptr) {
+    form.no_form = "the Expect does not cover the run's law and integrator";
+    return form;
+  }
+  form.predicted = spec->expected;
+  form.allowed = std::max(spec->within, spec->tolerance * std::abs(spec->expected));
+  return form;
 }
 
 }  // namespace

@@ -47,18 +47,21 @@ double delay_from(const Experiment& experiment, const std::string& port) {
 
 }  // namespace
 
-std::optional<double> joint_loop_fails(const RunContext& context) {
+Prediction joint_loop_fails(const RunContext& context) {
   const Experiment& experiment = *context.experiment;
   const auto spec = std::find_if(
       experiment.components.begin(), experiment.components.end(),
       [](const ComponentSpec& component) { return component.type == "Controller.JointPD"; });
-  if (spec == experiment.components.end()) return std::nullopt;
+  if (spec == experiment.components.end())
+    return NoClosedForm{"no Controller.JointPD moves the joints"};
   simulation::Components components(experiment);
   const double damping = least_damping(context.robot_spec());
-  const bool applies = damping > 0. && std::isfinite(damping) &&
-                       greatest(components, spec->trail, "dconstant") == 0. &&
-                       delay_from(experiment, spec->trail + ".torque") == 0.;
-  if (!applies) return std::nullopt;
+  if (!(damping > 0.) || !std::isfinite(damping))
+    return NoClosedForm{"a joint has no damping: its inertia counts"};
+  if (greatest(components, spec->trail, "dconstant") != 0.)
+    return NoClosedForm{spec->trail + " has a dconstant"};
+  if (delay_from(experiment, spec->trail + ".torque") != 0.)
+    return NoClosedForm{"the torques of " + spec->trail + " come late"};
   const double gain = greatest(components, spec->trail, "pconstant") / damping;
   const double period =
       spec->rate ? std::max(1. / *spec->rate, experiment.deltat) : experiment.deltat;

@@ -1,9 +1,9 @@
 #include "studies/predictions/predictions.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
-#include <vector>
+#include <string>
 
 #include "contact/force_law.h"
 #include "contact/predictions.h"
@@ -12,18 +12,51 @@
 namespace hookpoint::studies {
 namespace {
 
-std::optional<double> sticking_creep(const RunContext& context, const BodyOnPlane& body,
-                                     const PeerContact& peer) {
-  if (body.peer) return peer.creep;
-  if (body.law) return contact::creep_speed(*body.law, body.tangent(), body.material);
-  const auto impulse_law = contact::find_impulse_law(context.experiment->contact);
-  if (!impulse_law) return std::nullopt;
-  return contact::creep_speed(*impulse_law, body.tangent(), body.single_point, body.material);
+const NoClosedForm thrown{"the body is thrown along the ground"};
+
+/// Why it is not certain that a body which Coulomb's friction can hold does hold; "" where it is.
+/// A point that breaks away falls to kinetic friction, which does not carry the body.
+std::string why_it_may_break_away(const RunContext& context, const BodyOnPlane& body) {
+  if (!body.sticks() || !body.friction_drops() || body.tangent() <= body.material.kinetic_friction)
+    return "";
+  const double load = body.overshoot() * body.friction_load();
+  const double moment = load * body.contacts() * body.height;
+  const auto normal_loads = body.normal_loads(moment, context.downhill, context.normal);
+  const bool holds =
+      normal_loads && std::ranges::all_of(normal_loads->at_points, [&](double normal) {
+        return load <= body.material.static_friction * normal;
+      });
+  if (holds) return "";
+  return "the slope is between kinetic and static friction: a contact that breaks away at the "
+         "start "
+         "may take the others with it";
 }
 
-std::optional<double> creep_speed(const RunContext& context, const BodyOnPlane& body,
-                                  const PeerContact& peer) {
-  if (body.speed > 0.) return std::nullopt;
+Prediction sticking_creep(const RunContext& context, const BodyOnPlane& body,
+                          const PeerContact& peer) {
+  if (body.peer) {
+    if (!peer.creep) return peer.creep.none();
+    return peer.creep->downhill;
+  }
+  const std::string& law = context.experiment->contact;
+  if (body.law) {
+    const auto speed = contact::creep_speed(*body.law, body.tangent(), body.material);
+    if (!speed) return NoClosedForm{"the friction of " + law + " never carries the body"};
+    return *speed;
+  }
+  const auto impulse_law = contact::find_impulse_law(law);
+  if (!impulse_law) return NoClosedForm{"the law " + law + " has none of its creep"};
+  const auto speed =
+      contact::creep_speed(*impulse_law, body.tangent(), body.single_point, body.material);
+  if (!speed) return NoClosedForm{"a body with several contact points rocks between the impacts"};
+  return *speed;
+}
+
+Prediction creep_speed(const RunContext& context, const BodyOnPlane& body,
+                       const PeerContact& peer) {
+  if (body.speed > 0.) return thrown;
+  if (std::string why = why_it_may_break_away(context, body); !why.empty())
+    return NoClosedForm{std::move(why)};
   if (body.sticks()) return sticking_creep(context, body, peer);
   // The best line through a t^2/2 on [t1, t2] has the slope a (t1 + t2)/2.
   return body.slip_acceleration() * 0.5 * (context.settle + context.duration);
@@ -31,96 +64,168 @@ std::optional<double> creep_speed(const RunContext& context, const BodyOnPlane& 
 
 /// Isotropic friction acts along the line of steepest descent at every contact, so nothing moves
 /// the body sideways.
-std::optional<double> creep_sideways(const RunContext& context, const BodyOnPlane& body,
-                                     const PeerContact& peer) {
-  if (body.peer && body.sticks()) return peer.creep_sideways;
-  return creep_speed(context, body, peer) ? std::optional(0.) : std::nullopt;
+Prediction creep_sideways(const RunContext& context, const BodyOnPlane& body,
+                          const PeerContact& peer) {
+  const Prediction downhill = creep_speed(context, body, peer);
+  if (!downhill) return downhill;
+  return body.peer && body.sticks() ? peer.creep->sideways : 0.;
 }
 
-std::optional<double> slip_acceleration(const BodyOnPlane& body) {
-  if (body.speed > 0.) return std::nullopt;
+Prediction slip_acceleration(const RunContext& context, const BodyOnPlane& body,
+                             const PeerContact&) {
+  if (body.speed > 0.) return thrown;
+  if (std::string why = why_it_may_break_away(context, body); !why.empty())
+    return NoClosedForm{std::move(why)};
   return body.sticks() ? 0. : body.slip_acceleration();
 }
 
 /// Of `friction`, tangential over normal force: mu_k of a body that slides, tan(slope) of one that
 /// sticks.
-std::optional<double> friction(const BodyOnPlane& body) {
-  if (body.speed > 0.) return std::nullopt;
+Prediction friction(const RunContext& context, const BodyOnPlane& body, const PeerContact&) {
+  if (body.speed > 0.) return thrown;
+  if (std::string why = why_it_may_break_away(context, body); !why.empty())
+    return NoClosedForm{std::move(why)};
   return body.sticks() ? body.tangent() : body.material.kinetic_friction;
+}
+
+Prediction anisotropy(const RunContext&, const BodyOnPlane& body, const PeerContact&) {
+  if (body.speed > 0.) return thrown;
+  return 0.;
 }
 
 /// Shift of a point that carries the tangential `load` [N], where the law's shift is proportional
 /// to its load: only then has a load that is put on at once, or a slide that ends, a closed form.
-std::optional<double> elastic_shift(const BodyOnPlane& body, double load) {
+Prediction elastic_shift(const RunContext& context, const BodyOnPlane& body, double load) {
   const auto shift = [&](double f) {
     return contact::stick_displacement(*body.law, f, body.normal_load(), body.material);
   };
   const std::optional<double> half = shift(0.5 * load), whole = shift(load);
-  if (!half || !whole || std::abs(*whole - 2. * *half) > 1e-12 * *whole) return std::nullopt;
-  return whole;
+  if (!half || !whole || std::abs(*whole - 2. * *half) > 1e-12 * *whole)
+    return NoClosedForm{"the shift of a contact of " + context.experiment->contact +
+                        " is not proportional to its load"};
+  return *whole;
 }
 
-std::optional<double> stick_displacement(const BodyOnPlane& body) {
-  const bool holds_by_spring =
-      body.law && contact::creep_speed(*body.law, body.tangent(), body.material) == 0.;
-  if (!body.sticks() || body.speed > 0. || !holds_by_spring) return std::nullopt;
-  return elastic_shift(body, body.friction_load());
+Prediction stick_displacement(const RunContext& context, const BodyOnPlane& body,
+                              const PeerContact&) {
+  if (body.peer || !body.law) return NoClosedForm{"the contact has no tangential springs"};
+  if (body.speed > 0.) return thrown;
+  if (!body.sticks()) return NoClosedForm{"the body slides"};
+  if (contact::creep_speed(*body.law, body.tangent(), body.material) != 0.)
+    return NoClosedForm{"the body creeps: no spring holds it"};
+  const Prediction shift = elastic_shift(context, body, body.friction_load());
+  if (!shift) return shift;
+  const double peak = body.overshoot() * body.friction_load();
+  const auto loads =
+      body.normal_loads(peak * body.contacts() * body.height, context.downhill, context.normal);
+  const bool within = loads && std::ranges::all_of(loads->at_points, [&](double normal) {
+                        return peak <= body.material.static_friction * normal;
+                      });
+  if (!within)
+    return NoClosedForm{"a contact may slip as the body swings past its rest at the start"};
+  return shift;
 }
 
-std::optional<double> stopping_distance(const BodyOnPlane& body) {
-  if (body.speed == 0. || body.sine > 1e-9) return std::nullopt;
+Prediction stopping_distance(const RunContext& context, const BodyOnPlane& body,
+                             const PeerContact&) {
+  if (body.speed == 0.) return NoClosedForm{"the body is not thrown"};
+  if (!body.level()) return NoClosedForm{"the ground slopes"};
   const double coulomb =
       contact::braking_distance(body.speed, body.gravity, body.material.kinetic_friction);
   if (!body.law) return coulomb;
-  const std::optional<double> shift =
-      elastic_shift(body, body.material.kinetic_friction * body.normal_load());
-  if (!shift) return std::nullopt;
+  const Prediction shift =
+      elastic_shift(context, body, body.material.kinetic_friction * body.normal_load());
+  if (!shift) return shift;
   if (*shift == 0.) return coulomb;
   const double offset = contact::braking_elastic_offset(body.normal_load(), body.material);
   return coulomb - (body.material.tangential_damping > 0. ? offset : 0.5 * offset);
 }
 
-std::optional<double> impacts(const RunContext& context, const BodyOnPlane& body) {
+Prediction impacts(const RunContext& context, const BodyOnPlane& body, const PeerContact&) {
   const auto impulse_law = contact::find_impulse_law(context.experiment->contact);
-  if (body.peer || !impulse_law || !body.single_point) return std::nullopt;
-  return contact::impact_rate(*impulse_law, body.gravity * body.cosine, body.material);
+  if (body.peer || !impulse_law) return NoClosedForm{"the contact has no impulses"};
+  if (!body.single_point)
+    return NoClosedForm{"a body with several contact points rocks between the impacts"};
+  const auto rate = contact::impact_rate(*impulse_law, body.gravity * body.cosine, body.material);
+  if (!rate)
+    return NoClosedForm{"the law " + context.experiment->contact + " has none of its rate"};
+  return *rate;
 }
+
+Prediction direction_error(const RunContext&, const BodyOnPlane& body, const PeerContact&) {
+  if (body.speed > 0.) return thrown;
+  if (body.sticks()) return NoClosedForm{"friction holds the body: it has no direction"};
+  return 0.;
+}
+
+/// A closed form that holds for a rigid body alone on a plane.
+using OfBody = Prediction (*)(const RunContext&, const BodyOnPlane&, const PeerContact&);
+
+template <OfBody form>
+Prediction of_body(const RunContext& context, const PeerContact& peer) {
+  if (std::string why = not_one_rigid_body(context); !why.empty())
+    return NoClosedForm{std::move(why)};
+  return form(context, body_on_plane(context), peer);
+}
+
+Prediction acceleration_of_ball_or_body(const RunContext& context, const PeerContact& peer) {
+  return is_ball(context) ? rolling_acceleration(context)
+                          : of_body<slip_acceleration>(context, peer);
+}
+
+struct Form {
+  std::string_view metric;
+  Prediction (*predict)(const RunContext&, const PeerContact&);
+};
+
+constexpr auto forms = std::to_array<Form>({
+    {"creep_speed", of_body<creep_speed>},
+    {"creep_sideways", of_body<creep_sideways>},
+    {"slip_acceleration", acceleration_of_ball_or_body},
+    {"friction", of_body<friction>},
+    {"anisotropy", of_body<anisotropy>},
+    {"stick_displacement", of_body<stick_displacement>},
+    {"stopping_distance", of_body<stopping_distance>},
+    {"impacts", of_body<impacts>},
+    {"direction_error", of_body<direction_error>},
+    {"slip_onset", slip_onset},
+    {"threshold_error", threshold_error},
+    {"penetration_max",
+     [](const RunContext& c, const PeerContact& p) {
+       return penetration("penetration_max", c, p.softness);
+     }},
+    {"penetration_mean",
+     [](const RunContext& c, const PeerContact& p) {
+       return penetration("penetration_mean", c, p.softness);
+     }},
+    {"penetration_rms",
+     [](const RunContext& c, const PeerContact& p) {
+       return penetration("penetration_rms", c, p.softness);
+     }},
+    {"rebound", [](const RunContext& c, const PeerContact&) { return rebound(c); }},
+    {"support_force", [](const RunContext& c, const PeerContact&) { return support_force(c); }},
+    {"restless", [](const RunContext& c, const PeerContact&) { return restless(c); }},
+    {"fell", [](const RunContext& c, const PeerContact&) { return joint_loop_fails(c); }},
+});
 
 }  // namespace
 
 PeerContact peer_contact(const EngineEntry& engine, const simulation::Experiment& experiment) {
   PeerContact contact;
-  if (engine.creep != nullptr)
-    if (const auto creep = engine.creep(experiment)) {
-      contact.creep = creep->downhill;
-      contact.creep_sideways = creep->sideways;
-    }
+  contact.creep_of = engine.creep;
+  if (engine.creep != nullptr) contact.creep = engine.creep(experiment);
   if (engine.softness != nullptr) contact.softness = engine.softness(experiment);
   return contact;
 }
 
-std::optional<double> predict(std::string_view metric, const RunContext& context,
-                              const PeerContact& peer) {
-  if (metric == "fell") return joint_loop_fails(context);
-  if (metric == "restless") return restless(context);
-  if (metric == "slip_onset") return slip_onset(context);
-  if (metric == "threshold_error") return threshold_error(context);
-  if (metric == "rebound") return rebound(context);
-  if (metric == "support_force") return support_force(context);
-  if (metric.substr(0, 11) == "penetration") return penetration(metric, context, peer.softness);
-  if (!one_rigid_body(context))
-    return metric == "slip_acceleration" ? rolling_acceleration(context) : std::nullopt;
-  const BodyOnPlane body = body_on_plane(context);
-  if (metric == "creep_speed") return creep_speed(context, body, peer);
-  if (metric == "creep_sideways") return creep_sideways(context, body, peer);
-  if (metric == "slip_acceleration") return slip_acceleration(body);
-  if (metric == "friction") return friction(body);
-  if (metric == "anisotropy" && body.speed == 0.) return 0.;
-  if (metric == "stick_displacement") return stick_displacement(body);
-  if (metric == "stopping_distance") return stopping_distance(body);
-  if (metric == "impacts") return impacts(context, body);
-  if (metric == "direction_error" && !body.sticks() && body.speed == 0.) return 0.;
-  return std::nullopt;
+Prediction predict(std::string_view metric, const RunContext& context, const PeerContact& peer) {
+  const auto form = std::ranges::find(forms, metric, &Form::metric);
+  if (form == forms.end()) return NoClosedForm{"none is known of " + std::string(metric)};
+  return form->predict(context, peer);
+}
+
+bool may_be_predicted(std::string_view metric) {
+  return std::ranges::find(forms, metric, &Form::metric) != forms.end();
 }
 
 double RigidSlide::displacement(double time) const {
@@ -130,15 +235,15 @@ double RigidSlide::displacement(double time) const {
 }
 
 std::optional<RigidSlide> rigid_slide(const RunContext& context) {
-  if (!one_rigid_body(context)) return std::nullopt;
+  if (!not_one_rigid_body(context).empty()) return std::nullopt;
   const BodyOnPlane body = body_on_plane(context);
   if (body.speed == 0.) return RigidSlide{0., body.sticks() ? 0. : body.slip_acceleration()};
-  if (body.sine > 1e-9) return std::nullopt;
+  if (!body.level()) return std::nullopt;
   return RigidSlide{body.speed, -body.material.kinetic_friction * body.gravity};
 }
 
 Regime regime_of(const RunContext& context) {
-  if (!one_rigid_body(context)) return Regime::none;
+  if (!not_one_rigid_body(context).empty()) return Regime::none;
   const BodyOnPlane body = body_on_plane(context);
   if (body.speed > 0.) return Regime::none;
   return body.sticks() ? Regime::holds : Regime::slides;

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "output/text/json.h"
 #include "output/text/number.h"
+#include "studies/idleness.h"
 #include "studies/report/figures.h"
 #include "studies/report/matrix_rows.h"
 #include "studies/report/page_files.h"
@@ -204,12 +206,12 @@ std::string study_section(const MatrixStudy& study) {
   std::string text = fmt::format("<h2 id=\"study-{}\">{}</h2>\n", html(result.name),
                                  html(result.title.empty() ? spoken(result.name) : result.title));
   if (!result.question.empty()) text += tag("p", "", html(result.question)) + "\n";
-  text +=
-      tag("p", "facts",
-          fmt::format("{} of {} verdicts hold · {} · {} · {}", summary.passed,
-                      summary.passed + summary.failed, link(result.name + "/report.html", "report"),
-                      link(result.name + "/results.csv", "results.csv"), html(result.file))) +
-      "\n";
+  text += tag("p", "facts",
+              fmt::format("{} · {} · {} · {}",
+                          html(verdict_words(summary.passed, summary.failed, idle_blocks(result))),
+                          link(result.name + "/report.html", "report"),
+                          link(result.name + "/results.csv", "results.csv"), html(result.file))) +
+          "\n";
   for (ReportFigure figure : study.figures) {
     const std::string name = anchor(result.name, figure.name);
     text += "<figure id=\"" + html(name) + "\">\n";
@@ -225,6 +227,7 @@ std::string study_section(const MatrixStudy& study) {
 
 std::string verdict(const MatrixResult& matrix) {
   int passed = 0, failed = 0, stopped = 0, runs = 0, skipped = 0, refused = 0;
+  std::vector<IdleBlock> idle;
   for (const MatrixStudy& study : matrix.studies) {
     const StudySummary summary = summarise(study.result);
     passed += summary.passed;
@@ -233,16 +236,19 @@ std::string verdict(const MatrixResult& matrix) {
     skipped += summary.total.skipped;
     refused += summary.total.refused;
     runs += summary.total.rows();
+    for (IdleBlock& block : idle_blocks(study.result)) idle.push_back(std::move(block));
   }
   const std::string facts = fmt::format(
       "{} runs of {} subjects in {} studies: {} finished, {} stopped on the way, {} skipped, {} "
       "refused.",
       runs, matrix_subjects(matrix).size(), matrix.studies.size(),
       runs - stopped - skipped - refused, stopped, skipped, refused);
+  const bool bad = failed > 0 || has_fault(idle);
   const std::string verdicts =
-      failed == 0 ? fmt::format("✓ All {} verdicts hold.", passed)
-                  : fmt::format("✗ {} of {} verdicts do not hold.", failed, passed + failed);
-  return tag("p", failed == 0 ? "verdict good" : "verdict bad", verdicts) + "\n" +
+      failed == 0 && idle.empty()
+          ? fmt::format("✓ All {} verdicts hold.", passed)
+          : fmt::format("{} {}.", bad ? "✗" : "✓", html(verdict_words(passed, failed, idle)));
+  return tag("p", bad ? "verdict bad" : "verdict good", verdicts) + "\n" +
          tag("p", "facts", facts) + "\n";
 }
 
@@ -261,6 +267,29 @@ std::string matrix_html(const MatrixResult& matrix, const ReportContext& context
   for (const MatrixStudy& study : matrix.studies) page += study_section(study);
   return page + provenance_table(context.provenance) + page_end_with_script();
 }
+
+namespace {
+
+/// What judges or shows nothing in each study, and the verdicts of all.
+std::string terminal_verdicts(const MatrixResult& matrix, bool color) {
+  std::string text;
+  int passed = 0, failed = 0;
+  std::vector<IdleBlock> idle;
+  for (const MatrixStudy& study : matrix.studies) {
+    const StudySummary summary = summarise(study.result);
+    passed += summary.passed;
+    failed += summary.failed;
+    for (IdleBlock& block : idle_blocks(study.result)) {
+      const Tone tone = block.idleness.idle == Idle::fault ? Tone::bad : Tone::faint;
+      text += toned(study.result.name + ": " + line_of(block), tone, color) + "\n";
+      idle.push_back(std::move(block));
+    }
+  }
+  const Tone tone = failed > 0 || has_fault(idle) ? Tone::bad : Tone::good;
+  return text + toned(verdict_words(passed, failed, idle), tone, color) + "\n";
+}
+
+}  // namespace
 
 std::string matrix_terminal_table(const MatrixResult& matrix, bool color) {
   ColumnGroup group;
@@ -288,7 +317,7 @@ std::string matrix_terminal_table(const MatrixResult& matrix, bool color) {
     group.rows.push_back(std::move(row));
   }
   group.measure();
-  return print_groups({&group}, color);
+  return print_groups({&group}, color) + terminal_verdicts(matrix, color);
 }
 
 }  // namespace hookpoint::studies

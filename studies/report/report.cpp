@@ -4,6 +4,7 @@
 #include "output/figures/plot.h"
 #include "output/file.h"
 #include "output/text/number.h"
+#include "studies/idleness.h"
 #include "studies/matched_grounds.h"
 #include "studies/report/figures.h"
 #include "studies/report/report_claims.h"
@@ -27,14 +28,21 @@ std::string paragraph(const std::string& style, const std::string& content) {
 
 std::string heading(const std::string& text) { return "<h2>" + text + "</h2>\n"; }
 
-std::string verdict_line(const StudySummary& summary) {
+std::string verdict_line(const StudySummary& summary, const std::vector<IdleBlock>& blocks) {
   const int all = summary.passed + summary.failed;
-  if (all == 0) return paragraph("verdict", "No truth was asked for.");
-  if (summary.failed == 0)
-    return paragraph("verdict good", "✓ All " + std::to_string(all) + " verdicts hold.");
-  return paragraph("verdict bad", "✗ " + std::to_string(summary.failed) + " of " +
-                                      std::to_string(all) +
-                                      " verdicts <a href=\"#truths\">do not hold</a>.");
+  const bool fault = has_fault(blocks);
+  std::string idle = idle_words(blocks);
+  if (!idle.empty()) idle = "; <a href=\"#idle\">" + html(idle) + "</a>";
+  if (summary.failed > 0)
+    return paragraph("verdict bad",
+                     "✗ " + std::to_string(summary.failed) + " of " + std::to_string(all) +
+                         " verdicts <a href=\"#truths\">do not hold</a>" + idle + ".");
+  if (all == 0)
+    return paragraph(fault ? "verdict bad" : "verdict",
+                     idle.empty() ? "No truth is claimed."
+                                  : (fault ? "✗ No verdict" : "No verdict") + idle + ".");
+  return paragraph(fault ? "verdict bad" : "verdict good",
+                   (fault ? "✗ " : "✓ All ") + std::to_string(all) + " verdicts hold" + idle + ".");
 }
 
 std::string stopped_line(const SubjectSummary& total) {
@@ -76,12 +84,12 @@ std::string title_of(const StudyResult& study) {
 }
 
 std::string opening(const StudyResult& study, const ReportContext& context,
-                    const StudySummary& summary) {
+                    const StudySummary& summary, const std::vector<IdleBlock>& idle) {
   std::string text = paragraph("kicker", "Study · " + html(study.file));
   text += "<h1>" + html(title_of(study)) + "</h1>\n";
   if (!study.question.empty()) text += paragraph("question", html(study.question));
   text += claim_lines(study);
-  text += verdict_line(summary) + stopped_line(summary.total) + facts_line(summary) +
+  text += verdict_line(summary, idle) + stopped_line(summary.total) + facts_line(summary) +
           varied_line(study);
   text += "<pre>" + html(context.command) + "</pre>\n";
   if (context.files.empty()) return text;
@@ -180,9 +188,11 @@ std::string report_html(const StudyResult& study, const ReportContext& context,
   if (study.seed_sweep) return report_html(over_seeds(study), context, figures);
   const StudySummary summary = summarise(study);
   std::string page = page_start(title_of(study));
-  page += opening(study, context, summary);
+  const std::vector<IdleBlock> idle = idle_blocks(study);
+  page += opening(study, context, summary, idle);
   page += matched_grounds(study) + pivot_tables(study) + results(study, figures);
-  page += truths_table(study) + failure_table(study) + stopped_table(study);
+  page += truths_table(study) + failure_table(study) + idle_table(idle) +
+          missing_forms_table(study) + stopped_table(study);
   page += warning_list(study.warnings) + distance_table(study);
   page += heading("Every run") + runs_table(study);
   page += peer_table(context) + provenance_table(context.provenance);

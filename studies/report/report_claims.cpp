@@ -11,7 +11,8 @@ std::string claim_lines(const StudyResult& study) {
   for (const ClaimSpec& claim : study.claims) {
     const SaidClaim said = said_of(study, claim);
     const bool good = said.verdict == ClaimVerdict::holds;
-    const bool bad = said.verdict == ClaimVerdict::fails || said.verdict == ClaimVerdict::unsaid;
+    const bool bad = said.verdict == ClaimVerdict::fails ||
+                     (said.verdict == ClaimVerdict::unsaid && !said.excused);
     const std::string tone = good ? "good" : bad ? "bad" : "soft";
     text += text_block("claim" + (bad ? std::string(" bad") : ""),
                        html(said.text) + " <small class=\"" + tone + "\">" +

@@ -181,7 +181,11 @@ std::string run_row(const StudyResult& study, const std::vector<NeededColumns>& 
     const MetricValue value = i < row.metrics.size() ? row.metrics[i] : MetricValue{};
     text += "<td class=\"first\">" + number(value.measured) +
             (value.half_width ? " ± " + output::rounded(*value.half_width, 2) : "") + "</td>";
-    if (needed[i].predicted) text += "<td>" + number(value.predicted) + "</td>";
+    if (needed[i].predicted)
+      text += (value.predicted || value.no_form.empty()
+                   ? std::string("<td>")
+                   : "<td title=\"no closed form: " + html(value.no_form) + "\">") +
+              number(value.predicted) + "</td>";
     if (needed[i].verdict) text += verdict_cell(value);
   }
   const bool stopped = outcome_of(row) == RunOutcome::stopped;
@@ -238,11 +242,13 @@ std::string truths_table(const StudyResult& study) {
   for (const TruthResult& truth : study.truths) {
     const std::string count =
         std::to_string(truth.passed) + "/" + std::to_string(truth.passed + truth.failed);
-    const std::string verdict = truth.passed + truth.failed == 0
-                                    ? "<td class=\"soft\">not judged</td>"
-                                : truth.failed == 0 ? "<td class=\"good\">✓ " + count + "</td>"
-                                                    : "<td class=\"bad\">✗ " + count + "</td>";
-    std::string words = html(truth.words);
+    const std::string verdict =
+        truth.passed + truth.failed == 0
+            ? std::string(truth.idleness.idle == Idle::fault ? "<td class=\"bad\">✗ not judged</td>"
+                                                             : "<td class=\"soft\">not judged</td>")
+        : truth.failed == 0 ? "<td class=\"good\">✓ " + count + "</td>"
+                            : "<td class=\"bad\">✗ " + count + "</td>";
+    std::string words = html(truth.words + not_judged_words(truth));
     if (truth.first_failure >= 0) {
       const auto row = static_cast<std::size_t>(truth.first_failure);
       words +=
@@ -279,6 +285,36 @@ std::string failure_table(const StudyResult& study) {
   return "<h2 id=\"failures\">What does not hold</h2>\n" +
          table_head({"subject", "at", "metric", "measured", "closed form"}) + rows +
          "</tbody></table></div>\n" + and_more(failures.size());
+}
+
+std::string idle_table(const std::vector<IdleBlock>& blocks) {
+  std::string rows;
+  for (const IdleBlock& block : blocks) {
+    const bool fault = block.idleness.idle == Idle::fault;
+    rows += "<tr>" +
+            text_cell(std::string(fault ? "<span class=\"bad\">✗</span> " : "") + block.kind) +
+            text_cell(html(block.name)) + "<td class=\"status\">" + html(block.idleness.why) +
+            "</td></tr>\n";
+  }
+  if (rows.empty()) return "";
+  return "<h2 id=\"idle\">What judges or shows nothing</h2>\n" +
+         table_head({"block", "name", "why"}) + rows + "</tbody></table></div>\n";
+}
+
+std::string missing_forms_table(const StudyResult& study) {
+  std::string rows;
+  for (const MissingForm& missing : missing_forms(study)) {
+    std::string subjects;
+    for (const int subject : missing.subjects)
+      subjects += (subjects.empty() ? "" : ", ") +
+                  html(study.subjects[static_cast<std::size_t>(subject)].name);
+    rows += "<tr>" + text_cell(html(spoken(study.metrics[missing.metric].name))) +
+            "<td class=\"status\">" + subjects + "</td><td>" + std::to_string(missing.runs) +
+            "</td><td class=\"status\">" + html(missing.why) + "</td></tr>\n";
+  }
+  if (rows.empty()) return "";
+  return "<h2 id=\"no-closed-form\">Runs without a closed form</h2>\n" +
+         table_head({"metric", "subjects", "runs", "why"}) + rows + "</tbody></table></div>\n";
 }
 
 std::string stopped_table(const StudyResult& study) {

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "studies/idleness.h"
 #include "studies/result.h"
 #include "studies/summary.h"
 
@@ -27,6 +28,12 @@ std::string truths_table(const StudyResult& study);
 
 /// Verdicts of finished runs that do not hold, the first forty; "" when there are none.
 std::string failure_table(const StudyResult& study);
+
+/// Blocks that judge or show nothing, and why; "" when there are none.
+std::string idle_table(const std::vector<IdleBlock>& blocks);
+
+/// Reasons why metrics that have closed forms in other runs have none; "" when there are none.
+std::string missing_forms_table(const StudyResult& study);
 
 /// Runs that stopped on the way: where, when and why, the first forty; "" when there are none.
 std::string stopped_table(const StudyResult& study);

@@ -8,6 +8,7 @@
 #include "output/text/csv.h"
 #include "output/text/number.h"
 #include "studies/claims.h"
+#include "studies/idleness.h"
 #include "studies/matched_grounds.h"
 #include "studies/report/terminal_blocks.h"
 #include "studies/report/terminal_pivot.h"
@@ -221,9 +222,10 @@ std::string claim_list(const StudyResult& study, const TableStyle& style) {
   std::string text;
   for (const ClaimSpec& claim : study.claims) {
     const SaidClaim said = said_of(study, claim);
-    const Tone tone = said.verdict == ClaimVerdict::holds      ? Tone::good
-                      : said.verdict == ClaimVerdict::unjudged ? Tone::faint
-                                                               : Tone::bad;
+    const bool faint = said.verdict == ClaimVerdict::unjudged || said.excused;
+    const Tone tone = said.verdict == ClaimVerdict::holds ? Tone::good
+                      : faint                             ? Tone::faint
+                                                          : Tone::bad;
     text += wrapped(unicode::printable(said.text), style.width) + std::string(indent, ' ') +
             toned("(" + unicode::printable(said.why) + ")", tone, style.color) + "\n";
   }
@@ -236,14 +238,30 @@ std::string truth_list(const StudyResult& study, const TableStyle& style) {
   std::string text;
   for (const TruthResult& truth : study.truths) {
     const int all = truth.passed + truth.failed;
-    const char* word = all == 0 ? "-   " : truth.failed == 0 ? "pass" : "FAIL";
-    const Tone tone = all == 0 ? Tone::faint : truth.failed == 0 ? Tone::good : Tone::bad;
+    const bool fault = truth.failed > 0 || truth.idleness.idle == Idle::fault;
+    const char* word = all == 0 ? (fault ? "NONE" : "-   ") : fault ? "FAIL" : "pass";
+    const Tone tone = fault ? Tone::bad : all == 0 ? Tone::faint : Tone::good;
     std::string count = " " + std::to_string(truth.passed) + "/" + std::to_string(all);
     count.resize(std::max(count.size() + 1, indent - 4), ' ');
     text += toned(word, tone, style.color) + count +
-            wrapped(truth.name + ": " + truth.words, style.width, indent);
+            wrapped(truth.name + ": " + truth.words + not_judged_words(truth), style.width, indent);
   }
   return text.empty() ? "" : text + "\n";
+}
+
+/// What shows nothing, each with its reason; Truths have theirs beside them.
+std::string idle_list(const std::vector<IdleBlock>& blocks, const TableStyle& style) {
+  std::vector<std::string> lines;
+  for (const IdleBlock& block : blocks)
+    if (block.kind != std::string_view("Truth")) lines.push_back(line_of(block));
+  return listed("empty", lines, style);
+}
+
+/// Each reason why a metric that may have a closed form has none.
+std::string no_form_list(const StudyResult& study, const TableStyle& style) {
+  std::vector<std::string> lines;
+  for (const MissingForm& missing : missing_forms(study)) lines.push_back(line_of(study, missing));
+  return listed("no form", lines, style);
 }
 
 /// What `match` chose, a subject and material a line.
@@ -258,7 +276,8 @@ std::string matched_list(const StudyResult& study, const TableStyle& style) {
   return text.empty() ? "" : "Ground matched to hookpoint's\n" + text + "\n";
 }
 
-std::string counts(const StudySummary& summary, const TableStyle& style) {
+std::string counts(const StudySummary& summary, const std::vector<IdleBlock>& idle,
+                   const TableStyle& style) {
   const auto& total = summary.total;
   std::string text =
       std::to_string(total.rows()) + " runs: " + std::to_string(total.finished) + " finished";
@@ -268,11 +287,10 @@ std::string counts(const StudySummary& summary, const TableStyle& style) {
         ", " + toned(std::to_string(total.stopped) + " stopped on the way", Tone::bad, style.color);
   if (total.skipped > 0) text += ", " + std::to_string(total.skipped) + " skipped";
   if (total.refused > 0) text += ", " + std::to_string(total.refused) + " refused";
-  if (summary.passed + summary.failed == 0) return text + "; no truth to hold\n";
-  const std::string verdict = std::to_string(summary.passed) + " of " +
-                              std::to_string(summary.passed + summary.failed) + " verdicts hold";
-  return text + "; " + toned(verdict, summary.failed == 0 ? Tone::good : Tone::bad, style.color) +
-         "\n";
+  const bool bad = summary.failed > 0 || has_fault(idle);
+  const Tone tone = bad ? Tone::bad : summary.passed > 0 ? Tone::good : Tone::plain;
+  return text + "; " +
+         toned(verdict_words(summary.passed, summary.failed, idle), tone, style.color) + "\n";
 }
 
 }  // namespace
@@ -286,8 +304,10 @@ std::string terminal_table(const StudyResult& study, const TableStyle& style) {
   for (const TableSpec& table : shown_tables(study))
     text += terminal_pivot(pivot_of(study, table), style) + "\n";
   for (const RegimeTable& table : regime_tables(study)) text += print_table(study, table, style);
-  return text + truth_list(study, style) + failure_list(study, style) + stopped_list(study, style) +
-         refused_list(study, style) + counts(summarise(study), style) +
+  const std::vector<IdleBlock> idle = idle_blocks(study);
+  return text + truth_list(study, style) + failure_list(study, style) + idle_list(idle, style) +
+         no_form_list(study, style) + stopped_list(study, style) + refused_list(study, style) +
+         counts(summarise(study), idle, style) +
          (study.runs == nullptr ? "" : seeds_words(study) + "\n");
 }
 

@@ -198,13 +198,18 @@ RunRecord not_run(const Measurement& measurement, RunRecord record, std::string 
 void predict_all(const Measurement& measurement, const RunContext& context,
                  const EngineEntry& engine, RunRecord& record) {
   const PeerContact peer = peer_contact(engine, *context.experiment);
-  for (const MetricDefinition* metric : measurement.metrics) {
-    if (metric->user != nullptr) continue;
-    std::optional<double> value = predict(metric->name, context, peer);
-    // Of what never comes: the stopping distance without friction.
-    if (value && !std::isfinite(*value)) value.reset();
-    record.values[kept_name(*metric)].predicted = value;
-  }
+  for (const MetricDefinition* metric : measurement.metrics)
+    if (metric->user == nullptr) {
+      const Prediction form = predict(metric->name, context, peer);
+      KeptValue& value = record.values[kept_name(*metric)];
+      value.predicted = form.value();
+      value.no_form = form.why();
+      if (value.predicted && !std::isfinite(*value.predicted)) {
+        // For example the stopping distance without friction.
+        value.predicted.reset();
+        value.no_form = "the formula's value is not finite";
+      }
+    }
 }
 
 /// As `execute`, of an engine that is there; may throw.
@@ -318,6 +323,7 @@ std::optional<RunRecord> execute(const Measurement& measurement,
   try {
     RunContext context =
         make_context(experiment, measurement.settle, measurement.duration, measurement.body);
+    if (engine != engines.end()) context.one_friction = engine->second.has_one_friction(experiment);
     record.regime = regime_of(context);
     if (!why_not.empty()) return not_run(measurement, std::move(record), why_not);
     context.make = engine->second.make;

@@ -65,9 +65,12 @@ void measure_between_subjects(const StudyPlan& plan, std::size_t metric, const K
                               StudyResult& result) {
   for (const std::vector<std::size_t>& group : groups_of_subjects(plan)) {
     PeerDistances matrix = distances_of(plan, group, kept, result);
-    for (const std::size_t row : group)
-      result.rows[row].metrics[metric].measured = median_distance(
-          matrix, static_cast<std::size_t>(plan.rows[row].subject), plan.subjects.size());
+    for (const std::size_t row : group) {
+      auto median = median_distance(matrix, static_cast<std::size_t>(plan.rows[row].subject),
+                                    plan.subjects.size());
+      if (median) *median /= plan.units[metric].scale;
+      result.rows[row].metrics[metric].measured = median;
+    }
     result.peer_distances.push_back(std::move(matrix));
   }
 }

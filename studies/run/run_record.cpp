@@ -63,6 +63,9 @@ bool read_line(std::string_view kind, std::string_view rest, RunRecord& record) 
     KeptValue& value = record.values[std::string(take_word(rest))];
     const std::string_view measured = take_word(rest);
     return read_optional(measured, value.measured) && read_optional(rest, value.predicted);
+  } else if (kind == "no_form") {
+    const std::string_view name = take_word(rest);
+    record.values[std::string(name)].no_form = rest;
   } else if (kind == "curve") {
     const std::string_view size = take_word(rest);
     return read_number(size, record.curves[std::string(rest)].size);
@@ -87,6 +90,7 @@ std::string numbers_text(const RunRecord& record) {
     text += "\nvalue " + name;
     append_optional(text, value.measured);
     append_optional(text, value.predicted);
+    if (!value.no_form.empty()) text += "\nno_form " + name + ' ' + on_one_line(value.no_form);
   }
   for (const auto& [name, curve] : record.curves)
     text += "\ncurve " + std::to_string(curve.size) + ' ' + name;

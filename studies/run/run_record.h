@@ -14,6 +14,8 @@ namespace hookpoint::studies {
 /// A metric of the run and its closed form.
 struct KeptValue {
   std::optional<double> measured, predicted;
+  std::string no_form =
+      {};  ///< why there is no closed form; "" where it is not known or there is one
 };
 
 /// Numbers that were recorded along the run, in the layout of whoever recorded them.

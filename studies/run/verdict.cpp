@@ -5,6 +5,8 @@
 #include <string>
 #include <utility>
 
+#include "studies/idleness.h"
+#include "studies/predictions/predictions.h"
 #include "studies/run/execute.h"
 #include "studies/run/group_metrics.h"
 #include "studies/seed_means.h"
@@ -33,24 +35,43 @@ bool applies(const StudyPlan& plan, const TruthPlan& truth, const RowPlan& row) 
   return named && plan.covers(truth.only, row);
 }
 
-/// What the Truth says of the row by itself; nothing where it says nothing about it.
-std::optional<bool> judge(const StudyPlan& plan, const RunResult& run, std::size_t row,
-                          const TruthPlan& truth) {
-  if (has(run, RunOutcome::skipped) || !applies(plan, truth, plan.rows[row])) return std::nullopt;
-  if (has(run, RunOutcome::refused) && truth.subjects.empty()) return std::nullopt;
+/// What a Truth says of a row.
+struct Judgement {
+  /// `reference`: others are to equal the row, which says nothing by itself.
+  enum class Kind { uncovered, skipped, unjudged, reference, fails, holds };
+  Kind kind = Kind::uncovered;
+  std::string why = {};  ///< of a row that is skipped, or not judged
+
+  static Judgement of(bool holds) { return {holds ? Kind::holds : Kind::fails}; }
+  bool judged() const { return kind == Kind::fails || kind == Kind::holds; }
+  bool unjudged() const { return kind == Kind::unjudged || kind == Kind::reference; }
+};
+
+Judgement not_judged(std::string why) { return {Judgement::Kind::unjudged, std::move(why)}; }
+
+/// What the Truth says of the row by itself.
+Judgement judge(const StudyPlan& plan, const RunResult& run, std::size_t row,
+                const TruthPlan& truth) {
+  if (!applies(plan, truth, plan.rows[row])) return {};
+  if (has(run, RunOutcome::skipped)) return {Judgement::Kind::skipped, run.status};
+  // Whoever names a subject claims that it runs and has the metric.
+  const bool named = !truth.subjects.empty();
+  if (has(run, RunOutcome::refused)) return named ? Judgement::of(false) : not_judged(run.status);
   const RowForm* form = form_of(plan, truth.metric, row);
-  if (form != nullptr && !form->missing.empty() && truth.subjects.empty()) return std::nullopt;
+  if (form != nullptr && !form->missing.empty())
+    return named ? Judgement::of(false) : not_judged(form->missing);
   const MetricValue& metric = run.metrics[truth.metric];
-  if (truth.predicted && !metric.predicted) return std::nullopt;
-  if (!metric.measured) return false;
+  if (truth.predicted && !metric.predicted)
+    return not_judged("no closed form" + (metric.no_form.empty() ? "" : ": " + metric.no_form));
+  if (!metric.measured) return Judgement::of(false);
   const double measured = *metric.measured;
-  if (truth.of_scene) return std::abs(measured - *metric.predicted) <= form->allowed;
+  if (truth.of_scene) return Judgement::of(std::abs(measured - *metric.predicted) <= form->allowed);
   bool ok = true;
   if (truth.predicted) ok = ok && near(measured, *metric.predicted, truth);
   if (truth.value) ok = ok && near(measured, *truth.value, truth);
   if (truth.above) ok = ok && measured > *truth.above;
   if (truth.below) ok = ok && measured < *truth.below;
-  return ok;
+  return Judgement::of(ok);
 }
 
 /// For each row that of its group which has the first value of sweep `sweep`; -1 when the plan has
@@ -64,16 +85,27 @@ std::vector<std::ptrdiff_t> first_of_groups(const StudyPlan& plan, int sweep) {
   return first;
 }
 
-/// What a Truth that holds along a sweep says of the row, beside the row that it is to equal.
-std::optional<bool> judge(const StudyPlan& plan, const StudyResult& result, std::size_t row,
-                          const TruthPlan& truth, std::ptrdiff_t equals) {
-  const auto alone = judge(plan, result.rows[row], row, truth);
+/// Whether the Truth claims something of a row beside that it is as another one.
+bool claims_by_itself(const TruthPlan& truth) {
+  return truth.predicted || truth.value || truth.above || truth.below;
+}
+
+/// What the Truth says of the row `row` of `result`; of one that holds along a sweep `equals` is
+/// the row that it is to equal.
+Judgement judge(const StudyPlan& plan, const StudyResult& result, std::size_t row,
+                const TruthPlan& truth, std::optional<std::ptrdiff_t> equals) {
+  Judgement alone = judge(plan, result.rows[row], row, truth);
   const auto& measured = result.rows[row].metrics[truth.metric].measured;
-  if (!alone || !measured) return alone;
-  if (equals < 0) return std::nullopt;
-  const RunResult& other = result.rows[static_cast<std::size_t>(equals)];
-  const auto& reference = other.metrics[truth.metric].measured;
-  return *alone && reference && near(*measured, *reference, truth);
+  if (!equals || !alone.judged() || !measured) return alone;
+  const std::string& sweep = plan.sweeps[static_cast<std::size_t>(truth.same_over)].column.name;
+  if (*equals < 0) return not_judged("no run has the first value of " + sweep);
+  const auto first = static_cast<std::size_t>(*equals);
+  if (first == row && !claims_by_itself(truth))
+    return {Judgement::Kind::reference,
+            "the run with the first value of " + sweep + " has no other to be compared with"};
+  const auto& reference = result.rows[first].metrics[truth.metric].measured;
+  return Judgement::of(alone.kind == Judgement::Kind::holds && reference &&
+                       near(*measured, *reference, truth));
 }
 
 void add_verdict(MetricValue& value, bool verdict) {
@@ -90,71 +122,107 @@ RunResult empty_row(const StudyPlan& plan, const RowPlan& row) {
   return run;
 }
 
+std::optional<double> in_unit(const std::optional<double>& value, double scale) {
+  return value ? std::optional(*value / scale) : std::nullopt;
+}
+
+/// The values of a metric of a row.
+MetricValue value_of(const StudyPlan& plan, std::size_t metric, std::size_t row,
+                     RunRecord& record) {
+  KeptValue& kept = record.values[kept_name(*plan.metrics[metric])];
+  const double scale = plan.units[metric].scale;
+  MetricValue value{in_unit(kept.measured, scale), in_unit(kept.predicted, scale), std::nullopt};
+  value.no_form = std::move(kept.no_form);
+  if (const RowForm* form = form_of(plan, metric, row)) {
+    value.predicted = form->predicted;
+    value.no_form = form->no_form;
+  }
+  return value;
+}
+
 RunResult run_result(const StudyPlan& plan, const KeptRows& kept, std::size_t row,
                      RunRecord record) {
   RunResult run = empty_row(plan, plan.rows[row]);
-  run.status = std::move(record.status);
+  run.status = record.status;
   run.regime = record.regime;
-  for (std::size_t i = 0; i < plan.metrics.size(); ++i) {
-    const KeptValue& value = record.values[kept_name(*plan.metrics[i])];
-    const RowForm* form = form_of(plan, i, row);
-    run.metrics.push_back(
-        {value.measured, form == nullptr ? value.predicted : form->predicted, std::nullopt});
-  }
+  for (std::size_t i = 0; i < plan.metrics.size(); ++i)
+    run.metrics.push_back(value_of(plan, i, row, record));
   run.traces.reserve(plan.plots.size());
   for (std::size_t plot = 0; plot < plan.plots.size(); ++plot)
     run.traces.push_back(kept.trace(row, plot));
   return run;
 }
 
-/// Rows that differ in the seed alone, in the order of their first ones.
+/// Rows that differ in the seed alone, in the order of their first ones; without seeds each row.
 std::vector<std::vector<std::size_t>> seed_groups(const StudyPlan& plan) {
   auto groups = plan.groups_along(plan.seed_sweep());
   std::ranges::sort(groups, {}, [](const auto& group) { return group.front(); });
   return groups;
 }
 
-/// What a Truth says of the means over seeds, each verdict that of all runs of the mean.
-void judge_means(const StudyPlan& plan, std::size_t index, StudyResult& result) {
-  const TruthPlan& planned = plan.truths[index];
-  TruthResult& truth = result.truths[index];
-  const auto groups = seed_groups(plan);
-  // A row has its mean where the mean is judged.
-  StudyResult means = result;
-  for (const std::vector<std::size_t>& group : groups) {
-    const RunResult mean = mean_of_rows(result, group);
-    for (const std::size_t row : group) means.rows[row] = mean;
-  }
-  const bool along = planned.same_over >= 0;
-  const auto first =
-      along ? first_of_groups(plan, planned.same_over) : std::vector<std::ptrdiff_t>();
-  for (const std::vector<std::size_t>& group : groups) {
-    const std::size_t row = group.front();
-    const std::optional<bool> verdict = along ? judge(plan, means, row, planned, first[row])
-                                              : judge(plan, means.rows[row], row, planned);
-    if (!verdict) continue;
-    for (const std::size_t each : group)
-      add_verdict(result.rows[each].metrics[planned.metric], *verdict);
-    ++(*verdict ? truth.passed : truth.failed);
-    if (!*verdict && truth.first_failure < 0) truth.first_failure = static_cast<int>(row);
+/// Of the first row that a run is to equal: it holds as far as others could be compared with it.
+void judge_references(const std::vector<std::ptrdiff_t>& first,
+                      std::vector<Judgement>& judgements) {
+  for (std::size_t row = 0; row < judgements.size(); ++row) {
+    const std::ptrdiff_t reference = first[row];
+    if (reference < 0 || !judgements[row].judged()) continue;
+    Judgement& of_reference = judgements[static_cast<std::size_t>(reference)];
+    if (of_reference.kind == Judgement::Kind::reference) of_reference = Judgement::of(true);
   }
 }
 
+/// Why the Truth has judged no run.
+Idleness idleness_of(const StudyPlan& plan, const TruthPlan& planned, const StudyResult& result,
+                     const TruthResult& truth, const std::string& skipped) {
+  if (truth.passed + truth.failed > 0) return {};
+  // The scene says which laws and integrators its Expect covers.
+  if (truth.unjudged > 0)
+    return allowed_by(planned.may_be_empty || planned.of_scene, {Idle::fault, truth.unjudged_why});
+  if (!skipped.empty()) return {Idle::left_out, skipped};
+  const SweepValues where = plan.admitted(planned.only);
+  return allowed_by(planned.may_be_empty, why_no_run(result, {planned.subjects, {&where}}));
+}
+
+/// Judges the Truth over the rows, or over the means of rows that differ in the seed alone, each
+/// verdict that of all runs of the mean.
 void judge_all(const StudyPlan& plan, std::size_t index, StudyResult& result) {
-  if (plan.seed_sweep() >= 0) return judge_means(plan, index, result);
   const TruthPlan& planned = plan.truths[index];
   TruthResult& truth = result.truths[index];
+  const auto groups = seed_groups(plan);
+  StudyResult means;
+  if (plan.seed_sweep() >= 0) {
+    // A row has its mean where the mean is judged.
+    means = result;
+    for (const std::vector<std::size_t>& group : groups) {
+      const RunResult mean = mean_of_rows(result, group);
+      for (const std::size_t row : group) means.rows[row] = mean;
+    }
+  }
+  const StudyResult& judged = plan.seed_sweep() >= 0 ? means : result;
   const bool along = planned.same_over >= 0;
   const auto first =
       along ? first_of_groups(plan, planned.same_over) : std::vector<std::ptrdiff_t>();
-  for (std::size_t row = 0; row < plan.rows.size(); ++row) {
-    const std::optional<bool> verdict = along ? judge(plan, result, row, planned, first[row])
-                                              : judge(plan, result.rows[row], row, planned);
-    if (!verdict) continue;
-    add_verdict(result.rows[row].metrics[planned.metric], *verdict);
-    ++(*verdict ? truth.passed : truth.failed);
-    if (!*verdict && truth.first_failure < 0) truth.first_failure = static_cast<int>(row);
+  std::vector<Judgement> judgements(plan.rows.size());
+  for (const std::vector<std::size_t>& group : groups) {
+    const std::size_t row = group.front();
+    judgements[row] =
+        judge(plan, judged, row, planned, along ? std::optional(first[row]) : std::nullopt);
   }
+  if (along) judge_references(first, judgements);
+  std::string skipped;
+  for (const std::vector<std::size_t>& group : groups) {
+    const std::size_t row = group.front();
+    const Judgement& judgement = judgements[row];
+    if (judgement.kind == Judgement::Kind::skipped && skipped.empty()) skipped = judgement.why;
+    if (judgement.unjudged() && truth.unjudged++ == 0) truth.unjudged_why = judgement.why;
+    if (!judgement.judged()) continue;
+    const bool holds = judgement.kind == Judgement::Kind::holds;
+    for (const std::size_t each : group)
+      add_verdict(result.rows[each].metrics[planned.metric], holds);
+    ++(holds ? truth.passed : truth.failed);
+    if (!holds && truth.first_failure < 0) truth.first_failure = static_cast<int>(row);
+  }
+  truth.idleness = idleness_of(plan, planned, result, truth, skipped);
 }
 
 }  // namespace
@@ -168,9 +236,13 @@ StudyResult empty_table(const StudyPlan& plan) {
   for (const SweepPlan& sweep : plan.sweeps) result.sweeps.push_back(sweep.column);
   for (const SubjectPlan& subject : plan.subjects) result.subjects.push_back(subject.info);
   result.compositions = plan.compositions;
-  for (const MetricDefinition* metric : plan.metrics)
-    result.metrics.push_back(
-        {std::string(metric->name), std::string(metric->unit), metric->timing(), metric->regime});
+  for (std::size_t i = 0; i < plan.metrics.size(); ++i) {
+    const MetricDefinition& metric = *plan.metrics[i];
+    result.metrics.push_back({std::string(metric.name), plan.units[i].text, metric.timing(),
+                              metric.regime,
+                              metric.user != nullptr ? metric.user->predicted != nullptr
+                                                     : may_be_predicted(metric.name)});
+  }
   for (const PlotPlan& plot : plan.plots) result.plots.push_back(plot.spec);
   result.tables = plan.tables;
   result.claims = plan.claims;
@@ -183,6 +255,10 @@ StudyResult empty_table(const StudyPlan& plan) {
     if (!row.matched.empty()) result.matched.push_back({run.parameters, run.subject, row.matched});
   }
   result.warnings = plan.warnings;
+  result.quick = plan.quick;
+  for (std::size_t i = 0; i < plan.subjects.size() && !plan.only.empty(); ++i)
+    if (std::ranges::find(plan.only, plan.subjects[i].info.name) == plan.only.end())
+      result.unselected.push_back(static_cast<int>(i));
   if (plan.seed_sweep() >= 0) result.seed_sweep = static_cast<std::size_t>(plan.seed_sweep());
   return result;
 }
@@ -194,7 +270,8 @@ RunResult assemble_row(const StudyPlan& plan, const KeptRows& kept, std::size_t 
     const bool alone = truth.same_over < 0 && plan.seed_sweep() < 0 &&
                        plan.metrics[truth.metric]->scope == MetricScope::run;
     if (!alone) continue;
-    if (const auto verdict = judge(plan, run, row, truth)) add_verdict(value, *verdict);
+    if (const Judgement judgement = judge(plan, run, row, truth); judgement.judged())
+      add_verdict(value, judgement.kind == Judgement::Kind::holds);
   }
   return run;
 }
@@ -215,11 +292,14 @@ StudyResult assemble(const StudyPlan& plan, const KeptRows& kept, Notices& notic
 }
 
 bool all_truths_hold(const StudyResult& result) {
-  return std::all_of(result.rows.begin(), result.rows.end(), [](const RunResult& run) {
-    const bool judged = std::none_of(run.metrics.begin(), run.metrics.end(),
-                                     [](const MetricValue& value) { return value.ok == false; });
-    return judged && outcome_of(run) != RunOutcome::stopped;
-  });
+  return std::all_of(result.rows.begin(), result.rows.end(),
+                     [](const RunResult& run) {
+                       const bool judged =
+                           std::none_of(run.metrics.begin(), run.metrics.end(),
+                                        [](const MetricValue& value) { return value.ok == false; });
+                       return judged && outcome_of(run) != RunOutcome::stopped;
+                     }) &&
+         !has_fault(idle_blocks(result));
 }
 
 }  // namespace hookpoint::studies

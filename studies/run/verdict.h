@@ -20,8 +20,8 @@ RunResult assemble_row(const StudyPlan& plan, const KeptRows& kept, std::size_t 
 /// `notices` gets those of the runs.
 StudyResult assemble(const StudyPlan& plan, const KeptRows& kept, Notices& notices);
 
-/// Every Truth holds and no run failed: what exit status 0 means. Skipped rows neither pass nor
-/// fail.
+/// Every Truth holds, no run failed, and no Truth, Claim, Plot or Table judges or shows nothing
+/// that is not expected: what exit status 0 means. Skipped rows neither pass nor fail.
 bool all_truths_hold(const StudyResult& result);
 
 }  // namespace hookpoint::studies

@@ -59,5 +59,71 @@ TEST(WallNotices, AreToldWithTheSceneAndTheSubject) {
   EXPECT_EQ(count(result.err, note), 1U) << result.err;
 }
 
+/// A table on points a, b and c and a ball d, of radius `radius`, on a slope.
+void make_table(const Workplace& work, const std::string& points) {
+  work.file(
+      "table.hook",
+      "Param slope = 12 deg; World w { gravity = 9.81; deltat = 0.2 ms; duration = 3 s; Material "
+      "m { normal_stiffness = 40 kN/m; normal_damping = 300 N.s/m; tangential_stiffness = 40 "
+      "kN/m; tangential_damping = 300 N.s/m; kinetic_friction = 0.5; } Terrain.Slope hill { "
+      "angle = slope; material = m; } Robot t { Base.mobile { rest_on = hill; mass = 2 kg; "
+      "inertia = 0.02, 0.02, 0.03, 0, 0, 0; center_of_mass = 0, 0, 0.1; " +
+          points + " } } }");
+}
+
+/// `hookpoint study` of the table, with more in the study.
+testing::CommandResult study_table(const Workplace& work, const std::string& more) {
+  work.file("study.hook",
+            "Study s { scene = \"table.hook\"; duration = 3 s; settle = 1 s; Subject a { contact = "
+            "hookpoint; } Subject h { contact = lugre; } Measure creep_speed; " +
+                more + " }");
+  return work.hookpoint("study study.hook --jobs 2 --out here");
+}
+
+constexpr const char* table_truth = "Truth creep_speed { equals = predicted; within = 1e-9; ";
+
+TEST(StudyVerdicts, OfBallFeetThatCannotRollAreThoseOfPoints) {
+  const Workplace work;
+  for (const char* feet :
+       {"ContactPoint a { location = 0.2, 0.1, 0; } ContactPoint b { location = -0.2, 0.1, 0; } "
+        "ContactPoint c { location = 0.2, -0.1, 0; } ContactPoint d { location = -0.2, -0.1, 0; "
+        "radius = 1 mm; }",
+        "ContactPoint a { location = 0.2, 0.1, 0; radius = 1 cm; } ContactPoint b { location = "
+        "-0.2, "
+        "0.1, 0; radius = 1 cm; } ContactPoint c { location = 0.2, -0.1, 0; radius = 1 cm; } "
+        "ContactPoint d { location = -0.2, -0.1, 0; radius = 1 cm; }"}) {
+    make_table(work, feet);
+    const auto result = study_table(work, std::string(table_truth) + "}");
+    EXPECT_EQ(result.status, 0) << result.out;
+    EXPECT_NE(result.out.find("2 of 2 verdicts hold"), std::string::npos) << result.out;
+  }
+}
+
+TEST(StudyVerdicts, AreNotGreenWhereNothingWasJudged) {
+  const Workplace work;
+  make_table(work, "ContactPoint d { radius = 20 cm; }");
+  const auto judged_nothing = study_table(work, std::string(table_truth) + "}");
+  EXPECT_EQ(judged_nothing.status, 1);
+  EXPECT_NE(judged_nothing.out.find("no verdict, 1 Truth judges nothing"), std::string::npos)
+      << judged_nothing.out;
+  EXPECT_NE(judged_nothing.out.find("contact point d is a ball"), std::string::npos);
+  const std::string page = work.read("here/report.html");
+  EXPECT_NE(page.find("1 Truth judges nothing"), std::string::npos);
+  const auto expected = study_table(work, std::string(table_truth) +
+                                              "may_be_empty = true; } Truth slow { metric = "
+                                              "creep_speed; above = -1 m/s; }");
+  EXPECT_EQ(expected.status, 0);
+  EXPECT_NE(expected.out.find("2 of 2 verdicts hold, 1 Truth judges nothing, as it may"),
+            std::string::npos)
+      << expected.out;
+  const auto none = study_table(work,
+                                "Sweep slope { values = 4 deg, 12 deg; } Truth creep_speed { "
+                                "below = 1 m/s; Only slope { values = 11 deg; } }");
+  EXPECT_EQ(none.status, 2);
+  EXPECT_NE(none.err.find("`11 deg` is no value of the Sweep `slope`; it has 4 deg, 12 deg"),
+            std::string::npos)
+      << none.err;
+}
+
 }  // namespace
 }  // namespace hookpoint

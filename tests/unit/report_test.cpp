@@ -371,7 +371,7 @@ TEST(Report, AStudyWithoutSweepsTruthsOrPlotsIsAPageToo) {
   RunResult row;
   row.metrics = {{1e-9, {}, {}}};
   study.rows = {row};
-  EXPECT_TRUE(contains(report_html(study, {}, {}), "No truth was asked for."));
+  EXPECT_TRUE(contains(report_html(study, {}, {}), "No truth is claimed."));
   EXPECT_TRUE(contains(terminal_table(study), "no truth to hold"));
 }
 

@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "studies/predictions/predictions.h"
 
@@ -42,7 +44,14 @@ Experiment body(double slope, double mu, const std::string& law, bool point = fa
 
 std::optional<double> prediction(const Experiment& experiment, std::string_view metric,
                                  std::optional<double> peer_creep = std::nullopt) {
-  return predict(metric, make_context(experiment, 5., 20.), {peer_creep, {}});
+  PeerContact peer;
+  if (peer_creep) peer.creep = simulation::CreepVelocity{*peer_creep, 0.};
+  return predict(metric, make_context(experiment, 5., 20.), peer).value();
+}
+
+/// Why there is none.
+std::string why_none(const Experiment& experiment, std::string_view metric) {
+  return predict(metric, make_context(experiment, 5., 20.)).why();
 }
 
 TEST(CreepPrediction, HooksHold) {
@@ -85,9 +94,8 @@ TEST(CreepPrediction, GoesAsideOnlyWhereAPeersFormSaysSo) {
   const RunContext context = make_context(peer, 5., 20.);
   PeerContact contact;
   EXPECT_FALSE(predict("creep_sideways", context, contact));
-  contact.creep = 6e-11;
-  contact.creep_sideways = -2e-11;
-  EXPECT_EQ(predict("creep_sideways", context, contact), -2e-11);
+  contact.creep = simulation::CreepVelocity{6e-11, -2e-11};
+  EXPECT_EQ(*predict("creep_sideways", context, contact), -2e-11);
 }
 
 TEST(CreepPrediction, AboveTheConeTheLineThroughTheParabola) {
@@ -111,7 +119,9 @@ TEST(PenetrationPrediction, OfAPeerIsItsSoftnessOnTheLevel) {
   Experiment experiment = body(0., 0.8, "hookpoint");
   experiment.engine = "ode";
   const auto depth = [&] {
-    return predict("penetration_mean", make_context(experiment, 5., 20.), {{}, 1e-4});
+    PeerContact soft;
+    soft.softness = 1e-4;
+    return predict("penetration_mean", make_context(experiment, 5., 20.), soft);
   };
   EXPECT_NEAR(*depth(), 2.4525e-4, 1e-12);
   EXPECT_FALSE(prediction(experiment, "penetration_mean"));
@@ -243,30 +253,6 @@ Experiment late_joints(double period, double samples) {
   return experiment;
 }
 
-TEST(ThresholdPrediction, IsCoulombsAngleWhereALawHolds) {
-  for (const std::string law : {"hookpoint", "lugre", "exponential", "nominal"})
-    EXPECT_NEAR(*prediction(body(0., 0.8, law, true), "slip_onset"), 0.674740942223553, 1e-14);
-  EXPECT_EQ(prediction(body(0., 0.8, "hookpoint", true), "threshold_error"), 0.);
-  Experiment peer = body(0., 0.8, "hookpoint", true);
-  peer.engine = "bullet";
-  EXPECT_NEAR(*prediction(peer, "slip_onset"), 0.674740942223553, 1e-14);
-}
-
-TEST(ThresholdPrediction, RegularisedFrictionGivesWayBefore) {
-  // phi(1 mm/s/v_s) mu = 0.8/sqrt(2) with v_s = 1 mm/s.
-  EXPECT_NEAR(*prediction(body(0., 0.8, "hunt_crossley", true), "slip_onset"),
-              std::atan(0.8 / std::sqrt(2.)), 1e-9);
-  EXPECT_NEAR(*prediction(body(0., 0.8, "hunt_crossley", true), "threshold_error"),
-              std::atan(0.8 / std::sqrt(2.)) - std::atan(0.8), 1e-9);
-}
-
-TEST(ThresholdPrediction, SaysNothingOfHopsAsFastAsSlip) {
-  Experiment hopping = body(0., 0.8, "impulse", true);
-  EXPECT_FALSE(prediction(hopping, "slip_onset"));  // 2 u0 mu = 3.2 mm/s
-  hopping.materials[0].constants.rebound_speed = 0.5e-3;
-  EXPECT_TRUE(prediction(hopping, "slip_onset"));
-}
-
 TEST(RestlessPrediction, IsWhetherTheStepIsAboveTheBound) {
   // A point on k = 1e5 N/m, c = 300 N s/m, m = 1 kg: explicit Euler is stable up to c/k = 3 ms.
   Experiment point = body(0., 0.8, "hookpoint", true);
@@ -308,9 +294,11 @@ TEST(JointLoopPrediction, SaysNothingOfOtherLoops) {
   EXPECT_FALSE(prediction(body(20., 0.8, "hookpoint"), "fell"));
 }
 
+/// A full ball of 1 kg and 50 mm: 2/5 m r^2 = 1e-3 kg m^2.
 Experiment ball(double slope, double mu) {
   Experiment experiment = body(slope, mu, "hookpoint", true);
   experiment.robots[0].base.boundary_radii = {0.05};
+  experiment.robots[0].base.mass.inertia = {1e-3, 1e-3, 1e-3, 0., 0., 0.};
   return experiment;
 }
 
@@ -319,6 +307,154 @@ TEST(BallPrediction, RollsAtFiveSeventhsUpToItsThresholdAndSkidsAbove) {
   EXPECT_NEAR(*prediction(ball(20., 0.1041), "slip_acceleration"), 2.396584, 1e-6);
   EXPECT_NEAR(*prediction(ball(20., 0.1038), "slip_acceleration"),
               9.81 * (0.3420201 - 0.1038 * 0.9396926), 1e-6);
+}
+
+TEST(BallPrediction, RollsByItsOwnInertiaAndTheFrictionOfItsEngine) {
+  // A hollow ball, 2/3 m r^2: 3/5 g sin 20 deg.
+  Experiment hollow = ball(20., 0.5);
+  hollow.robots[0].base.mass.inertia = {1. / 600., 1. / 600., 1. / 600., 0., 0., 0.};
+  EXPECT_NEAR(*prediction(hollow, "slip_acceleration"), 2.013130, 1e-6);
+  Experiment aside = ball(20., 0.5);
+  aside.robots[0].base.mass.center_of_mass = {0.01, 0., 0.};
+  EXPECT_EQ(why_none(aside, "slip_acceleration"), "the ball's centre of mass is not at its centre");
+  // Kinetic friction of 0.05 does not carry 2/7 of the pull; static friction of 0.5 does.
+  Experiment skids = ball(20., 0.5);
+  skids.materials[0].constants.kinetic_friction = 0.05;
+  RunContext context = make_context(skids, 5., 20.);
+  EXPECT_NEAR(*predict("slip_acceleration", context), 2.396584, 1e-6);
+  context.one_friction = true;
+  EXPECT_NEAR(*predict("slip_acceleration", context), 9.81 * (0.3420201 - 0.05 * 0.9396926), 1e-6);
+}
+
+/// The block on balls of `radii` about its lower corners, whose centres are so much higher.
+Experiment on_balls(double slope, const std::vector<double>& radii, bool in_line = false) {
+  Experiment experiment = body(slope, 0.8, "hookpoint");
+  simulation::BodySpec& base = experiment.robots[0].base;
+  base.boundary_points.clear();
+  const Vector3d corners[] = {
+      {0.1, 0.1, -0.05}, {-0.1, 0.1, -0.05}, {0.1, -0.1, -0.05}, {-0.1, -0.1, -0.05}};
+  for (std::size_t i = 0; i < radii.size(); ++i) {
+    Vector3d corner = corners[i];
+    if (in_line) corner.y = 0.;
+    base.boundary_points.push_back(corner + Vector3d{0., 0., radii[i]});
+  }
+  base.boundary_radii = radii;
+  return experiment;
+}
+
+TEST(BallFeet, ThreeThatAreNotInALineCannotRoll) {
+  for (const std::vector<double>& radii :
+       {std::vector{0.01, 0.01, 0.01, 0.01}, {0., 0., 0., 1e-3}, {0.02, 1e-3, 0., 0.}}) {
+    EXPECT_EQ(prediction(on_balls(20., radii), "creep_speed"), 0.);
+    EXPECT_NEAR(*prediction(on_balls(20., radii), "penetration_max"), 2.304599e-5 + 0.419403e-5,
+                1e-10);
+    EXPECT_NEAR(*prediction(on_balls(20., radii), "stick_displacement"), 8.388044e-6, 1e-11);
+    EXPECT_NEAR(*prediction(on_balls(40., radii), "slip_acceleration"),
+                9.81 * (0.6427876 - 0.8 * 0.7660444), 1e-5);
+  }
+}
+
+TEST(BallFeet, RollAboutALineAndAreSaidTo) {
+  for (const std::vector<double>& radii : {std::vector{0.01, 0.01}, {0.02, 0.}})
+    EXPECT_EQ(why_none(on_balls(20., radii), "creep_speed"),
+              "the body rolls: a boundary point is a ball, and all contacts lie on one line");
+  EXPECT_NE(why_none(on_balls(20., {0.01, 0.02, 0.01, 0.01}, true), "creep_speed").find("rolls"),
+            std::string::npos);
+  Experiment single = ball(20., 0.5);
+  simulation::PointSpec named;
+  named.trail = "world.r.base.d";
+  single.points.push_back(named);
+  EXPECT_EQ(why_none(single, "creep_speed"), "the body rolls: contact point d is a ball");
+  EXPECT_NEAR(*prediction(ball(0., 0.5), "penetration_mean"), 9.81e-5, 1e-12)
+      << "on the level it rests";
+}
+
+// A foot a millimetre longer than the others, which the body comes to stand on with two of them.
+TEST(BallFeet, ThatAreNotLevelCarryWithThoseBesideThem) {
+  Experiment experiment = on_balls(20., {0., 0., 0., 1e-3});
+  simulation::BodySpec& base = experiment.robots[0].base;
+  base.boundary_points[3].z -= 1e-3;
+  EXPECT_EQ(prediction(experiment, "creep_speed"), 0.);
+  EXPECT_EQ(why_none(experiment, "penetration_mean"),
+            "the contacts are not level: how they share the load is unknown");
+  EXPECT_NEAR(*prediction(body(40., 0.8, "hookpoint"), "slip_acceleration"),
+              9.81 * (0.6427876 - 0.8 * 0.7660444), 1e-5);
+  base.boundary_points.resize(2);
+  base.boundary_radii = {0., 1e-3};  // two feet, whatever their heights: it rolls about their line
+  EXPECT_NE(why_none(experiment, "creep_speed").find("rolls"), std::string::npos);
+}
+
+TEST(Predictions, SayWhyThereIsNone) {
+  Experiment pushed = body(20., 0.8, "hookpoint");
+  pushed.forces.resize(1);
+  pushed.forces[0].name = "pull";
+  EXPECT_EQ(why_none(pushed, "creep_speed"), "the Force pull acts");
+  Experiment fixed = body(20., 0.8, "hookpoint");
+  fixed.robots[0].mobile = false;
+  EXPECT_EQ(why_none(body(20., 0.8, "hookpoint"), "slip_distance"),
+            "none is known of slip_distance");
+  for (const char* metric :
+       {"creep_speed", "creep_sideways", "slip_acceleration", "friction", "anisotropy",
+        "stick_displacement", "stopping_distance", "impacts", "direction_error", "slip_onset",
+        "threshold_error", "penetration_max", "penetration_mean", "penetration_rms", "rebound",
+        "support_force", "restless", "fell"}) {
+    EXPECT_TRUE(may_be_predicted(metric)) << metric;
+    // Whatever the scene, a number or a reason.
+    for (const Experiment& experiment :
+         {body(20., 0.8, "hookpoint"), body(0., 0.8, "lugre"), body(20., 0.2, "hunt_crossley"),
+          body(10., 0.5, "impulse"), ball(10., 0.3), pushed}) {
+      const Prediction said = predict(metric, make_context(experiment, 5., 20.));
+      EXPECT_NE(said.value().has_value(), !said.why().empty()) << metric;
+    }
+  }
+}
+
+TEST(OneCoefficient, IsTheKineticOneInEveryClosedForm) {
+  Experiment peer = body(20., 0.8, "hookpoint");  // tan 20 deg = 0.364
+  peer.engine = "ode";
+  peer.materials[0].constants.kinetic_friction = 0.2;
+  RunContext context = make_context(peer, 5., 20.);
+  EXPECT_EQ(regime_of(context), Regime::holds) << "of an engine with two";
+  context.one_friction = true;
+  EXPECT_EQ(regime_of(context), Regime::slides);
+  const double a = 9.81 * (0.3420201 - 0.2 * 0.9396926);
+  EXPECT_NEAR(*predict("slip_acceleration", context), a, 1e-6);
+  EXPECT_NEAR(*predict("creep_speed", context), 12.5 * a, 1e-5);
+  EXPECT_EQ(*predict("friction", context), 0.2);
+}
+
+// Between mu_k and mu_s a point that breaks away at the start takes the body with it.
+TEST(FallingFriction, IsNotSaidToHoldWhereTheStartMayBreakIt) {
+  Experiment experiment = body(20., 0.4, "hookpoint");  // tan 20 deg = 0.364, of mu_s 0.91
+  experiment.materials[0].constants.kinetic_friction = 0.2;
+  for (const char* metric : {"creep_speed", "slip_acceleration", "friction"})
+    EXPECT_NE(why_none(experiment, metric).find("between kinetic and static"), std::string::npos)
+        << metric;
+  experiment.materials[0].constants.static_friction = 1.5;
+  EXPECT_EQ(prediction(experiment, "creep_speed"), 0.) << "twice the pull is within the cone";
+}
+
+TEST(StickPrediction, NeedsAStartThatStaysWithinTheCone) {
+  // tan 20 deg over 0.38 is 0.96: a swing past the rest by 15 % or more slips.
+  EXPECT_NE(why_none(body(20., 0.38, "hookpoint"), "stick_displacement").find("swings"),
+            std::string::npos);
+}
+
+TEST(RestlessPrediction, SaysNothingOfWhatSomethingElseMoves) {
+  Experiment sliding = body(30., 0.2, "hookpoint");
+  sliding.deltat = 1e-5;
+  sliding.engine = "dts";
+  sliding.integrator = "explicit_euler";
+  sliding.robots[0].base.mass.inertia = {1., 1., 1., 0., 0., 0.};
+  EXPECT_EQ(why_none(sliding, "restless"), "the body slides");
+}
+
+TEST(SupportPrediction, WaitsForALanding) {
+  Experiment dropped = body(0., 0.5, "hookpoint");
+  dropped.robots[0].location.z = 0.05 + 1.;  // falls for 0.45 s
+  EXPECT_TRUE(predict("support_force", make_context(dropped, 0.5, 2.)));
+  EXPECT_EQ(predict("support_force", make_context(dropped, 0.4, 2.)).why(),
+            "the robot is in the air at `settle`");
 }
 
 TEST(BallPrediction, ReboundsByWhatItsEngineKnows) {

@@ -32,6 +32,12 @@ Study creep {
 }
 )";
 
+/// The study over other frictions; its figure is of the first.
+std::string with_frictions(const std::string& values) {
+  return replaced(replaced(study, "0.8, 1;", values), "Only mu { values = 1; }",
+                  "Only mu { values = 0.8; }");
+}
+
 TEST_F(StudyRunner, ASweepTakesNoUnitFromAComment) {
   const auto plan = this->plan(
       "Let a = 5 deg; Study s { scene = \"scene.hook\"; duration = 1 s; settle = 0 s;\n"
@@ -86,8 +92,8 @@ TEST_F(StudyRunner, ResultsHaveTheColumnsAndValuesOfTheManual) {
 
 TEST_F(StudyRunner, EachRunHasItsRegimeAndEachTruthItsCounts) {
   // tan(30 deg) = 0.577: friction 0.8 and 1 hold at 10, 20 and 30 deg, 0.5 does not at 30.
-  const auto plan = this->plan(
-      replaced(replaced(study, "0.8, 1;", "0.8, 0.5;"), "scene =", "title = \"Who?\"; scene ="));
+  const auto plan =
+      this->plan(replaced(with_frictions("0.8, 0.5;"), "scene =", "title = \"Who?\"; scene ="));
   ASSERT_TRUE(plan) << first_error();
   const StudyRun run = this->run(*plan, "out");
   EXPECT_EQ(run.result.title, "Who?");
@@ -125,9 +131,9 @@ TEST_F(StudyRunner, TheReportsProvenanceIsThatOfTheFile) {
 }
 
 TEST_F(StudyRunner, ADivergedRowIsNoSuccess) {
-  const auto plan = this->plan(replaced(replaced(study, "0.8, 1;", "0.8, 13;"),
-                                        "below = 2.4 mm/s; subjects = ours;",
-                                        "below = 1 m/s; Only mu { to = 1; }"));
+  const auto plan =
+      this->plan(replaced(with_frictions("0.8, 13;"), "below = 2.4 mm/s; subjects = ours;",
+                          "below = 1 m/s; Only mu { to = 1; }"));
   ASSERT_TRUE(plan) << first_error();
   const StudyRun run = this->run(*plan, "out");
   EXPECT_EQ(run.result.truths[0].failed, 0);
@@ -211,7 +217,7 @@ TEST_F(StudyRunner, ARowsSettingsMakeItsExperimentOfItsScene) {
 }
 
 TEST_F(StudyRunner, ADivergedRowSaysWhenAndTheOthersRunOn) {
-  const auto plan = this->plan(replaced(study, "0.8, 1;", "0.8, 13;"));
+  const auto plan = this->plan(with_frictions("0.8, 13;"));
   ASSERT_TRUE(plan) << first_error();
   const StudyRun run = this->run(*plan, "out");
   EXPECT_EQ(run.result.rows[1].status, "not_finite at 0.51 s (block.base): halve deltat");
