@@ -8,6 +8,7 @@
 #include "output/text/json.h"
 #include "simulation/analysis/controller_terms.h"
 #include "simulation/analysis/dynamics_report.h"
+#include "simulation/robot_tree.h"
 
 namespace hookpoint::cli {
 namespace {
@@ -100,6 +101,22 @@ void print_json(const simulation::Experiment& experiment, const DynamicsReport& 
   std::cout << json.text();
 }
 
+/// Why the matrices of a robot are not written: they have the square of its coordinates as numbers.
+/// Empty where they are.
+std::string too_large_for_json(const simulation::Experiment& experiment) {
+  constexpr std::size_t most_joints = 1000;
+  for (const simulation::RobotSpec& robot : experiment.robots) {
+    const std::size_t joints = simulation::joint_count(robot);
+    if (joints > most_joints)
+      return fmt::format(
+          "robot '{}' has {} joints, and --json writes matrices of at most {}: leave --json out, "
+          "or "
+          "read single terms by World.dynamics in Python",
+          robot.name, joints, most_joints);
+  }
+  return "";
+}
+
 std::string text(const Vector3d& v) {
   return fmt::format("{:12.6g} {:12.6g} {:12.6g}", v.x, v.y, v.z);
 }
@@ -144,6 +161,13 @@ int dynamics(const std::filesystem::path& file, const application::Settings& set
   if (!root) return wrong_input;
   const auto experiment = application.load(*root);
   if (!experiment) return wrong_input;
+  if (json) {
+    const std::string problem = too_large_for_json(*experiment);
+    if (!problem.empty()) {
+      application::print_error(problem);
+      return wrong_input;
+    }
+  }
   try {
     const DynamicsReport report = simulation::evaluate_dynamics(*experiment);
     if (json)

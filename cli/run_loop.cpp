@@ -58,6 +58,9 @@ int report_failure(RunWatch& watch, const simulation::StepStatus& status) {
 void tell_stability(const Experiment& experiment) {
   using Contacts = simulation::StabilityBound::Contacts;
   const simulation::StabilityBound bound = simulation::stability_bound(experiment);
+  if (!bound.not_computed.empty())
+    std::cerr << "largest stable step of " << experiment.integrator << ": " << bound.not_computed
+              << '\n';
   if (!std::isfinite(bound.step)) return;
   const std::string scope = bound.contacts == Contacts::touching  ? " resting on its ground"
                             : bound.contacts == Contacts::landing ? " landing on its ground"

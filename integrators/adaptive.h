@@ -2,10 +2,34 @@
 // that end at events. The libraries' side is in cvode.cpp and arkode.cpp.
 #pragma once
 
+#include <stdexcept>
+
 #include "integrators/hybrid_system.h"
 #include "integrators/stepper.h"
 
 namespace hookpoint::integrators {
+
+/// Work that one `step` of an adaptive integrator may take, in multiplications. A few seconds of
+/// one processor.
+inline constexpr double most_work = 4e9;
+
+/// Thrown where one factorisation of the Jacobian would take more than `most_work`.
+struct TooManyUnknowns : std::length_error {
+  TooManyUnknowns(std::size_t all, std::size_t of_first_order)
+      : std::length_error("too many unknowns for a Jacobian"),
+        unknowns(all),
+        states(of_first_order) {}
+  std::size_t unknowns, states;  ///< as in Spending
+};
+
+/// What a `step` has spent since it began.
+struct Spending {
+  long evaluations = 0;            ///< of rates and events
+  long factorisations = 0;         ///< of the Jacobian
+  std::size_t unknowns = 0;        ///< at present
+  std::size_t states = 0;          ///< of them, states of first order: bristles of contacts
+  bool too_many_unknowns = false;  ///< one factorisation would take more than `most_work`
+};
 
 /// Unknowns: y = (u_1, v_1, u_2, v_2, ..., s_1, s_2, ...), u the tangent coordinates of
 /// q = origin (+) u, so that an orientation moves on its group and y' is an ordinary equation
@@ -16,8 +40,9 @@ namespace hookpoint::integrators {
 /// resumed goes on bit for bit (docs/decisions/0010). Time is counted from the step's start.
 class AdaptiveStepper : public Stepper {
  public:
-  /// `most`: Tolerances::most_evaluations.
-  AdaptiveStepper(const HybridSystem& system, long most);
+  /// `most`: Tolerances::most_evaluations. `factorises`: whether the method solves linear systems
+  /// with the Jacobian; TooManyUnknowns where the system has too many for that.
+  AdaptiveStepper(const HybridSystem& system, long most, bool factorises);
   /// `system` is a HybridSystem: std::bad_cast for another.
   Status step(System& system, double t, double dt, std::span<double> q, std::span<double> v) final;
 
@@ -30,8 +55,9 @@ class AdaptiveStepper : public Stepper {
   bool explicit_rates(double time, const double* y, double* rate);
   bool implicit_rates(double time, const double* y, double* rate);
   void event_values(double time, const double* y, double* values);
-  /// The library may ask no more: this step has had its share.
-  bool spent() const { return evaluations_ > most_evaluations_; }
+  /// Whether this step has used up its evaluations or its work: the library gets no further rate.
+  bool spent() const;
+  Spending spending() const;
 
  protected:
   /// Of the whole interval: a step that should be shorter still is given up.
@@ -57,6 +83,8 @@ class AdaptiveStepper : public Stepper {
   virtual bool interpolate(double time, std::span<double> y) = 0;
   /// Adds what the library counted since the last `begin` to the statistics.
   virtual void count() = 0;
+  /// Factorisations of the Jacobian since the last `begin`.
+  virtual long factorisations() const { return 0; }
 
   /// Half the Jacobian's bandwidth; unknowns - 1 or more when it is full.
   std::size_t band() const;
@@ -66,6 +94,11 @@ class AdaptiveStepper : public Stepper {
 
  private:
   void start_from(std::span<const double> q, std::span<const double> v);
+  /// Multiplications of one factorisation with the present unknowns.
+  double factorisation_work() const;
+  bool has_too_many_unknowns() const { return factorisation_work() > most_work; }
+  /// `begin`, unless there are too many unknowns for the method.
+  Status begin_within_budget(double time, double end);
   void read(const double* y);
   /// y of tangent coordinates and velocities, or of their rates.
   void write(std::span<const double> u, std::span<const double> v, double* y) const;
@@ -83,6 +116,10 @@ class AdaptiveStepper : public Stepper {
   bool at_start_ = false;            ///< the next rates are those that Stage::first gave
   bool lost_ = false;                ///< the latest rates are not finite
   long evaluations_ = 0;             ///< of this `step`
+  bool factorises_;
+  double evaluation_work_;           ///< multiplications of one evaluation
+  long earlier_factorisations_ = 0;  ///< of this `step`, before the last `begin`
+  double earlier_work_ = 0.;         ///< their multiplications
   std::vector<double> origin_, q_, u_, v_, u_rate_, v_rate_, other_rate_, zero_, first_;
   std::vector<double> between_;  ///< y on the way of an internal step
 };

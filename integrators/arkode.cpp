@@ -13,7 +13,7 @@ using sundials::require;
 class Arkode final : public AdaptiveStepper {
  public:
   Arkode(const HybridSystem& system, const Tolerances& tolerances, bool imex)
-      : AdaptiveStepper(system, tolerances.most_evaluations),
+      : AdaptiveStepper(system, tolerances.most_evaluations, imex),
         explicit_part_(imex ? sundials::rates<&AdaptiveStepper::explicit_rates>
                             : sundials::rates<&AdaptiveStepper::rates>),
         implicit_part_(imex ? sundials::rates<&AdaptiveStepper::implicit_rates> : nullptr),
@@ -31,8 +31,8 @@ class Arkode final : public AdaptiveStepper {
     y_ = sundials::vector_over(unknowns_, context_.get());
     between_ = sundials::vector_over(unknowns_, context_.get());
     memory_.reset(ARKStepCreate(explicit_part_, implicit_part_, 0., y_.get(), context_.get()));
-    sundials::require_made(memory_, "ARKODE");
-    sundials::silence_arkode(memory_);
+    sundials::require_made(memory_);
+    require(sundials::silence_arkode(memory_), "silence_arkode");
     require(ARKodeSetUserData(memory_, static_cast<AdaptiveStepper*>(this)), "ARKodeSetUserData");
     require(ARKodeSStolerances(memory_, tolerances_.relative, tolerances_.absolute),
             "ARKodeSStolerances");
@@ -74,7 +74,7 @@ class Arkode final : public AdaptiveStepper {
     double time = 0.;
     const int flag = ARKodeEvolve(memory_, end, y_.get(), &time, ARK_ONE_STEP);
     double taken = 0.;
-    ARKodeGetLastStep(memory_, &taken);
+    require(ARKodeGetLastStep(memory_, &taken), "ARKodeGetLastStep");
     longest_ = std::max(longest_, taken);
     if (flag == ARK_SUCCESS) return {Arrival::Kind::inside, time};
     if (flag == ARK_TSTOP_RETURN) return {Arrival::Kind::at_end, time};
@@ -90,14 +90,24 @@ class Arkode final : public AdaptiveStepper {
 
   void count() override {
     long errors = 0, divergences = 0, jacobians = 0;
-    ARKodeGetNumErrTestFails(memory_, &errors);
-    if (linear_.solver) ARKodeGetNumNonlinSolvConvFails(memory_, &divergences);
-    if (linear_.solver) ARKodeGetNumJacEvals(memory_, &jacobians);
+    require(ARKodeGetNumErrTestFails(memory_, &errors), "ARKodeGetNumErrTestFails");
+    if (linear_.solver) {
+      require(ARKodeGetNumNonlinSolvConvFails(memory_, &divergences),
+              "ARKodeGetNumNonlinSolvConvFails");
+      require(ARKodeGetNumJacEvals(memory_, &jacobians), "ARKodeGetNumJacEvals");
+    }
     statistics_.rejected += static_cast<double>(errors + divergences);
     statistics_.jacobians += static_cast<double>(jacobians);
     // The library's own proposal is cut short by the end of the interval; the longest step that it
     // took is not.
     if (longest_ > 0.) next_step_ = errors > 0 ? longest_ : growth * longest_;
+  }
+
+  long factorisations() const override {
+    long count = 0;
+    if (linear_.solver)
+      require(ARKStepGetNumLinSolvSetups(memory_, &count), "ARKStepGetNumLinSolvSetups");
+    return count;
   }
 
   ARKRhsFn explicit_part_, implicit_part_;

@@ -14,7 +14,7 @@ using sundials::require;
 class Cvode final : public AdaptiveStepper {
  public:
   Cvode(const HybridSystem& system, const Tolerances& tolerances, int method)
-      : AdaptiveStepper(system, tolerances.most_evaluations),
+      : AdaptiveStepper(system, tolerances.most_evaluations, method == CV_BDF),
         tolerances_(tolerances),
         method_(method),
         events_(static_cast<int>(system.event_count())),
@@ -28,8 +28,8 @@ class Cvode final : public AdaptiveStepper {
     y_ = sundials::vector_over(unknowns_, context_.get());
     between_ = sundials::vector_over(unknowns_, context_.get());
     memory_.reset(CVodeCreate(method_, context_.get()));
-    sundials::require_made(memory_, "CVODE");
-    sundials::silence_cvode(memory_);
+    sundials::require_made(memory_);
+    require(sundials::silence_cvode(memory_), "silence_cvode");
     require(CVodeInit(memory_, sundials::rates<&AdaptiveStepper::rates>, 0., y_.get()),
             "CVodeInit");
     require(CVodeSetUserData(memory_, static_cast<AdaptiveStepper*>(this)), "CVodeSetUserData");
@@ -44,7 +44,7 @@ class Cvode final : public AdaptiveStepper {
               "CVodeSetLinearSolver");
     } else {
       corrector_.reset(SUNNonlinSol_FixedPoint(y_.get(), 0, context_.get()));
-      sundials::require_made(corrector_, "corrector");
+      sundials::require_made(corrector_);
       require(CVodeSetNonlinearSolver(memory_, corrector_.get()), "CVodeSetNonlinearSolver");
     }
   }
@@ -78,11 +78,19 @@ class Cvode final : public AdaptiveStepper {
 
   void count() override {
     long errors = 0, divergences = 0, jacobians = 0;
-    CVodeGetNumErrTestFails(memory_, &errors);
-    CVodeGetNumNonlinSolvConvFails(memory_, &divergences);
-    if (linear_.solver) CVodeGetNumJacEvals(memory_, &jacobians);
+    require(CVodeGetNumErrTestFails(memory_, &errors), "CVodeGetNumErrTestFails");
+    require(CVodeGetNumNonlinSolvConvFails(memory_, &divergences),
+            "CVodeGetNumNonlinSolvConvFails");
+    if (linear_.solver) require(CVodeGetNumJacEvals(memory_, &jacobians), "CVodeGetNumJacEvals");
     statistics_.rejected += static_cast<double>(errors + divergences);
     statistics_.jacobians += static_cast<double>(jacobians);
+  }
+
+  long factorisations() const override {
+    long count = 0;
+    if (linear_.solver)
+      require(CVodeGetNumLinSolvSetups(memory_, &count), "CVodeGetNumLinSolvSetups");
+    return count;
   }
 
   Tolerances tolerances_;

@@ -2,6 +2,10 @@
 // cvode.cpp and arkode.cpp only.
 #pragma once
 
+#include <arkode/arkode.h>
+#include <arkode/arkode_ls.h>
+#include <cvode/cvode.h>
+#include <cvode/cvode_ls.h>
 #include <nvector/nvector_serial.h>
 #include <sundials/sundials_context.h>
 #include <sundials/sundials_linearsolver.h>
@@ -12,6 +16,7 @@
 #include <sunmatrix/sunmatrix_dense.h>
 
 #include <memory>
+#include <new>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -50,16 +55,19 @@ class SolverMemory {
   void* memory_ = nullptr;
 };
 
-/// Throws where a function of the library could not set up what it was asked to: no memory, or a
-/// tolerance that is not positive.
+/// Throws std::bad_alloc where a function of the library found no memory, and another exception
+/// where it failed otherwise: a tolerance that is not positive.
 inline void require(int flag, const char* function) {
+  static_assert(CV_MEM_FAIL == ARK_MEM_FAIL && CVLS_MEM_FAIL == ARKLS_MEM_FAIL);
+  if (flag == CV_MEM_FAIL || flag == CVLS_MEM_FAIL) throw std::bad_alloc();
   if (flag < 0)
     throw std::runtime_error(std::string("SUNDIALS: ") + function + " returned " +
                              std::to_string(flag));
 }
+/// The library hands out null where it finds no memory.
 template <class Pointer>
-void require_made(const Pointer& made, const char* what) {
-  if (made == nullptr) throw std::runtime_error(std::string("SUNDIALS: there is no ") + what);
+void require_made(const Pointer& made) {
+  if (made == nullptr) throw std::bad_alloc();
 }
 
 inline Owner<SUNContext> make_context() {
@@ -74,7 +82,7 @@ inline Owner<SUNContext> make_context() {
 inline Owner<N_Vector> vector_over(std::span<double> numbers, SUNContext context) {
   Owner<N_Vector> vector(
       N_VMake_Serial(static_cast<sunindextype>(numbers.size()), numbers.data(), context));
-  require_made(vector, "vector");
+  require_made(vector);
   return vector;
 }
 
@@ -96,10 +104,10 @@ inline LinearSolver make_linear_solver(N_Vector y, std::size_t size, std::size_t
   LinearSolver linear;
   linear.matrix.reset(dense ? SUNDenseMatrix(n, n, context)
                             : SUNBandMatrix(n, half, half, context));
+  require_made(linear.matrix);
   linear.solver.reset(dense ? SUNLinSol_Dense(y, linear.matrix.get(), context)
                             : SUNLinSol_Band(y, linear.matrix.get(), context));
-  require_made(linear.matrix, "Jacobian");
-  require_made(linear.solver, "linear solver");
+  require_made(linear.solver);
   return linear;
 }
 

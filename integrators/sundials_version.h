@@ -1,5 +1,5 @@
 // Differences between SUNDIALS 6 (Debian 12) and SUNDIALS 7 (Debian 13). The rest of this folder
-// uses the names of version 7. For sundials_memory.h, cvode.cpp and arkode.cpp only.
+// uses the names of version 7. For the other files of this folder that use SUNDIALS.
 #pragma once
 
 #include <arkode/arkode_arkstep.h>
@@ -38,18 +38,22 @@ namespace hookpoint::integrators::sundials {
 inline int create_context(SUNContext* context) { return SUNContext_Create(nullptr, context); }
 
 inline void print_nothing(int, const char*, const char*, char*, void*) {}
-inline void silence_cvode(void* solver) { CVodeSetErrHandlerFn(solver, print_nothing, nullptr); }
-inline void silence_arkode(void* solver) { ARKStepSetErrHandlerFn(solver, print_nothing, nullptr); }
+inline int silence_cvode(void* solver) {
+  return CVodeSetErrHandlerFn(solver, print_nothing, nullptr);
+}
+inline int silence_arkode(void* solver) {
+  return ARKStepSetErrHandlerFn(solver, print_nothing, nullptr);
+}
 #else
 inline int create_context(SUNContext* context) {
   const int flag = SUNContext_Create(SUN_COMM_NULL, context);
   return flag < 0 ? flag : SUNContext_ClearErrHandlers(*context);
 }
 
-// Errors have lost their handler with the context's; this warning is printed all the same: "t + h =
-// t".
-inline void silence_cvode(void* solver) { CVodeSetMaxHnilWarns(solver, -1); }
-inline void silence_arkode(void* solver) { ARKodeSetMaxHnilWarns(solver, -1); }
+// Errors have lost their handler with the context's. The warning "t + h = t" is printed without
+// one.
+inline int silence_cvode(void* solver) { return CVodeSetMaxHnilWarns(solver, -1); }
+inline int silence_arkode(void* solver) { return ARKodeSetMaxHnilWarns(solver, -1); }
 #endif
 
 }  // namespace hookpoint::integrators::sundials

@@ -19,6 +19,12 @@ namespace hookpoint::reference {
 
 class PeerWorld;
 
+/// What a grid of heights may have, where the library makes triangles of it.
+struct TriangleLimit {
+  std::size_t most = 0;            ///< 0: the library makes none of a grid
+  double bytes_per_triangle = 0.;  ///< of memory that the library takes, measured
+};
+
 struct Peer {
   std::string_view name;     ///< as in `engine = ode`
   std::string_view library;  ///< as its authors call it: "ODE"
@@ -27,6 +33,7 @@ struct Peer {
   /// What it does not do as ours does, beside what every peer lacks (common_gaps_and).
   std::span<const OwnGap> gaps{};
   OwnSetting own_setting{};
+  TriangleLimit triangles{};
 
   /// make_engine of this row: the peer as any other engine is built. Throws
   /// simulation::ExperimentError where the build has no such library, and what make_peer_engine

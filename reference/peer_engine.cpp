@@ -1,11 +1,15 @@
 #include "reference/peer_engine.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <new>
 #include <optional>
 #include <utility>
+#include <variant>
 
 #include "reference/experiment_checks.h"
 #include "reference/touching_points.h"
@@ -212,6 +216,24 @@ class PeerEngine final : public simulation::Engine {
   StepStatus failure_;
 };
 
+/// Refuses a grid that the library cannot take, before it allocates anything: some libraries do not
+/// check what their allocations return. Throws std::bad_alloc where the memory is not there.
+void check_triangles(const simulation::Experiment& experiment, const Peer& peer) {
+  if (!experiment.terrain || peer.triangles.most == 0) return;
+  const auto* grid = std::get_if<simulation::GridSpec>(&experiment.terrain->surface);
+  if (grid == nullptr) return;
+  const auto count = 2 * static_cast<std::size_t>(std::max(grid->rows - 1, 0)) *
+                     static_cast<std::size_t>(std::max(grid->columns - 1, 0));
+  if (count > peer.triangles.most)
+    throw simulation::ExperimentError(
+        fmt::format("engine {}: terrain '{}' has {} triangles, and {} takes at most {} here: raise "
+                    "its spacing, make it smaller, or choose another engine",
+                    peer.name, experiment.terrain->name, count, peer.library, peer.triangles.most));
+  const double bytes = peer.triangles.bytes_per_triangle * static_cast<double>(count);
+  // Released at once: only whether there is room matters.
+  ::operator delete(::operator new(static_cast<std::size_t>(bytes)));
+}
+
 }  // namespace
 
 std::unique_ptr<simulation::Engine> make_peer_engine(const simulation::Experiment& experiment,
@@ -223,10 +245,13 @@ std::unique_ptr<simulation::Engine> make_peer_engine(const simulation::Experimen
                                       " and build again");
   auto notices = check_supported(experiment, peer.describe());
   const Settings settings = settings_of(experiment, peer);
+  check_triangles(experiment, peer);
   try {
     return std::make_unique<PeerEngine>(experiment, peer.make_world(experiment, settings),
                                         std::move(notices));
   } catch (const simulation::ExperimentError&) {
+    throw;
+  } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
     throw simulation::ExperimentError(engine +

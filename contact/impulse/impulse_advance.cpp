@@ -200,7 +200,9 @@ AdvanceResult ImpulseAdvance::advance(ImpulseState& state, double dt, const Impu
   double left = dt;
   const std::int64_t most_flights = 10 * static_cast<std::int64_t>(options_.most_impacts);
   for (std::int64_t flights = 0; left > 0.; ++flights) {
-    if (flights > most_flights) return failed(AdvanceStatus::too_many_impacts);
+    if (flights > most_flights || is_over(result, options_))
+      return failed(AdvanceStatus::too_many_impacts);
+    result.work += static_cast<double>(points_.size() + 1);
     Struck struck(*this, flight, flight_load, result);
     const AdvanceStatus collided = resolution_.resolve(struck, result);
     if (collided != AdvanceStatus::ok) return failed(collided);

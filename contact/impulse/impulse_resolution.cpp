@@ -21,8 +21,8 @@ const char* advice(AdvanceStatus status) {
     case AdvanceStatus::inside_ground:
       return "the body starts inside the ground: place it above, or use rest_on";
     case AdvanceStatus::too_many_impacts:
-      return "impacts follow one another without end: raise rebound_speed, lower restitution or "
-             "shorten deltat";
+      return "impacts follow one another without end: raise rebound_speed, lower restitution, "
+             "shorten deltat, or give the robot fewer boundary_points";
     case AdvanceStatus::unsolved_collision:
       return "a collision has no solution: check the body's mass and inertia";
   }
@@ -63,6 +63,7 @@ void ImpulseResolution::strike(StruckRobot& robot, std::size_t point, const Vect
                                ImpulseTally& tally) {
   robot.strike(point, impulse);
   ++tally.impacts;
+  tally.work += static_cast<double>(robot.point_count() + robot.body_count());
   hit_now_[point] = 1;
 }
 
@@ -87,6 +88,7 @@ bool ImpulseResolution::reverse(StruckRobot& robot, std::size_t hit, ImpulseTall
                     {}};
     near_index_[count++] = i;
   }
+  tally.work += static_cast<double>(count * count);
   const std::span<ReversalPoint> group(near_.data(), count);
   if (!robot.find_reversal(group, std::span(near_index_).first(count), reversal_tolerance * u0))
     return false;
@@ -110,7 +112,7 @@ AdvanceStatus ImpulseResolution::resolve(StruckRobot& robot, ImpulseTally& tally
       strike(robot, point, collision.impulse, tally);
     }
     together = false;
-    if (tally.impacts > options_.most_impacts) return AdvanceStatus::too_many_impacts;
+    if (is_over(tally, options_)) return AdvanceStatus::too_many_impacts;
   }
   for (std::size_t i = 0; i < hit_now_.size(); ++i) {
     if (!hit_now_[i]) continue;

@@ -20,7 +20,10 @@ struct ImpulseOptions {
       0.02;  ///< of one flight's orientation step [rad]; higher is faster and less exact
   double largest_travel =
       0.05;  ///< of the centre of mass in one flight step [m]: below the width of a ridge
-  int most_impacts = 20000;  ///< in one call; more is reported, not endured
+  int most_impacts = 20000;  ///< in one call; more is `too_many_impacts`
+  /// Places of boundary points and bodies worked out in one call; more is `too_many_impacts`. What
+  /// bounds a robot with many of them: some seconds.
+  double most_work = 2e7;
 };
 
 enum class AdvanceStatus { ok, not_finite, inside_ground, too_many_impacts, unsolved_collision };
@@ -34,7 +37,13 @@ struct ImpulseTally {
   std::int64_t lift_offs = 0;  ///< times that a point which had been hit left the ground
   int contacts = 0;            ///< boundary points that were hit at least once
   double deepest = 0.;  ///< greatest -gap of a boundary point at an impact or at the end, >= 0 [m]
+  double work = 0.;     ///< places of boundary points and bodies worked out
 };
+
+/// Whether the step has cost all that it may.
+inline bool is_over(const ImpulseTally& tally, const ImpulseOptions& options) {
+  return tally.impacts > options.most_impacts || tally.work > options.most_work;
+}
 
 /// A robot at the instant of its collisions: its configuration does not change, its velocities
 /// change by `strike`. Boundary points are numbered; world axes, SI.
@@ -42,6 +51,7 @@ class StruckRobot {
  public:
   virtual ~StruckRobot() = default;
   virtual std::size_t point_count() const = 0;
+  virtual std::size_t body_count() const { return 1; }
   virtual const GroundPoint& ground(std::size_t point) const = 0;
   /// u [m/s], now.
   virtual Vector3d velocity(std::size_t point) const = 0;

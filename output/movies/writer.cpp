@@ -20,9 +20,9 @@ constexpr int level = 1;                   ///< of deflate: higher costs much ti
 
 Hdf5Handle chunked(int rank, const hsize_t* chunk) {
   Hdf5Handle properties = clockless_dataset();
-  H5Pset_chunk(properties, rank, chunk);
-  H5Pset_shuffle(properties);
-  H5Pset_deflate(properties, level);
+  require_hdf5(H5Pset_chunk(properties, rank, chunk));
+  require_hdf5(H5Pset_shuffle(properties));
+  require_hdf5(H5Pset_deflate(properties, level));
   return properties;
 }
 
@@ -122,7 +122,8 @@ class MovieWriter final : public RecordWriter {
     check_hdf5(H5Dset_extent(time_, &end), partial_);
     const Hdf5Handle memory(H5Screate_simple(1, &waiting_, nullptr), H5Sclose);
     const Hdf5Handle target(H5Dget_space(time_), H5Sclose);
-    H5Sselect_hyperslab(target, H5S_SELECT_SET, &written_, nullptr, &waiting_, nullptr);
+    require_hdf5(
+        H5Sselect_hyperslab(target, H5S_SELECT_SET, &written_, nullptr, &waiting_, nullptr));
     check_hdf5(H5Dwrite(time_, H5T_NATIVE_DOUBLE, memory, target, H5P_DEFAULT, times_.data()),
                partial_);
     const hsize_t extent[2] = {size_, end};
@@ -176,7 +177,7 @@ class MovieWriter final : public RecordWriter {
 
   void finish() override {
     flush();
-    H5Adelete(file_, "complete");
+    check_hdf5(H5Adelete(file_, "complete"), partial_);
     hdf5_annotate(file_, "complete", 1.);
     bool closed = state_.reset();
     closed = time_.reset() && closed;

@@ -14,9 +14,9 @@ Hdf5Handle create_dataset(hid_t group, const Channel& channel, const char* name)
   const hsize_t none = 0, unlimited = H5S_UNLIMITED;
   const Hdf5Handle space(H5Screate_simple(1, &none, &unlimited), H5Sclose);
   const Hdf5Handle properties = clockless_dataset();
-  H5Pset_chunk(properties, 1, &block_rows);
-  H5Pset_shuffle(properties);
-  H5Pset_deflate(properties, level);
+  require_hdf5(H5Pset_chunk(properties, 1, &block_rows));
+  require_hdf5(H5Pset_shuffle(properties));
+  require_hdf5(H5Pset_deflate(properties, level));
   Hdf5Handle dataset(
       H5Dcreate2(group, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, properties, H5P_DEFAULT),
       H5Dclose);
@@ -79,7 +79,8 @@ class Hdf5Record final : public RecordWriter {
     for (std::size_t i = 0; i < datasets_.size(); ++i) {
       check_hdf5(H5Dset_extent(datasets_[i], &end), partial_);
       const Hdf5Handle target(H5Dget_space(datasets_[i]), H5Sclose);
-      H5Sselect_hyperslab(target, H5S_SELECT_SET, &written_, nullptr, &waiting_, nullptr);
+      require_hdf5(
+          H5Sselect_hyperslab(target, H5S_SELECT_SET, &written_, nullptr, &waiting_, nullptr));
       check_hdf5(H5Dwrite(datasets_[i], H5T_NATIVE_DOUBLE, memory, target, H5P_DEFAULT,
                           block_.data() + i * block_rows),
                  partial_);
@@ -105,7 +106,7 @@ class Hdf5Record final : public RecordWriter {
 
   void finish() override {
     flush();
-    H5Adelete(file_, "complete");
+    check_hdf5(H5Adelete(file_, "complete"), partial_);
     hdf5_annotate(file_, "complete", 1.);
     close_file();
     rename_file(partial_, path_);

@@ -18,7 +18,7 @@ class Hdf5Handle {
  public:
   Hdf5Handle() = default;
   Hdf5Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {
-    if (id_ < 0) throw FileError("the HDF5 library refused a call");
+    if (id_ < 0) throw FileError(refusal);
   }
   Hdf5Handle(Hdf5Handle&& other) noexcept
       : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
@@ -34,6 +34,8 @@ class Hdf5Handle {
     return id_;
   }  // NOLINT(google-explicit-constructor): passed to the library
 
+  static constexpr const char* refusal = "the HDF5 library refused a call";
+
  private:
   hid_t id_ = -1;
   herr_t (*close_)(hid_t) = nullptr;
@@ -41,6 +43,8 @@ class Hdf5Handle {
 
 /// Throws FileError "cannot write FILE" for a call that failed.
 void check_hdf5(herr_t result, const std::filesystem::path& file);
+/// The same for a call that knows no file.
+void require_hdf5(herr_t result);
 
 void hdf5_annotate(hid_t object, const char* name, const std::string& text);
 void hdf5_annotate(hid_t object, const char* name, double value);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <new>
 
 #include "output/records/formats.h"
 #include "output/records/hdf5_times.h"
@@ -29,10 +30,16 @@ struct Field {
   Variable value;
 };
 
+/// libmatio hands out null where it finds no memory.
+Variable require_made(matvar_t* variable) {
+  if (variable == nullptr) throw std::bad_alloc();
+  return Variable(variable);
+}
+
 /// libmatio copies the data and leaves them alone, whatever its signature says.
 Variable array(const char* name, matio_classes kind, matio_types type,
                std::array<std::size_t, 2> dimensions, const void* data) {
-  return Variable(
+  return require_made(
       Mat_VarCreate(name, kind, type, 2, dimensions.data(), const_cast<void*>(data), 0));
 }
 
@@ -50,7 +57,7 @@ Variable structure(const char* name, std::vector<Field> fields) {
   std::vector<const char*> names;
   for (const Field& field : fields) names.push_back(field.name.c_str());
   std::size_t dimensions[] = {1, 1};
-  Variable result(
+  Variable result = require_made(
       Mat_VarCreateStruct(name, 2, dimensions, names.data(), static_cast<unsigned>(names.size())));
   for (Field& field : fields)
     Mat_VarSetStructFieldByName(result.get(), field.name.c_str(), 0, field.value.release());

@@ -1,5 +1,7 @@
 #include "output/records/shuffled_chunk.h"
 
+#include <new>
+
 #include "output/file.h"
 
 namespace hookpoint::output {
@@ -11,7 +13,7 @@ constexpr std::size_t bytes = sizeof(std::uint64_t);
 
 ShuffledChunk::ShuffledChunk(std::size_t count, int level) : planes_(count * bytes) {
   if (deflateInit2(&deflate_, level, Z_DEFLATED, MAX_WBITS, 8, Z_RLE) != Z_OK)
-    throw FileError("there is no memory to compress");
+    throw std::bad_alloc();  // all else that it checks is constant
   encoded_.resize(deflateBound(&deflate_, static_cast<uLong>(planes_.size())));
 }
 

@@ -21,6 +21,9 @@ constexpr auto gaps = std::to_array<OwnGap>({
      "or simbody"},
 });
 
+/// On a machine of 8 GB, beside others.
+constexpr TriangleLimit most_triangles{.most = 4'000'000, .bytes_per_triangle = 300.};
+
 }  // namespace
 
 constinit const Peer bullet_peer{
@@ -29,6 +32,7 @@ constinit const Peer bullet_peer{
     .package = "libbullet-dev",
     .version = HOOKPOINT_BULLET_VERSION,
     .gaps = gaps,
+    .triangles = most_triangles,
     .make = make_engine<bullet_peer>,
     .make_world = HOOKPOINT_BULLET_WORLD,
     .settings_table = bullet_settings_table,

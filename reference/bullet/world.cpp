@@ -1,9 +1,12 @@
 #include "reference/bullet/world.h"
 
 #include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
+#include <LinearMath/btAlignedAllocator.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <functional>
+#include <new>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -22,6 +25,21 @@ namespace {
 
 using simulation::BodyState;
 using simulation::JointState;
+
+/// Bullet does not check what its allocations return.
+void* allocate_for_bullet(std::size_t bytes) {
+  if (void* const memory = std::malloc(bytes)) return memory;
+  throw std::bad_alloc();
+}
+
+/// Before any other use of the library, once a process. Its own way of freeing is std::free.
+void prepare_bullet() {
+  static const bool prepared = [] {
+    btAlignedAllocSetCustom(allocate_for_bullet, std::free);
+    return true;
+  }();
+  static_cast<void>(prepared);
+}
 
 /// A single rigid body, with its shapes or, where it touches by points, with none.
 struct Body {
@@ -328,6 +346,7 @@ class BulletWorld final : public PeerWorld {
 
 std::unique_ptr<PeerWorld> make_bullet_world(const simulation::Experiment& experiment,
                                              Settings settings) {
+  prepare_bullet();
   return std::make_unique<BulletWorld>(
       experiment, bullet_settings(settings, experiment.deltat, ground_material(experiment)));
 }

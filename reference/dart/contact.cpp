@@ -109,6 +109,7 @@ bool DartGroundDetector::collide(dart::collision::CollisionGroup* group,
   // A corner laid on the plane is a rounding error off it.
   constexpr double rounding = 1e-9;
   FCLCollisionDetector::collide(group, option, result);
+  shape_contacts = result->getNumContacts();
   // The tile under the contact has the friction.
   for (std::size_t i = 0; i < result->getNumContacts(); ++i) {
     dart::collision::Contact& contact = result->getContact(i);

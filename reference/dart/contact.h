@@ -74,6 +74,7 @@ class DartGroundDetector final : public dart::collision::FCLCollisionDetector {
 
   std::optional<DartGroundParts> ground;
   std::vector<DartBall> balls;
+  std::size_t shape_contacts = 0;  ///< that FCL found last
 
   using FCLCollisionDetector::collide;
   bool collide(dart::collision::CollisionGroup* group,

@@ -21,6 +21,9 @@ constexpr auto gaps = std::to_array<OwnGap>({
     {feature::rotors, refused, "joints of DART have no inertia of their own; use dts or mujoco"},
 });
 
+/// On a machine of 8 GB, beside others.
+constexpr TriangleLimit most_triangles{.most = 750'000, .bytes_per_triangle = 900.};
+
 }  // namespace
 
 constinit const Peer dart_peer{
@@ -29,6 +32,7 @@ constinit const Peer dart_peer{
     .package = "libdart-dev",
     .version = HOOKPOINT_DART_VERSION,
     .gaps = gaps,
+    .triangles = most_triangles,
     .make = make_engine<dart_peer>,
     .make_world = HOOKPOINT_DART_WORLD,
     .settings_table = dart_settings_table,

@@ -20,6 +20,7 @@
 #include <variant>
 #include <vector>
 
+#include "reference/contact_limit.h"
 #include "reference/dart/contact.h"
 #include "reference/dart/shapes.h"
 #include "reference/experiment_checks.h"
@@ -28,6 +29,7 @@
 #include "reference/library_abort.h"
 #include "reference/robot_tree.h"
 #include "reference/touching_points.h"
+#include "simulation/names.h"
 
 namespace hookpoint::reference {
 namespace {
@@ -35,6 +37,9 @@ namespace {
 using dart::dynamics::BodyNode;
 using simulation::BodyState;
 using simulation::JointState;
+
+/// Contacts at once whose rows take DART's solver some 10 ms a step.
+constexpr std::size_t slow_contacts = 100;
 
 /// What a collision shape belongs to.
 struct ShapeUse {
@@ -49,7 +54,11 @@ class DartWorld final : public PeerWorld {
       : settings_(settings),
         detector_(std::make_shared<DartGroundDetector>(settings.tessellated)),
         filter_(std::make_shared<DartShapesFilter>()),
-        world_(dart::simulation::World::create()) {
+        world_(dart::simulation::World::create()),
+        trails_(simulation::body_trails(experiment)),
+        limit_("DART", dart::collision::CollisionOption().maxNumContacts),
+        slow_("DART", slow_contacts,
+              "and its solver's cost grows with the cube of their number: steps are slow") {
     world_->setTimeStep(experiment.deltat);
     world_->setGravity(eigen(experiment.gravity));
     auto solver = make_dart_solver(settings_, experiment.deltat);
@@ -87,6 +96,17 @@ class DartWorld final : public PeerWorld {
   }
 
   std::optional<std::size_t> beyond_range() const override { return beyond_range_; }
+
+  std::string notice() override {
+    if (world_ && detector_->shape_contacts >= slow_contacts) {
+      const Touch touch = touch_of(world_->getLastCollisionResult().getContact(0));
+      const std::string& trail = trails_[static_cast<std::size_t>(touch.use.body)];
+      limit_.check(detector_->shape_contacts, trail);
+      slow_.check(detector_->shape_contacts, trail);
+    }
+    std::string notice = limit_.take_notice();
+    return notice.empty() ? slow_.take_notice() : notice;
+  }
 
   void read(std::span<BodyState> bodies, std::span<JointState> joints) const override {
     if (!world_) return;
@@ -350,6 +370,8 @@ class DartWorld final : public PeerWorld {
   std::shared_ptr<DartGroundDetector> detector_;
   std::shared_ptr<DartShapesFilter> filter_;
   dart::simulation::WorldPtr world_;
+  std::vector<std::string> trails_;  ///< of the bodies, as published
+  ContactLimit limit_, slow_;
   std::vector<dart::dynamics::SkeletonPtr> skeletons_;
   std::vector<Body> bodies_;
   std::vector<std::size_t> forced_;  ///< the body of each force

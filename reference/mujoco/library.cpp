@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <cstring>
 #include <mutex>
+#include <new>
+#include <string>
 
 namespace hookpoint::reference {
 namespace {
@@ -22,10 +24,11 @@ constexpr std::size_t alignment = 64;
 
 /// The library's own aligned_alloc cuts up what glibc 2.36 has freed: a world leaves 2 MB behind
 /// that no later one fits into, a thousand worlds 2 GB. Here plain malloc's block begins before the
-/// memory that is handed out, and stands just ahead of it.
+/// memory that is handed out, and stands just ahead of it. Throws std::bad_alloc, as `report` may:
+/// not every place in the library checks for null.
 void* allocate(std::size_t bytes) {
   void* const block = std::malloc(bytes + alignment);
-  if (block == nullptr) return nullptr;
+  if (block == nullptr) throw std::bad_alloc();
   void* memory = static_cast<char*>(block) + sizeof(block);
   std::size_t room = bytes + alignment - sizeof(block);
   std::align(alignment, bytes, memory, room);
@@ -59,7 +62,8 @@ MujocoPointer<mjModel> compile_mujoco(const std::string& mjcf) {
   constexpr const char* name = "model.xml";
   const auto files = std::make_unique<mjVFS>();  // 2 MB
   mj_defaultVFS(files.get());
-  mj_makeEmptyFileVFS(files.get(), name, static_cast<int>(mjcf.size()));
+  if (mj_makeEmptyFileVFS(files.get(), name, static_cast<int>(mjcf.size())) != 0)
+    throw MujocoFailure("MuJoCo takes no model of " + std::to_string(mjcf.size()) + " bytes");
   std::memcpy(files->filedata[0], mjcf.data(), mjcf.size());
   std::array<char, 1000> message{};
   MujocoPointer<mjModel> model(
@@ -72,7 +76,7 @@ MujocoPointer<mjModel> compile_mujoco(const std::string& mjcf) {
 
 MujocoPointer<mjData> make_mujoco_data(const mjModel& model) {
   MujocoPointer<mjData> data(mj_makeData(&model));
-  if (!data) throw MujocoFailure("MuJoCo is out of memory");
+  if (!data) throw std::bad_alloc();
   return data;
 }
 

@@ -7,11 +7,13 @@
 #include <type_traits>
 #include <utility>
 
+#include "reference/contact_limit.h"
 #include "reference/experiment_checks.h"
 #include "reference/external_forces.h"
 #include "reference/mujoco/friction.h"
 #include "reference/mujoco/model.h"
 #include "reference/touching_points.h"
+#include "simulation/names.h"
 
 static_assert(std::is_same_v<mjtNum, double>,
               "the tables say that MuJoCo runs in double precision");
@@ -44,6 +46,7 @@ class MujocoWorld final : public PeerWorld {
         model_(*built_.model),
         data_(make_mujoco_data(model_)),
         body_of_(static_cast<std::size_t>(model_.nbody)),
+        trails_(simulation::body_trails(experiment_)),
         contact_forces_(tree_.bodies.size()),
         contact_counts_(tree_.bodies.size()),
         point_forces_(touching_.size()) {
@@ -81,7 +84,7 @@ class MujocoWorld final : public PeerWorld {
       return std::string("MuJoCo warned: ") + mju_warningText(kind, warning.lastinfo) +
              "; later warnings of this kind are not repeated";
     }
-    return {};
+    return limit_.take_notice();
   }
 
   void read(std::span<BodyState> bodies, std::span<JointState> joints) const override {
@@ -160,10 +163,15 @@ class MujocoWorld final : public PeerWorld {
   void set_contacts() {
     if (!terrain_) return;
     touch_.clear();
+    std::size_t of_shape = 0;
     for (int i = 0; i < data_->ncon; ++i) {
       mjContact& contact = data_->contact[i];
       set_material(contact, terrain_->query(vector(contact.pos)).material);
       touch_.push_back(-1);
+      // A shape's contacts follow one another.
+      const bool same = i > 0 && data_->contact[i - 1].geom2 == contact.geom2;
+      of_shape = same ? of_shape + 1 : 1;
+      if (of_shape == mjMAXCONPAIR) limit_.check(of_shape, trail_of(contact.geom2));
     }
     BodyState body;
     for (std::size_t i = 0; i < touching_.size(); ++i) {
@@ -173,6 +181,10 @@ class MujocoWorld final : public PeerWorld {
       if (meeting.depth > 0. && add_contact(meeting, mine.geometry))
         touch_.push_back(static_cast<int>(i));
     }
+  }
+
+  const std::string& trail_of(int geometry) const {
+    return trails_[body_of_[static_cast<std::size_t>(model_.geom_bodyid[geometry])]];
   }
 
   bool add_contact(const Meeting& meeting, int geometry) {
@@ -273,7 +285,9 @@ class MujocoWorld final : public PeerWorld {
   MujocoPointer<mjData> data_;
   std::optional<contact::Terrain> terrain_;
   std::vector<std::size_t> body_of_;  ///< index in the tree by MuJoCo's number
-  std::vector<int> touch_;            ///< of each contact: index in touching_, -1 of a shape
+  std::vector<std::string> trails_;   ///< of the bodies of the tree
+  ContactLimit limit_{"MuJoCo", mjMAXCONPAIR};
+  std::vector<int> touch_;  ///< of each contact: index in touching_, -1 of a shape
   std::vector<Vector3d> contact_forces_;
   std::vector<int> contact_counts_;
   std::vector<Vector3d> point_forces_;

@@ -22,6 +22,9 @@ constexpr auto gaps = std::to_array<OwnGap>({
     {feature::rotors, refused, "joints of ODE have no inertia of their own; use dts or mujoco"},
 });
 
+/// On a machine of 8 GB, beside others.
+constexpr TriangleLimit most_triangles{.most = 4'000'000, .bytes_per_triangle = 250.};
+
 }  // namespace
 
 constinit const Peer ode_peer{
@@ -30,6 +33,7 @@ constinit const Peer ode_peer{
     .package = "libode-dev",
     .version = HOOKPOINT_ODE_VERSION,
     .gaps = gaps,
+    .triangles = most_triangles,
     .make = make_engine<ode_peer>,
     .make_world =
         [](const simulation::Experiment& experiment, Settings settings) {
@@ -51,6 +55,7 @@ constinit const Peer ode_quickstep_peer{
     .package = "libode-dev",
     .version = HOOKPOINT_ODE_VERSION,
     .gaps = gaps,
+    .triangles = most_triangles,
     .make = make_engine<ode_quickstep_peer>,
     .make_world =
         [](const simulation::Experiment& experiment, Settings settings) {

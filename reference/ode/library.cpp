@@ -3,6 +3,8 @@
 #include <array>
 #include <cstdarg>
 #include <cstdio>
+#include <cstdlib>
+#include <new>
 #include <utility>
 #include <vector>
 
@@ -33,9 +35,22 @@ thread_local OdeMessages* listener = nullptr;
   listener->add(text.data());
 }
 
+/// ODE does not check what its allocations return.
+void* allocate_for_ode(std::size_t bytes) {
+  if (void* const memory = std::malloc(bytes)) return memory;
+  throw std::bad_alloc();
+}
+
+void* reallocate_for_ode(void* memory, std::size_t, std::size_t bytes) {
+  if (void* const larger = std::realloc(memory, bytes)) return larger;
+  throw std::bad_alloc();
+}
+
 /// From the first use to the end of the process.
 struct Library {
   Library() {
+    dSetAllocHandler(allocate_for_ode);
+    dSetReallocHandler(reallocate_for_ode);
     dInitODE2(0);
     dSetErrorHandler(report);
     dSetDebugHandler(report);

@@ -3,17 +3,20 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <new>
 #include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
+#include "reference/contact_limit.h"
 #include "reference/experiment_checks.h"
 #include "reference/external_forces.h"
 #include "reference/ode/joints.h"
 #include "reference/ode/shapes.h"
 #include "reference/touching_points.h"
+#include "simulation/names.h"
 
 static_assert(std::is_same_v<dReal, double>, "the tables say that ODE runs in double precision");
 
@@ -114,6 +117,7 @@ class OdeWorld final : public PeerWorld {
     if (surfaces_.empty())
       surfaces_.push_back(surface_of({}, ode_settings(settings, solver, deltat_, {})));
     const RobotTree tree = robot_tree(experiment);
+    trails_ = simulation::body_trails(experiment);
     add_bodies(experiment, tree);
     forced_ = forced_bodies(experiment, tree);
     if (!experiment.terrain) return;
@@ -136,10 +140,16 @@ class OdeWorld final : public PeerWorld {
     } catch (const OdeFailure& failure) {
       abandon_ode_threading(std::move(threading_));
       return std::string("ODE gave up: ") + failure.what();
+    } catch (const std::bad_alloc&) {
+      abandon_ode_threading(std::move(threading_));
+      throw;
     }
   }
 
-  std::string notice() override { return std::exchange(notice_, {}); }
+  std::string notice() override {
+    std::string notice = std::exchange(notice_, {});
+    return notice.empty() ? limit_.take_notice() : notice;
+  }
 
   void read(std::span<BodyState> bodies, std::span<JointState> joints) const override {
     for (std::size_t i = 0; i < bodies_.size(); ++i)
@@ -233,6 +243,7 @@ class OdeWorld final : public PeerWorld {
     for (std::size_t body = 0; body < bodies_.size(); ++body)
       for (const auto& geometry : bodies_[body].geometries) {
         const int count = ground_->collide(geometry.get(), contacts_.data(), max_contacts);
+        limit_.check(static_cast<std::size_t>(count), trails_[body]);
         for (int i = 0; i < count; ++i) {
           dContact& contact = contacts_[static_cast<std::size_t>(i)];
           add_touch(body, no_point, shape_material(contact), contact);
@@ -288,7 +299,9 @@ class OdeWorld final : public PeerWorld {
   }
 
   std::string notice_;
-  std::int64_t messages_ = 0;  ///< of the library so far
+  ContactLimit limit_{"ODE", max_contacts};
+  std::vector<std::string> trails_;  ///< of the bodies
+  std::int64_t messages_ = 0;        ///< of the library so far
   OdeSolver solver_;
   double deltat_;
   OdeRandomStream random_;

@@ -27,9 +27,19 @@ using SimTK::SpatialVec;
 using SimTK::Transform;
 using SimTK::Vec3;
 
-// Of the integrator, in a step of ours: more means that it follows a motion far faster than any
-// robot's, with steps that would not end. Between `internal_steps` it is asked how many it tried.
-constexpr int tried_steps = 10000, internal_steps = 500;
+// Steps that the integrator may try in a step of ours: more means that it follows a motion far
+// faster than any robot's, and that its steps would not end. Each evaluates every body and surface
+// five times, so that a large robot has fewer: `most_visits` take some five seconds. It is asked
+// how many it tried between `internal_steps`.
+constexpr int most_tried_steps = 10000, least_tried_steps = 100, internal_steps = 500;
+constexpr int most_visits = 340'000;
+
+/// `parts`: bodies and surfaces.
+int tried_steps_of(std::size_t parts) {
+  const auto most = static_cast<std::size_t>(most_visits);
+  return std::clamp(static_cast<int>(most / std::max<std::size_t>(parts, 1)), least_tried_steps,
+                    most_tried_steps);
+}
 
 Vec3 simtk(const Vec& a) { return {a[0], a[1], a[2]}; }
 Vec plain(const Vec3& a) { return {a[0], a[1], a[2]}; }
@@ -174,6 +184,7 @@ struct Model::Parts {
   SimTK::ContactMaterial material_;
   Vec3 normal_{0.};     ///< of the ground
   double offset_ = 0.;  ///< of the ground along it [m]
+  int tried_steps_ = most_tried_steps;
   // A clique's members do not meet: each ground shares one with what is the other's, and robots
   // share one among themselves.
   const SimTK::ContactCliqueId robots_ = SimTK::ContactSurface::createNewContactClique();
@@ -296,7 +307,8 @@ void Model::Parts::start(const Description& description) {
   on_joints_ = SimTK::Vector(matter_.getNumMobilities(), 0.);
   integrator_.setAccuracy(description.accuracy);
   integrator_.setAllowInterpolation(false);
-  integrator_.setInternalStepLimit(internal_steps);
+  tried_steps_ = tried_steps_of(description.bodies.size() + uses_.size());
+  integrator_.setInternalStepLimit(std::min(internal_steps, tried_steps_));
   integrator_.initialize(state);
   in_last_step_ = SimTK::Vector(impulses().size(), 0.);
   system_.realize(integrator_.getState(), SimTK::Stage::Dynamics);
@@ -336,9 +348,10 @@ void Model::step_to(double time) {
   const SimTK::Vector before = parts_->impulses();
   // The first call after a change of the forces returns at once, with a report.
   while (integrator.getTime() < time) {
-    if (integrator.getNumStepsAttempted() - tried > tried_steps)
-      throw std::runtime_error("it tried more than " + std::to_string(tried_steps) +
-                               " steps of its own within deltat");
+    if (integrator.getNumStepsAttempted() - tried > parts_->tried_steps_)
+      throw std::runtime_error("it tried more than " + std::to_string(parts_->tried_steps_) +
+                               " steps of its own within deltat; what starts deep inside the "
+                               "ground, stiff materials and links that turn fast make them short");
     integrator.stepTo(time, time);
   }
   parts_->system_.realize(integrator.getState(), SimTK::Stage::Dynamics);

@@ -1,6 +1,7 @@
 #include "reference/simbody/world.h"
 
 #include <algorithm>
+#include <new>
 #include <optional>
 #include <string>
 #include <utility>
@@ -128,6 +129,8 @@ class SimbodyWorld final : public PeerWorld {
       model_->apply(on_bodies_, on_joints_);
       model_->step_to(static_cast<double>(++steps_) * deltat_);
       return {};
+    } catch (const std::bad_alloc&) {
+      throw;
     } catch (const std::exception& error) {
       lost_ = true;
       return std::string("Simbody gave up: ") + error.what();

@@ -2,6 +2,8 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "dts/configuration.h"
 #include "dts/external_forces.h"
@@ -102,6 +104,10 @@ double largest_eigenvalue(const Eigen::MatrixXd& symmetric) {
   return symmetric_eigenvalues(symmetric).maxCoeff();
 }
 
+bool is_positive(const Eigen::MatrixXd& symmetric) {
+  return Eigen::LLT<Eigen::MatrixXd>(symmetric).info() == Eigen::Success;
+}
+
 Eigen::VectorXd solve_positive(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
   return Eigen::LLT<Eigen::MatrixXd>(A).solve(b);
 }
@@ -126,6 +132,19 @@ Eigen::MatrixXd RobotAtRest::lever(const dts::BodyPoint<double>& point) const {
       to_impulse(*robot_, workspace_, point, {0., 0., 1.});
   root_.triangularView<Eigen::Lower>().solveInPlace(moved);
   return moved;
+}
+
+double RobotAtRest::lever_size(const dts::BodyPoint<double>& point) const {
+  const Symmetric3d K = symmetric_part(dts::collision_matrix(robot_->model(), workspace_, point));
+  return std::sqrt(std::max(0., K.xx + K.yy + K.zz));
+}
+
+Eigen::VectorXd RobotAtRest::pushed_by(const std::vector<SteadyLoad>& loads) const {
+  Eigen::VectorXd pushed = Eigen::VectorXd::Zero(size());
+  for (const SteadyLoad& load : loads)
+    pushed += to_impulse(*robot_, workspace_, load.point, load.force);
+  root_.triangularView<Eigen::Lower>().solveInPlace(pushed);
+  return pushed;
 }
 
 Eigen::MatrixXd RobotAtRest::joint_levers() const { return root_.bottomRows(robot_links()); }
@@ -165,44 +184,76 @@ LinearDynamics RobotAtRest::joints_alone() const {
 
 // Where the coordinate i stands before j on the way to the point, turning by i turns all that j
 // does to it: d^2 p/dq_i dq_j = a_i x J_j, a_i the axis of i, 0 for one that slides. Rotations of
-// the base follow one another in no order, and count half in each.
+// the base follow one another in no order, and count half in each. J_j = a_j x r of a coordinate
+// that turns, r from its axis to the point, and F . (a_i x (a_j x r)) = a_j . (F r^T) a_i -
+// (a_i . a_j) F . r: linear in F r^T, so that the sums over all loads beyond j are enough.
 Eigen::MatrixXd RobotAtRest::stiffness_of(const std::vector<SteadyLoad>& loads) const {
   Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(size(), size());
+  const dts::Model<double>& model = robot_->model();
+  /// Of the loads on a body and on all that it carries.
+  struct Sums {
+    Eigen::Vector3d force = Eigen::Vector3d::Zero();
+    Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();  ///< F p^T
+    bool any = false;
+  };
+  std::vector<Sums> beyond(model.body_count());
+  for (const SteadyLoad& load : loads) {
+    Sums& sums = beyond[load.point.body];
+    sums.force += eigen(load.force);
+    sums.moment += eigen(load.force) * eigen(load.point.p_WP).transpose();
+    sums.any = true;
+  }
+  // A body stands behind the one that carries it.
+  for (std::size_t body = model.body_count(); body-- > 1;) {
+    if (!beyond[body].any) continue;
+    Sums& carrier = beyond[model.carrier_of(body)];
+    carrier.force += beyond[body].force;
+    carrier.moment += beyond[body].moment;
+    carrier.any = true;
+  }
   struct Coordinate {
     Eigen::Index index;
-    Vector3d axis, lever;
+    Vector3d axis;
+    Eigen::Vector3d origin;
+    bool slides;
   };
-  std::vector<Coordinate> way;
-  for (const SteadyLoad& load : loads) {
-    way.clear();
-    if (robot_->model().mobile()) {
-      const Vector3d arm = load.point.p_WP - workspace_.bodies[0].p_WB;
-      Eigen::Index index = 0;
-      for (const Vector3d& axis :
-           {Vector3d{1., 0., 0.}, Vector3d{0., 1., 0.}, Vector3d{0., 0., 1.}}) {
-        if (!is_held(robot_->model(), index)) way.push_back({index, axis, cross(axis, arm)});
-        ++index;
-      }
-    }
-    const std::size_t turns = way.size();
-    for (std::size_t body = load.point.body; body > 0; body = robot_->model().carrier_of(body)) {
-      const dts::BodyMotion<double>& link = workspace_.bodies[body];
-      const Vector3d z = link.R_WB * Vector3d{0., 0., 1.};
-      const dts::Seat& seat = robot_->model().seat_of(body);
-      const bool slides =
-          robot_->model().groups()[seat.group].links[seat.link].joint == dts::JointType::prismatic;
-      way.push_back({first_joint() + static_cast<Eigen::Index>(body) - 1, slides ? Vector3d{} : z,
-                     slides ? z : cross(z, load.point.p_WP - link.p_WB)});
-    }
-    std::reverse(way.begin() + static_cast<std::ptrdiff_t>(turns), way.end());
-    for (std::size_t i = 0; i < way.size(); ++i) {
-      for (std::size_t j = i; j < way.size(); ++j) {
-        double second = dot(load.force, cross(way[i].axis, way[j].lever));
-        if (j < turns) second = 0.5 * (second + dot(load.force, cross(way[j].axis, way[i].lever)));
-        stiffness(way[i].index, way[j].index) -= second;
-        if (i != j) stiffness(way[j].index, way[i].index) -= second;
-      }
-    }
+  std::vector<Coordinate> base, links(model.body_count());
+  if (model.mobile()) {
+    constexpr std::array axes{Vector3d{1., 0., 0.}, Vector3d{0., 1., 0.}, Vector3d{0., 0., 1.}};
+    for (Eigen::Index k = 0; k < 3; ++k)
+      if (!is_held(model, k))
+        base.push_back(
+            {k, axes[static_cast<std::size_t>(k)], eigen(workspace_.bodies[0].p_WB), false});
+  }
+  for (std::size_t body = 1; body < model.body_count(); ++body) {
+    const dts::BodyMotion<double>& link = workspace_.bodies[body];
+    const dts::Seat& seat = model.seat_of(body);
+    const bool slides =
+        model.groups()[seat.group].links[seat.link].joint == dts::JointType::prismatic;
+    links[body] = {first_joint() + static_cast<Eigen::Index>(body) - 1,
+                   link.R_WB * Vector3d{0., 0., 1.}, eigen(link.p_WB), slides};
+  }
+  /// Sum of F . (a_i x J_j) over the loads of `sums`, all beyond j.
+  const auto second = [](const Coordinate& i, const Coordinate& j, const Sums& sums) {
+    if (i.slides) return 0.;
+    if (j.slides) return sums.force.dot(eigen(cross(i.axis, j.axis)));
+    const Eigen::Matrix3d moment = sums.moment - sums.force * j.origin.transpose();
+    return eigen(j.axis).dot(moment * eigen(i.axis)) - dot(i.axis, j.axis) * moment.trace();
+  };
+  const auto add = [&](const Coordinate& i, const Coordinate& j, double value) {
+    stiffness(i.index, j.index) -= value;
+    if (i.index != j.index) stiffness(j.index, i.index) -= value;
+  };
+  for (std::size_t i = 0; i < base.size(); ++i)
+    for (std::size_t j = i; j < base.size(); ++j)
+      add(base[i], base[j],
+          0.5 * (second(base[i], base[j], beyond[0]) + second(base[j], base[i], beyond[0])));
+  for (std::size_t body = 1; body < model.body_count(); ++body) {
+    if (!beyond[body].any) continue;
+    for (const Coordinate& turn : base)
+      add(turn, links[body], second(turn, links[body], beyond[body]));
+    for (std::size_t before = body; before > 0; before = model.carrier_of(before))
+      add(links[before], links[body], second(links[before], links[body], beyond[body]));
   }
   return root_.transpose() * stiffness * root_;
 }

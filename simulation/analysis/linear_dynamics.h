@@ -36,6 +36,7 @@ struct LinearDynamics {
 /// is 1.
 class RobotAtRest {
  public:
+  /// O(size^3).
   explicit RobotAtRest(const RobotSystem& robot);
 
   const RobotSystem& robot() const { return *robot_; }
@@ -45,6 +46,10 @@ class RobotAtRest {
 
   /// size() x 3: how a force at the point moves z, world axes; transposed, how the point moves.
   Eigen::MatrixXd lever(const dts::BodyPoint<double>& point) const;
+  /// The norm of that matrix. O(links between the base and the point's body).
+  double lever_size(const dts::BodyPoint<double>& point) const;
+  /// How all these forces together move z: the sum of lever(point) force. O(loads size + size^2).
+  Eigen::VectorXd pushed_by(const std::vector<SteadyLoad>& loads) const;
   /// How torques of joints move z, a row a joint; transposed, how joints move.
   Eigen::MatrixXd joint_levers() const;
   /// z of a motion of the base [rad, m], joints still. Of a mobile base.
@@ -56,7 +61,8 @@ class RobotAtRest {
   /// reached.
   LinearDynamics joints_alone() const;
   /// -d(J^T f)/dz of loads that stay as they are while their points move: of gravity a pendulum's
-  /// m g l. Exact where the loads are in equilibrium with all else.
+  /// m g l. Exact where the loads are in equilibrium with all else. O(loads + size^3), of which the
+  /// cubic part is a product of matrices.
   Eigen::MatrixXd stiffness_of(const std::vector<SteadyLoad>& loads) const;
   /// The weights of all bodies, in a gravity of that direction and size [m/s^2].
   std::vector<SteadyLoad> weights(const Vector3d& gravity) const;
@@ -76,11 +82,14 @@ class RobotAtRest {
 /// Of a symmetric matrix; 0 of one without rows.
 double largest_eigenvalue(const Eigen::MatrixXd& symmetric);
 
+/// Whether a symmetric matrix is positive definite.
+bool is_positive(const Eigen::MatrixXd& symmetric);
+
 /// x of A x = b for a symmetric positive definite A.
 Eigen::VectorXd solve_positive(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
 
 /// The robot on its contacts `springs` under `loads`. Wired controllers are not in it
-/// (stable_step.h). O((springs + links) links^2).
+/// (stable_step.h). O((springs + links) links^2 + loads).
 LinearDynamics linear_dynamics(const RobotAtRest& rest, const std::vector<ContactSpring>& springs,
                                const std::vector<SteadyLoad>& loads);
 

@@ -13,6 +13,7 @@
 #include "simulation/analysis/standing.h"
 #include "simulation/engine/robot_system.h"
 #include "simulation/ground.h"
+#include "simulation/robot_tree.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -61,11 +62,27 @@ struct Springs {
   std::vector<SteadyLoad> loads;
 };
 
+/// Multiplications of a largest stable step of `size` coordinates: some 40 tries, each a Cholesky
+/// factorisation, or the eigenvalues of a matrix of twice the size, which an unsymmetric QR
+/// iteration finds in 10 size^3.
+double work_of_step(const StepperDescription& stepper, double size, bool loops) {
+  constexpr double tries = 40., eigenvalues = 80.;
+  const double cube = size * size * size;
+  if (loops || std::holds_alternative<integrators::BoundFromSteps>(stepper.stability))
+    return tries * eigenvalues * cube;
+  if (std::holds_alternative<integrators::EigenvalueBound>(stepper.stability))
+    return eigenvalues * cube;
+  return tries / 6. * cube;
+}
+
 StabilityBound bound_of(const StepperDescription& stepper, const LinearDynamics& dynamics,
                         std::span<const JointLoop> loops, const std::string& name,
-                        Contacts contacts) {
+                        Contacts contacts, AnalysisBudget& budget) {
   if (!dynamics.stiffness.allFinite() || !dynamics.damping.allFinite())
     return {infinity, 0., 0., name, contacts};
+  const auto size = static_cast<double>(dynamics.stiffness.rows());
+  budget.spend(work_of_step(stepper, size, false));
+  if (!loops.empty()) budget.spend(work_of_step(stepper, size, true));
   StabilityBound bound{largest_stable_step(stepper, dynamics, loops),
                        std::max(0., largest_eigenvalue(dynamics.stiffness)),
                        std::max(0., largest_eigenvalue(dynamics.damping)), name, contacts};
@@ -113,7 +130,8 @@ void add_single_points(const Experiment& experiment, const contact::AnyForceLaw&
 
 /// Of a robot that touches nothing, at its initial posture and at the one in which it hangs still.
 StabilityBound free_bound(const Experiment& experiment, const StepperDescription& stepper,
-                          std::size_t index, const WiredControl& control, RobotSystem& robot) {
+                          std::size_t index, const WiredControl& control, RobotSystem& robot,
+                          AnalysisBudget& budget) {
   const RobotSpec& spec = experiment.robots[index];
   const auto at_posture = [&] {
     const RobotAtRest rest(robot);
@@ -121,25 +139,28 @@ StabilityBound free_bound(const Experiment& experiment, const StepperDescription
     std::vector<SteadyLoad> loads;
     if (!spec.mobile) loads = rest.weights(experiment.gravity);
     return bound_of(stepper, linear_dynamics(rest, {}, loads), loops_of(control, index), spec.name,
-                    Contacts::none);
+                    Contacts::none, budget);
   };
   const StabilityBound initial = at_posture();
-  if (!hang(experiment, index, control, robot)) return initial;
+  if (!hang(experiment, index, control, robot, budget)) return initial;
   const StabilityBound hanging = at_posture();
   return hanging.step < initial.step ? hanging : initial;
 }
 
 StabilityBound robot_bound(const Experiment& experiment, const StepperDescription& stepper,
                            std::size_t index, const contact::Terrain* ground,
-                           const WiredControl& control, const WorldInputs& inputs) {
+                           const WiredControl& control, const WorldInputs& inputs,
+                           AnalysisBudget& budget) {
   const contact::AnyForceLaw law = *contact::find_force_law(experiment.contact);
   const RobotSpec& spec = experiment.robots[index];
   RobotSystem robot(experiment, index, ground, inputs);
+  const auto size = static_cast<double>(robot.dof_count());
+  budget.spend(2. * size * size * size);
   const RobotAtRest rest(robot);
   if (rest.size() == 0 || !rest.is_regular()) return {infinity, 0., 0., spec.name};
   if (ground == nullptr || robot.contacts().points().empty())
-    return free_bound(experiment, stepper, index, control, robot);
-  Stances stances = find_stances(experiment, index, rest, control);
+    return free_bound(experiment, stepper, index, control, robot, budget);
+  Stances stances = find_stances(experiment, index, rest, control, budget);
   if (std::ranges::any_of(driven_of(control, index),
                           [](const DrivenJoint& joint) { return !joint.goal; }))
     add_single_points(experiment, law, stances.all);
@@ -150,16 +171,29 @@ StabilityBound robot_bound(const Experiment& experiment, const StepperDescriptio
     const Springs springs = springs_of(experiment, law, stance);
     const double resolved =
         std::min(least.resolved_speed, resolved_speed(experiment, stepper, law, stance));
+    budget.spend(static_cast<double>(springs.contacts.size()) * 6. * size * size +
+                 work_of_step(stepper, size, false));
     // The contacts alone decide which stance is worst; the loops then join it.
     const LinearDynamics dynamics = linear_dynamics(rest, springs.contacts, springs.loads);
     if (&stance == &stances.all.front() ||
         largest_stable_step(stepper, dynamics, {}, least.step) < least.step) {
-      least = bound_of(stepper, dynamics, loops_of(control, index), spec.name, contacts);
+      least = bound_of(stepper, dynamics, loops_of(control, index), spec.name, contacts, budget);
     }
     least.resolved_speed = resolved;
   }
   least.evaluations = stances.evaluations;
   return least;
+}
+
+StabilityBound not_computed(const Experiment& experiment, std::size_t index,
+                            const StepperDescription& stepper) {
+  const RobotSpec& robot = experiment.robots[index];
+  StabilityBound bound{infinity, 0., 0., robot.name};
+  bound.not_computed = fmt::format(
+      "not computed: robot '{}' has {} joints and {} boundary points, which takes too long under "
+      "{}; check the step by halving it",
+      robot.name, joint_count(robot), boundary_points(robot).size(), stepper.name);
+  return bound;
 }
 
 }  // namespace
@@ -196,12 +230,17 @@ StabilityBound stability_bound(const Experiment& experiment) {
   const auto ground = make_ground(experiment);
   const WiredControl control = wired_control(experiment);
   const WorldInputs inputs = initial_inputs(experiment);
+  AnalysisBudget budget;
   std::int64_t evaluations = 0;
   for (std::size_t i = 0; i < experiment.robots.size(); ++i) {
-    const StabilityBound bound =
-        robot_bound(experiment, *stepper, i, ground ? &*ground : nullptr, control, inputs);
-    evaluations += bound.evaluations;
-    if (bound.step < least.step) least = bound;
+    try {
+      const StabilityBound bound = robot_bound(experiment, *stepper, i, ground ? &*ground : nullptr,
+                                               control, inputs, budget);
+      evaluations += bound.evaluations;
+      if (bound.step < least.step) least = bound;
+    } catch (const OverBudget&) {
+      return not_computed(experiment, i, *stepper);
+    }
   }
   least.evaluations = evaluations;
   least.left_out = control.left_out;

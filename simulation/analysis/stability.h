@@ -31,6 +31,9 @@ struct StabilityBound {
   /// Of the law at a point, to find how the robots stand: the greater part of the cost where there
   /// are many points.
   std::int64_t evaluations = 0;
+  /// Why there is no bound though something springs back: "robot 'r' has 2000 degrees of freedom
+  /// ...". `step` is then infinite.
+  std::string not_computed = {};
 };
 
 /// The bound at the experiment's initial state, the smallest of its robots; only for engine dts
@@ -39,7 +42,7 @@ struct StabilityBound {
 /// wired controllers where they can be (docs/contact.md). Of each robot O(points links^2) for how
 /// its points move; for each face on which it may land, or once, an equilibrium of a few to 200
 /// tries of O(points links^2) over the face's points, and O(40 links^3) for the step; and the hull
-/// of the points (convex_hull.h).
+/// of the points (convex_hull.h). What takes more than AnalysisBudget::most is not computed.
 StabilityBound stability_bound(const Experiment& experiment);
 
 /// What to do about a step above a bound that the loops of its controllers set; "" where they do

@@ -37,15 +37,17 @@ struct Pushes {
 class Settling {
  public:
   Settling(const Experiment& experiment, const RobotAtRest& rest, std::span<const Support> supports,
-           const Pushes& pushes, const MatrixXd& joints, std::int64_t& evaluations)
+           const Pushes& pushes, const MatrixXd& joints, std::int64_t& evaluations,
+           AnalysisBudget& budget)
       : law_(*contact::find_force_law(experiment.contact)),
         experiment_(experiment),
         rest_(rest),
         supports_(supports),
         push_(pushes.torques),
         joints_(joints),
-        evaluations_(evaluations) {
-    for (const SteadyLoad& load : pushes.loads) push_ += rest.lever(load.point) * eigen(load.force);
+        evaluations_(evaluations),
+        budget_(budget) {
+    push_ += rest.pushed_by(pushes.loads);
     for (const Support& support : supports) normals_.push_back(eigen(support.place.normal));
     for (const Support& a : supports)
       size_ = std::max(size_, norm(a.place.point.p_WP - supports.front().place.point.p_WP));
@@ -58,11 +60,14 @@ class Settling {
     VectorXd z = lowered();
     const VectorXd start = z;
     const double small = balanced * std::max(push_.norm(), tiny);
+    const auto size = static_cast<double>(z.size());
     for (int i = 0; i < most_tries; ++i) {
+      // The solution, and what each support's depth and force cost here and at each halving.
+      budget_.spend(size * size * size / 6. +
+                    10. * static_cast<double>(supports_.size()) * (3. * size + work_of_law));
       const Balance now = balance(z);
       if (now.left.norm() <= small) return loads(z);
-      const double held =
-          least_held * now.stiffness.trace() / static_cast<double>(z.size()) + free_held;
+      const double held = least_held * now.stiffness.trace() / size + free_held;
       const VectorXd change =
           solve_positive(now.stiffness + held * MatrixXd::Identity(z.size(), z.size()), now.left);
       if (!change.allFinite()) return std::nullopt;
@@ -85,6 +90,8 @@ class Settling {
   /// Of the robot's size: how far a try moves a support at most, while contacts come and go.
   static constexpr double longest_move = 0.05;
   static constexpr int most_tries = 200, most_halvings = 12;
+  /// Multiplications of an evaluation of the law at a point.
+  static constexpr double work_of_law = 30.;
   /// Keeps what it stands under from being 0.
   static constexpr double tiny = 1e-300;
 
@@ -131,10 +138,12 @@ class Settling {
 
   Balance balance(const VectorXd& z) const {
     Balance sum{push_ - joints_ * z, joints_};
+    const auto size = static_cast<double>(z.size());
     for (std::size_t i = 0; i < supports_.size(); ++i) {
       const double N = load(i, depth(i, z));
       if (!(N > 0.)) continue;
       const contact::LinearContact linear = contact::linearise(law_, N, material(i));
+      budget_.spend(3. * size * size);
       const Eigen::Matrix3d along = normals_[i] * normals_[i].transpose();
       const Eigen::Matrix3d across = sticking(i, linear) * (Eigen::Matrix3d::Identity() - along);
       sum.left += lever(i) * (N * normals_[i] - across * moved(i, z));
@@ -177,6 +186,7 @@ class Settling {
   VectorXd push_;
   const MatrixXd& joints_;
   std::int64_t& evaluations_;
+  AnalysisBudget& budget_;
   std::vector<Eigen::Vector3d> normals_;
   double size_ = 0.;  ///< of what stands [m]
 };
@@ -218,13 +228,16 @@ struct Drives {
 class StanceFinder {
  public:
   StanceFinder(const Experiment& experiment, std::size_t index, const RobotAtRest& rest,
-               const WiredControl& control)
+               const WiredControl& control, AnalysisBudget& budget)
       : experiment_(experiment),
         rest_(rest),
+        budget_(budget),
         drives_{experiment, index, driven_of(control, index)},
         joint_torques_(drives_.torques(rest)),
         weight_(moving_mass(experiment.robots[index]) * norm(experiment.gravity)) {
+    const auto size = static_cast<double>(rest.size());
     for (const ContactPoint& point : rest.robot().contacts().points()) {
+      budget_.spend(3. * size * size);
       const dts::BodyPoint<double> place{point.body, point.position};
       supports_.push_back(
           {{place, rest.lever(place), point.normal, point.material, 0.}, point.depth});
@@ -250,7 +263,7 @@ class StanceFinder {
   std::optional<std::vector<double>> settle(std::span<const Support> supports, const Pushes& pushes,
                                             double most_tilt) {
     const MatrixXd joints = joint_stiffness(supports);
-    return Settling(experiment_, rest_, supports, pushes, joints, stances_.evaluations)
+    return Settling(experiment_, rest_, supports, pushes, joints, stances_.evaluations, budget_)
         .settle(most_tilt);
   }
 
@@ -397,6 +410,7 @@ class StanceFinder {
 
   const Experiment& experiment_;
   const RobotAtRest& rest_;
+  AnalysisBudget& budget_;
   Drives drives_;
   VectorXd joint_torques_;  ///< of all joints, over z
   double weight_;           ///< [N]
@@ -411,7 +425,7 @@ const contact::MaterialConstants<double>& constants_of(const Experiment& experim
 }
 
 bool hang(const Experiment& experiment, std::size_t index, const WiredControl& control,
-          RobotSystem& robot) {
+          RobotSystem& robot, AnalysisBudget& budget) {
   /// Of a try, of any joint [rad, m].
   constexpr double longest_turn = 0.3;
   constexpr int most_tries = 200;
@@ -427,15 +441,16 @@ bool hang(const Experiment& experiment, std::size_t index, const WiredControl& c
     return false;
   std::vector<double> q(robot.position_size()), v(robot.velocity_size(), 0.);
   for (int i = 0; i < most_tries; ++i) {
+    // The robot at rest, its stiffness, a solution, and its eigenvalues where it may fall over.
+    const double work = 3. * std::pow(static_cast<double>(robot.dof_count()), 3);
+    if (!budget.leaves_half(work)) return false;
+    budget.spend(work);
     const RobotAtRest rest(robot);
     const std::vector<SteadyLoad> weights = rest.weights(experiment.gravity);
-    VectorXd left = drives.torques(rest);
+    const VectorXd left = drives.torques(rest) + rest.pushed_by(weights);
     double most = tiny;
-    for (const SteadyLoad& weight : weights) {
-      const VectorXd pull = rest.lever(weight.point) * eigen(weight.force);
-      left += pull;
-      most += (rest.lever(weight.point) * norm(weight.force)).norm();
-    }
+    for (const SteadyLoad& weight : weights)
+      most += rest.lever_size(weight.point) * norm(weight.force);
     MatrixXd stiffness = rest.joints_alone().stiffness + rest.stiffness_of(weights);
     const MatrixXd levers = rest.joint_levers();
     for (const DrivenJoint& drive : drives.driven) {
@@ -443,7 +458,8 @@ bool hang(const Experiment& experiment, std::size_t index, const WiredControl& c
       stiffness += drive.proportional * lever * lever.transpose();
     }
     if (left.norm() <= balanced * most) return i > 0;
-    const double shift = std::max(0., steepened * largest_eigenvalue(-stiffness)) + balanced * most;
+    double shift = balanced * most;
+    if (!is_positive(stiffness)) shift += std::max(0., steepened * largest_eigenvalue(-stiffness));
     const VectorXd turn =
         levers *
         solve_positive(stiffness + shift * MatrixXd::Identity(rest.size(), rest.size()), left);
@@ -458,8 +474,8 @@ bool hang(const Experiment& experiment, std::size_t index, const WiredControl& c
 }
 
 Stances find_stances(const Experiment& experiment, std::size_t index, const RobotAtRest& rest,
-                     const WiredControl& control) {
-  return StanceFinder(experiment, index, rest, control).find();
+                     const WiredControl& control, AnalysisBudget& budget) {
+  return StanceFinder(experiment, index, rest, control, budget).find();
 }
 
 }  // namespace hookpoint::simulation

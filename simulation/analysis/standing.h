@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "simulation/analysis/analysis_budget.h"
 #include "simulation/analysis/joint_loops.h"
 #include "simulation/analysis/linear_dynamics.h"
 
@@ -41,13 +42,15 @@ struct Stances {
 /// joints that it drives hold their angles, whatever that takes, but for those whose controller has
 /// a goal of its own. O(points links^2) for the levers and for each of the tries of an equilibrium,
 /// 200 at most for a face, and what convex_hull.h costs.
+/// Throws OverBudget.
 Stances find_stances(const Experiment& experiment, std::size_t index, const RobotAtRest& rest,
-                     const WiredControl& control);
+                     const WiredControl& control, AnalysisBudget& budget);
 
 /// Turns the joints of a robot with a fixed base to where it hangs still, from where it is
 /// downwards. False where it does already, where a controller holds it, or where it finds no rest.
+/// O(links^3) for each of at most 200 tries, or as many as half of the budget is enough for.
 bool hang(const Experiment& experiment, std::size_t index, const WiredControl& control,
-          RobotSystem& robot);
+          RobotSystem& robot, AnalysisBudget& budget);
 
 /// What the law reads of the experiment's material of that number.
 const contact::MaterialConstants<double>& constants_of(const Experiment& experiment, int material);

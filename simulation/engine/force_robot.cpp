@@ -2,18 +2,34 @@
 
 #include <fmt/format.h>
 
+#include "integrators/adaptive.h"
 #include "simulation/engine/publish.h"
 #include "simulation/engine/step.h"
 
 namespace hookpoint::simulation {
+namespace {
+
+std::unique_ptr<integrators::Stepper> stepper_within_budget(const Experiment& experiment,
+                                                            std::size_t index,
+                                                            const RobotSystem& system) {
+  try {
+    return integrators::make_stepper(
+        experiment.integrator, system,
+        {experiment.relative_tolerance, experiment.absolute_tolerance});
+  } catch (const integrators::TooManyUnknowns& error) {
+    throw ExperimentError("robot '" + experiment.robots[index].name + "' under " +
+                          experiment.integrator + ": " +
+                          too_many_unknowns(error.unknowns, error.states));
+  }
+}
+
+}  // namespace
 
 ForceRobot::ForceRobot(const Experiment& experiment, std::size_t index,
                        const contact::Terrain* ground, const WorldInputs& inputs)
     : experiment_(experiment),
       system_(experiment, index, ground, inputs),
-      stepper_(integrators::make_stepper(
-          experiment.integrator, system_,
-          {experiment.relative_tolerance, experiment.absolute_tolerance})) {}
+      stepper_(stepper_within_budget(experiment, index, system_)) {}
 
 StepStatus ForceRobot::step(double time) {
   stepper_->save(stepper_before_);

@@ -23,6 +23,7 @@ constexpr double speed_rounding = 1e-11;
 constexpr int interpolations = 6;  // trials by interpolation before halving
 constexpr int most_trials = 60;
 constexpr int most_flights_per_impact = 10;
+constexpr std::size_t stages_of_flight = 4;  // of Runge-Kutta
 // Share of tr K added to K: a point of a robot with a fixed base may have directions in which
 // nothing can move it, and the collision is to find that they play no part.
 constexpr double yielding_share = 1e-13;
@@ -143,10 +144,12 @@ double ImpulseRobot::landing(double duration, double floor) const {
 // otherwise the landing between is interpolated, and if that does not converge (another tile came
 // under a point) the flight is halved.
 AdvanceStatus ImpulseRobot::fly_above(const contact::GroundQuery& ground, double longest,
-                                      double* duration) {
+                                      double* duration, contact::ImpulseTally& tally) {
   const double floor = std::min(0., lowest_gap()) - options_.tolerance;
   *duration = safe_time(longest);
+  const double work = static_cast<double>(stages_of_flight * body_count() + points_.size());
   for (int trial = 0; trial < most_trials; ++trial) {
+    tally.work += work;
     if (flight_.fly(*duration) != integrators::Status::ok) return AdvanceStatus::not_finite;
     locate(ground);
     const double first = landing(*duration, floor);
@@ -171,13 +174,13 @@ AdvanceStatus ImpulseRobot::run(const contact::GroundQuery& ground, contact::Imp
   const std::int64_t most_flights =
       most_flights_per_impact * static_cast<std::int64_t>(options_.most_impacts);
   for (std::int64_t flights = 0; left > 0.; ++flights) {
-    if (flights > most_flights) return AdvanceStatus::too_many_impacts;
+    if (flights > most_flights || is_over(tally, options_)) return AdvanceStatus::too_many_impacts;
     rounding_ = speed_rounding * greatest_speed();
     const AdvanceStatus collided = resolution_.resolve(*this, tally);
     if (collided != AdvanceStatus::ok) return collided;
     if (flight_.begin() != integrators::Status::ok) return AdvanceStatus::not_finite;
     double duration = 0.;
-    const AdvanceStatus flown = fly_above(ground, longest_flight(left), &duration);
+    const AdvanceStatus flown = fly_above(ground, longest_flight(left), &duration, tally);
     if (flown != AdvanceStatus::ok) return flown;
     left -= duration;
   }

@@ -78,7 +78,7 @@ class ImpulseRobot final : public ImpulsePart, private contact::StruckRobot {
   double safe_time(double longest);
   double landing(double duration, double floor) const;
   contact::AdvanceStatus fly_above(const contact::GroundQuery& ground, double longest,
-                                   double* duration);
+                                   double* duration, contact::ImpulseTally& tally);
   dts::BodyPoint<double> body_point(std::size_t point) const;
   void ready_inertias();
 

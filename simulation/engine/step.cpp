@@ -11,12 +11,26 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "integrators/adaptive.h"
+
 namespace hookpoint::simulation {
 namespace {
 
-StepStatus explain(integrators::Status status, double time, std::string body);
+StepStatus explain(integrators::Status status, const integrators::Stepper& stepper, double time,
+                   std::string body);
 
 }  // namespace
+
+std::string too_many_unknowns(std::size_t unknowns, std::size_t bristles) {
+  return fmt::format(
+      "the integrator solves equations with {} unknowns, {} of them bristles of contact points "
+      "that "
+      "touch, which takes too long: give shapes fewer boundary_points, or choose arkode or a "
+      "fixed-step integrator",
+      unknowns, bristles);
+}
 
 StepStatus step(RobotSystem& robot, integrators::Stepper& stepper, double time) {
   const double dt = robot.robot().experiment().deltat;
@@ -39,7 +53,7 @@ StepStatus step(RobotSystem& robot, integrators::Stepper& stepper, double time) 
       stepper.step(robot, time, dt, robot.positions(), robot.velocities());
   if (status != integrators::Status::ok) {
     robot.undo();
-    return explain(status, time, robot.robot().spec().name + ".base");
+    return explain(status, stepper, time, robot.robot().spec().name + ".base");
   }
 
   // x_i, x_i', f_i and h_i+ at t + dt: what is published, and what the next step commits.
@@ -49,14 +63,29 @@ StepStatus step(RobotSystem& robot, integrators::Stepper& stepper, double time) 
 
 namespace {
 
-StepStatus explain(integrators::Status status, double time, std::string body) {
+/// Why an adaptive integrator did not end its step within its budget, and what to change.
+std::string over_budget(const integrators::Spending& spent) {
+  using integrators::most_evaluations;
+  if (spent.too_many_unknowns) return too_many_unknowns(spent.unknowns, spent.states);
+  if (spent.evaluations <= most_evaluations && spent.factorisations > 0)
+    return fmt::format(
+        "this step has taken {} evaluations and {} factorisations of a Jacobian of {} unknowns and "
+        "is not over: give shapes fewer boundary_points, raise relative_tolerance and "
+        "absolute_tolerance, make deltat smaller, or choose arkode or a fixed-step integrator",
+        spent.evaluations, spent.factorisations, spent.unknowns);
+  return fmt::format(
+      "this step has taken {} evaluations and is not over: raise relative_tolerance and "
+      "absolute_tolerance, bring the constants of ground and joints nearer to each other, make "
+      "deltat smaller, or choose a fixed-step integrator",
+      std::min(spent.evaluations, most_evaluations));
+}
+
+StepStatus explain(integrators::Status status, const integrators::Stepper& stepper, double time,
+                   std::string body) {
   if (status == integrators::Status::too_long) {
+    const auto& adaptive = dynamic_cast<const integrators::AdaptiveStepper&>(stepper);
     return {StepStatus::Kind::solver_failed, time, std::move(body),
-            fmt::format("this step has taken {} evaluations and is not over: raise "
-                        "relative_tolerance and absolute_tolerance, bring the constants of ground "
-                        "and joints nearer to each other, make deltat smaller, or choose a "
-                        "fixed-step integrator",
-                        integrators::most_evaluations)};
+            over_budget(adaptive.spending())};
   }
   if (status == integrators::Status::no_step) {
     return {StepStatus::Kind::solver_failed, time, std::move(body),

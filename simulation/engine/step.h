@@ -1,6 +1,8 @@
 // One step of a robot under a force law. `step.cpp` is the place to begin reading the engine.
 #pragma once
 
+#include <string>
+
 #include "integrators/stepper.h"
 #include "simulation/engine/robot_system.h"
 
@@ -11,5 +13,9 @@ namespace hookpoint::simulation {
 /// accelerations a stage, O(links
 /// + points) each. Allocates nothing.
 StepStatus step(RobotSystem& robot, integrators::Stepper& stepper, double time);
+
+/// What to do where an implicit integrator would have too many unknowns, `bristles` of them those
+/// of contacts.
+std::string too_many_unknowns(std::size_t unknowns, std::size_t bristles);
 
 }  // namespace hookpoint::simulation

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <variant>
 
 #include "dts/joint_forces.h"
 #include "simulation/joint_properties.h"
@@ -19,6 +20,10 @@ constexpr std::int64_t windows = 20, samples_a_window = 64;
 constexpr double wavering = 0.05;
 /// Of the energies summed: what rounding leaves.
 constexpr double rounding = 1e-9;
+/// Than at both of its ends a body may have been between two samples.
+constexpr double faster = 3.;
+/// Of a contact's depth that counts [m].
+constexpr double least_jump = 1e-6;
 
 double spring_energy(const dts::JointProperties<double>& joint, double position, double drive) {
   const double below = std::max(0., joint.lower_limit - position);
@@ -85,20 +90,45 @@ void EnergyWatch::sample() {
     now.energy -= dot(force.force, pushed.position + rotate(pushed.orientation, force.point));
   }
   now.energy += now.kinetic;
+  now.jumped = jumps(samples_.empty() ? 0. : now.time - samples_.back().time);
   samples_.push_back(now);
+}
+
+bool EnergyWatch::jumps(double interval) {
+  const std::vector<BodyState>& bodies = world_.state().bodies;
+  touches_before_.swap(touches_);
+  touches_.assign(bodies.size(), {});
+  touches_before_.resize(bodies.size());
+  world_.tell_contacts(contacts_);
+  for (const ContactView& contact : contacts_) {
+    const BodyState& body = bodies[contact.body];
+    Touch& touch = touches_[contact.body];
+    touch.depth = std::max(touch.depth, contact.depth);
+    touch.speed =
+        std::max(touch.speed, norm(body.velocity) + norm(body.angular_velocity) *
+                                                        norm(contact.point - body.position));
+  }
+  if (samples_.empty()) return false;
+  for (std::size_t i = 0; i < touches_.size(); ++i) {
+    const Touch &now = touches_[i], &before = touches_before_[i];
+    const double moved = faster * std::max(now.speed, before.speed) * interval;
+    if (now.depth - before.depth > moved + least_jump) return true;
+  }
+  return false;
 }
 
 std::string EnergyWatch::finding() const {
   const auto count = static_cast<std::int64_t>(samples_.size()) / windows;
   if (count == 0) return "";
   struct Window {
-    double end = 0., energy = -HUGE_VAL, kinetic = 0.;
+    double begin = 0., end = 0., energy = -HUGE_VAL, kinetic = 0.;
   };
   std::vector<Window> all(windows);
   double scale = 0.;
   for (std::int64_t i = 0; i < windows * count; ++i) {
     const Sample& sample = samples_[static_cast<std::size_t>(i)];
     Window& window = all[static_cast<std::size_t>(i / count)];
+    if (i % count == 0) window.begin = sample.time;
     window.end = sample.time;
     window.energy = std::max(window.energy, sample.energy);
     window.kinetic = std::max(window.kinetic, sample.kinetic);
@@ -111,10 +141,27 @@ std::string EnergyWatch::finding() const {
     kinetic = std::max(kinetic, window->kinetic);
   const double rise = most->energy - least->energy;
   if (!(rise > wavering * kinetic + rounding * scale + most_in_friction_)) return "";
+  double at_edges = 0.;
+  for (std::size_t k = 1; k < samples_.size(); ++k) {
+    const Sample &now = samples_[k], &before = samples_[k - 1];
+    if (now.jumped && now.time > least->begin && before.time < most->end)
+      at_edges += std::max(0., now.energy - before.energy);
+  }
+  const std::string found = fmt::format("{} by {:.3g} J between {:.4g} and {:.4g} s",
+                                        energy_finding, rise, least->end, most->end);
+  const char* const mend =
+      "give balls boundary_points, or the ground finer steps and less steep tiles";
+  if (at_edges > 0.5 * rise)
+    return fmt::format("{}: contacts crossed edges of the ground, where their depth jumps; {}",
+                       found, mend);
+  const bool edges =
+      experiment_.terrain && std::holds_alternative<GridSpec>(experiment_.terrain->surface);
   return fmt::format(
-      "{} by {:.3g} J between {:.4g} and {:.4g} s: deltat {:.4g} s is too large for how it moves; "
-      "halve it, soften the ground, or choose another integrator",
-      energy_finding, rise, least->end, most->end, experiment_.deltat);
+      "{}: deltat {:.4g} s is too large for how it moves; halve it, soften the "
+      "ground, or choose another integrator{}{}",
+      found, experiment_.deltat,
+      edges ? "; if that changes nothing, contacts crossed edges of the ground: " : "",
+      edges ? mend : "");
 }
 
 }  // namespace hookpoint::simulation

@@ -1,5 +1,6 @@
-// Where nothing drives a world, its mechanical energy cannot grow: if it does, the step is too
-// large for what moves. Watched at some instants of a run, at no cost to the others.
+// Where nothing drives a world, its mechanical energy cannot grow. If it does, the step is too
+// large for what moves, or a contact has crossed an edge of the ground where its depth jumps.
+// Watched at some instants of a run, at no cost to the others.
 #pragma once
 
 #include <cstdint>
@@ -38,8 +39,17 @@ class EnergyWatch {
   struct Sample {
     double time = 0.;                  ///< [s]
     double kinetic = 0., energy = 0.;  ///< the part that is kinetic, and the whole [J]
+    bool jumped = false;               ///< as `jumps` says
+  };
+  /// The deepest contact of a body.
+  struct Touch {
+    double depth = 0.;  ///< [m]; 0 where there is none
+    double speed = 0.;  ///< that any of its contacts can have [m/s]
   };
   void sample();
+  /// Whether some body is deeper in the ground than it can have moved since the last sample,
+  /// `interval` [s] ago: the ground under it has jumped.
+  bool jumps(double interval);
 
   const Experiment& experiment_;
   const World& world_;
@@ -47,6 +57,8 @@ class EnergyWatch {
   double most_in_friction_ = 0.;           ///< that springs of joints' dry friction can hold [J]
   std::vector<std::size_t> first_bodies_;  ///< of each robot, in WorldState::bodies
   std::vector<Sample> samples_;
+  std::vector<Touch> touches_, touches_before_;  ///< of each body
+  std::vector<ContactView> contacts_;
 };
 
 /// With which every finding begins.

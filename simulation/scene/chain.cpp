@@ -28,23 +28,29 @@ const Fields<ChainSpec>& chain_fields() {
   return fields;
 }
 
-/// What a joint accelerates: the inertia of its link and all further out about its axis (their
-/// mass, for a prismatic joint) and of its rotor, and the size that such an inertia is measured
-/// against.
-struct MovedInertia {
-  double value = 0., scale = 0.;
+/// A body and all that it carries: mass, first moment and inertia about the origin of its frame, in
+/// its axes.
+struct Composite {
+  double mass = 0.;     ///< [kg]
+  Vector3d moment;      ///< mass times the place of its centre [kg m]
+  Symmetric3d inertia;  ///< [kg m^2]
 
-  /// A body whose frame L stands at `X_JL` in that of the joint's link.
-  void add(const MassSpec& mass, const Pose& X_JL, bool turns) {
-    const Vector3d p_JC = X_JL.position + rotate(X_JL.orientation, mass.center_of_mass);
-    const Symmetric3d I_C = rotate(rotation_matrix(X_JL.orientation), mass.inertia);
-    const Symmetric3d I_J = I_C + point_inertia(mass.mass, p_JC);
-    value += turns ? I_J.zz : mass.mass;
-    scale += turns ? I_J.xx + I_J.yy + I_J.zz : mass.mass;
-  }
-  void add_rotor(double inertia) {
-    value += inertia;
-    scale += inertia;
+  explicit Composite(const MassSpec& spec)
+      : mass(spec.mass),
+        moment(spec.mass * spec.center_of_mass),
+        inertia(spec.inertia + point_inertia(spec.mass, spec.center_of_mass)) {}
+
+  /// Adds what a body whose frame stands at `X_PL` carries.
+  void add(const Composite& outer, const Pose& X_PL) {
+    const Vector3d& p = X_PL.position;
+    const Vector3d h = rotate(X_PL.orientation, outer.moment);
+    const double twice = 2. * dot(p, h);
+    mass += outer.mass;
+    moment += h + outer.mass * p;
+    inertia = inertia + rotate(rotation_matrix(X_PL.orientation), outer.inertia) +
+              point_inertia(outer.mass, p) +
+              Symmetric3d{twice - 2. * p.x * h.x, twice - 2. * p.y * h.y, twice - 2. * p.z * h.z,
+                          -p.x * h.y - h.x * p.y, -p.x * h.z - h.x * p.z, -p.y * h.z - h.y * p.z};
   }
 };
 
@@ -95,19 +101,23 @@ void check_joints(const LoadedRobot& loaded, Loading& loading) {
   std::vector<TreeLink> links;
   for_each_link(loaded.spec, [&](const TreeLink& at) { links.push_back(at); });
   const auto turns = [&](std::size_t joint) { return joint_type(links[joint].link.joint).turns; };
-  std::vector<MovedInertia> moved(links.size());
-  for (const TreeLink& outer : links) {
-    moved[outer.joint()].add_rotor(outer.link.rotor_inertia);
-    Pose X_JL;
-    for (std::size_t body = outer.body; body > 0;) {
-      const TreeLink& at = links[body - 1];
-      moved[at.joint()].add(outer.link.body.mass, X_JL, turns(at.joint()));
-      X_JL = frame_before(at) * joint_pose(at.link) * X_JL;
-      body = at.parent;
-    }
+  // What carries a body has a lower number.
+  std::vector<Composite> carried;
+  for (const TreeLink& at : links) carried.emplace_back(at.link.body.mass);
+  for (std::size_t joint = links.size(); joint-- > 0;) {
+    const TreeLink& at = links[joint];
+    if (at.parent > 0)
+      carried[at.parent - 1].add(carried[joint], frame_before(at) * joint_pose(at.link));
   }
   for (std::size_t joint = 0; joint < links.size(); ++joint) {
-    if (moved[joint].value > 1e-12 * moved[joint].scale) continue;
+    // The inertia about the joint's axis, of a prismatic joint the mass, and what it is measured
+    // against.
+    const Composite& moves = carried[joint];
+    const Symmetric3d& I = moves.inertia;
+    const double rotor = links[joint].link.rotor_inertia;
+    const double value = rotor + (turns(joint) ? I.zz : moves.mass);
+    const double scale = rotor + (turns(joint) ? I.xx + I.yy + I.zz : moves.mass);
+    if (value > 1e-12 * scale) continue;
     loading.error(
         place_of(*loaded.links[joint], mass_field::mass),
         fmt::format("the joint of `{}` moves no {}: give the link, or one further out, a "

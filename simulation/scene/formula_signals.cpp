@@ -119,13 +119,13 @@ bool FormulaLoader::resolve(const std::string& name, const language::Position& p
     return true;
   }
   language::Unresolved why;
-  const auto reached = names_.resolve(scope, name, true, why);
+  const auto reached = loading_.names.resolve(scope, name, true, why);
   // An object alone stands for the port that a wire from it would read.
   const bool whole_object =
       reached && reached->field == nullptr && !reached->object->schema->default_output.empty();
   const std::string trail =
       whole_object ? name + "." + reached->object->schema->default_output : name;
-  const auto port = find_number(scope, trail, place, names_, loading_);
+  const auto port = find_number(scope, trail, place, loading_.names, loading_);
   if (!port) return false;
   const language::Target& target = port->target;
   if (target.part < 0 && components_of(*target.field) > 1) {

@@ -78,7 +78,6 @@ class FormulaLoader {
   std::size_t index_;
   std::vector<FormulaWord> words_;
   Loading& loading_;
-  language::Names names_;
   FormulaInputs inputs_;
 };
 

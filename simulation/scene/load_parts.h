@@ -42,6 +42,7 @@ struct Loading {
   std::vector<const language::Object*> components;  ///< one a ComponentSpec
   std::vector<FormulaInput> formula_inputs;
   std::size_t boundary_points = 0;  ///< asked for, of all bodies
+  language::Names names{};          ///< of the tree that is read, each scope's made once
 
   void error(const language::Position& position, std::string message) {
     diagnostics.error(position, std::move(message));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <new>
 
 #include "control/registry.h"
 #include "language/tree/references.h"
@@ -130,6 +131,7 @@ class Wires {
     if (const language::Field* noise = property(driver, language::wire_noise))
       spec.noise = noise->numbers[0];
     drivers_.push_back(driver);
+    ends_by_output_.emplace(from, to);
     experiment_.wires.push_back(std::move(spec));
   }
 
@@ -191,9 +193,9 @@ class Wires {
                 std::size_t i) const {
     if (port.kind != PortKind::output) return drivers_by_input_.contains(own);
     const std::string driven = target == nullptr ? "" : attached_trail(*target, port, i);
-    return std::ranges::any_of(experiment_.wires, [&](const WireSpec& wire) {
-      return wire.from == own && (target == nullptr || wire.to == driven);
-    });
+    const auto [first, last] = ends_by_output_.equal_range(own);
+    return std::any_of(
+        first, last, [&](const auto& wire) { return target == nullptr || wire.second == driven; });
   }
 
   /// Of the number of `target` that element `i` of `port` reads or drives.
@@ -232,6 +234,8 @@ class Wires {
     for (std::size_t i = 0; i < experiment_.wires.size() && samples <= most; ++i) {
       try {
         samples += transmission_line(experiment_.wires[i], experiment_, 0.).state_size();
+      } catch (const std::bad_alloc&) {
+        throw;
       } catch (const std::exception& error) {
         loading_.error(drivers_[i].position, error.what());
       }
@@ -265,6 +269,8 @@ class Wires {
     for (std::size_t i = 0; i < experiment_.components.size(); ++i) {
       try {
         update_schedule(experiment_.components[i], experiment_.deltat);
+      } catch (const std::bad_alloc&) {
+        throw;
       } catch (const std::exception& error) {
         return loading_.error(place_of(*loading_.components[i], language::wire_rate), error.what());
       }
@@ -292,6 +298,7 @@ class Wires {
   std::size_t errors_before_ = loading_.diagnostics.error_count();
   std::vector<Driver> drivers_;  // one a wire
   std::map<std::string, std::size_t> drivers_by_input_;
+  std::multimap<std::string, std::string> ends_by_output_;  ///< of the wires so far
 };
 
 }  // namespace

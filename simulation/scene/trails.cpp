@@ -2,7 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <set>
+#include <unordered_map>
+#include <unordered_set>
 
 #include "contact/force_law.h"
 
@@ -29,13 +30,18 @@ class Naming {
   std::string trail_for(const language::Object& object) {
     std::string trail = object.trail();
     if (object.name.empty()) trail += (trail.empty() ? "" : ".") + object.type;
-    std::string unique = trail;
-    for (int n = 2; !taken_.insert(unique).second; ++n) unique = trail + "#" + std::to_string(n);
-    return unique;
+    if (taken_.insert(trail).second) return trail;
+    // Numbers are given out in order, so that many objects without a name cost no search.
+    int& last = last_numbers_.try_emplace(trail, 1).first->second;
+    while (true) {
+      std::string unique = trail + "#" + std::to_string(++last);
+      if (taken_.insert(unique).second) return unique;
+    }
   }
 
   ObjectTrails trails_;
-  std::set<std::string> taken_;
+  std::unordered_set<std::string> taken_;
+  std::unordered_map<std::string, int> last_numbers_;  ///< of trails that several objects have
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "simulation/wiring/components.h"
 
 #include <exception>
+#include <new>
 
 #include "control/random.h"
 #include "control/registry.h"
@@ -81,6 +82,8 @@ std::vector<StartProblem> Components::start(const Experiment& experiment) {
     components_[i]->set_stream(control::stream_key(experiment.seed, spec.trail));
     try {
       components_[i]->start(update_schedule(spec, experiment.deltat).period());
+    } catch (const std::bad_alloc&) {
+      throw;
     } catch (const std::exception& error) {
       problems.push_back({i, error.what()});
     }

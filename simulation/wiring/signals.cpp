@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <new>
 #include <unordered_map>
 #include <utility>
 
@@ -70,12 +71,13 @@ Signals::Signals(const Experiment& experiment, Engine& engine)
 
 void Signals::find_held_lines() {
   std::vector<bool> held(lines_.size(), false);
+  std::unordered_map<const double*, std::size_t> by_end;
+  for (std::size_t i = 0; i < lines_.size(); ++i) by_end.emplace(lines_[i].to, i);
   for (const WiringItem& item : order_) {
     if (!item.is_wire) continue;
     const Line& line = lines_[item.index];
-    const auto driver = std::ranges::find(lines_, line.from, &Line::to);
-    const bool still =
-        driver == lines_.end() || held[static_cast<std::size_t>(driver - lines_.begin())];
+    const auto driver = by_end.find(line.from);
+    const bool still = driver == by_end.end() || held[driver->second];
     held[item.index] = line.copies && line.starts_at_input && still;
     if (held[item.index]) held_lines_.push_back(item.index);
   }
@@ -114,6 +116,8 @@ void Signals::connect(const std::vector<Port>& ports) {
       const bool copies = line.copies();
       lines_.push_back(
           {from->value, to->writable, copies, std::move(line), from->writable != nullptr});
+    } catch (const std::bad_alloc&) {
+      throw;
     } catch (const std::exception& error) {
       throw ExperimentError("the wire from `" + wire.from + "` to `" + wire.to +
                             "`: " + error.what());

@@ -118,16 +118,6 @@ TEST(PeerEngine, LeavesAFixedBodyWhereItIs) {
   }
 }
 
-/// The message of the refusal, empty when the engine takes the experiment.
-std::string refusal(const reference::Peer& peer, const simulation::Experiment& experiment) {
-  try {
-    peer.make(experiment);
-  } catch (const simulation::ExperimentError& error) {
-    return error.what();
-  }
-  return "";
-}
-
 void expect_refusal(const simulation::Experiment& experiment, const std::string& named) {
   for (const auto& peer : reference::peers()) {
     const std::string message = refusal(peer, experiment);

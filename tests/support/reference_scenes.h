@@ -102,6 +102,16 @@ inline double creep_speed(simulation::Engine& engine, const Vector3d& downhill, 
   return (dot(engine.state().bodies[0].position, downhill) - start) / (to - from);
 }
 
+/// The message of the refusal, empty when the engine takes the experiment.
+inline std::string refusal(const reference::Peer& peer, const simulation::Experiment& experiment) {
+  try {
+    peer.make(experiment);
+  } catch (const simulation::ExperimentError& error) {
+    return error.what();
+  }
+  return "";
+}
+
 /// How the peer handles `feature` where it does not do as our engine does.
 inline std::optional<simulation::EngineGap::Handling> gap_of(const reference::Peer& peer,
                                                              std::string_view feature) {

@@ -367,6 +367,22 @@ TEST(ImpulseRobot, TooManyImpactsIsAStatusAndTheStateIsThatBefore) {
   EXPECT_EQ(robot.robot().state().joint_rates, before.joint_rates);
 }
 
+TEST(ImpulseRobot, EndsAtItsWork) {
+  const Experiment experiment = falling_arm("impulse", 5e-3);
+  const simulation::WorldInputs inputs = simulation::initial_inputs(experiment);
+  const auto level = simulation::make_ground(experiment);
+  simulation::ImpulseRobot robot(experiment, 0, contact::ImpulseLaw::impulse, &*level, inputs,
+                                 {.tolerance = 1e-10, .most_work = 60.});
+  const auto ground = [&](const Vector3d& point) {
+    return contact::GroundPoint{point.z, {0., 0., 1.}, &experiment.materials[0].constants};
+  };
+  contact::ImpulseTally tally;
+  for (int step = 0; step < 1000 && tally.status == contact::AdvanceStatus::ok; ++step)
+    tally = robot.advance(ground);
+  EXPECT_EQ(tally.status, contact::AdvanceStatus::too_many_impacts);
+  EXPECT_LT(tally.impacts, 200);
+}
+
 TEST(ImpulseRobot, ARunThatIsSavedGoesOnBitForBit) {
   const Experiment experiment = falling_arm("impulse", 5e-3);
   const auto whole = simulation::make_dts(experiment);

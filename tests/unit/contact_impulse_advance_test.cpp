@@ -230,6 +230,26 @@ TEST(ImpulseAdvance, TroubleIsAStatusAndTheStateIsThatBefore) {
   EXPECT_EQ(status(start, kGravity, block()), AdvanceStatus::too_many_impacts);
 }
 
+// The same resting block with more points that could be hit: each impact costs them all.
+TEST(ImpulseAdvance, EndsAtItsWorkHoweverManyPointsItHas) {
+  Plane ground;
+  ground.material.rebound_speed = 0.;
+  std::int64_t impacts_before = std::numeric_limits<std::int64_t>::max();
+  for (const int copies : {1, 4, 16}) {
+    ImpulseBody body = block();
+    const std::vector<Vector3d> corners = body.boundary_points;
+    for (int i = 1; i < copies; ++i)
+      for (const Vector3d& corner : corners) body.boundary_points.push_back(0.5 * corner);
+    ImpulseAdvance engine(body, ImpulseLaw::impulse, {.most_work = 1e5});
+    ImpulseState s{{0., 0., 0.05}, {}, {}, {}};
+    const AdvanceResult result = engine.advance(s, 1e-2, kGravity, ground);
+    EXPECT_EQ(result.status, AdvanceStatus::too_many_impacts);
+    EXPECT_LT(result.work, 1.01e5);
+    EXPECT_LT(result.impacts, impacts_before / 2);
+    impacts_before = result.impacts;
+  }
+}
+
 TEST(ImpulseAdvance, AStepAllocatesNothing) {
   const Plane ground;
   for (const ImpulseLaw law : {ImpulseLaw::impulse, ImpulseLaw::impulse_reversal}) {

@@ -2,12 +2,15 @@
 // state on failure, runs that are resumed, memory that is committed once a step, no allocation.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <limits>
 #include <stdexcept>
 #include <vector>
 
+#include "integrators/adaptive.h"
 #include "integrators/stepper.h"
 #include "tests/support/integrator_systems.h"
 #include "tests/support/malloc_counter.h"
@@ -124,6 +127,65 @@ TEST(AdaptiveStepper, GivesUpAStepThatNeedsTooMuch) {
     // Only this step was too long.
     EXPECT_EQ(stepper->step(system, 0., 1e-6, {&q, 1}, {&v, 1}), Status::ok) << row.name;
   });
+}
+
+/// Stiff springs side by side, each coupled to all: a full Jacobian of 2 n unknowns, and thousands
+/// of swings a second.
+class Springs final : public HybridSystem {
+ public:
+  explicit Springs(std::size_t n) : n_(n) {}
+  std::size_t position_size() const override { return n_; }
+  std::size_t velocity_size() const override { return n_; }
+  void retract(std::span<const double> q0, std::span<const double> u,
+               std::span<double> q) const override {
+    for (std::size_t i = 0; i < n_; ++i) q[i] = q0[i] + u[i];
+  }
+  void tangent_rate(std::span<const double>, std::span<const double> v,
+                    std::span<double> du) const override {
+    std::ranges::copy(v, du.begin());
+  }
+  Status accelerations(Stage, double, std::span<const double> q, std::span<const double>,
+                       std::span<double> a) override {
+    double sum = 0.;
+    for (const double x : q) sum += x;
+    for (std::size_t i = 0; i < n_; ++i) a[i] = -1e8 * (q[i] + 0.1 * sum);
+    return Status::ok;
+  }
+  Status split_accelerations(double t, std::span<const double> q, std::span<const double> v,
+                             std::span<double> a_free, std::span<double> a_contact) override {
+    std::ranges::fill(a_free, 0.);
+    return accelerations(Stage::trial, t, q, v, a_contact);
+  }
+
+ private:
+  std::size_t n_;
+};
+
+// A full Jacobian of n unknowns takes n^3/3 multiplications to be factorised.
+TEST(AdaptiveStepper, FactorisesNoMoreThanItsWorkAllows) {
+  constexpr std::size_t unknowns = 600;
+  const double each = std::pow(unknowns, 3) / 3.;
+  for (const char* name : {"cvode_bdf", "arkode_imex"}) {
+    Springs system(unknowns / 2);
+    std::vector<double> q(unknowns / 2, 1e-3), v(unknowns / 2, 0.);
+    const auto stepper = make_stepper(name, system, {1e-9, 1e-12});
+    EXPECT_EQ(stepper->step(system, 0., 1., q, v), Status::too_long) << name;
+    const Spending spent = dynamic_cast<const AdaptiveStepper&>(*stepper).spending();
+    EXPECT_EQ(spent.unknowns, unknowns);
+    EXPECT_GT(spent.factorisations, 5) << name;
+    EXPECT_LT(each * static_cast<double>(spent.factorisations), 1.1 * most_work) << name;
+    EXPECT_EQ(q, std::vector<double>(unknowns / 2, 1e-3)) << name;
+  }
+}
+
+TEST(AdaptiveStepper, IsNotMadeForMoreUnknownsThanItCouldSolveFor) {
+  const auto most = static_cast<std::size_t>(std::cbrt(3. * most_work));
+  Springs fits(most / 2 - 1), large(most / 2 + 1);
+  for (const char* name : {"cvode_bdf", "arkode_imex"}) {
+    EXPECT_NO_THROW(make_stepper(name, fits)) << name;
+    EXPECT_THROW(make_stepper(name, large), TooManyUnknowns) << name;
+  }
+  for (const char* name : {"cvode_adams", "arkode"}) EXPECT_NO_THROW(make_stepper(name, large));
 }
 
 TEST(AdaptiveStepper, IsNotMadeOfWhatTheLibraryRefuses) {

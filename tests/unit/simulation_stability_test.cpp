@@ -221,6 +221,23 @@ TEST(Stability, SaysPlainlyWhyFeedbackIsLeftOut) {
   EXPECT_EQ(bound.left_out[0], "squat: it reads w.b.c.l.rate, not straight the angle of a joint");
 }
 
+/// A chain of `links` from a fixed base.
+std::string hanging_chain(int links) {
+  return fmt::format(
+      "World w {{ Robot r {{ Base.fixed {{ }} Chain c {{ For i in 1..{} {{ Link l[i] {{ dhlength = "
+      "0.01; dhtwist = 0.3; mass = 0.1; inertia = 1e-4, 1e-4, 1e-4, 0, 0, 0; }} }} }} }} }}",
+      links);
+}
+
+// A pendulum of many links has a bound, 3000 links have a reason.
+TEST(StabilityBound, IsComputedWhereThatTakesSecondsAndElseSaysWhy) {
+  for (const int count : {60, 480}) EXPECT_EQ(bound_of(hanging_chain(count)).not_computed, "");
+  const simulation::StabilityBound bound = bound_of(hanging_chain(3000));
+  EXPECT_TRUE(std::isinf(bound.step));
+  EXPECT_NE(bound.not_computed.find("robot 'r' has 3000 joints"), std::string::npos)
+      << bound.not_computed;
+}
+
 std::string finding(const std::string& text, int steps,
                     simulation::EngineFactory make = simulation::make_dts) {
   const Loaded loaded = load_text(text);
@@ -267,6 +284,21 @@ TEST(EnergyWatch, SaysNothingWhereTheGroundDoesNotTell) {
               "location = 0, 0, 0.3; Shape.Box { dimensions = 0.2, 0.2, 0.1; mass = 1; } } } }",
               5000),
       "");
+}
+
+// A ball of 20 mm slides into a riser: it is in the ground by its radius as soon as its centre
+// crosses the edge, and 1/2 k r^2 = 40 J come from nothing.
+TEST(EnergyWatch, BlamesTheGroundWhereItsEdgesGiveEnergy) {
+  const std::string found = finding(
+      "World w { gravity = 9.81; deltat = 0.05 ms; Material m { static_friction = 0; "
+      "kinetic_friction = 0; normal_stiffness = 200 kN/m; normal_damping = 10; } Terrain.Steps "
+      "stairs { height = 0.1; run = 2; from = 0.5; count = 1; spacing = 0.005; size = 3, 0.5; "
+      "material = m; } Robot ball { Base.planar { plane = xz; location = 0.4, 0, 0.02; velocity = "
+      "0.5, 0, 0; mass = 1 kg; inertia = 1,1,1,0,0,0; Shape.Sphere { radius = 0.02; } } } }",
+      20000);
+  EXPECT_TRUE(found.starts_with(simulation::energy_finding)) << found;
+  EXPECT_NE(found.find("edges of the ground"), std::string::npos) << found;
+  EXPECT_EQ(found.find("deltat"), std::string::npos) << found;
 }
 
 // A slide that comes to rest swings on the spring of its dry friction, which holds 1/2 tau_f z_f at

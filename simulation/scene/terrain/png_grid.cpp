@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <cstdio>
+#include <new>
 
 #include "contact/terrain/terrain.h"
 
@@ -28,7 +29,7 @@ class PngFile {
     if (!begins_as_png()) return {std::nullopt, "it is not a PNG image"};
     png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, on_error, on_warning);
     info_ = png_ == nullptr ? nullptr : png_create_info_struct(png_);
-    if (info_ == nullptr) return {std::nullopt, "out of memory"};
+    if (info_ == nullptr) throw std::bad_alloc();
     if (!read_header()) return {std::nullopt, "it is damaged or cut off: " + message_};
     const std::string problem = header_problem();
     if (!problem.empty()) return {std::nullopt, problem};

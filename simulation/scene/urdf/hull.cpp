@@ -1,10 +1,13 @@
 #include "simulation/scene/urdf/hull.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <limits>
 #include <memory>
+#include <new>
+#include <system_error>
 
 extern "C" {
 #include <libqhull_r/qhull_ra.h>
@@ -20,6 +23,8 @@ std::vector<bool> vertices_among(std::vector<double>& coordinates) {
   std::vector<bool> chosen(count, false);
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> nowhere(std::fopen("/dev/null", "w"),
                                                                 std::fclose);
+  if (nowhere == nullptr)
+    throw std::system_error(errno, std::generic_category(), "cannot open /dev/null");
   const auto qhull = std::make_unique<qhT>();
   qhT* qh = qhull.get();
   qh_zero(qh, nowhere.get());
@@ -36,6 +41,7 @@ std::vector<bool> vertices_among(std::vector<double>& coordinates) {
   qh_freeqhull(qh, qh_ALL);
   int kept = 0, total = 0;
   qh_memfreeshort(qh, &kept, &total);
+  if (failed == qh_ERRmem) throw std::bad_alloc();
   return chosen;
 }
 
