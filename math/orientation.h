@@ -1,4 +1,4 @@
-// Orientations as people write them: a quaternion, or roll, pitch and yaw.
+// Orientations as a user writes them: a quaternion, or roll, pitch and yaw.
 #pragma once
 
 #include <algorithm>

@@ -85,7 +85,7 @@ void add_errors(py::module_& module) {
     } catch (const std::system_error& error) {
       // Of threads: files have errors of their own.
       PyErr_SetString(error_class, (std::string("the system starts no more threads: ") +
-                                    error.what() + "; ask for fewer threads or jobs")
+                                    error.what() + "; use fewer threads or jobs")
                                        .c_str());
     }
   });

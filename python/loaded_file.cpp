@@ -65,9 +65,9 @@ LoadedFile::LoadedFile(const Source& source) : source_(source), application_(sou
   simulation::write_chosen_step(*experiment_, *root);
   text_ = language::print(*root);
   sources_ = language::sources_of(*root);
-  language::Diagnostics untold;
+  language::Diagnostics unreported;
   for (const language::ParameterDeclaration& declared :
-       application_->library().parameters(source_.file, untold))
+       application_->library().parameters(source_.file, unreported))
     declares_seed_ = declares_seed_ || declared.name == seed_parameter;
   notices_ = application_.take_warnings();
   if (std::string warning = warning_of_step(*experiment_); !warning.empty())

@@ -60,7 +60,7 @@ template <class Number>
 py::array_t<Number> array_on(const std::shared_ptr<void>& owner, Number* memory,
                              std::vector<py::ssize_t> shape) {
   const py::capsule keeper(new std::shared_ptr<void>(owner),
-                           [](void* kept) { delete static_cast<std::shared_ptr<void>*>(kept); });
+                           [](void* held) { delete static_cast<std::shared_ptr<void>*>(held); });
   return py::array_t<Number>(std::move(shape), memory, keeper);
 }
 
@@ -84,9 +84,9 @@ std::string words_of(const std::vector<std::size_t>& worlds) {
 
 template <class Work>
 void PythonBatch::in_threads(std::size_t count, const Work& work) const {
+  if (count == 0) return;
   std::vector<std::exception_ptr> failures(count);
-  const int threads = static_cast<int>(
-      std::min<std::size_t>(static_cast<std::size_t>(threads_), std::max<std::size_t>(count, 1)));
+  const int threads = static_cast<int>(std::min(static_cast<std::size_t>(threads_), count));
   run_beside([&](const std::atomic<bool>& stop) {
     return studies::work_through(count, threads, [&](std::size_t i) {
       try {
@@ -356,13 +356,13 @@ void PythonBatch::restart(Member& member, const std::vector<simulation::InitialV
   }
 }
 
-void PythonBatch::reset(const BatchReset& asked) {
+void PythonBatch::reset(const BatchReset& to) {
   const Busy busy(busy_);
-  const std::vector<std::size_t> wanted = worlds_of(asked.mask);
+  const std::vector<std::size_t> wanted = worlds_of(to.mask);
   const Kind& first = *worlds_.front().kind;
   const simulation::InitialState initial(first.experiment, worlds_.front().world->state());
   std::vector<Port> ports;
-  const StateValues values(asked.state, size(), [&](const std::string& trail) {
+  const StateValues values(to.state, size(), [&](const std::string& trail) {
     if (ports.empty()) ports = worlds_.front().world->ports();
     return initial.find(trail, ports_of(first.experiment, ports, trail));
   });
@@ -370,9 +370,9 @@ void PythonBatch::reset(const BatchReset& asked) {
   std::vector<std::size_t> changed;
   Variants variants;
   for (const std::size_t world : wanted) {
-    if (!asked.variants || (*asked.variants)[world] == variant(world)) continue;
+    if (!to.variants || (*to.variants)[world] == variant(world)) continue;
     changed.push_back(world);
-    variants.push_back((*asked.variants)[world]);
+    variants.push_back((*to.variants)[world]);
   }
   const std::vector<std::shared_ptr<Kind>> kinds = load(variants);
   std::vector<const Kind*> kind_of;
@@ -392,8 +392,8 @@ void PythonBatch::reset(const BatchReset& asked) {
   const auto restart_one = [&](std::size_t i) {
     Member& member = worlds_[wanted[i]];
     restart(member, values.of(wanted[i]));
-    const bool anew = std::ranges::binary_search(changed, wanted[i]);
-    if (anew) return;
+    const bool is_new = std::ranges::binary_search(changed, wanted[i]);
+    if (is_new) return;
     member.notices.clear();
     member.warned = 0;
     member.next_notice = member.world->state().notices.size();

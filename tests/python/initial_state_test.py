@@ -315,13 +315,13 @@ class BatchOfDifferentWorlds(unittest.TestCase):
         batch = hookpoint.Batch(SOIL, 2, observations="p.base.location.z")
         batch.step(count=100)
         before = [batch.state(i) for i in range(2)]
-        for asked, words in (({"set": [{"k": 1e4}]}, "one entry a world: 2, not 1"), ({"seeds": [1, 2, 3]}, "one entry a world: 2, not 3"),
+        for changes, words in (({"set": [{"k": 1e4}]}, "one entry a world: 2, not 1"), ({"seeds": [1, 2, 3]}, "one entry a world: 2, not 3"),
                              ({"set": [{"k": 1e4}, {"kk": 1}]}, "no Param `kk`"), ({"set": {"k": "3 kg"}}, "error"),
                              ({"set": {"w.gravity": "x"}}, "error"), ({"state": {"p.base.location": np.zeros((3, 3))}}, "3 x 3"),
                              ({"state": {"p.base.velocity": [[0, 0, 0], [0, 0, np.inf]]}}, "finite"), ({"mask": [True]}, "one value a world"),
                              ({"set": {"w.p.name": 3}}, "error")):
             with self.subTest(words), self.assertRaisesRegex(hookpoint.Error, words):
-                batch.reset(**asked)
+                batch.reset(**changes)
             self.assertEqual([batch.state(i) for i in range(2)], before)
         for wrong in (5, "x", [5, 6]):
             with self.assertRaises(TypeError):
@@ -330,7 +330,7 @@ class BatchOfDifferentWorlds(unittest.TestCase):
         with self.assertRaisesRegex(hookpoint.Error, "the same bodies"):
             hookpoint.Batch(many, 2, set=[{"n": 1}, {"n": 2}])
 
-    def test_the_first_wrong_world_is_told(self):
+    def test_the_first_wrong_world_is_named(self):
         with self.assertRaises(hookpoint.FileError) as caught:
             hookpoint.Batch(SOIL, 40, set=[{"k": 1e4 if i < 35 else f"{i} kg"} for i in range(40)], threads=2)
         self.assertIn("35 kg", str(caught.exception))
@@ -350,7 +350,7 @@ def messages(caught):
 
 
 class Notices(unittest.TestCase):
-    def test_an_unstable_step_is_told_as_the_command_tells_it(self):
+    def test_an_unstable_step_is_a_warning_as_of_the_command(self):
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
             world = hookpoint.loads(UNSTABLE)
@@ -362,9 +362,9 @@ class Notices(unittest.TestCase):
         self.assertRegex(world.notices[1], "nothing drives it, yet its energy rose by .* J")
         with tempfile.TemporaryDirectory() as folder:
             (pathlib.Path(folder) / "box.hook").write_text(UNSTABLE)
-            told = subprocess.run([PROGRAM, "run", "box.hook"], cwd=folder, capture_output=True, text=True).stderr
-        self.assertEqual(told.count("warning:"), 2)
-        self.assertIn(world.notices[1], told)
+            printed = subprocess.run([PROGRAM, "run", "box.hook"], cwd=folder, capture_output=True, text=True).stderr
+        self.assertEqual(printed.count("warning:"), 2)
+        self.assertIn(world.notices[1], printed)
         world.reset()
         self.assertEqual(world.notices, messages(caught)[:1])
 

@@ -78,7 +78,7 @@ const std::map<std::string, Rooms> rooms{
     {"simulation",
      {{"joint_type", "experiment", "robot_tree", "resumable", "engine", "names", "kinematics",
        "ground", "ground_mesh", "creep_velocity", "material_fields", "joint_properties", "rotors",
-       "effort_watch", "identity"},
+       "effort_watch", "identity", "restartable", "start_problems"},
       {"wiring/"},
       {"engine/"},
       {"analysis/"},
