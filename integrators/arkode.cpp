@@ -106,7 +106,7 @@ class Arkode final : public AdaptiveStepper {
   long factorisations() const override {
     long count = 0;
     if (linear_.solver)
-      require(ARKStepGetNumLinSolvSetups(memory_, &count), "ARKStepGetNumLinSolvSetups");
+      require(ARKodeGetNumLinSolvSetups(memory_, &count), "ARKodeGetNumLinSolvSetups");
     return count;
   }
 

@@ -26,6 +26,7 @@ inline constexpr auto ARKodeGetRootInfo = ARKStepGetRootInfo;
 inline constexpr auto ARKodeGetDky = ARKStepGetDky;
 inline constexpr auto ARKodeGetNumErrTestFails = ARKStepGetNumErrTestFails;
 inline constexpr auto ARKodeGetNumNonlinSolvConvFails = ARKStepGetNumNonlinSolvConvFails;
+inline constexpr auto ARKodeGetNumLinSolvSetups = ARKStepGetNumLinSolvSetups;
 inline constexpr auto ARKodeGetNumJacEvals = ARKStepGetNumJacEvals;
 inline constexpr auto ARKodeFree = ARKStepFree;
 #endif

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <sstream>
+#include <system_error>
 
 #include "output/file.h"
 #include "output/result_folder.h"
@@ -81,6 +82,11 @@ void add_errors(py::module_& module) {
       PyErr_SetString(PyExc_OSError, error.what());
     } catch (const studies::StoreError& error) {
       PyErr_SetString(PyExc_OSError, error.what());
+    } catch (const std::system_error& error) {
+      // Of threads: files have errors of their own.
+      PyErr_SetString(error_class, (std::string("the system starts no more threads: ") +
+                                    error.what() + "; use fewer threads or jobs")
+                                       .c_str());
     }
   });
 }

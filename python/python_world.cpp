@@ -5,11 +5,19 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
+#include <unordered_set>
 #include <utility>
 
 #include "output/text/number.h"
+#include "python/arguments.h"
 #include "python/errors.h"
+#include "python/gil.h"
+#include "python/state_values.h"
 #include "python/trails.h"
+#include "simulation/run/energy_watch.h"
+#include "simulation/run/initial_state.h"
+#include "simulation/wiring/port_value.h"
 
 namespace hookpoint::python {
 namespace {
@@ -20,11 +28,23 @@ py::array_t<double> array_of(const std::vector<double>& numbers) {
   return py::array_t<double>(static_cast<py::ssize_t>(numbers.size()), numbers.data());
 }
 
+/// Each port once: of two ports of one trail the first hides the second.
+std::vector<simulation::Port> without_hidden(std::vector<simulation::Port> ports) {
+  std::unordered_set<std::string> seen;
+  std::erase_if(ports,
+                [&](const simulation::Port& port) { return !seen.insert(port.trail).second; });
+  return ports;
+}
+
 }  // namespace
 
 PythonWorld::PythonWorld(std::shared_ptr<LoadedFile> file)
-    : file_(std::move(file)), world_(file_->make_world(experiment())), ports_(world_->ports()) {
-  first_notices_ = next_notice_ = world_->state().notices.size();
+    : file_(std::move(file)),
+      world_(file_->make_world(experiment())),
+      ports_(without_hidden(world_->ports())),
+      notices_(file_->notices()) {
+  take_notices();
+  first_notices_ = notices_.size();
   if (!world_->can_be_saved()) return;
   start_.resize(world_->state_size());
   world_->save(start_);
@@ -32,10 +52,13 @@ PythonWorld::PythonWorld(std::shared_ptr<LoadedFile> file)
 
 /// The rows of a run as they come.
 struct PythonWorld::Recording {
-  std::vector<const double*> from;
+  struct Column {
+    std::vector<const double*> from;  ///< the elements
+    std::vector<double> values;       ///< rows
+  };
   std::int64_t every = 1, since = 0;
   std::vector<double> time;
-  std::vector<std::vector<double>> columns;  ///< one a trail
+  std::vector<Column> columns;  ///< one a trail
   std::unique_ptr<simulation::RunFiles> files;
 
   void first(const simulation::WorldState& state) {
@@ -50,24 +73,73 @@ struct PythonWorld::Recording {
   }
   void row(double now) {
     time.push_back(now);
-    for (std::size_t i = 0; i < from.size(); ++i) columns[i].push_back(*from[i]);
+    for (Column& column : columns) {
+      for (const double* value : column.from) column.values.push_back(*value);
+    }
+  }
+  /// An array of rows, with a second dimension where a row has several numbers.
+  static py::array_t<double> array(const Column& column) {
+    const auto width = static_cast<py::ssize_t>(column.from.size());
+    if (width == 1) return array_of(column.values);
+    const auto rows = static_cast<py::ssize_t>(column.values.size()) / width;
+    return py::array_t<double>({rows, width}, column.values.data());
   }
 };
 
-simulation::StepStatus PythonWorld::advance(std::int64_t count, Recording& recording) {
+/// Watches the energy of steps in which nothing drives the world (energy_watch.h), Python included.
+class PythonWorld::Watch {
+ public:
+  Watch(PythonWorld& owner, std::int64_t count) : owner_(owner) {
+    if (!is_driven() && count >= simulation::EnergyWatch::fewest_steps)
+      energy_.emplace(owner.experiment(), *owner.world_, owner.steps() + count);
+  }
+  void observe() {
+    if (energy_) energy_->observe();
+  }
+  /// After the last step.
+  void finish() {
+    if (!energy_ || is_driven()) return;
+    if (std::string finding = energy_->finding(); !finding.empty())
+      owner_.add_notice(std::move(finding));
+  }
+
+ private:
+  bool is_driven() const { return owner_.driven_ || !owner_.viewed_inputs_.empty(); }
+  PythonWorld& owner_;
+  std::optional<simulation::EnergyWatch> energy_;
+};
+
+simulation::StepStatus PythonWorld::check_viewed() const {
+  for (const simulation::Port& port : viewed_inputs_) {
+    const std::string problem = simulation::value_problem(port, *port.value);
+    if (!problem.empty())
+      return {simulation::StepStatus::Kind::not_finite, time(), port.trail,
+              fmt::format("{} was written to a view of it, which {}", *port.value, problem)};
+  }
+  return {};
+}
+
+simulation::StepStatus PythonWorld::advance(std::int64_t count, Recording& recording,
+                                            Watch& watch) {
   using Clock = std::chrono::steady_clock;
   constexpr std::chrono::milliseconds patience{50};
-  const py::gil_scoped_release others_run;
+  const Busy busy(busy_);
+  WithoutGil others_run;
   Clock::time_point looked = count > 1 ? Clock::now() : Clock::time_point{};
   for (std::int64_t i = 0; i < count && world_->ended().empty(); ++i) {
-    if (viewed_input_) world_->follow();
+    if (interpreter_ends()) wait_for_the_end();
+    if (!viewed_inputs_.empty()) {
+      if (const simulation::StepStatus status = check_viewed(); !status.ok()) return status;
+      world_->follow();
+    }
     const simulation::StepStatus status = world_->step();
     if (!status.ok()) return status;
     recording.next(world_->state());
+    watch.observe();
     // After the last Python looks by itself.
     if (i + 1 == count || Clock::now() - looked < patience) continue;
     looked = Clock::now();
-    const py::gil_scoped_acquire ours;
+    const WithGil ours(others_run);
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
   }
   return {};
@@ -76,24 +148,50 @@ simulation::StepStatus PythonWorld::advance(std::int64_t count, Recording& recor
 void PythonWorld::step(std::int64_t count, const py::object& callback, std::int64_t every) {
   if (count < 0) throw_error("step takes a number of steps that is not negative");
   if (every < 1) throw_error("`every` is a number of steps, 1 or more");
-  const std::int64_t stretch = callback.is_none() ? count : every;
+  const py::object self = callback.is_none() ? py::none() : py::cast(this);
+  const std::int64_t stretch = callback.is_none() ? count : std::min(count, every);
+  Watch watch(*this, count);
   for (std::int64_t left = count; left > 0 && world_->ended().empty(); left -= stretch) {
     Recording none;
-    none.every = count + 1;
-    const simulation::StepStatus status = advance(std::min(left, stretch), none);
+    none.every = std::numeric_limits<std::int64_t>::max();
+    const simulation::StepStatus status = advance(std::min(left, stretch), none, watch);
+    take_notices();
     if (!status.ok()) throw_failure(status);
     if (callback.is_none()) continue;
-    const py::object told = callback(py::cast(this));
-    const int goes_on = told.is_none() ? 1 : PyObject_IsTrue(told.ptr());
-    if (goes_on < 0) throw py::error_already_set();
-    if (goes_on == 0) return;
+    const auto answer = py::reinterpret_steal<py::object>(call(callback, self));
+    if (!answer) throw py::error_already_set();
+    const int continues = answer.is_none() ? 1 : PyObject_IsTrue(answer.ptr());
+    if (continues < 0) throw py::error_already_set();
+    if (continues == 0) break;
   }
+  watch.finish();
 }
 
-void PythonWorld::reset() {
-  if (start_.empty()) state_bytes();  // says why
-  world_->restore(start_);
+void PythonWorld::reset(const py::object& state) {
+  Busy::require_idle(busy_);
+  const simulation::InitialState initial(experiment(), world_->state());
+  const StateValues values(
+      state, 1, [&](const std::string& trail) { return initial.find(trail, ports(trail)); });
+  if (values.empty() && !start_.empty()) {
+    world_->restore(start_);
+  } else {
+    if (!started_) started_ = experiment();
+    simulation::write_initial_state(experiment(), values.of(0), *started_);
+    world_->restart(*started_);
+  }
+  driven_ = false;
+  notices_.resize(first_notices_);
   next_notice_ = world_->state().notices.size();
+}
+
+void PythonWorld::take_notices() {
+  const std::vector<std::string>& all = world_->state().notices;
+  while (next_notice_ < all.size()) add_notice(all[next_notice_++]);
+}
+
+void PythonWorld::add_notice(std::string notice) {
+  notices_.push_back(std::move(notice));
+  warn(notices_.back());
 }
 
 const simulation::StateBytes& PythonWorld::state_bytes() {
@@ -102,18 +200,25 @@ const simulation::StateBytes& PythonWorld::state_bytes() {
   return *state_bytes_;
 }
 
-py::bytes PythonWorld::state() { return state_bytes().of(*world_); }
+py::bytes PythonWorld::state() {
+  Busy::require_idle(busy_);
+  return state_bytes().of(*world_);
+}
 
 void PythonWorld::set_state(const py::bytes& state) {
+  Busy::require_idle(busy_);
   state_bytes().restore(std::string_view(state), *world_);
+  driven_ = true;
 }
 
 std::unique_ptr<PythonWorld> PythonWorld::copy() {
+  Busy::require_idle(busy_);
   if (start_.empty()) state_bytes();
-  auto made = std::make_unique<PythonWorld>(file_);
+  auto made = make_whole<PythonWorld>(file_);
   std::vector<double> numbers(world_->state_size());
   world_->save(numbers);
   made->world_->restore(numbers);
+  made->driven_ = driven_ || !viewed_inputs_.empty();
   return made;
 }
 
@@ -134,17 +239,16 @@ py::array PythonWorld::view(const py::object& self, const std::string& trail) {
     strides.push_back(static_cast<py::ssize_t>(stride * sizeof(double)));
   }
   py::array_t<double> viewed(shape, strides, first, self);
-  if (!writable) viewed.attr("setflags")(py::arg("write") = false);
-  viewed_input_ = viewed_input_ || writable;
+  if (!writable) {
+    viewed.attr("setflags")(py::arg("write") = false);
+    return viewed;
+  }
+  for (const simulation::Port& element : elements) {
+    if (std::ranges::find(viewed_inputs_, element.value, &simulation::Port::value) ==
+        viewed_inputs_.end())
+      viewed_inputs_.push_back(element);
+  }
   return viewed;
-}
-
-std::vector<std::string> PythonWorld::notices() const {
-  const std::vector<std::string>& all = world_->state().notices;
-  std::vector<std::string> since(all.begin(),
-                                 all.begin() + static_cast<std::ptrdiff_t>(first_notices_));
-  since.insert(since.end(), all.begin() + static_cast<std::ptrdiff_t>(next_notice_), all.end());
-  return since;
 }
 
 std::string PythonWorld::text_of_run(const RunOptions& options) {
@@ -174,8 +278,10 @@ py::dict PythonWorld::run(const RunOptions& options) {
     throw_error("`duration` is a time in seconds that is not negative");
   Recording recording;
   recording.every = options.every;
-  for (const std::string& trail : options.trails) recording.from.push_back(port(trail).value);
-  recording.columns.resize(options.trails.size());
+  for (const std::string& trail : options.trails) {
+    Recording::Column& column = recording.columns.emplace_back();
+    for (const simulation::Port& element : ports(trail)) column.from.push_back(element.value);
+  }
   recording.files = open_files(options);
   // Whatever ends the run, what was recorded up to then stays; files are complete unless the disk
   // refuses.
@@ -183,13 +289,14 @@ py::dict PythonWorld::run(const RunOptions& options) {
     py::dict kept;
     kept["time"] = array_of(recording.time);
     for (std::size_t i = 0; i < options.trails.size(); ++i)
-      kept[py::str(options.trails[i])] = array_of(recording.columns[i]);
+      kept[py::str(options.trails[i])] = Recording::array(recording.columns[i]);
     recorded_ = kept;
   };
   simulation::StepStatus status;
+  Watch watch(*this, static_cast<std::int64_t>(steps));
   try {
     recording.first(world_->state());
-    status = advance(static_cast<std::int64_t>(steps), recording);
+    status = advance(static_cast<std::int64_t>(steps), recording, watch);
   } catch (const output::FileError&) {
     keep();
     throw;
@@ -200,23 +307,52 @@ py::dict PythonWorld::run(const RunOptions& options) {
   }
   keep();
   if (recording.files) recording.files->close();
+  take_notices();
   if (!status.ok()) throw_failure(status);
+  watch.finish();
   return recorded_;
 }
 
-const simulation::Port& PythonWorld::port(const std::string& trail) {
+const std::vector<simulation::Port>& PythonWorld::ports(const std::string& trail) {
   const auto known = found_.find(trail);
   if (known != found_.end()) return known->second;
-  return found_.emplace(trail, simulation::find_port(experiment(), ports_, trail)).first->second;
+  return found_.emplace(trail, ports_of(experiment(), ports_, trail)).first->second;
 }
 
-double PythonWorld::read(const std::string& trail) { return *port(trail).value; }
+py::object PythonWorld::read(const std::string& trail) {
+  const std::vector<simulation::Port>& elements = ports(trail);
+  if (elements.size() == 1) return py::float_(*elements.front().value);
+  py::array_t<double> values(static_cast<py::ssize_t>(elements.size()));
+  double* value = values.mutable_data();
+  for (const simulation::Port& element : elements) *value++ = *element.value;
+  return values;
+}
 
-void PythonWorld::write(const std::string& trail, double value) {
-  const simulation::Port& to = port(trail);
-  require_writable(experiment(), to);
-  if (!std::isfinite(value)) throw_error(fmt::format("`{}` takes a finite number", to.trail));
-  world_->set(to, value);
+void PythonWorld::write(const std::string& trail, const py::object& value) {
+  const std::vector<simulation::Port>& elements = ports(trail);
+  for (const simulation::Port& element : elements) require_writable(experiment(), element);
+  const Numbers numbers = numbers_of(value, fmt::format("`{}`", trail));
+  if (static_cast<std::size_t>(numbers.size()) != elements.size() ||
+      numbers.ndim() > (elements.size() > 1 ? 1 : 0))
+    throw_error(fmt::format("`{}` takes {}, not {}", trail,
+                            elements.size() == 1 ? std::string("one number")
+                                                 : fmt::format("{} numbers", elements.size()),
+                            shape_text(numbers)));
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    const std::string problem = simulation::value_problem(elements[i], numbers.data()[i]);
+    if (!problem.empty()) throw_error(fmt::format("`{}` {}", elements[i].trail, problem));
+  }
+  Busy::require_idle(busy_);
+  for (std::size_t i = 0; i < elements.size(); ++i) world_->set(elements[i], numbers.data()[i]);
+  driven_ = true;
+}
+
+std::string PythonWorld::repr() const {
+  const std::size_t robots = experiment().robots.size();
+  return fmt::format(
+      "<hookpoint.World {}: engine {}, {} robot{}, deltat {:g} s, at {:g} s of {:g} s>",
+      experiment().world, experiment().engine, robots, robots == 1 ? "" : "s", experiment().deltat,
+      time(), experiment().duration);
 }
 
 py::list PythonWorld::ports() {

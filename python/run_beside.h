@@ -9,6 +9,8 @@
 #include <optional>
 #include <utility>
 
+#include "python/gil.h"
+
 namespace hookpoint::python {
 
 /// Does `work` in a thread of its own (it starts others) without the GIL, while this one looks for
@@ -17,10 +19,15 @@ template <class Work>
 auto run_beside(const Work& work) {
   std::atomic<bool> stop{false};
   std::optional<pybind11::error_already_set> interrupt;
-  const pybind11::gil_scoped_release others_run;
+  WithoutGil others_run;
   auto running = std::async(std::launch::async, [&] { return work(stop); });
   while (running.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready) {
-    const pybind11::gil_scoped_acquire ours;
+    if (interpreter_ends()) {
+      stop = true;
+      running.wait();
+      wait_for_the_end();
+    }
+    const WithGil ours(others_run);
     if (interrupt || PyErr_CheckSignals() == 0) continue;
     interrupt.emplace();
     stop = true;

@@ -17,6 +17,7 @@
 #include "simulation/engine/robot_system.h"
 #include "simulation/joint_properties.h"
 #include "simulation/names.h"
+#include "simulation/restartable.h"
 
 namespace hookpoint::reference {
 namespace {
@@ -34,12 +35,28 @@ bool finite(const BodyState& body) {
          finite(body.contact_force) && finite(Vector3d{q.x, q.y, q.z}) && std::isfinite(q.w);
 }
 
-class PeerEngine final : public simulation::Engine {
+/// The library's world of an experiment. Throws ExperimentError.
+std::unique_ptr<PeerWorld> library_world(const simulation::Experiment& experiment,
+                                         const Peer& peer) {
+  try {
+    return peer.make_world(experiment, settings_of(experiment, peer));
+  } catch (const simulation::ExperimentError&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw simulation::ExperimentError(
+        fmt::format("engine {}: the library refuses this experiment: {}", peer.name, error.what()));
+  }
+}
+
+class PeerEngine final : public simulation::Engine, public simulation::Restartable {
  public:
-  PeerEngine(const simulation::Experiment& experiment, std::unique_ptr<PeerWorld> world,
+  PeerEngine(const simulation::Experiment& experiment, const Peer& peer,
              std::vector<std::string> notices)
       : experiment_(experiment),
-        world_(std::move(world)),
+        peer_(peer),
+        world_(library_world(experiment_, peer)),
         tree_(robot_tree(experiment_)),
         trails_(simulation::body_trails(experiment_)),
         inputs_(simulation::initial_inputs(experiment_)),
@@ -49,16 +66,28 @@ class PeerEngine final : public simulation::Engine {
         point_forces_(touching_.size()) {
     if (experiment_.terrain) ground_.emplace(*experiment_.terrain);
     for (const TreeBody& body : tree_.bodies) {
-      state_.bodies.push_back(body.initial);
-      if (body.link == nullptr) continue;
-      state_.joints.push_back({body.link->angle, body.link->rate});
-      passive_joints_.push_back(simulation::joint_properties(*body.link));
-      anchors_.push_back(body.link->angle);
+      if (body.link != nullptr) passive_joints_.push_back(simulation::joint_properties(*body.link));
     }
-    next_bodies_ = state_.bodies;
-    next_joints_ = state_.joints;
+    state_.bodies.resize(tree_.bodies.size());
+    state_.joints.resize(passive_joints_.size());
+    anchors_.resize(passive_joints_.size());
     state_.points.resize(experiment_.points.size());
     state_.notices = std::move(notices);
+    take_start(tree_);
+  }
+
+  /// The library's world is made again: its own state can be neither read nor set.
+  void restart(const simulation::Experiment& start) override {
+    world_ = library_world(start, peer_);
+    failure_ = {};
+    simulation::restart_inputs(start, inputs_);
+    acting_.joint_torques = inputs_.joint_torques;
+    state_.step = 0;
+    state_.time = 0.;
+    state_.ground_forces.clear();
+    std::ranges::fill(state_.points, simulation::PointState{});
+    take_start(robot_tree(start));
+    if (has_details_) publish_points();
   }
 
   StepStatus step() override {
@@ -111,6 +140,20 @@ class PeerEngine final : public simulation::Engine {
   void publish_ground_forces() override { state_.ground_force_time = world_->force_time(); }
 
  private:
+  /// Publishes the initial state of the robots.
+  void take_start(const RobotTree& tree) {
+    for (std::size_t i = 0; i < tree.bodies.size(); ++i) {
+      const TreeBody& body = tree.bodies[i];
+      state_.bodies[i] = body.initial;
+      if (body.link == nullptr) continue;
+      const auto joint = static_cast<std::size_t>(body.joint);
+      state_.joints[joint] = {body.link->angle, body.link->rate};
+      anchors_[joint] = body.link->angle;
+    }
+    next_bodies_ = state_.bodies;
+    next_joints_ = state_.joints;
+  }
+
   /// What the joints exert by themselves (docs/joints.md) and what their drives may give every peer
   /// has as an explicit torque, from the state at the step's start.
   void take_inputs() {
@@ -197,6 +240,7 @@ class PeerEngine final : public simulation::Engine {
   }
 
   const simulation::Experiment experiment_;
+  const Peer& peer_;  ///< of known_peers()
   std::unique_ptr<PeerWorld> world_;
   const RobotTree tree_;
   const std::vector<std::string> trails_;
@@ -244,19 +288,8 @@ std::unique_ptr<simulation::Engine> make_peer_engine(const simulation::Experimen
                                       "; install " + std::string(peer.package) +
                                       " and build again");
   auto notices = check_supported(experiment, peer.describe());
-  const Settings settings = settings_of(experiment, peer);
   check_triangles(experiment, peer);
-  try {
-    return std::make_unique<PeerEngine>(experiment, peer.make_world(experiment, settings),
-                                        std::move(notices));
-  } catch (const simulation::ExperimentError&) {
-    throw;
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception& error) {
-    throw simulation::ExperimentError(engine +
-                                      "the library refuses this experiment: " + error.what());
-  }
+  return std::make_unique<PeerEngine>(experiment, peer, std::move(notices));
 }
 
 }  // namespace hookpoint::reference

@@ -7,6 +7,7 @@
 #include "language/schema/describe.h"
 #include "language/units.h"
 #include "language/values/formula.h"
+#include "math/orientation.h"
 #include "unicode/display.h"
 
 namespace hookpoint::language {
@@ -250,15 +251,6 @@ bool FieldMaker::make_words_for_numbers() {
   return true;
 }
 
-/// Rz(yaw) Ry(pitch) Rx(roll) as a quaternion w,x,y,z.
-std::vector<double> from_roll_pitch_yaw(const std::vector<double>& angles) {
-  const double cr = std::cos(angles[0] / 2.), sr = std::sin(angles[0] / 2.);
-  const double cp = std::cos(angles[1] / 2.), sp = std::sin(angles[1] / 2.);
-  const double cy = std::cos(angles[2] / 2.), sy = std::sin(angles[2] / 2.);
-  return {cr * cp * cy + sr * sp * sy, sr * cp * cy - cr * sp * sy, cr * sp * cy + sr * cp * sy,
-          cr * cp * sy - sr * sp * cy};
-}
-
 bool FieldMaker::make_orientation() {
   constexpr Dimension angle{0, 0, 0, 1};
   if (!evaluate()) return false;
@@ -279,18 +271,10 @@ bool FieldMaker::make_orientation() {
     }
     field_.numbers.push_back(value.quantity.value);
   }
-  if (field_.numbers.size() == 3) field_.numbers = from_roll_pitch_yaw(field_.numbers);
-  const double largest = std::fabs(
-      *std::ranges::max_element(field_.numbers, {}, [](double x) { return std::fabs(x); }));
-  if (largest == 0.)
+  const std::optional<std::array<double, 4>> unit = orientation_of(field_.numbers);
+  if (!unit)
     return fail(field_.position, quoted(schema_.name) + " must not be the zero quaternion");
-  double square = 0.;
-  for (const double x : field_.numbers) square += (x / largest) * (x / largest);
-  const double norm = largest * std::sqrt(square);
-  // A unit quaternion stays as it is, bit for bit, so that printed files read back the same.
-  if (std::fabs(norm - 1.) > 1e-14) {
-    for (double& x : field_.numbers) x /= norm;
-  }
+  field_.numbers.assign(unit->begin(), unit->end());
   return true;
 }
 

@@ -11,6 +11,7 @@
 #include "simulation/engine/force_robot.h"
 #include "simulation/engine/impulse_part.h"
 #include "simulation/ground.h"
+#include "simulation/restartable.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -23,7 +24,7 @@ void add(const IntegratorState& part, IntegratorState& sum) {
   sum.events += part.events;
 }
 
-class DtsEngine final : public Engine, public Resumable {
+class DtsEngine final : public Engine, public Resumable, public Restartable {
  public:
   explicit DtsEngine(const Experiment& experiment)
       : experiment_(experiment),
@@ -36,7 +37,7 @@ class DtsEngine final : public Engine, public Resumable {
     under_impulse_law_ = law->is_impulse_law;
     std::size_t bodies = 0, joints = 0, chains = 0;
     for (std::size_t i = 0; i < experiment_.robots.size(); ++i) {
-      parts_.push_back({make_robot(i), bodies, joints, chains});
+      parts_.push_back({make_robot(experiment_, i), bodies, joints, chains});
       bodies += parts_.back().robot->body_count();
       joints += parts_.back().robot->joint_count();
       chains += experiment_.robots[i].chains.size();
@@ -138,6 +139,26 @@ class DtsEngine final : public Engine, public Resumable {
     publish();
   }
 
+  /// Each robot takes the numbers of a new one.
+  void restart(const Experiment& start) override {
+    restart_inputs(start, inputs_);
+    state_.step = 0;
+    state_.time = 0.;
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      Part& part = parts_[i];
+      const auto fresh = make_robot(start, i);
+      std::vector<BodyState> bodies(fresh->body_count());
+      std::vector<JointState> joints(fresh->joint_count());
+      fresh->publish(bodies, joints);
+      std::vector<double> numbers(fresh->state_size());
+      fresh->save(numbers, bodies);
+      part.robot->restore(numbers, bodies_of(part));
+      part.robot->forget_notice();
+      part.noticed = false;
+    }
+    publish();
+  }
+
  private:
   /// A robot, where its published values begin, and whether its notice has been told.
   struct Part {
@@ -146,10 +167,10 @@ class DtsEngine final : public Engine, public Resumable {
     bool noticed = false;
   };
 
-  std::unique_ptr<RobotPart> make_robot(std::size_t index) const {
+  std::unique_ptr<RobotPart> make_robot(const Experiment& experiment, std::size_t index) const {
     const contact::Terrain* ground = ground_ ? &*ground_ : nullptr;
-    if (under_impulse_law_) return make_impulse_part(experiment_, index, ground, inputs_);
-    return std::make_unique<ForceRobot>(experiment_, index, ground, inputs_);
+    if (under_impulse_law_) return make_impulse_part(experiment, index, ground, inputs_);
+    return std::make_unique<ForceRobot>(experiment, index, ground, inputs_);
   }
 
   std::span<BodyState> bodies_of(const Part& part) {

@@ -16,6 +16,7 @@ namespace hookpoint::simulation {
 namespace {
 
 constexpr std::int64_t windows = 20, samples_a_window = 64;
+static_assert(EnergyWatch::fewest_steps >= 10 * windows);
 /// Of the kinetic energy: by so much the maxima of a bounded vibration differ.
 constexpr double wavering = 0.05;
 /// Of the energies summed: what rounding leaves.
@@ -48,7 +49,7 @@ bool is_passive(const Experiment& experiment) {
 EnergyWatch::EnergyWatch(const Experiment& experiment, const World& world, std::int64_t last)
     : experiment_(experiment), world_(world) {
   const std::int64_t steps = last - world.state().step;
-  if (!is_passive(experiment) || !world.ground_energy() || steps < 10 * windows) return;
+  if (!is_passive(experiment) || !world.ground_energy() || steps < fewest_steps) return;
   stride_ = std::max<std::int64_t>(1, steps / (windows * samples_a_window));
   samples_.reserve(static_cast<std::size_t>(steps / stride_ + 2));
   std::size_t bodies = 0;

@@ -23,6 +23,8 @@ bool is_passive(const Experiment& experiment);
 /// the most that it can hold counts as no rise. From published values. O(bodies + boundary points).
 class EnergyWatch {
  public:
+  /// Steps below which nothing is said.
+  static constexpr std::int64_t fewest_steps = 200;
   /// Of a run from the world's present step to step `last`.
   EnergyWatch(const Experiment& experiment, const World& world, std::int64_t last);
 

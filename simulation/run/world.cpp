@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <utility>
 
-#include "output/text/number.h"
 #include "simulation/analysis/failure.h"
 #include "simulation/analysis/stability.h"
+#include "simulation/restartable.h"
+#include "simulation/wiring/port_value.h"
 
 namespace hookpoint::simulation {
 
@@ -36,7 +36,11 @@ StepStatus World::step() {
 }
 
 StepStatus World::update_signals() {
-  if (signals_.update(engine_->state().step)) return {};
+  return status_of_signals(signals_.update(engine_->state().step));
+}
+
+StepStatus World::status_of_signals(bool finite) {
+  if (finite) return {};
   StepStatus status = stopped_by_port(engine_->state().time, signals_.first_not_finite());
   const std::string controllers = controller_advice(stability_bound(experiment_));
   if (!controllers.empty()) status.advice = "it is no longer a finite number: " + controllers;
@@ -53,12 +57,8 @@ std::vector<Port> World::settable(std::span<const PortValue> values) {
   std::vector<Port> ports;
   for (const auto& [trail, value] : values) {
     const Port& port = ports.emplace_back(signals_.settable(trail));
-    if (!std::isfinite(value))
-      throw ExperimentError(fmt::format("`{}` takes a finite number", port.trail));
-    if (value < port.minimum || value > port.maximum)
-      throw ExperimentError(fmt::format("`{}` takes numbers from {} to {}, not {}", port.trail,
-                                        output::shortest(port.minimum),
-                                        output::shortest(port.maximum), output::shortest(value)));
+    if (const std::string problem = value_problem(port, value); !problem.empty())
+      throw ExperimentError(fmt::format("`{}` {}", port.trail, problem));
   }
   return ports;
 }
@@ -104,6 +104,20 @@ void World::restore(std::span<const double> numbers) {
   const std::size_t size = engine.state_size();
   engine.restore(numbers.first(size));
   signals_.restore(numbers.subspan(size));
+}
+
+void World::restart(const Experiment& start) {
+  auto* engine = dynamic_cast<Restartable*>(engine_.get());
+  if (engine == nullptr)
+    throw ExperimentError("engine `" + experiment_.engine + "` cannot go back to time 0");
+  engine->restart(start);
+  // Controllers and wires take the numbers of new ones at that state.
+  Signals fresh(start, *engine_);
+  const bool finite = fresh.update(engine_->state().step);
+  std::vector<double> numbers(fresh.state_size());
+  fresh.save(numbers);
+  signals_.restore(numbers);
+  start_ = status_of_signals(finite);
 }
 
 }  // namespace hookpoint::simulation

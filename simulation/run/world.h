@@ -69,9 +69,18 @@ class World {
   void save(std::span<double> numbers) const;
   void restore(std::span<const double> numbers);
 
+  /// Back to time 0, whatever the engine: all is as in a new world of `start`, which is the world's
+  /// experiment except for the robots' initial positions and velocities (initial_state.h). Ports
+  /// keep their addresses; those of the step that led to an instant are right after the next step,
+  /// as after restore(). Throws ExperimentError and changes nothing where the engine refuses that
+  /// state. Costs about as much as a new world.
+  void restart(const Experiment& start);
+
  private:
   Resumable& resumable() const;
   StepStatus update_signals();
+  /// Of signals at the present instant: why the run cannot continue where a number is not finite.
+  StepStatus status_of_signals(bool finite);
 
   const Experiment& experiment_;
   std::unique_ptr<Engine> engine_;

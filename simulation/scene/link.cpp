@@ -5,6 +5,7 @@
 #include "simulation/scene/body.h"
 #include "simulation/scene/load_parts.h"
 #include "simulation/scene/schema.h"
+#include "simulation/start_problems.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -143,15 +144,8 @@ void check_limits(const language::Object& object, const LinkSpec& link, Loading&
     return loading.error(place_of(object, link_field::lower_limit),
                          "lower_limit is not below upper_limit; exchange them");
   }
-  const bool below = link.lower_limit && link.angle < *link.lower_limit;
-  const bool above = link.upper_limit && link.angle > *link.upper_limit;
-  if (below || above) {
-    loading.error(
-        place_of(object, link_field::angle),
-        fmt::format("the joint starts at angle {:g}, {} of {:g}; start it within its limits",
-                    link.angle, below ? "below its lower_limit" : "above its upper_limit",
-                    below ? *link.lower_limit : *link.upper_limit));
-  }
+  if (const std::string problem = angle_problem(link); !problem.empty())
+    loading.error(place_of(object, link_field::angle), problem);
 }
 
 }  // namespace

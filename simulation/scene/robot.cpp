@@ -2,11 +2,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 
 #include "simulation/scene/body.h"
 #include "simulation/scene/load_parts.h"
 #include "simulation/scene/schema.h"
+#include "simulation/start_problems.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -53,8 +53,6 @@ language::ClassSchema robot_class() {
   return robot;
 }
 
-constexpr std::array<const char*, 3> planes{"yz", "xz", "xy"};  // by their normals x, y, z
-
 language::ClassSchema base_class(std::string name, std::string doc) {
   language::ClassSchema base;
   base.name = std::move(name);
@@ -89,39 +87,24 @@ language::ClassSchema base_class(std::string name, std::string doc) {
   return base;
 }
 
-bool is_zero(const Vector3d& a) { return a == Vector3d{}; }
-
-/// The plane of a base that has one, and whether its motion at the start lies in it.
-void load_plane(const language::Object& object, RobotSpec& robot, Loading& loading) {
+/// The plane of a base that has one.
+void load_plane(const language::Object& object, RobotSpec& robot) {
   if (object.type != "Base.planar") return;
   const auto plane = std::ranges::find(planes, object.word("plane"));
-  const auto normal = static_cast<std::size_t>(plane - planes.begin());
-  robot.plane_normal = normal;
-  const auto parts = [](const Vector3d& a) { return std::array{a.x, a.y, a.z}; };
-  std::array turning = parts(robot.angular_velocity);
-  turning[normal] = 0.;
-  if (parts(robot.velocity)[normal] != 0.)
-    loading.error(place_of(object, base_field::velocity),
-                  fmt::format("this leads out of the plane {} that the base is kept in", *plane));
-  if (turning != std::array{0., 0., 0.})
-    loading.error(
-        place_of(object, base_field::angular_velocity),
-        fmt::format("a base in the plane {} turns about {} alone", *plane, "xyz"[normal]));
+  robot.plane_normal = static_cast<std::size_t>(plane - planes.begin());
 }
 
 void load_base(const language::Object& object, RobotSpec& robot, Loading& loading) {
   robot.mobile = object.type != "Base.fixed";
   robot.base = load_body(object, object.name, robot.mobile, loading);
   store_fields(object, motion_fields(), robot);
-  load_plane(object, robot, loading);
-  if (!robot.mobile) {
-    for (const char* field : {base_field::velocity, base_field::angular_velocity}) {
-      if (is_zero(vector_of(object, field))) continue;
-      loading.error(place_of(object, field),
-                    "a Base.fixed does not move; make it a Base.mobile or leave this out");
-    }
-    return;
+  load_plane(object, robot);
+  for (const auto& [field, problem] :
+       {std::pair{base_field::velocity, velocity_problem(robot)},
+        std::pair{base_field::angular_velocity, angular_velocity_problem(robot)}}) {
+    if (!problem.empty()) loading.error(place_of(object, field), problem);
   }
+  if (!robot.mobile) return;
   const bool rests = object.given(base_field::rest_on);
   for (const char* field : {base_field::location, base_field::orientation}) {
     if (!rests || !object.given(field)) continue;

@@ -1,4 +1,7 @@
+#include <algorithm>
+
 #include "simulation/engine.h"
+#include "simulation/restartable.h"
 #include "simulation/robot_tree.h"
 
 namespace hookpoint::simulation {
@@ -18,6 +21,13 @@ WorldInputs initial_inputs(const Experiment& experiment) {
         {force.point, waits ? Vector3d{} : force.force, waits ? Vector3d{} : force.torque});
   }
   return inputs;
+}
+
+void restart_inputs(const Experiment& start, WorldInputs& inputs) {
+  const WorldInputs initial = initial_inputs(start);
+  std::ranges::copy(initial.joint_torques, inputs.joint_torques.begin());
+  std::ranges::copy(initial.forces, inputs.forces.begin());
+  inputs.pull = initial.pull;
 }
 
 }  // namespace hookpoint::simulation

@@ -4,7 +4,7 @@
     PYTHONPATH=build/release/python python3 tests/bench/python_overhead.py build/release/cli/hookpoint
 
 Steps of the walking hexapod driven from Python beside `hookpoint run` of the same steps, and a Batch beside separate worlds stepped one
-after the other. Every ratio is of the medians of several rounds, whose sides are timed in turn: steps in processor time, which other
+after the other; first what worlds cost before their first step. Every ratio is of the medians of several rounds, whose sides are timed in turn: steps in processor time, which other
 programs on the machine do not enter, a Batch by the clock.
 """
 import argparse
@@ -119,6 +119,27 @@ def batch(worlds, count, calls, threads, rounds):
           f"{taken['separate'] / taken['batch']:.2f} times as fast as worlds one after the other")
 
 
+def starts(worlds):
+    """What a world costs before its first step, in processor time of one thread."""
+    stiffness = np.linspace(2e3, 3e3, worlds)
+    soils = [{"world.rigid_floor.normal_stiffness": k} for k in stiffness]
+    others = [{"world.rigid_floor.normal_stiffness": 1.01 * k} for k in stiffness]
+    heights = {"hexapod.base.location": np.column_stack([np.zeros((worlds, 2)), np.linspace(0.2, 0.3, worlds)])}
+    made = {}
+
+    def make(name, **how):
+        made[name] = hookpoint.Batch(SCENE, worlds, threads=1, **how)
+
+    for name, work in [("load", lambda: hookpoint.load(SCENE)),
+                       ("same settings", lambda: make("same")),
+                       ("settings of its own", lambda: make("own", set=soils)),
+                       ("reset", lambda: made["same"].reset()),
+                       ("reset to a state", lambda: made["same"].reset(state=heights)),
+                       ("reset to settings", lambda: made["own"].reset(set=others))]:
+        taken = 1e3 * seconds(work, processor_time) / (1 if name == "load" else worlds)
+        print(f"  {name:<20} {taken:8.3f} ms{'' if name == 'load' else ' a world'}")
+
+
 def memory(worlds):
     hookpoint.Batch(SCENE, 1)  # what every process has once
     before = resident()
@@ -135,6 +156,7 @@ def main():
     parser.add_argument("--rounds", type=int, default=5)
     arguments = parser.parse_args()
     memory(arguments.worlds)
+    starts(10 * arguments.worlds)
     step_loop(arguments.program, arguments.steps, arguments.rounds)
     for threads in arguments.threads:
         for count in (1, 20):

@@ -376,7 +376,7 @@ class State(unittest.TestCase):
 
     def test_engines_that_cannot_be_saved_say_so(self):
         world = hookpoint.loads(FALLING, engine="ode")
-        for ask in (world.state, world.copy, world.reset):
+        for ask in (world.state, world.copy):
             with self.assertRaisesRegex(hookpoint.Error, "cannot be saved"):
                 ask()
 
@@ -535,9 +535,9 @@ class Batch(unittest.TestCase):
                 batch.step(wrong)
         with self.assertRaisesRegex(hookpoint.Error, "world 1 takes a finite"):
             batch.step([[0.], [np.inf]])
-        with self.assertRaisesRegex(hookpoint.Error, "one a world: 2, not 3"):
+        with self.assertRaisesRegex(hookpoint.Error, "one entry a world: 2, not 3"):
             hookpoint.Batch(WHEEL, 2, seeds=[1, 2, 3])
-        with self.assertRaisesRegex(hookpoint.Error, "one world or more"):
+        with self.assertRaisesRegex(hookpoint.Error, "1 to 100000 worlds"):
             hookpoint.Batch(WHEEL, 0)
         with self.assertRaisesRegex(hookpoint.Error, "not written"):
             hookpoint.Batch(WHEEL, 1, actions=["wheel.axle.disc.rate"])

@@ -79,7 +79,7 @@ const std::map<std::string, Rooms> rooms{
     {"simulation",
      {{"joint_type", "experiment", "robot_tree", "resumable", "engine", "names", "kinematics",
        "ground", "ground_mesh", "creep_velocity", "closed_form", "material_fields",
-       "joint_properties", "rotors", "effort_watch", "identity"},
+       "joint_properties", "rotors", "effort_watch", "identity", "restartable", "start_problems"},
       {"wiring/"},
       {"engine/"},
       {"analysis/"},
