@@ -52,6 +52,21 @@ std::unique_ptr<Object> lay_first(const StudyPlan& plan, const std::filesystem::
   return tree;
 }
 
+/// Words that the study's Sweeps and Fixes say, those too that do not run under --quick.
+std::vector<std::string> words_in(const Object& study) {
+  std::vector<std::string> words;
+  const auto add = [&](const Object& block, const char* field) {
+    if (const Field* given = block.find(field))
+      words.insert(words.end(), given->words.begin(), given->words.end());
+  };
+  for (const Object* sweep : study.children_of("Sweep")) add(*sweep, "values");
+  std::vector<const Object*> owners = study.children_of("Subject");
+  owners.push_back(&study);
+  for (const Object* owner : owners)
+    for (const Object* fix : owner->children_of("Fix")) add(*fix, "value");
+  return words;
+}
+
 bool is_own_metric(const Object* block) { return block->given("of") || block->given("trace"); }
 
 bool has_traces(const Object* cases) { return !cases->children_of("Trace").empty(); }
@@ -526,7 +541,11 @@ void plan_parts(StudyPlan& plan, const Object& study, const std::filesystem::pat
     scene = lay_first(plan, scene_file, own ? diagnostics : untold);
   }
   std::optional<SceneNames> known;
-  if (scene) parts.know(&known.emplace(*scene, words_of(plan, first_row(plan, scene_file))));
+  if (scene) {
+    known.emplace(*scene, words_of(plan, first_row(plan, scene_file)));
+    known->expect_words(words_in(study));
+    parts.know(&*known);
+  }
   parts.add_curves(study);
   for (const Object* block : study.children_of("Measure")) parts.add_metric(*block);
   if (scene && study.boolean("expects")) parts.add_expectations();

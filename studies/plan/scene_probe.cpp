@@ -118,6 +118,11 @@ std::vector<std::optional<SceneNumber>> SceneNames::numbers(
   return found;
 }
 
+void SceneNames::expect_words(std::vector<std::string> words) {
+  for (const auto& [name, word] : words_) words.push_back(word);
+  expected_ = std::move(words);
+}
+
 bool SceneNames::holds_word(const std::string& name) const {
   return is_string(name) || words_.contains(name);
 }
@@ -137,6 +142,13 @@ std::optional<SceneNumber> SceneNames::word(const std::string& name, std::string
                       tree_.parameters.end();
   if (number && held == words_.end()) {
     why = fmt::format("`{}` is a number, and compared with a word", name);
+    return std::nullopt;
+  }
+  std::string no_object;
+  if (expected_ && std::ranges::find(*expected_, text) == expected_->end() &&
+      !resolve(text, no_object)) {
+    why = fmt::format("`{}` is no word of a Sweep, a Fix or a Param, nor an object of the scene{}",
+                      text, language::did_you_mean(text, *expected_));
     return std::nullopt;
   }
   auto place = std::ranges::find(compared_, text);

@@ -214,6 +214,8 @@ TEST_F(StudyMeasure, SaysWhatIsWrongWithAWordInAClosedForm) {
            {"soil.statik_friction * 1 m", "did you mean `static_friction`"},
            {"\"clay\" * 1 m", "is a string, no number"},
            {"soil == oak ? 1 m : oak * 1 m", "no Param of the scene that is a number"},
+           {"soil == okk ? 1 m : 2 m", "`okk` is no word of a Sweep"},
+           {"soil == okk ? 1 m : 2 m", "did you mean `oak`"},
            {"soil < oak ? 1 m : 2 m", "`soil` holds the word `clay`"}}) {
     EXPECT_FALSE(plan(worded_study({form}))) << form;
     EXPECT_NE(messages().find(message), std::string::npos) << form << "\n" << messages();
