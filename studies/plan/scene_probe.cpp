@@ -21,8 +21,6 @@ std::optional<language::Dimension> unit_dimension(const language::Target& target
   return parsed ? std::optional(parsed->dimension) : std::nullopt;
 }
 
-bool is_string(const std::string& name) { return name.starts_with('"'); }
-
 /// How the names of a formula are used.
 struct NameUse {
   bool as_number = false, as_word = false;
@@ -55,6 +53,10 @@ std::vector<NameUse> uses_of(const language::Formula& formula,
 }
 
 }  // namespace
+
+bool is_string(std::string_view text) {
+  return text.size() >= 2 && text.front() == '"' && text.find('"', 1) == text.size() - 1;
+}
 
 SceneNames::SceneNames(const language::Object& tree, std::map<std::string, std::string> words,
                        const simulation::Experiment* experiment)

@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "language/document.h"
@@ -14,6 +15,9 @@
 #include "simulation/scene/trails.h"
 
 namespace hookpoint::studies {
+
+/// Whether a name of a formula, or a value's text, is a string in its quotes.
+bool is_string(std::string_view text);
 
 /// A port of the scene.
 struct ScenePort {
