@@ -8,6 +8,7 @@
 #include "language/names.h"
 #include "language/values/budget.h"
 #include "output/text/number.h"
+#include "simulation/scene/load.h"
 #include "studies/plan/plan_builder.h"
 #include "studies/plan/plan_values.h"
 #include "studies/plan/scene_words.h"
@@ -28,6 +29,13 @@ std::vector<double> in_unit(const std::vector<double>& si, const WrittenUnit& un
   std::vector<double> values;
   for (const double value : si) values.push_back(tidy(unit.from_si(value)));
   return values;
+}
+
+/// Puts the step that a run chooses where the scene leaves it to it: a closed form may name it.
+void write_step(Object& scene) {
+  Diagnostics untold;
+  if (const auto experiment = simulation::load_experiment(scene, untold))
+    simulation::write_chosen_step(*experiment, scene);
 }
 
 RowPlan first_row(const StudyPlan& plan, const std::filesystem::path& scene_file) {
@@ -539,6 +547,7 @@ void plan_parts(StudyPlan& plan, const Object& study, const std::filesystem::pat
     const bool own = std::ranges::any_of(study.children_of("Measure"), is_own_metric) ||
                      std::ranges::any_of(cases, has_traces);
     scene = lay_first(plan, scene_file, own ? diagnostics : untold);
+    if (scene && own) write_step(*scene);
   }
   std::optional<SceneNames> known;
   if (scene) {

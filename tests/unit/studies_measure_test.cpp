@@ -204,6 +204,18 @@ TEST_F(StudyMeasure, AClosedFormSeesWordsAndTheMaterialsThatTheyName) {
   }
 }
 
+TEST_F(StudyMeasure, AClosedFormTakesTheStepThatTheRunChooses) {
+  write("worded.hook", replaced(worded_scene, "deltat = 10 ms", "deltat = auto"));
+  for (const char* box : {"low.hook", "high.hook"})
+    write(box, "Shape.Box { dimensions = 0.2, 0.2, 0.1; mass = 1 kg; }\n");
+  const auto plan = this->plan(worded_study({"world.deltat * 1 m/s"}));
+  ASSERT_TRUE(plan) << messages();
+  for (const RowPlan& row : plan->rows) {
+    ASSERT_GT(row.deltat, 0.);
+    EXPECT_DOUBLE_EQ(row.forms.at(0).predicted.value_or(-1.), row.deltat);
+  }
+}
+
 TEST_F(StudyMeasure, SaysWhatIsWrongWithAWordInAClosedForm) {
   write("worded.hook", worded_scene);
   for (const char* box : {"low.hook", "high.hook"})
