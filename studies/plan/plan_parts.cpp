@@ -8,6 +8,7 @@
 #include "language/names.h"
 #include "language/values/budget.h"
 #include "output/text/number.h"
+#include "simulation/scene/load.h"
 #include "studies/plan/plan_builder.h"
 #include "studies/plan/plan_values.h"
 #include "studies/plan/scene_words.h"
@@ -31,6 +32,13 @@ std::vector<double> in_unit(const std::vector<double>& si, const WrittenUnit& un
   return values;
 }
 
+/// Puts the step that a run chooses where the scene leaves it to it: a closed form may name it.
+void write_step(Object& scene) {
+  Diagnostics untold;
+  if (const auto experiment = simulation::load_experiment(scene, untold))
+    simulation::write_chosen_step(*experiment, scene);
+}
+
 RowPlan first_row(const StudyPlan& plan, const std::filesystem::path& scene_file) {
   RowPlan first;
   first.values.assign(plan.sweeps.size(), 0);
@@ -51,6 +59,21 @@ std::unique_ptr<Object> lay_first(const StudyPlan& plan, const std::filesystem::
   for (const language::Diagnostic& diagnostic : found.all())
     tell_at(plan.place_in_study(diagnostic.position, first, ""), diagnostic, diagnostics);
   return tree;
+}
+
+/// Words that the study's Sweeps and Fixes say, those too that do not run under --quick.
+std::vector<std::string> words_in(const Object& study) {
+  std::vector<std::string> words;
+  const auto add = [&](const Object& block, const char* field) {
+    if (const Field* given = block.find(field))
+      words.insert(words.end(), given->words.begin(), given->words.end());
+  };
+  for (const Object* sweep : study.children_of("Sweep")) add(*sweep, "values");
+  std::vector<const Object*> owners = study.children_of("Subject");
+  owners.push_back(&study);
+  for (const Object* owner : owners)
+    for (const Object* fix : owner->children_of("Fix")) add(*fix, "value");
+  return words;
 }
 
 bool is_own_metric(const Object* block) { return block->given("of") || block->given("trace"); }
@@ -585,9 +608,14 @@ void plan_parts(StudyPlan& plan, const Object& study, const std::filesystem::pat
     const bool own = std::ranges::any_of(study.children_of("Measure"), is_own_metric) ||
                      std::ranges::any_of(cases, has_traces);
     scene = lay_first(plan, scene_file, own ? diagnostics : untold);
+    if (scene && own) write_step(*scene);
   }
   std::optional<SceneNames> known;
-  if (scene) parts.know(&known.emplace(*scene, words_of(plan, first_row(plan, scene_file))));
+  if (scene) {
+    known.emplace(*scene, words_of(plan, first_row(plan, scene_file)));
+    known->expect_words(words_in(study));
+    parts.know(&*known);
+  }
   parts.add_curves(study);
   for (const Object* block : study.children_of("Measure")) parts.add_metric(*block);
   if (scene && study.boolean("expects")) parts.add_expectations();

@@ -21,8 +21,6 @@ std::optional<language::Dimension> unit_dimension(const language::Target& target
   return parsed ? std::optional(parsed->dimension) : std::nullopt;
 }
 
-bool is_string(const std::string& name) { return name.starts_with('"'); }
-
 /// How the names of a formula are used.
 struct NameUse {
   bool as_number = false, as_word = false;
@@ -55,6 +53,10 @@ std::vector<NameUse> uses_of(const language::Formula& formula,
 }
 
 }  // namespace
+
+bool is_string(std::string_view text) {
+  return text.size() >= 2 && text.front() == '"' && text.find('"', 1) == text.size() - 1;
+}
 
 SceneNames::SceneNames(const language::Object& tree, std::map<std::string, std::string> words,
                        const simulation::Experiment* experiment)
@@ -118,6 +120,11 @@ std::vector<std::optional<SceneNumber>> SceneNames::numbers(
   return found;
 }
 
+void SceneNames::expect_words(std::vector<std::string> words) {
+  for (const auto& [name, word] : words_) words.push_back(word);
+  expected_ = std::move(words);
+}
+
 bool SceneNames::holds_word(const std::string& name) const {
   return is_string(name) || words_.contains(name);
 }
@@ -137,6 +144,13 @@ std::optional<SceneNumber> SceneNames::word(const std::string& name, std::string
                       tree_.parameters.end();
   if (number && held == words_.end()) {
     why = fmt::format("`{}` is a number, and compared with a word", name);
+    return std::nullopt;
+  }
+  std::string no_object;
+  if (expected_ && std::ranges::find(*expected_, text) == expected_->end() &&
+      !resolve(text, no_object)) {
+    why = fmt::format("`{}` is no word of a Sweep, a Fix or a Param, nor an object of the scene{}",
+                      text, language::did_you_mean(text, *expected_));
     return std::nullopt;
   }
   auto place = std::ranges::find(compared_, text);

@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "language/document.h"
@@ -14,6 +15,9 @@
 #include "simulation/scene/trails.h"
 
 namespace hookpoint::studies {
+
+/// Whether a name of a formula, or a value's text, is a string in its quotes.
+bool is_string(std::string_view text);
 
 /// A port of the scene.
 struct ScenePort {
@@ -37,6 +41,9 @@ class SceneNames {
   explicit SceneNames(const language::Object& tree, std::map<std::string, std::string> words = {},
                       const simulation::Experiment* experiment = nullptr);
   const language::Object& tree() const { return tree_; }
+  /// A word that is compared must be one of `words`, one that a name holds, or an object's name;
+  /// unless this is called, it may be any.
+  void expect_words(std::vector<std::string> words);
   /// Nothing, with `why`, where `trail` is no number of a run. `experiment`: of `tree`; may be
   /// null.
   std::optional<ScenePort> port(const std::string& trail, std::string& why,
@@ -64,7 +71,8 @@ class SceneNames {
   std::map<std::string, std::string> words_;
   const simulation::Experiment* experiment_ = nullptr;
   std::optional<simulation::Experiment> loaded_;
-  std::vector<std::string> compared_;  ///< words
+  std::vector<std::string> compared_;                 ///< words
+  std::optional<std::vector<std::string>> expected_;  ///< likewise
   const language::Object* world_ = nullptr;
   simulation::ObjectTrails trails_;
   language::Names names_;

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "language/syntax/syntax.h"
+#include "studies/plan/scene_probe.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -15,10 +16,6 @@ bool is_word(std::string_view text) {
   if (text.empty() || std::isdigit(static_cast<unsigned char>(text.front())) != 0) return false;
   return std::ranges::all_of(text, part_of_word) && text != "true" && text != "false" &&
          text != "pi";
-}
-
-bool is_string(std::string_view text) {
-  return text.size() >= 2 && text.front() == '"' && text.find('"', 1) == text.size() - 1;
 }
 
 /// Adds the words that Params of `file` hold, some of which are given.

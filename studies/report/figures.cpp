@@ -47,17 +47,20 @@ std::string series_label(const StudyResult& study, const PlotSpec& spec, const S
   return study.subjects.size() > 1 ? subject + ", " + value : value;
 }
 
-/// The subject's style. Where a series is a subject at one value of a sweep: the subject's colour
-/// with a variant for the value, another than those of the subjects that share the colour; when
+/// The subject's style. Where a series is a subject at one value of a sweep: the subject's colour,
+/// its own variant for the first value and for others such as no subject of that colour has; when
 /// there is only one subject, a style for the value.
 int series_style(const StudyResult& study, const PlotSpec& spec, const SeriesKey& key) {
   const auto sweep = sweep_index(study, spec.series);
   if (sweep && study.subjects.size() == 1) return key.value;
-  const int style = subject_styles(study)[static_cast<std::size_t>(key.subject)];
-  if (!sweep) return style;
+  const std::vector<int> styles = subject_styles(study);
+  const int style = styles[static_cast<std::size_t>(key.subject)];
+  if (!sweep || key.value == 0) return style;
   const int color = style % output::style_colors, member = style / output::style_colors;
-  const int values = static_cast<int>(study.sweeps[*sweep].values.size());
-  return color + output::style_colors * (member * values + key.value);
+  const auto members = static_cast<int>(std::ranges::count_if(
+      styles, [&](int other) { return other % output::style_colors == color; }));
+  const int others = static_cast<int>(study.sweeps[*sweep].values.size()) - 1;
+  return color + output::style_colors * (members + member * others + key.value - 1);
 }
 
 /// The curve cut into buckets along x, each with its least and its largest value: more cannot be

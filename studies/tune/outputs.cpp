@@ -47,21 +47,21 @@ void add_titles(output::CsvTable& table, const std::string& name, std::string_vi
 }
 
 /// A value made of the seeds and its standard error; empty without.
-void add_value(std::vector<std::string>& row, const std::optional<double>& value,
-               const std::optional<std::vector<double>>& seeds) {
+void add_mean(std::vector<std::string>& row, const std::optional<double>& value,
+              const std::optional<std::vector<double>>& seeds) {
   row.push_back(empty_or(value));
   row.push_back(seeds ? shortest(standard_error_of(*seeds)) : "");
 }
 
 void add_objective(std::vector<std::string>& row, const ObjectivePlan& objective,
                    const Candidate& candidate) {
-  add_value(row, value_of(objective, candidate), objective_of_seeds(objective, candidate));
+  add_mean(row, value_of(objective, candidate), objective_of_seeds(objective, candidate));
 }
 
 /// Mean, standard error and "1.5 2.5", the seeds' values, of one metric.
 void add_metric(std::vector<std::string>& row, const Candidate& candidate, std::size_t metric) {
   const auto values = values_of_seeds(candidate, metric);
-  add_value(row, values ? std::optional(mean_of(*values)) : std::nullopt, values);
+  add_mean(row, values ? std::optional(mean_of(*values)) : std::nullopt, values);
   std::string each;
   for (const auto& measured : candidate.measured)
     each += (each.empty() ? "" : " ") + (measured[metric] ? shortest(*measured[metric]) : "-");
@@ -231,7 +231,7 @@ output::CsvTable pareto_table(const TunePlan& plan, const TuneResult& result) {
     add_constants(row, candidate);
     for (const ObjectivePlan& objective : plan.objectives) {
       const auto values = values_of_seeds(candidate, objective.metric);
-      if (objective.target) add_value(row, mean_of(*values), values);
+      if (objective.target) add_mean(row, mean_of(*values), values);
       add_objective(row, objective, candidate);
     }
     row.emplace_back(member == result.recommended->candidate ? "yes" : "");

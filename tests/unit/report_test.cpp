@@ -223,6 +223,9 @@ TEST(Figures, NoTwoSeriesLookTheSame) {
   const Figure figure = make_figure(study, 0);
   EXPECT_EQ(figure.plot.series.size(), 6u);
   EXPECT_EQ(looks_of(figure).size(), 6u);
+  // At the first value they look as they do elsewhere in the report.
+  EXPECT_EQ(figure.plot.series[0].style, subject_styles(study)[0]);
+  EXPECT_EQ(figure.plot.series[3].style, subject_styles(study)[1]);
 }
 
 TEST(Figures, ASubjectWithoutARunTakesNoColour) {

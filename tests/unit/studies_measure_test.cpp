@@ -204,6 +204,18 @@ TEST_F(StudyMeasure, AClosedFormSeesWordsAndTheMaterialsThatTheyName) {
   }
 }
 
+TEST_F(StudyMeasure, AClosedFormTakesTheStepThatTheRunChooses) {
+  write("worded.hook", replaced(worded_scene, "deltat = 10 ms", "deltat = auto"));
+  for (const char* box : {"low.hook", "high.hook"})
+    write(box, "Shape.Box { dimensions = 0.2, 0.2, 0.1; mass = 1 kg; }\n");
+  const auto plan = this->plan(worded_study({"world.deltat * 1 m/s"}));
+  ASSERT_TRUE(plan) << messages();
+  for (const RowPlan& row : plan->rows) {
+    ASSERT_GT(row.deltat, 0.);
+    EXPECT_DOUBLE_EQ(row.forms.at(0).predicted.value_or(-1.), row.deltat);
+  }
+}
+
 TEST_F(StudyMeasure, SaysWhatIsWrongWithAWordInAClosedForm) {
   write("worded.hook", worded_scene);
   for (const char* box : {"low.hook", "high.hook"})
@@ -214,6 +226,8 @@ TEST_F(StudyMeasure, SaysWhatIsWrongWithAWordInAClosedForm) {
            {"soil.statik_friction * 1 m", "did you mean `static_friction`"},
            {"\"clay\" * 1 m", "is a string, no number"},
            {"soil == oak ? 1 m : oak * 1 m", "no Param of the scene that is a number"},
+           {"soil == okk ? 1 m : 2 m", "`okk` is no word of a Sweep"},
+           {"soil == okk ? 1 m : 2 m", "did you mean `oak`"},
            {"soil < oak ? 1 m : 2 m", "`soil` holds the word `clay`"}}) {
     EXPECT_FALSE(plan(worded_study({form}))) << form;
     EXPECT_NE(messages().find(message), std::string::npos) << form << "\n" << messages();
