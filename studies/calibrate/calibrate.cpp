@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -58,6 +59,10 @@ constexpr std::size_t surface_looks = 4;
 /// A fold's search that begins where the first one ended is so wide at first [parts of the range],
 /// and takes half of the generations.
 constexpr double width_of_a_fold = 0.3;
+/// Shares of its range at which a constant is tried for whether it changes anything: not
+/// symmetrical, since a function of it may be even, and near both ends, since one may be flat
+/// between.
+constexpr std::array read_at{0.25, 0.75, 0.37, 0.02, 0.98};
 /// Of a constant with which every run is the same, bit for bit.
 constexpr const char* unread = "no trace changes with it";
 /// What became of a profile.
@@ -218,17 +223,23 @@ class SubjectFit {
   void leave_out_unread() {
     const Shares middle = own_or_middle();
     const Cases cases = drawn_cases();
-    const auto outcomes = rows_.run(
-        {middle.size(), [&](std::size_t i) { return identity("reads", i, middle); },
-         [&](std::size_t i) {
-           Shares less = middle, more = middle;
-           less[i] = 0.25;
-           more[i] = 0.75;
-           const auto one = model_.residuals(less, cases);
-           const auto other = model_.residuals(more, cases);
-           const bool same = one && other && *one == *other;
-           return FitOutcome{same ? unread : "ok", std::nullopt, std::nullopt, 2, Shares{}, {}};
-         }});
+    const auto outcomes =
+        rows_.run({middle.size(), [&](std::size_t i) { return identity("reads", i, middle); },
+                   [&](std::size_t i) {
+                     FitOutcome outcome{unread, std::nullopt, std::nullopt, 0, Shares{}, {}};
+                     std::optional<Residuals> first;
+                     for (const double share : read_at) {
+                       Shares place = middle;
+                       place[i] = share;
+                       const auto found = model_.residuals(place, cases);
+                       ++outcome.models;
+                       if (!first) first = found;
+                       if (found && *found == *first) continue;
+                       outcome.status = "ok";
+                       break;
+                     }
+                     return outcome;
+                   }});
     stop_if_unfinished(outcomes);
     std::vector<std::size_t> read;
     for (std::size_t i = 0; i < middle.size(); ++i) {
@@ -295,8 +306,8 @@ class SubjectFit {
   }
 
   /// Looks for other valleys along each constant's axis through the optimum, over its whole range,
-  /// and refines from the best where the fit misses its own weights or is not the least. Whether
-  /// that found a better optimum.
+  /// and refines from the best of them: they may be better, or explain the data as well. Whether
+  /// that found a better optimum by more than equal_errors.
   bool search_axes(std::size_t round) {
     const Shares optimum = place_of_answer();
     const double error = *result_.error;
@@ -310,12 +321,11 @@ class SubjectFit {
     const auto looked = look_at_all("axis", places);
     record(FitStage::axis, looked, places, round * places.size());
     stop_if_unfinished(looked);
-    if (!(error > greatest_error_of_a_fit) && !(*result_.error < error)) return false;
     std::vector<Shares> best = best_of(axis_valleys(looked, optimum, error));
     const auto refined = refine_all(best);
     record(FitStage::refined, refined, best, refined_starts * (round + 1));
     stop_if_unfinished(refined);
-    return *result_.error < error;
+    return *result_.error < error - equal_errors * std::max(1., error);
   }
 
   /// Those that are better than the optimum, or a least one of their axis that is not in the
@@ -634,7 +644,7 @@ class SubjectFit {
       constant.high = interval.high;
       constant.reason = why_not_identifiable(constant);
       if (constant.reason.empty()) constant.reason = beyond;
-      if (constant.reason.empty() && apart)
+      if (apart && range_end(constant.share).empty())
         constant.reason = fmt::format("{} and {}{} explain the data equally well",
                                       value_text(plan_, constant, constant.share),
                                       value_text(plan_, constant, *apart), unit_of(constant));
