@@ -99,6 +99,7 @@ class SubjectFit {
     if (!subject.refusal.empty()) return 0;
     if (plan.method == FitMethod::cmaes)
       return subject.constants.size() + looks_of_a_search(plan, plan.generations) +
+             (plan.resamples < least_resamples ? 0 : axis_places * subject.constants.size()) +
              fold_count(plan) * looks_of_a_search(plan, generations_of_folds(plan));
     return subject.constants.size() + 2 + plan.starts + refined_starts +
            axis_rounds * (axis_places * subject.constants.size() + refined_starts) +
@@ -305,12 +306,8 @@ class SubjectFit {
     return true;
   }
 
-  /// Looks for other valleys along each constant's axis through the optimum, over its whole range,
-  /// and refines from the best of them: they may be better, or explain the data as well. Whether
-  /// that found a better optimum by more than equal_errors.
-  bool search_axes(std::size_t round) {
-    const Shares optimum = place_of_answer();
-    const double error = *result_.error;
+  /// Places all over the range of each constant, the others as they are.
+  static std::vector<Shares> places_on_axes(const Shares& optimum) {
     std::vector<Shares> places;
     for (std::size_t i = 0; i < optimum.size(); ++i) {
       for (std::size_t part = 0; part < axis_places; ++part) {
@@ -318,6 +315,16 @@ class SubjectFit {
         places.back()[i] = (static_cast<double>(part) + 0.5) / axis_places;
       }
     }
+    return places;
+  }
+
+  /// Looks for other valleys along each constant's axis through the optimum, over its whole range,
+  /// and refines from the best of them: they may be better, or explain the data as well. Whether
+  /// that found a better optimum by more than equal_errors.
+  bool search_axes(std::size_t round) {
+    const Shares optimum = place_of_answer();
+    const double error = *result_.error;
+    const std::vector<Shares> places = places_on_axes(optimum);
     const auto looked = look_at_all("axis", places);
     record(FitStage::axis, looked, places, round * places.size());
     stop_if_unfinished(looked);
@@ -793,15 +800,34 @@ class SubjectFit {
       std::mt19937_64 random = random_of(i);
       places.push_back(*found.least(draw_with_replacement(cases.size(), random)));
     }
-    judge(places, ends_of(places_as_near(found, *best)), {});
+    std::vector<FitOutcome> looked = found.looked;
+    if (plan_.resamples >= least_resamples) look_along_axes(cases, best->place, looked);
+    judge(places, ends_of(places_as_near(looked, *best)), {});
     return true;
+  }
+
+  /// Adds places along the axes through the best one: the search itself went where the error falls,
+  /// and saw little of a constant that changes nothing.
+  void look_along_axes(const Cases& cases, const Shares& best, std::vector<FitOutcome>& looked) {
+    const std::vector<Shares> places = places_on_axes(best);
+    const auto outcomes =
+        rows_.run({places.size(), [&](std::size_t i) { return identity("axis", i, places[i]); },
+                   [&](std::size_t i) { return look(places[i], cases); }});
+    for (std::size_t i = 0; i < outcomes.size(); ++i) {
+      if (!outcomes[i]) continue;
+      result_.records.push_back({FitStage::axis, i + 1, places[i], outcomes[i]->error,
+                                 outcomes[i]->models, outcomes[i]->status});
+      looked.push_back(*outcomes[i]);
+    }
+    stop_if_unfinished(outcomes);
   }
 
   /// Places whose mean distance is not greater than the best one's by more than chance makes it,
   /// case by case (Student's t, one constant of 95 %).
-  static std::vector<Shares> places_as_near(const Search& found, const FitOutcome& best) {
+  static std::vector<Shares> places_as_near(const std::vector<FitOutcome>& looked,
+                                            const FitOutcome& best) {
     std::vector<Shares> places;
-    for (const FitOutcome& one : found.looked) {
+    for (const FitOutcome& one : looked) {
       if (!one.error) continue;
       const double count = static_cast<double>(one.cases.size());
       double sum = 0., squares = 0.;

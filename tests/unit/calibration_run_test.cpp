@@ -513,6 +513,30 @@ TEST_F(CalibrateCases, DistancesByCmaesAreTheSameHoweverTheyAreRun) {
   }
 }
 
+// Up to 0.8 of its range it changes nothing: where the search ends there it is not known.
+TEST_F(CalibrateCases, AConstantThatActsBeyondAThresholdIsNotIdentifiableByEitherMethod) {
+  std::string scene = point_scene;
+  scene.insert(0, "Param b = 0.3;\n");
+  const std::string given = "gravity = 9.81 * weight_factor;";
+  scene.replace(scene.find(given), given.size(),
+                "gravity = 9.81 * weight_factor * (1 + max(0, b - 0.8));");
+  place_.file("scene.hook", scene);
+  for (const char* method : {"least_squares", "cmaes"}) {
+    const auto found =
+        plan(block(cases() + "folds = 0; resamples = 40; generations = 12; method = " + method +
+                   ";\nVary b { from = 0; to = 1; }\n" + two_constants));
+    ASSERT_TRUE(found) << told_;
+    const CalibrationResult result = run(*found, std::string("threshold_") + method);
+    const auto& constants = result.subjects[0].constants;
+    ASSERT_EQ(constants.size(), 3U) << result.subjects[0].status;
+    EXPECT_FALSE(constants[0].told) << method;
+    EXPECT_LT(*constants[0].low, 0.1) << method;
+    EXPECT_GT(*constants[0].high, 0.7) << method;
+    EXPECT_LT(*constants[0].high, 0.9) << method;
+    EXPECT_TRUE(constants[1].told) << method << constants[1].reason;
+  }
+}
+
 // The case that the first search looked at is held out by no fold: it has no prediction, and its
 // figure of residuals nothing to show.
 TEST_F(CalibrateCases, ACaseThatNoFoldHoldsOutHasNoFigureOfResiduals) {
