@@ -21,7 +21,7 @@ std::string without_unit(const std::string& title) {
 }
 
 /// The text of a file. Refuses what no text editor wrote, by its first bytes.
-std::string text_of(const std::filesystem::path& path) {
+std::string file_text(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw std::runtime_error(path.string() + ": cannot be read");
   std::string text(std::istreambuf_iterator<char>(file), {});
@@ -87,7 +87,7 @@ void read_row(const std::vector<std::string>& fields, const std::string& where, 
 Table read_csv_table(const std::filesystem::path& path) {
   const auto where = [&](std::size_t line) { return path.string() + ":" + std::to_string(line); };
   tables::Fault fault;
-  const auto text = tables::read_foreign(text_of(path), fault);
+  const auto text = tables::read_foreign(file_text(path), fault);
   if (!text && fault.kind == tables::Fault::Kind::empty)
     throw std::runtime_error(path.string() + ": holds no row of numbers");
   if (!text) throw std::runtime_error(where(fault.line) + ": " + fault.text());

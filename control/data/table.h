@@ -17,9 +17,10 @@ struct Table {
   std::vector<std::vector<double>> columns;  ///< columns[i][row]
 };
 
-/// Reads the whole table, separated by commas, semicolons or tabs (tables/csv_reader.h). Empty lines
-/// and lines that begin with # are skipped; fields may stand in quotes. Throws std::runtime_error with file and line: no header, no rows, a row of other length,
-/// not a finite number, time that does not increase.
+/// Reads the whole table, separated by commas, semicolons or tabs (tables/csv_reader.h). Empty
+/// lines and lines that begin with # are skipped; fields may stand in quotes. Throws
+/// std::runtime_error with file and line: no header, no rows, a row of other length, not a finite
+/// number, time that does not increase.
 Table read_csv_table(const std::filesystem::path& path);
 
 /// Values of one column against time.

@@ -30,9 +30,9 @@ struct CsvTable {
   std::string text() const;
 };
 
-/// The table that `text`, which this program wrote, holds; lines end in \n or \r\n. Nothing when a quote is left open or a row
-/// has not the header's number of fields; a last line without its end does not count, so that a run
-/// that was cut off is read up to its last whole row.
+/// The table that `text`, which this program wrote, holds; lines end in \n or \r\n. Nothing when a
+/// quote is left open or a row has not the header's number of fields; a last line without its end
+/// does not count, so that a run that was cut off is read up to its last whole row.
 std::optional<CsvTable> parse_csv(std::string_view text);
 
 /// The whole table or nothing. Throws FileError.

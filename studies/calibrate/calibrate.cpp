@@ -60,6 +60,10 @@ constexpr std::size_t surface_looks = 4;
 /// A fold's search that begins where the first one ended is so wide at first [parts of the range],
 /// and takes half of the generations.
 constexpr double width_of_a_fold = 0.3;
+/// Shares of its range at which a constant is tried for whether it changes anything: not
+/// symmetrical, since a function of it may be even, and near both ends, since one may be flat
+/// between.
+constexpr std::array read_at{0.25, 0.75, 0.37, 0.02, 0.98};
 /// Of a constant with which every run is the same, bit for bit.
 constexpr const char* unread = "no trace changes with it";
 /// What became of a profile.
@@ -96,6 +100,7 @@ class SubjectFit {
     if (!subject.refusal.empty()) return 0;
     if (plan.method == FitMethod::cmaes)
       return subject.constants.size() + looks_of_a_search(plan, plan.generations) +
+             (plan.resamples < least_resamples ? 0 : axis_places * subject.constants.size()) +
              fold_count(plan) * looks_of_a_search(plan, generations_of_folds(plan));
     return subject.constants.size() + 2 + plan.starts + refined_starts +
            axis_rounds * (axis_places * subject.constants.size() + refined_starts) +
@@ -223,22 +228,19 @@ class SubjectFit {
     const auto outcomes =
         rows_.run({middle.size(), [&](std::size_t i) { return identity("reads", i, middle); },
                    [&](std::size_t i) {
-                     std::size_t models = 0;
-                     const auto at = [&](double share) {
-                       ++models;
-                       Shares shares = middle;
-                       shares[i] = share;
-                       return model_.residuals(shares, cases);
-                     };
-                     // Of an even or a periodic function not all of these have the same value.
-                     constexpr std::array others{0.75, 0.37, 0.61, 0.13};
-                     const auto one = at(0.25);
-                     const bool same = one && std::ranges::all_of(others, [&](double share) {
-                                         const auto other = at(share);
-                                         return other && *one == *other;
-                                       });
-                     return FitOutcome{
-                         same ? unread : "ok", std::nullopt, std::nullopt, models, Shares{}, {}};
+                     FitOutcome outcome{unread, std::nullopt, std::nullopt, 0, Shares{}, {}};
+                     std::optional<Residuals> first;
+                     for (const double share : read_at) {
+                       Shares place = middle;
+                       place[i] = share;
+                       const auto found = model_.residuals(place, cases);
+                       ++outcome.models;
+                       if (!first) first = found;
+                       if (found && *found == *first) continue;
+                       outcome.status = "ok";
+                       break;
+                     }
+                     return outcome;
                    }});
     stop_if_unfinished(outcomes);
     std::vector<std::size_t> read;
@@ -305,12 +307,8 @@ class SubjectFit {
     return true;
   }
 
-  /// Looks for other valleys along each constant's axis through the optimum, over its whole range,
-  /// and refines from the best where the fit misses its own weights or is not the least. Whether
-  /// that found a better optimum.
-  bool search_axes(std::size_t round) {
-    const Shares optimum = place_of_answer();
-    const double error = *result_.error;
+  /// Places all over the range of each constant, the others as they are.
+  static std::vector<Shares> places_on_axes(const Shares& optimum) {
     std::vector<Shares> places;
     for (std::size_t i = 0; i < optimum.size(); ++i) {
       for (std::size_t part = 0; part < axis_places; ++part) {
@@ -318,15 +316,24 @@ class SubjectFit {
         places.back()[i] = (static_cast<double>(part) + 0.5) / axis_places;
       }
     }
+    return places;
+  }
+
+  /// Looks for other valleys along each constant's axis through the optimum, over its whole range,
+  /// and refines from the best of them: they may be better, or explain the data as well. Whether
+  /// that found a better optimum by more than equal_errors.
+  bool search_axes(std::size_t round) {
+    const Shares optimum = place_of_answer();
+    const double error = *result_.error;
+    const std::vector<Shares> places = places_on_axes(optimum);
     const auto looked = look_at_all("axis", places);
     record(FitStage::axis, looked, places, round * places.size());
     stop_if_unfinished(looked);
-    if (!(error > greatest_error_of_a_fit) && !(*result_.error < error)) return false;
     std::vector<Shares> best = best_of(axis_valleys(looked, optimum, error));
     const auto refined = refine_all(best);
     record(FitStage::refined, refined, best, refined_starts * (round + 1));
     stop_if_unfinished(refined);
-    return *result_.error < error;
+    return *result_.error < error - equal_errors * std::max(1., error);
   }
 
   /// Those that are better than the optimum, or a least one of their axis that is not in the
@@ -645,7 +652,7 @@ class SubjectFit {
       constant.high = interval.high;
       constant.reason = why_not_identifiable(constant);
       if (constant.reason.empty()) constant.reason = beyond;
-      if (constant.reason.empty() && apart)
+      if (apart && range_end(constant.share).empty())
         constant.reason = fmt::format("{} and {}{} explain the data equally well",
                                       value_text(plan_, constant, constant.share),
                                       value_text(plan_, constant, *apart), unit_of(constant));
@@ -794,15 +801,34 @@ class SubjectFit {
       std::mt19937_64 random = random_of(i);
       places.push_back(*found.least(draw_with_replacement(cases.size(), random)));
     }
-    judge(places, ends_of(places_as_near(found, *best)), {});
+    std::vector<FitOutcome> looked = found.looked;
+    if (plan_.resamples >= least_resamples) look_along_axes(cases, best->place, looked);
+    judge(places, ends_of(places_as_near(looked, *best)), {});
     return true;
+  }
+
+  /// Adds places along the axes through the best one: the search itself went where the error falls,
+  /// and saw little of a constant that changes nothing.
+  void look_along_axes(const Cases& cases, const Shares& best, std::vector<FitOutcome>& looked) {
+    const std::vector<Shares> places = places_on_axes(best);
+    const auto outcomes =
+        rows_.run({places.size(), [&](std::size_t i) { return identity("axis", i, places[i]); },
+                   [&](std::size_t i) { return look(places[i], cases); }});
+    for (std::size_t i = 0; i < outcomes.size(); ++i) {
+      if (!outcomes[i]) continue;
+      result_.records.push_back({FitStage::axis, i + 1, places[i], outcomes[i]->error,
+                                 outcomes[i]->models, outcomes[i]->status});
+      looked.push_back(*outcomes[i]);
+    }
+    stop_if_unfinished(outcomes);
   }
 
   /// Places whose mean distance is not greater than the best one's by more than chance makes it,
   /// case by case (Student's t, one constant of 95 %).
-  static std::vector<Shares> places_as_near(const Search& found, const FitOutcome& best) {
+  static std::vector<Shares> places_as_near(const std::vector<FitOutcome>& looked,
+                                            const FitOutcome& best) {
     std::vector<Shares> places;
-    for (const FitOutcome& one : found.looked) {
+    for (const FitOutcome& one : looked) {
       if (!one.error) continue;
       const double count = static_cast<double>(one.cases.size());
       double sum = 0., squares = 0.;

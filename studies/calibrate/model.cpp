@@ -14,7 +14,7 @@ namespace hookpoint::studies {
 namespace {
 
 /// Squares of residuals below this, and sums of them, are numbers.
-constexpr double greatest = 1e150;
+constexpr double largest_residual_to_square = 1e150;
 
 }  // namespace
 
@@ -96,8 +96,9 @@ bool CalibrationModel::add_case(const Shares& place, const CalibrationCase& one,
     }
     for (std::size_t i = 0; i < sampled.size(); ++i) {
       const std::vector<double>& of_trace = sampled[i].residuals();
-      if (std::ranges::any_of(of_trace,
-                              [](double residual) { return !(std::abs(residual) < greatest); })) {
+      if (std::ranges::any_of(of_trace, [](double residual) {
+            return !(std::abs(residual) < largest_residual_to_square);
+          })) {
         why = fmt::format("the residuals of {} are too large to be squared", one.traces[i].name);
         return false;
       }

@@ -317,6 +317,40 @@ TEST_F(CalibrateFile, ConstantsOfWhichOnlyACombinationIsSeenAreNotIdentifiable) 
   }
 }
 
+// The weight is 1 + b^2 times as much: b and -b explain the drop equally well.
+TEST_F(CalibrateFile, AnEvenFunctionIsReadAndItsTwoOptimaAreNotOneConstant) {
+  std::string scene = point_scene;
+  scene.insert(0, "Param b = 0.1;\n");
+  const std::string given = "gravity = 9.81 * weight_factor;";
+  scene.replace(scene.find(given), given.size(), "gravity = 9.81 * (1 + b^2);");
+  place_.file("scene.hook", scene);
+  place_.file("heavy.csv", oscillation(1.25, 60, 0.01));
+  for (const char* bootstrap : {"one_step", "refits"}) {
+    const auto found =
+        plan(block(std::string("resamples = 40; bootstrap = ") + bootstrap + ";\n" +
+                   trace("", "heavy.csv") + "Vary b { from = -1; to = 1; }\n" + two_constants));
+    ASSERT_TRUE(found) << told_;
+    const CalibrationResult result = run(*found, std::string("even_") + bootstrap);
+    const SubjectCalibration& subject = result.subjects[0];
+    EXPECT_TRUE(subject.left_out.empty());
+    ASSERT_EQ(subject.constants.size(), 3U) << subject.status;
+    EXPECT_LT(*subject.error, 1.);
+    EXPECT_FALSE(subject.constants[0].told);
+    EXPECT_LE(*subject.constants[0].low, 0.25 + 0.01);
+    EXPECT_GE(*subject.constants[0].high, 0.75 - 0.01);
+    EXPECT_NE(subject.constants[0].reason.find("explain the data equally well"), std::string::npos)
+        << subject.constants[0].reason;
+    // Of half of the range it is one.
+    EXPECT_TRUE(subject.constants[1].told) << subject.constants[1].reason;
+  }
+  const auto half = plan(block("resamples = 40;\n" + trace("", "heavy.csv") +
+                               "Vary b { from = -0.1; to = 1; }\n" + two_constants));
+  ASSERT_TRUE(half) << told_;
+  const CalibrationResult one = run(*half, "half");
+  EXPECT_TRUE(one.subjects[0].constants[0].told) << one.subjects[0].constants[0].reason;
+  EXPECT_NEAR(half->varied[0].at(one.subjects[0].constants[0].share), 0.5, 0.01);
+}
+
 TEST_F(CalibrateFile, AFitThatMissesItsOwnWeightsSaysSo) {
   const std::string one = "Vary normal_damping { from = 1 N.s/m; to = 2 N.s/m; }\n";
   const auto found = plan(block("resamples = 40;\n" + trace() + one));
@@ -499,6 +533,30 @@ TEST_F(CalibrateCases, DistancesByCmaesAreTheSameHoweverTheyAreRun) {
     EXPECT_FALSE(whole.empty()) << file;
     EXPECT_EQ(whole, place_.read(std::filesystem::path("three") / file)) << file;
     EXPECT_EQ(whole, place_.read(std::filesystem::path("cut") / file)) << file;
+  }
+}
+
+// Up to 0.8 of its range it changes nothing: where the search ends there it is not known.
+TEST_F(CalibrateCases, AConstantThatActsBeyondAThresholdIsNotIdentifiableByEitherMethod) {
+  std::string scene = point_scene;
+  scene.insert(0, "Param b = 0.3;\n");
+  const std::string given = "gravity = 9.81 * weight_factor;";
+  scene.replace(scene.find(given), given.size(),
+                "gravity = 9.81 * weight_factor * (1 + max(0, b - 0.8));");
+  place_.file("scene.hook", scene);
+  for (const char* method : {"least_squares", "cmaes"}) {
+    const auto found =
+        plan(block(cases() + "folds = 0; resamples = 40; generations = 12; method = " + method +
+                   ";\nVary b { from = 0; to = 1; }\n" + two_constants));
+    ASSERT_TRUE(found) << told_;
+    const CalibrationResult result = run(*found, std::string("threshold_") + method);
+    const auto& constants = result.subjects[0].constants;
+    ASSERT_EQ(constants.size(), 3U) << result.subjects[0].status;
+    EXPECT_FALSE(constants[0].told) << method;
+    EXPECT_LT(*constants[0].low, 0.1) << method;
+    EXPECT_GT(*constants[0].high, 0.7) << method;
+    EXPECT_LT(*constants[0].high, 0.9) << method;
+    EXPECT_TRUE(constants[1].told) << method << constants[1].reason;
   }
 }
 
