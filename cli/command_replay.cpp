@@ -72,8 +72,12 @@ int show_moment(const ReplayArguments& arguments) {
   const bool summary = arguments.record.empty() && !arguments.json;
   std::vector<Port> ports;
   if (!summary) ports = wanted_ports(experiment, world, arguments.record);
-  rewind.approach(step);
-  rewind.arrive(step);
+  const int status = use_movie(rewind, [&] {
+    rewind.approach(step);
+    rewind.arrive(step);
+    return fine;
+  });
+  if (status != fine) return status;
   if (summary) {
     print_summary(experiment, world.state());
     std::cerr << fmt::format("{} ports have a value then: --record \"**\" prints all\n",

@@ -33,7 +33,11 @@ int go_on(const RunArguments& arguments) {
   const std::int64_t first =
       arguments.at ? rewind.step_at(seconds(*arguments.at, "--at")) : rewind.last();
   const std::int64_t last = last_step(arguments, experiment, first);
-  rewind.approach(first);
+  const int found = use_movie(rewind, [&] {
+    rewind.approach(first);
+    return fine;
+  });
+  if (found != fine) return found;
   const std::filesystem::path folder =
       arguments.out.value_or(std::filesystem::path("runs") / (experiment.world + "-resumed"));
   simulation::RunFiles files(experiment, world, world.ports(),

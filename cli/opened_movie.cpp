@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "cli/exit_status.h"
+#include "cli/interrupt.h"
 #include "language/document.h"
 #include "simulation/scene/load.h"
 
@@ -44,6 +45,13 @@ double seconds(const std::string& text, const char* option) {
   if (const auto value = language::number_of(text, "s")) return *value;
   throw output::MovieError(
       fmt::format("{} takes a time such as \"2.5 s\" or \"300 ms\", not `{}`", option, text));
+}
+
+int use_movie(simulation::Rewind& rewind, const std::function<int()>& work) {
+  const InterruptGuard guard;
+  rewind.stop_when(guard.stop());
+  const int status = use_movie(work);
+  return guard.stop() ? guard.status() : status;
 }
 
 int use_movie(const std::function<int()>& work) {

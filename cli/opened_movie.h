@@ -42,6 +42,9 @@ class OpenedMovie {
 /// "2.5 s", "300 ms", "2.5" as seconds. `option`: for the message. Throws output::MovieError.
 double seconds(const std::string& text, const char* option);
 
+/// As `use_movie` of work that steps `rewind` along its movie: an interrupt ends it.
+int use_movie(simulation::Rewind& rewind, const std::function<int()>& work);
+
 /// The exit status of `work`, which uses a movie; one that cannot be used is told, and is wrong
 /// input.
 int use_movie(const std::function<int()>& work);

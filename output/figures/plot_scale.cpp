@@ -19,13 +19,16 @@ struct Extent {
   bool empty() const { return low > high; }
 };
 
+/// Axes end here, so that their spans, ratios and margins stay finite; points beyond lie outside.
+constexpr double farthest = 1e300, farthest_logarithmic = 1e150;
+
 void include_all(Extent& extent, const std::vector<double>& values, const Axis& axis) {
   for (const double value : values) {
     if (!std::isfinite(value)) continue;
     if (!axis.logarithmic) {
-      extent.include(value);
+      extent.include(std::clamp(value, -farthest, farthest));
     } else if (std::abs(value) > axis.floor) {
-      extent.include(std::abs(value));
+      extent.include(std::clamp(std::abs(value), 1. / farthest_logarithmic, farthest_logarithmic));
     }
   }
 }

@@ -132,6 +132,7 @@ void Rewind::run_to(std::int64_t step) {
 
 void Rewind::step() {
   const std::int64_t before = world_.state().step;
+  if (stop_ != nullptr && *stop_) throw MovieError("interrupted at " + time_text(before) + " s");
   const StepStatus status = world_.step();
   if (!status.ok() || world_.state().step == before)
     throw MovieError(

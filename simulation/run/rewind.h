@@ -2,6 +2,7 @@
 // everything is as the run had it, what only a step computes included.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -23,6 +24,9 @@ class Rewind {
   std::int64_t last() const { return steps_.back(); }
   /// The step at `time` [s]. Throws output::MovieError when none is there or it is out of reach.
   std::int64_t step_at(double time) const;
+
+  /// Once `stop` is true, each of the calls below that steps throws output::MovieError.
+  void stop_when(const std::atomic<bool>& stop) { stop_ = &stop; }
 
   /// Puts the world to the last instant before `step` (that of time 0 stays as it is), after making
   /// sure that the run between the instants around `step` repeats to the last bit. Throws
@@ -60,6 +64,7 @@ class Rewind {
   std::vector<double> recorded_, computed_;
   std::size_t next_ = 0;  ///< the first instant after the world's present step
   bool whole_ = true;
+  const std::atomic<bool>* stop_ = nullptr;
 };
 
 }  // namespace hookpoint::simulation

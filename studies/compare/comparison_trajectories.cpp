@@ -20,9 +20,11 @@ using Column = std::vector<double>;
 Column column(const CsvTable& table, std::size_t index) {
   Column values;
   for (const auto& row : table.rows) {
-    double value = std::numeric_limits<double>::quiet_NaN();
-    std::from_chars(row[index].data(), row[index].data() + row[index].size(), value);
-    values.push_back(value);
+    const char* const end = row[index].data() + row[index].size();
+    double value = 0.;
+    const auto [stopped, error] = std::from_chars(row[index].data(), end, value);
+    const bool whole = error == std::errc{} && stopped == end;
+    values.push_back(whole ? value : std::numeric_limits<double>::quiet_NaN());
   }
   return values;
 }

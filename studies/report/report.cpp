@@ -176,6 +176,31 @@ std::string peer_table(const ReportContext& context) {
          wide_table({"engine", "settings", "what", "value", "source"}, rows);
 }
 
+bool has_point(const output::Plot& plot) {
+  return std::ranges::any_of(plot.series, [](const output::Series& series) {
+    return !series.measured.x.empty() || !series.predicted.x.empty() || !series.unfinished.empty();
+  });
+}
+
+/// Whether some run has a value to draw.
+bool has_point(const Figure& figure) {
+  return figure.map ||
+         (figure.panels
+              ? std::ranges::any_of(figure.panels->panels,
+                                    [](const output::Plot& panel) { return has_point(panel); })
+              : has_point(figure.plot));
+}
+
+/// The figure's empty table, without a drawing: that is no fault of gnuplot.
+ReportFigure without_points(const Figure& figure, const std::filesystem::path& folder) {
+  const std::filesystem::path base = folder / figure.plot.name;
+  std::error_code ignored;
+  for (const char* type : {".svg", ".gp"}) std::filesystem::remove(base.string() + type, ignored);
+  output::write_file(base.string() + ".csv", figure.panels ? output::panel_data(*figure.panels)
+                                                           : output::plot_data(figure.plot));
+  return {figure.plot.name, figure.caption, "", "No run has a value to draw."};
+}
+
 }  // namespace
 
 std::string described_svg(const ReportFigure& figure) {
@@ -204,6 +229,10 @@ ReportOutcome write_report(const StudyResult& study, const ReportContext& contex
   ReportOutcome outcome;
   for (std::size_t i = 0; i < study.plots.size(); ++i) {
     const Figure figure = make_figure(study, i);
+    if (!has_point(figure)) {
+      outcome.figures.push_back(without_points(figure, folder));
+      continue;
+    }
     const output::PlotOutcome drawn = figure.map      ? output::draw(*figure.map, folder)
                                       : figure.panels ? output::draw(*figure.panels, folder)
                                                       : output::draw(figure.plot, folder);

@@ -362,7 +362,8 @@ RunRecord execute_timing(std::span<const MetricDefinition* const> metrics,
   const double step_time = stretches[stretches.size() / 2] / steps;
   for (auto& [name, value] : record.values) {
     if (name == "step_time") value.measured = step_time;
-    if (name == "realtime_factor") value.measured = experiment.deltat / step_time;
+    // Where the clock has not moved, there is none.
+    if (name == "realtime_factor" && step_time > 0.) value.measured = experiment.deltat / step_time;
   }
   return record;
 }

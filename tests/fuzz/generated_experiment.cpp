@@ -37,7 +37,8 @@ class Generator : DrawnText {
     if (!contact.starts_with("impulse") || chance(0.05)) write("integrator = " + integrator + ";");
     std::set<std::string> said{"deltat", "duration", "contact",          "integrator",
                                "engine", "gravity",  "constraint_mixing"};
-    if (chance(0.25)) {
+    const bool peer = chance(0.25);
+    if (peer) {
       write("engine = " + one_of(choices("World", "engine")) + ";");
     } else {
       said.insert("settings");  // of a peer
@@ -52,7 +53,7 @@ class Generator : DrawnText {
     for (std::size_t i = below(5); i > 0; --i) component();
     if (chance(0.2)) trajectory();
     if (chance(0.2)) record();
-    if (chance(0.1)) write("Movie seen { }");
+    if (chance(peer ? 0.01 : 0.1)) write("Movie seen { }");
     write("}");
     if (chance(0.3)) expect();
     return {GeneratedCommand::run, std::move(text_), std::move(trails_), std::move(files_)};
@@ -168,7 +169,7 @@ class Generator : DrawnText {
                          one_of(std::vector<std::string>{"0.001,2,3\n0.1,3,4\n", "0.001,2\n",
                                                          "0,2,3\n", "1e300,0,0\n", "0.002,nan,3\n",
                                                          "", "0.002,1e308,-1e308\n"})});
-    write("Trajectory path { file = \"path.csv\"; }");
+    write("Controller.Trajectory path { file = \"path.csv\"; }");
   }
 
   void record() {

@@ -72,7 +72,7 @@ class StudyDrawing : DrawnText {
     } else {
       text +=
           "Robot block { Base.mobile { rest_on = ground; velocity = speed, 0, 0; Shape.Box { "
-          "dimensions = 0.2, 0.2, 0.1; mass = 1 kg; } }\n";
+          "dimensions = 0.2, 0.2, 10 * height; mass = 1 kg; } }\n";
       if (chance(0.4))
         text +=
             "Chain arm { hip_distance = 0, 0, 0.1 m; Link rod { mass = 0.1 kg; inertia = 1e-3, "
@@ -89,7 +89,7 @@ class StudyDrawing : DrawnText {
     files_.push_back(
         {"ground.hook",
          "Param angle = 2 deg;\nMaterial felt { static_friction = 0.7; }\nTerrain.Slope "
-         "laid { angle = angle; material = felt; }\n" +
+         "ground { angle = angle; material = felt; }\n" +
              std::string(chance(0.03) ? "Plugin \"none.so\";\n" : "")});
   }
 
@@ -170,7 +170,8 @@ class StudyDrawing : DrawnText {
     for (std::size_t i = below(3); i > 0; --i) plot();
     for (std::size_t i = below(2); i > 0; --i) table();
     for (std::size_t i = below(2); i > 0; --i) claim();
-    if (chance(0.2)) write("Fix speed { value = " + rarely_wrong("0.1 m/s") + "; }");
+    if (!is_swept("speed") && chance(0.2))
+      write("Fix speed { value = " + rarely_wrong("0.1 m/s") + "; }");
     write("}");
   }
 
@@ -224,17 +225,32 @@ class StudyDrawing : DrawnText {
     sweeps_.push_back(name);
   }
 
+  /// Also what the cases set.
   bool is_swept(const std::string& name) const {
-    return std::ranges::find(sweeps_, name) != sweeps_.end();
+    const auto has = [&](const char* wanted) {
+      return std::ranges::find(sweeps_, wanted) != sweeps_.end();
+    };
+    return has(name.c_str()) || ((name == "height" || name == "speed") && has("run"));
+  }
+  /// A sweep other than `taken`; "" where there is none.
+  std::string other_sweep(const std::string& taken) {
+    Words others = sweeps_;
+    std::erase(others, taken);
+    return others.empty() ? "" : one_of(others);
   }
 
   void only() {
-    const std::string name = rarely_wrong(sweeps_.empty() ? "mu" : one_of(sweeps_));
-    if (name.find_first_not_of("abcdefghijklmnopqrstuvwxyz") != std::string::npos) return;
-    write(
-        "Only " + name + " { " +
-        one_of(Words{"from = 0;", "to = 100;", "values = 1;", "values = clay;", "values = 0.1;"}) +
-        " }");
+    static const std::vector<std::pair<std::string, std::string>> values{
+        {"mu", "from = 0;"},
+        {"soil", "values = clay;"},
+        {"run", "values = 1, 8;"},
+        {"slope", "to = 100 deg;"},
+        {"height", "from = 0 cm;"}};
+    const auto& [name, range] = one_of(values);
+    if (is_swept(name) || chance(degenerate_)) write("Only " + name + " { " + rarely(range) + " }");
+  }
+  std::string rarely(const std::string& range) {
+    return chance(degenerate_) ? "values = " + rarely_wrong("1") + ";" : range;
   }
 
   void measure() {
@@ -264,7 +280,7 @@ class StudyDrawing : DrawnText {
     if (about || chance(degenerate_)) field("level", trace ? "5 cm" : level);
     if (take == "settle_time") field("band", trace ? "1 cm" : level);
     maybe(degenerate_, "unit", "mm");
-    if (level == "5 cm" && !trace)
+    if (level == "5 cm" && !trace && (take == "last" || take == "mean"))
       maybe(0.3, "predicted", one_of(Words{"height", "height / mu", "height / (mu - 0.4)"}));
     write("}");
     measures_.insert(name);
@@ -276,11 +292,6 @@ class StudyDrawing : DrawnText {
     std::advance(place, static_cast<std::ptrdiff_t>(below(measures_.size())));
     return *place;
   }
-  std::string axis() {
-    if (sweeps_.empty() || chance(0.5)) return "subject";
-    return one_of(sweeps_);
-  }
-
   void truth() {
     const std::string name = metric();
     if (!truths_.insert(name).second) return;
@@ -297,7 +308,8 @@ class StudyDrawing : DrawnText {
         field("below", "1e9");
         break;
       default:
-        if (!sweeps_.empty()) write("same_over = " + one_of(sweeps_) + ";");
+        if (sweeps_.empty()) return write("above = -1e9; }");
+        write("same_over = " + one_of(sweeps_) + ";");
         field("tolerance", "1");
     }
     if (chance(0.2)) only();
@@ -307,13 +319,14 @@ class StudyDrawing : DrawnText {
   void plot() {
     write("Plot p" + std::to_string(named_++) + " {");
     const bool over_time = sweeps_.empty() || chance(0.3);
-    write("x = " + rarely_wrong(over_time ? "time" : one_of(sweeps_)) + ";");
+    const std::string x = over_time ? "time" : one_of(sweeps_), other = other_sweep(x);
+    write("x = " + rarely_wrong(x) + ";");
     write("y = " +
           (over_time ? one_of(Words{"displacement", "speed", "penetration", "energy"}) : metric()) +
           ";");
     maybe(0.3, "scale", one_of(Words{"linear", "log", "log_x", "log_log"}));
-    maybe(0.2, "series", axis());
-    if (!sweeps_.empty()) maybe(0.2, "panels", one_of(sweeps_));
+    maybe(0.2, "series", "subject");
+    if (!other.empty()) maybe(0.3, "panels", other);
     if (sweeps_.size() > 1) maybe(degenerate_, "colour", metric());
     maybe(0.2, "floor", "1e-9");
     if (chance(0.2)) write("Reference line { value = " + rarely_wrong("0.01") + "; }");

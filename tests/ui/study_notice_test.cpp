@@ -41,6 +41,37 @@ TEST(StudyNotices, OfSeveralRowsAreOne) {
   EXPECT_EQ(count(result.err, " (so do 2 more runs)"), 1U) << result.err;
 }
 
+// Metrics that no run has a value of, and values at the end of all numbers.
+TEST(StudyFigures, OfNoValueAreNoEmptyFilesAndOfHugeOnesHaveAxes) {
+  const Workplace work;
+  work.file("slide.hook",
+            "Param far = 1; Param v = 0.1; World w { deltat = 1 ms; Terrain.Flat g { } Robot block "
+            "{ Base.mobile { "
+            "rest_on = g; velocity = v, 0, 0; Shape.Box { dimensions = .2, .2, .1; mass = 1; } } } "
+            "Expression size { formula = \"previous\"; initial = far; } }");
+  work.file(
+      "study.hook",
+      "Study slides { scene = \"slide.hook\"; duration = 10 ms; Sweep far { values = 1e-300, 1, "
+      "1e300; } Sweep v { values = 0.1, 0.2; } Measure impacts; Measure huge { of = w.size.output; "
+      "} Subject ours { }\n"
+      "Plot none { x = far; y = impacts; scale = log_x; }\n"
+      "Plot panels { x = far; y = impacts; panels = v; }\n"
+      "Plot linear { x = far; y = huge; }\n"
+      "Plot decades { x = far; y = huge; scale = log_log; } }\n");
+  const auto result = work.hookpoint("study study.hook --jobs 1 --out here");
+  EXPECT_EQ(result.status, 0) << result.err;
+  for (const std::string name : {"none", "panels"}) {
+    EXPECT_FALSE(std::filesystem::exists(work.folder() / "here" / (name + ".svg"))) << name;
+    EXPECT_EQ(count(work.read("here/" + name + ".csv"), "\n"), 1U) << "titles alone: " << name;
+  }
+  EXPECT_EQ(count(work.read("here/report.html"), "No run has a value to draw."), 2U);
+  for (const std::string name : {"linear", "decades"}) {
+    EXPECT_GT(work.read("here/" + name + ".svg").size(), 1000U) << name;
+    for (const char* none : {"nan", "inf"})
+      EXPECT_EQ(count(work.read("here/" + name + ".gp"), none), 0U) << name;
+  }
+}
+
 TEST(WallNotices, AreToldWithTheSceneAndTheSubject) {
   const Workplace work;
   // Explicit Euler gives a pendulum energy.

@@ -40,6 +40,14 @@ TEST(TransmissionLine, ThreeHundredHertzOnAMillisecond) {
             (Sequence{0, 0, 0, 0, 4, 4, 4, 7, 7, 7, 10, 10, 10, 10, 14}));
 }
 
+// A run has at most 2^53 steps.
+TEST(TransmissionLine, DelayThatNoRunLastsIsRefused) {
+  const Rational rare(1, std::int64_t{1} << 40), longest(std::int64_t{1} << 53);
+  EXPECT_NO_THROW(TransmissionLine(line_of(rare, longest), Rational(1)));
+  EXPECT_THROW(TransmissionLine(line_of(rare, longest + Rational(1)), Rational(1)),
+               std::invalid_argument);
+}
+
 TEST(TransmissionLine, DelayThatIsNoWholeStep) {
   // Samples at 0, 4, 7, 10, 14 and 2.5 ms later: at the steps 3, 7, 10, 13, 17.
   EXPECT_EQ(outputs(line_of(Rational(300), Rational(5, 2000)), millisecond, 18),
