@@ -41,9 +41,13 @@ void print_text(const simulation::Experiment& experiment, const Advice& advice) 
              experiment.integrator, output::rounded(experiment.deltat));
   for (const GroundAdvice& ground : advice.grounds) print_ground(ground);
   fmt::print("\nlargest stable step [s]  {:>12} {:>12}\n", "present", "advised");
-  for (const simulation::StepAdvice& step : advice.steps)
-    fmt::print("  {:<22} {:>12} {:>12}\n", step.integrator, step_text(step.present),
-               step_text(step.advised));
+  for (const simulation::StepAdvice& step : advice.steps) {
+    if (!step.not_computed.empty())
+      fmt::print("  {:<22} {}\n", step.integrator, step.not_computed);
+    else
+      fmt::print("  {:<22} {:>12} {:>12}\n", step.integrator, step_text(step.present),
+                 step_text(step.advised));
+  }
   if (!advice.controllers.empty())
     fmt::print("  with the loops of {}\n", simulation::first_of(advice.controllers));
   if (!advice.left_out.empty())
@@ -89,7 +93,9 @@ void print_json(const simulation::Experiment& experiment, const Advice& advice) 
   json.end_array().key("largest_stable_step").begin_object();
   for (const simulation::StepAdvice& step : advice.steps) {
     json.key(step.integrator).begin_object().member("present", step.present);
-    json.member("advised", step.advised).end_object();
+    json.member("advised", step.advised);
+    if (!step.not_computed.empty()) json.member("not_computed", step.not_computed);
+    json.end_object();
   }
   json.end_object();
   write_list(json, "controllers", advice.controllers);

@@ -208,8 +208,9 @@ Advice advise(const Experiment& experiment, const AdviceWishes& wishes) {
   for (const integrators::StepperDescription& stepper : integrators::stepper_table()) {
     if (stepper.adaptive()) continue;
     StabilityBound present = bound_under(experiment, stepper.name);
-    advice.steps.push_back(
-        {std::string(stepper.name), present.step, bound_under(advised, stepper.name).step});
+    const double then =
+        present.not_computed.empty() ? bound_under(advised, stepper.name).step : present.step;
+    advice.steps.push_back({std::string(stepper.name), present.step, then, present.not_computed});
     advice.controllers = std::move(present.controllers);
     advice.left_out = std::move(present.left_out);
   }

@@ -52,6 +52,7 @@ struct GroundAdvice {
 struct StepAdvice {
   std::string integrator;
   double present = 0., advised = 0.;
+  std::string not_computed = {};  ///< StabilityBound::not_computed of the first; both are infinite
 };
 
 struct Advice {
