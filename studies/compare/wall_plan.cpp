@@ -7,13 +7,13 @@
 #include "contact/force_law.h"
 #include "language/names.h"
 #include "output/text/hash.h"
+#include "simulation/analysis/step_warning.h"
 #include "simulation/identity.h"
 #include "simulation/scene/load.h"
 #include "studies/compare/wall.h"
 #include "studies/plan/plan_parts.h"
 #include "studies/plan/plan_values.h"
 #include "studies/plan/scene_settings.h"
-#include "studies/plan/step_warning.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -176,7 +176,7 @@ class WallPlanner {
 
   void warn_of_step(const Object& block, const simulation::Experiment& experiment,
                     std::size_t index) {
-    const std::optional<std::string> what = step_warning(experiment);
+    const std::optional<std::string> what = simulation::step_warning(experiment);
     if (!what) return;
     const std::string& subject = plan_.study.subjects[index].info.name;
     diagnostics_.warning(block.position, *what);
