@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "python/errors.h"
+#include "simulation/analysis/step_warning.h"
 #include "simulation/scene/load.h"
-#include "studies/plan/step_warning.h"
 
 namespace hookpoint::python {
 namespace {
@@ -47,7 +47,7 @@ void QuietApplication::pass_on_warnings() {
 }
 
 std::string warning_of_step(const simulation::Experiment& experiment) {
-  return studies::step_warning(experiment).value_or("");
+  return simulation::step_warning(experiment).value_or("");
 }
 
 LoadedFile::LoadedFile(const Source& source) : source_(source), application_(source.allow_plugins) {

@@ -131,6 +131,7 @@ PythonBatch::PythonBatch(std::shared_ptr<LoadedFile> file, const BatchOptions& o
     kinds_.clear();
     throw_too_many(worlds, bytes, "and the system gives no more");
   }
+  options_.variants.clear();
   warn_of_notices();
 }
 

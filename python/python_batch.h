@@ -141,7 +141,7 @@ class PythonBatch : public MadeWhole {
   void show_all(std::size_t world);
 
   std::shared_ptr<LoadedFile> file_;
-  BatchOptions options_;
+  BatchOptions options_;  // without the variants once the worlds are made
   int threads_ = 1;
   std::map<LoadedFile::Variant, std::shared_ptr<Kind>> kinds_;  // of the worlds
   std::size_t checked_ = 0;                                     // kinds that were loaded so far

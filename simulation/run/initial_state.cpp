@@ -19,8 +19,8 @@ constexpr std::size_t orientation_place = 3, quaternion_size = 4;
 
 /// Appends the addresses of a base's numbers.
 template <class Number, class Vector, class Quaternion>
-void add_base(std::vector<Number*>& numbers, Vector& location, Quaternion& orientation,
-              Vector& velocity, Vector& angular_velocity) {
+void add_base_numbers(std::vector<Number*>& numbers, Vector& location, Quaternion& orientation,
+                      Vector& velocity, Vector& angular_velocity) {
   const auto add = [&](Vector& v) { numbers.insert(numbers.end(), {&v.x, &v.y, &v.z}); };
   add(location);
   numbers.insert(numbers.end(), {&orientation.w, &orientation.x, &orientation.y, &orientation.z});
@@ -30,9 +30,9 @@ void add_base(std::vector<Number*>& numbers, Vector& location, Quaternion& orien
 
 /// Where an experiment states the numbers of its initial state. `Spec`: RobotSpec, const or not.
 template <class Number, class Spec>
-void add_robot(std::vector<Number*>& numbers, Spec& robot) {
-  add_base<Number>(numbers, robot.location, robot.orientation, robot.velocity,
-                   robot.angular_velocity);
+void add_robot_numbers(std::vector<Number*>& numbers, Spec& robot) {
+  add_base_numbers<Number>(numbers, robot.location, robot.orientation, robot.velocity,
+                           robot.angular_velocity);
   for (auto& chain : robot.chains) {
     for (auto& link : chain.links) numbers.insert(numbers.end(), {&link.angle, &link.rate});
   }
@@ -45,8 +45,8 @@ std::vector<const double*> published_numbers(const Experiment& experiment,
   auto body = state.bodies.begin();
   auto joint = state.joints.begin();
   for (const RobotSpec& robot : experiment.robots) {
-    add_base<const double>(numbers, body->position, body->orientation, body->velocity,
-                           body->angular_velocity);
+    add_base_numbers<const double>(numbers, body->position, body->orientation, body->velocity,
+                                   body->angular_velocity);
     ++body;
     for (const ChainSpec& chain : robot.chains) {
       for (std::size_t i = 0; i < chain.links.size(); ++i, ++body, ++joint)
@@ -62,7 +62,7 @@ std::vector<std::size_t> first_numbers(const Experiment& experiment) {
   std::vector<const double*> numbers;
   for (const RobotSpec& robot : experiment.robots) {
     firsts.push_back(numbers.size());
-    add_robot(numbers, robot);
+    add_robot_numbers(numbers, robot);
   }
   return firsts;
 }
@@ -136,8 +136,8 @@ void write_initial_state(const Experiment& own, std::span<const InitialValue> wr
   std::vector<const double*> from;
   std::vector<double*> to;
   for (std::size_t i = 0; i < own.robots.size(); ++i) {
-    add_robot(from, own.robots[i]);
-    add_robot(to, start.robots[i]);
+    add_robot_numbers(from, own.robots[i]);
+    add_robot_numbers(to, start.robots[i]);
   }
   for (std::size_t i = 0; i < to.size(); ++i) *to[i] = *from[i];
   for (const InitialValue& value : written) {

@@ -11,8 +11,8 @@ namespace hookpoint::simulation {
 std::string value_problem(const Port& port, double value) {
   if (!std::isfinite(value)) return "takes a finite number";
   if (value >= port.minimum && value <= port.maximum) return "";
-  return fmt::format("takes numbers from {} to {}, not {}", output::shortest(port.minimum),
-                     output::shortest(port.maximum), output::shortest(value));
+  return fmt::format("takes numbers from {} to {}, not {}", output::rounded(port.minimum, 6),
+                     output::rounded(port.maximum, 6), output::rounded(value, 6));
 }
 
 }  // namespace hookpoint::simulation
