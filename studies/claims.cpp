@@ -121,6 +121,7 @@ void judge_by_truths(const StudyResult& study, const ClaimSpec& claim, SaidClaim
 }  // namespace
 
 Idleness idleness_of(const StudyResult& study, const ClaimSpec& claim) {
+  Idleness left_out;
   for (const ClaimPart& part : claim.parts)
     for (const auto& value : {part.value, part.divisor}) {
       if (!value) continue;
@@ -128,8 +129,10 @@ Idleness idleness_of(const StudyResult& study, const ClaimSpec& claim) {
       if (value->subject >= 0) selection.subjects = {value->subject};
       Idleness found =
           why_no_value(study, selection, {value->metric, value->take == ClaimTake::predicted});
-      if (found.idle != Idle::no) return found;
+      if (found.idle == Idle::fault) return found;
+      if (found.idle != Idle::no) left_out = std::move(found);
     }
+  if (left_out.idle != Idle::no) return left_out;
   const bool finite = std::ranges::all_of(claim.parts, [&](const ClaimPart& part) {
     return !part.divisor || std::isfinite(*number_of(study, claim, *part.value) /
                                           *number_of(study, claim, *part.divisor));

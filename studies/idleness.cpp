@@ -121,7 +121,7 @@ Idleness why_no_run(const StudyResult& study, const RunSelection& selection) {
 Idleness why_no_value(const StudyResult& study, const RunSelection& selection,
                       const NeededValue& needed) {
   const std::string& name = study.metrics[needed.metric].name;
-  return why_none(
+  Idleness idleness = why_none(
       study, selection,
       [&](const RunResult& row) {
         const MetricValue& value = row.metrics[needed.metric];
@@ -132,6 +132,9 @@ Idleness why_no_value(const StudyResult& study, const RunSelection& selection,
         const std::string& why = row.metrics[needed.metric].no_form;
         return why.empty() ? "no closed form of " + name : "no closed form: " + why;
       });
+  const std::string& left_out = study.metrics[needed.metric].left_out;
+  if (idleness.idle == Idle::fault && !left_out.empty()) return {Idle::left_out, left_out};
+  return idleness;
 }
 
 Idleness allowed_by(bool may_be_empty, Idleness idleness) {

@@ -43,10 +43,12 @@ struct SubjectInfo {
 };
 
 struct MetricColumn {
-  std::string name;               ///< "creep_speed"
-  std::string unit;               ///< "m/s"
-  bool timing = false;            ///< goes to timing.csv, not to results.csv
-  Regime regime = Regime::none;   ///< the only one in which it says something; none: any
+  std::string name;              ///< "creep_speed"
+  std::string unit;              ///< "m/s"
+  bool timing = false;           ///< goes to timing.csv, not to results.csv
+  Regime regime = Regime::none;  ///< the only one in which it says something; none: any
+  /// Of a metric between subjects, why some of these have no runs here; "" where all have.
+  std::string left_out = {};
   bool may_be_predicted = false;  ///< there are runs in which it has a closed form
 };
 

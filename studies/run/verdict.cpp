@@ -49,6 +49,14 @@ struct Judgement {
 
 Judgement not_judged(std::string why) { return {Judgement::Kind::unjudged, std::move(why)}; }
 
+/// Why subjects of the study have no runs here; "" where all have.
+std::string why_others_are_left_out(const StudyPlan& plan) {
+  if (!plan.only.empty()) return "--only leaves out other subjects";
+  for (const SubjectPlan& subject : plan.subjects)
+    if (!subject.info.available) return "engine " + subject.info.engine + " is not on this machine";
+  return "";
+}
+
 /// What the Truth says of the row by itself.
 Judgement judge(const StudyPlan& plan, const RunResult& run, std::size_t row,
                 const TruthPlan& truth) {
@@ -63,6 +71,9 @@ Judgement judge(const StudyPlan& plan, const RunResult& run, std::size_t row,
   const MetricValue& metric = run.metrics[truth.metric];
   if (truth.predicted && !metric.predicted)
     return not_judged("no closed form" + (metric.no_form.empty() ? "" : ": " + metric.no_form));
+  if (!metric.measured && plan.metrics[truth.metric]->scope == MetricScope::subjects)
+    if (std::string why = why_others_are_left_out(plan); !why.empty())
+      return {Judgement::Kind::skipped, std::move(why)};
   if (!metric.measured) return Judgement::of(false);
   const double measured = *metric.measured;
   if (truth.of_scene) return Judgement::of(std::abs(measured - *metric.predicted) <= form->allowed);
@@ -100,10 +111,13 @@ Judgement judge(const StudyPlan& plan, const StudyResult& result, std::size_t ro
   const std::string& sweep = plan.sweeps[static_cast<std::size_t>(truth.same_over)].column.name;
   if (*equals < 0) return not_judged("no run has the first value of " + sweep);
   const auto first = static_cast<std::size_t>(*equals);
+  const RunResult& other = result.rows[first];
+  if (has(other, RunOutcome::skipped)) return {Judgement::Kind::skipped, other.status};
+  if (has(other, RunOutcome::refused)) return not_judged(other.status);
   if (first == row && !claims_by_itself(truth))
     return {Judgement::Kind::reference,
             "the run with the first value of " + sweep + " has no other to be compared with"};
-  const auto& reference = result.rows[first].metrics[truth.metric].measured;
+  const auto& reference = other.metrics[truth.metric].measured;
   return Judgement::of(alone.kind == Judgement::Kind::holds && reference &&
                        near(*measured, *reference, truth));
 }
@@ -238,10 +252,11 @@ StudyResult empty_table(const StudyPlan& plan) {
   result.compositions = plan.compositions;
   for (std::size_t i = 0; i < plan.metrics.size(); ++i) {
     const MetricDefinition& metric = *plan.metrics[i];
-    result.metrics.push_back({std::string(metric.name), plan.units[i].text, metric.timing(),
-                              metric.regime,
-                              metric.user != nullptr ? metric.user->predicted != nullptr
-                                                     : may_be_predicted(metric.name)});
+    result.metrics.push_back(
+        {std::string(metric.name), plan.units[i].text, metric.timing(), metric.regime,
+         metric.scope == MetricScope::subjects ? why_others_are_left_out(plan) : "",
+         metric.user != nullptr ? metric.user->predicted != nullptr
+                                : may_be_predicted(metric.name)});
   }
   for (const PlotPlan& plot : plan.plots) result.plots.push_back(plot.spec);
   result.tables = plan.tables;

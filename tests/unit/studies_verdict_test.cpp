@@ -109,6 +109,21 @@ TEST_F(StudyVerdict, AnEngineThatIsNotThereIsNoFault) {
                 "skipped: engine mujoco is not on this machine", "left out");
 }
 
+TEST_F(StudyVerdict, WhatIsComparedWithAnEngineThatIsNotThereIsLeftOut) {
+  const std::string both = "Subject ours { } Subject gone { engine = mujoco; }";
+  for (const std::string block :
+       {"Truth peer_distance { below = 1 m; }",
+        "Table t { rows = subject; columns = slope; value = peer_distance; }"})
+    expect_idle(result_of(study("Measure peer_distance; " + block, both)), Idle::left_out,
+                "engine mujoco is not on this machine", "left out");
+  const std::string engines =
+      "Study s { scene = \"scene.hook\"; duration = 1 s; Sweep engine { values = mujoco, dts, ode; "
+      "} "
+      "Subject any { } Measure creep_speed; Truth creep_speed { same_over = engine; } }";
+  expect_idle(result_of(engines), Idle::left_out, "skipped: engine mujoco is not on this machine",
+              "left out");
+}
+
 TEST_F(StudyVerdict, WhatQuickOrOnlyLeavesOutIsNoFault) {
   PlanOptions quick;
   quick.quick = true;  // 4 and 12 deg
