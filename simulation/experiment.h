@@ -57,7 +57,8 @@ struct ShapeSpec {
 struct BodySpec {
   std::string name;  ///< "base" or the link's name
   MassSpec mass;
-  std::vector<ShapeSpec> shapes;
+  std::vector<ShapeSpec> shapes;                  ///< drawn, and what may touch the ground
+  std::vector<ShapeSpec> shapes_without_contact;  ///< drawn alone
   std::vector<Vector3d>
       boundary_points;  ///< p_BP, body axes [m]: ContactPoints, then sampled from the shapes
   /// Of the balls about the first boundary points [m]; beyond its end they are points, radius 0.
@@ -111,6 +112,9 @@ struct RobotSpec {
   Vector3d velocity;              ///< v_WB, of the base origin, world axes [m/s]
   Vector3d angular_velocity;      ///< w_WB, world axes [rad/s]
   std::vector<ChainSpec> chains;  ///< each after the one that carries it
+  /// Stretch at the start of the tangential springs of the base's boundary points, world axes [m];
+  /// empty: none is stretched.
+  std::vector<Vector3d> start_stretch;
 };
 
 /// A ContactPoint that the file names by a trail of its own.
@@ -266,7 +270,9 @@ struct Experiment {
   std::string world;
   Vector3d gravity{0., 0., -9.81};
   double deltat = 1e-3;
-  std::optional<double> chosen_from;  ///< of `deltat = auto`, the largest stable step [s]
+  /// Of `deltat = auto`: the largest stable step that it was chosen from [s]; infinity where there
+  /// is none, 0 where no step is stable.
+  std::optional<double> chosen_from;
   std::string integrator = "semi_implicit_euler";
   double relative_tolerance = 1e-6, absolute_tolerance = 1e-8;  ///< of adaptive integrators
   std::string contact = "hookpoint";

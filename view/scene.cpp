@@ -19,6 +19,8 @@ SceneBody scene_body(const simulation::BodySpec& body, int robot, std::string tr
   made.robot = robot;
   made.mass = body.mass;
   made.shapes = body.shapes;
+  made.shapes.insert(made.shapes.end(), body.shapes_without_contact.begin(),
+                     body.shapes_without_contact.end());
   made.points = body.boundary_points;
   return made;
 }

@@ -54,6 +54,21 @@ ContactSet::ContactSet(const Experiment& experiment, std::size_t index, std::siz
     bristles->resize(bristle_states_ * points_.size());
   constexpr double infinity = std::numeric_limits<double>::infinity();
   boxes_.resize(bodies, {{}, {infinity, infinity, infinity}});
+  stretch(experiment.robots[index].start_stretch);
+}
+
+void ContactSet::stretch(std::span<const Vector3d> start) {
+  const RobotSpec& robot = experiment_->robots[index_];
+  const dts::BodyMotion<double> base{rotation_matrix(robot.orientation), robot.location, {}, {}};
+  for (std::size_t i = 0; i < std::min(start.size(), points_.size()); ++i) {
+    if (start[i] == Vector3d{}) continue;
+    ContactPoint& point = points_[i];
+    const ContactKinematics touching = contact_kinematics(point, base, *ground_);
+    const Vector3d surface = touching.position + touching.tile.depth * touching.tile.normal;
+    point.committed = {surface - start[i], start[i], true, false};
+    point.committed_frame = ball_frame(point, base, touching.tile);
+    put_bristle({start[i]}, i, bristles_);
+  }
 }
 
 // Forces.

@@ -128,6 +128,8 @@ class ContactSet {
     Vector3d half;    ///< half its edges [m]
   };
 
+  /// Tangential springs that are stretched at the start.
+  void stretch(std::span<const Vector3d> start);
   template <class Law>
   void apply_force(const Law& law, std::size_t point, dts::Workspace<double>& workspace,
                    Evaluation evaluation);

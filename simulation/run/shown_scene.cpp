@@ -43,7 +43,8 @@ output::Scene shown_scene(const Experiment& experiment) {
   std::size_t index = 0;
   for (const RobotSpec& robot : experiment.robots) {
     for_each_body(robot, [&](const BodySpec& body) {
-      for (const ShapeSpec& shape : body.shapes) scene.bodies[index].shapes.push_back(shown(shape));
+      for (const auto* shapes : {&body.shapes, &body.shapes_without_contact})
+        for (const ShapeSpec& shape : *shapes) scene.bodies[index].shapes.push_back(shown(shape));
       ++index;
     });
   }

@@ -103,27 +103,33 @@ BodySpec load_body(const language::Object& object, std::string name, bool must_h
   body.name = std::move(name);
   const std::size_t errors_before = loading.diagnostics.error_count();
   const std::vector<const language::Object*> shape_objects = object.children_of("Shape.");
-  for (const language::Object* shape : shape_objects)
-    body.shapes.push_back(load_shape(*shape, loading));
+  std::vector<ShapeSpec> all;
+  for (const language::Object* shape : shape_objects) all.push_back(load_shape(*shape, loading));
   if (loading.diagnostics.error_count() != errors_before) return body;
-  body.mass = load_mass(object, body.shapes, shape_objects, must_have_inertia, loading);
+  body.mass = load_mass(object, all, shape_objects, must_have_inertia, loading);
   for (const language::Object* point : object.children_of("ContactPoint")) {
     const BallSpec ball = load_contact_point(*point);
     add_point(ball.location, ball.radius, body);
   }
   std::vector<ShapePoints> shapes;
-  for (std::size_t i = 0; i < body.shapes.size(); ++i) {
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (!shape_objects[i]->boolean(contact_field)) {
+      body.shapes_without_contact.push_back(all[i]);
+      continue;
+    }
+    body.shapes.push_back(all[i]);
     const std::size_t before = body.boundary_points.size();
-    add_shape_points(*shape_objects[i], body.shapes[i], body, loading);
+    add_shape_points(*shape_objects[i], all[i], body, loading);
     shapes.push_back({shape_objects[i],
-                      &body.shapes[i],
+                      &all[i],
                       {body.boundary_points.begin() + static_cast<std::ptrdiff_t>(before),
                        body.boundary_points.end()}});
   }
   const Experiment& experiment = loading.experiment;
   if (experiment.terrain && experiment.engine == "dts" &&
-      contact::find_force_law(experiment.contact))
-    warn_of_overlap(shapes, object.trail(), loading);
+      contact::find_force_law(experiment.contact)) {
+    if (const auto overlap = find_overlap(shapes)) loading.overlaps.push_back(*overlap);
+  }
   return body;
 }
 

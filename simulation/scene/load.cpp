@@ -79,6 +79,7 @@ void choose_deltat(const language::Object& root, Loading& loading) {
                   {},
                   {},
                   {},
+                  0,
                   {}};
     trial.experiment.deltat = step;
     load_signals(root, trial);
@@ -96,7 +97,7 @@ std::optional<Experiment> load_experiment(const language::Object& root,
                                           language::Diagnostics& diagnostics,
                                           const std::vector<std::filesystem::path>& search_path,
                                           const std::vector<FileSpec>& given) {
-  Loading loading{diagnostics, search_path, given, {}, {}, {}, {}, {}, {}, {}};
+  Loading loading{diagnostics, search_path, given, {}, {}, {}, {}, {}, {}, {}, 0, {}};
   const std::size_t errors_before = diagnostics.error_count();
   const language::Object* world = find_world(root, loading);
   check_strays(root, loading);
@@ -106,6 +107,7 @@ std::optional<Experiment> load_experiment(const language::Object& root,
   load_terrain(*world, loading);
   warn_of_unstated_constants(*world, loading);
   load_robots(*world, loading);
+  warn_of_overlaps(loading);
   load_forces(*world, loading);
   check_combinations(*world, loading);
   // A pose on the ground means something only for robots and ground that are right.

@@ -29,6 +29,11 @@ struct FormulaInput {
   language::Reference from;
 };
 
+/// Two shapes of a body that overlap or touch.
+struct ShapeOverlap {
+  const language::Object *first = nullptr, *second = nullptr;
+};
+
 /// The experiment as it grows, and which object each part came from.
 struct Loading {
   language::Diagnostics& diagnostics;
@@ -41,8 +46,9 @@ struct Loading {
   ObjectTrails trails;
   std::vector<const language::Object*> components;  ///< one a ComponentSpec
   std::vector<FormulaInput> formula_inputs;
-  std::size_t boundary_points = 0;  ///< asked for, of all bodies
-  language::Names names{};          ///< of the tree that is read, each scope's made once
+  std::size_t boundary_points = 0;     ///< requested, of all bodies
+  std::vector<ShapeOverlap> overlaps;  ///< one a body whose shapes overlap
+  language::Names names{};             ///< of the tree that is read, each scope's made once
 
   void error(const language::Position& position, std::string message) {
     diagnostics.error(position, std::move(message));
@@ -56,14 +62,14 @@ inline constexpr const char* duration_field = "duration";  ///< of a World
 namespace base_field {
 inline constexpr const char *location = "location", *orientation = "orientation",
                             *velocity = "velocity", *angular_velocity = "angular_velocity",
-                            *rest_on = "rest_on", *at = "at", *yaw = "yaw";
+                            *rest_on = "rest_on", *at = "at", *yaw = "yaw", *settled = "settled";
 }
 /// Of a Record and of a Movie.
 namespace run_file_field {
 inline constexpr const char *rate = "rate", *file = "file";
 }
 /// Of a Shape.
-inline constexpr const char* boundary_points_field = "boundary_points";
+inline constexpr const char *boundary_points_field = "boundary_points", *contact_field = "contact";
 /// Of a component: what it is attached to.
 std::string_view attachment_field(control::Attachment attachment);
 
@@ -123,9 +129,11 @@ struct ShapePoints {
   const ShapeSpec* shape = nullptr;
   std::vector<Vector3d> points;  ///< p_BP, body axes [m]
 };
-/// Warns, once a body, where a boundary point of one shape is in or on another.
-void warn_of_overlap(const std::vector<ShapePoints>& shapes, const std::string& body,
-                     Loading& loading);
+/// The first two shapes of a body that share surface: a boundary point of one is in or on the
+/// other. Not where one has all of the other's points in it, which then bear nothing.
+std::optional<ShapeOverlap> find_overlap(const std::vector<ShapePoints>& shapes);
+/// Warns, once, of all overlaps that were found.
+void warn_of_overlaps(Loading& loading);
 /// Mass properties of `object` with the shapes `shapes`, whose objects are `shape_objects`.
 MassSpec load_mass(const language::Object& object, const std::vector<ShapeSpec>& shapes,
                    const std::vector<const language::Object*>& shape_objects,

@@ -6,6 +6,7 @@
 
 #include "contact/force_law.h"
 #include "contact/terrain/terrain.h"
+#include "simulation/analysis/resting_state.h"
 #include "simulation/kinematics.h"
 #include "simulation/robot_tree.h"
 #include "simulation/scene/load_parts.h"
@@ -87,6 +88,23 @@ void lay_down(const language::Object& base, const contact::Terrain& ground, Robo
   }
 }
 
+/// Brings the robot from where it was laid into static balance.
+void settle(const language::Object& base, const contact::Terrain& ground, RobotSpec& robot,
+            Loading& loading) {
+  const Resting resting = resting_state(loading.experiment, robot, ground);
+  if (!resting.problem.empty())
+    loading.diagnostics.warning(
+        place_of(base, base_field::settled),
+        fmt::format("`{}` cannot start settled, and starts level on its points: {}", robot.name,
+                    resting.problem));
+  if (!resting.state) return;
+  robot.location = resting.state->location;
+  robot.orientation = resting.state->orientation;
+  robot.velocity = resting.state->velocity;
+  robot.angular_velocity = resting.state->angular_velocity;
+  robot.start_stretch = resting.state->stretch;
+}
+
 /// One error a robot: the first of its boundary points that starts off the terrain.
 void check_inside(const language::Object& base, const contact::Terrain& ground,
                   const RobotSpec& robot, Loading& loading) {
@@ -112,7 +130,11 @@ void place_on_terrain(Loading& loading) {
   for (std::size_t i = 0; i < loading.experiment.robots.size(); ++i) {
     RobotSpec& robot = loading.experiment.robots[i];
     const language::Object& base = *loading.bases[i];
+    const std::size_t errors_before = loading.diagnostics.error_count();
     if (base.given(base_field::rest_on)) lay_down(base, ground, robot, loading);
+    const bool laid = loading.diagnostics.error_count() == errors_before;
+    if (laid && robot.mobile && base.boolean(base_field::settled))
+      settle(base, ground, robot, loading);
     check_inside(base, ground, robot, loading);
   }
 }

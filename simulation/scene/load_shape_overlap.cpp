@@ -31,33 +31,83 @@ bool holds(const Legcone& cone, const Vector3d& p, double near) {
   return p.x >= -near && p.x <= cone.length + near && std::hypot(p.y, p.z) <= radius + near;
 }
 
+double size_of(const Box& box) { return norm(box.dimensions); }
+double size_of(const Sphere& sphere) { return sphere.radius; }
+double size_of(const Cylinder& cylinder) { return std::hypot(cylinder.radius, cylinder.length); }
+double size_of(const Legcone& cone) {
+  return std::hypot(cone.length, std::max(cone.proximal_radius, cone.distal_radius));
+}
+
+double size_of(const ShapePoints& shape) {
+  return std::visit([](const auto& form) { return size_of(form); }, shape.shape->geometry);
+}
+
+/// Whether `p_BP` is in the shape or no farther than `near` [m] outside; below 0, inside by that.
+bool holds(const ShapePoints& shape, const Vector3d& p_BP, double near) {
+  const Vector3d p_SP = rotate(conjugate(shape.shape->orientation), p_BP - shape.shape->location);
+  return std::visit([&](const auto& form) { return holds(form, p_SP, near); },
+                    shape.shape->geometry);
+}
+
+/// Of two shapes: so near, a point of one is on the surface of the other [m].
+double near_of(const ShapePoints& one, const ShapePoints& other) {
+  return touching * (size_of(one) + size_of(other));
+}
+
+bool shares_surface(const ShapePoints& one, const ShapePoints& other) {
+  const double near = near_of(one, other);
+  const auto touches = [near](const ShapePoints& of, const ShapePoints& with) {
+    return std::ranges::any_of(of.points,
+                               [&](const Vector3d& p_BP) { return holds(with, p_BP, near); });
+  };
+  return touches(one, other) || touches(other, one);
+}
+
+/// Whether the points of `inner` bear nothing before `outer` does, or instead of it: all are below
+/// its surface. The one of a ball is its middle, which may be on it: a foot at the end of a leg.
+bool contains(const ShapePoints& outer, const ShapePoints& inner) {
+  const bool is_ball =
+      inner.points.size() == 1 && std::holds_alternative<Sphere>(inner.shape->geometry);
+  const double near = (is_ball ? 1. : -1.) * near_of(outer, inner);
+  return std::ranges::all_of(inner.points,
+                             [&](const Vector3d& p_BP) { return holds(outer, p_BP, near); });
+}
+
+/// "Shape.Box `top`", or "Shape.Box in line 7" where it has no name.
+std::string described(const language::Object& shape) {
+  if (shape.named) return fmt::format("{} `{}`", shape.type, shape.name);
+  return fmt::format("{} in line {}", shape.type, language::line_and_column(shape.position).line);
+}
+
 }  // namespace
 
-void warn_of_overlap(const std::vector<ShapePoints>& shapes, const std::string& body,
-                     Loading& loading) {
-  const auto shares = [](const ShapePoints& of, const ShapePoints& with) {
-    double size = 0.;
-    for (const Vector3d& p_BP : of.points) size = std::max(size, norm(p_BP - of.points.front()));
-    return std::ranges::any_of(of.points, [&](const Vector3d& p_BP) {
-      const Vector3d p_SP = rotate(conjugate(with.shape->orientation), p_BP - with.shape->location);
-      return std::visit([&](const auto& form) { return holds(form, p_SP, touching * size); },
-                        with.shape->geometry);
-    });
-  };
+std::optional<ShapeOverlap> find_overlap(const std::vector<ShapePoints>& shapes) {
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      if (!shares(shapes[i], shapes[j]) && !shares(shapes[j], shapes[i])) continue;
-      loading.diagnostics.warning(
-          shapes[i].object->position,
-          fmt::format("this {} and another shape of {} overlap or touch: each boundary point has "
-                      "the ground's whole stiffness, so that where they meet two points carry for "
-                      "one, and two half boxes are not one box; make them one shape, move them "
-                      "apart, or give the body ContactPoints and its mass instead of shapes",
-                      shapes[i].object->type, body));
-      loading.diagnostics.note(shapes[j].object->position, "the other is here");
-      return;
+      if (shares_surface(shapes[i], shapes[j]) && !contains(shapes[i], shapes[j]) &&
+          !contains(shapes[j], shapes[i]))
+        return ShapeOverlap{shapes[j].object, shapes[i].object};
     }
   }
+  return std::nullopt;
+}
+
+void warn_of_overlaps(Loading& loading) {
+  if (loading.overlaps.empty()) return;
+  const auto& [first, second] = loading.overlaps.front();
+  const std::size_t more = loading.overlaps.size() - 1;
+  loading.diagnostics.warning(
+      second->position,
+      fmt::format(
+          "{} and {} of {} overlap or touch{}: each boundary point has the ground's whole "
+          "stiffness, so that where they meet two points carry for one, and two half boxes "
+          "are not one box; give the one that is not to touch the ground `contact = false`, "
+          "make them one shape, or move them apart",
+          described(*first), described(*second), second->parent->trail(),
+          more == 0   ? ""
+          : more == 1 ? ", and shapes of another body"
+                      : fmt::format(", and shapes of {} more bodies", more)));
+  loading.diagnostics.note(first->position, "the other is here");
 }
 
 }  // namespace hookpoint::simulation

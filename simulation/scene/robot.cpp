@@ -78,8 +78,11 @@ language::ClassSchema base_class(std::string name, std::string doc) {
                       "for a peer)"),
          list_field(base_field::at, "m", 2, 2, "0,0",
                     "with rest_on: world x,y of the base frame's origin"),
-         number_field(base_field::yaw, "rad", "0",
-                      "with rest_on: turn about the ground's normal")});
+         number_field(base_field::yaw, "rad", "0", "with rest_on: turn about the ground's normal"),
+         boolean_field(base_field::settled, "false",
+                       "with rest_on, of a robot without joints: start in static balance, leaning "
+                       "and with tangential springs stretched by its weight, so that nothing moves "
+                       "at time 0; false: level on its points, with slack springs")});
   }
   append(base.fields, mass_fields("base"));
   append(base.fields, acceleration_ports("the base's origin"));
@@ -113,7 +116,7 @@ void load_base(const language::Object& object, RobotSpec& robot, Loading& loadin
                               "`yaw` go with rest_on)",
                               field));
   }
-  for (const char* field : {base_field::at, base_field::yaw}) {
+  for (const char* field : {base_field::at, base_field::yaw, base_field::settled}) {
     if (rests || !object.given(field)) continue;
     loading.error(
         place_of(object, field),

@@ -50,6 +50,9 @@ Fields<ShapeSpec> placed_fields(const std::string& density = "") {
                         "shape to body axes: quaternion w,x,y,z, or roll,pitch,yaw angles"),
       not_negative(number_field(mass_field::mass, "kg", "",
                                 "of this shape; if not given, its share of the body's by volume")),
+      boolean_field(contact_field, "true",
+                    "false: nothing of it touches the ground, in any engine; it has its mass and "
+                    "is drawn"),
       between(0., 500.,
               integer_field(boundary_points_field, &ShapeSpec::boundary_points,
                             "how densely its surface may touch the ground: " + density)),

@@ -46,19 +46,75 @@ TEST(Warnings, TellOfALawWhoseOwnConstantsNoMaterialStates) {
             std::string::npos);
 }
 
+constexpr const char* overlapping = "overlap or touch";
+
+/// A body that floats above its ground, with these shapes.
+std::string shaped(const std::string& shapes) {
+  return world("Terrain.Flat f { }", "location = 0, 0, 1; " + shapes);
+}
+
 TEST(Warnings, TellOfShapesOfOneBodyThatMeet) {
   const auto halves = [](double gap) {
-    return world("Terrain.Flat f { }",
-                 "location = 0, 0, 1; Shape.Box { location = " + std::to_string(-0.05 - gap) +
-                     ", 0, 0; dimensions = 0.1, 0.1, 0.1; mass = 1; } Shape.Box { location = 0.05, "
-                     "0, 0; dimensions = 0.1, 0.1, 0.1; mass = 1; }");
+    return shaped("Shape.Box left { location = " + std::to_string(-0.05 - gap) +
+                  ", 0, 0; dimensions = 0.1, 0.1, 0.1; mass = 1; } Shape.Box { location = 0.05, 0, "
+                  "0; dimensions = 0.1, 0.1, 0.1; mass = 1; }");
   };
   const Loaded touching = load_text(halves(0.));
   ASSERT_TRUE(touching.experiment);
-  EXPECT_NE(touching.diagnostics.find("overlap or touch"), std::string::npos)
-      << touching.diagnostics;
-  EXPECT_NE(load_text(halves(-0.02)).diagnostics.find("overlap or touch"), std::string::npos);
+  EXPECT_NE(touching.diagnostics.find(overlapping), std::string::npos) << touching.diagnostics;
+  for (const char* part :
+       {"Shape.Box `left` and Shape.Box in line 1 of w.b.base", "`contact = false`", "note 1:"})
+    EXPECT_NE(touching.diagnostics.find(part), std::string::npos) << part << touching.diagnostics;
+  EXPECT_NE(load_text(halves(-0.02)).diagnostics.find(overlapping), std::string::npos);
   EXPECT_EQ(load_text(halves(0.02)).diagnostics, "");
+  const std::string cube = "Shape.Cube { dimensions = 0.1, 0.1, 0.1; mass = 1; } ";
+  EXPECT_NE(load_text(shaped(cube + cube)).diagnostics.find(overlapping), std::string::npos);
+}
+
+TEST(Warnings, AreNotOfShapesThatBearInsteadOfWhatTheyContain) {
+  // A ball at the end of a leg, one that is wider than its leg, and a motor inside its housing.
+  const std::string leg = "Shape.Cylinder { radius = 0.02; length = 0.3; mass = 1; } ";
+  for (const std::string& shapes :
+       {leg + "Shape.Sphere { location = 0, 0, -0.15; radius = 0.02; mass = 0.1; }",
+        leg + "Shape.Sphere { location = 0, 0, -0.14; radius = 0.05; mass = 0.1; }",
+        std::string("Shape.Cube { dimensions = 0.2, 0.2, 0.2; mass = 1; } Shape.Cylinder { radius "
+                    "= 0.05; length = 0.1; mass = 1; }")})
+    EXPECT_EQ(load_text(shaped(shapes)).diagnostics, "") << shapes;
+}
+
+TEST(Warnings, AreOneOfAllBodiesWhoseShapesMeetAndNoneOfThoseWithoutContact) {
+  const auto table = [](const std::string& top) {
+    return shaped("Shape.Box top { dimensions = 0.8, 0.4, 0.04; mass = 4; " + top +
+                  "} For i in 0..3 { Shape.Box leg[i] { dimensions = 0.04, 0.04, 0.4; location = "
+                  "0.3*(i < 2 ? 1 : -1), 0.1*(i == 1 || i == 2 ? 1 : -1), -0.21; mass = 0.5; } }");
+  };
+  const Loaded all = load_text(table(""));
+  ASSERT_TRUE(all.experiment) << all.diagnostics;
+  EXPECT_NE(all.diagnostics.find("Shape.Box `top` and Shape.Box `leg[0]`"), std::string::npos)
+      << all.diagnostics;
+  EXPECT_EQ(all.diagnostics.find(overlapping), all.diagnostics.rfind(overlapping));
+  const Loaded some = load_text(table("contact = false; "));
+  ASSERT_TRUE(some.experiment) << some.diagnostics;
+  EXPECT_EQ(some.diagnostics, "");
+  const simulation::BodySpec &whole = all.experiment->robots[0].base,
+                             &legs = some.experiment->robots[0].base;
+  EXPECT_EQ(whole.boundary_points.size(), 40U);
+  EXPECT_EQ(legs.boundary_points.size(), 32U);
+  EXPECT_EQ(legs.shapes.size(), 4U);
+  EXPECT_EQ(legs.shapes_without_contact.size(), 1U);
+  EXPECT_EQ(legs.mass.mass, whole.mass.mass);
+  EXPECT_EQ(legs.mass.center_of_mass, whole.mass.center_of_mass);
+  EXPECT_EQ(legs.mass.inertia.xx, whole.mass.inertia.xx);
+  const std::string half =
+      "Shape.Cube { dimensions = 1, 1, 1; mass = 1; } Shape.Cube { location = 1, 0, 0; dimensions "
+      "= 1, 1, 1; mass = 1; } ";
+  const Loaded two = load_text(
+      "World w { Terrain.Flat f { } For i in 0..1 { Robot b[i] { Base.mobile { location "
+      "= 0, 3*i, 1; " +
+      half + "} } } }");
+  EXPECT_NE(two.diagnostics.find(", and shapes of another body:"), std::string::npos)
+      << two.diagnostics;
+  EXPECT_EQ(two.diagnostics.find(overlapping), two.diagnostics.rfind(overlapping));
 }
 
 // A scene that is shipped states what any law reads, so that a study of laws warns of nothing.

@@ -23,7 +23,7 @@ using language::ValueKind;
 
 /// Arguments that are fields of the base.
 constexpr std::array base_fields{"location", "orientation", "velocity", "angular_velocity",
-                                 "rest_on",  "at",          "yaw"};
+                                 "rest_on",  "at",          "yaw",      "settled"};
 /// Arguments with a meaning of their own.
 constexpr std::array own_arguments{"name", "base", "shapes", "meshes", "hold", "rotor_inertia"};
 /// What follows the name of a joint in the argument that gives its rotor's inertia.
