@@ -40,7 +40,7 @@ std::string type_text(const FieldSchema& field) {
     case FieldType::object: {
       std::string classes = field.refers_to.empty() ? "object" : field.refers_to;
       std::ranges::replace(classes, '|', '/');
-      return "name of a " + classes;
+      return "name of " + with_article(classes);
     }
     case FieldType::port:
       return "trail of a port";
@@ -113,7 +113,8 @@ std::vector<std::pair<std::string, std::string>> class_facts(const ClassSchema& 
 }
 
 std::string describe_in(const ClassSchema& schema, const Schema* all) {
-  std::string text = schema.name + "\n  " + schema.doc + "\n";
+  std::string text = schema.name + (schema.only_in.empty() ? "" : " in " + schema.only_in) +
+                     "\n  " + schema.doc + "\n";
   for (const auto& [label, fact] : class_facts(schema, all))
     text += "  " + label + ": " + fact + "\n";
   for (const FieldSchema& field : schema.fields) {
@@ -172,6 +173,14 @@ std::string unit_after(const FieldSchema& field) {
 std::string number_text(double value) {
   char buffer[32];
   const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, value);
+  return {buffer, end};
+}
+
+std::string rounded_text(double value) {
+  constexpr int digits = 6;
+  char buffer[32];
+  const auto [end, error] =
+      std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, digits);
   return {buffer, end};
 }
 

@@ -81,9 +81,10 @@ void Builder::lay_object(FileScope& scope, const Item& item) {
     if (!text) return leave_out(scope, item);
     name = *text;
     if (schema->naming == Naming::forbidden)
-      report_.error(position(scope, item.name), "a " + schema->name + " has no name");
+      report_.error(position(scope, item.name), with_article(schema->name) + " has no name");
   } else if (schema->naming == Naming::required) {
-    report_.error(place, "a " + schema->name + " needs a name: " + schema->name + " NAME { ... }");
+    report_.error(place,
+                  with_article(schema->name) + " needs a name: " + schema->name + " NAME { ... }");
   }
   if (open_object(*schema, std::move(name), place, position(scope, item.name)) == nullptr) return;
   lay_items(scope, item.items, false);
@@ -105,10 +106,12 @@ const ClassSchema* Builder::class_of(const FileScope& scope, const Item& item) {
   if (schema == nullptr) {
     if (report_.told_at(place)) return nullptr;
     const bool field = owner().schema->find(name) != nullptr;
-    report_.error(
-        place,
-        field ? "`" + name + "` is a field of " + owner().type + ": expected `" + name + " = ...;`"
-              : "unknown class `" + name + "`" + did_you_mean(name, schema_.class_names()));
+    const std::string instead(schema_.schema().instead_of("", name));
+    report_.error(place, field ? "`" + name + "` is a field of " + owner().type + ": expected `" +
+                                     name + " = ...;`"
+                         : instead.empty() ? "unknown class `" + name + "`" +
+                                                 did_you_mean(name, schema_.class_names())
+                                           : "there is no class `" + name + "`: " + instead);
     return nullptr;
   }
   if (schema->name != "Group") check_place(*schema, place);
@@ -130,8 +133,8 @@ bool Builder::check_place(const ClassSchema& schema, const Position& place) {
   }
   if (schema.top_level) places.insert(places.begin(), "the top of a file");
   const std::string here = top ? "at the top of a file" : "inside " + around.type;
-  report_.error(place,
-                "a " + schema.name + " cannot stand " + here + "; expected " + join(places, ", "));
+  report_.error(place, with_article(schema.name) + " cannot stand " + here + "; expected " +
+                           join(places, ", "));
   return false;
 }
 
@@ -204,9 +207,10 @@ void Builder::add_field(const ClassSchema& schema, const std::string& name, cons
     for (const FieldSchema& candidate : schema.fields) {
       if (candidate.setting) names.push_back(candidate.name);
     }
-    std::string hint = did_you_mean(name, names);
+    const std::string instead(schema_.schema().instead_of(schema.name, name));
+    std::string hint = instead.empty() ? did_you_mean(name, names) : ": " + instead;
     if (hint.empty() && !names.empty()) hint = "; its fields are " + join(names, ", ");
-    return report_.error(place, "a " + schema.name + " has no field `" + name + "`" + hint);
+    return report_.error(place, with_article(schema.name) + " has no field `" + name + "`" + hint);
   }
   if (!field->setting)
     return report_.error(
@@ -313,8 +317,18 @@ bool Builder::lay_round(FileScope& scope, const Item& item, Value value) {
   constexpr std::size_t steps_of_a_round = 10;
   if (!take(Resource::steps, steps_of_a_round, place)) return false;
   const bool word = value.kind == ValueKind::word;
+  const Position written = value.position;
   if (!define(scope, name, {std::move(value)}, place)) return false;
-  scope.variables[name].stands_for_word = word;
+  Variable& variable = scope.variables[name];
+  variable.stands_for_word = word;
+  if (!word && written.file == &scope.file.source) {
+    const std::string_view source =
+        std::string_view(scope.file.source.text).substr(written.offset, written.length);
+    if (scope.variables.contains(source) && source != name) {
+      variable.copied_from = source;
+      variable.copied_at = written;
+    }
+  }
   lay_items(scope, item.items, false);
   scope.variables.erase(name);
   return true;

@@ -35,6 +35,8 @@ class Checker {
   void check_units(Object& object);
   void check_reference(const Object& object, Field& field);
   /// The error that `reference` leads nowhere, unless what it speaks of was left out.
+  /// ": " and what to do where the language has no such port; "" if there is nothing to say.
+  std::string instead_of(const Reference& reference, const Unresolved& why) const;
   void report_unresolved(const Reference& reference, const Unresolved& why);
 
   // wires.cpp

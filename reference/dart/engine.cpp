@@ -15,6 +15,7 @@ using enum simulation::EngineGap::Handling;
 /// What DART lacks.
 constexpr auto gaps = std::to_array<OwnGap>({
     single_friction_gap,
+    matched_restitution_gap,
     {feature::legcone, refused, "DART has no truncated cone; use Cylinder, Sphere or Box"},
     {feature::tile_softness, noticed,
      "at `settings = matched` the constants of the terrain's own material hold on every tile"},

@@ -15,6 +15,7 @@ using enum simulation::EngineGap::Handling;
 /// What ODE lacks.
 constexpr auto gaps = std::to_array<OwnGap>({
     single_friction_gap,
+    matched_restitution_gap,
     {feature::legcone, refused, "ODE has no cone; use Cylinder, Sphere or Box"},
     {feature::massless, refused, "every body of ODE has a mass; give the link one"},
     {feature::no_inertia, refused,

@@ -72,7 +72,7 @@ std::optional<Experiment> load_with_step(const language::Object& root,
   load_world(*world, loading);
   load_materials(root, loading);
   load_terrain(*world, loading);
-  warn_of_unstated_constants(*world, loading);
+  check_law_constants(*world, loading);
   load_robots(*world, loading);
   load_forces(*world, loading);
   check_combinations(*world, loading);

@@ -20,11 +20,6 @@ void check_impulse_law(const language::Object& world, Loading& loading) {
   }
 }
 
-/// Set by --set or by a study's subject, not where the object is written.
-bool set_from_outside(const language::Object& object, std::string_view field) {
-  return object.given(field) && object.find(field)->position.file != object.position.file;
-}
-
 /// "cvode_bdf, cvode_adams and arkode": the integrators that choose their own steps.
 std::string adaptive_integrators() {
   std::vector<std::string> names;
@@ -55,6 +50,10 @@ void check_tolerances(const language::Object& world, Loading& loading) {
 }
 
 }  // namespace
+
+bool set_from_outside(const language::Object& object, std::string_view field) {
+  return object.given(field) && object.find(field)->position.file != object.position.file;
+}
 
 void check_combinations(const language::Object& world, Loading& loading) {
   const Experiment& experiment = loading.experiment;
