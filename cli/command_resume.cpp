@@ -19,7 +19,7 @@ std::int64_t last_step(const RunArguments& arguments, const simulation::Experime
   const std::int64_t last = arguments.duration ? first + steps : steps;
   if (last > first) return last;
   throw output::MovieError(
-      fmt::format("nothing is left to run from {} s on: the World's duration is {} s; say --for "
+      fmt::format("nothing is left to run from {:.6g} s on: the World's duration is {:.6g} s; say --for "
                   "how long, or an "
                   "earlier moment with --at",
                   static_cast<double>(first) * experiment.deltat, experiment.duration));

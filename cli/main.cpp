@@ -387,10 +387,12 @@ void add_language_tools(CLI::App& app, Request& request) {
   print_app->add_option("FILE", request.file, "a .hook file")->required();
   add_settings(print_app, request.settings);
   add_plugins(print_app, request.allow_plugins);
-  CLI::App* describe_app = add_command(app, request, "describe", "what a class, metric, law, integrator, engine or setting is",
-                                       [&] { return describe_with(app, request.describe); });
+  CLI::App* describe_app = add_command(
+      app, request, "describe", "what a class, metric, law, integrator, engine or setting is",
+      [&] { return describe_with(app, request.describe); });
   describe_app->add_option("TYPE", request.describe.type,
-                           "a class, e.g. Base.mobile; without it all are listed");
+                           "a class, e.g. Base.mobile, or another name; without it all classes "
+                           "are listed");
   describe_app->add_flag("--markdown", request.describe.markdown,
                          "every class as the manual's reference page");
   describe_app->add_flag("--textmate", request.describe.textmate,

@@ -188,16 +188,16 @@ std::string range_text(const FieldSchema& field) {
   const std::string unit = unit_after(field);
   const bool low = std::isfinite(field.minimum), high = std::isfinite(field.maximum);
   if (low && high && !field.exclusive_minimum && !field.exclusive_maximum) {
-    return "from " + number_text(field.minimum) + " to " + number_text(field.maximum) + unit;
+    return "from " + rounded_text(field.minimum) + " to " + rounded_text(field.maximum) + unit;
   }
   std::string text;
   if (low)
-    text = (field.exclusive_minimum ? "greater than " : "at least ") + number_text(field.minimum) +
+    text = (field.exclusive_minimum ? "greater than " : "at least ") + rounded_text(field.minimum) +
            unit;
   if (low && high) text += " and ";
   if (high)
     text +=
-        (field.exclusive_maximum ? "less than " : "at most ") + number_text(field.maximum) + unit;
+        (field.exclusive_maximum ? "less than " : "at most ") + rounded_text(field.maximum) + unit;
   return text;
 }
 

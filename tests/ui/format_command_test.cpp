@@ -52,8 +52,7 @@ TEST(FormatCommand, AUrdfIsReadUnderAnyName) {
 TEST(FormatCommand, ARobotAloneIsSaidToNeedAWorld) {
   const Workplace work;
   for (const char* command : {"run ", "view --no-open "}) {
-    const CommandResult result =
-        work.hookpoint(command + testing::config("robots/quadruped.urdf"));
+    const CommandResult result = work.hookpoint(command + testing::config("robots/quadruped.urdf"));
     EXPECT_EQ(result.status, 2);
     EXPECT_NE(result.err.find("Include \""), std::string::npos) << result.err;
     EXPECT_EQ(result.err.find("move it into"), std::string::npos) << result.err;
@@ -74,9 +73,9 @@ TEST(FormatCommand, MeshesGroundsAndSeriesAreNamedToo) {
             "World w { deltat = 1 ms; duration = 1 ms; Terrain.Grid g { file = \"dem.tif\"; } }\n");
   expect_named(work.hookpoint("run ground.hook"), "a TIFF image");
   work.file("push.json", "{\"t\": [0, 1]}\n");
-  work.file("push.hook",
-            ball + "Data push { file = \"push.json\"; column = \"f\"; }\n"
-                   "Probe p { Wire FROM push.output; }\n");
+  work.file("push.hook", ball +
+                             "Data push { file = \"push.json\"; column = \"f\"; }\n"
+                             "Probe p { Wire FROM push.output; }\n");
   expect_named(work.hookpoint("run push.hook"), "JSON");
 }
 
