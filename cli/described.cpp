@@ -24,7 +24,7 @@ struct Entry {
   std::string name, text;
 };
 
-std::string names_of(const contact::ConstantList& constants) {
+std::string constant_names(const contact::ConstantList& constants) {
   std::vector<std::string> names;
   for (const contact::Constant constant : constants)
     names.emplace_back(simulation::field_of(constant).name);
@@ -35,9 +35,9 @@ void add_laws(std::vector<Entry>& entries) {
   for (const contact::LawDescription& law : contact::law_table()) {
     std::string text =
         fmt::format("{}, contact law\n  {}\n  source: {}\n  constants that it reads: {}\n",
-                    law.name, law.summary, law.source, names_of(law.constants));
+                    law.name, law.summary, law.source, constant_names(law.constants));
     if (law.own_constants.size() > 0)
-      text += fmt::format("  of them its own: {}\n", names_of(law.own_constants));
+      text += fmt::format("  of them its own: {}\n", constant_names(law.own_constants));
     text += fmt::format("  chosen by: contact = {}; in the World, or --contact {}\n", law.name,
                         law.name);
     entries.push_back({std::string(law.name), std::move(text)});
@@ -70,7 +70,7 @@ void add_engines(const application::Application& application, std::vector<Entry>
 }
 
 /// A setting's constants, engine by engine.
-void add_settings(std::vector<Entry>& entries) {
+void add_engine_settings(std::vector<Entry>& entries) {
   std::map<std::string, std::string> texts;
   for (const reference::Peer& peer : reference::known_peers()) {
     for (const std::string& name : peer.settings_names()) {
@@ -129,7 +129,7 @@ std::vector<std::string> described(const application::Application& application,
   add_laws(entries);
   add_integrators(entries);
   add_engines(application, entries);
-  add_settings(entries);
+  add_engine_settings(entries);
   for (const Entry& entry : entries)
     if (entry.name == name) texts.push_back(entry.text);
   if (!texts.empty()) return texts;

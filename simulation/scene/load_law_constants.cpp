@@ -66,7 +66,7 @@ void check_unstated(const contact::LawDescription& law, const language::Object& 
                   law.name, who, constants, stiffness_unit(law.along_normal)));
 }
 
-bool reads(const contact::LawDescription& law, contact::Constant constant) {
+bool law_reads(const contact::LawDescription& law, contact::Constant constant) {
   return std::ranges::count(law.constants, constant) > 0;
 }
 
@@ -85,10 +85,10 @@ bool is_the_only_friction(const language::Object& material, const MaterialField&
 std::vector<contact::Constant> unread_constants(const contact::LawDescription& law,
                                                 const language::Object& world,
                                                 const language::Object& material) {
-  const bool chosen_outside = set_from_outside(world, contact_field);
+  const bool chosen_outside = set_from_outside(world, "contact");
   std::vector<contact::Constant> unread;
   for (const MaterialField& field : material_fields()) {
-    if (!material.given(field.name) || reads(law, field.member) ||
+    if (!material.given(field.name) || law_reads(law, field.member) ||
         is_the_only_friction(material, field))
       continue;
     const bool stated_outside = set_from_outside(material, field.name);
@@ -109,7 +109,7 @@ void check_unread(const contact::LawDescription& law, const language::Object& wo
   for (const contact::Constant constant : unread)
     names.push_back(fmt::format("`{}`", field_of(constant).name));
   for (const contact::LawDescription& other : contact::law_table()) {
-    if (std::ranges::all_of(unread, [&](auto constant) { return reads(other, constant); }))
+    if (std::ranges::all_of(unread, [&](auto constant) { return law_reads(other, constant); }))
       readers.emplace_back(other.name);
   }
   if (readers.empty()) return;
