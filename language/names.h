@@ -8,15 +8,13 @@
 
 namespace hookpoint::language {
 
-/// The other name of `candidates` nearest to `name` (edit distance at most a third of its length), or ""
+/// The name of `candidates` nearest to `name` (edit distance at most a third of its length), or ""
 /// if none is near.
 std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates);
 
 /// "; did you mean `x`?" or "".
 std::string did_you_mean(std::string_view name, const std::vector<std::string>& candidates);
 std::string join(const std::vector<std::string>& words, std::string_view separator);
-/// "a Wire", "an Input": `noun`, a name of the language, behind its article.
-std::string with_article(std::string_view noun);
 /// "1 number", "3 numbers".
 std::string count_of(std::size_t count, std::string_view noun);
 

@@ -28,13 +28,6 @@ void Report::error(const Position& position, std::string message) {
   auto include = std::find_if(includes_.rbegin(), includes_.rend(),
                               [&](const Include& open) { return open.file == position.file; });
   for (; include != includes_.rend(); ++include) finding.included_from.push_back(include->place);
-  const auto hint = hints_.find({position.file, position.offset});
-  if (hint != hints_.end()) finding.notes.push_back(hint->second);
-}
-
-void Report::hint(const Position& position, const Position& place, const std::string& message) {
-  hints_.try_emplace({position.file, position.offset},
-                     Diagnostic{Severity::note, place, clipped(message)});
 }
 
 void Report::note(const Position& position, std::string message) {

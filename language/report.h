@@ -30,8 +30,6 @@ class Report {
   void error(const Position& position, std::string message);
   /// A place that belongs to the error before it.
   void note(const Position& position, std::string message);
-  /// If an error is found at `position`, it gets this note. The first hint at a place counts.
-  void hint(const Position& position, const Position& place, const std::string& message);
   /// What is no mistake and to be known all the same; told before the errors.
   void remark(const Position& position, std::string message);
   /// Adds the syntax errors of a file.
@@ -68,7 +66,6 @@ class Report {
   std::map<const SourceFile*, std::size_t> file_order_;
   std::set<std::tuple<const SourceFile*, std::size_t, std::string>> seen_;
   std::set<std::pair<const SourceFile*, std::size_t>> told_;
-  std::map<std::pair<const SourceFile*, std::size_t>, Diagnostic> hints_;
   std::set<const SourceFile*> broken_;
   bool repeated_ = true;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <variant>
 
+#include "reference/restitution_gap.h"
 #include "reference/touching_points.h"
 
 namespace hookpoint::reference {

@@ -24,7 +24,6 @@ inline constexpr std::string_view joint_limits = "joint limits";
 inline constexpr std::string_view rotors = "rotor inertias";
 inline constexpr std::string_view two_frictions = "static friction that differs from kinetic";
 inline constexpr std::string_view restitution = "restitution";
-inline constexpr std::string_view matched_restitution = "restitution at `settings = matched`";
 inline constexpr std::string_view tile_friction = "friction of single tiles";
 inline constexpr std::string_view tile_softness = "stiffness and damping of single tiles";
 inline constexpr std::string_view unmatched_softness =
@@ -54,10 +53,6 @@ struct OwnGap {
 inline constexpr OwnGap single_friction_gap{
     feature::two_frictions, simulation::EngineGap::Handling::noticed,
     "this engine has one coefficient of friction, and it is the kinetic one"};
-
-inline constexpr OwnGap matched_restitution_gap{
-    feature::matched_restitution, simulation::EngineGap::Handling::noticed,
-    "a body rebounds by the material's spring and damper; `restitution` is not read"};
 
 /// The gaps that every peer has (its own law and integrator, no hips, nothing to resume from), then
 /// those of one engine.

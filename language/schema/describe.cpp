@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "language/names.h"
+#include "language/wording.h"
 
 namespace hookpoint::language {
 namespace {
@@ -173,14 +174,6 @@ std::string unit_after(const FieldSchema& field) {
 std::string number_text(double value) {
   char buffer[32];
   const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, value);
-  return {buffer, end};
-}
-
-std::string rounded_text(double value) {
-  constexpr int digits = 6;
-  char buffer[32];
-  const auto [end, error] =
-      std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, digits);
   return {buffer, end};
 }
 

@@ -17,8 +17,6 @@ std::string describe_markdown(const Schema& schema);
 
 /// The shortest text that reads back to the same double.
 std::string number_text(double value);
-/// For messages: at most six significant digits.
-std::string rounded_text(double value);
 /// The values that a numeric field takes, as a user is told: "greater than 0 kg", "from 0 to 1", ""
 /// when any.
 std::string range_text(const FieldSchema& field);

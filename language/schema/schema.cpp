@@ -10,16 +10,6 @@ std::string key_of(std::string_view name, std::string_view within) {
   return std::string(name) + " in " + std::string(within);
 }
 
-/// Whether `list`, separated by '|', has `name`, or a family with its dot that `name` is of.
-bool one_of(std::string_view list, std::string_view name) {
-  while (!list.empty()) {
-    const std::string_view one = list.substr(0, list.find('|'));
-    if (name == one || (one.ends_with('.') && name.starts_with(one))) return true;
-    list.remove_prefix(std::min(one.size() + 1, list.size()));
-  }
-  return false;
-}
-
 ClassSchema wire_class() {
   ClassSchema schema;
   schema.name = "Wire";
@@ -87,19 +77,6 @@ const ClassSchema* Schema::find(std::string_view name) const {
 const ClassSchema* Schema::find(std::string_view name, std::string_view within) const {
   const ClassSchema* own = find(key_of(name, within));
   return own != nullptr ? own : find(name);
-}
-
-void Schema::add_absent(std::vector<Absent> absent) {
-  for (Absent& one : absent) absent_.push_back(std::move(one));
-}
-
-std::string_view Schema::instead_of(std::string_view where, std::string_view name) const {
-  const auto found = std::ranges::find_if(absent_, [&](const Absent& one) {
-    const bool is_class = one.where.empty();
-    return is_class == where.empty() && (is_class || one_of(one.where, where)) &&
-           one_of(one.names, name);
-  });
-  return found == absent_.end() ? std::string_view() : found->instead;
 }
 
 void Schema::add_reader(std::string extension, ForeignReader reader) {

@@ -89,18 +89,6 @@ struct ClassSchema {
   const FieldSchema* find(std::string_view field) const;
 };
 
-/// What there is not, though somebody may look for it: a class, a field, a port or a word. Said
-/// where it is used, and on the manual's page of limits.
-struct Absent {
-  /// Class whose field or port it would be; several, and families as "Terrain.", separated by '|'.
-  /// Of a word the class and its field: "Link.joint". "" for a class.
-  std::string where;
-  /// The names that it may have, separated by '|'; a family of classes ends in a dot. "..." for
-  /// more numbers than the field takes, "input" for a wire to it.
-  std::string names;
-  std::string instead;  ///< why not, and what to do instead, without a full stop
-};
-
 struct ForeignArguments;
 struct ForeignObject;
 struct SourceFile;
@@ -125,11 +113,6 @@ class Schema {
   const ClassSchema* find(std::string_view name, std::string_view within) const;
   /// By their names; "Plot in Study" is what Plot means there only.
   const std::map<std::string, ClassSchema, std::less<>>& classes() const { return classes_; }
-  void add_absent(std::vector<Absent> absent);
-  /// What to do instead of `name`, where a class or a field is called `where` (see Absent); "" for
-  /// what is simply unknown.
-  std::string_view instead_of(std::string_view where, std::string_view name) const;
-  const std::vector<Absent>& absent() const { return absent_; }
   /// Files whose names end in `extension` (".urdf") are read by `reader`.
   void add_reader(std::string extension, ForeignReader reader);
   /// Null for files in the language itself.
@@ -138,7 +121,6 @@ class Schema {
  private:
   std::map<std::string, ClassSchema, std::less<>> classes_;
   std::map<std::string, ForeignReader> readers_;
-  std::vector<Absent> absent_;
 };
 
 /// What is wrong with a schema itself, one line each: units and defaults that do not parse, names

@@ -3,11 +3,25 @@
 #include <algorithm>
 
 #include "language/names.h"
+#include "language/schema/absent.h"
 #include "language/tree/field.h"
 #include "language/units.h"
+#include "language/wording.h"
 
 namespace hookpoint::language {
 namespace {
+
+/// ": " and what to do where the language has no such port; "" if there is nothing to say.
+std::string instead_of_port(const Reference& reference, const Unresolved& why) {
+  if (why.candidates.size() != 1) return "";
+  std::string_view rest = reference.trail;
+  for (std::size_t dot = rest.find('.'); dot != std::string_view::npos; dot = rest.find('.')) {
+    rest.remove_prefix(dot + 1);
+    const std::string_view instead = instead_of(why.candidates.front()->type, rest);
+    if (!instead.empty()) return ": " + std::string(instead);
+  }
+  return "";
+}
 
 Field* given_field(Object& object, const FieldSchema& schema) {
   const auto found =
@@ -104,18 +118,6 @@ void Checker::check_units(Object& object) {
   }
 }
 
-std::string Checker::instead_of(const Reference& reference, const Unresolved& why) const {
-  if (why.candidates.size() != 1) return "";
-  std::string_view rest = reference.trail;
-  for (std::size_t dot = rest.find('.'); dot != std::string_view::npos; dot = rest.find('.')) {
-    rest.remove_prefix(dot + 1);
-    const std::string_view instead =
-        schema_.schema().instead_of(why.candidates.front()->type, rest);
-    if (!instead.empty()) return ": " + std::string(instead);
-  }
-  return "";
-}
-
 void Checker::report_unresolved(const Reference& reference, const Unresolved& why) {
   if (report_.is_broken(reference.position)) return;
   std::string_view rest = reference.trail;
@@ -125,11 +127,12 @@ void Checker::report_unresolved(const Reference& reference, const Unresolved& wh
     if (left_out_.contains(part) || left_out_.contains(part.substr(0, part.find('[')))) return;
     rest.remove_prefix(std::min(end + 1, rest.size()));
   }
-  report_.error(reference.position, why.message + instead_of(reference, why));
+  report_.error(reference.position, why.message + instead_of_port(reference, why));
   for (const Object* candidate : why.candidates) {
     if (candidate->position.file != nullptr)
       report_.note(candidate->position, "this " + candidate->type);
   }
+  hints_.explain(reference.position, report_);
 }
 
 void Checker::check_reference(const Object& object, Field& field) {

@@ -5,9 +5,11 @@
 #include <cmath>
 
 #include "language/names.h"
+#include "language/schema/absent.h"
 #include "language/schema/describe.h"
 #include "language/units.h"
 #include "language/values/formula.h"
+#include "language/wording.h"
 #include "unicode/display.h"
 
 namespace hookpoint::language {
@@ -72,10 +74,10 @@ class FieldMaker {
   /// The word that is all of the one expression, else "".
   std::string_view bare_word() const;
   std::string choices_text() const { return "expected one of " + join(schema_.choices, ", "); }
-  /// Schema::instead_of of a word of this field; "" if there is nothing to say.
+  /// What to do instead of a word of this field; "" if there is nothing to say.
   std::string instead_of(std::string_view word) const {
-    if (context_.owner == nullptr || context_.all == nullptr) return "";
-    return std::string(context_.all->instead_of(context_.owner->name + '.' + schema_.name, word));
+    if (context_.owner == nullptr) return "";
+    return std::string(language::instead_of(context_.owner->name + '.' + schema_.name, word));
   }
   bool fail(const Position& place, std::string message) {
     report_.error(place, std::move(message));

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "language/names.h"
+#include "language/wording.h"
 
 namespace hookpoint::language {
 namespace {

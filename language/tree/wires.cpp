@@ -2,8 +2,10 @@
 #include <algorithm>
 
 #include "language/names.h"
+#include "language/schema/absent.h"
 #include "language/tree/checker.h"
 #include "language/units.h"
+#include "language/wording.h"
 
 namespace hookpoint::language {
 namespace {
@@ -103,8 +105,7 @@ std::optional<Checker::End> Checker::check_end(const Object& object,
   const FieldSchema& field = *target.field;
   if (!may_be(field.port, from)) {
     const std::vector<std::string> ports = ports_of(*target.object->schema, from);
-    const std::string instead(
-        schema_.schema().instead_of(target.object->type + '.' + field.name, word));
+    const std::string instead(instead_of(target.object->type + '.' + field.name, word));
     const std::string hint = !instead.empty() ? ": " + instead
                              : ports.empty()  ? ""
                                               : "; its " + word + "s are " + join(ports, ", ");

@@ -93,7 +93,6 @@ std::optional<std::string> ExpressionEvaluator::name_text(Span name, bool indexe
                                                           const Expression& index) const {
   const auto variable = variables_.find(text(name));
   const bool word = variable != variables_.end() && variable->second.stands_for_word;
-  if (!word) hint_at_value(text(name), position(name));
   std::string result(word ? variable->second.values[0].text : text(name));
   if (!indexed) return result;
   const std::optional<long> number = evaluate_integer(index, "the index");
@@ -122,23 +121,11 @@ std::optional<std::string> ExpressionEvaluator::trail_text(const Trail& trail) c
     }
     const std::optional<std::string> name = name_text(part.name, part.indexed, part.index);
     if (!name) return std::nullopt;
-    hint_at_value(text(part.name), position(trail.span));
     if (!result.empty()) result += '.';
     result += *name;
   }
   if (!take(Resource::steps, steps_of(result.size()), position(trail.span))) return std::nullopt;
   return result;
-}
-
-void ExpressionEvaluator::hint_at_value(std::string_view name, const Position& place) const {
-  const Variable* loop = variable(name);
-  if (loop == nullptr || loop->copied_from.empty()) return;
-  const std::string copied = '`' + std::string(loop->copied_from) + '`', held(name);
-  report_.hint(place, loop->copied_at,
-               "`" + held + "` holds " + describe_value(loop->values[0]) + ", not the word " +
-                   copied + ": " + copied +
-                   " is a variable of this file, whose value stands in the list; give the "
-                   "variable another name");
 }
 
 const Trail* ExpressionEvaluator::lone_trail(const Expression& expression) const {

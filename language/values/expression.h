@@ -21,10 +21,6 @@ struct Variable {
   Position position;  ///< of its definition
   /// A loop's over words: wherever its name stands as an object's or in a trail, the word is meant.
   bool stands_for_word = false;
-  /// Of a loop's variable: the variable in the loop's list that it has its value from, where a word
-  /// may have been meant; "" for none, and its place.
-  std::string_view copied_from = {};
-  Position copied_at = {};
 };
 
 /// The variables of one file, by names that lie in its text. A name is defined once wherever it can
@@ -88,8 +84,6 @@ class ExpressionEvaluator {
                         std::string_view action) const;
   bool finish(Value& value, double result, Dimension dimension, Position place) const;
   bool fail(Position place, std::string message) const;
-  /// An error at `place` may come from a name that was meant as a word: says what it holds.
-  void hint_at_value(std::string_view name, const Position& place) const;
   bool take(Resource resource, std::size_t amount, Position place) const {
     return budget_.take(resource, amount, place, report_);
   }

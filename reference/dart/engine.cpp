@@ -5,6 +5,7 @@
 #include "reference/dart/creep.h"
 #include "reference/dart/settings.h"
 #include "reference/dart/world.h"
+#include "reference/restitution_gap.h"
 #include "reference/static_depth.h"
 
 namespace hookpoint::reference {

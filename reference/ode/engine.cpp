@@ -5,6 +5,7 @@
 #include "reference/ode/creep.h"
 #include "reference/ode/settings.h"
 #include "reference/ode/world.h"
+#include "reference/restitution_gap.h"
 #include "reference/static_depth.h"
 
 namespace hookpoint::reference {

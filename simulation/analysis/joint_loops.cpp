@@ -7,7 +7,7 @@
 #include <optional>
 #include <set>
 
-#include "language/names.h"
+#include "language/wording.h"
 #include "simulation/robot_tree.h"
 #include "simulation/wiring/components.h"
 

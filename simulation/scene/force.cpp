@@ -2,7 +2,7 @@
 #include <exception>
 
 #include "control/core/rational.h"
-#include "language/names.h"
+#include "language/wording.h"
 #include "simulation/scene/fields.h"
 #include "simulation/scene/load_parts.h"
 #include "simulation/scene/schema.h"

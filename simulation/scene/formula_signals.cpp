@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "language/names.h"
 #include "language/units.h"
+#include "language/wording.h"
 
 namespace hookpoint::simulation {
 

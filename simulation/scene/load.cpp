@@ -5,9 +5,9 @@
 #include <array>
 #include <utility>
 
-#include "language/names.h"
 #include "simulation/analysis/automatic_step.h"
 #include "simulation/scene/load_parts.h"
+#include "simulation/scene/unread_constants.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -92,7 +92,8 @@ std::optional<Experiment> load_with_step(const language::Object& root,
   load_world(*world, loading);
   load_materials(root, loading);
   load_terrain(*world, loading);
-  check_law_constants(*world, loading);
+  warn_of_unstated_constants(*world, loading);
+  warn_of_unread_constants(*world, loading);
   load_robots(*world, loading);
   load_forces(*world, loading);
   check_combinations(*world, loading);

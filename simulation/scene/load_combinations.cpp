@@ -4,6 +4,7 @@
 #include "integrators/stepper.h"
 #include "language/names.h"
 #include "simulation/scene/load_parts.h"
+#include "simulation/scene/unread_constants.h"
 
 namespace hookpoint::simulation {
 namespace {

@@ -12,6 +12,7 @@
 #include "language/names.h"
 #include "simulation/material_fields.h"
 #include "simulation/scene/load_parts.h"
+#include "simulation/scene/unread_constants.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -37,12 +38,20 @@ std::set<int> materials_in_use(const TerrainSpec& terrain) {
   return used;
 }
 
-/// Materials of the ground as written; null for the defaults of a ground without one.
+/// The law of our engine on its ground; null where neither is.
+const contact::LawDescription* chosen_law(const Loading& loading) {
+  const Experiment& experiment = loading.experiment;
+  if (experiment.engine != "dts" || !experiment.terrain) return nullptr;
+  return contact::find_law(experiment.contact);
+}
+
+/// Materials of the ground as written, by their indices; null for the defaults of a ground without
+/// one.
 std::vector<const language::Object*> written_materials(const Loading& loading) {
-  const std::set<int> used = materials_in_use(*loading.experiment.terrain);
   std::vector<const language::Object*> found;
-  for (const auto& [material, index] : loading.materials)
-    if (used.contains(index)) found.push_back(material);
+  for (const int used : materials_in_use(*loading.experiment.terrain))
+    for (const auto& [material, index] : loading.materials)
+      if (index == used) found.push_back(material);
   return found;
 }
 
@@ -124,15 +133,18 @@ void check_unread(const contact::LawDescription& law, const language::Object& wo
 
 }  // namespace
 
-void check_law_constants(const language::Object& world, Loading& loading) {
-  const Experiment& experiment = loading.experiment;
-  if (experiment.engine != "dts" || !experiment.terrain) return;
-  const contact::LawDescription* law = contact::find_law(experiment.contact);
+void warn_of_unstated_constants(const language::Object& world, Loading& loading) {
+  const contact::LawDescription* law = chosen_law(loading);
   if (law == nullptr) return;
-  for (const language::Object* material : written_materials(loading)) {
+  for (const language::Object* material : written_materials(loading))
     check_unstated(*law, world, material, loading);
+}
+
+void warn_of_unread_constants(const language::Object& world, Loading& loading) {
+  const contact::LawDescription* law = chosen_law(loading);
+  if (law == nullptr) return;
+  for (const language::Object* material : written_materials(loading))
     if (material != nullptr) check_unread(*law, world, *material, loading);
-  }
 }
 
 }  // namespace hookpoint::simulation

@@ -77,8 +77,6 @@ std::string name_within(const language::Object& object, const language::Object& 
 const language::Position& place_of(const language::Object& object, std::string_view field);
 Vector3d vector_of(const language::Object& object, std::string_view field);
 
-/// Set by --set or by a study's subject, not where the object is written.
-bool set_from_outside(const language::Object& object, std::string_view field);
 /// `name` beside the file that names it at `from`, then along the search path; empty, after saying
 /// so, if nowhere. The experiment remembers it.
 std::filesystem::path find_file(const std::string& name, const language::Position& from,
@@ -90,9 +88,8 @@ std::filesystem::path find_file(const std::string& name, const language::Positio
 void load_world(const language::Object& world, Loading& loading);
 void load_materials(const language::Object& root, Loading& loading);
 void load_terrain(const language::Object& world, Loading& loading);
-/// Warns of Materials in use that state none of the constants which the law has for itself, and of
-/// constants that the file states and the law does not read.
-void check_law_constants(const language::Object& world, Loading& loading);
+/// Warns of Materials in use that state none of the constants which the law has for itself.
+void warn_of_unstated_constants(const language::Object& world, Loading& loading);
 /// Robots as written; `rest_on` is resolved afterwards.
 void load_robots(const language::Object& world, Loading& loading);
 void load_forces(const language::Object& world, Loading& loading);

@@ -6,10 +6,10 @@
 #include <exception>
 
 #include "control/registry.h"
-#include "language/names.h"
 #include "language/tree/references.h"
 #include "language/units.h"
 #include "language/values/budget.h"
+#include "language/wording.h"
 #include "simulation/scene/load_parts.h"
 #include "simulation/wiring/timing.h"
 #include "simulation/wiring/wiring_order.h"

@@ -28,8 +28,6 @@ void add_component_classes(language::Schema& schema);
 void add_record_class(language::Schema& schema);
 void add_movie_class(language::Schema& schema);
 void add_expect_class(language::Schema& schema);
-/// What an experiment cannot say, and what to do instead.
-void add_absent_words(language::Schema& schema);
 
 /// A component class as the language sees it: its ports, and the fields of the stub around it.
 language::ClassSchema component_schema(const control::ComponentClass& type);

@@ -1,7 +1,7 @@
 // Shape: the bodies' forms, which are drawn, collide and have mass.
 #include <fmt/format.h>
 
-#include "language/names.h"
+#include "language/wording.h"
 #include "simulation/scene/body.h"
 #include "simulation/scene/load_parts.h"
 #include "simulation/scene/schema.h"

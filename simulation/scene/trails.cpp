@@ -5,7 +5,7 @@
 #include <set>
 
 #include "contact/force_law.h"
-#include "language/names.h"
+#include "language/wording.h"
 
 namespace hookpoint::simulation {
 namespace {
