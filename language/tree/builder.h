@@ -49,8 +49,8 @@ class Builder {
     Position place;  ///< of the Include; no file for the first one
     std::map<std::string, Given> given;
     Variables variables;
-    std::map<std::string_view, CopiedValue> copied;  ///< of loops' variables
     bool chosen = false;  ///< by a value: what is not evaluated does not know of it
+    std::map<std::string_view, CopiedValue> copied = {};  ///< of loops' variables
   };
   using Names = std::unordered_map<std::string, const Object*>;
   /// An object that is being filled.
