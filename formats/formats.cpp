@@ -201,7 +201,8 @@ bool begins_as_json(std::string_view text) {
   return text.starts_with(open == '{'    ? '"'
                           : text.empty() ? ']'
                                          : text.front()) &&
-         !text.empty() && (open == '{' || begins_a_value.find(text.front()) != std::string_view::npos);
+         !text.empty() &&
+         (open == '{' || begins_a_value.find(text.front()) != std::string_view::npos);
 }
 
 bool content_shows(const Format& format, std::string_view content) {
@@ -238,8 +239,9 @@ bool name_shows(const Format& format, const std::string& ending) {
 
 /// Text that is neither XML nor JSON: nothing but a name could say that it is more.
 bool is_plain_text(std::string_view content) {
-  const bool text = std::ranges::all_of(
-      content, [](char c) { return static_cast<unsigned char>(c) >= ' ' || blanks.find(c) != std::string_view::npos; });
+  const bool text = std::ranges::all_of(content, [](char c) {
+    return static_cast<unsigned char>(c) >= ' ' || blanks.find(c) != std::string_view::npos;
+  });
   return text && first_element(content).empty() && !begins_as_json(content);
 }
 
@@ -267,7 +269,7 @@ const Format* find(std::string_view content, const std::filesystem::path& name) 
 std::string_view read_there(Use use) {
   switch (use) {
     case Use::experiment:
-      return "a file of the language (.hook) or a URDF (.urdf, .xacro) is read here";
+      return "expected a file of the language (.hook) or a URDF (.urdf, .xacro)";
     case Use::mesh:
       return "meshes are read from STL, OBJ and DAE (Collada) files";
     case Use::heights:

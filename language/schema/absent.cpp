@@ -10,11 +10,13 @@ std::vector<std::span<const Absent>>& table() {
   return rows;
 }
 
-/// Whether `list`, separated by '|', has `name`, or a family with its dot that `name` is of.
+/// Whether `list`, separated by '|', has `name`, or a family or port that `name` is a part of.
 bool one_of(std::string_view list, std::string_view name) {
   while (!list.empty()) {
     const std::string_view one = list.substr(0, list.find('|'));
-    if (name == one || (one.ends_with('.') && name.starts_with(one))) return true;
+    const bool begins = name.starts_with(one);
+    if (begins && (one.ends_with('.') || name.size() == one.size() || name[one.size()] == '.'))
+      return true;
     list.remove_prefix(std::min(one.size() + 1, list.size()));
   }
   return false;

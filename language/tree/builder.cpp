@@ -5,6 +5,7 @@
 #include "language/names.h"
 #include "language/schema/absent.h"
 #include "language/tree/field.h"
+#include "language/units.h"
 #include "language/wording.h"
 
 namespace hookpoint::language {
@@ -325,10 +326,13 @@ void Builder::hint_at_value(const FileScope& scope, std::string_view name, const
   const auto loop = scope.copied.find(name);
   if (loop == scope.copied.end()) return;
   const std::string from = '`' + std::string(loop->second.from) + '`';
+  const Value& value = scope.variables.at(name).values[0];
+  const std::string unit = unit_text(value.quantity.dimension);
+  const std::string held = value.kind == ValueKind::number ? rounded_text(value.quantity.value) +
+                                                                 (unit.empty() ? "" : " ") + unit
+                                                           : describe_value(value);
   hints_.add(place, loop->second.place,
-             "`" + std::string(name) + "` holds " +
-                 describe_value(scope.variables.at(name).values[0]) + ", not the word " + from +
-                 ": " + from +
+             "`" + std::string(name) + "` holds " + held + ", not the word " + from + ": " + from +
                  " is a variable of this file, whose value stands in the list; give the variable "
                  "another name");
 }

@@ -444,7 +444,10 @@ const Case cases[] = {
      "error 7:2 the name `j_1` is taken\nnote 5:2 `j_1` is this Chain\n"},
     {"no_xml", "<robot name=\"r\">\n<link name=\"l\"></robot>",
      "error 2:18 this is not XML: Start-end tags mismatch\n"},
-    {"no_urdf", "<sdf/>", "error 1:2 this is no URDF: expected <robot>\n"},
+    {"no_urdf", "<sdf/>",
+     "error 1:1 this is SDF (the format of Gazebo), which is not read here: expected a file of the "
+     "language (.hook) or a URDF (.urdf, .xacro); take the robot's URDF, or convert it to one, and "
+     "Include that\n"},
     {"empty", "", "error 1:1 this is not XML: No document element found\n"},
     {"xacro", robot("<xacro:property name=\"x\" value=\"1\"/>"),
      "error 3:2 the macros of xacro need its program, which is not installed: it comes with ROS "

@@ -102,7 +102,7 @@ TEST(Warnings, TellOfBodiesThatRestOnPutsBelowTheGround) {
   ASSERT_TRUE(hanging.experiment);
   EXPECT_NE(hanging.diagnostics.find("2 of its 2 bodies lie below the ground"), std::string::npos)
       << hanging.diagnostics;
-  EXPECT_NE(hanging.diagnostics.find("by 0.50"), std::string::npos) << hanging.diagnostics;
+  EXPECT_NE(hanging.diagnostics.find("by 0.5 m"), std::string::npos) << hanging.diagnostics;
   EXPECT_EQ(load_text(arm(-0.5)).diagnostics, "");
 }
 
