@@ -56,10 +56,9 @@ std::vector<Port> World::settable(std::span<const PortValue> values) {
     if (!std::isfinite(value))
       throw ExperimentError(fmt::format("`{}` takes a finite number", port.trail));
     if (value < port.minimum || value > port.maximum)
-      throw ExperimentError(fmt::format("`{}` takes numbers from {} to {}, not {}", port.trail,
-                                        output::rounded(port.minimum, 6),
-                                        output::rounded(port.maximum, 6),
-                                        output::rounded(value, 6)));
+      throw ExperimentError(fmt::format(
+          "`{}` takes numbers from {} to {}, not {}", port.trail, output::rounded(port.minimum, 6),
+          output::rounded(port.maximum, 6), output::rounded(value, 6)));
   }
   return ports;
 }
