@@ -17,11 +17,11 @@ std::int64_t last_step(const RunArguments& arguments, const simulation::Experime
   const double begin = arguments.duration ? static_cast<double>(first) * experiment.deltat : 0.;
   const std::int64_t last = simulation::step_count(begin + duration, experiment.deltat);
   if (last > first) return last;
-  throw output::MovieError(
-      fmt::format("nothing is left to run from {} s on: the World's duration is {} s; say --for "
-                  "how long, or an "
-                  "earlier moment with --at",
-                  static_cast<double>(first) * experiment.deltat, experiment.duration));
+  throw output::MovieError(fmt::format(
+      "nothing is left to run from {:.6g} s on: the World's duration is {:.6g} s; say --for "
+      "how long, or an "
+      "earlier moment with --at",
+      static_cast<double>(first) * experiment.deltat, experiment.duration));
 }
 
 int go_on(const RunArguments& arguments) {

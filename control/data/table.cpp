@@ -8,8 +8,8 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "formats/formats.h"
 #include "tables/csv_reader.h"
-
 namespace hookpoint::control {
 namespace {
 
@@ -20,8 +20,10 @@ std::string without_unit(const std::string& title) {
   return title.substr(0, title.find_last_not_of(' ', open) + 1);
 }
 
-/// The text of a file. Refuses what no text editor wrote, by its first bytes.
+/// The text of a file. Refuses another format, and what no text editor wrote, by its first bytes.
 std::string file_text(const std::filesystem::path& path) {
+  if (const std::string refusal = formats::refusal(path, formats::Use::series); !refusal.empty())
+    throw std::runtime_error(path.string() + ": " + refusal);
   std::ifstream file(path, std::ios::binary);
   if (!file) throw std::runtime_error(path.string() + ": cannot be read");
   std::string text(std::istreambuf_iterator<char>(file), {});

@@ -78,8 +78,9 @@ std::string World::ended() const {
 Resumable& World::resumable() const {
   if (Resumable* resumable = engine_->resumable()) return *resumable;
   throw ExperimentError("engine `" + experiment_.engine +
-                        "` cannot be saved and resumed exactly: its library keeps what its solver "
-                        "remembers to itself; with `engine = dts` a run can");
+                        "` cannot be saved and resumed exactly, so there is no movie or film of "
+                        "its run: its library hides what its solver remembers; `hookpoint view` "
+                        "shows the run in a window, and with `engine = dts` it can be saved");
 }
 
 std::vector<StateSection> World::state_layout() const {

@@ -8,6 +8,7 @@
 #include "contact/terrain/terrain.h"
 #include "simulation/analysis/resting_state.h"
 #include "simulation/kinematics.h"
+#include "simulation/names.h"
 #include "simulation/robot_tree.h"
 #include "simulation/scene/load_parts.h"
 
@@ -105,6 +106,32 @@ void settle(const language::Object& base, const contact::Terrain& ground, RobotS
   robot.start_stretch = resting.state->stretch;
 }
 
+/// Where what touches is not what the robot stands on: bodies that lie below the ground.
+void warn_of_bodies_below(const language::Object& base, const contact::Terrain& ground,
+                          const RobotSpec& robot, Loading& loading) {
+  const std::vector<Pose> poses = body_poses(robot);
+  const std::vector<const BodySpec*> bodies = bodies_of(robot);
+  double deepest = 0.;
+  std::size_t body = 0, below = 0;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (!(bodies[i]->mass.mass > 0.)) continue;
+    const Vector3d p_BC =
+        poses[i].position + rotate(poses[i].orientation, bodies[i]->mass.center_of_mass);
+    const double depth = ground.query(robot.location + rotate(robot.orientation, p_BC)).depth;
+    if (depth > 0.) ++below;
+    if (depth <= deepest) continue;
+    deepest = depth;
+    body = i;
+  }
+  if (below == 0) return;
+  loading.diagnostics.warning(
+      place_of(base, base_field::rest_on),
+      fmt::format("`rest_on` puts the lowest point of `{}` that touches on the ground, and {} of "
+                  "its {} bodies lie below the ground, `{}` by {:.3g} m: the bodies below have no "
+                  "shapes; give them some (of a URDF: meshes = hull or shapes = inertia)",
+                  robot.name, below, bodies.size(), body_names(robot)[body], deepest));
+}
+
 /// One error a robot: the first of its boundary points that starts off the terrain.
 void check_inside(const language::Object& base, const contact::Terrain& ground,
                   const RobotSpec& robot, Loading& loading) {
@@ -135,6 +162,8 @@ void place_on_terrain(Loading& loading) {
     const bool laid = loading.diagnostics.error_count() == errors_before;
     if (laid && robot.mobile && base.boolean(base_field::settled))
       settle(base, ground, robot, loading);
+    if (laid && base.given(base_field::rest_on))
+      warn_of_bodies_below(base, ground, robot, loading);
     check_inside(base, ground, robot, loading);
   }
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "formats/formats.h"
 #include "language/names.h"
 #include "output/file.h"
 #include "output/text/number.h"
@@ -226,6 +227,11 @@ std::optional<tables::Table> read_table(const std::filesystem::path& file, const
   const auto text = output::read_file(file);
   if (!text) {
     diagnostics.error(place, "cannot read " + file.string());
+    return std::nullopt;
+  }
+  if (const std::string refusal = formats::refusal(*text, file, formats::Use::series);
+      !refusal.empty()) {
+    diagnostics.error(place, file.string() + ": " + refusal);
     return std::nullopt;
   }
   tables::Fault fault;
