@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <new>
 #include <sstream>
 #include <system_error>
 
@@ -82,6 +83,9 @@ void add_errors(py::module_& module) {
       PyErr_SetString(PyExc_OSError, error.what());
     } catch (const studies::StoreError& error) {
       PyErr_SetString(PyExc_OSError, error.what());
+    } catch (const std::bad_alloc&) {
+      PyErr_SetString(PyExc_MemoryError,
+                      "the system gives no more memory: fewer worlds or a smaller scene need less");
     } catch (const std::system_error& error) {
       // Of threads: files have errors of their own.
       PyErr_SetString(error_class, (std::string("the system starts no more threads: ") +

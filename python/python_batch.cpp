@@ -7,6 +7,7 @@
 #include <cmath>
 #include <exception>
 #include <new>
+#include <ranges>
 #include <thread>
 #include <utility>
 
@@ -132,6 +133,7 @@ PythonBatch::PythonBatch(std::shared_ptr<LoadedFile> file, const BatchOptions& o
     throw_too_many(worlds, bytes, "and the system gives no more");
   }
   options_.variants.clear();
+  compare_steps();
   warn_of_notices();
 }
 
@@ -295,6 +297,19 @@ void PythonBatch::take_notices(Member& member) {
   while (member.next_notice < all.size()) member.notices.push_back(all[member.next_notice++]);
 }
 
+void PythonBatch::compare_steps() {
+  const auto deltat = [](const Member& member) { return member.kind->experiment.deltat; };
+  const auto [least, most] = std::ranges::minmax(worlds_ | std::views::transform(deltat));
+  std::string notice;
+  if (least < most)
+    notice = fmt::format(
+        "worlds take steps of different length, from {:.4g} s to {:.4g} s: give deltat a number "
+        "for a common one",
+        least, most);
+  if (notice != steps_notice_ && !notice.empty()) warn(notice);
+  steps_notice_ = notice;
+}
+
 void PythonBatch::warn_of_notices() {
   std::vector<std::string> texts;
   std::map<std::string, std::vector<std::size_t>> worlds;
@@ -407,6 +422,7 @@ void PythonBatch::reset(const BatchReset& to) {
   }
   for (const std::size_t world : wanted) show_all(world);
   std::erase_if(kinds_, [](const auto& kind) { return kind.second.use_count() == 1; });
+  compare_steps();
   warn_of_notices();
 }
 
@@ -464,6 +480,7 @@ py::dict PythonBatch::failures() const {
 
 std::vector<std::string> PythonBatch::notices() const {
   std::vector<std::string> all = file_->notices();
+  if (!steps_notice_.empty()) all.push_back(steps_notice_);
   for (std::size_t i = 0; i < size(); ++i) {
     for (const std::string& notice : worlds_[i].notices)
       all.push_back(fmt::format("world {}: {}", i, notice));

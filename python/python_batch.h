@@ -132,6 +132,8 @@ class PythonBatch : public MadeWhole {
   /// Without the GIL.
   void advance(std::size_t world, std::int64_t count, const std::atomic<bool>& stop);
   static void take_notices(Member& member);
+  /// Whether the steps of all worlds are alike.
+  void compare_steps();
   /// New notices as warnings, alike ones of several worlds once.
   void warn_of_notices();
   static bool is_done(const Member& member);
@@ -144,7 +146,8 @@ class PythonBatch : public MadeWhole {
   BatchOptions options_;  // without the variants once the worlds are made
   int threads_ = 1;
   std::map<LoadedFile::Variant, std::shared_ptr<Kind>> kinds_;  // of the worlds
-  std::size_t checked_ = 0;                                     // kinds that were loaded so far
+  std::string steps_notice_;  // of steps that differ; "" where they do not
+  std::size_t checked_ = 0;   // kinds that were loaded so far
   std::vector<Member> worlds_;
   std::vector<std::string> observation_trails_;
   std::vector<simulation::Port> action_ports_;  // trails and ranges, of the first world

@@ -335,6 +335,22 @@ class BatchOfDifferentWorlds(unittest.TestCase):
         with self.assertRaisesRegex(hookpoint.Error, "the same bodies"):
             hookpoint.Batch(many, 2, set=[{"n": 1}, {"n": 2}])
 
+    def test_a_param_without_a_default_is_given_to_each(self):
+        required = SOIL.replace("Param k = 10 kN/m;", "Param k;")
+        batch = hookpoint.Batch(required, 2, set=[{"k": 1e4}, {"k": 2e4}], observations="p.base.location.z", engine="dts")
+        batch.step(count=4000)
+        np.testing.assert_allclose(batch.observations[:, 0], [-1e-3, -5e-4], rtol=1e-6)
+        self.assertEqual(hookpoint.loads(required, set={"k": 1e4}, engine="ode").engine, "ode")
+
+    def test_steps_of_different_length_are_a_notice(self):
+        with self.assertWarnsRegex(UserWarning, "steps of different length, from 0.0002 s to 0.0005 s"):
+            batch = hookpoint.Batch(SOIL, 3, set=[{}, {"w.deltat": "0.2 ms"}, {}])
+        self.assertEqual(len(batch.notices), 1)
+        batch.step(count=10)
+        np.testing.assert_allclose(batch.time, [5e-3, 2e-3, 5e-3])
+        batch.reset(set={"w.deltat": "0.3 ms"})
+        self.assertEqual(batch.notices, [])
+
     def test_the_first_wrong_world_is_named(self):
         with self.assertRaises(hookpoint.FileError) as caught:
             hookpoint.Batch(SOIL, 40, set=[{"k": 1e4 if i < 35 else f"{i} kg"} for i in range(40)], threads=2)
