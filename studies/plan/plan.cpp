@@ -129,15 +129,15 @@ RowScene StudyPlan::scene_of(const RowPlan& row) const {
   const bool ours = row.under_ours || engine.empty() || engine == "dts";
   for (std::size_t i = 0; i < sweeps.size(); ++i) {
     const SweepPlan& sweep = sweeps[i];
-    const std::string& name = sweep.column.name;
+    const std::string& named = sweep.column.name;
     const std::string& text = sweep.texts[static_cast<std::size_t>(row.values[i])];
     if (sweep.role == SweepRole::parameter || sweep.role == SweepRole::seeds)
-      parameters.give(name, text);
+      parameters.give(named, text);
     if (sweep.role == SweepRole::cases)
       for (const Assignment& set : sweep.settings[static_cast<std::size_t>(row.values[i])])
         parameters.give(set.parameter, set.text);
     if (sweep.role == SweepRole::seeds)
-      scene.options.overrides.push_back({scene.timed_world + "." + name, text});
+      scene.options.overrides.push_back({scene.timed_world + "." + named, text});
   }
   for (const std::string field : {"engine", "contact", "integrator", "settings"}) {
     // A peer has a contact and an integrator of its own, and we have no settings.
@@ -151,8 +151,8 @@ RowScene StudyPlan::scene_of(const RowPlan& row) const {
 }
 
 int StudyPlan::seed_sweep() const {
-  const bool seeds = !sweeps.empty() && sweeps.back().role == SweepRole::seeds;
-  return seeds ? static_cast<int>(sweeps.size()) - 1 : -1;
+  const bool last_is_seeds = !sweeps.empty() && sweeps.back().role == SweepRole::seeds;
+  return last_is_seeds ? static_cast<int>(sweeps.size()) - 1 : -1;
 }
 
 language::Position StudyPlan::place_in_study(const language::Position& position, const RowPlan& row,
