@@ -45,6 +45,11 @@ Input&& Input::attached(std::string port) && {
   return std::move(*this);
 }
 
+Input&& Input::counted_by(std::string name) && {
+  description().counted_by = std::move(name);
+  return std::move(*this);
+}
+
 Parameter::Parameter(Component& owner, std::string name, std::string unit, double default_value,
                      std::string doc, std::size_t count)
     : PortHandle(owner, {.kind = PortKind::parameter,
@@ -73,6 +78,11 @@ Parameter&& Parameter::of_world(WorldValue value) && {
   return std::move(*this);
 }
 
+Parameter&& Parameter::counted_by(std::string name) && {
+  description().counted_by = std::move(name);
+  return std::move(*this);
+}
+
 Output::Output(Component& owner, std::string name, std::string unit, std::string doc,
                std::size_t count)
     : PortHandle(owner, {.kind = PortKind::output,
@@ -93,6 +103,13 @@ State::State(Component& owner, std::string name, std::string unit, std::string d
                          .unit = std::move(unit),
                          .doc = std::move(doc),
                          .count = count}) {}
+
+State&& State::initial(double value) && {
+  PortDescription& port = description();
+  port.default_value = value;
+  for (std::size_t i = 0; i < port.count; ++i) value_at(i) = value;
+  return std::move(*this);
+}
 
 Text::Text(Component& owner, std::string name, std::string doc, std::string default_text)
     : PortHandle(owner, {.kind = PortKind::text, .name = std::move(name), .doc = std::move(doc)}) {

@@ -53,7 +53,8 @@ struct PortDescription {
   std::string name = {};
   std::string unit = {};      ///< SI, as the language writes it; "" dimensionless, "?" any
   std::string doc = {};       ///< one line
-  double default_value = 0.;  ///< of a parameter, and of an input that nothing drives
+  double default_value = 0.;  ///< of a parameter, of a state before the first update, and of an
+                              ///< input that nothing drives
   double minimum = -std::numeric_limits<double>::infinity();
   double maximum = std::numeric_limits<double>::infinity();
   std::size_t count = 1;  ///< more than one: an array, ports name[0] ... name[count - 1]
@@ -69,6 +70,9 @@ struct PortDescription {
       {};                               ///< of a text: the only values that it may have; empty: any
   bool path = false;                    ///< of a text: names a file
   WorldValue world = WorldValue::none;  ///< where the file gives nothing, in place of the default
+  std::string counted_by =
+      {};  ///< of an array: the parameter that says how many of its elements are in use ("legs"),
+           ///< so that a file gives as many; "": all of them
 };
 
 class Component;
@@ -107,6 +111,8 @@ class Input : public PortHandle {
   /// Reads `port` of the object that the component is attached to; returns itself, for the member's
   /// initialiser.
   Input&& attached(std::string port) &&;
+  /// Only as many elements are in use as the parameter `name` says ("": all).
+  Input&& counted_by(std::string name) &&;
 };
 
 class Parameter : public PortHandle {
@@ -118,6 +124,8 @@ class Parameter : public PortHandle {
   Parameter&& range(double minimum, double maximum) &&;
   /// Where the file gives nothing it is what the World says; the default holds outside of one.
   Parameter&& of_world(WorldValue value) &&;
+  /// Only as many elements are in use as the parameter `name` says ("": all).
+  Parameter&& counted_by(std::string name) &&;
 };
 
 class Output : public PortHandle {
@@ -131,13 +139,16 @@ class Output : public PortHandle {
     return *this;
   }
   operator double() const { return get(0); }  // NOLINT(google-explicit-constructor)
+  double operator[](std::size_t i) const { return value_at(i); }
+  double& operator[](std::size_t i) { return value_at(i); }
   double get(std::size_t i) const { return value_at(i); }
   void set(std::size_t i, double value) { value_at(i) = value; }
   /// Drives `port` of the object that the component is attached to.
   Output&& attached(std::string port) &&;
 };
 
-/// A value kept from one update to the next (`PortKind::state`); 0 before the first.
+/// A value stored from one update to the next (`PortKind::state`), or an array of them; 0 before
+/// the first update unless `initial` says otherwise.
 class State : public PortHandle {
  public:
   State(Component& owner, std::string name, std::string unit, std::string doc,
@@ -149,8 +160,12 @@ class State : public PortHandle {
     return *this;
   }
   operator double() const { return get(0); }  // NOLINT(google-explicit-constructor)
+  double operator[](std::size_t i) const { return value_at(i); }
+  double& operator[](std::size_t i) { return value_at(i); }
   double get(std::size_t i) const { return value_at(i); }
   void set(std::size_t i, double value) { value_at(i) = value; }
+  /// The value of each element before the first update.
+  State&& initial(double value) &&;
 };
 
 /// A string of the file: a name, a path (given to the component as an absolute path).

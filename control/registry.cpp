@@ -41,6 +41,13 @@ std::string default_port_problem(const Component& component, const std::string& 
   return "the default port '" + name + "' does not exist";
 }
 
+/// Whether `name` is a parameter of one number.
+bool has_counter(const Component& component, const std::string& name) {
+  return std::ranges::any_of(component.ports(), [&name](const PortDescription& port) {
+    return port.name == name && port.kind == PortKind::parameter && port.count == 1;
+  });
+}
+
 }  // namespace
 
 Registry& Registry::instance() {
@@ -81,6 +88,10 @@ std::string declaration_problem(const ComponentClass& type) {
       }
       if (!port.attached.empty() && type.attachment == Attachment::none) {
         return "port '" + port.name + "' is attached, but the class attaches to nothing";
+      }
+      if (!port.counted_by.empty() && !has_counter(*component, port.counted_by)) {
+        return "port '" + port.name + "' is counted by '" + port.counted_by +
+               "', which is no parameter of one number";
       }
     }
     const auto is_input = [](PortKind kind) {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
+#include <utility>
 
 #include "control/components/legged_gait.h"
 
@@ -20,9 +22,9 @@ class ClockedGait : public LeggedGait {
   State in_air{*this, "in_air", "", "1 while the clock is in the swing", most_};
 
  protected:
-  /// `least_duty`: the least `duty_factor` that it may have.
-  ClockedGait(std::size_t most, double least_duty)
-      : LeggedGait(most),
+  /// `least_duty`: the least `duty_factor` that it may have. The rest as LeggedGait.
+  ClockedGait(std::size_t most, double least_duty, std::string counter = "")
+      : LeggedGait(most, std::move(counter)),
         most_(most),
         duty_factor(Parameter{*this, "duty_factor", "", 0.55, "part of the period in stance"}.range(
             least_duty, 0.99)) {}

@@ -25,9 +25,10 @@ class Gait final : public ClockedGait {
   Parameter touch_down =
       Parameter{*this, "touch_down", "", 0., "of `table`: when each leg touches down, in periods",
                 most}
+          .counted_by("legs")
           .range(0., 1.);
 
-  Gait() : ClockedGait(most, 0.01) {}
+  Gait() : ClockedGait(most, 0.01, "legs") {}
 
  private:
   std::size_t legs_at_start() const override {

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "control/component.h"
@@ -15,8 +17,9 @@ constexpr std::size_t leg_joints = 3;
 
 /// Legs are numbered along the right side from the rear, then along the left one.
 class LeggedGait : public Component {
-  const std::size_t
-      most_;  ///< legs that the ports are for; before the ports, which are built by it
+  // Before the ports, which are built by them.
+  const std::size_t most_;     ///< legs that the ports are for
+  const std::string counter_;  ///< parameter that says how many there are; "": all of them
 
  public:
   Parameter forward{*this, "forward", "m/s", 0., "commanded speed along the body's x"};
@@ -30,27 +33,40 @@ class LeggedGait : public Component {
   Parameter coxa_length =
       Parameter{*this, "coxa_length", "m", 0.05, "of each leg, from the coxa's axis to the femur's",
                 most_}
+          .counted_by(counter_)
           .range(0., 1e3);
   Parameter femur_length =
       Parameter{
           *this, "femur_length", "m", 0.1, "of each leg, from the femur's axis to the tibia's",
           most_}
+          .counted_by(counter_)
           .range(1e-6, 1e3);
   Parameter tibia_length =
       Parameter{*this, "tibia_length", "m", 0.15, "of each leg, from the tibia's axis to the foot",
                 most_}
+          .counted_by(counter_)
           .range(1e-6, 1e3);
   Parameter knee_up = Parameter{*this, "knee_up", "", 1.,
                                 "1: the knee is above the line from hip to foot, 0: below"}
                           .range(0., 1.);
-  Parameter hip_x{
-      *this, "hip_x", "m", 0., "hips in the body's axes, right legs from the rear, then left ones",
-      most_};
-  Parameter hip_y{*this, "hip_y", "m", 0., "hips in the body's axes", most_};
-  Parameter hip_heading{*this, "hip_heading", "rad", 0., "yaw of the hip's x axis in the body",
-                        most_};
-  Parameter foot_x{*this, "foot_x", "m", 0., "neutral foot positions in the body's axes", most_};
-  Parameter foot_y{*this, "foot_y", "m", 0., "neutral foot positions in the body's axes", most_};
+  Parameter hip_x = Parameter{*this,
+                              "hip_x",
+                              "m",
+                              0.,
+                              "hips in the body's axes, right legs from the rear, then left ones",
+                              most_}
+                        .counted_by(counter_);
+  Parameter hip_y =
+      Parameter{*this, "hip_y", "m", 0., "hips in the body's axes", most_}.counted_by(counter_);
+  Parameter hip_heading =
+      Parameter{*this, "hip_heading", "rad", 0., "yaw of the hip's x axis in the body", most_}
+          .counted_by(counter_);
+  Parameter foot_x =
+      Parameter{*this, "foot_x", "m", 0., "neutral foot positions in the body's axes", most_}
+          .counted_by(counter_);
+  Parameter foot_y =
+      Parameter{*this, "foot_y", "m", 0., "neutral foot positions in the body's axes", most_}
+          .counted_by(counter_);
   Parameter body_height =
       Parameter{*this, "body_height", "m", 0.1, "of the hips above the feet"}.range(0., 1e3);
   Parameter step_height =
@@ -62,11 +78,14 @@ class LeggedGait : public Component {
   Parameter search_speed =
       Parameter{*this, "search_speed", "m/s", 0.2, "how fast it does"}.range(0., 1e3);
 
-  Input height_offset{*this, "height_offset", "m", "lengthens a leg: raises the body there", 0.,
-                      most_};
-  Input contact{*this, "contact",
-                "?",   "above 0 while the foot carries load; a swing past its middle ends there",
-                0.,    most_};
+  Input height_offset =
+      Input{*this, "height_offset", "m", "lengthens a leg: raises the body there", 0., most_}
+          .counted_by(counter_);
+  Input contact =
+      Input{*this, "contact",
+            "?",   "above 0 while the foot carries load; a swing past its middle ends there",
+            0.,    most_}
+          .counted_by(counter_);
 
   Output goal{*this, "goal", "rad", "joint angles: coxa, femur, tibia of leg 0, then of leg 1 ...",
               most_* leg_joints};
@@ -92,7 +111,9 @@ class LeggedGait : public Component {
   void update(const Tick& tick) final;
 
  protected:
-  explicit LeggedGait(std::size_t most) : most_(most), feet_(most) {}
+  /// For at most `most` legs; how many there are says the parameter `counter`, "" for all of them.
+  explicit LeggedGait(std::size_t most, std::string counter = "")
+      : most_(most), counter_(std::move(counter)), feet_(most) {}
   /// How many legs there are, at the start; the ports of the others stay as they are.
   virtual std::size_t legs_at_start() const { return most_; }
   std::size_t legs() const { return legs_; }

@@ -61,12 +61,14 @@ FieldSchema text_of(const PortDescription& port) {
 std::string document(const PortDescription& port) {
   if (port.world != control::WorldValue::none)
     return port.doc + "; if not given, that of the World's gravity";
+  if (!port.counted_by.empty())
+    return fmt::format("{}; one for all, or one for each of `{}`", port.doc, port.counted_by);
   if (port.attached.empty()) return port.doc;
   return fmt::format("{}; {} `{}` of what it is attached to unless wired", port.doc,
                      port.kind == PortKind::output ? "drives" : "reads", port.attached);
 }
 
-/// A number, or an array that takes one number for all of its elements.
+/// A number, or an array that takes one number for all of its elements, or as many as are in use.
 FieldSchema value_of(const PortDescription& port) {
   const bool computed = port.kind == PortKind::output || port.kind == PortKind::state;
   const bool open = computed || port.world != control::WorldValue::none;
@@ -75,7 +77,7 @@ FieldSchema value_of(const PortDescription& port) {
       port.count > 1
           ? list_field(port.name, port.unit, 1, static_cast<int>(port.count), value, document(port))
           : number_field(port.name, port.unit, value, document(port));
-  field.one_or_all = port.count > 1;
+  field.one_or_all = port.count > 1 && port.counted_by.empty();
   field.minimum = port.minimum;
   field.maximum = port.maximum;
   if (computed) return port_only(Direction::output, std::move(field));
@@ -94,17 +96,30 @@ void load_text(const language::Object& object, const PortDescription& port, Comp
   spec.texts.emplace_back(port.first, std::move(text));
 }
 
+/// How many elements of an array are in use: all, or as many as the parameter says that counts
+/// them, where it says a number that the array can have.
+std::size_t elements_in_use(const language::Object& object, const PortDescription& port) {
+  if (port.counted_by.empty()) return port.count;
+  const double counted = object.number(port.counted_by);
+  const bool possible = counted >= 1. && counted <= static_cast<double>(port.count);
+  return possible ? static_cast<std::size_t>(counted) : port.count;
+}
+
 /// One number holds for all elements of an array.
 void load_numbers(const language::Object& object, const PortDescription& port, ComponentSpec& spec,
                   Loading& loading) {
   if (!object.given(port.name)) return;
   const std::vector<double>& numbers = object.numbers(port.name);
-  if (numbers.size() != 1 && numbers.size() != port.count) {
+  const std::size_t used = elements_in_use(object, port);
+  if (numbers.size() != 1 && numbers.size() != used && numbers.size() != port.count) {
+    const std::string each =
+        port.counted_by.empty() ? "" : fmt::format(", one for each of `{}`", port.counted_by);
     return loading.error(place_of(object, port.name),
-                         fmt::format("`{}` takes one number for all or {} numbers, not {}",
-                                     port.name, port.count, numbers.size()));
+                         fmt::format("`{}` takes one number for all or {} numbers{}, not {}",
+                                     port.name, used, each, numbers.size()));
   }
-  for (std::size_t i = 0; i < port.count; ++i)
+  const std::size_t given = numbers.size() == 1 ? port.count : numbers.size();
+  for (std::size_t i = 0; i < given; ++i)
     spec.values.emplace_back(port.first + i, numbers[numbers.size() == 1 ? 0 : i]);
 }
 

@@ -267,7 +267,7 @@ INSTANTIATE_TEST_SUITE_P(
                     "has no symbol `hookpoint_plugin_abi`: it is no plugin, or was not "
                     "built by hookpoint_add_controller"},
         WrongPlugin{"wrong_version",
-                    std::string("was built for plugin ABI 999, this program has 3") + again},
+                    std::string("was built for plugin ABI 999, this program has 4") + again},
         WrongPlugin{"old_strings", std::string("was built with libstdc++ with strings from before "
                                                "C++11, this program with libstdc++ with C++11 "
                                                "strings") +

@@ -70,6 +70,12 @@ class NamedByNoIdentifier final : public Component {
   void update(const Tick&) override {}
 };
 
+class CountedByNothing final : public Component {
+ public:
+  Parameter a = Parameter{*this, "a", "", 0., "", 4}.counted_by("legs");
+  void update(const Tick&) override {}
+};
+
 template <class Type>
 std::string problem(const std::string& input = "", const std::string& output = "") {
   return declaration_problem(describe_class<Type>("X", "x", Attachment::none, input, output));
@@ -129,6 +135,8 @@ TEST(Declaration, SaysWhatIsWrong) {
   EXPECT_EQ(problem<NamedLikeStub>(), "port 'delay' has the name of a field of the stub");
   EXPECT_EQ(problem<AttachedToNothing>(),
             "port 'a' is attached, but the class attaches to nothing");
+  EXPECT_EQ(problem<CountedByNothing>(),
+            "port 'a' is counted by 'legs', which is no parameter of one number");
   EXPECT_EQ(problem<NamedByNoIdentifier>(), "port '2a' is not named by an identifier");
   for (const char* name : {"", ".X", "X.", "X..Y", "3D", "My class", "X-Y"}) {
     EXPECT_EQ(declaration_problem(describe_class<Good>(name, "", Attachment::none, "current")),
@@ -193,6 +201,30 @@ TEST(Declaration, AssigningAnOutputCopiesItsValue) {
   copier.update({});
   EXPECT_EQ(copier.values()[0], 4.);
   EXPECT_EQ(copier.values()[1], 3.);
+}
+
+/// Counts its updates from 7, in two places at once.
+class Counter final : public Component {
+ public:
+  Output count{*this, "count", "", "", 2};
+  State seen = State{*this, "seen", "", "", 2}.initial(7.);
+  void update(const Tick&) override {
+    for (std::size_t i = 0; i < 2; ++i) {
+      seen[i] = seen[i] + 1.;
+      count[i] = seen[i];
+    }
+  }
+};
+
+TEST(Declaration, AStateHasAFirstValueAndElements) {
+  Counter counter;
+  EXPECT_EQ(counter.ports()[1].default_value, 7.);
+  EXPECT_EQ(counter.seen[1], 7.);
+  counter.seen[1] = 20.;
+  counter.update({});
+  EXPECT_EQ(counter.values()[0], 8.);
+  EXPECT_EQ(counter.values()[1], 21.);
+  EXPECT_EQ(counter.seen.get(1), 21.);
 }
 
 }  // namespace
