@@ -6,6 +6,7 @@
 #include "application/tune_plans.h"
 #include "cli/commands.h"
 #include "cli/exit_status.h"
+#include "formats/formats.h"
 #include "output/file.h"
 
 namespace hookpoint::cli {
@@ -48,6 +49,14 @@ int format(const std::vector<std::filesystem::path>& files, bool check_only) {
     const auto text = output::read_file(file);
     if (!text) {
       application::print_error("cannot read " + file.string());
+      status = wrong_input;
+      continue;
+    }
+    const std::string refusal = formats::refusal(*text, file, formats::Use::experiment);
+    if (!refusal.empty() || formats::usual_ending(*text, file) == ".urdf") {
+      application::print_error(
+          file.string() + ": " +
+          (refusal.empty() ? "`fmt` rewrites files of the language (.hook), not URDF" : refusal));
       status = wrong_input;
       continue;
     }

@@ -16,6 +16,7 @@
 #include "cli/exit_status.h"
 #include "cli/manual_page.h"
 #include "cli/standard_streams.h"
+#include "formats/formats.h"
 #include "language/names.h"
 #include "output/file.h"
 #include "output/result_folder.h"
@@ -386,10 +387,12 @@ void add_language_tools(CLI::App& app, Request& request) {
   print_app->add_option("FILE", request.file, "a .hook file")->required();
   add_settings(print_app, request.settings);
   add_plugins(print_app, request.allow_plugins);
-  CLI::App* describe_app = add_command(app, request, "describe", "what a class of the language has",
-                                       [&] { return describe_with(app, request.describe); });
+  CLI::App* describe_app = add_command(
+      app, request, "describe", "what a class, metric, law, integrator, engine or setting is",
+      [&] { return describe_with(app, request.describe); });
   describe_app->add_option("TYPE", request.describe.type,
-                           "a class, e.g. Base.mobile; without it all are listed");
+                           "a class, e.g. Base.mobile, or another name; without it all classes "
+                           "are listed");
   describe_app->add_flag("--markdown", request.describe.markdown,
                          "every class as the manual's reference page");
   describe_app->add_flag("--textmate", request.describe.textmate,
@@ -519,11 +522,29 @@ std::vector<std::string> with_command(const CLI::App& app, std::vector<std::stri
     words.insert(words.begin(), *command);
     return words;
   }
+  std::error_code ignored;
+  if (std::filesystem::is_regular_file(words[0], ignored)) {
+    const std::string refusal = formats::refusal(words[0], formats::Use::experiment);
+    application::print_error(words[0] + ": " +
+                             (refusal.empty() ? "name a command before the file, such as `run` or "
+                                                "`check`: only FILE.hook goes without"
+                                              : refusal));
+    return {};
+  }
   const std::string nearest = language::nearest_name(words[0], names);
   application::print_error(
       "there is no command `" + words[0] + "`" +
       (nearest.empty() ? "; `hookpoint --help` lists them" : "; did you mean `" + nearest + "`?"));
   return {};
+}
+
+/// CLI11 puts an option's name before what its check says, which may begin with it: "--port:
+/// --port takes ..." names it once.
+std::string named_once(const std::string& message) {
+  const std::size_t colon = message.find(": ");
+  if (colon == std::string::npos) return message;
+  const std::string name = message.substr(0, colon), rest = message.substr(colon + 2);
+  return rest.starts_with(name + " ") ? rest : message;
 }
 
 int main_with(int count, char** words) {
@@ -549,7 +570,7 @@ int main_with(int count, char** words) {
   } catch (const CLI::Success& asked) {
     return app.exit(asked);
   } catch (const CLI::ParseError& error) {
-    application::print_error(std::string(error.what()) +
+    application::print_error(named_once(error.what()) +
                              " (`hookpoint --help` says what is possible)");
     return wrong_input;
   }

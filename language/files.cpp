@@ -3,6 +3,7 @@
 #include <fstream>
 #include <utility>
 
+#include "formats/formats.h"
 #include "language/names.h"
 #include "language/search.h"
 
@@ -58,8 +59,13 @@ std::unique_ptr<ParsedFile>& FileStore::place_of(const std::filesystem::path& pa
 void FileStore::take(ParsedFile& file) const {
   index_lines(file.source);
   const std::filesystem::path path = file.source.path;
-  file.reader = schema_.find_reader(path.extension().string());
-  if (!file.report.has_errors() && file.reader == nullptr) parse(file);
+  const std::string_view ending = formats::usual_ending(file.source.text, path);
+  file.reader =
+      schema_.find_reader(ending.empty() ? path.extension().string() : std::string(ending));
+  if (file.report.has_errors()) return;
+  const std::string refusal = formats::refusal(file.source.text, path, formats::Use::experiment);
+  if (!refusal.empty()) return file.report.error({&file.source, 0, 1}, refusal);
+  if (file.reader == nullptr) parse(file);
 }
 
 const ParsedFile& FileStore::load(const std::filesystem::path& path) {

@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "control/data/table.h"
+#include "formats/formats.h"
 
 namespace hookpoint::control {
 namespace {
@@ -174,6 +175,8 @@ class FirstLook {
 
 Series read_mat_series(const std::filesystem::path& path, const std::string& column) {
   const std::string name = path.string();
+  const std::string refusal = formats::refusal(path, formats::Use::series);
+  if (!refusal.empty()) throw std::runtime_error(name + ": " + refusal);
   // Its own messages would go to the terminal beside ours.
   Mat_LogInitFunc("hookpoint", [](int, char*) {});
   const std::unique_ptr<mat_t, CloseFile> file(

@@ -7,6 +7,8 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "formats/formats.h"
+
 namespace hookpoint::control {
 namespace {
 
@@ -41,8 +43,10 @@ std::string without_unit(const std::string& title) {
   return open != std::string::npos && title.back() == ']' ? trimmed(title.substr(0, open)) : title;
 }
 
-/// Refuses what no text editor wrote, by its first bytes.
+/// Refuses another format, and what no text editor wrote, by its first bytes.
 void check_text(std::ifstream& file, const std::string& name) {
+  const std::string refusal = formats::refusal(name, formats::Use::series);
+  if (!refusal.empty()) throw std::runtime_error(name + ": " + refusal);
   char bytes[1024];
   file.read(bytes, sizeof bytes);
   const bool text = std::all_of(bytes, bytes + file.gcount(), [](char c) {

@@ -27,6 +27,8 @@ void Builder::lay_file(FileScope& scope) {
   report_.order_file(scope.file.source);
   report_.append(scope.file.report);
   if (scope.file.reader != nullptr) return lay_foreign_file(scope);
+  // Nothing was read of it: of its Params nothing is known.
+  if (scope.file.report.has_errors() && scope.file.syntax.items.empty()) return;
   if (check_arguments(scope)) lay_items(scope, scope.file.syntax.top, true);
 }
 

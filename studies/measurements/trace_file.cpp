@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "formats/formats.h"
 #include "language/names.h"
 #include "output/file.h"
 #include "output/text/number.h"
@@ -192,6 +193,11 @@ std::optional<output::CsvTable> read_table(const std::filesystem::path& file, co
   const auto text = output::read_file(file);
   if (!text) {
     diagnostics.error(place, "cannot read " + file.string());
+    return std::nullopt;
+  }
+  if (const std::string refusal = formats::refusal(*text, file, formats::Use::series);
+      !refusal.empty()) {
+    diagnostics.error(place, file.string() + ": " + refusal);
     return std::nullopt;
   }
   auto table = output::parse_csv(text->ends_with('\n') ? *text : *text + "\n");

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "formats/formats.h"
 #include "simulation/scene/fields.h"
 #include "simulation/scene/terrain/ascii_grid.h"
 #include "simulation/scene/terrain/classes.h"
@@ -66,7 +67,12 @@ std::optional<AsciiGrid> read_heights(const language::Object& object, Loading& l
   const language::Position& place = place_of(object, grid_field::file);
   const std::string& name = object.word(grid_field::file);
   const std::filesystem::path path = find_file(name, place, loading);
-  if (path.empty() || !has_range_of_its_kind(object, is_png(path), loading)) return std::nullopt;
+  if (path.empty()) return std::nullopt;
+  if (const std::string refusal = formats::refusal(path, formats::Use::heights); !refusal.empty()) {
+    loading.error(place, fmt::format("\"{}\" cannot be read as heights: {}", name, refusal));
+    return std::nullopt;
+  }
+  if (!has_range_of_its_kind(object, is_png(path), loading)) return std::nullopt;
   if (is_png(path)) {
     PngGridResult result =
         read_png_grid(path, object.number(grid_field::low), object.number(grid_field::high));

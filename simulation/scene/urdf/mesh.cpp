@@ -12,6 +12,7 @@
 #include <iterator>
 #include <tuple>
 
+#include "formats/formats.h"
 #include "simulation/scene/urdf/mesh_words.h"
 
 namespace hookpoint::simulation {
@@ -126,6 +127,8 @@ MeshPoints read_mesh(const std::filesystem::path& path) {
                       : ending == ".obj" ? read_obj
                       : ending == ".dae" ? read_collada
                                          : nullptr;
+  std::string refusal = formats::refusal(path, formats::Use::mesh);
+  if (!refusal.empty()) return {{}, std::move(refusal)};
   if (reader == nullptr) return {{}, "meshes are read from STL, OBJ and DAE (Collada) files"};
   if (std::filesystem::file_size(path, error) > largest_mesh || error)
     return {{}, fmt::format("it is larger than {} MB", largest_mesh >> 20)};
