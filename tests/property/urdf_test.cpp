@@ -159,7 +159,7 @@ TEST(Urdf, LimitsDampingFrictionAndEffortComeAlong) {
   EXPECT_EQ(loaded.diagnostics,
             "note 1:2 left out: limit of velocity (1)\n"
             "error 1:77 the robot takes no argument `yaw_is_none`; it takes name, base, shapes, "
-            "meshes, hold, rotor_inertia, fields of its base, and the names of its moving "
+            "meshes, mimic, hold, rotor_inertia, fields of its base, and the names of its moving "
             "joints\n");
   const Loaded good = load_urdf(
       robot(link_l + joint("knee", "revolute",
@@ -210,6 +210,35 @@ TEST(Urdf, CollisionGeometryBecomesShapesOfTheBodyThatItIsFixedTo) {
   const auto& shapes = visual.experiment->robots.at(0).base.shapes;
   ASSERT_EQ(shapes.size(), 1u);
   EXPECT_EQ(std::get<simulation::Sphere>(shapes[0].geometry).radius, 0.3);
+}
+
+TEST(Urdf, AJointThatFollowsAnotherMovesByItselfOrIsFixedAtItsOffset) {
+  // X = Trans(1, 0, 0) Rz(0.5), as the weld of the test above: the box at z = 1 turned by 1 rad.
+  const std::string text =
+      robot(looks + joint("finger", "continuous",
+                          "<origin xyz=\"1 0 0\"/><axis xyz=\"0 0 1\"/>"
+                          "<mimic joint=\"k\" multiplier=\"2\" offset=\"0.5\"/>"));
+  const Loaded fixed = load_urdf(text, ", base = fixed, mimic = fixed");
+  ASSERT_TRUE(fixed.experiment) << fixed.diagnostics;
+  EXPECT_NE(fixed.diagnostics.find("<mimic>: the joint is fixed at its offset (1)"),
+            std::string::npos)
+      << fixed.diagnostics;
+  const simulation::RobotSpec& read = fixed.experiment->robots.at(0);
+  EXPECT_TRUE(read.chains.empty());
+  ASSERT_EQ(read.base.shapes.size(), 2u);
+  EXPECT_NEAR(read.base.shapes[0].location.x, 1., 1e-15);
+  EXPECT_NEAR(read.base.shapes[0].location.z, 1., 1e-15);
+  EXPECT_NEAR(read.base.shapes[0].orientation.w, std::cos(0.5), 1e-15);
+  EXPECT_NEAR(read.base.shapes[0].orientation.z, std::sin(0.5), 1e-15);
+
+  const std::string heavy = robot(link_l + joint("finger", "continuous", "<mimic joint=\"k\"/>"));
+  const Loaded free = load_urdf(heavy, ", mimic = ignore, finger = 0.25");
+  ASSERT_TRUE(free.experiment) << free.diagnostics;
+  EXPECT_EQ(free.experiment->robots.at(0).chains.at(0).links.at(0).angle, 0.25);
+  EXPECT_NE(free.diagnostics.find("<mimic>: the joint moves by itself (1)"), std::string::npos)
+      << free.diagnostics;
+  EXPECT_NE(load_urdf(heavy, ", mimic = both").diagnostics.find("`mimic` is ignore or fixed"),
+            std::string::npos);
 }
 
 TEST(Urdf, TellsInOneLineWhatItLeftOut) {
@@ -366,12 +395,16 @@ const Case cases[] = {
     {"unknown_type", robot(link_l + joint("j", "ball", "")),
      "error 4:17 `ball` is no type of joint: expected revolute, continuous, prismatic or fixed\n"},
     {"mimic", robot(link_l + joint("j", "continuous", "\n<mimic joint=\"k\"/>")),
-     "error 6:2 joint `j` mimics another: joints that are geared together are not supported\n"},
+     "error 6:2 joint `j` follows another (<mimic>), and joints that are geared together are not "
+     "supported: the argument mimic = ignore lets it move by itself, mimic = fixed fixes it at its "
+     "offset\n"},
     {"capsule",
      robot("<link name=\"l\">" + inertial +
            "<collision><geometry>\n<capsule radius=\"1\"/></geometry></collision></link>" +
            joint("j", "continuous", "")),
-     "error 4:2 <geometry> takes a box, a cylinder, a sphere or a mesh\n"},
+     "error 4:2 <geometry> takes a box, a cylinder, a sphere or a mesh: a capsule is a cylinder "
+     "and "
+     "two spheres, each in a <collision> of its own\n"},
     {"two_roots", robot(link_l),
      "error 3:2 no joint carries link `l`, and none `b`: a robot has one root\n"},
     {"two_parents", robot(link_l + joint("j", "continuous", "") + joint("k", "fixed", "")),
@@ -411,7 +444,10 @@ const Case cases[] = {
      "error 7:2 the name `j_1` is taken\nnote 5:2 `j_1` is this Chain\n"},
     {"no_xml", "<robot name=\"r\">\n<link name=\"l\"></robot>",
      "error 2:18 this is not XML: Start-end tags mismatch\n"},
-    {"no_urdf", "<sdf/>", "error 1:2 this is no URDF: expected <robot>\n"},
+    {"no_urdf", "<sdf/>",
+     "error 1:1 this is SDF (the format of Gazebo), which is not read here: expected a file of the "
+     "language (.hook) or a URDF (.urdf, .xacro); take the robot's URDF, or convert it to one, and "
+     "Include that\n"},
     {"empty", "", "error 1:1 this is not XML: No document element found\n"},
     {"xacro", robot("<xacro:property name=\"x\" value=\"1\"/>"),
      "error 3:2 the macros of xacro need its program, which is not installed: it comes with ROS "

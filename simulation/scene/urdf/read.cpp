@@ -20,9 +20,13 @@ using language::Position;
 
 class UrdfReader : private UrdfXml {
  public:
-  UrdfReader(const language::SourceFile& file, const UrdfGeometry& geometry,
+  UrdfReader(const language::SourceFile& file, const UrdfGeometry& geometry, UrdfMimic mimic,
              language::FileStore& files, language::Report& report)
-      : UrdfXml(file, report), path_(file.path), geometry_(geometry), files_(files) {}
+      : UrdfXml(file, report),
+        path_(file.path),
+        geometry_(geometry),
+        mimic_(mimic),
+        files_(files) {}
 
   std::optional<UrdfRobot> run();
 
@@ -41,8 +45,10 @@ class UrdfReader : private UrdfXml {
   bool read_end(const pugi::xml_node& node, const char* role, std::size_t& link);
   void read_axis(const pugi::xml_node& node, UrdfJoint& joint);
   void read_limit(const pugi::xml_node& node, UrdfJoint& joint);
-  /// A joint whose limits are one place is fixed there.
-  void hold_still(UrdfJoint& joint);
+  void read_mimic(const pugi::xml_node& node, UrdfJoint& joint);
+  void refuse_followers();
+  /// The joint no longer moves: it stays at `q`.
+  static void fix_at(double q, UrdfJoint& joint);
   void read_dynamics(const pugi::xml_node& node, UrdfJoint& joint);
   void read_transmission(const pugi::xml_node& node);
   /// A joint that carries nothing of mass moves nothing: it is fixed where it is.
@@ -52,10 +58,12 @@ class UrdfReader : private UrdfXml {
 
   const std::filesystem::path path_;
   const UrdfGeometry geometry_;
+  const UrdfMimic mimic_;
   language::FileStore& files_;
   UrdfRobot robot_;
   std::unordered_map<std::string, std::size_t> links_, joints_;
-  int hints_ = 0;  ///< given so far
+  int hints_ = 0;                                            ///< given so far
+  std::vector<std::pair<std::string, Position>> followers_;  ///< joints that follow others
 };
 
 std::optional<UrdfRobot> UrdfReader::run() {
@@ -76,6 +84,7 @@ std::optional<UrdfRobot> UrdfReader::run() {
   for (const pugi::xml_node& node : root.children("joint")) {
     if (!full()) read_joint(node);
   }
+  refuse_followers();
   for (const pugi::xml_node& node : root.children("transmission")) {
     if (!full()) read_transmission(node);
   }
@@ -226,8 +235,12 @@ std::optional<ShapeGeometry> UrdfReader::read_geometry(const pugi::xml_node& nod
     }
     return kind == "sphere" ? ShapeGeometry(Sphere{radius}) : Cylinder{radius, length};
   }
-  fail(shape ? place(shape) : place(node),
-       "<geometry> takes a box, a cylinder, a sphere or a mesh");
+  std::string problem = "<geometry> takes a box, a cylinder, a sphere or a mesh";
+  if (kind == "capsule")
+    problem += ": a capsule is a cylinder and two spheres, each in a <collision> of its own";
+  if (kind == "plane")
+    problem += ": the ground is a Terrain of the World, beside the Include of the robot";
+  fail(shape ? place(shape) : place(node), problem);
   return std::nullopt;
 }
 
@@ -242,17 +255,13 @@ void UrdfReader::read_joint(const pugi::xml_node& node) {
   }
   if (!read_type(node, joint) || !read_ends(node, joint)) return;
   joint.origin = read_origin(node);
-  if (const pugi::xml_node mimic = only(node, "mimic")) {
-    fail(place(mimic), fmt::format("joint `{}` mimics another: joints that are geared together are "
-                                   "not supported",
-                                   joint.name));
-  }
   for (const char* aside : {"calibration", "safety_controller"}) {
     if (node.child(aside)) leave_out(fmt::format("<{}>", aside));
   }
   if (joint.type != UrdfJointType::fixed && joint.type != UrdfJointType::floating) {
     read_axis(node, joint);
     read_limit(node, joint);
+    read_mimic(node, joint);
     if (joint.type != UrdfJointType::fixed) read_dynamics(node, joint);
   }
   robot_.joints.push_back(std::move(joint));
@@ -335,7 +344,8 @@ void UrdfReader::read_limit(const pugi::xml_node& node, UrdfJoint& joint) {
   if (*joint.lower_limit < *joint.upper_limit) return;
   if (*joint.lower_limit == *joint.upper_limit && limit.attribute("lower") &&
       limit.attribute("upper")) {
-    hold_still(joint);
+    fix_at(*joint.lower_limit, joint);
+    leave_out("joint whose limits are equal: fixed");
     return;
   }
   fail(place(limit, "lower"),
@@ -343,8 +353,30 @@ void UrdfReader::read_limit(const pugi::xml_node& node, UrdfJoint& joint) {
                    *joint.lower_limit, *joint.upper_limit));
 }
 
-void UrdfReader::hold_still(UrdfJoint& joint) {
-  const double q = *joint.lower_limit;
+void UrdfReader::read_mimic(const pugi::xml_node& node, UrdfJoint& joint) {
+  const pugi::xml_node mimic = only(node, "mimic");
+  if (!mimic || joint.type == UrdfJointType::fixed) return;
+  if (mimic_ == UrdfMimic::refused) followers_.emplace_back(joint.name, place(mimic));
+  if (mimic_ == UrdfMimic::ignored) leave_out("<mimic>: the joint moves by itself");
+  if (mimic_ != UrdfMimic::fixed) return;
+  fix_at(number(mimic, "offset", 0.), joint);
+  leave_out("<mimic>: the joint is fixed at its offset");
+}
+
+void UrdfReader::refuse_followers() {
+  if (followers_.empty()) return;
+  const auto& [name, at] = followers_.front();
+  const std::size_t others = followers_.size() - 1;
+  fail(at,
+       fmt::format("joint `{}`{} another (<mimic>), and joints that are geared together are not "
+                   "supported: the argument mimic = ignore lets {} move by {}, mimic = fixed "
+                   "fixes {} at {} offset",
+                   name, others == 0 ? " follows" : fmt::format(" and {} more follow", others),
+                   others == 0 ? "it" : "them", others == 0 ? "itself" : "themselves",
+                   others == 0 ? "it" : "them", others == 0 ? "its" : "their"));
+}
+
+void UrdfReader::fix_at(double q, UrdfJoint& joint) {
   const double half = 0.5 * q;
   const Pose moved = joint.type == UrdfJointType::prismatic
                          ? Pose{q * joint.axis, {}}
@@ -353,7 +385,6 @@ void UrdfReader::hold_still(UrdfJoint& joint) {
                                  std::sin(half) * joint.axis.y, std::sin(half) * joint.axis.z}};
   joint.origin = joint.origin * moved;
   joint.type = UrdfJointType::fixed;
-  leave_out("joint whose limits are equal: fixed");
 }
 
 void UrdfReader::read_dynamics(const pugi::xml_node& node, UrdfJoint& joint) {
@@ -420,8 +451,9 @@ Pose UrdfReader::read_origin(const pugi::xml_node& parent) {
 }  // namespace
 
 std::optional<UrdfRobot> read_urdf(const language::SourceFile& file, const UrdfGeometry& geometry,
-                                   language::FileStore& files, language::Report& report) {
-  return UrdfReader(file, geometry, files, report).run();
+                                   UrdfMimic mimic, language::FileStore& files,
+                                   language::Report& report) {
+  return UrdfReader(file, geometry, mimic, files, report).run();
 }
 
 }  // namespace hookpoint::simulation

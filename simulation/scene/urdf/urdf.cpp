@@ -25,7 +25,8 @@ using language::ValueKind;
 constexpr std::array base_fields{"location", "orientation", "velocity", "angular_velocity",
                                  "rest_on",  "at",          "yaw"};
 /// Arguments with a meaning of their own.
-constexpr std::array own_arguments{"name", "base", "shapes", "meshes", "hold", "rotor_inertia"};
+constexpr std::array own_arguments{"name",  "base", "shapes",       "meshes",
+                                   "mimic", "hold", "rotor_inertia"};
 /// What follows the name of a joint in the argument that gives its rotor's inertia.
 constexpr const char* rotor_argument = "_rotor_inertia";
 
@@ -120,7 +121,8 @@ class UrdfInclude {
     if (expanded.source == nullptr) return {};
     for_macros_ = expanded.arguments;
     const std::string shapes = word_argument("shapes", {"collision", "visual", "inertia"});
-    auto robot = read_urdf(*expanded.source, geometry_argument(shapes), files_, report_);
+    auto robot =
+        read_urdf(*expanded.source, geometry_argument(shapes), mimic_argument(), files_, report_);
     if (!robot) return {};
     // A file that a run is repeated from is the one that was written.
     if (expanded.source != &file) robot->place = {&file, 0, 1};
@@ -141,6 +143,12 @@ class UrdfInclude {
   }
 
  private:
+  UrdfMimic mimic_argument() {
+    const std::string word = word_argument("mimic", {"ignore", "fixed"});
+    if (word == "ignore") return UrdfMimic::ignored;
+    return word == "fixed" ? UrdfMimic::fixed : UrdfMimic::refused;
+  }
+
   UrdfGeometry geometry_argument(const std::string& shapes) {
     UrdfGeometry geometry;
     if (shapes == "visual") geometry.shapes = UrdfShapes::visual;
@@ -332,12 +340,13 @@ class UrdfInclude {
     for (const auto& [name, given] : arguments_) {
       if (std::ranges::count(known, name) > 0) continue;
       const std::string nearest = language::nearest_name(name, known);
-      report_.error(given.position,
-                    fmt::format("the robot takes no argument `{}`; {}", name,
-                                nearest.empty() ? "it takes name, base, shapes, meshes, hold, "
-                                                  "rotor_inertia, fields of its base, and the "
-                                                  "names of its moving joints"
-                                                : "did you mean `" + nearest + "`?"));
+      report_.error(
+          given.position,
+          fmt::format("the robot takes no argument `{}`; {}", name,
+                      nearest.empty() ? "it takes name, base, shapes, meshes, mimic, "
+                                        "hold, rotor_inertia, fields of its base, and the "
+                                        "names of its moving joints"
+                                      : "did you mean `" + nearest + "`?"));
     }
   }
 

@@ -61,13 +61,17 @@ struct UrdfGeometry {
   UrdfShapes shapes = UrdfShapes::collision;
   UrdfMeshes meshes = UrdfMeshes::skip;
 };
+/// What becomes of a joint that follows another (<mimic>): an error, a joint that moves by itself,
+/// or one that is fixed at its offset.
+enum class UrdfMimic { refused, ignored, fixed };
 /// Of a hull with more vertices so many are taken, spread over it (hull.h).
 inline constexpr std::size_t most_hull_points = 64;
 
 /// The file's robot; `geometry` says what of it counts, `files` where meshes are looked up. Nothing
 /// after an error. Cost: linear, and n log n in the vertices of each mesh, which are read once.
 std::optional<UrdfRobot> read_urdf(const language::SourceFile& file, const UrdfGeometry& geometry,
-                                   language::FileStore& files, language::Report& report);
+                                   UrdfMimic mimic, language::FileStore& files,
+                                   language::Report& report);
 
 /// Links that are fixed together, as one body in its own frame.
 struct UrdfBody {
