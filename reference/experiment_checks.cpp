@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <variant>
 
+#include "reference/restitution_gap.h"
 #include "reference/touching_points.h"
 
 namespace hookpoint::reference {
@@ -65,8 +66,11 @@ void add_material(const simulation::Experiment& experiment, int index,
   const std::string name = "material '" + material.name + "'";
   if (material.constants.static_friction != material.constants.kinetic_friction)
     uses.push_back({feature::two_frictions, name + " has different static and kinetic friction"});
-  if (material.constants.restitution > 0.)
+  if (material.constants.restitution > 0.) {
     uses.push_back({feature::restitution, name + " has a restitution"});
+    if (experiment.settings == "matched")
+      uses.push_back({feature::matched_restitution, name + " has a restitution"});
+  }
 }
 
 void add_patch(const simulation::Experiment& experiment, int patch, std::vector<FeatureUse>& uses) {

@@ -14,6 +14,11 @@ using enum simulation::EngineGap::Handling;
 /// What Bullet lacks.
 constexpr auto gaps = std::to_array<OwnGap>({
     single_friction_gap,
+    {feature::restitution, noticed,
+     "Bullet slows a body down before it lands, and lets it rebound only where one step takes it "
+     "across the distance at which a contact is found, 20 mm for a shape and 0.2 mm for a point; "
+     "at "
+     "`settings = matched` the material's damping alone decides"},
     {feature::rotors, refused, "joints of Bullet have no inertia of their own; use dts or mujoco"},
     {feature::planar, refused,
      "Bullet's planar joint moves along axes that turn with the body; choose dts, dart, mujoco, "

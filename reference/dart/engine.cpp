@@ -5,6 +5,7 @@
 #include "reference/dart/creep.h"
 #include "reference/dart/settings.h"
 #include "reference/dart/world.h"
+#include "reference/restitution_gap.h"
 #include "reference/static_depth.h"
 
 namespace hookpoint::reference {
@@ -15,6 +16,7 @@ using enum simulation::EngineGap::Handling;
 /// What DART lacks.
 constexpr auto gaps = std::to_array<OwnGap>({
     single_friction_gap,
+    matched_restitution_gap,
     {feature::legcone, refused, "DART has no truncated cone; use Cylinder, Sphere or Box"},
     {feature::tile_softness, noticed,
      "at `settings = matched` the constants of the terrain's own material hold on every tile"},

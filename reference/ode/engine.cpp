@@ -5,6 +5,7 @@
 #include "reference/ode/creep.h"
 #include "reference/ode/settings.h"
 #include "reference/ode/world.h"
+#include "reference/restitution_gap.h"
 #include "reference/static_depth.h"
 
 namespace hookpoint::reference {
@@ -15,6 +16,7 @@ using enum simulation::EngineGap::Handling;
 /// What ODE lacks.
 constexpr auto gaps = std::to_array<OwnGap>({
     single_friction_gap,
+    matched_restitution_gap,
     {feature::legcone, refused, "ODE has no cone; use Cylinder, Sphere or Box"},
     {feature::massless, refused, "every body of ODE has a mass; give the link one"},
     {feature::no_inertia, refused,

@@ -7,16 +7,38 @@
 
 #include "simulation/analysis/automatic_step.h"
 #include "simulation/scene/load_parts.h"
+#include "simulation/scene/unread_constants.h"
 
 namespace hookpoint::simulation {
 namespace {
+
+/// What a module may hold at its top, to be created elsewhere, and where.
+constexpr std::array<std::pair<const char*, const char*>, 4> homes{
+    {{"Robot", "World"}, {"Terrain.", "World"}, {"Chain", "Robot or a Link"}, {"Link", "Chain"}}};
+
+/// How the Robot or the ground of a file without a World is run: by a file that includes it.
+std::string how_to_run(const language::Object& module) {
+  const std::filesystem::path path = module.position.file->path;
+  const bool robot = module.type == "Robot";
+  const bool foreign = robot && path.extension() != ".hook";
+  return fmt::format(
+      "there is no World in this file to run its {} in: write a file that includes it, such as "
+      "World w {{ {}Include \"{}\"{}; }}",
+      module.type, robot ? "Terrain.Flat ground { } " : "", path.filename().string(),
+      foreign ? " (rest_on = ground)" : "");
+}
 
 /// The one World, or null after saying why there is none.
 const language::Object* find_world(const language::Object& root, Loading& loading) {
   const std::vector<const language::Object*> worlds = root.children_of("World");
   if (worlds.empty()) {
-    loading.error(root.position,
-                  "there is no World in this file; a run needs one: World NAME { ... }");
+    std::string problem = "there is no World in this file; a run needs one: World NAME { ... }";
+    for (const char* type : {"Terrain.", "Robot"}) {
+      const std::vector<const language::Object*> modules = root.children_of(type);
+      if (!modules.empty() && modules.front()->position.file != nullptr)
+        problem = how_to_run(*modules.front());
+    }
+    loading.error(root.position, problem);
     return nullptr;
   }
   for (std::size_t i = 1; i < worlds.size(); ++i) {
@@ -29,8 +51,6 @@ const language::Object* find_world(const language::Object& root, Loading& loadin
 /// Modules may hold these at their top, to be laid down in a World; in a file to run they would be
 /// left out.
 void check_strays(const language::Object& root, Loading& loading) {
-  constexpr std::array<std::pair<const char*, const char*>, 4> homes{
-      {{"Robot", "World"}, {"Terrain.", "World"}, {"Chain", "Robot or a Link"}, {"Link", "Chain"}}};
   for (const auto& [type, home] : homes) {
     for (const language::Object* stray : root.children_of(type)) {
       loading.error(stray->position,
@@ -65,14 +85,15 @@ std::optional<Experiment> load_with_step(const language::Object& root,
   Loading loading{diagnostics, search_path, given, {}, {}, {}, {}, {}, {}, {}};
   const std::size_t errors_before = diagnostics.error_count();
   const language::Object* world = find_world(root, loading);
-  check_strays(root, loading);
   if (world == nullptr) return std::nullopt;
+  check_strays(root, loading);
   if (is_automatic(*world)) loading.experiment.deltat = chosen.step;
   if (chosen.bound > 0.) loading.experiment.chosen_from = chosen.bound;
   load_world(*world, loading);
   load_materials(root, loading);
   load_terrain(*world, loading);
   warn_of_unstated_constants(*world, loading);
+  warn_of_unread_constants(*world, loading);
   load_robots(*world, loading);
   load_forces(*world, loading);
   check_combinations(*world, loading);

@@ -4,6 +4,7 @@
 #include "integrators/stepper.h"
 #include "language/names.h"
 #include "simulation/scene/load_parts.h"
+#include "simulation/scene/unread_constants.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -18,11 +19,6 @@ void check_impulse_law(const language::Object& world, Loading& loading) {
                               "integrator out or choose a force law",
                               experiment.contact, experiment.integrator));
   }
-}
-
-/// Set by --set or by a study's subject, not where the object is written.
-bool set_from_outside(const language::Object& object, std::string_view field) {
-  return object.given(field) && object.find(field)->position.file != object.position.file;
 }
 
 /// "cvode_bdf, cvode_adams and arkode": the integrators that choose their own steps.
@@ -55,6 +51,10 @@ void check_tolerances(const language::Object& world, Loading& loading) {
 }
 
 }  // namespace
+
+bool set_from_outside(const language::Object& object, std::string_view field) {
+  return object.given(field) && object.find(field)->position.file != object.position.file;
+}
 
 void check_combinations(const language::Object& world, Loading& loading) {
   const Experiment& experiment = loading.experiment;

@@ -1,13 +1,18 @@
-// A contact law whose own constants no Material states runs at defaults that the user never saw.
+// The constants of the chosen contact law, and those that a Material states: a law whose own
+// constants no Material states runs at defaults that the user never saw; a constant that the law
+// does not read does nothing.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "contact/force_law.h"
+#include "language/names.h"
 #include "simulation/material_fields.h"
 #include "simulation/scene/load_parts.h"
+#include "simulation/scene/unread_constants.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -33,33 +38,113 @@ std::set<int> materials_in_use(const TerrainSpec& terrain) {
   return used;
 }
 
+/// The law of our engine on its ground; null where neither is.
+const contact::LawDescription* chosen_law(const Loading& loading) {
+  const Experiment& experiment = loading.experiment;
+  if (experiment.engine != "dts" || !experiment.terrain) return nullptr;
+  return contact::find_law(experiment.contact);
+}
+
+/// Materials of the ground as written, by their indices; null for the defaults of a ground without
+/// one.
+std::vector<const language::Object*> written_materials(const Loading& loading) {
+  std::vector<const language::Object*> found;
+  for (const int used : materials_in_use(*loading.experiment.terrain))
+    for (const auto& [material, index] : loading.materials)
+      if (index == used) found.push_back(material);
+  return found;
+}
+
+void check_unstated(const contact::LawDescription& law, const language::Object& world,
+                    const language::Object* material, Loading& loading) {
+  if (law.own_constants.size() == 0) return;
+  const bool states =
+      material != nullptr && std::ranges::any_of(law.own_constants, [&](auto constant) {
+        return material->given(field_of(constant).name);
+      });
+  if (states) return;
+  std::string constants;
+  for (const contact::Constant constant : law.own_constants)
+    constants += (constants.empty() ? "" : ", ") + with_default(field_of(constant));
+  const std::string who =
+      material == nullptr ? "the ground has no Material to state" : material->name + " states";
+  loading.diagnostics.warning(
+      material == nullptr ? world.position : material->position,
+      fmt::format("law {} has constants of its own, and {} none of them: it takes {}{}; state "
+                  "those that you mean",
+                  law.name, who, constants, stiffness_unit(law.along_normal)));
+}
+
+bool law_reads(const contact::LawDescription& law, contact::Constant constant) {
+  return std::ranges::count(law.constants, constant) > 0;
+}
+
+/// Whether a coefficient of friction changes nothing by itself: it is the other one too, or equal
+/// to it.
+bool is_the_only_friction(const language::Object& material, const MaterialField& field) {
+  const std::string_view name = field.name;
+  if (name != static_friction_field && name != kinetic_friction_field) return false;
+  return !material.given(static_friction_field) || !material.given(kinetic_friction_field) ||
+         material.number(static_friction_field) == material.number(kinetic_friction_field);
+}
+
+/// Constants of the Material that its user means for this run and that the law does not read:
+/// stated in the World's own file, not in one that it includes, which may serve many laws. Where a
+/// study or the command line chooses the law, only those that it states too.
+std::vector<contact::Constant> unread_constants(const contact::LawDescription& law,
+                                                const language::Object& world,
+                                                const language::Object& material) {
+  const bool chosen_outside = set_from_outside(world, "contact");
+  std::vector<contact::Constant> unread;
+  for (const MaterialField& field : material_fields()) {
+    if (!material.given(field.name) || law_reads(law, field.member) ||
+        is_the_only_friction(material, field))
+      continue;
+    const bool stated_outside = set_from_outside(material, field.name);
+    const bool stated_here =
+        material.find(field.name)->position.file == world.position.file && !chosen_outside;
+    if (stated_outside || stated_here) unread.push_back(field.member);
+  }
+  return unread;
+}
+
+/// Says so where other laws read them all; a Material whose constants no one law reads is written
+/// for several.
+void check_unread(const contact::LawDescription& law, const language::Object& world,
+                  const language::Object& material, Loading& loading) {
+  const std::vector<contact::Constant> unread = unread_constants(law, world, material);
+  if (unread.empty()) return;
+  std::vector<std::string> names, readers;
+  for (const contact::Constant constant : unread)
+    names.push_back(fmt::format("`{}`", field_of(constant).name));
+  for (const contact::LawDescription& other : contact::law_table()) {
+    if (std::ranges::all_of(unread, [&](auto constant) { return law_reads(other, constant); }))
+      readers.emplace_back(other.name);
+  }
+  if (readers.empty()) return;
+  const bool one = names.size() == 1;
+  loading.diagnostics.warning(
+      place_of(material, field_of(unread.front()).name),
+      fmt::format("{} {} not read by contact law {}: {} nothing in this run; laws that read {}: {}",
+                  language::join(names, ", "), one ? "is" : "are", law.name,
+                  one ? "it changes" : "they change", one ? "it" : "them",
+                  language::join(readers, ", ")));
+}
+
 }  // namespace
 
 void warn_of_unstated_constants(const language::Object& world, Loading& loading) {
-  const Experiment& experiment = loading.experiment;
-  if (experiment.engine != "dts" || !experiment.terrain) return;
-  const contact::LawDescription* law = contact::find_law(experiment.contact);
-  if (law == nullptr || law->own_constants.size() == 0) return;
-  std::string constants;
-  for (const contact::Constant constant : law->own_constants)
-    constants += (constants.empty() ? "" : ", ") + with_default(field_of(constant));
-  const std::set<int> used = materials_in_use(*experiment.terrain);
-  for (const auto& used_or_not : loading.materials) {
-    if (!used.contains(used_or_not.second)) continue;
-    const language::Object* const material = used_or_not.first;
-    const bool states =
-        material != nullptr && std::ranges::any_of(law->own_constants, [&](auto constant) {
-          return material->given(field_of(constant).name);
-        });
-    if (states) continue;
-    const std::string who =
-        material == nullptr ? "the ground has no Material to state" : material->name + " states";
-    loading.diagnostics.warning(
-        material == nullptr ? world.position : material->position,
-        fmt::format("law {} has constants of its own, and {} none of them: it takes {}{}; state "
-                    "those that you mean",
-                    law->name, who, constants, stiffness_unit(law->along_normal)));
-  }
+  const contact::LawDescription* law = chosen_law(loading);
+  if (law == nullptr) return;
+  for (const language::Object* material : written_materials(loading))
+    check_unstated(*law, world, material, loading);
+}
+
+void warn_of_unread_constants(const language::Object& world, Loading& loading) {
+  const contact::LawDescription* law = chosen_law(loading);
+  if (law == nullptr) return;
+  for (const language::Object* material : written_materials(loading))
+    if (material != nullptr) check_unread(*law, world, *material, loading);
 }
 
 }  // namespace hookpoint::simulation

@@ -7,6 +7,7 @@
 #include "contact/force_law.h"
 #include "contact/terrain/terrain.h"
 #include "simulation/kinematics.h"
+#include "simulation/names.h"
 #include "simulation/robot_tree.h"
 #include "simulation/scene/load_parts.h"
 
@@ -87,6 +88,32 @@ void lay_down(const language::Object& base, const contact::Terrain& ground, Robo
   }
 }
 
+/// Where what touches is not what the robot stands on: bodies that lie below the ground.
+void warn_of_bodies_below(const language::Object& base, const contact::Terrain& ground,
+                          const RobotSpec& robot, Loading& loading) {
+  const std::vector<Pose> poses = body_poses(robot);
+  const std::vector<const BodySpec*> bodies = bodies_of(robot);
+  double deepest = 0.;
+  std::size_t body = 0, below = 0;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (!(bodies[i]->mass.mass > 0.)) continue;
+    const Vector3d p_BC =
+        poses[i].position + rotate(poses[i].orientation, bodies[i]->mass.center_of_mass);
+    const double depth = ground.query(robot.location + rotate(robot.orientation, p_BC)).depth;
+    if (depth > 0.) ++below;
+    if (depth <= deepest) continue;
+    deepest = depth;
+    body = i;
+  }
+  if (below == 0) return;
+  loading.diagnostics.warning(
+      place_of(base, base_field::rest_on),
+      fmt::format("`rest_on` puts the lowest point of `{}` that touches on the ground, and {} of "
+                  "its {} bodies lie below the ground, `{}` by {:.3g} m: the bodies below have no "
+                  "shapes; give them some (of a URDF: meshes = hull or shapes = inertia)",
+                  robot.name, below, bodies.size(), body_names(robot)[body], deepest));
+}
+
 /// One error a robot: the first of its boundary points that starts off the terrain.
 void check_inside(const language::Object& base, const contact::Terrain& ground,
                   const RobotSpec& robot, Loading& loading) {
@@ -112,7 +139,10 @@ void place_on_terrain(Loading& loading) {
   for (std::size_t i = 0; i < loading.experiment.robots.size(); ++i) {
     RobotSpec& robot = loading.experiment.robots[i];
     const language::Object& base = *loading.bases[i];
-    if (base.given(base_field::rest_on)) lay_down(base, ground, robot, loading);
+    if (base.given(base_field::rest_on)) {
+      lay_down(base, ground, robot, loading);
+      warn_of_bodies_below(base, ground, robot, loading);
+    }
     check_inside(base, ground, robot, loading);
   }
 }

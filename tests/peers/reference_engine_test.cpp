@@ -183,6 +183,26 @@ TEST(PeerEngine, SaysThatItTakesTheKineticOfTwoFrictions) {
   }
 }
 
+// MuJoCo and Simbody have no restitution, Bullet has one only for large steps; at `matched` no
+// engine reads it.
+TEST(PeerEngine, SaysWhereItDoesNotReadTheRestitution) {
+  simulation::Experiment experiment = sloped_block(0., 0., 0.5, 1e-3);
+  for (const auto& peer : reference::peers()) {
+    const auto notices = [&](double restitution, const char* settings) {
+      experiment.materials[0].constants.restitution = restitution;
+      experiment.settings = settings;
+      return peer.make(experiment)->state().notices;
+    };
+    EXPECT_TRUE(notices(0., "matched").empty()) << peer.name;
+    const auto matched = notices(0.5, "matched");
+    ASSERT_EQ(matched.size(), 1u) << peer.name;
+    EXPECT_NE(matched[0].find("restitution"), std::string::npos) << matched[0];
+    const bool always = gap_of(peer, reference::feature::restitution).has_value();
+    EXPECT_EQ(notices(0.5, "default").size(), always ? 1u : 0u) << peer.name;
+    EXPECT_EQ(always, peer.name == "mujoco" || peer.name == "simbody" || peer.name == "bullet");
+  }
+}
+
 TEST(PeerEngine, RunsALegconeOrNamesIt) {
   simulation::Experiment experiment = sloped_block(0., 0., 0.5, 1e-3);
   experiment.robots[0].base.shapes[0].geometry = simulation::Legcone{0.3, 0.05, 0.05};

@@ -59,13 +59,13 @@ inline Loaded load_file(const std::filesystem::path& file,
 }
 
 /// `text` as a file of its own.
-inline Loaded load_text(const std::string& text) {
+inline Loaded load_text(const std::string& text, const language::EvaluateOptions& options = {}) {
   const std::filesystem::path folder =
       std::filesystem::temp_directory_path() / ("hookpoint_load_" + std::to_string(getpid()));
   std::filesystem::create_directories(folder);
   const std::filesystem::path file = folder / "text.hook";
   std::ofstream(file) << text;
-  Loaded loaded = load_file(file);
+  Loaded loaded = load_file(file, options);
   std::filesystem::remove_all(folder);
   return loaded;
 }

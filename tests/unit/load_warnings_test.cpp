@@ -43,6 +43,69 @@ TEST(Warnings, TellOfALawWhoseOwnConstantsNoMaterialStates) {
             std::string::npos);
 }
 
+language::EvaluateOptions set(std::vector<language::Override> overrides) {
+  language::EvaluateOptions options;
+  options.overrides = std::move(overrides);
+  return options;
+}
+
+std::string on_clay(const std::string& law, const std::string& constants) {
+  return load_text(world("contact = " + law + "; Material clay { " + constants +
+                         " } Terrain.Flat f { material = clay; } "))
+      .diagnostics;
+}
+
+TEST(Warnings, TellOfConstantsThatTheLawDoesNotRead) {
+  const std::string told = on_clay("hookpoint", "restitution = 0.8; normal_stiffness = 1e5;");
+  EXPECT_NE(told.find("`restitution` is not read by contact law hookpoint"), std::string::npos)
+      << told;
+  EXPECT_NE(told.find("laws that read it: impulse, impulse_reversal"), std::string::npos) << told;
+  EXPECT_EQ(told.find("normal_stiffness"), std::string::npos) << told;
+  EXPECT_EQ(on_clay("hookpoint", "normal_stiffness = 1e5; static_friction = 0.5;"), "");
+  // Two at once, in one warning.
+  const std::string both = on_clay("hookpoint", "hysteresis_damping = 0.4 s/m; exponent = 1.2;");
+  EXPECT_NE(both.find("`exponent`, `hysteresis_damping` are not read"), std::string::npos) << both;
+  EXPECT_NE(both.find("laws that read them: hunt_crossley"), std::string::npos) << both;
+  // A coefficient of friction stands in for the other, unless both are given and differ.
+  EXPECT_EQ(on_clay("impulse", "restitution = 0.3; static_friction = 0.5;"), "");
+  EXPECT_NE(on_clay("impulse", "restitution = 0.3; static_friction = 0.5; kinetic_friction = 0.4;")
+                .find("`static_friction` is not read"),
+            std::string::npos);
+}
+
+TEST(Warnings, AreSilentOfConstantsForOtherLaws) {
+  // Written for several laws: no one of them reads all that this one does not.
+  EXPECT_EQ(on_clay("hookpoint", "restitution = 0.8; exponent = 1.2; stribeck_speed = 0.1;"), "");
+  // Nothing lies on the other Material.
+  EXPECT_EQ(load_text(world("Material ice { restitution = 0.8; } Material clay { normal_stiffness "
+                            "= 1e5; } Terrain.Flat f { material = clay; } "))
+                .diagnostics,
+            "");
+  // The law is chosen outside, as in a comparison; or the constant too.
+  const std::string file =
+      world("Material clay { normal_stiffness = 1e5; } Terrain.Flat f { material = clay; } ");
+  EXPECT_EQ(load_text(file, set({{"w.contact", "impulse"}})).diagnostics.find("not read"),
+            std::string::npos);
+  EXPECT_NE(load_text(file, set({{"w.contact", "lugre"}, {"w.clay.restitution", "0.8"}}))
+                .diagnostics.find("`restitution` is not read by contact law lugre"),
+            std::string::npos);
+}
+
+TEST(Warnings, TellOfBodiesThatRestOnPutsBelowTheGround) {
+  const auto arm = [](double reach) {
+    return "World w { Terrain.Flat f; Robot b { Base.mobile { rest_on = f; mass = 1; inertia = "
+           "1,1,1,0,0,0; } Chain arm { Link hand { mass = 1; inertia = 1,1,1,0,0,0; ContactPoint { "
+           "location = 0, 0, " +
+           std::to_string(reach) + "; } } } } }";
+  };
+  const Loaded hanging = load_text(arm(0.5));
+  ASSERT_TRUE(hanging.experiment);
+  EXPECT_NE(hanging.diagnostics.find("2 of its 2 bodies lie below the ground"), std::string::npos)
+      << hanging.diagnostics;
+  EXPECT_NE(hanging.diagnostics.find("by 0.5 m"), std::string::npos) << hanging.diagnostics;
+  EXPECT_EQ(load_text(arm(-0.5)).diagnostics, "");
+}
+
 TEST(Warnings, TellOfShapesOfOneBodyThatMeet) {
   const auto halves = [](double gap) {
     return world("Terrain.Flat f { }",
