@@ -54,6 +54,11 @@ Excerpt cut_around(std::string_view line, std::size_t at) {
   return excerpt;
 }
 
+/// Whether a line holds more than blanks, so that a caret points at something.
+bool is_seen(std::string_view line) {
+  return line.find_first_not_of(" \t\r\v\f") != std::string_view::npos;
+}
+
 void print_excerpt(std::ostream& out, const Position& position, std::string_view colour) {
   constexpr std::string_view left_out = "...";
   const LineColumn place = line_and_column(position);
@@ -109,15 +114,18 @@ void Diagnostics::print(std::ostream& out, bool colours) const {
   for (const Diagnostic& diagnostic : diagnostics_) {
     const Style& style = styles[static_cast<std::size_t>(diagnostic.severity)];
     const std::string_view colour = colours ? style.colour : "";
-    const bool placed = diagnostic.position.file != nullptr;
-    if (placed) {
-      const LineColumn place = line_and_column(diagnostic.position);
-      out << (colours ? bold : "") << unicode::printable(diagnostic.position.file->path) << ':'
-          << place.line << ':' << place.column << ": ";
+    const SourceFile* const file = diagnostic.position.file;
+    const LineColumn place = file == nullptr ? LineColumn{} : line_and_column(diagnostic.position);
+    if (file != nullptr) {
+      out << (colours ? bold : "") << unicode::printable(file->path) << ':';
+      // A file without text has no place in it: it is not there, or cannot be read.
+      if (!file->text.empty()) out << place.line << ':' << place.column << ':';
+      out << ' ';
     }
     out << colour << style.name << ": " << (colours ? plain : "")
         << unicode::printable(diagnostic.message) << '\n';
-    if (placed) print_excerpt(out, diagnostic.position, colour);
+    if (file != nullptr && is_seen(line_text(*file, place.line)))
+      print_excerpt(out, diagnostic.position, colour);
   }
   if (errors_ > limit) {
     const std::size_t more = errors_ - limit;

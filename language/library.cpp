@@ -44,7 +44,8 @@ std::unique_ptr<Object> Library::evaluate(const std::filesystem::path& file,
   Builder builder(implementation_->prepared, implementation_->files, report);
   std::unique_ptr<Object> root = builder.build(parsed, split);
   if (options.amend) options.amend(*root);
-  Checker checker(implementation_->prepared, implementation_->files, builder.left_out(), report);
+  Checker checker(implementation_->prepared, implementation_->files, builder.left_out(),
+                  builder.hints(), report);
   for (const Override& setting : split.overrides)
     checker.apply(*root, setting, param_names(parsed));
   checker.check(*root);

@@ -42,6 +42,8 @@ std::string nearest_name(std::string_view name, const std::vector<std::string>& 
   std::size_t best_distance = std::max<std::size_t>(1, name.size() / 3) + 1;
   std::string best;
   for (std::size_t i = 0; i < std::min(candidates.size(), most_candidates); ++i) {
+    // The name itself, known elsewhere, is no hint.
+    if (candidates[i] == name) continue;
     const std::size_t distance = edit_distance(name, candidates[i], best_distance);
     // One edit turns any one-letter name into any other: that is no hint.
     if (distance < best_distance && distance < std::max(name.size(), candidates[i].size())) {

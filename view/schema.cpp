@@ -53,21 +53,23 @@ ClassSchema camera_class() {
   using namespace widget_field;
   constexpr double pi = std::numbers::pi;
   ClassSchema camera = widget_class("Window.grob", "a camera's picture of a world", "title");
-  append(
-      camera.fields,
-      {required(object_field(drawer, "World", "the world that it shows")),
-       object_field(follow, "Base.|Link", "the body that the camera goes with"),
-       shared(between(0.1, 10., number_field(zoom, "", "1", "magnification"))),
-       shared(between(0.2, 20., number_field(distance, "m", "3", "from the point looked at"))),
-       shared(between(
-           -pi, pi, number_field(euler1, "rad", "0.6", "turn of the camera about the world's z"))),
-       shared(
-           between(-pi / 2., pi / 2.,
-                   number_field(euler2, "rad", "0.4", "its height as an angle above the horizon"))),
-       shared(between(1., 1e6,
-                      number_field(exaggeration, "", "1",
-                                   "displacements of bodies from where they started "
-                                   "are drawn that many times as large")))});
+  append(camera.fields,
+         {required(object_field(drawer, "World", "the world that it shows")),
+          object_field(follow, "Base.|Link", "the body that the camera goes with"),
+          shared(between(0.1, 10., number_field(zoom, "", "1", "magnification"))),
+          shared(between(0.2, 20., number_field(distance, "m", "3", "from the point looked at"))),
+          shared(between(
+              -pi, pi,
+              number_field(
+                  euler1, "rad", "0.6",
+                  "azimuth of the camera: its turn about the world's z; at 0 it looks along +y"))),
+          shared(between(-pi / 2., pi / 2.,
+                         number_field(euler2, "rad", "0.4",
+                                      "elevation of the camera: its angle above the horizon"))),
+          shared(between(1., 1e6,
+                         number_field(exaggeration, "", "1",
+                                      "displacements of bodies from where they started "
+                                      "are drawn that many times as large")))});
   for (const Switch& item : switches)
     camera.fields.push_back(
         shared(boolean_field(item.name, item.default_text, "show " + std::string(item.doc))));

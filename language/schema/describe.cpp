@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "language/names.h"
+#include "language/wording.h"
 
 namespace hookpoint::language {
 namespace {
@@ -40,7 +41,7 @@ std::string type_text(const FieldSchema& field) {
     case FieldType::object: {
       std::string classes = field.refers_to.empty() ? "object" : field.refers_to;
       std::ranges::replace(classes, '|', '/');
-      return "name of a " + classes;
+      return "name of " + with_article(classes);
     }
     case FieldType::port:
       return "trail of a port";
@@ -113,7 +114,8 @@ std::vector<std::pair<std::string, std::string>> class_facts(const ClassSchema& 
 }
 
 std::string describe_in(const ClassSchema& schema, const Schema* all) {
-  std::string text = schema.name + "\n  " + schema.doc + "\n";
+  std::string text = schema.name + (schema.only_in.empty() ? "" : " in " + schema.only_in) +
+                     "\n  " + schema.doc + "\n";
   for (const auto& [label, fact] : class_facts(schema, all))
     text += "  " + label + ": " + fact + "\n";
   for (const FieldSchema& field : schema.fields) {
@@ -179,16 +181,16 @@ std::string range_text(const FieldSchema& field) {
   const std::string unit = unit_after(field);
   const bool low = std::isfinite(field.minimum), high = std::isfinite(field.maximum);
   if (low && high && !field.exclusive_minimum && !field.exclusive_maximum) {
-    return "from " + number_text(field.minimum) + " to " + number_text(field.maximum) + unit;
+    return "from " + rounded_text(field.minimum) + " to " + rounded_text(field.maximum) + unit;
   }
   std::string text;
   if (low)
-    text = (field.exclusive_minimum ? "greater than " : "at least ") + number_text(field.minimum) +
+    text = (field.exclusive_minimum ? "greater than " : "at least ") + rounded_text(field.minimum) +
            unit;
   if (low && high) text += " and ";
   if (high)
     text +=
-        (field.exclusive_maximum ? "less than " : "at most ") + number_text(field.maximum) + unit;
+        (field.exclusive_maximum ? "less than " : "at most ") + rounded_text(field.maximum) + unit;
   return text;
 }
 

@@ -3,7 +3,10 @@
 #include <algorithm>
 
 #include "language/names.h"
+#include "language/schema/absent.h"
 #include "language/tree/field.h"
+#include "language/units.h"
+#include "language/wording.h"
 
 namespace hookpoint::language {
 
@@ -79,11 +82,13 @@ void Builder::lay_object(FileScope& scope, const Item& item) {
     const std::optional<std::string> text =
         evaluator(scope).name_text(item.name, item.indexed, index);
     if (!text) return leave_out(scope, item);
+    hint_at_value(scope, evaluator(scope).text(item.name), position(scope, item.name));
     name = *text;
     if (schema->naming == Naming::forbidden)
-      report_.error(position(scope, item.name), "a " + schema->name + " has no name");
+      report_.error(position(scope, item.name), with_article(schema->name) + " has no name");
   } else if (schema->naming == Naming::required) {
-    report_.error(place, "a " + schema->name + " needs a name: " + schema->name + " NAME { ... }");
+    report_.error(place,
+                  with_article(schema->name) + " needs a name: " + schema->name + " NAME { ... }");
   }
   if (open_object(*schema, std::move(name), place, position(scope, item.name)) == nullptr) return;
   lay_items(scope, item.items, false);
@@ -105,10 +110,12 @@ const ClassSchema* Builder::class_of(const FileScope& scope, const Item& item) {
   if (schema == nullptr) {
     if (report_.told_at(place)) return nullptr;
     const bool field = owner().schema->find(name) != nullptr;
-    report_.error(
-        place,
-        field ? "`" + name + "` is a field of " + owner().type + ": expected `" + name + " = ...;`"
-              : "unknown class `" + name + "`" + did_you_mean(name, schema_.class_names()));
+    const std::string instead(instead_of("", name));
+    report_.error(place, field ? "`" + name + "` is a field of " + owner().type + ": expected `" +
+                                     name + " = ...;`"
+                         : instead.empty() ? "unknown class `" + name + "`" +
+                                                 did_you_mean(name, schema_.class_names())
+                                           : "there is no class `" + name + "`: " + instead);
     return nullptr;
   }
   if (schema->name != "Group") check_place(*schema, place);
@@ -130,8 +137,8 @@ bool Builder::check_place(const ClassSchema& schema, const Position& place) {
   }
   if (schema.top_level) places.insert(places.begin(), "the top of a file");
   const std::string here = top ? "at the top of a file" : "inside " + around.type;
-  report_.error(place,
-                "a " + schema.name + " cannot stand " + here + "; expected " + join(places, ", "));
+  report_.error(place, with_article(schema.name) + " cannot stand " + here + "; expected " +
+                           join(places, ", "));
   return false;
 }
 
@@ -161,6 +168,7 @@ Object* Builder::open_object(const ClassSchema& schema, std::string name, const 
     if (!is_new) {
       report_.error(added->named ? name_place : place, "the name `" + added->name + "` is taken");
       report_.note(entry->second->position, "`" + added->name + "` is this " + entry->second->type);
+      hints_.explain(name_place, report_);
     }
   }
   around.object->children.push_back(std::move(object));
@@ -188,6 +196,11 @@ void Builder::lay_assignment(FileScope& scope, const Item& item) {
 void Builder::add_field(const FileScope& scope, const ClassSchema& schema, const Item& item,
                         std::vector<Field>& fields) {
   const ExpressionEvaluator evaluate = evaluator(scope);
+  for (std::uint32_t i = item.value.begin; i < item.value.end && !scope.copied.empty(); ++i) {
+    const Expression& expression = scope.file.syntax.expressions[i];
+    if (const Trail* trail = evaluate.lone_trail(expression))
+      hint_at_values(scope, *trail, position(scope, expression.span));
+  }
   add_field(schema, std::string(evaluate.text(item.place)), position(scope, item.place), fields,
             [&](const FieldSchema& field) {
               return make_field(schema_.context(schema, field, evaluate, report_), item.value);
@@ -204,9 +217,10 @@ void Builder::add_field(const ClassSchema& schema, const std::string& name, cons
     for (const FieldSchema& candidate : schema.fields) {
       if (candidate.setting) names.push_back(candidate.name);
     }
-    std::string hint = did_you_mean(name, names);
+    const std::string instead(instead_of(schema.name, name));
+    std::string hint = instead.empty() ? did_you_mean(name, names) : ": " + instead;
     if (hint.empty() && !names.empty()) hint = "; its fields are " + join(names, ", ");
-    return report_.error(place, "a " + schema.name + " has no field `" + name + "`" + hint);
+    return report_.error(place, with_article(schema.name) + " has no field `" + name + "`" + hint);
   }
   if (!field->setting)
     return report_.error(
@@ -237,6 +251,7 @@ void Builder::lay_wire(FileScope& scope, const Item& item) {
   const auto take_end = [&](bool has, const Trail& trail, std::optional<Reference>& end) {
     if (!has) return true;
     const std::optional<std::string> text = evaluate.trail_text(trail);
+    hint_at_values(scope, trail, position(scope, trail.span));
     if (text) end = Reference{*text, nullptr, "", position(scope, trail.span)};
     return text.has_value();
   };
@@ -307,16 +322,43 @@ void Builder::lay_loop_over_list(FileScope& scope, const Item& item) {
     if (stopped() || !lay_round(scope, item, std::move(value))) return;
 }
 
+void Builder::hint_at_value(const FileScope& scope, std::string_view name, const Position& place) {
+  const auto loop = scope.copied.find(name);
+  if (loop == scope.copied.end()) return;
+  const std::string from = '`' + std::string(loop->second.from) + '`';
+  const Value& value = scope.variables.at(name).values[0];
+  const std::string unit = unit_text(value.quantity.dimension);
+  const std::string held = value.kind == ValueKind::number ? rounded_text(value.quantity.value) +
+                                                                 (unit.empty() ? "" : " ") + unit
+                                                           : describe_value(value);
+  hints_.add(place, loop->second.place,
+             "`" + std::string(name) + "` holds " + held + ", not the word " + from + ": " + from +
+                 " is a variable of this file, whose value stands in the list; give the variable "
+                 "another name");
+}
+
+void Builder::hint_at_values(const FileScope& scope, const Trail& trail, const Position& place) {
+  for (std::uint32_t i = trail.parts.begin; i < trail.parts.end && !scope.copied.empty(); ++i)
+    hint_at_value(scope, evaluator(scope).text(scope.file.syntax.parts[i].name), place);
+}
+
 bool Builder::lay_round(FileScope& scope, const Item& item, Value value) {
   const std::string_view name = evaluator(scope).text(item.name);
   const Position place = position(scope, item.name);
   constexpr std::size_t steps_of_a_round = 10;
   if (!take(Resource::steps, steps_of_a_round, place)) return false;
   const bool word = value.kind == ValueKind::word;
+  const Position written = value.position;
   if (!define(scope, name, {std::move(value)}, place)) return false;
   scope.variables[name].stands_for_word = word;
+  if (!word && written.file == &scope.file.source) {
+    const std::string_view source =
+        std::string_view(scope.file.source.text).substr(written.offset, written.length);
+    if (scope.variables.contains(source) && source != name) scope.copied[name] = {source, written};
+  }
   lay_items(scope, item.items, false);
   scope.variables.erase(name);
+  scope.copied.erase(name);
   return true;
 }
 

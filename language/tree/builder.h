@@ -13,6 +13,7 @@
 
 #include "language/files.h"
 #include "language/tree/evaluate_options.h"
+#include "language/tree/hints.h"
 #include "language/tree/prepared.h"
 #include "language/values/expression.h"
 
@@ -27,11 +28,19 @@ class Builder {
   std::unique_ptr<Object> build(const ParsedFile& file, const EvaluateOptions& options);
   /// Names in what was left out for an error: a trail that speaks of them is no second error.
   const std::set<std::string, std::less<>>& left_out() const { return left_out_; }
+  /// What may explain errors in the references of the tree.
+  const Hints& hints() const { return hints_; }
 
  private:
   struct Given {
     std::vector<Value> values;  ///< empty when the value was wrong, and said to be
     Position position;
+  };
+  /// What a loop's variable has its value from: a variable whose name may have been meant as a
+  /// word.
+  struct CopiedValue {
+    std::string_view from;
+    Position place;  ///< of that name in the loop's list
   };
   /// One laying-down of a file: its variables, and where it was asked for.
   struct FileScope {
@@ -41,6 +50,7 @@ class Builder {
     std::map<std::string, Given> given;
     Variables variables;
     bool chosen = false;  ///< by a value: what is not evaluated does not know of it
+    std::map<std::string_view, CopiedValue> copied = {};  ///< of loops' variables
   };
   using Names = std::unordered_map<std::string, const Object*>;
   /// An object that is being filled.
@@ -60,6 +70,9 @@ class Builder {
   void lay_loop_over_list(FileScope& scope, const Item& item);
   /// The loop's items once, its variable being `value`; false to go no further.
   bool lay_round(FileScope& scope, const Item& item, Value value);
+  /// An error at `place` may come from `name`, which holds a value where a word was meant.
+  void hint_at_value(const FileScope& scope, std::string_view name, const Position& place);
+  void hint_at_values(const FileScope& scope, const Trail& trail, const Position& place);
   void lay_implicit_objects();
   /// The class, if it is known and may stand here; else an error.
   const ClassSchema* class_of(const FileScope& scope, const Item& item);
@@ -118,6 +131,7 @@ class Builder {
   const PreparedSchema& schema_;
   FileStore& files_;
   Report& report_;
+  Hints hints_;
   Budget budget_;
   std::vector<Open> open_;
   std::set<std::string, std::less<>> left_out_;

@@ -3,11 +3,25 @@
 #include <algorithm>
 
 #include "language/names.h"
+#include "language/schema/absent.h"
 #include "language/tree/field.h"
 #include "language/units.h"
+#include "language/wording.h"
 
 namespace hookpoint::language {
 namespace {
+
+/// ": " and what to do where the language has no such port; "" if there is nothing to say.
+std::string instead_of_port(const Reference& reference, const Unresolved& why) {
+  if (why.candidates.size() != 1) return "";
+  std::string_view rest = reference.trail;
+  for (std::size_t dot = rest.find('.'); dot != std::string_view::npos; dot = rest.find('.')) {
+    rest.remove_prefix(dot + 1);
+    const std::string_view instead = instead_of(why.candidates.front()->type, rest);
+    if (!instead.empty()) return ": " + std::string(instead);
+  }
+  return "";
+}
 
 Field* given_field(Object& object, const FieldSchema& schema) {
   const auto found =
@@ -113,11 +127,12 @@ void Checker::report_unresolved(const Reference& reference, const Unresolved& wh
     if (left_out_.contains(part) || left_out_.contains(part.substr(0, part.find('[')))) return;
     rest.remove_prefix(std::min(end + 1, rest.size()));
   }
-  report_.error(reference.position, why.message);
+  report_.error(reference.position, why.message + instead_of_port(reference, why));
   for (const Object* candidate : why.candidates) {
     if (candidate->position.file != nullptr)
       report_.note(candidate->position, "this " + candidate->type);
   }
+  hints_.explain(reference.position, report_);
 }
 
 void Checker::check_reference(const Object& object, Field& field) {
@@ -132,14 +147,15 @@ void Checker::check_reference(const Object& object, Field& field) {
     if (matches_class(target->object->type, schema.refers_to)) return;
     std::string wanted = schema.refers_to;
     std::ranges::replace(wanted, '|', '/');
-    report_.error(reference.position, "`" + schema.name + "` takes a " + wanted + ", but `" +
-                                          reference.trail + "` is a " + target->object->type);
+    report_.error(reference.position, "`" + schema.name + "` takes " + with_article(wanted) +
+                                          ", but `" + reference.trail + "` is " +
+                                          with_article(target->object->type));
     return report_.note(target->object->position,
                         "`" + reference.trail + "` is this " + target->object->type);
   }
   if (target->field == nullptr && !use_default_port(*target, true)) {
     return report_.error(reference.position,
-                         "`" + reference.trail + "` is a " + target->object->type +
+                         "`" + reference.trail + "` is " + with_article(target->object->type) +
                              ", which has no output of its own; expected the trail of a port");
   }
   if (target->field->port == Direction::none) {

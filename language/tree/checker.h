@@ -10,6 +10,7 @@
 
 #include "language/files.h"
 #include "language/tree/evaluate_options.h"
+#include "language/tree/hints.h"
 #include "language/tree/prepared.h"
 #include "language/tree/references.h"
 
@@ -20,8 +21,10 @@ class Checker {
   using LeftOut = std::set<std::string, std::less<>>;
 
   /// `left_out`: names that are missing from the tree for an error already reported.
-  Checker(const PreparedSchema& schema, FileStore& files, const LeftOut& left_out, Report& report)
-      : schema_(schema), files_(files), left_out_(left_out), report_(report) {}
+  /// `hints`: what may explain an error in a reference.
+  Checker(const PreparedSchema& schema, FileStore& files, const LeftOut& left_out,
+          const Hints& hints, Report& report)
+      : schema_(schema), files_(files), left_out_(left_out), hints_(hints), report_(report) {}
 
   /// Sets a field from outside. `params`: the names of the file's Params, for a hint.
   void apply(Object& root, const Override& setting, const std::vector<std::string>& params);
@@ -54,6 +57,7 @@ class Checker {
   const PreparedSchema& schema_;
   FileStore& files_;
   const LeftOut& left_out_;
+  const Hints& hints_;
   Report& report_;
   Names names_;
   /// Where each input (object, field, part) was first wired.

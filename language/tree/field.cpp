@@ -1,12 +1,15 @@
 #include "language/tree/field.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
 #include "language/names.h"
+#include "language/schema/absent.h"
 #include "language/schema/describe.h"
 #include "language/units.h"
 #include "language/values/formula.h"
+#include "language/wording.h"
 #include "unicode/display.h"
 
 namespace hookpoint::language {
@@ -56,6 +59,10 @@ class FieldMaker {
   bool make_formula();
   bool check_number(const Value& value);
   bool check_range(const Value& value);
+  static bool is_whole(double number);
+  bool in_range(double number) const;
+  /// A number that the field does not take, with as many digits as show that.
+  std::string shown(double number) const;
   bool check_text(const Value& value);
   bool check_count(std::size_t count, int least, int most, std::string_view noun);
   /// The values of the list; nothing after an error.
@@ -67,6 +74,11 @@ class FieldMaker {
   /// The word that is all of the one expression, else "".
   std::string_view bare_word() const;
   std::string choices_text() const { return "expected one of " + join(schema_.choices, ", "); }
+  /// What to do instead of a word of this field; "" if there is nothing to say.
+  std::string instead_of(std::string_view word) const {
+    if (context_.owner == nullptr) return "";
+    return std::string(language::instead_of(context_.owner->name + '.' + schema_.name, word));
+  }
   bool fail(const Position& place, std::string message) {
     report_.error(place, std::move(message));
     return false;
@@ -152,8 +164,9 @@ bool FieldMaker::check_count(std::size_t count, int least, int most, std::string
   std::string wanted = count_of(static_cast<std::size_t>(most), noun);
   if (least != most) wanted = std::to_string(least) + " to " + wanted;
   if (most > 1000) wanted = "at least " + count_of(static_cast<std::size_t>(least), noun);
-  return fail(field_.position,
-              quoted(schema_.name) + " takes " + wanted + ", not " + std::to_string(count));
+  const std::string instead = count > static_cast<std::size_t>(most) ? instead_of("...") : "";
+  return fail(field_.position, quoted(schema_.name) + " takes " + wanted + ", not " +
+                                   std::to_string(count) + (instead.empty() ? "" : ": " + instead));
 }
 
 bool FieldMaker::check_number(const Value& value) {
@@ -174,20 +187,36 @@ bool FieldMaker::check_number(const Value& value) {
   return check_range(value);
 }
 
-bool FieldMaker::check_range(const Value& value) {
-  const double number = value.quantity.value;
-  if (schema_.type == FieldType::integer &&
-      (number != std::floor(number) || std::fabs(number) > 9007199254740992.)) {
-    return fail(value.position,
-                quoted(schema_.name) + " takes a whole number, not " + number_text(number));
-  }
+bool FieldMaker::is_whole(double number) {
+  constexpr double largest_whole = 9007199254740992.;
+  return number == std::floor(number) && std::fabs(number) <= largest_whole;
+}
+
+bool FieldMaker::in_range(double number) const {
   const bool below =
       schema_.exclusive_minimum ? number <= schema_.minimum : number < schema_.minimum;
   const bool above =
       schema_.exclusive_maximum ? number >= schema_.maximum : number > schema_.maximum;
-  if (!below && !above) return true;
+  return !below && !above;
+}
+
+std::string FieldMaker::shown(double number) const {
+  std::string text = rounded_text(number);
+  double read = number;
+  std::from_chars(text.data(), text.data() + text.size(), read);
+  const bool seems_right = in_range(read) && (schema_.type != FieldType::integer || is_whole(read));
+  return seems_right ? number_text(number) : text;
+}
+
+bool FieldMaker::check_range(const Value& value) {
+  const double number = value.quantity.value;
+  if (schema_.type == FieldType::integer && !is_whole(number)) {
+    return fail(value.position,
+                quoted(schema_.name) + " takes a whole number, not " + shown(number));
+  }
+  if (in_range(number)) return true;
   return fail(value.position, quoted(schema_.name) + " must be " + range_text(schema_) + ", not " +
-                                  number_text(number) + unit_after(schema_));
+                                  shown(number) + unit_after(schema_));
 }
 
 bool FieldMaker::stands_for_number(std::string_view word) {
@@ -339,8 +368,10 @@ bool FieldMaker::make_choice() {
                                     describe_value(value) + ": " + choices_text());
   }
   if (std::ranges::find(schema_.choices, value.text) == schema_.choices.end()) {
-    return fail(value.position, quoted(value.text) + " is no " + schema_.name + ": " +
-                                    choices_text() + did_you_mean(value.text, schema_.choices));
+    const std::string instead = instead_of(value.text);
+    return fail(value.position,
+                quoted(value.text) + " is no " + schema_.name + ": " + choices_text() +
+                    (instead.empty() ? did_you_mean(value.text, schema_.choices) : "; " + instead));
   }
   field_.words.push_back(value.text);
   return true;

@@ -15,6 +15,7 @@ struct FieldContext {
   const Dimension& other_dimension;  ///< of its other unit, if it has one
   const ExpressionEvaluator& evaluator;
   Report& report;
+  const ClassSchema* owner = nullptr;  ///< of the field; null where it stands alone
 };
 
 /// The field with the value of these expressions; nothing after an error. References are left to be

@@ -66,7 +66,8 @@ FieldContext PreparedSchema::context(const ClassSchema& schema, const FieldSchem
                                      const ExpressionEvaluator& evaluator, Report& report) const {
   const PreparedClass& prepared = of(schema);
   const auto index = static_cast<std::size_t>(&field - schema.fields.data());
-  return {field, prepared.dimensions[index], prepared.other_dimensions[index], evaluator, report};
+  return {field,  prepared.dimensions[index], prepared.other_dimensions[index], evaluator, report,
+          &schema};
 }
 
 void PreparedSchema::check_names(const ClassSchema& schema) {

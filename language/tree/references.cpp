@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "language/names.h"
+#include "language/wording.h"
 
 namespace hookpoint::language {
 namespace {
@@ -221,7 +222,7 @@ std::optional<Reference> resolve(const Object& root, const std::string& trail, b
     target->port = port;
     if (target->field == nullptr)
       why.message =
-          "a " + target->object->type + " has no output of its own: name one of its ports";
+          with_article(target->object->type) + " has no output of its own: name one of its ports";
   }
   if (target && target->field != nullptr && target->field->port == Direction::none) {
     why.message = "`" + target->port + "` of " + target->object->type + " is no port";

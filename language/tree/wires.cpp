@@ -2,8 +2,10 @@
 #include <algorithm>
 
 #include "language/names.h"
+#include "language/schema/absent.h"
 #include "language/tree/checker.h"
 #include "language/units.h"
+#include "language/wording.h"
 
 namespace hookpoint::language {
 namespace {
@@ -93,8 +95,8 @@ std::optional<Checker::End> Checker::check_end(const Object& object,
   }
   if (target.field == nullptr && !use_default_port(target, from)) {
     const std::string hint = join(ports_of(*target.object->schema, from), ", ");
-    const std::string kind =
-        target.object->parent == nullptr ? "the top of the file" : "a " + target.object->type;
+    const std::string kind = target.object->parent == nullptr ? "the top of the file"
+                                                              : with_article(target.object->type);
     report_.error(place, kind + " has no " + word + " of its own: the wire needs " +
                              (from ? "FROM" : "TO") + " and a port" +
                              (hint.empty() ? "" : "; its " + word + "s are " + hint));
@@ -103,8 +105,12 @@ std::optional<Checker::End> Checker::check_end(const Object& object,
   const FieldSchema& field = *target.field;
   if (!may_be(field.port, from)) {
     const std::vector<std::string> ports = ports_of(*target.object->schema, from);
-    report_.error(place, "`" + target.port + "` of " + target.object->type + " is no " + word +
-                             (ports.empty() ? "" : "; its " + word + "s are " + join(ports, ", ")));
+    const std::string instead(instead_of(target.object->type + '.' + field.name, word));
+    const std::string hint = !instead.empty() ? ": " + instead
+                             : ports.empty()  ? ""
+                                              : "; its " + word + "s are " + join(ports, ", ");
+    report_.error(place,
+                  "`" + target.port + "` of " + target.object->type + " is no " + word + hint);
     return std::nullopt;
   }
   reference->object = target.object;

@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 
+#include "language/wording.h"
 #include "simulation/robot_tree.h"
 #include "simulation/wiring/components.h"
 
@@ -55,7 +56,7 @@ class LoopFinder {
     for (std::size_t i = 0; i < components_.size(); ++i) {
       const ComponentSpec& spec = experiment_.components[i];
       const std::vector<control::LinearFeedback> ways = components_[i].linearise();
-      std::string why = ways.empty() ? "a " + spec.type +
+      std::string why = ways.empty() ? language::with_article(spec.type) +
                                            " is not one of the PD and PID controllers whose "
                                            "feedback is computed"
                                      : std::string("it drives nothing");

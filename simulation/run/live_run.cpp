@@ -79,8 +79,8 @@ std::string difference(const std::vector<StateSection>& before,
 std::string why_not_alike(const World& before, const World& after, const Experiment& was,
                           const Experiment& is) {
   if (was.deltat != is.deltat)
-    return fmt::format("the step would be {} s instead of {} s", output::shortest(is.deltat),
-                       output::shortest(was.deltat));
+    return fmt::format("the step would be {} s instead of {} s", output::rounded(is.deltat, 6),
+                       output::rounded(was.deltat, 6));
   if (was.contact != is.contact)
     return fmt::format("what points on the ground remember under {} means nothing under {}",
                        was.contact, is.contact);
@@ -96,8 +96,8 @@ void check_times(const std::vector<Change>& script, double deltat) {
     if (std::abs(time - script[i].time) <= 1e-3 * deltat + 1e-12 * time) continue;
     throw ChangesError(fmt::format(
         "line {}: step {} is at {} s here, not at {} s: the file is of a run with another deltat",
-        line_of_change(i), script[i].step, output::shortest(time),
-        output::shortest(script[i].time)));
+        line_of_change(i), script[i].step, output::rounded(time, 9),
+        output::rounded(script[i].time, 9)));
   }
 }
 

@@ -13,6 +13,12 @@
 namespace hookpoint::simulation {
 namespace {
 
+/// A time [s] with the digits that tell the steps of a long run apart.
+std::string moment_text(double time) {
+  constexpr int digits = 9;
+  return output::rounded(time, digits);
+}
+
 using output::MovieError;
 
 /// What stands in the one text first and not in the other.
@@ -55,7 +61,7 @@ Rewind::Rewind(const Experiment& experiment, const output::MovieReader& movie, W
 std::int64_t Rewind::first() const { return steps_.front() == 0 ? 0 : steps_.front() + 1; }
 
 std::string Rewind::time_text(std::int64_t step) const {
-  return output::shortest(static_cast<double>(step) * experiment_.deltat);
+  return moment_text(static_cast<double>(step) * experiment_.deltat);
 }
 
 std::int64_t Rewind::step_at(double time) const {
@@ -63,13 +69,13 @@ std::int64_t Rewind::step_at(double time) const {
   const double steps = time / experiment_.deltat;
   if (!(steps > static_cast<double>(first()) - 0.5 && steps < static_cast<double>(last()) + 0.5))
     throw MovieError(fmt::format("there is no moment {} s in the movie: it goes from {} s to {} s",
-                                 output::shortest(time), time_text(first()), time_text(last())));
+                                 moment_text(time), time_text(first()), time_text(last())));
   const auto step = static_cast<std::int64_t>(std::llround(steps));
   if (std::abs(steps - static_cast<double>(step)) > tolerance)
     throw MovieError(
         fmt::format("there is no step at {} s: steps are {} s long, the nearest is at "
                     "{} s",
-                    output::shortest(time), output::shortest(experiment_.deltat), time_text(step)));
+                    moment_text(time), output::rounded(experiment_.deltat, 6), time_text(step)));
   return step;
 }
 

@@ -56,9 +56,9 @@ std::vector<Port> World::settable(std::span<const PortValue> values) {
     if (!std::isfinite(value))
       throw ExperimentError(fmt::format("`{}` takes a finite number", port.trail));
     if (value < port.minimum || value > port.maximum)
-      throw ExperimentError(fmt::format("`{}` takes numbers from {} to {}, not {}", port.trail,
-                                        output::shortest(port.minimum),
-                                        output::shortest(port.maximum), output::shortest(value)));
+      throw ExperimentError(fmt::format(
+          "`{}` takes numbers from {} to {}, not {}", port.trail, output::rounded(port.minimum, 6),
+          output::rounded(port.maximum, 6), output::rounded(value, 6)));
   }
   return ports;
 }
@@ -78,8 +78,9 @@ std::string World::ended() const {
 Resumable& World::resumable() const {
   if (Resumable* resumable = engine_->resumable()) return *resumable;
   throw ExperimentError("engine `" + experiment_.engine +
-                        "` cannot be saved and resumed exactly: its library keeps what its solver "
-                        "remembers to itself; with `engine = dts` a run can");
+                        "` cannot be saved and resumed exactly, so there is no movie or film of "
+                        "its run: its library hides what its solver remembers; `hookpoint view` "
+                        "shows the run in a window, and with `engine = dts` it can be saved");
 }
 
 std::vector<StateSection> World::state_layout() const {

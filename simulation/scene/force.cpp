@@ -2,6 +2,7 @@
 #include <exception>
 
 #include "control/core/rational.h"
+#include "language/wording.h"
 #include "simulation/scene/fields.h"
 #include "simulation/scene/load_parts.h"
 #include "simulation/scene/schema.h"
@@ -104,7 +105,7 @@ void load_force(const language::Object& object, const language::Object& world, L
   if (body == loading.bodies.end()) {
     return loading.error(
         place_of(object, force_field::body),
-        "a " + object.type +
+        language::with_article(object.type) +
             " acts on a body: name a robot's base (bot.base) or a link (bot.leg1.link2)");
   }
   ForceSpec force = load_fields(object, force_fields());

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "language/units.h"
+#include "language/wording.h"
 
 namespace hookpoint::simulation {
 
@@ -137,9 +138,10 @@ bool FormulaLoader::resolve(const std::string& name, const language::Position& p
   dimension = dimension_of_port(*target.object, *target.field);
   if (at - inputs_.word_count() < count) return true;  // an earlier formula has it
   if (inputs_.size() > most_formula_inputs) {
-    loading_.error(place, fmt::format("`{}` is one port more than the {} that the formulas of a {} "
-                                      "may name: divide the formula",
-                                      name, most_formula_inputs, object_.type));
+    loading_.error(place,
+                   fmt::format("`{}` is one port more than the {} that the formulas of {} "
+                               "may name: divide the formula",
+                               name, most_formula_inputs, language::with_article(object_.type)));
     return false;
   }
   loading_.formula_inputs.push_back(

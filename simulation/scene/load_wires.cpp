@@ -9,6 +9,7 @@
 #include "language/tree/references.h"
 #include "language/units.h"
 #include "language/values/budget.h"
+#include "language/wording.h"
 #include "simulation/scene/load_parts.h"
 #include "simulation/wiring/timing.h"
 #include "simulation/wiring/wiring_order.h"
@@ -215,8 +216,10 @@ class Wires {
     const control::ComponentClass& type = *control::Registry::instance().find(object.type);
     const language::Position& position = place_of(object, attachment_field(type.attachment));
     if (field == nullptr) {
-      return loading_.error(position, fmt::format("a {} has no port `{}`, which a {} needs",
-                                                  target.type, port.attached, object.type));
+      return loading_.error(
+          position,
+          fmt::format("{} has no port `{}`, which {} needs", language::with_article(target.type),
+                      port.attached, language::with_article(object.type)));
     }
     const FieldSchema* self = object.schema->find(port.name);
     if (port.kind == PortKind::output) {

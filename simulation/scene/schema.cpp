@@ -1,5 +1,6 @@
 #include "simulation/scene/schema.h"
 
+#include "simulation/scene/absent.h"
 #include "simulation/scene/urdf/urdf.h"
 
 namespace hookpoint::simulation {
@@ -23,6 +24,7 @@ void make_readable(language::ClassSchema& schema) {
 
 void add_experiment_classes(language::Schema& schema, const PeerChoices& peers) {
   for (const char* ending : {".urdf", ".xacro"}) schema.add_reader(ending, include_urdf);
+  add_absent_words();
   language::Schema classes;
   add_world_classes(classes, peers);
   add_force_classes(classes);

@@ -1,6 +1,7 @@
 // Shape: the bodies' forms, which are drawn, collide and have mass.
 #include <fmt/format.h>
 
+#include "language/wording.h"
 #include "simulation/scene/body.h"
 #include "simulation/scene/load_parts.h"
 #include "simulation/scene/schema.h"
@@ -94,8 +95,8 @@ ShapeSpec load_shape(const language::Object& object, Loading& loading) {
   shape.geometry = load_geometry(object, loading);
   if (shape.boundary_points != 0 && shape.boundary_points < least_density(shape.geometry)) {
     loading.error(place_of(object, boundary_points_field),
-                  fmt::format("boundary_points of a {} is 0 (its default) or at least {}",
-                              object.type, least_density(shape.geometry)));
+                  fmt::format("boundary_points of {} is 0 (its default) or at least {}",
+                              language::with_article(object.type), least_density(shape.geometry)));
   }
   return shape;
 }

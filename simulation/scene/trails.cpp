@@ -5,6 +5,7 @@
 #include <set>
 
 #include "contact/force_law.h"
+#include "language/wording.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -51,10 +52,10 @@ std::string missing_port(const Experiment& experiment, const language::Object& o
                               : contact::find_force_law(experiment.contact).has_value();
   if (!detail || published) return "";
   return fmt::format(
-      "{} {} does not publish `{}` of a {}: choose engine dts and a force law, such "
+      "{} {} does not publish `{}` of {}: choose engine dts and a force law, such "
       "as hookpoint",
       peer ? "engine" : "contact law", peer ? experiment.engine : experiment.contact, field.name,
-      object.type);
+      language::with_article(object.type));
 }
 
 bool is_number(const language::FieldSchema& field) {

@@ -6,6 +6,7 @@
 
 #include "language/names.h"
 #include "tests/support/language_files.h"
+#include "tests/support/message_rules.h"
 
 namespace hookpoint::language::testing {
 namespace {
@@ -36,6 +37,7 @@ TEST_P(WrongFile, GivesTheExpectedText) {
   for (std::size_t at; (at = errors.find(project)) != std::string::npos;)
     errors.erase(at, project.size());
   EXPECT_EQ(errors, read_file(GetParam() + ".expected"));
+  EXPECT_EQ(hookpoint::testing::broken_rule(errors), "");
 }
 
 INSTANTIATE_TEST_SUITE_P(All, WrongFile, ::testing::ValuesIn(wrong_files()),
@@ -102,6 +104,32 @@ TEST(Diagnostics, NothingCommandsTheTerminal) {
             "a?[31m.hook:1:1: error: no `?[2J` nor?error: of its own\n"
             " 1 | b?]0;title? ??31m ? c;\n"
             "   | ^\n");
+}
+
+TEST(Diagnostics, AMissingFileHasNoPlaceAndAnEmptyLineNoCaret) {
+  const SourceFile nothing = source(""), blank = source("one\n  \t\n");
+  Diagnostics diagnostics;
+  diagnostics.error({&nothing, 0, 1}, "there is no such file");
+  diagnostics.error({&blank, 5, 1}, "expected two");
+  EXPECT_EQ(shown(diagnostics),
+            "a.hook: error: there is no such file\na.hook:2:2: error: expected two\n");
+}
+
+TEST(Message, RulesAreBroken) {
+  using hookpoint::testing::broken_rule;
+  for (const char* wrong :
+       {"a Input is not one of", "a `offset` is", "an box", "world at 3.3000000000000003 s",
+        "--token: --token takes", "\n 1 | \n   | ^", "no `x` here; did you mean `x`?"})
+    EXPECT_NE(broken_rule(wrong), "") << wrong;
+  for (const char* right :
+       {"an Input is one of", "a URDF", "a unit", "a one", "an IMU", "at 3.3 s", "--port takes",
+        " 1 | x\n   | ^", "`x` is not here; did you mean `y`?", "Base.mobile has an `angle`"})
+    EXPECT_EQ(broken_rule(right), "") << right;
+}
+
+TEST(NearestName, IsNotTheNameItself) {
+  EXPECT_EQ(nearest_name("creep_speed", {"creep_speed", "creep_sped"}), "creep_sped");
+  EXPECT_EQ(nearest_name("mass", {"mass", "length"}), "");
 }
 
 TEST(NearestName, IsNearAndDeterministic) {

@@ -8,6 +8,7 @@
 
 #include "tests/support/language_files.h"
 #include "tests/support/load_text.h"
+#include "tests/support/message_rules.h"
 
 namespace hookpoint {
 namespace {
@@ -50,6 +51,7 @@ TEST_P(WrongExperimentFile, GivesTheExpectedText) {
   if (std::getenv("HOOKPOINT_WRITE_EXPECTED") != nullptr) std::ofstream(expected) << said;
   EXPECT_NE(said, "");
   EXPECT_EQ(said, testing::read_file(expected));
+  EXPECT_EQ(testing::broken_rule(said), "");
 }
 
 INSTANTIATE_TEST_SUITE_P(All, WrongExperimentFile, ::testing::ValuesIn(wrong_files()),

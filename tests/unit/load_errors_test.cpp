@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/load_text.h"
+#include "tests/support/message_rules.h"
 
 namespace hookpoint {
 namespace {
@@ -24,11 +25,15 @@ class WrongExperiment : public ::testing::TestWithParam<Case> {};
 
 TEST_P(WrongExperiment, IsRefusedInTheseWords) {
   EXPECT_EQ(diagnostics_of(GetParam().text), GetParam().diagnostics);
+  EXPECT_EQ(testing::broken_rule(GetParam().diagnostics), "");
 }
 
 const Case cases[] = {
     {"no_world", "Material m { }",
      "error 1:1 there is no World in this file; a run needs one: World NAME { ... }\n"},
+    {"robot_without_world", block,
+     "error 1:1 there is no World in this file to run its Robot in: write a file that includes it, "
+     "such as World w { Terrain.Flat ground { } Include \"text.hook\"; }\n"},
     {"two_worlds", "World a { }\nWorld b { }",
      "error 2:1 a second World; a file to run holds exactly one\nnote 1:1 the first is here\n"},
     {"stray_robot", "World w { }\n" + block,
