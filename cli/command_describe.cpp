@@ -2,10 +2,8 @@
 
 #include "application/application.h"
 #include "cli/commands.h"
+#include "cli/described.h"
 #include "cli/exit_status.h"
-#include "language/names.h"
-#include "output/text/csv.h"
-#include "studies/metric.h"
 
 namespace hookpoint::cli {
 namespace {
@@ -38,24 +36,14 @@ int describe(const DescribeArguments& arguments) {
                                      : language::describe_all(application.schema()));
     return fine;
   }
-  if (const language::ClassSchema* schema = application.schema().find(*type)) {
-    std::cout << language::describe(*schema);
-    return fine;
+  std::string problem;
+  const std::vector<std::string> texts = described(application, *type, problem);
+  if (texts.empty()) {
+    application::print_error(problem);
+    return wrong_input;
   }
-  if (const studies::MetricDefinition* metric = studies::find_metric(*type)) {
-    std::cout << output::column_title(std::string(metric->name), std::string(metric->unit))
-              << "\n  " << metric->doc << '\n';
-    return fine;
-  }
-  std::vector<std::string> names;
-  for (const auto& [name, schema] : application.schema().classes()) names.push_back(name);
-  for (const studies::MetricDefinition& metric : studies::metric_table())
-    names.emplace_back(metric.name);
-  const std::string nearest = language::nearest_name(*type, names);
-  application::print_error("there is no class or metric `" + *type + "`" +
-                           (nearest.empty() ? "; `hookpoint describe` lists the classes"
-                                            : "; did you mean `" + nearest + "`?"));
-  return wrong_input;
+  for (const std::string& text : texts) std::cout << (&text == &texts.front() ? "" : "\n") << text;
+  return fine;
 }
 
 }  // namespace hookpoint::cli

@@ -77,13 +77,13 @@ std::vector<std::int64_t> steps_of(const FilmArguments& arguments, double rate,
     const double time = seconds(*text, option);
     if (time >= first - deltat / 2. && time <= last + deltat / 2.) return time;
     throw FilmError(fmt::format("{} is no moment of the movie: it goes from {} s to {} s", option,
-                                output::shortest(first), output::shortest(last)));
+                                output::rounded(first, 6), output::rounded(last, 6)));
   };
   const double from = moment(arguments.from, "--from", first);
   const double to = moment(arguments.to, "--to", last);
   if (to < from)
-    throw FilmError(fmt::format("--to, {} s, lies before --from, {} s", output::shortest(to),
-                                output::shortest(from)));
+    throw FilmError(fmt::format("--to, {} s, lies before --from, {} s", output::rounded(to, 6),
+                                output::rounded(from, 6)));
   return view::film_steps(from, to, rate, deltat);
 }
 

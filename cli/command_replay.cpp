@@ -40,7 +40,7 @@ void print_json(const std::string& world, const simulation::WorldState& state,
 }
 
 void print_table(const simulation::WorldState& state, const std::vector<Port>& ports) {
-  fmt::print("time {} s, step {}\n", output::shortest(state.time), state.step);
+  fmt::print("time {} s, step {}\n", output::rounded(state.time, 9), state.step);
   for (const Port& port : ports)
     fmt::print("{:<56} {} {}\n", port.trail, output::shortest(*port.value), port.unit);
 }
@@ -56,10 +56,10 @@ void print_movie(const output::MovieReader& movie) {
                file.content.size());
   const std::vector<double>& times = movie.times();
   fmt::print("  {:<12} {}, {} s apart\n", "instants", times.size(),
-             output::shortest(header.period));
+             output::rounded(header.period, 6));
   if (!times.empty())
-    fmt::print("  {:<12} {} s to {} s\n", "time", output::shortest(times.front()),
-               output::shortest(times.back()));
+    fmt::print("  {:<12} {} s to {} s\n", "time", output::rounded(times.front(), 9),
+               output::rounded(times.back(), 9));
   fmt::print("  {:<12} {} numbers an instant\n", "state", header.size);
 }
 

@@ -18,11 +18,11 @@ std::int64_t last_step(const RunArguments& arguments, const simulation::Experime
   const auto steps = static_cast<std::int64_t>(std::llround(duration / experiment.deltat));
   const std::int64_t last = arguments.duration ? first + steps : steps;
   if (last > first) return last;
-  throw output::MovieError(
-      fmt::format("nothing is left to run from {} s on: the World's duration is {} s; say --for "
-                  "how long, or an "
-                  "earlier moment with --at",
-                  static_cast<double>(first) * experiment.deltat, experiment.duration));
+  throw output::MovieError(fmt::format(
+      "nothing is left to run from {:.6g} s on: the World's duration is {:.6g} s; say --for "
+      "how long, or an "
+      "earlier moment with --at",
+      static_cast<double>(first) * experiment.deltat, experiment.duration));
 }
 
 int go_on(const RunArguments& arguments) {

@@ -92,7 +92,8 @@ void tell_stability(const Experiment& experiment) {
 }
 
 void print_summary(const Experiment& experiment, const WorldState& state) {
-  fmt::print("{} at {} s ({})\n", experiment.world, state.time, how_computed(experiment));
+  fmt::print("{} at {} s ({})\n", experiment.world, output::rounded(state.time, 6),
+             how_computed(experiment));
   std::size_t body = 0, joint = 0;
   for (const simulation::RobotSpec& robot : experiment.robots) {
     const simulation::BodyState& base = state.bodies[body++];

@@ -39,9 +39,9 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         WrongInput{"rn " + block, "there is no command `rn`; did you mean `run`?"},
         WrongInput{"run", "run takes a FILE, or --resume MOVIE"},
-        WrongInput{"run nowhere.hook", "nowhere.hook:1:1: error: there is no such file"},
+        WrongInput{"run nowhere.hook", "nowhere.hook: error: there is no such file"},
         WrongInput{"run .", "this is a folder"},
-        WrongInput{"run empty.hook", "empty.hook:1:1: error: the file describes nothing"},
+        WrongInput{"run empty.hook", "empty.hook: error: the file describes nothing"},
         WrongInput{"check text.hook", "text.hook:1:"},
         WrongInput{"check binary.hook", "not a text file"},
         WrongInput{"run " + block + " --set world.deltt=1ms", "did you mean `deltat`?"},

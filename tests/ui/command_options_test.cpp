@@ -6,7 +6,13 @@
 #include <set>
 #include <sstream>
 
+#include "application/application.h"
+#include "cli/described.h"
+#include "contact/force_law.h"
+#include "integrators/stepper.h"
+#include "studies/metric.h"
 #include "tests/support/command.h"
+#include "tests/support/message_rules.h"
 #include "tests/support/text.h"
 
 namespace hookpoint {
@@ -282,6 +288,51 @@ TEST(Describe, SaysWhatAListTakes) {
   EXPECT_TRUE(has(work.hookpoint("describe Sum").out, "in  1 or 8 numbers"));
   work.file("sum.hook", ball() + "Sum s { in = 1, 2, 3; }");
   EXPECT_EQ(work.hookpoint("check sum.hook").status, 2);
+}
+
+TEST(Describe, KnowsEveryNameOfItsTables) {
+  const application::Application application;
+  std::vector<std::string> names{"default", "recommended", "matched"};
+  for (const auto& [name, entry] : application.schema().classes()) {
+    names.push_back(name);
+    names.push_back(entry.name);
+  }
+  for (const auto& law : contact::law_table()) names.emplace_back(law.name);
+  for (const auto& stepper : integrators::stepper_table()) names.emplace_back(stepper.name);
+  for (const auto& [name, engine] : application.engines()) names.push_back(name);
+  for (const auto& metric : studies::metric_table()) names.emplace_back(metric.name);
+  for (const auto& signal : studies::signal_table()) names.emplace_back(signal.name);
+  for (const std::string& name : names) {
+    std::string problem;
+    const std::vector<std::string> texts = cli::described(application, name, problem);
+    EXPECT_FALSE(texts.empty()) << name << ": " << problem;
+  }
+}
+
+TEST(Describe, TakesShortNamesAndShowsAllThatAreCalledSo) {
+  const Workplace work;
+  EXPECT_TRUE(has(work.hookpoint("describe Claim").out, "Claim in Study\n"));
+  EXPECT_TRUE(has(work.hookpoint("describe State").out, "State in StateMachine\n"));
+  EXPECT_TRUE(has(work.hookpoint("describe Slope").out, "Terrain.Slope\n"));
+  const std::string plots = work.hookpoint("describe Plot").out;
+  EXPECT_TRUE(has(plots, "Plot in Study\n") && has(plots, "Plot\n  ")) << plots;
+  const CommandResult feet = work.hookpoint("describe Foot");
+  EXPECT_EQ(feet.status, 2);
+  EXPECT_TRUE(has(feet.err, "Controller.Foot") && has(feet.err, "Sensor.Foot")) << feet.err;
+  const std::string lugre = work.hookpoint("describe lugre").out;
+  EXPECT_TRUE(has(lugre, "contact law") && has(lugre, "viscous_friction")) << lugre;
+  EXPECT_TRUE(has(work.hookpoint("describe lurge").err, "did you mean `lugre`?"));
+}
+
+TEST(Options, AreNamedOnceInAMessage) {
+  const Workplace work;
+  for (const char* arguments :
+       {"view a.hook --token short", "view a.hook --port 70000", "run a.hook --set x",
+        "compare a b --tolerance x", "study a.hook --slurm --tasks 0"}) {
+    const CommandResult result = work.hookpoint(arguments);
+    EXPECT_EQ(result.status, 2) << arguments;
+    EXPECT_EQ(testing::broken_rule(result.err), "") << result.err;
+  }
 }
 
 /// The names of options ("--set") in a text of help.
