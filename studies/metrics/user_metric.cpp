@@ -52,7 +52,7 @@ class MeasuredFormula : public Metric {
   }
   std::string why_not() const override {
     if (!lost_) return "";
-    return fmt::format("`{}` has no value at {} s", metric_.of->text, output::shortest(*lost_));
+    return fmt::format("`{}` has no value at {} s", metric_.of->text, output::rounded(*lost_, 6));
   }
 
  private:

@@ -157,7 +157,7 @@ void PlanBuilder::last_as_measured(const Object& study) {
           study.find("settle")->position,
           fmt::format("{} {} was measured for {} s, which must be longer "
                       "than settle",
-                      sweep.column.name, sweep.texts[i], output::shortest(last)));
+                      sweep.column.name, sweep.texts[i], output::rounded(last, 6)));
   }
   plan_.duration = std::ranges::max(sweep.durations);
 }

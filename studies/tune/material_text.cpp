@@ -2,17 +2,35 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
+#include <cmath>
+#include <limits>
+
 #include "output/figures/plot.h"
 #include "output/text/number.h"
 
 namespace hookpoint::studies {
 namespace {
 
+/// The number of 15 digits that the value differs from by no more than the factor of a unit adds,
+/// else the value: 20.2421 kN/m is 20242.1 N/m, not 20242.100000000002 N/m.
+double without_noise_of_units(double value) {
+  constexpr int digits = 15;
+  char text[32];
+  const auto written =
+      std::to_chars(text, text + sizeof text, value, std::chars_format::general, digits);
+  double shorter = value;
+  std::from_chars(text, written.ptr, shorter);
+  const double noise = 2. * std::numeric_limits<double>::epsilon() * std::abs(value);
+  return std::abs(shorter - value) <= noise ? shorter : value;
+}
+
 /// In SI; "1/m" is no unit that a file may write after a number.
 std::string field_line(const language::Field& field) {
   const std::string& unit = field.schema->unit;
   const bool named = !unit.empty() && (unit.front() < '0' || unit.front() > '9');
-  return fmt::format("  {} = {}{};\n", field.schema->name, output::shortest(field.numbers.front()),
+  return fmt::format("  {} = {}{};\n", field.schema->name,
+                     output::shortest(without_noise_of_units(field.numbers.front())),
                      named ? " " + unit : "");
 }
 
