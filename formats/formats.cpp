@@ -92,7 +92,7 @@ constexpr std::array table{
     Format{"X3D", "", Holds::mesh, Sign::element, "X3D|x3d", ".x3d", read_nowhere},
     Format{"OFF", "", Holds::mesh, Sign::beginning, "OFF\n|OFF\r", ".off", read_nowhere},
     Format{"3MF", "", Holds::mesh, Sign::none, "", ".3mf", read_nowhere},
-    Format{"STL", "", Holds::mesh, Sign::beginning, "solid ", ".stl", bit(Use::mesh)},
+    Format{"STL", "", Holds::mesh, Sign::none, "", ".stl", bit(Use::mesh), Shown::by_name_of_text},
     Format{"OBJ", "", Holds::mesh, Sign::none, "", ".obj", bit(Use::mesh), Shown::by_name_of_text},
     // Images.
     Format{"a PNG image", "", Holds::image, Sign::beginning, "\x89PNG\r\n", ".png",

@@ -144,6 +144,15 @@ void write_initial_state(const Experiment& own, std::span<const InitialValue> wr
     const std::vector<double> numbers = numbers_of(value);
     for (std::size_t i = 0; i < numbers.size(); ++i) *to[value.numbers[i]] = numbers[i];
   }
+  // A start that was settled is one of its own pose alone: what is moved starts with slack springs.
+  const std::vector<std::size_t> firsts = first_numbers(own);
+  for (std::size_t r = 0; r < firsts.size(); ++r) {
+    const std::size_t end = r + 1 < firsts.size() ? firsts[r + 1] : to.size();
+    const bool moved = std::ranges::any_of(written, [&](const InitialValue& value) {
+      return value.numbers.front() >= firsts[r] && value.numbers.front() < end;
+    });
+    start.robots[r].start_stretch = moved ? std::vector<Vector3d>{} : own.robots[r].start_stretch;
+  }
   for (const RobotSpec& robot : start.robots) check(start, robot);
 }
 

@@ -302,7 +302,10 @@ TEST(UrdfMesh, WhatCannotBeReadIsRefusedAtItsName) {
   broken("word.obj", "line 2: a vertex has three numbers");
   broken("nan.stl", "line 2: a vertex has three numbers");
   broken("far.obj", "it has a coordinate that is no number up to 1e+06");
-  broken("mesh.ply", "meshes are read from STL, OBJ and DAE (Collada) files");
+  broken(
+      "mesh.ply",
+      "this is PLY, which is not read here: meshes are read from STL, OBJ and DAE (Collada) files; "
+      "convert it to one of them");
   broken("wrong.dae", "it is no XML: Start-end tags mismatch");
   for (const char* meshes : {"box", "hull"}) {
     EXPECT_EQ(error("<mesh filename=\"leg.stl\"/>", meshes),

@@ -70,6 +70,7 @@ TEST(Formats, WhatIsReadIsNotRefused) {
   EXPECT_EQ(refusal("ncols 2\n", "a.asc", Use::heights), "");
   EXPECT_EQ(refusal("t,x\n0,1\n", "a.csv", Use::series), "");
   EXPECT_EQ(refusal("t,x\n0,1\n", "a.dat", Use::series), "");
+  EXPECT_EQ(refusal("solid fraction [1],x\n0,1\n", "a.csv", Use::series), "");
   EXPECT_EQ(refusal("MATLAB 5.0 MAT-file, Platform: GLNXA64\0\1"sv, "a.mat", Use::series), "");
   EXPECT_EQ(refusal("MATLAB 7.3 MAT-file, Platform: GLNXA64\0\1"sv, "a.mat", Use::series), "");
 }
