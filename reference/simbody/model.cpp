@@ -29,8 +29,8 @@ using SimTK::Vec3;
 
 // Steps that the integrator may try in a step of ours: more means that it follows a motion far
 // faster than any robot's, and that its steps would not end. Each evaluates every body and surface
-// five times, so that a large robot has fewer: `most_visits` take some five seconds. It is asked
-// how many it tried between `internal_steps`.
+// five times, so that a large robot has fewer: `most_visits` take some five seconds. The
+// number is read after each `internal_steps`.
 constexpr int most_tried_steps = 10000, least_tried_steps = 100, internal_steps = 500;
 constexpr int most_visits = 340'000;
 
