@@ -288,7 +288,11 @@ Prediction slip_onset(const RunContext& context, const PeerContact& peer) {
     return NoClosedForm{"the hops of " + context.experiment->contact + " are as fast as a slip"};
   if (std::string why = why_forces_depend_on_motion(*context.experiment); !why.empty())
     return NoClosedForm{std::move(why)};
-  return PulledBlock(context, peer).onset();
+  try {
+    return PulledBlock(context, peer).onset();
+  } catch (const simulation::ExperimentError& error) {
+    return NoClosedForm{error.what()};  // of the signals, as the run itself says it
+  }
 }
 
 Prediction threshold_error(const RunContext& context, const PeerContact& peer) {
