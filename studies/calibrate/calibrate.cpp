@@ -64,6 +64,9 @@ constexpr double width_of_a_fold = 0.3;
 /// symmetrical, since a function of it may be even, and near both ends, since one may be flat
 /// between.
 constexpr std::array read_at{0.25, 0.75, 0.37, 0.02, 0.98};
+/// And the shares of the others, where it changes nothing beside the scene's own: one may decide
+/// whether another acts.
+constexpr double others_low = 0.02, others_high = 0.98;
 /// Of a constant with which every run is the same, bit for bit.
 constexpr const char* unread = "no trace changes with it";
 /// What became of a profile.
@@ -222,6 +225,20 @@ class SubjectFit {
     return place;
   }
 
+  /// Whether the residuals change with a constant, or there are none; `models` counts.
+  bool changes_with(std::size_t constant, Shares place, const Cases& cases,
+                    std::size_t& models) const {
+    std::optional<Residuals> first;
+    for (const double share : read_at) {
+      place[constant] = share;
+      auto found = model_.residuals(place, cases);
+      ++models;
+      if (!found || (first && *found != *first)) return true;
+      first = std::move(found);
+    }
+    return false;
+  }
+
   void leave_out_unread() {
     const Shares middle = own_or_middle();
     const Cases cases = drawn_cases();
@@ -229,14 +246,9 @@ class SubjectFit {
         rows_.run({middle.size(), [&](std::size_t i) { return identity("reads", i, middle); },
                    [&](std::size_t i) {
                      FitOutcome outcome{unread, std::nullopt, std::nullopt, 0, Shares{}, {}};
-                     std::optional<Residuals> first;
-                     for (const double share : read_at) {
-                       Shares place = middle;
-                       place[i] = share;
-                       const auto found = model_.residuals(place, cases);
-                       ++outcome.models;
-                       if (!first) first = found;
-                       if (found && *found == *first) continue;
+                     for (const Shares& others : {middle, Shares(middle.size(), others_low),
+                                                  Shares(middle.size(), others_high)}) {
+                       if (!changes_with(i, others, cases, outcome.models)) continue;
                        outcome.status = "ok";
                        break;
                      }

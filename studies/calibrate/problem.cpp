@@ -167,9 +167,9 @@ std::vector<ConstantSetting> case_settings(const PlanSource& from, const Object&
   return settings;
 }
 
-/// The offset of a Trace that is fitted: a constant after those of the scene, which begins where
-/// the Trace says or in the middle of its range.
-void add_offset(const PlanSource& from, CalibrationPlan& plan, const Object& trace) {
+/// The offset of a Trace that is fitted: a constant after those of the scene. Its search begins
+/// where the Trace says, or at its first sample [s], within the range.
+void add_offset(const PlanSource& from, CalibrationPlan& plan, const Object& trace, double first) {
   for (const Object* vary : trace.children_of("Vary")) {
     if (vary->name != "offset") {
       from.error(vary->position,
@@ -186,8 +186,9 @@ void add_offset(const PlanSource& from, CalibrationPlan& plan, const Object& tra
     constant.name = trace.name + ".offset";
     plan.offsets.push_back({plan.varied.size(), trace.name});
     plan.own.resize(plan.varied.size());
-    plan.own.push_back(trace.given("offset") ? constant.unit.from_si(trace.number("offset"))
-                                             : exact_value(constant, 0.5));
+    const double own =
+        constant.unit.from_si(trace.given("offset") ? trace.number("offset") : first);
+    plan.own.push_back(std::max(constant.from, std::min(own, constant.to)));
     plan.varied.push_back(std::move(constant));
   }
 }
@@ -199,7 +200,7 @@ void add_traces(const PlanSource& from, CalibrationPlan& plan, const TuneScene& 
     auto traces = reader.read(*block, "");
     if (!traces) continue;
     TracePlan& trace = traces->begin()->second;
-    add_offset(from, plan, *block);
+    add_offset(from, plan, *block, trace.measured.time.front());
     const auto known = std::ranges::find_if(plan.cases, [&](const CalibrationCase& one) {
       return same_settings(one.settings, settings);
     });

@@ -23,11 +23,25 @@ std::string spaced_unit(const VariedConstant& constant) {
   return constant.unit.text.empty() ? "" : " " + constant.unit.text;
 }
 
-/// A value and its interval, rounded to five digits; of one that the data do not identify the
-/// interval alone.
+/// Digits that show an interval: five, and more where it is narrow beside the value.
+int digits_of(double low, double high) {
+  constexpr int least = 5, most = 10;
+  const double size = std::max(std::abs(low), std::abs(high)), width = high - low;
+  if (!(width > 0.)) return least;
+  return std::clamp(2 + static_cast<int>(std::ceil(std::log10(size / width))), least, most);
+}
+
+/// A value and its interval, rounded to what the interval shows; of one that the data do not
+/// identify the interval alone.
 std::string value_words(const CalibrationPlan& plan, const FittedConstant& constant) {
   const VariedConstant& varied = plan.varied[constant.constant];
-  const auto text = [&](double share) { return output::rounded(exact_value(varied, share), 5); };
+  const auto at = [&](const std::optional<double>& share) {
+    return exact_value(varied, share.value_or(constant.share));
+  };
+  const int digits = digits_of(at(constant.low), at(constant.high));
+  const auto text = [&](double share) {
+    return output::rounded(exact_value(varied, share), digits);
+  };
   if (!constant.low) return text(constant.share) + spaced_unit(varied);
   if (!constant.told)
     return fmt::format("not identifiable ({} to {}{})", text(*constant.low), text(*constant.high),

@@ -410,6 +410,13 @@ TEST_F(CalibrateFile, AClockThatBeginsLateIsReportedAndItsOffsetGivenOrFitted) {
   // It is no constant of the material.
   EXPECT_NE(place_.read("fitted/materials/floor_scene.hook").find("drop.offset = "),
             std::string::npos);
+  // Where the clock of the start leaves nothing of the drop to see, the constants are read still.
+  const auto blind =
+      plan(block("resamples = 0;\n" +
+                 trace("offset = 14 s; Vary offset { from = 12.2 s; to = 14 s; }", "late.csv") +
+                 two_constants));
+  ASSERT_TRUE(blind) << told_;
+  EXPECT_TRUE(run(*blind, "blind").subjects[0].left_out.empty());
   EXPECT_TRUE(refused(trace("Vary height { from = 1 m; to = 2 m; }") + two_constants,
                       "a Trace has no number `height` to vary"))
       << told_;
