@@ -208,9 +208,9 @@ std::vector<MissingForm> missing_forms(const StudyResult& study) {
   for (std::size_t metric = 0; metric < study.metrics.size(); ++metric)
     for (const RunResult& row : study.rows) {
       const MetricValue& value = row.metrics[metric];
-      const bool told = row.status == "ok" && study.metrics[metric].may_be_predicted &&
-                        !value.predicted && !value.no_form.empty();
-      if (!told) continue;
+      const bool missing_here = row.status == "ok" && study.metrics[metric].may_be_predicted &&
+                                !value.predicted && !value.no_form.empty();
+      if (!missing_here) continue;
       auto known = std::ranges::find_if(missing, [&](const MissingForm& one) {
         return one.metric == metric && one.why == value.no_form;
       });
