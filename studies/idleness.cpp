@@ -118,6 +118,16 @@ Idleness why_no_run(const StudyResult& study, const RunSelection& selection) {
   return {Idle::fault, why + (words.empty() ? " is planned" : " has " + words)};
 }
 
+Idleness unless_left_out(const StudyResult& study, const RunSelection& selection,
+                         Idleness idleness) {
+  const bool others = std::ranges::any_of(study.unselected, [&](int subject) {
+    return selection.subjects.empty() || std::ranges::count(selection.subjects, subject) > 0;
+  });
+  if (!others || idleness.idle != Idle::fault) return idleness;
+  return {Idle::left_out,
+          "--only leaves out " + names_of(study, study.unselected) + "; " + idleness.why};
+}
+
 Idleness why_no_value(const StudyResult& study, const RunSelection& selection,
                       const NeededValue& needed) {
   const std::string& name = study.metrics[needed.metric].name;
@@ -134,7 +144,7 @@ Idleness why_no_value(const StudyResult& study, const RunSelection& selection,
       });
   const std::string& left_out = study.metrics[needed.metric].left_out;
   if (idleness.idle == Idle::fault && !left_out.empty()) return {Idle::left_out, left_out};
-  return idleness;
+  return unless_left_out(study, selection, std::move(idleness));
 }
 
 Idleness allowed_by(bool may_be_empty, Idleness idleness) {

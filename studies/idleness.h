@@ -18,6 +18,11 @@ struct RunSelection {
 /// Why no row of the study is in the selection.
 Idleness why_no_run(const StudyResult& study, const RunSelection& selection);
 
+/// The idleness of a block about the selection, which is no fault where --only leaves out others of
+/// its subjects.
+Idleness unless_left_out(const StudyResult& study, const RunSelection& selection,
+                         Idleness idleness);
+
 /// A number that a block needs of the runs that it is about.
 struct NeededValue {
   std::size_t metric = 0;  ///< index

@@ -133,9 +133,12 @@ std::optional<language::Unit> PlanBuilder::given_unit(const Object& block,
   if (!unit || !dimension || language::fits(*dimension, unit->dimension) ||
       language::fits(unit->dimension, *dimension))
     return unit;
-  diagnostics_.error(field.position, fmt::format("`{}` is in {}, not in {}", block.name,
-                                                 language::describe_dimension(*dimension),
-                                                 language::describe_dimension(unit->dimension)));
+  const bool own = block.given(of_formula) || block.given("trace");
+  diagnostics_.error(
+      field.position,
+      fmt::format("{}`{}` is in {}, not in {}", own ? "`" + block.word("take") + "` of " : "",
+                  block.name, language::describe_dimension(*dimension),
+                  language::describe_dimension(unit->dimension)));
   return std::nullopt;
 }
 

@@ -189,12 +189,14 @@ void judge_references(const std::vector<std::ptrdiff_t>& first,
 Idleness idleness_of(const StudyPlan& plan, const TruthPlan& planned, const StudyResult& result,
                      const TruthResult& truth, const std::string& skipped) {
   if (truth.passed + truth.failed > 0) return {};
+  const SweepValues where = plan.admitted(planned.only);
+  const RunSelection selection{planned.subjects, {&where}};
   // The scene says which laws and integrators its Expect covers.
   if (truth.unjudged > 0)
-    return allowed_by(planned.may_be_empty || planned.of_scene, {Idle::fault, truth.unjudged_why});
+    return allowed_by(planned.may_be_empty || planned.of_scene,
+                      unless_left_out(result, selection, {Idle::fault, truth.unjudged_why}));
   if (!skipped.empty()) return {Idle::left_out, skipped};
-  const SweepValues where = plan.admitted(planned.only);
-  return allowed_by(planned.may_be_empty, why_no_run(result, {planned.subjects, {&where}}));
+  return allowed_by(planned.may_be_empty, why_no_run(result, selection));
 }
 
 /// Judges the Truth over the rows, or over the means of rows that differ in the seed alone, each
