@@ -65,7 +65,8 @@ TEST(RecordCommand, FullDiskIsSaid) {
   const testing::FileSizeLimit full(20'000);
   const testing::CommandResult result = place.hookpoint("run run.hook --for 100s --out out");
   EXPECT_EQ(result.status, 3);
-  EXPECT_NE(result.err.find("cannot write out/fall.csv.partial: File too large, at "),
+  EXPECT_NE(result.err.find("cannot write out/fall.csv.partial: File too large (the limit of file "
+                            "sizes, `ulimit -f`), at "),
             std::string::npos)
       << result.err;
   EXPECT_NE(result.err.find("rows are kept in out/fall.csv.partial"), std::string::npos);
