@@ -162,8 +162,7 @@ void place_on_terrain(Loading& loading) {
     const bool laid = loading.diagnostics.error_count() == errors_before;
     if (laid && robot.mobile && base.boolean(base_field::settled))
       settle(base, ground, robot, loading);
-    if (laid && base.given(base_field::rest_on))
-      warn_of_bodies_below(base, ground, robot, loading);
+    if (laid && base.given(base_field::rest_on)) warn_of_bodies_below(base, ground, robot, loading);
     check_inside(base, ground, robot, loading);
   }
 }

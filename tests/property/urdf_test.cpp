@@ -337,7 +337,8 @@ TEST(Urdf, HoldGivesEachJointASpringAndDamperByItsWeight) {
 TEST(Urdf, AMakersRobotsLoad) {
   const std::filesystem::path source = HOOKPOINT_SOURCE_DIR;
   std::filesystem::path folder = source / "../shared/data/urdf";
-  if (!std::filesystem::exists(folder)) folder = source / "../../shared/data/urdf";  // a worktree
+  if (!std::filesystem::exists(folder))
+    folder = source / "../../shared/data/urdf";  // checked out one folder deeper
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no ../shared/data/urdf";
   const std::map<std::string, double> masses{{"a1", 13.741},
                                              {"as2", 17.64},
