@@ -183,8 +183,10 @@ contact::Footprint carrying(const RunContext& context, const contact::Footprint&
       return footprint;
     }
     Vector3d step = (1. / stiffness) * (inverse(curvature) * left);
+    // Near the least energy a step changes it by less than its rounding.
     const double before = energy(plane);
-    for (int halved = 0; halved < 60 && energy(plane + step) > before; ++halved) step = 0.5 * step;
+    const double most = before + 1e-12 * (std::abs(before) + load * depth);
+    for (int halved = 0; halved < 60 && energy(plane + step) > most; ++halved) step = 0.5 * step;
     plane += step;
   }
   return {};

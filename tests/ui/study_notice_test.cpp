@@ -54,8 +54,8 @@ TEST(StudyFigures, OfNoValueAreNoEmptyFilesAndOfHugeOnesHaveAxes) {
       "Study slides { scene = \"slide.hook\"; duration = 10 ms; Sweep far { values = 1e-300, 1, "
       "1e300; } Sweep v { values = 0.1, 0.2; } Measure impacts; Measure huge { of = w.size.output; "
       "} Subject ours { }\n"
-      "Plot none { x = far; y = impacts; scale = log_x; }\n"
-      "Plot panels { x = far; y = impacts; panels = v; }\n"
+      "Plot none { x = far; y = impacts; scale = log_x; may_be_empty = true; }\n"
+      "Plot panels { x = far; y = impacts; panels = v; may_be_empty = true; }\n"
       "Plot linear { x = far; y = huge; }\n"
       "Plot decades { x = far; y = huge; scale = log_log; } }\n");
   const auto result = work.hookpoint("study study.hook --jobs 1 --out here");

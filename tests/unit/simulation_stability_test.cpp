@@ -127,8 +127,9 @@ TEST(StabilityBound, OfATiltedBoxOfManyPointsLooksAtEachAFewTimes) {
 /// A rod of 0.2 kg on a hinge, let go at `angle` [deg] from straight down.
 std::string rod(const std::string& integrator, double angle) {
   return fmt::format(
-      "World w {{ gravity = 0, 9.81, 0; integrator = {}; Robot b {{ Base.fixed {{ orientation = 0, "
-      "0, 90 deg; }} Chain c {{ Link l {{ angle = {} deg; mass = 0.2; center_of_mass = 0.25, 0, 0; "
+      "World w {{ gravity = 0, 9.81, 0; deltat = 1 ms; integrator = {}; Robot b {{ Base.fixed {{ "
+      "orientation = 0, 0, 90 deg; }} Chain c {{ Link l {{ angle = {} deg; mass = 0.2; "
+      "center_of_mass = 0.25, 0, 0; "
       "inertia = 1e-3, 4e-3, 4e-3, 0, 0, 0; damping = 1e-4; }} }} }} }}",
       integrator, angle);
 }
