@@ -123,10 +123,10 @@ TEST(StepCounts, BeyondADoublesWholeNumbersAreRefusedAtTheirPlace) {
         << arguments << ": " << result.err;
     EXPECT_FALSE(fs::exists(work.folder() / "out")) << arguments;
   }
-  const CommandResult cases = work.hookpoint("study cases.hook --out out");
-  EXPECT_EQ(cases.status, 2) << cases.out << cases.err;
-  EXPECT_TRUE(has(cases.err, "curves.csv, row 5: its time, 1e+297 s, is beyond 1e+09 s"))
-      << cases.err;
+  const CommandResult late = work.hookpoint("study cases.hook --out out");
+  EXPECT_EQ(late.status, 2) << late.out << late.err;
+  EXPECT_TRUE(has(late.err, "curves.csv, row 5: its time, 1e+297 s, is beyond 1e+09 s"))
+      << late.err;
   const CommandResult days = work.hookpoint("check ball.hook");
   EXPECT_EQ(days.err, "");
   work.file("days.hook", "World w { deltat = 1 ms; duration = 1e9 s; }\n");
