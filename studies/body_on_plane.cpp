@@ -163,7 +163,9 @@ contact::Footprint carrying(const RunContext& context, const contact::Footprint&
   Vector3d plane{depth, 0., 0.};
   constexpr int most_steps = 200;
   for (int i = 0; i < most_steps; ++i) {
-    Symmetric3d curvature{1e-9, 1e-9 * size * size, 1e-9 * size * size, 0., 0., 0.};
+    // One point or two leave a direction without curvature: enough is added to invert it.
+    constexpr double added = 1e-6;
+    Symmetric3d curvature{added, added * size * size, added * size * size, 0., 0., 0.};
     Vector3d left = wanted;
     for (const Spring& spring : springs) {
       const double d = depth_of(spring, plane);
