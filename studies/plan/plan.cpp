@@ -698,6 +698,9 @@ void complete_subjects(StudyPlan& plan, const EngineTable& engines) {
       add_word(info.*word, composed.*word);
     info.available |= composed.available;
   }
+  // A subject without a row, under `--quick`, lacks nothing.
+  for (SubjectPlan& subject : plan.subjects)
+    if (subject.info.engine.empty()) subject.info.available = true;
 }
 
 void plan_body(StudyPlan& plan, const Object& study, Diagnostics& diagnostics) {

@@ -72,6 +72,23 @@ TEST(StudyFigures, OfNoValueAreNoEmptyFilesAndOfHugeOnesHaveAxes) {
   }
 }
 
+// Whose values --quick leaves out: it has no runs, and its engine is there.
+TEST(StudyFigures, DoNotMissTheEngineOfASubjectWithoutRuns) {
+  const Workplace work;
+  work.file("slide.hook",
+            "Param dt = 1 ms; World w { deltat = dt; gravity = 9.81; Material m { normal_stiffness "
+            "= 1e4; } Terrain.Flat g { material = m; } Robot block { Base.mobile { rest_on = g; "
+            "Shape.Box { dimensions = .2, .2, .1; mass = 1; } } } }");
+  work.file(
+      "study.hook",
+      "Study s { scene = \"slide.hook\"; duration = 10 ms; Sweep dt { values = 0.1 ms, 1 ms; "
+      "quick_values = 1 ms; } Measure penetration_max; Subject all { } Subject fine { Only dt "
+      "{ values = 0.1 ms; } } Plot depth { x = dt; y = penetration_max; } }\n");
+  const auto result = work.hookpoint("study study.hook --quick --jobs 1 --out here");
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(count(work.read("here/report.html"), "Not on this machine"), 0U);
+}
+
 TEST(WallNotices, AreToldWithTheSceneAndTheSubject) {
   const Workplace work;
   // Explicit Euler gives a pendulum energy.
