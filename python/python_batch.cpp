@@ -7,7 +7,6 @@
 #include <cmath>
 #include <exception>
 #include <new>
-#include <ranges>
 #include <thread>
 #include <utility>
 
@@ -299,7 +298,8 @@ void PythonBatch::take_notices(Member& member) {
 
 void PythonBatch::compare_steps() {
   const auto deltat = [](const Member& member) { return member.kind->experiment.deltat; };
-  const auto [least, most] = std::ranges::minmax(worlds_ | std::views::transform(deltat));
+  const auto [first, last] = std::ranges::minmax_element(worlds_, {}, deltat);
+  const double least = deltat(*first), most = deltat(*last);
   std::string notice;
   if (least < most)
     notice = fmt::format(

@@ -13,8 +13,8 @@ class Hints {
  public:
   /// If an error is found at `position`, `message` at `place` explains it. The first hint at a
   /// position counts.
-  void add(const Position& position, const Position& place, std::string message) {
-    hints_.try_emplace({position.file, position.offset}, place, std::move(message));
+  void add(const Position& position, const Position& place, const std::string& message) {
+    hints_.try_emplace({position.file, position.offset}, place, message);
   }
   /// Adds the hint at `position`, if there is one, to the error that was found there last.
   void explain(const Position& position, Report& report) const {
