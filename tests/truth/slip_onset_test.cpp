@@ -55,7 +55,7 @@ Onset onset_of(const std::string& subject, double mu_s, double mu_k,
   return onset;
 }
 
-/// Where a block that gives way at `force` [N] reaches 1 mm/s, friction being mu_k from there on:
+/// Where a block that slips from `force` [N] reaches 1 mm/s, friction being mu_k from there on:
 /// (force - mu_k m g) t + rate t^2/2 = m v.
 double angle_of(double force, double mu_k) {
   constexpr double rate = 2.;
@@ -94,7 +94,7 @@ TEST(SlipOnset, OfUnequalLoadsIsTheSameWhereFrictionDoesNotFall) {
 }
 
 // The two behind break at F/4 = mu_s (m g/4 - F/8), F = 4.528 N. With mu_k = 0.1 those before would
-// have to carry 2.075 N each of 1.811 N: all give way.
+// have to carry 2.075 N each of 1.811 N: all slip.
 TEST(SlipOnset, OfAnAvalancheIsWhereTheFirstBreaks) {
   const double force = 0.6 * m * g / (1. + 0.6 / 2.);
   const Onset onset = onset_of("contact = hookpoint;", 0.6, 0.1);
