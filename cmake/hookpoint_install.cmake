@@ -1,9 +1,9 @@
 # cmake --install BUILD --prefix PREFIX: the program, its configs, and what a controller is built with. Everything finds everything else
-# relative to itself (application/installation.cpp), so PREFIX may be moved.
+# relative to itself (apps/shared/installation.cpp), so PREFIX may be moved.
 include(CMakePackageConfigHelpers)
 include(hookpoint_add_controller)
 
-# What a controller sees: these headers and what they include. tests/unit/plugin_abi_test.cpp watches them.
+# What a controller sees: these headers and what they include. tests/unit/control/plugin_abi_test.cpp watches them.
 set(HOOKPOINT_CONTROLLER_HEADERS
   control/component.h control/linear_feedback.h control/registry.h control/plugin/plugin_abi.h control/random.h control/first_order.h control/leg_kinematics.h
   math/scalar.h math/vector3.h)

@@ -5,8 +5,8 @@
 
 namespace hookpoint::contact {
 
-/// The point with the bristle that its law lets an accepted state go on with (Reaction::bristle):
-/// in the plane of the tile, and no farther bent than the load holds. Once a step.
+/// The contact point with its bristle projected into the tile's plane and clipped to what the
+/// present load can hold (Reaction::bristle). Once a step.
 template <class Law, class Real>
 PointKinematics<Real> held_point(const Law& law, PointKinematics<Real> point,
                                  const Memory<Real>& memory,
@@ -16,11 +16,11 @@ PointKinematics<Real> held_point(const Law& law, PointKinematics<Real> point,
   return point;
 }
 
-/// The reaction where position and depth are already those of the end of a step `dt` [s], and the
-/// bristle still that of its beginning: the force comes from the bristle moved to the end by its
-/// own rate, as the position was; bristle and rate are those of the beginning. A force from the
-/// bristle left behind would pump energy into its spring, as explicit Euler does. Two evaluations
-/// for a law with a bristle.
+/// The reaction under an integrator whose positions move with the new velocities: position and
+/// depth are those at the end of a step `dt` [s], the bristle is that of its beginning. The force
+/// comes from the bristle moved to the end by its own rate; a force from the bristle left behind
+/// would pump energy into its spring, as explicit Euler does. Bristle and rate of the reaction are
+/// those of the beginning. Two evaluations for a law with a bristle.
 template <class Law, class Real>
 Reaction<Real> reaction_with_moved_bristle(const Law& law, PointKinematics<Real> point,
                                            const Memory<Real>& memory,

@@ -53,15 +53,55 @@ auto one_of(std::tuple<Law...>, std::tuple<Form...>) -> std::variant<Law..., For
 /// One force law or rate form: a variant, so that a loop over points is compiled for each of them.
 using AnyForceLaw = decltype(one_of(std::declval<NamedForceLaws>(), std::declval<RateForms>()));
 
-/// One row of the table.
+/// One row of the table: what a law says of itself, and its closed forms as functions. Arguments,
+/// units and meaning of the functions are those of the law's own file (law_interface.h).
 struct LawDescription {
-  std::string_view name;         ///< as in `contact = hookpoint`
-  std::string_view source;       ///< whose law it is
-  std::string_view summary;      ///< one line
-  ConstantList constants;        ///< those of a Material that it reads
-  ConstantList own_constants;    ///< those without which a Material was not written for it
-  NormalConstants along_normal;  ///< of a force law
-  bool is_impulse_law = false;   ///< event-driven: cannot be paired with an integrator
+  std::string_view name;        ///< as in `contact = hookpoint`
+  std::string_view source;      ///< whose law it is
+  std::string_view summary;     ///< one line
+  ConstantList constants;       ///< those of a Material that it reads
+  ConstantList own_constants;   ///< those without which a Material was not written for it
+  bool is_impulse_law = false;  ///< event-driven: cannot be paired with an integrator
+
+  // Of a force law. The functions are null for an impulse law.
+
+  NormalConstants normal_constants;
+  std::size_t bristle_states = 0;  ///< numbers of Bristle that the law integrates: 0, 3 or 4
+  double (*static_depth)(double load, const Constants& material) = nullptr;
+  std::optional<double> (*stick_displacement)(double load, double normal_load,
+                                              const Constants& material) = nullptr;
+  std::optional<double> (*creep_speed)(double tangent_of_slope,
+                                       const Constants& material) = nullptr;
+  double (*restitution)(double mass, double speed, const Constants& material) = nullptr;
+  LinearContact (*linearise)(double load, const Constants& material) = nullptr;
+  double (*stored_energy)(double depth, const Vector3d& stretch,
+                          const Constants& material) = nullptr;
+  double (*reach)(const Constants& material) = nullptr;
+  double (*resolved_speed)(double load, double dt, const Constants& material) = nullptr;
+  double (*switching_value)(const PointKinematics<double>& point, const Memory<double>& memory,
+                            const Constants& material) = nullptr;
+  bool (*slides_after)(bool falling, const Memory<double>& memory,
+                       const Constants& material) = nullptr;
+  Reaction<double> (*evaluate)(const PointKinematics<double>& point, const Memory<double>& memory,
+                               const Constants& material, const double& dt) = nullptr;
+  /// The row of the law as a differential equation, for an integrator that chooses its own steps.
+  const LawDescription& (*rate_form)() = nullptr;
+  /// The law as a type: a loop over many points visits it once and calls `Law::evaluate` inside.
+  AnyForceLaw variant;
+
+  // Of an impulse law.
+
+  /// Which one it is, and its closed forms (impulse.h).
+  struct OfImpulse {
+    ImpulseLaw law;
+    std::optional<double> (*creep_speed)(double tangent_of_slope, bool single_point,
+                                         const Constants& material) = nullptr;
+    std::optional<double> (*impact_rate)(double gravity, const Constants& material) = nullptr;
+  };
+  std::optional<OfImpulse> impulse;
+
+  /// Whether the law reads the constant.
+  bool reads(Constant constant) const;
 };
 
 /// Every law, force laws first.
@@ -73,59 +113,10 @@ std::vector<std::string> law_names();
 /// The row of a name; null for an unknown name.
 const LawDescription* find_law(std::string_view name);
 
-/// The force law of a name; none for an impulse law or an unknown name.
-std::optional<AnyForceLaw> find_force_law(std::string_view name);
+/// The row of a force law; null for an impulse law or an unknown name.
+const LawDescription* find_force_law(std::string_view name);
 
-/// The impulse law of a name; none for a force law or an unknown name.
-std::optional<ImpulseLaw> find_impulse_law(std::string_view name);
-
-/// The law as a differential equation, for an integrator that chooses its own steps.
-AnyForceLaw rate_form(const AnyForceLaw& law);
-
-/// The constants that shape the law along the normal.
-NormalConstants normal_constants(const AnyForceLaw& law);
-/// Whether the law reads the constant.
-bool reads(const AnyForceLaw& law, Constant constant);
-
-/// The named prediction of the law held by `law`; arguments, units and meaning as in the law's own
-/// file.
-double static_depth(const AnyForceLaw& law, double load, const MaterialConstants<double>& material);
-std::optional<double> stick_displacement(const AnyForceLaw& law, double load, double normal_load,
-                                         const MaterialConstants<double>& material);
-std::optional<double> creep_speed(const AnyForceLaw& law, double tangent_of_slope,
-                                  const MaterialConstants<double>& material);
-double restitution(const AnyForceLaw& law, double mass, double speed,
-                   const MaterialConstants<double>& material);
-LinearContact linearise(const AnyForceLaw& law, double load,
-                        const MaterialConstants<double>& material);
-double stored_energy(const AnyForceLaw& law, double depth, const Vector3d& stretch,
-                     const MaterialConstants<double>& material);
-
-/// The same of an impulse law (impulse.h).
-std::optional<double> creep_speed(ImpulseLaw law, double tangent_of_slope, bool single_point,
-                                  const MaterialConstants<double>& material);
-std::optional<double> impact_rate(ImpulseLaw law, double gravity,
-                                  const MaterialConstants<double>& material);
-
-/// Height above the ground up to which the law acts [m].
-double reach(const AnyForceLaw& law, const MaterialConstants<double>& material);
-/// How many numbers of Bristle the law integrates: 0, 3 or 4.
-std::size_t bristle_states(const AnyForceLaw& law);
-/// Sliding speed [m/s] up to which a step dt [s] resolves the law's bristle under a load [N];
-/// infinite for a law without one.
-double resolved_speed(const AnyForceLaw& law, double load, double dt,
-                      const MaterialConstants<double>& material);
-
-/// The events of a rate form (HasRateForm).
-double switching_value(const AnyForceLaw& law, const PointKinematics<double>& point,
-                       const Memory<double>& memory, const MaterialConstants<double>& material);
-bool slides_after(const AnyForceLaw& law, bool falling, const Memory<double>& memory,
-                  const MaterialConstants<double>& material);
-
-/// Evaluates the law held by `law`; a loop over many points visits once and calls `Law::evaluate`
-/// inside instead.
-Reaction<double> evaluate(const AnyForceLaw& law, const PointKinematics<double>& point,
-                          const Memory<double>& memory, const MaterialConstants<double>& material,
-                          double dt);
+/// The row of an impulse law; null for a force law or an unknown name.
+const LawDescription* find_impulse_law(std::string_view name);
 
 }  // namespace hookpoint::contact

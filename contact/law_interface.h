@@ -30,7 +30,7 @@ struct NormalConstants {
 /// What the table says of a law, force law or impulse law.
 template <class Law>
 concept DescribesItself = requires {
-  // The name that `contact = NAME` asks for, whose law it is, and one line that says what it is.
+  // The name that `contact = NAME` selects, whose law it is, and one line that says what it is.
   { Law::name } -> std::convertible_to<std::string_view>;
   { Law::source } -> std::convertible_to<std::string_view>;
   { Law::summary } -> std::convertible_to<std::string_view>;
@@ -40,6 +40,10 @@ concept DescribesItself = requires {
   // that states none of them, since their defaults suit no ground in particular.
   { Law::own_constants } -> std::convertible_to<ConstantList>;
 };
+
+/// As the step of `evaluate`: the law is a differential equation, for an integrator that chooses
+/// its own steps. Every law of such an integrator has dt -> 0.
+inline constexpr double differential_equation = 0.;
 
 /// The closed forms of a law: what studies put beside measurements, and scenes, advice and step
 /// bounds are computed from. SI; each derived from the law's equations.
@@ -65,7 +69,7 @@ concept Predicts = requires(double number, const Vector3d& stretch, const Consta
   { Law::resolved_speed(number, number, material) } -> std::same_as<double>;
 };
 
-/// What an integrator that chooses its own steps asks for. It stops at events, and a law moves its
+/// What an integrator that chooses its own steps requires. It stops at events, and a law moves its
 /// memory once a step; such a law has another form, the differential equation that it becomes as
 /// dt -> 0.
 template <class Law>
@@ -95,8 +99,8 @@ concept ForceLaw = std::default_initializable<Law> && DescribesItself<Law> && Pr
   { Law::normal_constants } -> std::convertible_to<NormalConstants>;
   // How many numbers of Bristle the integrator carries for it: 0, 3 (a deflection) or 4.
   requires Law::bristle_states == 0 || Law::bristle_states == 3 || Law::bristle_states == 4;
-  // Force on the robot, next memory and bristle rate of one point over a step dt [s]. Pure. 0
-  // for dt: the integrator chooses its own steps.
+  // Force on the robot, next memory and bristle rate of one point over a step dt [s], or as a
+  // differential_equation. Pure.
   { Law::evaluate(point, memory, material, dt) } -> std::same_as<Reaction<double>>;
 };
 

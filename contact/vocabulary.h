@@ -40,9 +40,9 @@ template <class Real>
 struct Reaction {
   Vector3<Real> force;  ///< on the robot, world axes [N]
   Memory<Real> next;    ///< to commit if the step is accepted
-  Bristle<Real>
-      bristle;  ///< with which an accepted state goes on: the point's, in the plane of the tile now
-                ///< under it, and no farther bent than its load can hold; 0 out of reach
+  /// The point's bristle, projected into the plane of the tile now under it and clipped to what its
+  /// load can hold; an accepted state continues with it. 0 out of reach.
+  Bristle<Real> bristle;
   Bristle<Real> bristle_rate;  ///< its time derivative [m/s, 1/s]
 };
 
@@ -71,6 +71,11 @@ struct MaterialConstants {
   Real exponential_height{0.};      ///< d0 [m] above the tile, exponential
   Real sliding_time{0.01};          ///< tau [s], in which S follows stick and slip, exponential
   Real rebound_speed{1e-3};         ///< u0 [m/s], least rebound of a microcollision, impulse laws
+  // Beside every force law (surface_forces.h).
+  Real rolling_resistance{0.};   ///< b [m], lever of the load against rolling
+  Real spinning_resistance{0.};  ///< s [m], the same against spin about the normal
+  Real adhesion{0.};             ///< A [N], pull along the normal on each contact
+  Real friction_across{0.};      ///< mu_k across the foot's x axis; 0: as along it
 };
 
 }  // namespace hookpoint::contact

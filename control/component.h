@@ -193,7 +193,7 @@ class Component {
   virtual void update(const Tick& tick) = 0;
   /// How outputs follow inputs about a rest, from the parameters and `driven()` as they are, before
   /// or after `start`; limits that are not reached there do not count. A loop through what is not
-  /// said is left out of the largest stable step, and the user is told so.
+  /// said is left out of the largest stable step, and the user gets a note.
   virtual std::vector<LinearFeedback> linearise() const { return {}; }
 
   const std::vector<PortDescription>& ports() const { return ports_; }

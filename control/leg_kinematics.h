@@ -1,6 +1,10 @@
-// One insect leg of three joints: the coxa turns about the hip's z (up), femur and tibia about two
-// parallel horizontal axes.
+// Legs of two and three joints, their feet and joint angles in closed form. An insect's coxa turns
+// about the hip's z (up), its femur and tibia about two parallel horizontal axes. A mammal's hip swings
+// the leg sideways about the hip's z (forward), its thigh and shank swing it backwards about two axes
+// parallel to the hip's y (left); the hip's x is down.
 #pragma once
+
+#include <array>
 
 #include "math/vector3.h"
 
@@ -47,5 +51,37 @@ Vector3d foot_position(const LegLengths& lengths, const LegAngles& angles);
 /// (2005), 4.4; the sine of the knee by Heron's product, which keeps its digits where the leg is
 /// nearly stretched.
 LegSolution leg_angles(const LegLengths& lengths, const Vector3d& p_HF, Knee knee);
+
+enum class LegKind {
+  insect,
+  mammal,  ///< hip, thigh and shank; modified Denavit-Hartenberg alpha = -90 deg and d = hip_offset
+           ///< before the thigh, a = thigh before the shank; positive thigh and shank angles swing
+           ///< the foot backwards
+  planar   ///< two links in the hip's plane of x and z, positive angles from x to z
+};
+
+/// A leg of any kind. Femur and tibia are thigh and shank of a mammal.
+struct Leg {
+  LegKind kind = LegKind::insect;
+  LegLengths lengths{};    ///< the coxa's is the insect's [m]
+  double hip_offset = 0.;  ///< the mammal's: from its hip axis to the plane of thigh and shank [m]
+  Knee knee = Knee::up;  ///< of mammals and planar legs `down` is a shank angle >= 0: knee forward
+};
+
+/// From the hip: coxa, femur, tibia, or hip, thigh, shank; of planar legs the first is 0 [rad].
+using JointAngles = std::array<double, 3>;
+
+/// Foot position p_HF, hip axes [m].
+Vector3d foot_position(const Leg& leg, const JointAngles& angles);
+
+struct LegGoal {
+  JointAngles angles;
+  bool reachable;  ///< as of a LegSolution; a mammal's foot is also out of reach nearer to the hip
+                   ///< axis than its offset
+};
+
+/// Joint angles [rad] that put the foot at `p_HF` (hip axes, m), below the mammal's hip. The foot of
+/// a planar leg has no y.
+LegGoal joint_angles(const Leg& leg, const Vector3d& p_HF);
 
 }  // namespace hookpoint::control

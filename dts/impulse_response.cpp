@@ -1,5 +1,7 @@
 #include "dts/impulse_response.h"
 
+#include <utility>
+
 #include "dts/carriers.h"
 #include "dts/configuration.h"
 #include "dts/planar_base.h"
@@ -19,22 +21,43 @@ void for_each_on_path(const Model<Real>& model, std::size_t body, const Visit& v
   }
 }
 
-/// Carries an impulse from `point` to the base, leaving its part along each joint on the way in the
-/// chain's lane of `links[].impulse`, and returns the velocity jump of the base, base axes.
+/// What strikes a body: an impulse [N m s, N s] about its origin, its axes, and one along the joint
+/// that carries it.
+template <class Real>
+struct Blow {
+  std::size_t body = 0;
+  Wrench<Real> impulse;
+  Real along_joint{};
+};
+
+template <class Real>
+Blow<Real> blow_at(const Workspace<Real>& workspace, const BodyPoint<Real>& point,
+                   const Vector3<Real>& impulse_W) {
+  const BodyMotion<Real>& body = workspace.bodies[point.body];
+  return {point.body,
+          {transpose_times(body.R_WB, cross(point.p_WP - body.p_WB, impulse_W)),
+           transpose_times(body.R_WB, impulse_W)},
+          {}};
+}
+
+/// Carries an impulse from the body that it strikes to the base, leaving its part along each joint on
+/// the way in the chain's lane of `links[].impulse`, and returns the velocity jump of the base, base
+/// axes.
 template <class Real>
 Motion<Real> jump_of_base(const Model<Real>& model, Workspace<Real>& workspace,
-                          const BodyPoint<Real>& point, const Vector3<Real>& impulse_W) {
-  const BodyMotion<Real>& body = workspace.bodies[point.body];
-  Wrench<Real> p{-transpose_times(body.R_WB, cross(point.p_WP - body.p_WB, impulse_W)),
-                 -transpose_times(body.R_WB, impulse_W)};
-  for_each_on_path(model, point.body, [&](const ChainGroup<Real>& group, const Seat& seat) {
+                          const Blow<Real>& blow) {
+  Wrench<Real> p{-blow.impulse.moment, -blow.impulse.force};
+  Real along_joint = blow.along_joint;
+  for_each_on_path(model, blow.body, [&](const ChainGroup<Real>& group, const Seat& seat) {
     const std::span<LinkPass<Lanes<Real>>> passes = workspace.passes(group);
     Wrench<Lanes<Real>> struck;
     set_lane(struck, seat.lane, p);
+    Lanes<Real> driven = 0.;
+    driven.lanes[seat.lane] = std::exchange(along_joint, Real{});
     for (std::size_t n = seat.link + 1; n-- > 0;) {
       const LinkConstants<Lanes<Real>>& link = group.links[n];
       LinkPass<Lanes<Real>>& pass = passes[n];
-      pass.impulse = -along(link.joint, struck);
+      pass.impulse = std::exchange(driven, 0.) - along(link.joint, struck);
       struck = inward(link, pass, struck + (pass.impulse * pass.D_inverse) * pass.U);
     }
     p = lane_of(inward(group, struck), seat.lane);
@@ -89,7 +112,7 @@ template <class Real>
 Vector3<Real> response(const Model<Real>& model, Workspace<Real>& workspace,
                        const BodyPoint<Real>& a, const Vector3<Real>& impulse_W,
                        const BodyPoint<Real>& b) {
-  const Motion<Real> base = jump_of_base(model, workspace, a, impulse_W);
+  const Motion<Real> base = jump_of_base(model, workspace, blow_at(workspace, a, impulse_W));
   const Motion<Real> jump = jump_of_body(model, workspace, base, b.body);
   clear_impulses(model, workspace, a.body);
   const BodyMotion<Real>& body = workspace.bodies[b.body];
@@ -110,9 +133,8 @@ Motion<Real> in_world(const Model<Real>& model, const Workspace<Real>& workspace
 /// base axes.
 template <class Real, class OnJoint>
 Motion<Real> jump_of_robot(const Model<Real>& model, Workspace<Real>& workspace,
-                           const BodyPoint<Real>& point, const Vector3<Real>& impulse_W,
-                           const OnJoint& on_joint) {
-  const Motion<Real> base = jump_of_base(model, workspace, point, impulse_W);
+                           const Blow<Real>& blow, const OnJoint& on_joint) {
+  const Motion<Real> base = jump_of_base(model, workspace, blow);
   Motion<Lanes<Real>> carriers = in_all_lanes<Lanes<Real>>(base);
   for (const ChainGroup<Real>& group : model.groups()) {
     if (group.link_count() == 0) continue;
@@ -127,8 +149,20 @@ Motion<Real> jump_of_robot(const Model<Real>& model, Workspace<Real>& workspace,
                     }
                   });
   }
-  clear_impulses(model, workspace, point.body);
+  clear_impulses(model, workspace, blow.body);
   return base;
+}
+
+/// M^-1 J^T of a blow.
+template <class Real>
+void change_of_velocity(const Model<Real>& model, Workspace<Real>& workspace,
+                        const Blow<Real>& blow, std::span<Real> change) {
+  const std::size_t offset = velocity_count(model) - model.link_count();
+  const Motion<Real> base = jump_of_robot(
+      model, workspace, blow, [&](std::size_t l, const Real& rate) { change[offset + l] = rate; });
+  if (!model.mobile()) return;
+  const Motion<Real> jump = in_world(model, workspace, base);
+  write_base_velocity<Real>(jump.angular, jump.linear, change);
 }
 
 }  // namespace
@@ -169,13 +203,13 @@ template <class Real>
 void velocity_change(const Model<Real>& model, Workspace<Real>& workspace,
                      const BodyPoint<Real>& point, const Vector3<Real>& impulse_W,
                      std::span<Real> change) {
-  const std::size_t offset = velocity_count(model) - model.link_count();
-  const Motion<Real> base =
-      jump_of_robot(model, workspace, point, impulse_W,
-                    [&](std::size_t l, const Real& rate) { change[offset + l] = rate; });
-  if (!model.mobile()) return;
-  const Motion<Real> jump = in_world(model, workspace, base);
-  write_base_velocity<Real>(jump.angular, jump.linear, change);
+  change_of_velocity(model, workspace, blow_at(workspace, point, impulse_W), change);
+}
+
+template <class Real>
+void velocity_change_by_joint(const Model<Real>& model, Workspace<Real>& workspace,
+                              std::size_t link, const Real& impulse, std::span<Real> change) {
+  change_of_velocity(model, workspace, Blow<Real>{link + 1, {}, impulse}, change);
 }
 
 template <class Real>
@@ -183,7 +217,7 @@ void apply_impulse(const Model<Real>& model, Workspace<Real>& workspace,
                    const BodyPoint<Real>& point, const Vector3<Real>& impulse_W,
                    State<Real>& state) {
   const Motion<Real> base =
-      jump_of_robot(model, workspace, point, impulse_W,
+      jump_of_robot(model, workspace, blow_at(workspace, point, impulse_W),
                     [&](std::size_t l, const Real& rate) { state.joint_rates[l] += rate; });
   const Motion<Real> jump = in_world(model, workspace, base);
   state.base_angular_velocity += jump.angular;
@@ -195,6 +229,8 @@ template Matrix3<double> impulse_response(const Model<double>&, Workspace<double
                                           const BodyPoint<double>&, const BodyPoint<double>&);
 template void velocity_change(const Model<double>&, Workspace<double>&, const BodyPoint<double>&,
                               const Vector3<double>&, std::span<double>);
+template void velocity_change_by_joint(const Model<double>&, Workspace<double>&, std::size_t,
+                                       const double&, std::span<double>);
 template void apply_impulse(const Model<double>&, Workspace<double>&, const BodyPoint<double>&,
                             const Vector3<double>&, State<double>&);
 

@@ -45,7 +45,13 @@ void velocity_change(const Model<Real>& model, Workspace<Real>& workspace,
                      const BodyPoint<Real>& point, const Vector3<Real>& impulse_W,
                      std::span<Real> change);
 
-/// Adds the velocity change of that impulse to the state.
+/// M^-1 e_j p: the same of an impulse p [N m s, N s] that the drive of link `link`'s joint gives,
+/// against the body that carries it. O(links).
+template <class Real>
+void velocity_change_by_joint(const Model<Real>& model, Workspace<Real>& workspace,
+                              std::size_t link, const Real& impulse, std::span<Real> change);
+
+/// Adds the velocity change of an impulse at a point to the state.
 template <class Real>
 void apply_impulse(const Model<Real>& model, Workspace<Real>& workspace,
                    const BodyPoint<Real>& point, const Vector3<Real>& impulse_W,
@@ -58,6 +64,8 @@ extern template Matrix3<double> impulse_response(const Model<double>&, Workspace
 extern template void velocity_change(const Model<double>&, Workspace<double>&,
                                      const BodyPoint<double>&, const Vector3<double>&,
                                      std::span<double>);
+extern template void velocity_change_by_joint(const Model<double>&, Workspace<double>&, std::size_t,
+                                              const double&, std::span<double>);
 extern template void apply_impulse(const Model<double>&, Workspace<double>&,
                                    const BodyPoint<double>&, const Vector3<double>&,
                                    State<double>&);

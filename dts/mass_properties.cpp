@@ -3,6 +3,23 @@
 #include <numbers>
 
 namespace hookpoint::dts {
+namespace {
+
+/// Calls `visit(volume, a, b, c)` for the tetrahedra between `top` and the faces' triangles, whose
+/// corners it gets as seen from `top`.
+template <class Visit>
+void for_each_tetrahedron(const Vector3d& top, std::span<const Vector3d> vertices,
+                          std::span<const std::vector<std::size_t>> faces, const Visit& visit) {
+  for (const std::vector<std::size_t>& face : faces) {
+    for (std::size_t i = 2; i < face.size(); ++i) {
+      const Vector3d a = vertices[face[0]] - top, b = vertices[face[i - 1]] - top,
+                     c = vertices[face[i]] - top;
+      visit(dot(a, cross(b, c)) / 6., a, b, c);
+    }
+  }
+}
+
+}  // namespace
 
 MassProperties<double> box_mass(double mass, const Vector3d& dimensions) {
   const auto [x, y, z] = dimensions;
@@ -40,6 +57,42 @@ MassProperties<double> legcone_mass(double mass, double length, double proximal_
   return {mass, {centroid, 0., 0.}, {mass * F / (2. * A), across, across, 0., 0., 0.}};
 }
 
+// The cylinder, and two half balls whose centroids are 3/8 r beyond its ends.
+MassProperties<double> capsule_mass(double mass, double radius, double length) {
+  const double ball = sphere_volume(radius);
+  const double balls = mass * ball / (ball + cylinder_volume(radius, length));
+  const MassProperties<double> middle = cylinder_mass(mass - balls, radius, length);
+  const double own = 0.4 * balls * radius * radius;
+  const double apart = balls * length * (0.25 * length + 0.375 * radius);
+  const Symmetric3d& I = middle.inertia;
+  return {mass, {}, {I.xx + own + apart, I.yy + own + apart, I.zz + own, 0., 0., 0.}};
+}
+
+// Tetrahedra with the first vertex as their common corner. Of each of volume V, with a, b, c as seen
+// from there, the first moment is V (a + b + c)/4 and the second V (a a^T + b b^T + c c^T + s s^T)/20
+// with s = a + b + c.
+MassProperties<double> polyhedron_mass(double mass, std::span<const Vector3d> vertices,
+                                       std::span<const std::vector<std::size_t>> faces) {
+  double volume = 0.;
+  Vector3d first;
+  Symmetric3d inertia;  // of volume, about the first vertex: point_inertia() is |p|^2 1 - p p^T
+  for_each_tetrahedron(vertices[0], vertices, faces,
+                       [&](double part, const Vector3d& a, const Vector3d& b, const Vector3d& c) {
+                         const Vector3d sum = a + b + c;
+                         volume += part;
+                         first += 0.25 * part * sum;
+                         for (const Vector3d& p : {a, b, c, sum})
+                           inertia += point_inertia(part / 20., p);
+                       });
+  const Vector3d centroid = (1. / volume) * first;
+  inertia += point_inertia(-volume, centroid);
+  const double density = mass / volume;
+  return {mass,
+          vertices[0] + centroid,
+          {density * inertia.xx, density * inertia.yy, density * inertia.zz, density * inertia.xy,
+           density * inertia.xz, density * inertia.yz}};
+}
+
 double box_volume(const Vector3d& dimensions) { return dimensions.x * dimensions.y * dimensions.z; }
 
 double sphere_volume(double radius) {
@@ -54,6 +107,19 @@ double legcone_volume(double length, double proximal_radius, double distal_radiu
   return std::numbers::pi / 3. * length *
          (proximal_radius * proximal_radius + proximal_radius * distal_radius +
           distal_radius * distal_radius);
+}
+
+double capsule_volume(double radius, double length) {
+  return cylinder_volume(radius, length) + sphere_volume(radius);
+}
+
+double polyhedron_volume(std::span<const Vector3d> vertices,
+                         std::span<const std::vector<std::size_t>> faces) {
+  double volume = 0.;
+  for_each_tetrahedron(
+      vertices[0], vertices, faces,
+      [&](double part, const Vector3d&, const Vector3d&, const Vector3d&) { volume += part; });
+  return volume;
 }
 
 MassProperties<double> placed(const MassProperties<double>& part, const Vector3d& location,

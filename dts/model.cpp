@@ -74,7 +74,7 @@ HipConstants<double> merged_hip(const ChainDescription& description, LinkDescrip
 }
 
 /// Whether the link's elimination leaves nothing 0.
-bool is_full(const LinkDescription& link) { return link.rotor_inertia != 0.; }
+bool is_full(const LinkDescription& link) { return link.full || link.rotor_inertia != 0.; }
 
 /// Puts a link of a chain into lane `lane`.
 template <class Real>
@@ -92,6 +92,14 @@ void set_link(LinkConstants<Lanes<Real>>& links, std::size_t lane, LinkDescripti
   links.rotor_inertia.lanes[lane] = link.rotor_inertia;
 }
 
+/// What leaves the last link of the group's chains.
+template <class Real>
+void eliminate_leaf(ChainGroup<Real>& group) {
+  const LinkConstants<Lanes<Real>>& last = group.links.back();
+  group.leaf = last.full ? eliminate_fully(last, articulated(last.inertia))
+                         : eliminate(last.joint, articulated(last.inertia));
+}
+
 /// Adds a chain to a group of its kind: in the next lane, and for the time being in those beyond.
 template <class Real>
 void add_to(ChainGroup<Real>& group, std::size_t chain, std::size_t first_link, std::size_t carrier,
@@ -106,11 +114,7 @@ void add_to(ChainGroup<Real>& group, std::size_t chain, std::size_t first_link, 
   }
   group.in_use.bits[group.chain_count] = -1;
   ++group.chain_count;
-  if (!links.empty()) {
-    const LinkConstants<Lanes<Real>>& last = group.links.back();
-    group.leaf = last.full ? eliminate_fully(last, articulated(last.inertia))
-                           : eliminate(last.joint, articulated(last.inertia));
-  }
+  if (!links.empty()) eliminate_leaf(group);
 }
 
 /// How many links that carry chains lie between the base and each chain.
@@ -194,6 +198,19 @@ std::size_t Model<Real>::group_for(std::span<const LinkDescription> links, std::
     group.links[n].full = is_full(links[n]);
   }
   return g;
+}
+
+template <class Real>
+void Model<Real>::set_rotor_inertia(std::size_t body, Real rotor_inertia) {
+  const Seat& seat = seat_of(body);
+  ChainGroup<Real>& group = groups_[seat.group];
+  LinkConstants<Lanes<Real>>& link = group.links[seat.link];
+  assert(link.full && "described with a rotor");
+  // Lanes beyond the last chain repeat it.
+  const std::size_t last = seat.lane + 1 == group.chain_count ? lane_count : seat.lane + 1;
+  for (std::size_t lane = seat.lane; lane < last; ++lane)
+    link.rotor_inertia.lanes[lane] = rotor_inertia;
+  if (group.ends_at(seat.link)) eliminate_leaf(group);
 }
 
 template class Model<double>;

@@ -1,7 +1,7 @@
 // The robot as the engine sees it: a reference member (fixed, mobile or planar) that carries serial
 // chains, joints in modified Denavit-Hartenberg form (Reichler & Delcomyn 2000, Fig. 2; Lilly
 // 1993), whose links may carry chains in turn (docs/decisions/0027-chains-on-links.md).
-// Immutable once built; share it freely.
+// Immutable once built, but for set_rotor_inertia; share it freely.
 #pragma once
 
 #include <cstddef>
@@ -34,6 +34,7 @@ struct LinkDescription {
   Vector3d joint_position;        ///< of the fixed transform, preceding link's axes [m]
   Quaterniond joint_orientation;  ///< of the fixed transform
   double rotor_inertia = 0.;      ///< I_r of the joint's motor and gears, at the joint [kg m^2, kg]
+  bool full = false;              ///< it may be given a rotor inertia later
 };
 
 struct ChainDescription {
@@ -57,7 +58,7 @@ struct Seat {
   std::size_t group = 0, lane = 0, link = 0;
 };
 
-/// A robot's constants, ready for the recursions. Immutable: share it between threads, one
+/// A robot's constants, ready for the recursions. Share it between threads, one
 /// Workspace each. Bodies are numbered: 0 the base, then the links chain by chain; link l is body l
 /// + 1.
 template <class Real>
@@ -81,6 +82,9 @@ class Model {
   std::span<const ChainGroup<Real>> link_groups() const { return groups().subspan(base_groups_); }
   /// Some link carries chains.
   bool branches() const { return base_groups_ < groups_.size(); }
+  /// Changes I_r of the joint of body `body` >= 1, which was described with one or as `full`
+  /// [kg m^2, kg].
+  void set_rotor_inertia(std::size_t body, Real rotor_inertia);
   /// Zero for a fixed base, whose mass plays no part.
   const RigidInertia<Real>& base() const { return inertias_[0]; }
   const RigidInertia<Real>& inertia(std::size_t body) const { return inertias_[body]; }

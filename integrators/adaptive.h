@@ -36,8 +36,8 @@ struct Spending {
 /// (Munthe-Kaas 1999). Coordinate by coordinate, which makes the Jacobian a band where groups of
 /// them are independent. s are the states of first order that evolve until the next event; those of
 /// contacts in the air, most of a robot's, are not worth a column of the Jacobian. Each call
-/// of `step` begins anew from (q, v): inputs may have jumped there, and a run that is saved and
-/// resumed goes on bit for bit (docs/decisions/0010). Time is counted from the step's start.
+/// of `step` restarts from (q, v): inputs may have jumped there, and a run that is saved and
+/// resumed continues bit for bit (docs/decisions/0010). Time is counted from the step's start.
 class AdaptiveStepper : public Stepper {
  public:
   /// `most`: Tolerances::most_evaluations. `factorises`: whether the method solves linear systems
@@ -73,7 +73,7 @@ class AdaptiveStepper : public Stepper {
     Kind kind = Kind::failed;
     double time = 0.;  ///< reached, since the step's start [s]
   };
-  /// Begins anew at `time` with the y of `unknowns_`, which may have become more or fewer, not to
+  /// Restarts at `time` with the y of `unknowns_`, which may have become more or fewer, not to
   /// go beyond `end`. False where the library refuses.
   virtual bool begin(double time, double end) = 0;
   /// Takes one internal step, leaving y in `unknowns_` and, of an event, `directions_`.

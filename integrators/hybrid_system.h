@@ -18,8 +18,8 @@ class HybridSystem : public System {
   virtual void commit(double /*t*/, std::span<const double> /*q*/, std::span<const double> /*v*/) {}
   /// Whether `weigh_at` is of use.
   virtual bool has_integrals() const { return false; }
-  /// As `weigh`, of a state on the way of an internal step, told before its commit: the nodes of a
-  /// quadrature.
+  /// As `weigh`, of a state on the way of an internal step, called before its commit: the nodes of
+  /// a quadrature.
   virtual void weigh_at(double /*weight*/, std::span<const double> /*q*/,
                         std::span<const double> /*v*/) {}
 
@@ -28,15 +28,15 @@ class HybridSystem : public System {
   /// How many event functions there are; the number is the same for life.
   virtual std::size_t event_count() const { return 0; }
   /// The event functions at (t, q, v): the integration stops where one changes sign (a point enters
-  /// or leaves the ground), commits and begins anew.
+  /// or leaves the ground), commits and restarts.
   virtual void event_values(double /*t*/, std::span<const double> /*q*/,
                             std::span<const double> /*v*/, std::span<double> /*values*/) {}
   /// After an event's commit: of each event function -1 where it has become negative, +1 where it
   /// has become positive, 0 elsewhere. Its value at the event is 0 but for rounding; which side the
   /// system is on from there is said here.
   virtual void cross_events(std::span<const int> /*directions*/) {}
-  /// After an event's commit: `v` as the motion goes on with it. A system may drop from it what the
-  /// event has ended (the bristle of a point that has left the ground).
+  /// After an event's commit: `v` with which the motion continues. A system may drop from it what
+  /// the event has ended (the bristle of a point that has left the ground).
   virtual void reinitialize(std::span<double> /*v*/) {}
 
   // The unknowns.

@@ -8,7 +8,7 @@
 
 namespace hookpoint::integrators {
 
-class SemiImplicitEuler final : public Stepper {
+class SemiImplicitEuler : public Stepper {
  public:
   explicit SemiImplicitEuler(const System& system)
       : acceleration_(system.velocity_size()),

@@ -33,6 +33,7 @@ struct EigenvalueBound {
 /// as long as h^2 stiffness K + h damping C has no eigenvalue above 1.
 struct MatrixBound {
   double stiffness = 0., damping = 0.;
+  double joints = 1.;  ///< factor of what joints add to K and C; below 0 where they are implicit
 };
 
 using LinearStability = std::variant<BoundFromSteps, EigenvalueBound, MatrixBound>;

@@ -7,6 +7,7 @@
 #include "integrators/arkode.h"
 #include "integrators/cvode.h"
 #include "integrators/explicit_euler.h"
+#include "integrators/implicit_joints.h"
 #include "integrators/rk4.h"
 #include "integrators/semi_implicit_euler.h"
 
@@ -15,13 +16,19 @@ namespace {
 
 // In the order in which they are listed to the user.
 constexpr std::array steppers{
-    explicit_euler, semi_implicit_euler, rk4,                  // fixed steps
-    cvode_bdf,      cvode_adams,         arkode, arkode_imex,  // adaptive
+    explicit_euler, semi_implicit_euler, implicit_joints, rk4,          // fixed steps
+    cvode_bdf,      cvode_adams,         arkode,          arkode_imex,  // adaptive
 };
 
 }  // namespace
 
 std::span<const StepperDescription> stepper_table() { return steppers; }
+
+std::vector<std::string> integrator_names() {
+  std::vector<std::string> names;
+  for (const StepperDescription& stepper : stepper_table()) names.emplace_back(stepper.name);
+  return names;
+}
 
 const StepperDescription* find_stepper(std::string_view name) {
   for (const StepperDescription& stepper : steppers) {

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -30,7 +31,7 @@ struct Statistics {
   double rejected = 0.;     ///< steps taken back: error too large, or no convergence
   double evaluations = 0.;  ///< of accelerations, those for Jacobians included
   double jacobians = 0.;    ///< Jacobian matrices by difference quotients
-  double events = 0.;       ///< roots at which the integration stopped and began anew
+  double events = 0.;       ///< roots at which the integration stopped and restarted
 };
 
 class Stepper {
@@ -72,10 +73,12 @@ struct StepperDescription {
   std::string_view summary;  ///< one line
   /// With work arrays of the system's size; only adaptive ones read the tolerances.
   std::unique_ptr<Stepper> (*make)(const System& system, const Tolerances& tolerances) = nullptr;
-  LinearStability stability = {};  ///< of an adaptive one it is not asked
+  LinearStability stability = {};  ///< of an adaptive one it is not used
   /// A step's displacement is dt times the velocities that it ends with. The bristles of contacts
   /// then move ahead of their forces too (contact::reaction_with_moved_bristle).
   bool moves_with_new_velocity = false;
+  /// It calls System::take_joints_at_end_of.
+  bool implicit_joints = false;
   constexpr bool adaptive() const { return order == 0; }
 };
 
@@ -87,6 +90,9 @@ std::unique_ptr<Stepper> make_fixed_step(const System& system, const Tolerances&
 
 /// Every integrator of this folder.
 std::span<const StepperDescription> stepper_table();
+
+/// Their names, in that order.
+std::vector<std::string> integrator_names();
 
 /// The row of a name; null for an unknown name.
 const StepperDescription* find_stepper(std::string_view name);

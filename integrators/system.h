@@ -32,6 +32,11 @@ class System {
   virtual Status accelerations(Stage stage, double t, std::span<const double> q,
                                std::span<const double> v, std::span<double> a) = 0;
 
+  /// From now on `accelerations` has the springs and dampers of joints as they are at the end of a
+  /// step of `h` [s]: with those, -K_j q - C_j v, and all else in f it solves
+  /// (M + h C_j + h^2 K_j) a = f - K_j (q + h v) - C_j v. 0: as they are at (q, v).
+  virtual void take_joints_at_end_of(double /*h*/) {}
+
   /// q_out = q0 (+) u: the position reached from q0 along the tangent vector `u` (velocity_size
   /// numbers): q0 + u in a vector space, exp(u) q0 for a rotation in world axes. `q_out` does not
   /// alias `q0`.

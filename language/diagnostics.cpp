@@ -5,8 +5,8 @@
 #include <ostream>
 #include <string_view>
 
-#include "unicode/display.h"
-#include "unicode/utf8.h"
+#include "text/display.h"
+#include "text/utf8.h"
 
 namespace hookpoint::language {
 namespace {
@@ -25,10 +25,10 @@ constexpr std::string_view bold = "\033[1m", plain = "\033[0m";
 std::string blanks(std::string_view text) {
   std::string result;
   for (std::size_t tab = text.find('\t'); tab != std::string_view::npos; tab = text.find('\t')) {
-    result.append(unicode::display_width(text.substr(0, tab)), ' ').append(1, '\t');
+    result.append(text::display_width(text.substr(0, tab)), ' ').append(1, '\t');
     text.remove_prefix(tab + 1);
   }
-  return result.append(unicode::display_width(text), ' ');
+  return result.append(text::display_width(text), ' ');
 }
 
 /// A line, or the part of a long one around `at`.
@@ -42,12 +42,12 @@ Excerpt cut_around(std::string_view line, std::size_t at) {
   Excerpt excerpt{line, at};
   if (line.size() > longest_excerpt && at > longest_excerpt / 2) {
     std::size_t cut = at - longest_excerpt / 2;
-    while (cut < at && unicode::continues_character(line[cut])) ++cut;
+    while (cut < at && text::continues_character(line[cut])) ++cut;
     excerpt = {line.substr(cut), at - cut, cut > 0};
   }
   if (excerpt.text.size() > longest_excerpt) {
     std::size_t end = longest_excerpt;
-    while (end > excerpt.at && unicode::continues_character(excerpt.text[end])) --end;
+    while (end > excerpt.at && text::continues_character(excerpt.text[end])) --end;
     excerpt.text = excerpt.text.substr(0, end);
     excerpt.cut_behind = true;
   }
@@ -69,11 +69,9 @@ void print_excerpt(std::ostream& out, const Position& position, std::string_view
   const Excerpt excerpt = cut_around(line, std::min(offset, line.size()));
   const std::string_view before = excerpt.cut_before ? left_out : "";
   const std::string_view behind = excerpt.cut_behind ? left_out : "";
-  const std::size_t width =
-      unicode::display_width(excerpt.text.substr(excerpt.at, position.length));
+  const std::size_t width = text::display_width(excerpt.text.substr(excerpt.at, position.length));
   const std::string number = std::to_string(place.line);
-  out << ' ' << number << " | " << before << unicode::printable(excerpt.text, true) << behind
-      << '\n';
+  out << ' ' << number << " | " << before << text::printable(excerpt.text, true) << behind << '\n';
   out << std::string(number.size() + 1, ' ') << " | " << std::string(before.size(), ' ')
       << blanks(excerpt.text.substr(0, excerpt.at)) << colour << '^'
       << std::string(std::max<std::size_t>(width, 1) - 1, '~') << (colour.empty() ? "" : plain)
@@ -95,6 +93,17 @@ void Diagnostics::note(const Position& position, std::string message) {
   if (errors_ <= limit) add(Severity::note, position, std::move(message));
 }
 
+void Diagnostics::report_again(const Diagnostic& diagnostic, const Position& position) {
+  switch (diagnostic.severity) {
+    case Severity::error:
+      return error(position, diagnostic.message);
+    case Severity::warning:
+      return warning(position, diagnostic.message);
+    case Severity::note:
+      return note(position, diagnostic.message);
+  }
+}
+
 Diagnostics Diagnostics::without(const std::function<bool(const Diagnostic& warning)>& drop) const {
   Diagnostics left = *this;
   bool dropped = false;
@@ -110,6 +119,11 @@ void Diagnostics::add(Severity severity, const Position& position, std::string m
   diagnostics_.push_back({severity, position, std::move(message)});
 }
 
+std::string Diagnostics::first_error() const {
+  const auto found = std::ranges::find(diagnostics_, Severity::error, &Diagnostic::severity);
+  return found == diagnostics_.end() ? "" : found->message;
+}
+
 void Diagnostics::print(std::ostream& out, bool colours) const {
   for (const Diagnostic& diagnostic : diagnostics_) {
     const Style& style = styles[static_cast<std::size_t>(diagnostic.severity)];
@@ -117,13 +131,13 @@ void Diagnostics::print(std::ostream& out, bool colours) const {
     const SourceFile* const file = diagnostic.position.file;
     const LineColumn place = file == nullptr ? LineColumn{} : line_and_column(diagnostic.position);
     if (file != nullptr) {
-      out << (colours ? bold : "") << unicode::printable(file->path) << ':';
+      out << (colours ? bold : "") << text::printable(file->path) << ':';
       // A file without text has no place in it: it is not there, or cannot be read.
       if (!file->text.empty()) out << place.line << ':' << place.column << ':';
       out << ' ';
     }
     out << colour << style.name << ": " << (colours ? plain : "")
-        << unicode::printable(diagnostic.message) << '\n';
+        << text::printable(diagnostic.message) << '\n';
     if (file != nullptr && is_seen(line_text(*file, place.line)))
       print_excerpt(out, diagnostic.position, colour);
   }

@@ -1,4 +1,4 @@
-// Diagnostics with a place: what the user is told, all of a file's errors in one go, at most
+// Diagnostics with a place: what is reported to the user, all of a file's errors in one go, at most
 // `limit` of them.
 #pragma once
 
@@ -30,6 +30,10 @@ class Diagnostics {
   /// A second place that belongs to the diagnostic before it ("defined here").
   void note(const Position& position, std::string message);
 
+  /// Reports a diagnostic again, at another place: one of an included file, where the includer can
+  /// mend it.
+  void report_again(const Diagnostic& diagnostic, const Position& position);
+
   /// Keeps what positions point into alive as long as the diagnostics.
   void keep(std::shared_ptr<const void> source) { kept_.push_back(std::move(source)); }
 
@@ -38,6 +42,8 @@ class Diagnostics {
 
   bool has_errors() const { return errors_ > 0; }
   std::size_t error_count() const { return errors_; }
+  /// Its message; "" without one.
+  std::string first_error() const;
   const std::vector<Diagnostic>& all() const { return diagnostics_; }
 
   /// `path:line:column: error: message`, the line, and a caret under the place; one line saying how

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "unicode/display.h"
+#include "text/display.h"
 
 namespace hookpoint::language {
 
@@ -12,7 +12,7 @@ namespace {
 std::string clipped(std::string message) {
   constexpr std::size_t longest = 600;
   if (message.size() <= longest) return message;
-  return std::string(unicode::first_characters(message, longest)) + "...";
+  return std::string(text::first_characters(message, longest)) + "...";
 }
 
 }  // namespace

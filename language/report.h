@@ -30,7 +30,7 @@ class Report {
   void error(const Position& position, std::string message);
   /// A place that belongs to the error before it.
   void note(const Position& position, std::string message);
-  /// What is no mistake and to be known all the same; told before the errors.
+  /// What is no mistake and to be known all the same; reported before the errors.
   void remark(const Position& position, std::string message);
   /// Adds the syntax errors of a file.
   void append(const Report& syntax_errors);

@@ -1,16 +1,18 @@
 #include "language/source.h"
 
 #include <algorithm>
+#include <utility>
 
-#include "unicode/utf8.h"
+#include "text/utf8.h"
 
 namespace hookpoint::language {
 
-void index_lines(SourceFile& file) {
-  file.line_starts.assign(1, 0);
+SourceFile source_file(std::string path, std::string text) {
+  SourceFile file{std::move(path), std::move(text), {0}};
   for (std::size_t i = 0; i < file.text.size(); ++i) {
     if (file.text[i] == '\n') file.line_starts.push_back(i + 1);
   }
+  return file;
 }
 
 std::string_view line_text(const SourceFile& file, std::size_t line) {
@@ -28,7 +30,7 @@ LineColumn line_and_column(const Position& position) {
   const auto line = static_cast<std::size_t>(after - starts.begin());
   const std::string_view before =
       std::string_view(position.file->text).substr(starts[line - 1], offset - starts[line - 1]);
-  return {line, unicode::code_points(before).size() + 1};
+  return {line, text::code_points(before).size() + 1};
 }
 
 }  // namespace hookpoint::language

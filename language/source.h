@@ -28,8 +28,8 @@ struct LineColumn {
 };
 LineColumn line_and_column(const Position& position);
 
-/// Fills `line_starts` from `text`.
-void index_lines(SourceFile& file);
+/// `text` under the name `path`, with its lines found.
+SourceFile source_file(std::string path, std::string text);
 /// Line number `line`, from 1, without its end.
 std::string_view line_text(const SourceFile& file, std::size_t line);
 

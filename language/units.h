@@ -35,7 +35,7 @@ std::optional<ScannedUnit> scan_unit(std::string_view text);
 std::optional<Unit> parse_unit(std::string_view text);
 /// "kg.m/s^2"; "" for a pure number.
 std::string unit_text(const Dimension& dimension);
-/// The dimension as a user is told of it: "kg.m/s^2", or "no unit".
+/// The dimension as a user reads it: "kg.m/s^2", or "no unit".
 std::string describe_dimension(const Dimension& dimension);
 
 /// Whether a value of dimension `value` may be used where `expected` is wanted: pure numbers may,

@@ -18,7 +18,7 @@ Real nearest_integer(const Real& x) {
 /// Sine and cosine of `angle` [rad] to about 1 ulp of 1. The angle less k pi/2 lies in [-pi/4,
 /// pi/4] (Cody & Waite 1980: pi/2 in three parts, two of 33 bits, so that k times them is exact),
 /// where the Taylor series to r^17 and r^16 are exact to rounding. Beyond 1e5 rad, where k is too
-/// long for that, the library is asked.
+/// long for that, the library is called.
 template <class Real>
 SineCosine<Real> polynomial_sine_cosine(const Real& angle) {
   constexpr double half_pi_high = 0x1.921fb544p+0;

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "simulation/engine.h"
-#include "simulation/experiment.h"
+#include "simulation/engine_interface/engine.h"
+#include "simulation/experiment/experiment.h"
 
 namespace hookpoint::reference {
 
@@ -16,6 +16,9 @@ namespace hookpoint::reference {
 namespace feature {
 inline constexpr std::string_view chains = "robots with chains";
 inline constexpr std::string_view planar = "bases that are kept in a plane";
+inline constexpr std::string_view loops = "loops of links";
+inline constexpr std::string_view compliant_loops = "loops with a stiffness";
+inline constexpr std::string_view couplings = "coupled joints (mimic)";
 inline constexpr std::string_view points = "boundary points that touch";
 inline constexpr std::string_view prismatic = "prismatic joints";
 inline constexpr std::string_view massless = "links without mass";
@@ -28,11 +31,25 @@ inline constexpr std::string_view tile_friction = "friction of single tiles";
 inline constexpr std::string_view tile_softness = "stiffness and damping of single tiles";
 inline constexpr std::string_view unmatched_softness =
     "stiffness and damping of single tiles without `settings = matched`";
+inline constexpr std::string_view foot_softness =
+    "stiffness and damping of several foot materials at `settings = matched`";
 inline constexpr std::string_view tile_restitution = "restitution of single tiles";
 inline constexpr std::string_view height_field = "height fields";
-inline constexpr std::string_view legcone = "a single body with the shape Legcone";
-inline constexpr std::string_view cylinder = "a single body with the shape Cylinder";
+inline constexpr std::string_view legcone = "the shape Legcone";
+inline constexpr std::string_view cylinder = "the shape Cylinder";
+inline constexpr std::string_view disc = "the shape Disc";
+inline constexpr std::string_view lying_cylinder = "cylinders and wheels that roll";
+inline constexpr std::string_view capsule = "the shape Capsule";
+inline constexpr std::string_view hull = "the shape Hull";
+inline constexpr std::string_view obstacles = "obstacles";
+inline constexpr std::string_view points_on_obstacles = "boundary points on obstacles";
+inline constexpr std::string_view between_robots = "robots that touch each other";
+inline constexpr std::string_view wired_gravity = "gravity that a wire drives";
+inline constexpr std::string_view belt = "ground whose material moves (velocity)";
+inline constexpr std::string_view moving_frame = "ground that moves (frame_velocity)";
 inline constexpr std::string_view law = "contact laws and integrators";
+inline constexpr std::string_view surface_forces =
+    "adhesion, rolling and spinning resistance, friction across";
 inline constexpr std::string_view hips = "hip_force and hip_moment of a Chain";
 inline constexpr std::string_view saving = "movies and resumed runs";
 }  // namespace feature
@@ -54,20 +71,30 @@ inline constexpr OwnGap single_friction_gap{
     feature::two_frictions, simulation::EngineGap::Handling::noticed,
     "this engine has one coefficient of friction, and it is the kinetic one"};
 
+/// Of a shape that touches, the feature that an engine may lack; empty of a box and a ball, which every
+/// engine has.
+std::string_view feature_of(const simulation::ShapeGeometry& geometry);
+/// The experiment with the samples of the shapes which `engine` lacks in their place.
+simulation::Experiment with_samples(simulation::Experiment experiment,
+                                    const simulation::EngineDescription& engine);
+
 /// The gaps that every peer has (its own law and integrator, no hips, nothing to resume from), then
 /// those of one engine.
 std::vector<simulation::EngineGap> common_gaps_and(std::span<const OwnGap> own);
 
 /// What the user should know of the experiment's run in that engine, one line a gap that it meets
-/// and that is `noticed`. Throws ExperimentError where the gap is `refused`, or where no peer can
+/// and that is `noticed`. Throws ExperimentError where the gap is `refused`, or where the engine cannot
 /// run the experiment: a mobile body without mass or, on a terrain, with nothing that touches.
 std::vector<std::string> check_supported(const simulation::Experiment& experiment,
                                          const simulation::EngineDescription& engine);
 
+/// Whether a shape or a point of the body has a material of its own.
+bool has_material(const simulation::BodySpec& body);
 /// A material by its index; the constants' defaults where the experiment has none.
 contact::MaterialConstants<double> material_at(const simulation::Experiment& experiment,
                                                int material);
-/// The ground's material where no patch lies; the constants' defaults where there is no terrain.
+/// What the ground, where no patch lies, and all that touches it make together. Where what touches is of
+/// several materials, the ground's; the constants' defaults where there is no terrain.
 contact::MaterialConstants<double> ground_material(const simulation::Experiment& experiment);
 
 /// The one coefficient of friction of an engine that has no other: the kinetic one.

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "reference/robot_tree.h"
-#include "simulation/engine.h"
+#include "simulation/engine_interface/engine.h"
 
 namespace hookpoint::reference {
 

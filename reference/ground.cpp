@@ -1,36 +1,51 @@
 #include "reference/ground.h"
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 
 namespace hookpoint::reference {
 namespace {
 
 struct Builder {
   const simulation::TerrainSpec& terrain;
-  double lowered_by;
 
   Ground operator()(const simulation::FlatSpec& flat) const {
-    return GroundPlane{{0., 0., 1.}, flat.height - lowered_by};
+    return GroundPlane{{0., 0., 1.}, flat.height};
   }
 
   Ground operator()(const simulation::SlopeSpec& slope) const {
     const double along = std::sin(slope.angle);
     return GroundPlane{
         {along * std::cos(slope.azimuth), along * std::sin(slope.azimuth), std::cos(slope.angle)},
-        -lowered_by};
+        0.};
   }
 
   Ground operator()(const simulation::GridSpec& grid) const {
-    GroundMesh mesh = simulation::grid_mesh(grid, terrain.spacing);
-    for (Vector3d& vertex : mesh.vertices) vertex.z -= lowered_by;
-    return mesh;
+    if (grid.stairs) return GroundStairs{};
+    return simulation::grid_mesh(grid, terrain.spacing);
   }
 };
 
 }  // namespace
 
-Ground ground_of(const simulation::TerrainSpec& terrain, double lowered_by) {
-  return std::visit(Builder{terrain, lowered_by}, terrain.surface);
+bool ground_frame_moves(const simulation::Experiment& experiment) {
+  const simulation::TerrainSpec& terrain = *experiment.terrain;
+  const std::string trail = experiment.world + "." + terrain.name + ".frame_";
+  return terrain.frame_velocity != Vector3d{} || terrain.frame_angular_velocity != Vector3d{} ||
+         std::ranges::any_of(experiment.wires, [&](const simulation::WireSpec& wire) {
+           return wire.to.starts_with(trail);
+         });
+}
+
+Vector3d along_ground(const simulation::TerrainSpec& terrain, const Vector3d& velocity) {
+  const Ground ground = ground_of(terrain);
+  const auto* plane = std::get_if<GroundPlane>(&ground);
+  return plane != nullptr ? tangential(velocity, plane->normal) : velocity;
+}
+
+Ground ground_of(const simulation::TerrainSpec& terrain) {
+  return std::visit(Builder{terrain}, terrain.surface);
 }
 
 }  // namespace hookpoint::reference

@@ -1,11 +1,11 @@
-// The terrain as a peer wants it: an infinite plane, or triangles.
+// The terrain as a peer wants it: an infinite plane, triangles, or the boxes of stairs.
 #pragma once
 
 #include <variant>
 
 #include "math/vector3.h"
-#include "simulation/experiment.h"
-#include "simulation/ground_mesh.h"
+#include "simulation/experiment/experiment.h"
+#include "simulation/experiment/ground_mesh.h"
 
 namespace hookpoint::reference {
 
@@ -17,10 +17,16 @@ struct GroundPlane {
   double offset = 0.;  ///< [m]
 };
 using simulation::GroundMesh;
-using Ground = std::variant<GroundPlane, GroundMesh>;
+/// Stairs: all of them are among solids_of (solids.h).
+struct GroundStairs {};
+using Ground = std::variant<GroundPlane, GroundMesh, GroundStairs>;
 
-/// `lowered_by` [m]: a plane along its normal, a grid's vertices straight down, for balls about
-/// points that are to meet the ground where the points do (touching_points.h).
-Ground ground_of(const simulation::TerrainSpec& terrain, double lowered_by = 0.);
+Ground ground_of(const simulation::TerrainSpec& terrain);
+
+/// Whether the ground moves as a whole, not its material alone.
+bool ground_frame_moves(const simulation::Experiment& experiment);
+
+/// Of a velocity of the ground's material the part along a plane; on a grid all of it.
+Vector3d along_ground(const simulation::TerrainSpec& terrain, const Vector3d& velocity);
 
 }  // namespace hookpoint::reference

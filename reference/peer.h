@@ -11,9 +11,8 @@
 
 #include "reference/experiment_checks.h"
 #include "reference/settings.h"
-#include "simulation/closed_form.h"
-#include "simulation/creep_velocity.h"
-#include "simulation/engine.h"
+#include "simulation/engine_interface/engine.h"
+#include "simulation/experiment/closed_form.h"
 
 namespace hookpoint::reference {
 

@@ -12,12 +12,12 @@
 #include <variant>
 
 #include "reference/experiment_checks.h"
+#include "reference/ground.h"
 #include "reference/touching_points.h"
-#include "simulation/effort_watch.h"
-#include "simulation/engine/robot_system.h"
-#include "simulation/joint_properties.h"
-#include "simulation/names.h"
-#include "simulation/restartable.h"
+#include "simulation/engine_interface/effort_watch.h"
+#include "simulation/engine_interface/restartable.h"
+#include "simulation/experiment/joint_forces.h"
+#include "simulation/experiment/names.h"
 
 namespace hookpoint::reference {
 namespace {
@@ -54,7 +54,7 @@ class PeerEngine final : public simulation::Engine, public simulation::Restartab
  public:
   PeerEngine(const simulation::Experiment& experiment, const Peer& peer,
              std::vector<std::string> notices)
-      : experiment_(experiment),
+      : experiment_(with_samples(experiment, peer.describe())),
         peer_(peer),
         world_(library_world(experiment_, peer)),
         tree_(robot_tree(experiment_)),
@@ -72,13 +72,14 @@ class PeerEngine final : public simulation::Engine, public simulation::Restartab
     state_.joints.resize(passive_joints_.size());
     anchors_.resize(passive_joints_.size());
     state_.points.resize(experiment_.points.size());
+    state_.loops.resize(experiment_.loops.size());
     state_.notices = std::move(notices);
     take_start(tree_);
   }
 
   /// The library's world is made again: its own state can be neither read nor set.
   void restart(const simulation::Experiment& start) override {
-    world_ = library_world(start, peer_);
+    world_ = library_world(with_samples(start, peer_.describe()), peer_);
     failure_ = {};
     simulation::restart_inputs(start, inputs_);
     acting_.joint_torques = inputs_.joint_torques;
@@ -105,6 +106,8 @@ class PeerEngine final : public simulation::Engine, public simulation::Restartab
     if (!trouble.empty())
       return fail(StepStatus::Kind::solver_failed, 0, trouble + "; a smaller deltat may help");
     publish();
+    for (simulation::SurfaceMotion& obstacle : inputs_.obstacles)
+      simulation::advance(obstacle, experiment_.deltat);
     if (std::string notice = world_->notice(); !notice.empty()) {
       std::array<char, 32> time{};
       std::snprintf(time.data(), time.size(), "%g s: ", state_.time);
@@ -150,6 +153,7 @@ class PeerEngine final : public simulation::Engine, public simulation::Restartab
       state_.joints[joint] = {body.link->angle, body.link->rate};
       anchors_[joint] = body.link->angle;
     }
+    std::ranges::fill(state_.loops, simulation::LoopState{});
     next_bodies_ = state_.bodies;
     next_joints_ = state_.joints;
   }
@@ -159,15 +163,20 @@ class PeerEngine final : public simulation::Engine, public simulation::Restartab
   void take_inputs() {
     acting_.forces = inputs_.forces;
     acting_.pull = inputs_.pull;
+    acting_.ground = inputs_.ground;
+    if (inputs_.ground.belt_velocity != Vector3d{})
+      acting_.ground.belt_velocity =
+          along_ground(*experiment_.terrain, inputs_.ground.belt_velocity);
+    acting_.obstacles = inputs_.obstacles;
     for (const TreeBody& body : tree_.bodies) {
       if (body.link == nullptr) continue;
       const auto joint = static_cast<std::size_t>(body.joint);
       const JointState& now = state_.joints[joint];
-      const dts::JointProperties<double>& passive = passive_joints_[joint];
-      anchors_[joint] = dts::dragged_anchor(passive, now.angle, anchors_[joint]);
+      const simulation::JointProperties& passive = passive_joints_[joint];
+      anchors_[joint] = simulation::dragged_anchor(passive, now.angle, anchors_[joint]);
       acting_.joint_torques[joint] =
-          dts::drive_torque(passive, inputs_.joint_torques[joint]) +
-          dts::passive_joint_torque(passive, now.angle, now.rate, anchors_[joint]);
+          simulation::drive_torque(passive, inputs_.joint_torques[joint]) +
+          simulation::passive_joint_torque(passive, now.angle, now.rate, anchors_[joint]);
     }
   }
 
@@ -192,9 +201,21 @@ class PeerEngine final : public simulation::Engine, public simulation::Restartab
     if (told == simulation::GroundForceTime::now) read_ground_forces(next_bodies_);
     std::ranges::copy(next_bodies_, state_.bodies.begin());
     std::ranges::copy(next_joints_, state_.joints.begin());
+    publish_loops();
     ++state_.step;
     state_.time = static_cast<double>(state_.step) * experiment_.deltat;
     if (has_details_) publish_points();
+  }
+
+  void publish_loops() {
+    world_->read_loops(state_.loops);
+    for (std::size_t i = 0; i < experiment_.loops.size(); ++i) {
+      const simulation::LoopSpec& loop = experiment_.loops[i];
+      const BodyState& a = state_.bodies[tree_.index(loop.robot, loop.body_a)];
+      const BodyState& b = state_.bodies[tree_.index(loop.robot, loop.body_b)];
+      state_.loops[i].error = norm(a.position + rotate(a.orientation, loop.point_a) - b.position -
+                                   rotate(b.orientation, loop.point_b));
+    }
   }
 
   /// The ground's forces on bodies that stood as `bodies` when these acted.
@@ -254,7 +275,7 @@ class PeerEngine final : public simulation::Engine, public simulation::Restartab
   simulation::WorldState state_;
   std::vector<BodyState> next_bodies_;
   std::vector<JointState> next_joints_;
-  std::vector<dts::JointProperties<double>> passive_joints_;
+  std::vector<simulation::JointProperties> passive_joints_;
   std::vector<double> anchors_;  ///< where the joints' dry friction is hooked
   bool has_details_ = false;
   StepStatus failure_;
@@ -265,7 +286,7 @@ class PeerEngine final : public simulation::Engine, public simulation::Restartab
 void check_triangles(const simulation::Experiment& experiment, const Peer& peer) {
   if (!experiment.terrain || peer.triangles.most == 0) return;
   const auto* grid = std::get_if<simulation::GridSpec>(&experiment.terrain->surface);
-  if (grid == nullptr) return;
+  if (grid == nullptr || grid->stairs) return;
   const auto count = 2 * static_cast<std::size_t>(std::max(grid->rows - 1, 0)) *
                      static_cast<std::size_t>(std::max(grid->columns - 1, 0));
   if (count > peer.triangles.most)

@@ -25,8 +25,8 @@ class PeerWorld {
   virtual ~PeerWorld() = default;
   /// Advances by one step under `inputs.forces` and `inputs.pull` (external_forces.h), and
   /// `inputs.joint_torques`, one a joint: the drive's and what the joint exerts by itself at the
-  /// step's start (dts/joint_forces.h), together. Empty on success, else the library's trouble in
-  /// a few words.
+  /// step's start (simulation/experiment/joint_forces.h), together. Empty on success, else the
+  /// library's trouble in a few words.
   virtual std::string advance(const simulation::WorldInputs& inputs) = 0;
   /// The body whose load or motion is beyond what the library's own checks let pass (extremes.h):
   /// advance() has then not taken the step, which would have led to a state that is not finite.
@@ -40,6 +40,9 @@ class PeerWorld {
                     std::span<simulation::JointState> joints) const = 0;
   /// Writes the ground's force on each of touching_points(), world axes [N], in the last step.
   virtual void read_points(std::span<Vector3d> forces) const = 0;
+  /// Writes the force and moment of each Loop in the last step, on its body a; `error` is the
+  /// caller's.
+  virtual void read_loops(std::span<simulation::LoopState> /*loops*/) const {}
   /// Adds the forces of the last step on shapes: those that are not on touching_points().
   virtual void read_shapes(std::vector<ShapeForce>& forces) const = 0;
   /// When all these forces act.

@@ -12,24 +12,23 @@ namespace hookpoint::reference {
 namespace {
 
 /// What of a body may touch a plane, in body axes: its points, or the corners of its one box. Empty
-/// for other shapes.
+/// for other shapes, and for both together.
 std::vector<contact::Foot> candidates(const simulation::Experiment& experiment) {
   const simulation::BodySpec& base = experiment.robots[0].base;
+  const auto shapes = touching_shapes(experiment, base);
   std::vector<contact::Foot> points;
-  if (touches_by_points(experiment, 0)) {
-    for (std::size_t i = 0; i < base.boundary_points.size(); ++i)
-      points.push_back({base.boundary_points[i], base.boundary_radius(i), i});
-    return points;
-  }
-  if (base.shapes.size() != 1) return {};
-  const auto* box = std::get_if<simulation::Box>(&base.shapes[0].geometry);
+  for (const TouchingPoint& point : touching_points(experiment, base, 0))
+    points.push_back({point.p_BP, point.radius, static_cast<std::size_t>(point.point)});
+  if (shapes.empty()) return points;
+  if (shapes.size() != 1 || !points.empty()) return {};
+  const simulation::ShapeSpec& shape = *shapes.front();
+  const auto* box = std::get_if<simulation::Box>(&shape.geometry);
   if (box == nullptr) return {};
   const Vector3d half = 0.5 * box->dimensions;
   for (const double x : {-half.x, half.x})
     for (const double y : {-half.y, half.y})
       for (const double z : {-half.z, half.z})
-        points.push_back(
-            {base.shapes[0].location + rotate(base.shapes[0].orientation, Vector3d{x, y, z})});
+        points.push_back({shape.location + rotate(shape.orientation, Vector3d{x, y, z})});
   return points;
 }
 

@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "simulation/closed_form.h"
-#include "simulation/experiment.h"
+#include "simulation/experiment/closed_form.h"
+#include "simulation/experiment/experiment.h"
 
 namespace hookpoint::reference {
 

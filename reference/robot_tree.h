@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "simulation/engine.h"
-#include "simulation/kinematics.h"
+#include "simulation/engine_interface/engine.h"
+#include "simulation/experiment/kinematics.h"
 
 namespace hookpoint::reference {
 

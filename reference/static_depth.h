@@ -1,8 +1,8 @@
 // How deep a contact of a reference engine rests under a load, where all engines are alike.
 #pragma once
 
-#include "simulation/closed_form.h"
-#include "simulation/experiment.h"
+#include "simulation/experiment/closed_form.h"
+#include "simulation/experiment/experiment.h"
 
 namespace hookpoint::reference {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "reference/resting_body.h"
-#include "simulation/creep_velocity.h"
+#include "simulation/engine_interface/engine.h"
 
 namespace hookpoint::reference {
 

@@ -1,5 +1,4 @@
-// What of a robot touches the ground in a peer: its boundary points as in our own engine, or, of a
-// single body, its shapes.
+// What of a robot touches in a peer: its shapes as they are, or boundary points as in our own engine.
 #pragma once
 
 #include <vector>
@@ -10,24 +9,31 @@
 namespace hookpoint::reference {
 
 /// Of the ball in place of a boundary point of radius 0, in an engine that takes shapes only [m].
-/// Its centre is at the point, and the ground that it meets is lowered by as much (ground_of).
+/// Its centre is at the point, and the ground that it meets is lowered by as much.
 inline constexpr double point_ball_radius = 1e-3;
 
-/// A robot with chains, with a ContactPoint that the file names or without shapes on its base
-/// touches by its boundary points; any other one by its shapes.
-bool touches_by_points(const simulation::Experiment& experiment, int robot);
+/// Whether a shape touches by the library's own colliders: under `touch = shapes`, unless its samples
+/// are to do so (ShapeSpec::boundary_points).
+bool touches_as_it_is(const simulation::Experiment& experiment, const simulation::ShapeSpec& shape);
+/// Those of a body, in its order.
+std::vector<const simulation::ShapeSpec*> touching_shapes(const simulation::Experiment& experiment,
+                                                          const simulation::BodySpec& body);
 
 struct TouchingPoint {
   std::size_t body = 0;  ///< index in RobotTree::bodies
   int point = 0;         ///< index into BodySpec::boundary_points
   Vector3d p_BP;         ///< body axes [m]
   double radius = 0.;    ///< of the ball about it [m]
+  int material = simulation::no_material;
 };
 
-/// The boundary points of every body that can move, of robots that touch by points; bodies in
-/// order.
+/// Boundary points of every body that can move, but for the samples of shapes that touch as they are;
+/// bodies in order.
 std::vector<TouchingPoint> touching_points(const simulation::Experiment& experiment,
                                            const RobotTree& tree);
+/// Of one body, counted as `body`.
+std::vector<TouchingPoint> touching_points(const simulation::Experiment& experiment,
+                                           const simulation::BodySpec& spec, std::size_t body);
 
 /// Where a point meets the ground: a ball at its centre less its radius along the normal of the
 /// tile under the centre.

@@ -131,7 +131,7 @@ class Path {
     }
   }
 
-  // A point that can move along one line only (a hinged link without a base to give way) is wedged
+  // A point that can move along one line only (a hinged link on a fixed base) is wedged
   // by friction that holds it, however great p_n. What lifts it is then taken along the normal
   // alone: p stays in the cone, and no more energy comes back than e^2 of the compression.
   void leave_standstill() {

@@ -20,7 +20,7 @@ struct CollisionProblem {
   Vector3d n;  ///< unit normal, out of the ground
   double mu = 0.;             ///< Coulomb's coefficient of friction, >= 0
   double restitution = 0.;    ///< e: the restored share of the compression work is e^2, 0 <= e <= 1
-  double rebound_speed = 0.;  ///< u0: restitution goes on at least until u_n = u0, >= 0 [m/s]
+  double rebound_speed = 0.;  ///< u0: restitution lasts at least until u_n = u0, >= 0 [m/s]
 };
 
 struct Collision {

@@ -32,6 +32,8 @@ ImpulseAdvance::ImpulseAdvance(const ImpulseBody& body, ImpulseLaw law,
   for (const Vector3d& point : body.boundary_points) arms_.push_back(point - body.center_of_mass);
   radii_ = body.boundary_radii;
   radii_.resize(arms_.size(), 0.);
+  materials_ = body.boundary_materials;
+  materials_.resize(arms_.size(), -1);
 }
 
 FlightState ImpulseAdvance::flight_from(const ImpulseState& state) const {
@@ -53,7 +55,7 @@ void ImpulseAdvance::locate(const FlightState& flight, const GroundQuery& ground
   for (std::size_t i = 0; i < arms_.size(); ++i) {
     Touch& point = points_[i];
     point.center = R * arms_[i];
-    point.ground = ground(flight.center_of_mass + point.center);
+    point.ground = ground(flight.center_of_mass + point.center, materials_[i]);
     point.ground.gap -= radii_[i];
     point.arm = point.center - radii_[i] * point.ground.normal;
   }

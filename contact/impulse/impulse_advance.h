@@ -16,6 +16,7 @@ struct ImpulseBody {
   Symmetric3d inertia;                    ///< about the centre of mass, body axes [kg m^2]
   std::vector<Vector3d> boundary_points;  ///< p_BP, body axes [m]
   std::vector<double> boundary_radii;     ///< of the balls about the first of them; then 0 [m]
+  std::vector<int> boundary_materials;    ///< numbers of those of the first; then -1, none
 };
 
 /// Motion of the body frame's origin, world axes, SI: as dts::State without joints.
@@ -73,6 +74,7 @@ class ImpulseAdvance {
   Vector3d center_of_mass_;
   std::vector<Vector3d> arms_;  // of the boundary points from the centre of mass, body axes [m]
   std::vector<double> radii_;
+  std::vector<int> materials_;
   std::vector<Touch> points_;  // the same at the present flight state, with the ground under them
   ImpulseResolution resolution_;
 };

@@ -20,6 +20,9 @@ const char* advice(AdvanceStatus status) {
       return "a number is not finite: check masses, forces and the initial state";
     case AdvanceStatus::inside_ground:
       return "the body starts inside the ground: place it above, or use rest_on";
+    case AdvanceStatus::inside_body:
+      return "two bodies start inside each other: place them apart, or let them not touch "
+             "(contact = false on a Shape)";
     case AdvanceStatus::too_many_impacts:
       return "impacts follow one another without end: raise rebound_speed, lower restitution, "
              "shorten deltat, or give the robot fewer boundary_points";

@@ -26,7 +26,14 @@ struct ImpulseOptions {
   double most_work = 2e7;
 };
 
-enum class AdvanceStatus { ok, not_finite, inside_ground, too_many_impacts, unsolved_collision };
+enum class AdvanceStatus {
+  ok,
+  not_finite,
+  inside_ground,
+  inside_body,
+  too_many_impacts,
+  unsolved_collision
+};
 /// What to change, one sentence.
 const char* advice(AdvanceStatus status);
 

@@ -7,10 +7,10 @@ namespace hookpoint::contact {
 
 /// Rebound speed over impact speed of `mass` [kg] thrown down at `speed` [m/s] against
 /// `force(depth, depth_rate)` [N], which is 0 outside and never pulls, no gravity: m d'' = -N
-/// integrated by RK4 from touch-down until the ground lets go. `stored_energy(depth)` [J], the work
+/// integrated by RK4 from touch-down until contact is lost. `stored_energy(depth)` [J], the work
 /// of a slow press, gives the step: 1/2000 of the greatest depth without damping over the speed.
-/// Some 10^4 evaluations; an overdamped contact that has not let go after 10^6 rebounds with what
-/// speed it has then.
+/// Some 10^4 evaluations; an overdamped point that still touches after 10^6 rebounds with what speed
+/// it has then.
 template <class Force, class Energy>
 double integrated_restitution(const Force& force, const Energy& stored_energy, double mass,
                               double speed) {

@@ -9,7 +9,7 @@
 namespace hookpoint::contact {
 
 /// The deflection z bent no farther than `limit` [N] >= 0 can hold: k_t |z| <= limit. What a
-/// falling load no longer holds lets go.
+/// falling load no longer holds slips.
 template <class Real>
 Vector3<Real> held_deflection(const Vector3<Real>& z, const MaterialConstants<Real>& material,
                               const Real& limit) {
@@ -67,7 +67,7 @@ BristleRate<Real> bristle_rate(const LoadedBristle<Real>& bristle, const Real& a
 
 /// f = s k_t z + (1 - s) g(v) v/|v| + sigma1(v) z' + sigma2 v where the ground carries load, and
 ///   sigma1(v) = c_t/(1 + c_t |v|/g(v)),
-/// c_t at rest and falling with speed, as Olsson et al. 1998 ask for: with sigma1 |v| <= g the
+/// c_t at rest and falling with speed, as Olsson et al. 1998 require: with sigma1 |v| <= g the
 /// bristle gives back no more energy than it took, at any speed. What a step does not resolve of
 /// the relaxation is Coulomb's friction, and so takes energy too: without dampers
 ///   f.v - k_t z.z' = (1 - s) g |v| + s alpha |v| (k_t z)^2/g >= 0   for any s and alpha, and any z

@@ -8,7 +8,7 @@
 
 namespace hookpoint::contact {
 
-struct Nominal : SpringDamperPredictions {
+struct Nominal : HookedSpringDamper<Nominal, DraggedHook> {
   static constexpr const char* name = "nominal";
   static constexpr const char* source = "Reichler & Delcomyn 2000, 3.3";
   static constexpr const char* summary =
@@ -23,7 +23,6 @@ struct Nominal : SpringDamperPredictions {
                                               &Constants::nominal_penetration};
   static constexpr NormalConstants normal_constants{&Constants::nominal_stiffness, "N/m",
                                                     &Constants::normal_damping};
-  using RateForm = ReturnMapRateForm<Nominal>;
 
   /// The spring's force [N] at `depth` d >= 0 [m]:
   ///   k1 d                             d <= d0
@@ -47,16 +46,6 @@ struct Nominal : SpringDamperPredictions {
     const Real force =
         max(Real(0.), spring_force(depth, material) + material.normal_damping * depth_rate);
     return select(depth > Real(0.), force, Real(0.));
-  }
-
-  /// Force on the robot and next memory of one point: friction by return_mapped_reaction, whose
-  /// needs are this law's.
-  template <class Real>
-  static Reaction<Real> evaluate(const PointKinematics<Real>& point, const Memory<Real>& memory,
-                                 const MaterialConstants<Real>& material, const Real& dt) {
-    return return_mapped_reaction(
-        point, memory, material, dt,
-        normal_force(point.depth, Real(-dot(point.velocity, point.normal)), material));
   }
 
   /// Penetration under a steady normal load N [N] on one point, the inverse of spring_force [m];

@@ -1,7 +1,4 @@
-// What the laws with a hook share: the linear spring-damper along the normal, and the trial that a
-// law makes before it decides between stick and slip (Reichler & Delcomyn 2000, 3.3;
-// docs/contact.md). They differ only in what slip does to the hook, which is what their own files
-// say.
+// The linear spring-damper along the normal, and its closed forms.
 #pragma once
 
 #include "contact/law_interface.h"
@@ -18,89 +15,7 @@ Real spring_damper_normal_force(const Real& depth, const Real& depth_rate,
   return select(depth > Real(0.), force, Real(0.));
 }
 
-/// The hook before it is decided whether the point slips. World axes.
-template <class Real>
-struct HookTrial {
-  Vector3<Real> surface;  ///< the point's projection on the tile's plane [m]
-  Vector3<Real>
-      hook;  ///< h on the tile's plane: the committed hook, or where the path crossed the plane [m]
-  Vector3<Real> stretch;      ///< e + dx: tangential part of x - h [m]
-  Vector3<Real> old_stretch;  ///< e_old, turned into the tile's plane [m]
-  Vector3<Real> force;        ///< f* = k_t (e + dx) + c_t dx/dt, on the ground [N]
-  Mask<Real> inside{};        ///< delta > 0
-  Mask<Real> sliding{};       ///< the last commit was a slip of this very contact
-};
-
-/// Time since the point crossed the tile's plane on a straight path, within the last step; 0 for a
-/// point put into the ground at rest [s].
-template <class Real>
-Real time_since_crossing(const PointKinematics<Real>& point, const Real& dt) {
-  const Real depth_rate = -dot(point.velocity, point.normal);
-  const Mask<Real> entering = depth_rate > Real(0.);
-  const Real since = max(Real(0.), min(dt, point.depth / select(entering, depth_rate, Real(1.))));
-  return select(entering, since, Real(0.));
-}
-
-/// The trial of a point with committed memory `memory` over a step `dt` [s]. The hook is projected
-/// on the tile now under the point, so that it stays on the surface when the point has crossed an
-/// edge.
-template <class Real>
-HookTrial<Real> hook_trial(const PointKinematics<Real>& point, const Memory<Real>& memory,
-                           const MaterialConstants<Real>& material, const Real& dt) {
-  HookTrial<Real> trial;
-  trial.inside = point.depth > Real(0.);
-  const Mask<Real> held = trial.inside && memory.attached;
-  trial.sliding = held && memory.sliding;
-  trial.surface = point.position + point.depth * point.normal;
-
-  const Vector3<Real> crossing = point.position - time_since_crossing(point, dt) * point.velocity;
-  const Vector3<Real> anchor = select(held, memory.hook, crossing);
-  trial.hook = anchor + dot(trial.surface - anchor, point.normal) * point.normal;
-  trial.stretch = tangential(point.position - anchor, point.normal);
-  trial.old_stretch = select(held, tangential(memory.stretch, point.normal), Vector3<Real>{});
-  trial.force = material.tangential_stiffness * trial.stretch +
-                material.tangential_damping * tangential(point.velocity, point.normal);
-  return trial;
-}
-
-/// Whether the trial force leaves the friction cone: |f*| > mu_s N, or mu_k N while sliding.
-template <class Real>
-Mask<Real> trial_slips(const HookTrial<Real>& trial, const Real& normal_force,
-                       const MaterialConstants<Real>& material) {
-  const Real friction = select(trial.sliding, material.kinetic_friction, material.static_friction);
-  return norm(trial.force) > friction * normal_force;
-}
-
-/// mu_k N t with t = f*/|f*|, the friction of a slipping point (0 where the trial is 0), on the
-/// ground [N].
-template <class Real>
-Vector3<Real> kinetic_friction_force(const HookTrial<Real>& trial, const Real& normal_force,
-                                     const MaterialConstants<Real>& material) {
-  const Real magnitude = norm(trial.force);
-  const Mask<Real> directed = magnitude > Real(0.);
-  const Real scale =
-      material.kinetic_friction * normal_force / select(directed, magnitude, Real(1.));
-  return scale * trial.force;
-}
-
-/// The reaction of a point inside the ground with stretch `stretch`, friction `friction` (on the
-/// ground) and next hook; nothing, and no memory, outside.
-template <class Real>
-Reaction<Real> hook_reaction(const PointKinematics<Real>& point, const HookTrial<Real>& trial,
-                             const Real& normal_force, const Vector3<Real>& friction,
-                             const Vector3<Real>& next_stretch, const Vector3<Real>& next_hook,
-                             const Mask<Real>& slips) {
-  const Vector3<Real> zero{};
-  Reaction<Real> reaction;
-  reaction.force = select(trial.inside, normal_force * point.normal - friction, zero);
-  reaction.next.hook = select(trial.inside, next_hook, zero);
-  reaction.next.stretch = select(trial.inside, next_stretch, zero);
-  reaction.next.attached = trial.inside;
-  reaction.next.sliding = trial.inside && slips;
-  return reaction;
-}
-
-/// What every law with a linear spring-damper and a hook shares.
+/// Closed forms of a linear spring-damper along the normal with a tangential spring that holds.
 struct SpringDamperPredictions : WithoutBristle {
   static constexpr NormalConstants normal_constants{&Constants::normal_stiffness, "N/m",
                                                     &Constants::normal_damping};

@@ -54,9 +54,23 @@ std::vector<Vector3d> cylinder_points(double radius, double length, int density)
   const int n = effective(density, default_rim, 3);
   std::vector<Vector3d> points;
   for (const double z : {-0.5 * length, 0.5 * length}) {
+    if (length == 0. && !points.empty()) break;
     for (int i = 0; i < n; ++i) {
       const auto [sine, cosine] = sine_cosine(2. * std::numbers::pi * i / n);
       points.push_back({radius * cosine, radius * sine, z});
+    }
+  }
+  return points;
+}
+
+std::vector<Vector3d> capsule_points(double radius, double length, int density) {
+  const double on_equator = 1e-9 * radius;
+  std::vector<Vector3d> points;
+  for (const double end : {-1., 1.}) {
+    for (Vector3d p : sphere_points(radius, density)) {
+      if (end * p.z < -on_equator) continue;
+      p.z += 0.5 * end * length;
+      points.push_back(p);
     }
   }
   return points;

@@ -25,8 +25,13 @@ std::vector<Vector3d> box_points(const Vector3d& dimensions, int density);
 std::vector<Vector3d> sphere_points(double radius, int density);
 
 /// Cylinder along z, centred: `density` points on the rim of each end, the first at +x. Default 8;
-/// at least 3. A straight side needs no points of its own on flat ground.
+/// at least 3. A straight side needs no points of its own on flat ground. A disc, of length 0, has
+/// one rim.
 std::vector<Vector3d> cylinder_points(double radius, double length, int density);
+
+/// Capsule along z, centred: the two halves of sphere_points(), each with its pole and its rim; of
+/// an odd density the rims are the circles next to the equator. At least 2.
+std::vector<Vector3d> capsule_points(double radius, double length, int density);
 
 /// Truncated cone along +x, proximal face at the origin: `density` points on each rim, the first at
 /// +z, a single point for a rim of radius 0. Default 8; at least 3.

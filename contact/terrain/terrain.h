@@ -3,6 +3,7 @@
 // tile. The one tile that a point can touch is indexed by the point's x and y: no search.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -25,11 +26,21 @@ struct SlopeSurface {
 inline constexpr int most_grid_vertices = 1 << 24;  ///< 4096 x 4096, or as many in another shape
 inline constexpr int most_grid_side = 1 << 16;
 
+/// Stairs along a horizontal direction: risers at from, from + run, ..., each `height` high.
+struct StairsProfile {
+  Vector3d uphill{1., 0., 0.};  ///< unit, horizontal
+  double from = 0.;             ///< of the first riser along `uphill` [m]
+  double run = 1.;              ///< from one riser to the next [m]
+  double height = 0.;           ///< of one step; below 0 the stairs go down [m]
+  double count = 1.;            ///< of steps, finite
+};
+
 /// heights[row * columns + column] [m] at (origin_x + column spacing, origin_y + row spacing).
 struct GridSurface {
   int columns = 0, rows = 0;  ///< vertices along x and y, at least 2 each
   std::vector<double> heights;
-  double origin_x = 0., origin_y = 0.;  ///< world position of vertex (0,0) [m]
+  double origin_x = 0., origin_y = 0.;    ///< world position of vertex (0,0) [m]
+  std::optional<StairsProfile> stairs{};  ///< what the heights are sampled from
 };
 
 /// Paints the tiles whose centroid lies within the rectangle [m]; later patches cover earlier ones.
@@ -58,7 +69,7 @@ struct TilePoint {
 
 /// Where a body lies on the ground: `orientation` turns body to world axes, z to the tile's normal.
 struct TilePose {
-  Vector3d position;  ///< on the tile's plane at the x, y asked for [m]
+  Vector3d position;  ///< on the tile's plane at the requested x, y [m]
   Quaterniond orientation;
   TilePoint tile;
 };
@@ -73,7 +84,7 @@ class Terrain {
   explicit Terrain(TerrainDescription description);
 
   /// The tile at a point's x, y and the point's depth in it. Off the terrain the nearest edge
-  /// tile's plane goes on and `outside` is set, for the caller to report once (outside_message).
+  /// tile's plane continues and `outside` is set, for the caller to report once (outside_message).
   /// O(1), plus the number of patches for a plane. Const without caches: any number of threads may
   /// ask.
   TilePoint query(const Vector3d& point) const;
@@ -96,14 +107,14 @@ class Terrain {
   const TerrainDescription& description() const { return description_; }
 
  private:
-  /// One triangle: cell and half, and whether the point asked about lies off the terrain.
+  /// One triangle: cell and half, and whether the queried point lies off the terrain.
   struct Tile {
     double column = 0., row = 0.;  ///< the cell's lower left vertex, in cells from `origin`
     bool upper = false;            ///< the half left of (above) the diagonal
     bool outside = false;
   };
   struct Plane {
-    double height = 0.;  ///< at the point asked about [m]
+    double height = 0.;  ///< at the queried point [m]
     Vector3d normal;     ///< unit, out of the ground
   };
 

@@ -41,8 +41,9 @@ void ClockedGait::advance(std::size_t leg, double left, const PlanarTwist& twist
 
 void ClockedGait::swing(std::size_t leg, double done, const PlanarTwist& twist) {
   // It lands half a stance before the neutral position.
-  const Vector3d target = carried(neutral(leg), twist, -0.5 * duty_factor * period);
-  feet_[leg].swing(done, target, twist, (1. - duty_factor) * period, step_height);
+  const Vector3d target =
+      carried(neutral(leg), twist, -0.5 * duty_factor * period) + placement(leg);
+  feet_[leg].swing(done, target, twist, (1. - duty_factor) * period, swing_height());
   if (meets_ground(leg)) feet_[leg].touch_down();
 }
 

@@ -130,7 +130,7 @@ class CruseGait final : public LeggedGait {
       if (in_first_tripod(leg) != first || initial_phase[leg] == 0.5) continue;
       if (!feet_[leg].swinging()) feet_[leg].lift_off({});
       const double done = walking > 0.5 ? initial_phase[leg] : 0.5;
-      feet_[leg].swing(placed - bound + 1., target(leg, done), {}, swing_duration, step_height);
+      feet_[leg].swing(placed - bound + 1., target(leg, done), {}, swing_duration, swing_height());
       if (placed == bound) feet_[leg].touch_down();
     }
   }
@@ -159,8 +159,8 @@ class CruseGait final : public LeggedGait {
 
   void swing(std::size_t leg, const PlanarTwist& body, double dt) {
     FootPath& foot = feet_[leg];
-    foot.swing(std::min(1., foot.progress + dt / swing_duration), target(leg, 0.), body,
-               swing_duration, step_height);
+    foot.swing(std::min(1., foot.progress + dt / swing_duration), target(leg, 0.) + placement(leg),
+               body, swing_duration, swing_height());
     if (foot.progress >= 1. || meets_ground(leg)) {
       foot.touch_down();
       landed.set(leg, 0.);

@@ -16,6 +16,14 @@ Vector3d turned(const Vector3d& p, double angle) {
   return {cosine * p.x - sine * p.y, sine * p.x + cosine * p.y, p.z};
 }
 
+/// Height in a swing by the greatest.
+double share_of_height(double s, double lift) {
+  const double r = 1. - s;
+  if (lift == 0.) return 64. * s * s * s * r * r * r;
+  const double grown = std::min(1., std::min(s, r) / (2. * lift));
+  return grown * grown * grown * (10. - 15. * grown + 6. * grown * grown);
+}
+
 }  // namespace
 
 Vector3d carried(const Vector3d& p, const PlanarTwist& twist, double time) {
@@ -49,14 +57,21 @@ void FootPath::lift_off(const PlanarTwist& twist) {
 }
 
 void FootPath::swing(double done, const Vector3d& target, const PlanarTwist& twist, double duration,
-                     double step_height) {
-  const double s = done, r = 1. - s;
-  const double arrived = s * s * (3. - 2. * s);
+                     const SwingHeight& height) {
   const Vector3d end_velocity = ground_velocity(target, twist);
-  position = (1. - arrived) * origin + arrived * target + (duration * s * r * r) * origin_velocity -
-             (duration * s * s * r) * end_velocity;
-  position.z = (1. - arrived) * origin.z + step_height * 64. * s * s * s * r * r * r;
-  progress = s;
+  // Of the part between rising and sinking; there the foot leaves and meets points of the ground.
+  const double lift = height.lift;
+  const double s = std::clamp((done - lift) / (1. - 2. * lift), 0., 1.), r = 1. - s;
+  const double between = (1. - 2. * lift) * duration, over = lift * duration;
+  const Vector3d from = origin + over * origin_velocity, to = target - over * end_velocity;
+  const double arrived = s * s * (3. - 2. * s);
+  position = (1. - arrived) * from + arrived * to + (between * s * r * r) * origin_velocity -
+             (between * s * s * r) * end_velocity;
+  // Over the points that it leaves and meets.
+  position += (std::min(done - lift, 0.) * duration) * origin_velocity +
+              (std::max(done - 1. + lift, 0.) * duration) * end_velocity;
+  position.z = (1. - arrived) * origin.z + height.step_height * share_of_height(done, lift);
+  progress = done;
 }
 
 }  // namespace hookpoint::control

@@ -26,6 +26,12 @@ struct GroundSearch {
   double speed = 0.;     ///< how fast [m/s]
 };
 
+/// How a foot swings.
+struct SwingHeight {
+  double step_height = 0.;  ///< above the ground, halfway [m]
+  double lift = 0.;         ///< part of the swing in which it rises before it goes forwards
+};
+
 /// One foot relative to the body; plain values, so that whoever holds it can save it.
 struct FootPath {
   Vector3d position;  ///< body axes; z is the height over the nominal ground [m]
@@ -40,9 +46,11 @@ struct FootPath {
   void lift_off(const PlanarTwist& twist);
   /// `done` 0...1 of the way to `target`, `duration` [s] the whole way. Horizontally the cubic
   /// (Hermite) that leaves and meets the ground with the ground's own velocity; the height
-  /// step_height 64 s^3 (1 - s)^3, at rest at both ends.
+  /// step_height 64 s^3 (1 - s)^3, at rest at both ends. With `lift` > 0 it stays over where it
+  /// lifted off for that part of the swing, and over its target for as long at the end; its height
+  /// grows and falls by the quintic 10 r^3 - 15 r^4 + 6 r^5 in twice that time.
   void swing(double done, const Vector3d& target, const PlanarTwist& twist, double duration,
-             double step_height);
+             const SwingHeight& height);
   void touch_down() { progress = -1.; }
 };
 

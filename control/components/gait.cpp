@@ -1,14 +1,35 @@
 // A gait of any even number of legs from a table: when in the period each leg touches down.
 // Wave gaits: McGhee & Frank, "On the stability properties of quadruped creeping gaits",
-// Mathematical Biosciences 3 (1968); Song & Waldron, Machines That Walk (1989), chapter 3.
+// Mathematical Biosciences 3 (1968); Song & Waldron, Machines That Walk (1989), chapter 3. Of mammals:
+// Hildebrand, "Symmetrical gaits of horses", Science 150 (1965) 701-708; Collins & Stewart, "Coupled
+// nonlinear oscillators and the symmetries of animal gaits", J. Nonlinear Science 3 (1993) 349-392.
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
+#include <string>
+#include <string_view>
 
 #include "control/components/clocked_gait.h"
 #include "control/registry.h"
 
 namespace hookpoint::control {
 namespace {
+
+/// A gait of four legs: when in the period the right hind, right fore, left hind and left fore foot
+/// touch down.
+struct FourLegs {
+  std::string_view name;
+  std::array<double, 4> touch_down;
+};
+constexpr std::array four_legs{
+    FourLegs{"walk", {0.5, 0.75, 0., 0.25}},  // each hind foot before the fore foot of its side
+    FourLegs{"trot", {0.5, 0., 0., 0.5}},     // diagonal pairs
+    FourLegs{"pace", {0.5, 0.5, 0., 0.}},     // the legs of a side
+    FourLegs{"bound", {0., 0.5, 0., 0.5}},    // hind feet, then fore feet
+    FourLegs{"gallop",
+             {0.1, 0.6, 0., 0.5}}  // as a bound, the right feet a little later: transverse
+};
 
 class Gait final : public ClockedGait {
  public:
@@ -17,11 +38,13 @@ class Gait final : public ClockedGait {
   Parameter leg_number = Parameter{*this, "legs", "", 6., "how many: even, 2 to 16"}.range(
       2., static_cast<double>(most));
   Text pattern =
-      Text{*this, "pattern",
-           "alternating: neighbours half a period apart; wave: each leg lifts off as the "
-           "one behind it touches down, the sides half a period apart; table: `phase`",
-           "alternating"}
-          .choices({"alternating", "wave", "table"});
+      Text{
+          *this, "pattern",
+          "alternating: neighbours half a period apart; wave: each leg lifts off as the "
+          "one behind it touches down, the sides half a period apart; table: `touch_down`; of four "
+          "legs: walk, trot, pace, bound, gallop",
+          "alternating"}
+          .choices({"alternating", "wave", "table", "walk", "trot", "pace", "bound", "gallop"});
   Parameter touch_down =
       Parameter{*this, "touch_down", "", 0., "of `table`: when each leg touches down, in periods",
                 most}
@@ -33,6 +56,9 @@ class Gait final : public ClockedGait {
  private:
   std::size_t legs_at_start() const override {
     if (std::fmod(leg_number, 2.) != 0.) throw std::runtime_error("legs is no even number");
+    if (named() != nullptr && leg_number != 4.)
+      throw std::runtime_error("the pattern `" + pattern.value() +
+                               "` is of four legs: write legs = 4");
     return static_cast<std::size_t>(leg_number);
   }
 
@@ -44,8 +70,14 @@ class Gait final : public ClockedGait {
     }
   }
 
+  const FourLegs* named() const {
+    const auto* found = std::ranges::find(four_legs, pattern.value(), &FourLegs::name);
+    return found == four_legs.end() ? nullptr : found;
+  }
+
   double touch_down_of(std::size_t leg) const {
     if (pattern.value() == "table") return touch_down[leg];
+    if (const FourLegs* gait = named()) return gait->touch_down[leg];
     const std::size_t rows = legs() / 2, row = leg % rows, side = leg / rows;
     if (pattern.value() == "alternating") return (row + side) % 2 == 0 ? 0. : 0.5;
     // It lifts off as the leg behind it touches down, and touches down a swing later.

@@ -1,6 +1,7 @@
-// Proportional-derivative control of the 18 joints of a hexapod, one set of constants for all
-// coxae, femora, tibiae.
+// Proportional-derivative control of the joints of up to six legs of three, one set of constants for
+// all coxae, femora, tibiae, or hips, thighs, shanks.
 #include <algorithm>
+#include <cstddef>
 
 #include "control/components/hexapod_gait.h"
 #include "control/registry.h"
@@ -11,6 +12,7 @@ namespace {
 class JointPD final : public Component {
  public:
   static constexpr std::size_t joints = leg_count * leg_joints;
+  Parameter legs = Parameter{*this, "legs", "", 6., "how many: 1 to 6"}.range(1., 6.);
   Parameter pconstant =
       Parameter{
           *this,     "pconstant", "N.m/rad", 30., "torque per angle error: coxa, femur, tibia",
@@ -33,7 +35,7 @@ class JointPD final : public Component {
                 "pconstant (goal - angle) - dconstant rate_in within the limit", joints};
 
   void update(const Tick&) override {
-    for (std::size_t joint = 0; joint < joints; ++joint) {
+    for (std::size_t joint = 0; joint < count(); ++joint) {
       const std::size_t kind = joint % leg_joints;
       const double wanted =
           pconstant[kind] * (goal[joint] - angle[joint]) - dconstant[kind] * rate_in[joint];
@@ -44,7 +46,7 @@ class JointPD final : public Component {
   // Without goals: a gait moves them.
   std::vector<LinearFeedback> linearise() const override {
     std::vector<LinearFeedback> all;
-    for (std::size_t joint = 0; joint < joints; ++joint) {
+    for (std::size_t joint = 0; joint < count(); ++joint) {
       const std::size_t kind = joint % leg_joints;
       all.push_back({.input = angle.index(joint),
                      .output = torque.index(joint),
@@ -53,10 +55,13 @@ class JointPD final : public Component {
     }
     return all;
   }
+
+ private:
+  std::size_t count() const { return leg_joints * static_cast<std::size_t>(legs); }
 };
 
 HOOKPOINT_REGISTER_COMPONENT(JointPD, "Controller.JointPD",
-                             "a PD controller on each of a hexapod's 18 joints", Attachment::none,
+                             "a PD controller on each joint of up to six legs", Attachment::none,
                              "goal", "torque")
 
 }  // namespace

@@ -23,6 +23,9 @@ void put(State& state, std::size_t leg, const Vector3d& v) {
 
 void LeggedGait::start(double) {
   legs_ = legs_at_start();
+  if (joints != 2. && joints != 3.) throw std::runtime_error("joints is neither 2 nor 3");
+  is_mammal_ = leg.value() == "mammal";
+  kind_ = joints == 2. ? LegKind::planar : is_mammal_ ? LegKind::mammal : LegKind::insect;
   for (std::size_t leg = 0; leg < legs(); ++leg) {
     feet_[leg] = {.position = neutral(leg), .origin = {}, .origin_velocity = {}};
     if (!solve(leg).reachable) {
@@ -80,23 +83,34 @@ bool LeggedGait::meets_ground(std::size_t leg) const {
   return contact.driven(leg) && contact[leg] > 0. && feet_[leg].progress > 0.5;
 }
 
-LegSolution LeggedGait::solve(std::size_t leg) const {
+Leg LeggedGait::leg_of(std::size_t leg) const {
+  // A mammal's shank angle is positive where the knee is forward.
+  const bool up = is_mammal_ ? knee_forward[leg] <= 0.5 : knee_up > 0.5;
+  return {kind_,
+          {coxa_length[leg], femur_length[leg], tibia_length[leg]},
+          hip_offset[leg],
+          up ? Knee::up : Knee::down};
+}
+
+LegGoal LeggedGait::solve(std::size_t leg) const {
   const Vector3d& foot = feet_[leg].position;
   const double x = foot.x - hip_x[leg], y = foot.y - hip_y[leg];
   const double cosine = std::cos(hip_heading[leg]), sine = std::sin(hip_heading[leg]);
-  const Vector3d p_HF{cosine * x + sine * y, cosine * y - sine * x,
-                      foot.z - body_height - height_offset[leg]};
-  return leg_angles({coxa_length[leg], femur_length[leg], tibia_length[leg]}, p_HF,
-                    knee_up > 0.5 ? Knee::up : Knee::down);
+  const double ahead = cosine * x + sine * y, left = cosine * y - sine * x;
+  const double up = foot.z - body_height - height_offset[leg];
+  // A mammal's hip has x down, and z forward, or backwards of a planar leg.
+  Vector3d p_HF{ahead, left, up};
+  if (is_mammal_ && kind_ == LegKind::planar) p_HF = {-up, -left, -ahead};
+  if (is_mammal_ && kind_ != LegKind::planar) p_HF = {-up, left, ahead};
+  return joint_angles(leg_of(leg), p_HF);
 }
 
 void LeggedGait::write_outputs() {
   int out_of_reach = 0;
   for (std::size_t leg = 0; leg < legs(); ++leg) {
-    const LegSolution solution = solve(leg);
-    goal.set(leg_joints * leg, solution.angles.coxa);
-    goal.set(leg_joints * leg + 1, solution.angles.femur);
-    goal.set(leg_joints * leg + 2, solution.angles.tibia);
+    const LegGoal solution = solve(leg);
+    for (std::size_t joint = 0; joint < leg_joints; ++joint)
+      goal.set(leg_joints * leg + joint, solution.angles[joint]);
     phase.set(leg, phase_of(leg));
     stance.set(leg, feet_[leg].swinging() ? 0. : 1.);
     out_of_reach += solution.reachable ? 0 : 1;

@@ -30,15 +30,44 @@ class LeggedGait : public Component {
                               .range(0., 100.);
   Parameter stand =
       Parameter{*this, "stand", "s", 0.5, "time to stand before the first step"}.range(0., 1e6);
-  Parameter coxa_length =
-      Parameter{*this, "coxa_length", "m", 0.05, "of each leg, from the coxa's axis to the femur's",
-                most_}
-          .counted_by(counter_)
-          .range(0., 1e3);
-  Parameter femur_length =
+  Text leg =
+      Text{*this, "leg",
+           "insect: a coxa about the hip's z (up), then femur and tibia about parallel horizontal "
+           "axes; mammal: a hip about its z (forward), then thigh and shank about its y (left), x "
+           "is down",
+           "insect"}
+          .choices({"insect", "mammal"});
+  Parameter joints =
       Parameter{
-          *this, "femur_length", "m", 0.1, "of each leg, from the femur's axis to the tibia's",
+          *this, "joints", "", 3.,
+          "of each leg; 2: femur and tibia, or thigh and shank, alone, in the hip's plane of x and "
+          "z (of mammals down and backwards)"}
+          .range(2., 3.);
+  Parameter coxa_length = Parameter{*this,
+                                    "coxa_length",
+                                    "m",
+                                    0.05,
+                                    "of each insect leg, from the coxa's axis to the femur's",
+                                    most_}
+                              .counted_by(counter_)
+                              .range(0., 1e3);
+  Parameter hip_offset =
+      Parameter{
+          *this,
+          "hip_offset",
+          "m",
+          0.,
+          "of each mammal leg, from the hip's axis to the plane of thigh and shank, positive to the "
+          "left",
           most_}
+          .counted_by(counter_);
+  Parameter femur_length =
+      Parameter{*this,
+                "femur_length",
+                "m",
+                0.1,
+                "of each leg, from the femur's axis to the tibia's, or the thigh's to the shank's",
+                most_}
           .counted_by(counter_)
           .range(1e-6, 1e3);
   Parameter tibia_length =
@@ -46,9 +75,20 @@ class LeggedGait : public Component {
                 most_}
           .counted_by(counter_)
           .range(1e-6, 1e3);
-  Parameter knee_up = Parameter{*this, "knee_up", "", 1.,
-                                "1: the knee is above the line from hip to foot, 0: below"}
-                          .range(0., 1.);
+  Parameter knee_up =
+      Parameter{*this, "knee_up", "", 1.,
+                "of insects, 1: the knee is above the line from hip to foot, 0: below"}
+          .range(0., 1.);
+  Parameter knee_forward =
+      Parameter{
+          *this,
+          "knee_forward",
+          "",
+          1.,
+          "of mammals, each leg, 1: the knee is before the line from hip to foot, 0: behind it",
+          most_}
+          .counted_by(counter_)
+          .range(0., 1.);
   Parameter hip_x = Parameter{*this,
                               "hip_x",
                               "m",
@@ -72,6 +112,11 @@ class LeggedGait : public Component {
   Parameter step_height =
       Parameter{*this, "step_height", "m", 0.03, "of the foot above the ground in mid-swing"}.range(
           0., 1e3);
+  Parameter swing_lift =
+      Parameter{
+          *this, "swing_lift", "", 0.,
+          "part of the swing in which the foot rises before it goes forwards, and sinks after"}
+          .range(0., 0.4);
   Parameter search_depth = Parameter{*this, "search_depth", "m", 0.02,
                                      "how far a foot whose wired contact is 0 reaches below"}
                                .range(0., 1e3);
@@ -81,14 +126,24 @@ class LeggedGait : public Component {
   Input height_offset =
       Input{*this, "height_offset", "m", "lengthens a leg: raises the body there", 0., most_}
           .counted_by(counter_);
+  Input placement_x =
+      Input{*this, "placement_x", "m", "moves the place where a swing ends, along the body's x",
+            0.,    most_}
+          .counted_by(counter_);
+  Input placement_y =
+      Input{*this, "placement_y", "m", "the same, along the body's y", 0., most_}.counted_by(
+          counter_);
   Input contact =
       Input{*this, "contact",
             "?",   "above 0 while the foot carries load; a swing past its middle ends there",
             0.,    most_}
           .counted_by(counter_);
 
-  Output goal{*this, "goal", "rad", "joint angles: coxa, femur, tibia of leg 0, then of leg 1 ...",
-              most_* leg_joints};
+  Output goal{
+      *this, "goal", "rad",
+      "joint angles: coxa, femur, tibia, or hip, thigh, shank of leg 0, then of leg 1 ...; of "
+      "2 joints the first is 0",
+      most_* leg_joints};
   Output phase{*this, "phase", "", "0 to 0.5 through stance, 0.5 to 1 through swing", most_};
   Output stance{*this, "stance", "", "1 in stance, 0 in swing", most_};
   Output unreachable{*this, "unreachable", "", "legs whose foot is out of reach at the moment"};
@@ -128,6 +183,9 @@ class LeggedGait : public Component {
   /// Moves the command as followed towards the command by the lag's share of `dt`; returns it.
   PlanarTwist follow_command(double dt);
   Vector3d neutral(std::size_t leg) const { return {foot_x[leg], foot_y[leg], 0.}; }
+  /// What is added to where a swing ends.
+  Vector3d placement(std::size_t leg) const { return {placement_x[leg], placement_y[leg], 0.}; }
+  SwingHeight swing_height() const { return {step_height, swing_lift}; }
   GroundSearch search(std::size_t leg) const;
   /// A swing ends early: past its middle the foot has met something.
   bool meets_ground(std::size_t leg) const;
@@ -136,9 +194,12 @@ class LeggedGait : public Component {
 
  private:
   std::size_t legs_ = most_;
+  LegKind kind_ = LegKind::insect;
+  bool is_mammal_ = false;
   void load_feet();
   void save_feet();
-  LegSolution solve(std::size_t leg) const;
+  LegGoal solve(std::size_t leg) const;
+  Leg leg_of(std::size_t leg) const;
   void write_outputs();
 };
 

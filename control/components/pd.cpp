@@ -1,4 +1,5 @@
 #include "control/component.h"
+#include "control/components/sampled_rate.h"
 #include "control/registry.h"
 
 namespace hookpoint::control {
@@ -16,7 +17,8 @@ class PD final : public Component {
   State previous{*this, "previous", "?", "current at the last update"};
 
   void update(const Tick& tick) override {
-    output = pconstant * (goal - current) - dconstant * rate(tick);
+    output =
+        pconstant * (goal - current) - dconstant * sampled_rate(rate_in, current, previous, tick);
     previous = current;
   }
 
@@ -28,13 +30,6 @@ class PD final : public Component {
              .gains = {.proportional = pconstant,
                        .derivative = dconstant,
                        .differenced = !rate_in.driven()}}};
-  }
-
- private:
-  /// d(current)/dt; 0 on the first update when it would take two samples.
-  double rate(const Tick& tick) const {
-    if (rate_in.driven()) return rate_in;
-    return tick.count == 0 ? 0. : (current - previous) / tick.period;
   }
 };
 

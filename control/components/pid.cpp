@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "control/component.h"
+#include "control/components/sampled_rate.h"
 #include "control/registry.h"
 
 namespace hookpoint::control {
@@ -61,10 +62,9 @@ class PID final : public Component {
  private:
   /// Tf dD/dt = d(current)/dt - D by backward differences; D starts at the first rate known.
   void filter_derivative(const Tick& tick) {
-    const bool sampled = !rate_in.driven();
-    const double rate = sampled ? (current - previous) / tick.period : double{rate_in};
+    const double rate = sampled_rate(rate_in, current, previous, tick);
     if (tick.count == 0) {
-      derivative = sampled ? 0. : rate;
+      derivative = rate;
     } else {
       derivative = derivative + (rate - derivative) * tick.period / (filter_time + tick.period);
     }

@@ -10,7 +10,7 @@ class Switch final : public Component {
  public:
   Input control{*this, "control", "?", "what decides"};
   Input in{*this, "in", "?", "in[1] is put through while it is on, in[0] while it is off", 0., 2};
-  Parameter threshold{*this, "threshold", "?", 0.5, "it goes on where control is at or above"};
+  Parameter threshold{*this, "threshold", "?", 0.5, "it is on where control is at or above"};
   Parameter hysteresis =
       Parameter{*this, "hysteresis", "?", 0., "it goes off that far below threshold"}.range(0.,
                                                                                             1e300);

@@ -32,7 +32,7 @@ class Schedule {
   double period() const { return period_; }
   /// How often it was due so far.
   std::int64_t count() const { return count_; }
-  /// As after having been due `count` times: a run goes on from a record.
+  /// As after having been due `count` times: a run continues from a record.
   void resume(std::int64_t count);
   /// The step at which it is due for the n-th time, from 0 on.
   std::int64_t step_of(std::int64_t n) const;

@@ -11,7 +11,7 @@
 #include <string_view>
 
 #include "control/data/table.h"
-#include "formats/formats.h"
+#include "text/formats.h"
 
 namespace hookpoint::control {
 namespace {
@@ -175,7 +175,7 @@ class FirstLook {
 
 Series read_mat_series(const std::filesystem::path& path, const std::string& column) {
   const std::string name = path.string();
-  const std::string refusal = formats::refusal(path, formats::Use::series);
+  const std::string refusal = text::refusal(path, text::Use::series);
   if (!refusal.empty()) throw std::runtime_error(name + ": " + refusal);
   // Its own messages would go to the terminal beside ours.
   Mat_LogInitFunc("hookpoint", [](int, auto) {});

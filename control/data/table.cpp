@@ -8,8 +8,8 @@
 #include <iterator>
 #include <stdexcept>
 
-#include "formats/formats.h"
-#include "tables/csv_reader.h"
+#include "text/csv_reader.h"
+#include "text/formats.h"
 namespace hookpoint::control {
 namespace {
 
@@ -22,7 +22,7 @@ std::string without_unit(const std::string& title) {
 
 /// The text of a file. Refuses another format, and what no text editor wrote, by its first bytes.
 std::string file_text(const std::filesystem::path& path) {
-  if (const std::string refusal = formats::refusal(path, formats::Use::series); !refusal.empty())
+  if (const std::string refusal = text::refusal(path, text::Use::series); !refusal.empty())
     throw std::runtime_error(path.string() + ": " + refusal);
   std::ifstream file(path, std::ios::binary);
   if (!file) throw std::runtime_error(path.string() + ": cannot be read");
@@ -88,9 +88,9 @@ void read_row(const std::vector<std::string>& fields, const std::string& where, 
 
 Table read_csv_table(const std::filesystem::path& path) {
   const auto where = [&](std::size_t line) { return path.string() + ":" + std::to_string(line); };
-  tables::Fault fault;
-  const auto text = tables::read_foreign(file_text(path), fault);
-  if (!text && fault.kind == tables::Fault::Kind::empty)
+  text::Fault fault;
+  const auto text = text::read_foreign(file_text(path), fault);
+  if (!text && fault.kind == text::Fault::Kind::empty)
     throw std::runtime_error(path.string() + ": holds no row of numbers");
   if (!text) throw std::runtime_error(where(fault.line) + ": " + fault.text());
   Table table;

@@ -17,7 +17,7 @@ struct Table {
   std::vector<std::vector<double>> columns;  ///< columns[i][row]
 };
 
-/// Reads the whole table, separated by commas, semicolons or tabs (tables/csv_reader.h). Empty
+/// Reads the whole table, separated by commas, semicolons or tabs (text/csv_reader.h). Empty
 /// lines and lines that begin with # are skipped; fields may stand in quotes. Throws
 /// std::runtime_error with file and line: no header, no rows, a row of other length, not a finite
 /// number, time that does not increase.

@@ -17,7 +17,7 @@ std::string describe_markdown(const Schema& schema);
 
 /// The shortest text that reads back to the same double.
 std::string number_text(double value);
-/// The values that a numeric field takes, as a user is told: "greater than 0 kg", "from 0 to 1", ""
+/// The values that a numeric field takes, as a user reads them: "greater than 0 kg", "from 0 to 1", ""
 /// when any.
 std::string range_text(const FieldSchema& field);
 /// " kg", what follows the numbers of a range: nothing where no one unit does.

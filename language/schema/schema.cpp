@@ -44,7 +44,7 @@ ClassSchema group_class() {
   ClassSchema schema;
   schema.name = "Group";
   schema.doc =
-      "Objects laid down under one name, as a named Include does; holds whatever its parent may "
+      "Objects created under one name, as a named Include does; holds whatever its parent may "
       "hold.";
   schema.naming = Naming::required;
   schema.top_level = true;

@@ -30,7 +30,7 @@ enum class FieldType {
 /// Another unit of a field where another field of the object says so: metres instead of radians
 /// where `joint = prismatic`.
 struct OtherUnit {
-  std::string field, word;  ///< the choice and its word that ask for it: "joint", "prismatic"
+  std::string field, word;  ///< the choice and its word that require it: "joint", "prismatic"
   std::string unit;         ///< SI unit as the language writes it
 };
 
@@ -95,7 +95,7 @@ struct SourceFile;
 class FileStore;
 class Report;
 /// Reads a file that is not in the language (foreign.h): the objects that an Include of it with
-/// these arguments lays down. `files` says where others are looked up, and keeps what is read of
+/// these arguments creates. `files` says where others are looked up, and keeps what is read of
 /// them. What is wrong goes to the report.
 using ForeignReader = std::function<std::vector<ForeignObject>(
     const SourceFile& file, const ForeignArguments& arguments, FileStore& files, Report& report)>;
@@ -105,7 +105,7 @@ using ForeignReader = std::function<std::vector<ForeignObject>(
 class Schema {
  public:
   /// Holds the language's own classes: Wire (what a wire's block may say) and Group (what a named
-  /// Include lays down).
+  /// Include creates).
   Schema();
   void add(ClassSchema schema);
   const ClassSchema* find(std::string_view name) const;

@@ -274,11 +274,8 @@ class Formatter {
 std::string format(const std::filesystem::path& file, const std::string& text,
                    Diagnostics& diagnostics) {
   // The diagnostics point into the text, so they keep it.
-  const auto kept = std::make_shared<ParsedFile>();
-  ParsedFile& parsed = *kept;
-  parsed.source.path = file.string();
-  parsed.source.text = text;
-  index_lines(parsed.source);
+  const auto kept = std::make_shared<const SourceFile>(source_file(file.string(), text));
+  ParsedFile parsed{*kept};
   parse(parsed);
   diagnostics.keep(kept);
   parsed.report.deliver(diagnostics);

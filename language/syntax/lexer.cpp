@@ -5,8 +5,8 @@
 
 #include "language/syntax/token.h"
 #include "language/units.h"
-#include "unicode/display.h"
-#include "unicode/utf8.h"
+#include "text/display.h"
+#include "text/utf8.h"
 
 namespace hookpoint::language {
 namespace {
@@ -175,7 +175,7 @@ class Lexer {
     constexpr std::size_t longest = 24;
     error(at_, end - at_,
           "unexpected `" +
-              std::string(unicode::first_characters(text_.substr(at_, end - at_), longest)) + "`");
+              std::string(text::first_characters(text_.substr(at_, end - at_), longest)) + "`");
     add(TokenKind::unknown, end - at_);
   }
 
@@ -230,7 +230,7 @@ bool check_text(const SourceFile& file, Report& report) {
   for (std::size_t i = 0; i < text.size();) {
     const auto c = static_cast<unsigned char>(text[i]);
     if (c >= 0x80) {
-      const std::size_t length = unicode::first_character(std::string_view(text).substr(i)).length;
+      const std::size_t length = text::first_character(std::string_view(text).substr(i)).length;
       if (length == 0) {
         report.error({&file, i, 1}, "the file is not a text file in UTF-8: unexpected byte here");
         return false;

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "unicode/display.h"
+#include "text/display.h"
 
 namespace hookpoint::language {
 
@@ -115,7 +115,7 @@ std::string Parser::shown(const Token& token) const {
   if (token.kind == TokenKind::end) return "the end of the file";
   constexpr std::size_t longest = 40;
   const std::string_view word = text(token);
-  return "`" + std::string(unicode::first_characters(word, longest)) +
+  return "`" + std::string(text::first_characters(word, longest)) +
          (word.size() > longest ? "...`" : "`");
 }
 

@@ -103,6 +103,9 @@ class Parser {
   static Span span(const Token& token) { return {token.offset, token.length}; }
   Span span_from(const Token& first) const;
   void emit(Operation operation, const Token& token, std::uint32_t operand = 0);
+  void apply(Operator sign, const Token& token) {
+    emit(Operation::apply, token, static_cast<std::uint32_t>(sign));
+  }
   Detail& detail_of(Item& item);
 
   ParsedFile& file_;

@@ -85,7 +85,7 @@ bool Parser::parse_comparison() {
   ++at_;
   if (!parse_sum()) return false;
   const auto index = static_cast<int>(operation.kind) - static_cast<int>(TokenKind::less);
-  emit(static_cast<Operation>(static_cast<int>(Operation::less) + index), operation);
+  apply(static_cast<Operator>(static_cast<int>(Operator::less) + index), operation);
   return true;
 }
 
@@ -95,7 +95,7 @@ bool Parser::parse_sum() {
     const Token operation = token();
     ++at_;
     if (!parse_product()) return false;
-    emit(operation.kind == TokenKind::plus ? Operation::add : Operation::subtract, operation);
+    apply(operation.kind == TokenKind::plus ? Operator::add : Operator::subtract, operation);
   }
   return true;
 }
@@ -106,7 +106,7 @@ bool Parser::parse_product() {
     const Token operation = token();
     ++at_;
     if (!parse_unary()) return false;
-    emit(operation.kind == TokenKind::star ? Operation::multiply : Operation::divide, operation);
+    apply(operation.kind == TokenKind::star ? Operator::multiply : Operator::divide, operation);
   }
   return true;
 }
@@ -118,8 +118,8 @@ bool Parser::parse_unary() {
   if (!parse_power()) return false;
   for (std::size_t i = last; i > first; --i) {
     const Token& operation = tokens_[i - 1];
-    if (operation.kind == TokenKind::minus) emit(Operation::negate, operation);
-    if (operation.kind == TokenKind::not_operator) emit(Operation::logical_not, operation);
+    if (operation.kind == TokenKind::minus) apply(Operator::negate, operation);
+    if (operation.kind == TokenKind::not_operator) apply(Operator::logical_not, operation);
   }
   return true;
 }
@@ -131,7 +131,7 @@ bool Parser::parse_power() {
   ++at_;
   const Level level(*this);
   if (!level || !parse_unary()) return false;
-  emit(Operation::raise, operation);
+  apply(Operator::raise, operation);
   return true;
 }
 

@@ -25,15 +25,8 @@ struct Range {
   std::uint32_t size() const { return end - begin; }
 };
 
-/// Expressions are postfix code: an operand is pushed, an operator takes its operands from the
-/// stack.
-enum class Operation : std::uint8_t {
-  push_number,  ///< operand: index of Syntax::quantities
-  push_true,
-  push_false,
-  push_text,   ///< span: the string with its quotes
-  push_trail,  ///< operand: index of Syntax::trails
-  call,        ///< operand: number of arguments; span: the function's name
+/// The operators of expressions and of formulas.
+enum class Operator : std::uint8_t {
   negate,
   logical_not,
   add,
@@ -47,12 +40,26 @@ enum class Operation : std::uint8_t {
   greater_equal,
   equal,
   not_equal,
-  skip_if_false,  ///< a false on top stays and the code goes on at `operand`, a true is taken away
-                  ///< (&&)
-  skip_if_true,   ///< the mirror image (||)
-  check_boolean,  ///< the top must be true or false
-  branch_if_false,  ///< takes the top; when false goes on at `operand`
-  jump,             ///< goes on at `operand`
+  both,    ///< &&
+  either,  ///< ||
+};
+
+/// Expressions are postfix code: an operand is pushed, an operator takes its operands from the
+/// stack.
+enum class Operation : std::uint8_t {
+  push_number,  ///< operand: index of Syntax::quantities
+  push_true,
+  push_false,
+  push_text,        ///< span: the string with its quotes
+  push_trail,       ///< operand: index of Syntax::trails
+  call,             ///< operand: number of arguments; span: the function's name
+  apply,            ///< operand: an Operator, with one or two operands on the stack
+  skip_if_false,    ///< (&&) a false on top stays and the code continues at `operand`, a true is
+                    ///< taken away
+  skip_if_true,     ///< the mirror image (||)
+  check_boolean,    ///< the top must be true or false
+  branch_if_false,  ///< takes the top; when false continues at `operand`
+  jump,             ///< continues at `operand`
 };
 
 struct Instruction {
@@ -134,11 +141,11 @@ struct Syntax {
   Range top;  ///< the file's own items
 };
 
-/// A file, parsed once.
+/// A file as parsed. Positions point into its source, which outlives what was made of it.
 struct ParsedFile {
-  SourceFile source;
-  Syntax syntax;
-  Report report;                          ///< its syntax errors
+  const SourceFile& source;
+  Syntax syntax = {};
+  Report report = {};                     ///< its syntax errors
   const ForeignReader* reader = nullptr;  ///< of a file in another format, which has no syntax
 };
 

@@ -61,7 +61,7 @@ inline std::string_view text_of(const SourceFile& file, const Token& token) {
   return std::string_view(file.text).substr(token.offset, token.length);
 }
 
-/// All tokens of a file that `check_text` accepts, the last one `end`. Comments only when asked
+/// All tokens of a file that `check_text` accepts, the last one `end`. Comments only on request
 /// for. Cost: linear.
 std::vector<Token> tokenize(const SourceFile& file, bool comments, Report& report);
 

@@ -11,7 +11,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "language/files.h"
+#include "language/syntax/files.h"
 #include "language/tree/evaluate_options.h"
 #include "language/tree/hints.h"
 #include "language/tree/prepared.h"
@@ -42,7 +42,7 @@ class Builder {
     std::string_view from;
     Position place;  ///< of that name in the loop's list
   };
-  /// One laying-down of a file: its variables, and where it was asked for.
+  /// One evaluation of a file: its variables, and where it was included.
   struct FileScope {
     const ParsedFile& file;
     const FileScope* includer = nullptr;
@@ -106,7 +106,7 @@ class Builder {
   void lay_plugin(const FileScope& scope, const Item& item, bool top_of_file);
   void take_arguments(const FileScope& scope, const Item& item, FileScope& inner);
   void take_parameters(const EvaluateOptions& options, FileScope& scope);
-  /// False when an argument is missing: nothing sensible can be laid down then.
+  /// False when an argument is missing: nothing sensible can be created then.
   bool check_arguments(const FileScope& scope);
   bool check_argument(Given& given, const std::vector<Value>& defaults, const Item& item,
                       const FileScope& scope);
@@ -121,11 +121,11 @@ class Builder {
   static Position position(const FileScope& scope, Span span) {
     return {&scope.file.source, span.offset, std::max<std::size_t>(span.length, 1)};
   }
-  /// Takes of the budget; false, after one error, when the file asks for too much.
+  /// Takes of the budget; false, after one error, when the file requires too much.
   bool take(Resource resource, std::size_t amount, const Position& place) {
     return budget_.take(resource, amount, place, report_);
   }
-  /// Nothing more is laid down.
+  /// Nothing more is created.
   bool stopped() const { return too_deep_ || budget_.spent() || report_.full(); }
 
   const PreparedSchema& schema_;

@@ -34,7 +34,7 @@ void Builder::lay_file(FileScope& scope) {
 
 void Builder::take_parameters(const EvaluateOptions& options, FileScope& scope) {
   for (const auto& [name, value] : options.parameters) {
-    const ParsedFile& text = files_.override_text(name, value);
+    const ParsedFile text = files_.override_text(name, value);
     report_.order_file(text.source);
     report_.append(text.report);
     if (text.report.has_errors()) continue;

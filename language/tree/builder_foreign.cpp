@@ -32,6 +32,13 @@ void Builder::lay_foreign(const FileScope& scope, const ForeignObject& foreign) 
                         field.position);
     });
   }
+  for (const auto& [from, to] : foreign.wires) {
+    if (!take(Resource::objects, 1, foreign.position)) break;
+    const auto end = [&](const std::string& trail) {
+      return Reference{trail, nullptr, "", foreign.position};
+    };
+    object->wires.push_back({end(from), end(to), {}, foreign.position});
+  }
   for (const ForeignObject& child : foreign.children) {
     if (!stopped()) lay_foreign(scope, child);
   }

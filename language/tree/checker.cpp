@@ -32,7 +32,7 @@ Field* given_field(Object& object, const FieldSchema& schema) {
 }  // namespace
 
 void Checker::apply(Object& root, const Override& setting, const std::vector<std::string>& params) {
-  const ParsedFile& text = files_.override_text(setting.trail, setting.value);
+  const ParsedFile text = files_.override_text(setting.trail, setting.value);
   report_.order_file(text.source);
   report_.append(text.report);
   if (text.report.has_errors()) return;

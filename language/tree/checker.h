@@ -8,7 +8,7 @@
 #include <string>
 #include <tuple>
 
-#include "language/files.h"
+#include "language/syntax/files.h"
 #include "language/tree/evaluate_options.h"
 #include "language/tree/hints.h"
 #include "language/tree/prepared.h"
@@ -34,7 +34,7 @@ class Checker {
  private:
   void check_object(Object& object);
   void check_required(const Object& object);
-  /// Values are in the unit that the object's choices ask for.
+  /// Values are in the unit that the object's choices require.
   void check_units(Object& object);
   void check_reference(const Object& object, Field& field);
   /// The error that `reference` leads nowhere, unless what it speaks of was left out.

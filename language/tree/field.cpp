@@ -11,7 +11,7 @@
 #include "language/values/formula.h"
 #include "language/wording.h"
 #include "math/orientation.h"
-#include "unicode/display.h"
+#include "text/display.h"
 
 namespace hookpoint::language {
 namespace {
@@ -229,7 +229,7 @@ bool FieldMaker::stands_for_number(std::string_view word) {
 /// A text is shown on terminals, in figures and in pages, and names files: none of them may take it
 /// for a command.
 bool FieldMaker::check_text(const Value& value) {
-  if (unicode::find_control(value.text) == std::string::npos) return true;
+  if (text::find_control(value.text) == std::string::npos) return true;
   return fail(value.position, quoted(schema_.name) +
                                   " takes characters that can be seen, on one line: no line end, "
                                   "tab or other control character");

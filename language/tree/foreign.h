@@ -1,5 +1,5 @@
 // Files in a format that is not the language's own and that an Include may name all the same. Who
-// knows the format gives the Schema a reader; what it returns is laid down as if a .hook file had
+// knows the format gives the Schema a reader; what it returns is evaluated as if a .hook file had
 // said it, and checked by the same fields.
 #pragma once
 
@@ -19,12 +19,18 @@ struct ForeignField {
   Position position;
 };
 
+/// A wire in an object: trails as a file would write them there.
+struct ForeignWire {
+  std::string from, to;
+};
+
 /// An object; `type` is a class of the Schema, `name` an identifier of the language or "".
 struct ForeignObject {
   std::string type, name;
   Position position;
   std::vector<ForeignField> fields;
   std::vector<ForeignObject> children;
+  std::vector<ForeignWire> wires = {};
 };
 
 /// The arguments of the Include, by name; without values where they were wrong, and said to be.

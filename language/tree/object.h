@@ -87,7 +87,7 @@ class Object {
   const std::string& word(std::string_view field) const;
   const Object* object(std::string_view field) const;
   bool boolean(std::string_view field) const;
-  /// Whether the field is in its other unit, since the choice that asks for it has been made.
+  /// Whether the field is in its other unit, since the choice that requires it has been made.
   bool in_other_unit(const FieldSchema& field) const;
   /// The unit of one of the class's fields in this object.
   const std::string& unit_of(const FieldSchema& field) const;

@@ -100,11 +100,11 @@ void PreparedSchema::check_names(const ClassSchema& schema) {
 
 namespace {
 
-/// The field that `file`, whose text is `name = value`, gives it; nothing after errors.
-std::optional<Field> make_alone(ParsedFile& file, const FieldSchema& field,
+/// The field that `text`, `name = value`, gives it; nothing after errors.
+std::optional<Field> make_alone(const SourceFile& text, const FieldSchema& field,
                                 const Dimension& dimension, const Dimension& other_dimension,
                                 Report& report) {
-  index_lines(file.source);
+  ParsedFile file{text};
   parse_override(file);
   report.append(file.report);
   if (report.has_errors()) return std::nullopt;
@@ -119,17 +119,15 @@ std::optional<Field> make_alone(ParsedFile& file, const FieldSchema& field,
 
 void PreparedSchema::add_default(const ClassSchema& owner, const FieldSchema& field,
                                  PreparedClass& prepared) {
-  auto file = std::make_unique<ParsedFile>();
-  file->source.path = "<default of " + owner.name + ">";
-  file->source.text = field.name + " = " + field.default_text;
+  const SourceFile& text = default_texts_.emplace_back(
+      source_file("<default of " + owner.name + ">", field.name + " = " + field.default_text));
   Report report;
-  std::optional<Field> made = make_alone(*file, field, prepared.dimensions.back(),
-                                         prepared.other_dimensions.back(), report);
+  std::optional<Field> made =
+      make_alone(text, field, prepared.dimensions.back(), prepared.other_dimensions.back(), report);
   if (made && (field.type == FieldType::object || field.type == FieldType::port)) {
     report.error({}, "a reference cannot have a default");
   }
   if (made) prepared.defaults.push_back(std::move(*made));
-  default_texts_.push_back(std::move(file));
   if (!report.has_errors()) return;
   Diagnostics diagnostics;
   report.deliver(diagnostics);
@@ -145,11 +143,10 @@ std::optional<double> number_of(const std::string& text, const std::string& unit
   FieldSchema schema;
   schema.name = "value";
   schema.unit = unit;
-  ParsedFile file;
-  file.source.text = schema.name + " = " + text;
   Report report;
   const std::optional<Field> field =
-      make_alone(file, schema, parse_unit(unit).value_or(Unit{}).dimension, {}, report);
+      make_alone(source_file("", schema.name + " = " + text), schema,
+                 parse_unit(unit).value_or(Unit{}).dimension, {}, report);
   return field ? std::optional(field->numbers.front()) : std::nullopt;
 }
 

@@ -2,6 +2,7 @@
 // an object.
 #pragma once
 
+#include <deque>
 #include <memory>
 #include <string>
 #include <unordered_map>
@@ -45,7 +46,7 @@ class PreparedSchema {
 
   const Schema& schema_;
   std::unordered_map<const ClassSchema*, std::unique_ptr<PreparedClass>> classes_;
-  std::vector<std::unique_ptr<ParsedFile>> default_texts_;
+  std::deque<SourceFile> default_texts_;
   std::vector<std::string> class_names_, problems_;
 };
 

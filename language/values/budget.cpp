@@ -27,15 +27,15 @@ bool Budget::take(Resource resource, std::size_t amount, const Position& place, 
     return true;
   }
   spent_ = true;
-  report.error(place, "the file asks for more than " + std::to_string(limit.most) + " " +
+  report.error(place, "the file requires more than " + std::to_string(limit.most) + " " +
                           std::string(limit.noun));
   return false;
 }
 
-std::string too_many(double asked, std::size_t most, std::string_view noun) {
+std::string too_many(double required, std::size_t most, std::string_view noun) {
   constexpr int digits = 6;
   std::array<char, 32> text;
-  const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), asked,
+  const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), required,
                                           std::chars_format::general, digits);
   return std::string(text.data(), end) + " " + std::string(noun) + ", more than the " +
          std::to_string(most) + " allowed";

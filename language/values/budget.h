@@ -1,4 +1,4 @@
-// What a file may ask for in all, so that a short one that asks for too much is refused at once and
+// What a file may require in all, so that a short one that requires too much is refused at once and
 // neither waited for nor answered with an empty memory (docs/language.md has the table).
 #pragma once
 
@@ -24,7 +24,7 @@ class Budget {
 
   /// Whether `amount` more may be had. If not: one error at `place`, and never anything again.
   bool take(Resource resource, std::size_t amount, const Position& place, Report& report);
-  /// Whether too much was asked for.
+  /// Whether too much was required.
   bool spent() const { return spent_; }
 
  private:
@@ -32,7 +32,7 @@ class Budget {
   bool spent_ = false;
 };
 
-/// "3e+12 rows, more than the 1000000 allowed": what stands behind "asks for".
-std::string too_many(double asked, std::size_t most, std::string_view noun);
+/// "3e+12 rows, more than the 1000000 allowed": what follows "requires".
+std::string too_many(double required, std::size_t most, std::string_view noun);
 
 }  // namespace hookpoint::language

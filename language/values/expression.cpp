@@ -157,12 +157,8 @@ bool ExpressionEvaluator::step(const Instruction& instruction, std::vector<Value
       return push_trail(instruction, stack);
     case Operation::call:
       return call(instruction, stack);
-    case Operation::negate:
-      stack.back().quantity.value = -stack.back().quantity.value;
-      return check_number(stack.back(), place);
-    case Operation::logical_not:
-      stack.back().quantity.value = 1. - stack.back().quantity.value;
-      return check_boolean(stack.back(), place);
+    case Operation::apply:
+      return apply(static_cast<Operator>(instruction.operand), place, stack);
     case Operation::check_boolean:
       return check_boolean(stack.back(), place);
     case Operation::jump:
@@ -182,9 +178,8 @@ bool ExpressionEvaluator::step(const Instruction& instruction, std::vector<Value
       if (stack.back().quantity.value == 0.) next = instruction.operand;
       stack.pop_back();
       return true;
-    default:
-      return binary(instruction, stack);
   }
+  return false;
 }
 
 bool ExpressionEvaluator::push_trail(const Instruction& instruction,
@@ -214,16 +209,23 @@ bool ExpressionEvaluator::push_trail(const Instruction& instruction,
   return word.has_value();
 }
 
-bool ExpressionEvaluator::binary(const Instruction& instruction, std::vector<Value>& stack) const {
+bool ExpressionEvaluator::apply(Operator sign, Position place, std::vector<Value>& stack) const {
+  if (sign == Operator::negate) {
+    stack.back().quantity.value = -stack.back().quantity.value;
+    return check_number(stack.back(), place);
+  }
+  if (sign == Operator::logical_not) {
+    stack.back().quantity.value = 1. - stack.back().quantity.value;
+    return check_boolean(stack.back(), place);
+  }
   const Value right = std::move(stack.back());
   stack.pop_back();
   Value& left = stack.back();
-  if (instruction.operation >= Operation::less) return compare(instruction, left, right);
-  const Position place = position(instruction.span);
+  if (sign >= Operator::less) return compare(sign, place, left, right);
   const bool text = left.kind == ValueKind::text || right.kind == ValueKind::text;
-  if (text && instruction.operation == Operation::add) return join_texts(left, right, place);
+  if (text && sign == Operator::add) return join_texts(left, right, place);
   if (!check_number(left, place) || !check_number(right, place)) return false;
-  return arithmetic(instruction, left, right);
+  return arithmetic(sign, place, left, right);
 }
 
 bool ExpressionEvaluator::join_texts(Value& left, const Value& right, Position place) const {
@@ -238,21 +240,20 @@ bool ExpressionEvaluator::join_texts(Value& left, const Value& right, Position p
   return take(Resource::steps, steps_of(left.text.size()), place);
 }
 
-bool ExpressionEvaluator::arithmetic(const Instruction& instruction, Value& left,
+bool ExpressionEvaluator::arithmetic(Operator sign, Position place, Value& left,
                                      const Value& right) const {
-  const Position place = position(instruction.span);
   const Quantity &a = left.quantity, &b = right.quantity;
   const Dimension& sum = a.dimension.angle != 0 ? a.dimension : b.dimension;
-  switch (instruction.operation) {
-    case Operation::add:
+  switch (sign) {
+    case Operator::add:
       return check_comparable(left, right, place, "added") &&
              finish(left, a.value + b.value, sum, place);
-    case Operation::subtract:
+    case Operator::subtract:
       return check_comparable(left, right, place, "subtracted") &&
              finish(left, a.value - b.value, sum, place);
-    case Operation::multiply:
+    case Operator::multiply:
       return finish(left, a.value * b.value, a.dimension * b.dimension, place);
-    case Operation::divide:
+    case Operator::divide:
       if (b.value == 0.) return fail(place, "division by zero");
       return finish(left, a.value / b.value, a.dimension / b.dimension, place);
     default: {
@@ -263,35 +264,33 @@ bool ExpressionEvaluator::arithmetic(const Instruction& instruction, Value& left
   }
 }
 
-bool ExpressionEvaluator::compare(const Instruction& instruction, Value& left,
+bool ExpressionEvaluator::compare(Operator sign, Position place, Value& left,
                                   const Value& right) const {
-  const Position place = position(instruction.span);
-  const bool equality =
-      instruction.operation == Operation::equal || instruction.operation == Operation::not_equal;
+  const bool equality = sign == Operator::equal || sign == Operator::not_equal;
   const bool words = left.kind == right.kind && left.kind != ValueKind::number;
   bool result = false;
   if (equality && words) {
     const bool same = left.text == right.text && left.quantity.value == right.quantity.value;
-    result = same == (instruction.operation == Operation::equal);
+    result = same == (sign == Operator::equal);
   } else {
     if (!check_number(left, place) || !check_number(right, place)) return false;
     if (!check_comparable(left, right, place, "compared")) return false;
     const double a = left.quantity.value, b = right.quantity.value;
-    switch (instruction.operation) {
-      case Operation::less:
+    switch (sign) {
+      case Operator::less:
         result = a < b;
         break;
-      case Operation::less_equal:
+      case Operator::less_equal:
         result = a <= b;
         break;
-      case Operation::greater:
+      case Operator::greater:
         result = a > b;
         break;
-      case Operation::greater_equal:
+      case Operator::greater_equal:
         result = a >= b;
         break;
       default:
-        result = (a == b) == (instruction.operation == Operation::equal);
+        result = (a == b) == (sign == Operator::equal);
     }
   }
   left = {ValueKind::boolean, {result ? 1. : 0., {}}, "", place};

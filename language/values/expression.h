@@ -72,11 +72,11 @@ class ExpressionEvaluator {
  private:
   bool step(const Instruction& instruction, std::vector<Value>& stack, std::uint32_t& next) const;
   bool push_trail(const Instruction& instruction, std::vector<Value>& stack) const;
-  bool binary(const Instruction& instruction, std::vector<Value>& stack) const;
+  bool apply(Operator sign, Position place, std::vector<Value>& stack) const;
   /// Strings, and words behind or before one, put together.
   bool join_texts(Value& left, const Value& right, Position place) const;
-  bool arithmetic(const Instruction& instruction, Value& left, const Value& right) const;
-  bool compare(const Instruction& instruction, Value& left, const Value& right) const;
+  bool arithmetic(Operator sign, Position place, Value& left, const Value& right) const;
+  bool compare(Operator sign, Position place, Value& left, const Value& right) const;
   bool call(const Instruction& instruction, std::vector<Value>& stack) const;
   bool check_number(const Value& value, Position place) const;
   bool check_boolean(const Value& value, Position place) const;

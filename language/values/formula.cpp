@@ -34,7 +34,7 @@ struct Infix {
   Binding binding;
 };
 
-/// Of the operations with two operands, from `add` on.
+/// Of the operators with two operands, from `add` on.
 constexpr std::array infixes{
     Infix{"+", sum},         Infix{"-", sum},         Infix{"*", product},
     Infix{"/", product},     Infix{"^", power_of},    Infix{"<", comparison},
@@ -42,8 +42,8 @@ constexpr std::array infixes{
     Infix{"==", comparison}, Infix{"!=", comparison}, Infix{"&&", conjunction},
     Infix{"||", disjunction}};
 
-const Infix& infix_of(Op operation) {
-  return infixes[static_cast<std::size_t>(operation) - static_cast<std::size_t>(Op::add)];
+const Infix& infix_of(Operator sign) {
+  return infixes[static_cast<std::size_t>(sign) - static_cast<std::size_t>(Operator::add)];
 }
 
 /// A part of the formula while it is made.
@@ -97,11 +97,8 @@ class FormulaMaker {
       case Operation::call:
         call(instruction, place, stack);
         return true;
-      case Operation::negate:
-        prefix(Op::negate, "-", place, stack);
-        return true;
-      case Operation::logical_not:
-        prefix(Op::logical_not, "!", place, stack);
+      case Operation::apply:
+        apply(static_cast<Operator>(instruction.operand), place, stack);
         return true;
       case Operation::jump:  // over an index, which is evaluated with its name
         at = instruction.operand;
@@ -113,10 +110,8 @@ class FormulaMaker {
         return connect(instruction, place, stack, at);
       case Operation::check_boolean:
         return true;
-      default:
-        binary(instruction.operation, place, stack);
-        return true;
     }
+    return false;
   }
 
   /// `c ? a : b`: the branch goes to b's code, and before that stands a jump behind it.
@@ -140,7 +135,8 @@ class FormulaMaker {
     if (!right) return false;
     at = skip.operand;
     stack.push_back(std::move(*right));
-    join(skip.operation == Operation::skip_if_false ? Op::both : Op::either, place, stack);
+    join(skip.operation == Operation::skip_if_false ? Operator::both : Operator::either, place,
+         stack);
     return true;
   }
 
@@ -197,26 +193,27 @@ class FormulaMaker {
     stack.push_back({node, closed, text + ")"});
   }
 
-  void prefix(Op operation, const char* sign, const Position& place, std::vector<Part>& stack) {
+  void apply(Operator sign, const Position& place, std::vector<Part>& stack) {
+    if (sign != Operator::negate && sign != Operator::logical_not) {
+      join(sign, place, stack);
+      return;
+    }
     Part operand = take(stack);
-    stack.push_back({add(operation, place, {operand.node}), unary, sign + held(operand, power_of)});
-  }
-
-  void binary(Operation operation, const Position& place, std::vector<Part>& stack) {
-    const auto index = static_cast<int>(operation) - static_cast<int>(Operation::add);
-    join(static_cast<Op>(static_cast<int>(Op::add) + index), place, stack);
+    const char* written = sign == Operator::negate ? "-" : "!";
+    stack.push_back(
+        {add_applied(sign, place, {operand.node}), unary, written + held(operand, power_of)});
   }
 
   /// The two parts on top of the stack as one.
-  void join(Op operation, const Position& place, std::vector<Part>& stack) {
+  void join(Operator sign, const Position& place, std::vector<Part>& stack) {
     Part right = take(stack), left = take(stack);
-    const auto [sign, binding] = infix_of(operation);
+    const auto [written, binding] = infix_of(sign);
     // `-`, `/` and comparisons do not associate to the right, `^` not to the left.
     const auto tighter = static_cast<Binding>(binding + 1);
-    const bool power = operation == Op::raise;
+    const bool power = sign == Operator::raise;
     std::string text = held(left, power || binding == comparison ? tighter : binding);
-    text += std::string(" ") + sign + " " + held(right, power ? closed : tighter);
-    stack.push_back({add(operation, place, {left.node, right.node}), binding, std::move(text)});
+    text += std::string(" ") + written + " " + held(right, power ? closed : tighter);
+    stack.push_back({add_applied(sign, place, {left.node, right.node}), binding, std::move(text)});
   }
 
   /// The text where only what binds as tightly as `least` stands without parentheses.
@@ -248,6 +245,13 @@ class FormulaMaker {
   std::uint32_t add_constant(Op operation, const Quantity& quantity, const Position& place) {
     const std::uint32_t node = add(operation, place, {});
     formula_.nodes[node].constant = quantity;
+    return node;
+  }
+
+  std::uint32_t add_applied(Operator sign, const Position& place,
+                            const std::vector<std::uint32_t>& operands) {
+    const std::uint32_t node = add(Op::apply, place, operands);
+    formula_.nodes[node].sign = sign;
     return node;
   }
 
@@ -308,19 +312,20 @@ class UnitChecker {
         const auto& dimension = names_[node.name];
         return NodeUnit{dimension.has_value(), false, dimension.value_or(Dimension{}), {}};
       }
-      case Op::logical_not:
-      case Op::both:
-      case Op::either:
-        return all(node, 0, true) ? std::optional(truth()) : std::nullopt;
       case Op::choose:
         return of_choice(node);
-      default:
+      case Op::call:
+        return all(node, 0, false) ? of_call(node) : std::nullopt;
+      case Op::apply:
         break;
     }
+    if (joins_truths(node.sign)) return all(node, 0, true) ? std::optional(truth()) : std::nullopt;
     if (!all(node, 0, false)) return std::nullopt;
-    if (node.operation == Op::call) return of_call(node);
-    if (node.operation == Op::negate) return negated(operand(node, 0));
-    return of_pair(node);
+    return node.sign == Operator::negate ? negated(operand(node, 0)) : of_pair(node);
+  }
+
+  static bool joins_truths(Operator sign) {
+    return sign == Operator::logical_not || sign == Operator::both || sign == Operator::either;
   }
 
   static NodeUnit truth() { return {true, true, {}, {}}; }
@@ -363,18 +368,18 @@ class UnitChecker {
   std::optional<NodeUnit> of_pair(const FormulaNode& node) {
     const NodeUnit &a = operand(node, 0), &b = operand(node, 1);
     NodeUnit unit{a.known && b.known, false, {}, {}};
-    switch (node.operation) {
-      case Op::add:
+    switch (node.sign) {
+      case Operator::add:
         return shared(node, a, b, "added");
-      case Op::subtract:
+      case Operator::subtract:
         return shared(node, a, b, "subtracted");
-      case Op::multiply:
+      case Operator::multiply:
         unit.dimension = a.dimension * b.dimension;
         return unit;
-      case Op::divide:
+      case Operator::divide:
         unit.dimension = a.dimension / b.dimension;
         return unit;
-      case Op::raise:
+      case Operator::raise:
         return of_power(node, a, b);
       default:
         return shared(node, a, b, "compared") ? std::optional(truth()) : std::nullopt;
@@ -420,37 +425,41 @@ class UnitChecker {
   std::vector<NodeUnit> units_;
 };
 
-double compute(Op operation, double a, double b) {
-  switch (operation) {
-    case Op::add:
+/// `b` is of operators with two operands.
+double compute(Operator sign, double a, double b) {
+  switch (sign) {
+    case Operator::negate:
+      return -a;
+    case Operator::logical_not:
+      return truth_of(a == 0.);
+    case Operator::add:
       return a + b;
-    case Op::subtract:
+    case Operator::subtract:
       return a - b;
-    case Op::multiply:
+    case Operator::multiply:
       return a * b;
-    case Op::divide:
+    case Operator::divide:
       return a / b;
-    case Op::raise:
+    case Operator::raise:
       return std::pow(a, b);
-    case Op::less:
+    case Operator::less:
       return truth_of(a < b);
-    case Op::less_equal:
+    case Operator::less_equal:
       return truth_of(a <= b);
-    case Op::greater:
+    case Operator::greater:
       return truth_of(a > b);
-    case Op::greater_equal:
+    case Operator::greater_equal:
       return truth_of(a >= b);
-    case Op::equal:
+    case Operator::equal:
       return truth_of(a == b);
-    case Op::not_equal:
+    case Operator::not_equal:
       return truth_of(a != b);
-    case Op::both:
+    case Operator::both:
       return truth_of(a != 0. && b != 0.);
-    case Op::either:
+    case Operator::either:
       return truth_of(a != 0. || b != 0.);
-    default:
-      return std::numeric_limits<double>::quiet_NaN();
   }
+  return std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace
@@ -473,9 +482,8 @@ std::optional<Formula> make_formula_of(const ExpressionEvaluator& evaluator,
 }
 
 std::optional<Formula> read_formula(const std::string& text) {
-  ParsedFile file;
-  file.source.text = "formula = " + text;
-  index_lines(file.source);
+  const SourceFile source = source_file("", "formula = " + text);
+  ParsedFile file{source};
   parse_override(file);
   if (file.report.has_errors()) return std::nullopt;
   const Range value = file.syntax.items[file.syntax.top.begin].value;
@@ -521,11 +529,8 @@ double FormulaEvaluator::operator()(std::span<const double> names) {
       case Op::name:
         values_[i] = names[node.name];
         break;
-      case Op::negate:
-        values_[i] = -value(0);
-        break;
-      case Op::logical_not:
-        values_[i] = truth_of(value(0) == 0.);
+      case Op::apply:
+        values_[i] = compute(node.sign, value(0), node.operands.size() > 1 ? value(1) : 0.);
         break;
       case Op::choose:
         values_[i] = value(0) != 0. ? value(1) : value(2);
@@ -534,8 +539,6 @@ double FormulaEvaluator::operator()(std::span<const double> names) {
         for (std::uint32_t j = 0; j < node.operands.size(); ++j) arguments_[j] = value(j);
         values_[i] = node.apply(std::span(arguments_).first(node.operands.size()));
         break;
-      default:
-        values_[i] = compute(node.operation, value(0), value(1));
     }
   }
   return values_.back();

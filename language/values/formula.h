@@ -17,27 +17,14 @@ enum class FormulaOperation : std::uint8_t {
   number,   ///< `constant`
   boolean,  ///< `constant`, 0 or 1
   name,     ///< names[operand]
-  negate,
-  logical_not,
-  add,
-  subtract,
-  multiply,
-  divide,
-  raise,
-  less,
-  less_equal,
-  greater,
-  greater_equal,
-  equal,
-  not_equal,
-  both,    ///< &&
-  either,  ///< ||
-  choose,  ///< c ? a : b
-  call,    ///< `function`
+  apply,    ///< `sign`
+  choose,   ///< c ? a : b
+  call,     ///< `function`
 };
 
 struct FormulaNode {
   FormulaOperation operation = FormulaOperation::number;
+  Operator sign{};
   Quantity constant{};
   std::uint32_t name = 0;
   Range operands{};  ///< of Formula::operands

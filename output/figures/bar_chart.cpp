@@ -5,8 +5,8 @@
 #include <sstream>
 
 #include "output/figures/plot_page.h"
-#include "output/text/csv.h"
-#include "output/text/number.h"
+#include "output/files/csv.h"
+#include "text/number.h"
 
 namespace hookpoint::output {
 namespace {
@@ -43,11 +43,11 @@ std::string bar_chart_data(const BarChart& chart) {
     const BarSeries& bars = chart.series[s];
     for (std::size_t g = 0; g < chart.groups.size(); ++g) {
       std::vector<std::string>& row = table.rows.emplace_back();
-      row = {chart.groups[g], bars.label, shortest(bars.values[g]),
-             rounded(bar_row(chart, g, s), 6)};
+      row = {chart.groups[g], bars.label, text::shortest(bars.values[g]),
+             text::rounded(bar_row(chart, g, s), 6)};
       if (!intervals) continue;
-      row.push_back(has_no_intervals(bars) ? "" : shortest(bars.low[g]));
-      row.push_back(has_no_intervals(bars) ? "" : shortest(bars.high[g]));
+      row.push_back(has_no_intervals(bars) ? "" : text::shortest(bars.low[g]));
+      row.push_back(has_no_intervals(bars) ? "" : text::shortest(bars.high[g]));
     }
   }
   return table.text();
@@ -79,8 +79,8 @@ std::string bar_chart_script(const BarChart& chart) {
   }
   out << "set border 1 lw 1\nset xtics out nomirror scale 0.6\n"
       << "set grid xtics lc rgb '#dddddd' lw 0.7 lt 1\n"
-      << "set xrange [" << shortest(least) << ":" << shortest(greatest) << "]\n"
-      << "set yrange [" << shortest(0.5 - groups) << ":0.5]\n"
+      << "set xrange [" << text::shortest(least) << ":" << text::shortest(greatest) << "]\n"
+      << "set yrange [" << text::shortest(0.5 - groups) << ":0.5]\n"
       << "set xlabel " << gnuplot_quoted(typeset(column_title(chart.value.label, chart.value.unit)))
       << " noenhanced\nset ytics scale 0 noenhanced (";
   for (std::size_t g = 0; g < chart.groups.size(); ++g)

@@ -1,6 +1,7 @@
 #include <utility>
 
 #include "output/figures/plot.h"
+#include "output/files/csv.h"
 
 namespace hookpoint::output {
 
@@ -33,5 +34,7 @@ std::string typeset(std::string text) {
       text.replace(at, 2, set);
   return text;
 }
+
+std::string axis_title(const Axis& axis) { return typeset(column_title(axis.label, axis.unit)); }
 
 }  // namespace hookpoint::output

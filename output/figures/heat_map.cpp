@@ -9,8 +9,8 @@
 #include <locale>
 #include <sstream>
 
-#include "output/text/csv.h"
-#include "output/text/number.h"
+#include "output/files/csv.h"
+#include "text/number.h"
 
 namespace hookpoint::output {
 namespace {
@@ -47,8 +47,6 @@ std::string mixed(int Color::*channel) {
          "))";
 }
 
-std::string axis_title(const Axis& axis) { return typeset(column_title(axis.label, axis.unit)); }
-
 /// About how wide a number is drawn, from the letters of a common sans serif font [px].
 double width_of(const std::string& number, double font) {
   double width = 0.;
@@ -68,7 +66,7 @@ const char* number_format(const HeatMap& map) { return map.color.logarithmic ? "
 
 /// What stands under a value of an axis: its name, or its first digits.
 std::string tick_text(const Axis& axis, double value) {
-  return axis.names.empty() ? rounded(value, 4)
+  return axis.names.empty() ? text::rounded(value, 4)
                             : axis.names.at(static_cast<std::size_t>(std::lround(value)));
 }
 
@@ -88,9 +86,9 @@ double cell_height(const HeatMap& map) {
   return crowded(map) ? crowded_panel / static_cast<double>(map.y_values.size()) : numbered_height;
 }
 
-class Script {
+class HeatMapScript {
  public:
-  explicit Script(const HeatMap& map)
+  explicit HeatMapScript(const HeatMap& map)
       : map_(map),
         columns_(map.x_values.size()),
         rows_(map.y_values.size()),
@@ -138,8 +136,9 @@ class Script {
   void page_label(const std::string& text, double height, const char* size,
                   const std::string& color) {
     out_ << "set label " << gnuplot_quoted(text) << " at screen "
-         << rounded(left_margin / width_, 5) << ", screen " << rounded(height / height_, 5)
-         << " left font 'Helvetica," << size << "'" << color << "\n";
+         << text::rounded(left_margin / width_, 5) << ", screen "
+         << text::rounded(height / height_, 5) << " left font 'Helvetica," << size << "'" << color
+         << "\n";
   }
 
   void set_colors() {
@@ -160,9 +159,10 @@ class Script {
     greatest_ = greatest;
     out_ << "set palette defined (0 '" << hexadecimal(least_color) << "', 0.5 '"
          << hexadecimal(middle_color) << "', 1 '" << hexadecimal(greatest_color)
-         << "')\nset cbrange [" << shortest(least) << ":" << shortest(greatest)
-         << "]\nset border 0\nset xrange [-0.5:" << shortest(static_cast<double>(columns_) - 0.5)
-         << "]\nset yrange [-0.5:" << shortest(static_cast<double>(rows_) - 0.5)
+         << "')\nset cbrange [" << text::shortest(least) << ":" << text::shortest(greatest)
+         << "]\nset border 0\nset xrange [-0.5:"
+         << text::shortest(static_cast<double>(columns_) - 0.5)
+         << "]\nset yrange [-0.5:" << text::shortest(static_cast<double>(rows_) - 0.5)
          << "]\nset tics scale 0\nset xtics nomirror ("
          << ticks(map_.x, map_.x_values, panel_width_) << ")\nset xlabel "
          << gnuplot_quoted(axis_title(map_.x)) << " noenhanced\nset cblabel "
@@ -191,7 +191,9 @@ class Script {
     const double left = left_margin + static_cast<double>(column) * (panel_width_ + panel_gap);
     const double bottom =
         bottom_margin + static_cast<double>(bands_below) * (panel_height_ + band_gap);
-    const auto screen = [](double pixels, double whole) { return rounded(pixels / whole, 5); };
+    const auto screen = [](double pixels, double whole) {
+      return text::rounded(pixels / whole, 5);
+    };
     out_ << "set lmargin at screen " << screen(left, width_) << "\nset rmargin at screen "
          << screen(left + panel_width_, width_) << "\nset bmargin at screen "
          << screen(bottom, height_) << "\nset tmargin at screen "
@@ -223,7 +225,7 @@ class Script {
   /// One picture of coloured points in the palette's colours: a rectangle each of ten thousand
   /// cells would make a drawing that no reader opens.
   void plot_picture(std::size_t first, std::size_t count) {
-    const std::string least = shortest(least_), greatest = shortest(greatest_);
+    const std::string least = text::shortest(least_), greatest = text::shortest(greatest_);
     out_ << "given(v) = strlen(v) > 0\nshare(v) = "
          << (map_.color.logarithmic ? "log(v < " + least + " ? 1. : v/" + least + ")/log(" +
                                           greatest + "/" + least + ")"
@@ -240,9 +242,9 @@ class Script {
     const std::string from = data_from(first, count);
     const bool logarithmic = map_.color.logarithmic;
     out_ << "given(v) = strlen(v) > 0\nshade(v) = "
-         << (logarithmic
-                 ? "v < " + shortest(map_.color.floor) + " ? " + shortest(map_.color.floor) + " : v"
-                 : "v")
+         << (logarithmic ? "v < " + text::shortest(map_.color.floor) + " ? " +
+                               text::shortest(map_.color.floor) + " : v"
+                         : "v")
          << "\nplot " << from
          << " using 5:6:($5-0.48):($5+0.48):($6-0.48):($6+0.48):(given(strcol(4)) ? shade($4) : "
             "NaN) with boxxyerror fs solid noborder lc palette, \\\n  "
@@ -258,8 +260,9 @@ class Script {
       return one && other && *one != *other;
     };
     const auto segment = [&](double x0, double y0, double x1, double y1) {
-      out_ << "set arrow from " << shortest(x0) << "," << shortest(y0) << " to " << shortest(x1)
-           << "," << shortest(y1) << " nohead front lw 2.4 dt (5,3) lc rgb '#0072B2'\n";
+      out_ << "set arrow from " << text::shortest(x0) << "," << text::shortest(y0) << " to "
+           << text::shortest(x1) << "," << text::shortest(y1)
+           << " nohead front lw 2.4 dt (5,3) lc rgb '#0072B2'\n";
     };
     for (std::size_t row = 0; row < rows_; ++row) {
       for (std::size_t column = 0; column < columns_; ++column) {
@@ -305,7 +308,7 @@ std::string heat_map_data(const HeatMap& map) {
   CsvTable table;
   const auto title = [](const Axis& axis) { return column_title(axis.label, axis.unit); };
   const auto place = [](const Axis& axis, double value) {
-    return axis.names.empty() ? shortest(value) : tick_text(axis, value);
+    return axis.names.empty() ? text::shortest(value) : tick_text(axis, value);
   };
   table.header = {"panel", title(map.x), title(map.y), title(map.color), "column", "row"};
   for (const HeatMapPanel& panel : map.panels) {
@@ -313,15 +316,15 @@ std::string heat_map_data(const HeatMap& map) {
       const HeatMapCell& cell = panel.cells[i];
       if (!cell.run && !crowded(map)) continue;
       const std::size_t column = i % map.x_values.size(), row = i / map.x_values.size();
-      table.rows.push_back(
-          {panel.title, place(map.x, map.x_values[column]), place(map.y, map.y_values[row]),
-           cell.value ? shortest(*cell.value) : "", std::to_string(column), std::to_string(row)});
+      table.rows.push_back({panel.title, place(map.x, map.x_values[column]),
+                            place(map.y, map.y_values[row]), text::shortest(cell.value),
+                            std::to_string(column), std::to_string(row)});
     }
   }
   return table.text();
 }
 
-std::string heat_map_script(const HeatMap& map) { return Script(map).text(); }
+std::string heat_map_script(const HeatMap& map) { return HeatMapScript(map).text(); }
 
 PlotOutcome draw(const HeatMap& map, const std::filesystem::path& folder) {
   return draw_files(map.name, heat_map_data(map), heat_map_script(map), folder);

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <utility>
 
-#include "output/child.h"
-#include "output/file.h"
-#include "output/text/csv.h"
-#include "output/text/number.h"
+#include "output/files/child.h"
+#include "output/files/csv.h"
+#include "output/files/file.h"
+#include "text/number.h"
 
 namespace hookpoint::output {
 namespace {
@@ -28,9 +28,10 @@ void add_rows(CsvTable& table, const std::string& series, const char* kind, cons
               const std::vector<double>& x, const std::vector<double>* y,
               const std::vector<double>* half_widths) {
   for (std::size_t i = 0; i < x.size(); ++i) {
-    table.rows.push_back({series, kind, shortest(x[i]), y == nullptr ? "" : shortest((*y)[i])});
+    table.rows.push_back(
+        {series, kind, text::shortest(x[i]), y == nullptr ? "" : text::shortest((*y)[i])});
     if (half_widths != nullptr)
-      table.rows.back().push_back(half_widths->empty() ? "" : shortest((*half_widths)[i]));
+      table.rows.back().push_back(half_widths->empty() ? "" : text::shortest((*half_widths)[i]));
     if (!axis.names.empty())
       table.rows.back().push_back(axis.names.at(static_cast<std::size_t>(std::lround(x[i]))));
   }

@@ -121,5 +121,7 @@ std::string gnuplot_quoted(std::string_view text);
 /// it.
 std::string gnuplot_escaped(std::string_view text);
 std::string typeset(std::string text);
+/// What stands beside the axis: its label with the unit.
+std::string axis_title(const Axis& axis);
 
 }  // namespace hookpoint::output

@@ -4,15 +4,13 @@
 #include <cmath>
 
 #include "output/figures/plot_page.h"
-#include "output/text/csv.h"
-#include "output/text/number.h"
+#include "output/files/csv.h"
+#include "text/number.h"
 
 namespace hookpoint::output {
 namespace {
 
 constexpr std::size_t dense = 60;  // more points than this make a line with few markers
-
-std::string axis_title(const Axis& axis) { return typeset(column_title(axis.label, axis.unit)); }
 
 /// Rows of one curve in the data file.
 struct Rows {
@@ -78,8 +76,8 @@ class AxesScript {
   void set_axis(const std::string& axis, const Scale& scale, const std::string& title,
                 const std::string& offset) {
     if (scale.logarithmic) out_ << "set logscale " << axis << "\n";
-    out_ << "set " << axis << "range [" << shortest(scale.range_low) << ":"
-         << shortest(scale.range_high) << "]\n"
+    out_ << "set " << axis << "range [" << text::shortest(scale.range_low) << ":"
+         << text::shortest(scale.range_high) << "]\n"
          << "set " << axis << "tics " << scale.ticks << "\n"
          << "set " << axis << "label " << gnuplot_quoted(title) << " offset " << offset
          << " noenhanced\n";
@@ -87,15 +85,16 @@ class AxesScript {
 
   /// A strip is a faint band with its meaning where a tick label would stand.
   void set_strip(double from, double to, const std::string& label) {
-    out_ << "set object rectangle from graph 0, graph " << rounded(from, 5) << " to graph 1, graph "
-         << rounded(to, 5) << " behind fc rgb '#808080' fs transparent solid 0.1 noborder\n"
+    out_ << "set object rectangle from graph 0, graph " << text::rounded(from, 5)
+         << " to graph 1, graph " << text::rounded(to, 5)
+         << " behind fc rgb '#808080' fs transparent solid 0.1 noborder\n"
          << "set label " << gnuplot_quoted(label) << " at graph -0.012, graph "
-         << rounded((from + to) / 2., 5) << " right font 'Helvetica,12'\n";
+         << text::rounded((from + to) / 2., 5) << " right font 'Helvetica,12'\n";
   }
 
   std::string floor_text() const {
     const double decade = std::log10(plot_.y.floor);
-    if (decade != std::round(decade)) return rounded(plot_.y.floor, 3);
+    if (decade != std::round(decade)) return text::rounded(plot_.y.floor, 3);
     return "10^{−" + std::to_string(std::lround(-decade)) + "}";
   }
 
@@ -108,8 +107,8 @@ class AxesScript {
     if (!layout_.y.logarithmic && layout_.y.low < 0. && layout_.y.high > 0.)
       out_
           << "set arrow from graph 0, first 0 to graph 1, first 0 nohead lc rgb '#999999' lw 0.8\n";
-    const std::string floor = shortest(layout_.y.floor);
-    out_ << "left = " << shortest(layout_.x.range_low) << "\n"
+    const std::string floor = text::shortest(layout_.y.floor);
+    out_ << "left = " << text::shortest(layout_.x.range_low) << "\n"
          << "at(x) = " << (layout_.x.logarithmic ? "x > left ? x : left" : "x") << "\n";
     if (!layout_.y.logarithmic) {
       out_ << "shown(y) = y\npositive(y) = y\n";
@@ -209,7 +208,7 @@ class AxesScript {
   void plot_unfinished(std::size_t i) {
     if (rows_[i].unfinished.count == 0) return;
     const double y = layout_.unfinished_lane(lane_of(layout_.strips.unfinished, i));
-    add_rows(rows_[i].unfinished.all(), shortest(y),
+    add_rows(rows_[i].unfinished.all(), text::shortest(y),
              "points pt 2 ps 0.8 lw 2 lc rgb '" + series_style(plot_.series[i].style).color + "'");
   }
 
@@ -222,7 +221,7 @@ class AxesScript {
                        [this](double y) { return y < -layout_.y.floor; });
   }
   std::string lane(std::size_t i) const {
-    return shortest(layout_.floor_lane(lane_of(layout_.strips.below_floor, i)));
+    return text::shortest(layout_.floor_lane(lane_of(layout_.strips.below_floor, i)));
   }
 
   std::ostream& out_;

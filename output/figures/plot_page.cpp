@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "output/figures/plot_axes.h"
-#include "output/text/number.h"
+#include "text/number.h"
 
 namespace hookpoint::output {
 namespace {
@@ -45,7 +45,7 @@ std::string line_color(const Series& series) {
 }
 
 std::string PlotPage::at(double x, double y) const {
-  return "screen " + rounded(x / width_, 5) + ", screen " + rounded(y / height_, 5);
+  return "screen " + text::rounded(x / width_, 5) + ", screen " + text::rounded(y / height_, 5);
 }
 
 void PlotPage::text(double x, double y, const std::string& text, const std::string& look) {
@@ -70,10 +70,10 @@ void PlotPage::open(const std::string& name, const std::string& title,
 }
 
 void PlotPage::set_frame(const Frame& frame) {
-  out_ << "set lmargin at screen " << rounded(frame.left / width_, 5) << "\n"
-       << "set rmargin at screen " << rounded(frame.right / width_, 5) << "\n"
-       << "set tmargin at screen " << rounded(frame.top / height_, 5) << "\n"
-       << "set bmargin at screen " << rounded(frame.bottom / height_, 5) << "\n";
+  out_ << "set lmargin at screen " << text::rounded(frame.left / width_, 5) << "\n"
+       << "set rmargin at screen " << text::rounded(frame.right / width_, 5) << "\n"
+       << "set tmargin at screen " << text::rounded(frame.top / height_, 5) << "\n"
+       << "set bmargin at screen " << text::rounded(frame.bottom / height_, 5) << "\n";
 }
 
 void PlotPage::entry(double x, double y, const std::string& name, const std::string& color,

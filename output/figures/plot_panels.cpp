@@ -5,7 +5,7 @@
 
 #include "output/figures/plot_axes.h"
 #include "output/figures/plot_page.h"
-#include "output/text/number.h"
+#include "text/number.h"
 
 namespace hookpoint::output {
 namespace {
@@ -36,9 +36,9 @@ Plot merged(const PanelPlot& plot) {
   return all;
 }
 
-class Script {
+class PanelScript {
  public:
-  explicit Script(const PanelPlot& plot)
+  explicit PanelScript(const PanelPlot& plot)
       : plot_(plot),
         all_(merged(plot)),
         shared_(lay_out(all_)),
@@ -127,6 +127,6 @@ class Script {
 
 }  // namespace
 
-std::string panel_script(const PanelPlot& plot) { return Script(plot).text(); }
+std::string panel_script(const PanelPlot& plot) { return PanelScript(plot).text(); }
 
 }  // namespace hookpoint::output

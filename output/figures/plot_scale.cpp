@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "output/text/number.h"
+#include "text/number.h"
 
 namespace hookpoint::output {
 namespace {
@@ -44,7 +44,7 @@ double tick_step(double span, int most) {
 
 void add_tick(std::string& list, const std::string& label, double value, bool minor) {
   list += list.empty() ? "" : ", ";
-  list += "'" + label + "' " + shortest(value) + (minor ? " 1" : "");
+  list += "'" + label + "' " + text::shortest(value) + (minor ? " 1" : "");
 }
 
 std::string minus_sign(const std::string& number) {
@@ -58,7 +58,7 @@ std::string linear_ticks(const Scale& scale) {
   const auto last = static_cast<long>(std::floor(scale.high / step + 1e-9));
   for (long k = first; k <= last; ++k) {
     const double value = static_cast<double>(k) * step;
-    add_tick(list, minus_sign(rounded(value, 6)), value, false);
+    add_tick(list, minus_sign(text::rounded(value, 6)), value, false);
   }
   return "(" + list + ")";
 }
@@ -76,7 +76,7 @@ std::string name_ticks(const Scale& scale, const std::vector<std::string>& names
 }
 
 std::string decade_label(int decade, bool plain) {
-  if (plain) return rounded(std::pow(10., decade), 6);
+  if (plain) return text::rounded(std::pow(10., decade), 6);
   return "10^{" + minus_sign(std::to_string(decade)) + "}";
 }
 
@@ -95,7 +95,7 @@ std::string logarithmic_ticks(const Scale& scale, int most) {
       if (digit == 1 && decade % step == 0) {
         add_tick(list, decade_label(decade, plain), value, false);
       } else if (sparse && (digit == 2 || digit == 5)) {
-        add_tick(list, rounded(value, 3), value, false);
+        add_tick(list, text::rounded(value, 3), value, false);
       } else if (digit == 1 || !crowded) {
         add_tick(list, "", value, true);
       }

@@ -6,7 +6,7 @@
 #include "output/figures/plot_axes.h"
 #include "output/figures/plot_legend.h"
 #include "output/figures/plot_page.h"
-#include "output/text/number.h"
+#include "text/number.h"
 
 namespace hookpoint::output {
 namespace {
@@ -22,9 +22,9 @@ void write_legend(std::ostream& out, PlotPage& page, const Frame& frame, const P
   for (const LegendEntry& entry : place_legend(plot, layout, room)) {
     const Series& series = plot.series[entry.series];
     if (entry.leads)
-      out << "set arrow from first " << shortest(entry.end_x) << ", first " << shortest(entry.end_y)
-          << " to " << page.at(left, entry.height) << " nohead lw 0.7 lc rgb '#90"
-          << line_color(series).substr(1) << "'\n";
+      out << "set arrow from first " << text::shortest(entry.end_x) << ", first "
+          << text::shortest(entry.end_y) << " to " << page.at(left, entry.height)
+          << " nohead lw 0.7 lc rgb '#90" << line_color(series).substr(1) << "'\n";
     page.legend_entry(left, entry.height, series);
   }
   page.legend_notes(left, frame.bottom - 14., notes_of(plot, layout));

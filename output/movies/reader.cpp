@@ -4,7 +4,7 @@
 #include "output/movies/format.h"
 #include "output/movies/movie.h"
 #include "output/records/hdf5_file.h"
-#include "output/text/number.h"
+#include "text/number.h"
 
 namespace hookpoint::output {
 namespace {
@@ -148,8 +148,8 @@ MovieReader::MovieReader(const std::filesystem::path& path)
                      " is an HDF5 file, but no movie: `hookpoint run FILE --movie` writes one");
   try {
     if (const double version = read_number(file, movie_mark); version != movie_version)
-      throw MovieError(name + " is a movie of layout " + rounded(version) +
-                       "; this program reads layout " + rounded(movie_version) +
+      throw MovieError(name + " is a movie of layout " + text::rounded(version) +
+                       "; this program reads layout " + text::rounded(movie_version) +
                        ": use the hookpoint that wrote it");
     read_header();
   } catch (const FileError&) {

@@ -16,13 +16,12 @@ namespace {
 constexpr hsize_t block_instants = 512;    ///< of a chunk, and between two flushes
 constexpr hsize_t group_numbers = 8;       ///< of a chunk
 constexpr std::size_t still_bytes = 1024;  ///< what a chunk in which nothing changes takes at most
-constexpr int level = 1;                   ///< of deflate: higher costs much time and gains little
 
 Hdf5Handle chunked(int rank, const hsize_t* chunk) {
   Hdf5Handle properties = clockless_dataset();
   require_hdf5(H5Pset_chunk(properties, rank, chunk));
   require_hdf5(H5Pset_shuffle(properties));
-  require_hdf5(H5Pset_deflate(properties, level));
+  require_hdf5(H5Pset_deflate(properties, deflate_level));
   return properties;
 }
 
@@ -40,7 +39,7 @@ class MovieWriter final : public RecordWriter {
         partial_(partial_name(path)),
         size_(header.size),
         group_(std::min<hsize_t>(group_numbers, size_)),
-        encoder_(group_ * block_instants, level),
+        encoder_(group_ * block_instants, deflate_level),
         chunk_(group_ * block_instants),
         still_((size_ + group_ - 1) / group_),
         rows_(size_ * block_instants),

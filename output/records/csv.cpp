@@ -1,10 +1,10 @@
 // CSV: the trace itself, `<stem>.channels.csv` (a line a column) and `<stem>.record.csv` (what
 // belongs to the whole record), so that the trace stays a plain table.
-#include "output/text/csv.h"
+#include "output/files/csv.h"
 
 #include "output/records/files.h"
 #include "output/records/formats.h"
-#include "output/text/number.h"
+#include "text/number.h"
 
 namespace hookpoint::output {
 namespace {
@@ -13,13 +13,14 @@ void write_channels(const std::filesystem::path& path, const RecordHeader& heade
   CsvTable table{{"path", "unit", "type", "minimum", "maximum", "doc"}, {}};
   table.rows.push_back({"time", "s", "double", "0", "inf", "simulated time"});
   for (const Channel& channel : header.channels)
-    table.rows.push_back({channel.path, channel.unit, channel.type, shortest(channel.minimum),
-                          shortest(channel.maximum), channel.doc});
+    table.rows.push_back({channel.path, channel.unit, channel.type, text::shortest(channel.minimum),
+                          text::shortest(channel.maximum), channel.doc});
   write_csv(csv_channels_file(path), table);
 }
 
 void write_about(const std::filesystem::path& path, const RecordHeader& header) {
-  CsvTable table{{"key", "value"}, {{"name", header.name}, {"period", shortest(header.period)}}};
+  CsvTable table{{"key", "value"},
+                 {{"name", header.name}, {"period", text::shortest(header.period)}}};
   for (const auto& [key, value] : header.annotations) table.rows.push_back({key, value});
   table.rows.push_back({"experiment", header.experiment});
   write_csv(csv_about_file(path), table);

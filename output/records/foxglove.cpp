@@ -7,8 +7,8 @@
 #include <initializer_list>
 #include <utility>
 
-#include "output/text/json.h"
-#include "output/text/number.h"
+#include "text/json.h"
+#include "text/number.h"
 
 namespace hookpoint::output::foxglove {
 namespace {
@@ -127,7 +127,7 @@ void append_members(std::string& text,
   char before = '{';
   for (const auto& [name, value] : members) {
     text.append(1, before).append("\"").append(name).append("\":");
-    append_shortest(text, value);
+    text::append_shortest(text, value);
     before = ',';
   }
   text += '}';
@@ -166,6 +166,26 @@ void append_pose(std::string& text, const Vector3d& position, const Quaterniond&
   text += '}';
 }
 
+/// Vertices, colour and triangles of a triangle list whose pose stands already.
+template <class Mesh>
+void append_triangles(std::string& list, const Mesh& mesh, const Color& color) {
+  list += R"(,"points":[)";
+  for (const Vector3d& vertex : mesh.vertices) {
+    if (list.back() != '[') list += ',';
+    append_vector(list, vertex);
+  }
+  list += ']';
+  append_color(list, color);
+  list += R"(,"colors":[],"indices":[)";
+  for (const auto& triangle : mesh.triangles) {
+    for (const std::uint32_t vertex : triangle) {
+      if (list.back() != '[') list += ',';
+      append_whole(list, vertex);
+    }
+  }
+  list += "]}";
+}
+
 /// The lists of an entity that has something in them, each with commas between its items.
 struct Primitives {
   std::string cubes, spheres, cylinders, triangles;
@@ -188,15 +208,20 @@ void append_shape(Primitives& primitives, const SceneShape& shape, const Color& 
     std::string& list = begin(primitives.spheres, {diameter, diameter, diameter});
     append_color(list, color);
     list += '}';
+  } else if (const auto* mesh = std::get_if<SceneMesh>(&shape.geometry)) {
+    std::string& list = primitives.triangles;
+    if (!list.empty()) list += ',';
+    append_pose(list, shape.location, shape.orientation);
+    append_triangles(list, *mesh, color);
   } else {
     const auto& cone = std::get<SceneCone>(shape.geometry);
     const double radius = std::max(cone.bottom_radius, cone.top_radius);
     const auto scale = [radius](double end) { return radius > 0. ? end / radius : 1.; };
     std::string& list = begin(primitives.cylinders, {2. * radius, 2. * radius, cone.length});
     list += R"(,"bottom_scale":)";
-    append_shortest(list, scale(cone.bottom_radius));
+    text::append_shortest(list, scale(cone.bottom_radius));
     list += R"(,"top_scale":)";
-    append_shortest(list, scale(cone.top_radius));
+    text::append_shortest(list, scale(cone.top_radius));
     append_color(list, color);
     list += '}';
   }
@@ -205,27 +230,13 @@ void append_shape(Primitives& primitives, const SceneShape& shape, const Color& 
 void append_surface(Primitives& primitives, const SceneSurface& surface, const Color& color) {
   std::string& list = primitives.triangles;
   append_pose(list, {}, {});
-  list += R"(,"points":[)";
-  for (const Vector3d& vertex : surface.vertices) {
-    if (list.back() != '[') list += ',';
-    append_vector(list, vertex);
-  }
-  list += ']';
-  append_color(list, color);
-  list += R"(,"colors":[],"indices":[)";
-  for (const auto& triangle : surface.triangles) {
-    for (const std::uint32_t vertex : triangle) {
-      if (list.back() != '[') list += ',';
-      append_whole(list, vertex);
-    }
-  }
-  list += "]}";
+  append_triangles(list, surface, color);
 }
 
 /// An entity after its timestamp. It stays until another takes its id, and moves with its frame.
 std::string entity(std::string_view frame, const std::string& id, const std::string& metadata,
                    const Primitives& primitives) {
-  return R"(,"frame_id":)" + json_string(frame) + R"(,"id":)" + json_string(id) +
+  return R"(,"frame_id":)" + text::json_string(frame) + R"(,"id":)" + text::json_string(id) +
          R"(,"lifetime":{"sec":0,"nsec":0},"frame_locked":true,"metadata":[)" + metadata +
          R"(],"arrows":[],"cubes":[)" + primitives.cubes + R"(],"spheres":[)" + primitives.spheres +
          R"(],"cylinders":[)" + primitives.cylinders + R"(],"lines":[],"triangles":[)" +
@@ -252,8 +263,8 @@ std::string scene_update_schema() {
 FrameTransforms::FrameTransforms(std::span<const SceneBody> bodies) {
   longest_ = 32;
   for (const SceneBody& body : bodies) {
-    frames_.push_back(R"(,"parent_frame_id":)" + json_string(world_frame) +
-                      R"(,"child_frame_id":)" + json_string(body.name));
+    frames_.push_back(R"(,"parent_frame_id":)" + text::json_string(world_frame) +
+                      R"(,"child_frame_id":)" + text::json_string(body.name));
     longest_ += longest_time + frames_.back().size() + numbers_of_pose * longest_number + 80;
   }
 }
@@ -289,9 +300,10 @@ SceneUpdate::SceneUpdate(const Scene& scene) {
     const SceneSurface& surface = scene.ground[i];
     Primitives primitives;
     append_surface(primitives, surface, ground_colors[i % ground_colors.size()]);
-    entities_.push_back(
-        entity(world_frame, surface.name + "[" + std::to_string(i) + "]",
-               R"({"key":"material","value":)" + json_string(surface.material) + "}", primitives));
+    entities_.push_back(entity(
+        surface.frame.empty() ? world_frame : surface.frame,
+        surface.name + "[" + std::to_string(i) + "]",
+        R"({"key":"material","value":)" + text::json_string(surface.material) + "}", primitives));
   }
   longest_ = 64;
   for (const std::string& entity : entities_) longest_ += longest_time + entity.size() + 1;

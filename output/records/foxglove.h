@@ -33,8 +33,8 @@ class FrameTransforms {
   std::size_t longest_ = 0;
 };
 
-/// Every body's shapes in the body's frame, and the ground in the world's: sent once, they move
-/// with the transforms.
+/// Every body's shapes in the body's frame, and the ground in its own or the world's: sent once,
+/// they move with the transforms.
 class SceneUpdate {
  public:
   explicit SceneUpdate(const Scene& scene);

@@ -8,7 +8,6 @@ namespace hookpoint::output {
 namespace {
 
 constexpr hsize_t block_rows = 512;  ///< rows of a chunk, and between two flushes
-constexpr int level = 1;             ///< of deflate: higher costs much time and gains little
 
 Hdf5Handle create_dataset(hid_t group, const Channel& channel, const char* name) {
   const hsize_t none = 0, unlimited = H5S_UNLIMITED;
@@ -16,7 +15,7 @@ Hdf5Handle create_dataset(hid_t group, const Channel& channel, const char* name)
   const Hdf5Handle properties = clockless_dataset();
   require_hdf5(H5Pset_chunk(properties, 1, &block_rows));
   require_hdf5(H5Pset_shuffle(properties));
-  require_hdf5(H5Pset_deflate(properties, level));
+  require_hdf5(H5Pset_deflate(properties, deflate_level));
   Hdf5Handle dataset(
       H5Dcreate2(group, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, properties, H5P_DEFAULT),
       H5Dclose);

@@ -9,9 +9,12 @@
 #include <string>
 #include <utility>
 
-#include "output/file.h"
+#include "output/files/file.h"
 
 namespace hookpoint::output {
+
+/// Of deflate, 1 to 9: higher costs much time and gains little.
+inline constexpr int deflate_level = 1;
 
 /// An identifier of the library, closed by `close`. Throws FileError for one that was refused.
 class Hdf5Handle {

@@ -8,7 +8,7 @@
 #include <ios>
 #include <string>
 
-#include "output/file.h"
+#include "output/files/file.h"
 
 namespace hookpoint::output {
 namespace {
@@ -17,7 +17,7 @@ namespace {
 constexpr char header[] = {0x12, 0, 8, 0, 0, 0, 0, 0, 1, 0, 0, 0};
 constexpr std::size_t message_size = sizeof header + sizeof(std::uint32_t);
 /// A file takes at most this long to be written [s].
-constexpr std::uint32_t longest = 24 * 3600;
+constexpr std::uint32_t longest_writing = 24 * 3600;
 /// A file of any size is looked through in blocks of this many bytes.
 constexpr std::size_t block_size = 1U << 20U;
 
@@ -30,7 +30,7 @@ bool clear_times(std::string& bytes, std::uint32_t now) {
     if (at + message_size > bytes.size()) break;
     std::uint32_t seconds = 0;
     std::memcpy(&seconds, bytes.data() + at + sizeof header, sizeof seconds);
-    if (now - seconds > longest) continue;
+    if (now - seconds > longest_writing) continue;
     std::memset(bytes.data() + at + sizeof header, 0, sizeof seconds);
     found = true;
   }

@@ -11,7 +11,7 @@
 #include "output/records/hdf5_times.h"
 #include "output/records/matlab_names.h"
 #include "output/records/spool.h"
-#include "unicode/utf8.h"
+#include "text/utf8.h"
 
 namespace hookpoint::output {
 namespace {
@@ -48,7 +48,7 @@ Variable numbers(const char* name, const std::vector<double>& values) {
 }
 
 Variable text(const std::string& utf8) {
-  const std::u16string units = unicode::utf16(utf8);
+  const std::u16string units = text::utf16(utf8);
   return array(nullptr, MAT_C_CHAR, MAT_T_UTF16, {units.empty() ? 0UL : 1UL, units.size()},
                units.data());
 }

@@ -7,12 +7,12 @@
 #include <cmath>
 #include <optional>
 
-#include "output/bytes.h"
+#include "output/files/bytes.h"
 #include "output/records/formats.h"
 #include "output/records/foxglove.h"
 #include "output/records/mcap_records.h"
-#include "output/text/json.h"
-#include "output/text/number.h"
+#include "text/json.h"
+#include "text/number.h"
 
 namespace hookpoint::output {
 namespace {
@@ -27,7 +27,7 @@ std::string_view json_type(const Channel& channel) {
 std::string json_schema(const Channel& channel) {
   const std::string described = channel.doc + (channel.doc.empty() ? "[" : " [") +
                                 (channel.unit.empty() ? "1" : channel.unit) + "]";
-  JsonWriter json;
+  text::JsonWriter json;
   json.begin_object().member("title", channel.path).member("type", "object");
   json.member("description", described);
   json.key("properties").begin_object().key("value").begin_object();
@@ -46,7 +46,7 @@ void append_value(std::string& bytes, std::string_view type, double value) {
   } else if (type == "boolean" && (value == 0. || value == 1.)) {
     bytes += value == 1. ? "true" : "false";
   } else {
-    append_shortest(bytes, value);
+    text::append_shortest(bytes, value);
   }
   bytes += '}';
 }
@@ -56,7 +56,7 @@ void append_value(std::string& bytes, std::string_view type, double value) {
 std::uint64_t nanoseconds(double time) {
   constexpr double latest = 1.8e10;  // [s]: 2^64 ns are 1.84e10 s
   if (!(time <= latest))
-    throw FileError("MCAP counts time in nanoseconds, up to " + rounded(latest) +
+    throw FileError("MCAP counts time in nanoseconds, up to " + text::rounded(latest) +
                     " s: choose another format");
   const double whole = std::floor(time);
   return static_cast<std::uint64_t>(whole) * 1'000'000'000U +
@@ -111,8 +111,8 @@ class McapRecord final : public RecordWriter {
       define(channel.path, channel.path, json_schema(channel),
              {{"unit", channel.unit},
               {"type", channel.type},
-              {"minimum", shortest(channel.minimum)},
-              {"maximum", shortest(channel.maximum)},
+              {"minimum", text::shortest(channel.minimum)},
+              {"maximum", text::shortest(channel.maximum)},
               {"doc", channel.doc}});
     if (scene_) {
       define("/tf", "foxglove.FrameTransforms", foxglove::frame_transforms_schema(), {});
@@ -121,7 +121,7 @@ class McapRecord final : public RecordWriter {
     std::string bytes(mcap::magic);
     mcap::append_header(bytes, "hookpoint");
     mcap::TextPairs about{{"name", header.name},
-                          {"period", shortest(header.period)},
+                          {"period", text::shortest(header.period)},
                           {"experiment", header.experiment}};
     about.insert(about.end(), header.annotations.begin(), header.annotations.end());
     const std::uint64_t place = bytes.size();

@@ -4,7 +4,7 @@
 
 #include <numeric>
 
-#include "output/bytes.h"
+#include "output/files/bytes.h"
 
 namespace hookpoint::output::mcap {
 namespace {

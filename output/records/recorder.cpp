@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "output/records/formats.h"
-#include "output/text/number.h"
+#include "text/number.h"
 
 namespace hookpoint::output {
 namespace {
@@ -55,7 +55,7 @@ void RecordWriter::close() {
 
 void RecordWriter::refuse(const FileError& error) {
   const Kept kept = keep();
-  refusal_ = std::string(error.what()) + ", at " + shortest(time_) + " s; the first " +
+  refusal_ = std::string(error.what()) + ", at " + text::shortest(time_) + " s; the first " +
              std::to_string(kept.rows) + " rows are kept in " + kept.file.string();
   throw FileError(refusal_);
 }

@@ -12,19 +12,11 @@
 #include <utility>
 #include <vector>
 
-#include "output/file.h"
+#include "output/files/file.h"
+#include "output/records/channel.h"
 #include "output/records/scene.h"
 
 namespace hookpoint::output {
-
-struct Channel {
-  std::string path;             ///< trail: "simplebot.leg1.link1.angle"
-  std::string unit;             ///< "rad"; "" for none
-  std::string type = "double";  ///< or "bool" (0, 1), "int" (whole numbers)
-  double minimum = -std::numeric_limits<double>::infinity();  ///< declared range, in `unit`
-  double maximum = std::numeric_limits<double>::infinity();
-  std::string doc;  ///< one line
-};
 
 struct RecordHeader {
   std::string name;

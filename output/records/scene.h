@@ -1,4 +1,4 @@
-// What a player of records draws: bodies with their shapes, and the ground that they move on. Plain
+// What a player of records draws: bodies and obstacles with their shapes, and the ground. Plain
 // values; whoever records fills them in.
 #pragma once
 
@@ -23,22 +23,28 @@ struct SceneCone {
   double length = 0.;                          ///< [m]
   double bottom_radius = 0., top_radius = 0.;  ///< of the faces at -z and at +z [m]
 };
+struct SceneMesh {
+  std::vector<Vector3d> vertices;                       ///< [m]
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise seen from outside
+};
 
 struct SceneShape {
-  std::variant<SceneBox, SceneSphere, SceneCone> geometry;
+  std::variant<SceneBox, SceneSphere, SceneCone, SceneMesh> geometry;
   Vector3d location;        ///< p_BS, of the shape's frame in its body [m]
   Quaterniond orientation;  ///< R_BS
 };
 
+/// What has a pose in every row: a body, an obstacle, ground that moves.
 struct SceneBody {
   std::string name;  ///< trail: "w.simplebot.leg1.link1"
   std::vector<SceneShape> shapes;
 };
 
-/// Triangles of one material, world axes.
+/// Triangles of one material.
 struct SceneSurface {
   std::string name;      ///< trail of the terrain
   std::string material;  ///< its name
+  std::string frame;     ///< SceneBody::name whose axes the vertices are in; "": world axes
   std::vector<Vector3d> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise seen from above
 };

@@ -2,7 +2,7 @@
 
 #include <new>
 
-#include "output/file.h"
+#include "output/files/file.h"
 
 namespace hookpoint::output {
 namespace {

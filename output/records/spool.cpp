@@ -1,6 +1,6 @@
 #include "output/records/spool.h"
 
-#include "output/bytes.h"
+#include "output/files/bytes.h"
 
 namespace hookpoint::output {
 namespace {

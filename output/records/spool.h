@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "output/file.h"
+#include "output/files/file.h"
 #include "output/records/recorder.h"
 
 namespace hookpoint::output {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "unicode/utf8.h"
+#include "text/utf8.h"
 
 namespace hookpoint::output {
 namespace {
@@ -49,7 +49,7 @@ void append_wolfram_real(std::string& text, double value) {
 
 std::string wolfram_string(std::string_view utf8) {
   std::string text = "\"";
-  for (const char32_t point : unicode::code_points(utf8)) {
+  for (const char32_t point : text::code_points(utf8)) {
     if (point == '"' || point == '\\') {
       text += '\\';
       text += static_cast<char>(point);

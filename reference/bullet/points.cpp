@@ -1,5 +1,7 @@
 #include "reference/bullet/points.h"
 
+#include <algorithm>
+
 #include "reference/experiment_checks.h"
 
 namespace hookpoint::reference {
@@ -26,14 +28,11 @@ BulletPoints::BulletPoints(const simulation::Experiment& experiment, const Robot
                            const BulletSettings& settings, btDispatcher& dispatcher,
                            const btRigidBody& ground)
     : settings_(settings),
+      materials_(experiment),
       terrain_(*experiment.terrain),
       points_(touching_points(experiment, tree)),
       dispatcher_(dispatcher),
-      ground_(ground) {
-  const std::size_t materials = std::max<std::size_t>(experiment.materials.size(), 1);
-  for (std::size_t i = 0; i < materials; ++i)
-    materials_.push_back(material_at(experiment, static_cast<int>(i)));
-}
+      ground_(ground) {}
 
 BulletPoints::~BulletPoints() {
   for (btPersistentManifold* manifold : manifolds_) dispatcher_.releaseManifold(manifold);
@@ -58,7 +57,7 @@ void BulletPoints::collide(std::span<const simulation::BodyState> bodies) {
     btManifoldPoint contact({}, {}, normal, -meeting.depth);
     contact.m_positionWorldOnA = position;
     contact.m_positionWorldOnB = position + meeting.depth * normal;
-    set_bullet_material(contact, materials_[static_cast<std::size_t>(meeting.material)], settings_);
+    set_bullet_material(contact, materials_.of(points_[i].material, meeting.material), settings_);
     // An anchor under a ball that rolls is a drag line; a point does not roll.
     if (settings_.friction_anchor && points_[i].radius == 0.)
       contact.m_contactPointFlags |= BT_CONTACT_FLAG_FRICTION_ANCHOR;
@@ -88,6 +87,10 @@ void BulletPoints::read(double deltat, std::span<simulation::BodyState> bodies) 
         manifolds_[i]->getContactPoint(0).m_appliedImpulse > 0.)
       ++body.contacts;
   }
+}
+
+bool BulletPoints::has(const btPersistentManifold& manifold) const {
+  return std::ranges::find(manifolds_, &manifold) != manifolds_.end();
 }
 
 void BulletPoints::read_forces(double deltat, std::span<Vector3d> forces) const {

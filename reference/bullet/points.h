@@ -7,11 +7,12 @@
 
 #include "reference/bullet/settings.h"
 #include "reference/bullet/shapes.h"
+#include "reference/pair_materials.h"
 #include "reference/touching_points.h"
 
 namespace hookpoint::reference {
 
-/// What Bullet's solver is told of a contact on a tile.
+/// What Bullet's solver gets of a contact on a tile.
 void set_bullet_material(btManifoldPoint& contact,
                          const contact::MaterialConstants<double>& material,
                          const BulletSettings& settings);
@@ -31,13 +32,15 @@ class BulletPoints {
   void collide(std::span<const simulation::BodyState> bodies);
   /// Adds the force of each point in the last step to its body, and counts it.
   void read(double deltat, std::span<simulation::BodyState> bodies) const;
+  /// Whether it is one of the points' own.
+  bool has(const btPersistentManifold& manifold) const;
   void read_forces(double deltat, std::span<Vector3d> forces) const;
 
  private:
   Vector3d force(std::size_t point, double deltat) const;
 
   BulletSettings settings_;
-  std::vector<contact::MaterialConstants<double>> materials_;
+  PairMaterials materials_;
   contact::Terrain terrain_;
   std::vector<TouchingPoint> points_;
   btDispatcher& dispatcher_;

@@ -30,11 +30,17 @@ BulletJoint bullet_joint(const TreeBody& link, const BulletFrame& parent, const 
 
 }  // namespace
 
+void set_bullet_surface(btCollisionObject& object, const BulletSurface& surface) {
+  object.setFriction(surface.friction);
+  object.setRestitution(surface.restitution);
+  if (surface.spring) object.setContactStiffnessAndDamping(surface.stiffness, surface.damping);
+}
+
 BulletRobot::BulletRobot(const RobotTree& tree, int robot, btMultiBodyDynamicsWorld& world,
-                         BulletSurface surface)
+                         std::vector<BulletSurface> surfaces)
     : first_body_(tree.bases[static_cast<std::size_t>(robot)]),
       world_(world),
-      surface_(std::move(surface)),
+      surfaces_(std::move(surfaces)),
       marker_(1e-6) {
   for (std::size_t i = first_body_; i < tree.bodies.size() && tree.bodies[i].robot == robot; ++i) {
     bodies_.push_back(tree.bodies[i]);
@@ -99,10 +105,9 @@ void BulletRobot::add_colliders(btMultiBodyDynamicsWorld& world) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const auto link = static_cast<int>(i) - 1;
     auto collider = std::make_unique<btMultiBodyLinkCollider>(multibody_.get(), link);
-    if (i == 0 && surface_.shape) {
-      collider->setCollisionShape(surface_.shape->shape.get());
-      collider->setFriction(surface_.friction);
-      collider->setRestitution(surface_.restitution);
+    if (surfaces_[i].shape) {
+      collider->setCollisionShape(surfaces_[i].shape->shape.get());
+      set_bullet_surface(*collider, surfaces_[i]);
       world.addCollisionObject(collider.get(), btBroadphaseProxy::DefaultFilter,
                                btBroadphaseProxy::StaticFilter);
     } else {

@@ -14,17 +14,21 @@
 
 namespace hookpoint::reference {
 
-/// What a base meets the ground with, where it has no chains and does not touch by points.
+/// What a body meets others with.
 struct BulletSurface {
-  std::unique_ptr<BulletShape> shape;  ///< in the base's principal frame; null: it meets nothing
+  std::unique_ptr<BulletShape> shape;  ///< in the body's principal frame; null: it meets nothing
   double friction = 0., restitution = 0.;  ///< [1]
+  bool spring = false;                     ///< the next two are set
+  double stiffness = 0., damping = 0.;     ///< [N/m], [N s/m]
 };
+/// What the surface says beside its shape.
+void set_bullet_surface(btCollisionObject& object, const BulletSurface& surface);
 
 class BulletRobot {
  public:
-  /// Robot `robot` of `tree`, added to `world`, which outlives it.
+  /// Robot `robot` of `tree`, added to `world`, which outlives it. `surfaces`: one a body of it.
   BulletRobot(const RobotTree& tree, int robot, btMultiBodyDynamicsWorld& world,
-              BulletSurface surface = {});
+              std::vector<BulletSurface> surfaces);
   ~BulletRobot();
   BulletRobot(const BulletRobot&) = delete;
   BulletRobot& operator=(const BulletRobot&) = delete;
@@ -42,6 +46,10 @@ class BulletRobot {
   /// What contacts refer to: `body` counts from the base.
   btMultiBodyLinkCollider& collider(std::size_t body) { return *colliders_[body]; }
   btMultiBody& multibody() { return *multibody_; }
+  /// A place of body `body`, which counts from the base, seen from where Bullet has its frame.
+  btVector3 in_bullet_frame(std::size_t body, const Vector3d& place) const {
+    return frames_[body].X_BP.inverse() * bullet(place);
+  }
 
  private:
   void add_links();
@@ -53,8 +61,8 @@ class BulletRobot {
   std::vector<BulletFrame> frames_;  ///< of each: where Bullet has its frame
   std::unique_ptr<btMultiBody> multibody_;
   btMultiBodyDynamicsWorld& world_;
-  BulletSurface surface_;  ///< of the base
-  btSphereShape marker_;   ///< of all other colliders: never collided by Bullet
+  std::vector<BulletSurface> surfaces_;  ///< of each body
+  btSphereShape marker_;  ///< of colliders without a surface: never collided by Bullet
   std::vector<std::unique_ptr<btMultiBodyLinkCollider>> colliders_;
 };
 

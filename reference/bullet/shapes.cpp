@@ -1,5 +1,7 @@
 #include "reference/bullet/shapes.h"
 
+#include <LinearMath/btGeometryUtil.h>
+
 #include <cmath>
 #include <numbers>
 
@@ -37,6 +39,29 @@ struct Builder {
     hull->recalcLocalAabb();
     return hull;
   }
+  std::unique_ptr<btCollisionShape> operator()(const simulation::Capsule& capsule) const {
+    return std::make_unique<btCapsuleShapeZ>(capsule.radius, capsule.length);
+  }
+  /// Its faces moved inwards by the margin.
+  std::unique_ptr<btCollisionShape> operator()(const simulation::Hull& solid) const {
+    btAlignedObjectArray<btVector3> planes, vertices;
+    for (const std::vector<std::size_t>& face : solid.faces) {
+      Vector3d area;
+      const Vector3d& first = solid.vertices[face[0]];
+      for (std::size_t i = 2; i < face.size(); ++i)
+        area += cross(solid.vertices[face[i - 1]] - first, solid.vertices[face[i]] - first);
+      const Vector3d normal = (1. / norm(area)) * area;
+      btVector3 plane = bullet(normal);
+      plane.setW(hull_margin - dot(normal, first));
+      planes.push_back(plane);
+    }
+    btGeometryUtil::getVerticesFromPlaneEquations(planes, vertices);
+    auto hull = std::make_unique<btConvexHullShape>();
+    for (int i = 0; i < vertices.size(); ++i) hull->addPoint(vertices[i], false);
+    hull->setMargin(hull_margin);
+    hull->recalcLocalAabb();
+    return hull;
+  }
 };
 
 bool is_identity(const btTransform& pose) {
@@ -52,6 +77,10 @@ void build(BulletShape& ground, const GroundPlane& plane) {
   const btVector3 normal = bullet(plane.normal);
   ground.X_WG = btTransform(shortestArcQuat(btVector3(0., 0., 1.), normal),
                             (plane.offset - half_height) * normal);
+}
+
+void build(BulletShape& ground, const GroundStairs& /*stairs*/) {
+  ground.shape = std::make_unique<btEmptyShape>();
 }
 
 void build(BulletShape& ground, const GroundMesh& mesh) {
@@ -85,18 +114,26 @@ BulletFrame principal_frame(const simulation::MassSpec& mass) {
   return frame;
 }
 
-std::unique_ptr<BulletShape> make_bullet_shape(const std::vector<simulation::ShapeSpec>& shapes,
-                                               const btTransform& X_BP) {
+std::unique_ptr<BulletShape> make_bullet_shape(const simulation::ShapeGeometry& geometry) {
+  auto result = std::make_unique<BulletShape>();
+  result->shape = std::visit(Builder{}, geometry);
+  // A box is rounded by its margin, 4 cm by itself, where it meets what is no box.
+  if (std::holds_alternative<simulation::Box>(geometry)) result->shape->setMargin(hull_margin);
+  return result;
+}
+
+std::unique_ptr<BulletShape> make_bullet_shape(
+    const std::vector<const simulation::ShapeSpec*>& shapes, const btTransform& X_BP) {
   auto result = std::make_unique<BulletShape>();
   if (shapes.empty()) {
     result->shape = std::make_unique<btEmptyShape>();
     return result;
   }
   std::vector<btTransform> poses;
-  for (const auto& shape : shapes) {
+  for (const simulation::ShapeSpec* shape : shapes) {
     poses.push_back(
-        X_BP.inverseTimes(btTransform(bullet(shape.orientation), bullet(shape.location))));
-    result->parts.push_back(std::visit(Builder{}, shape.geometry));
+        X_BP.inverseTimes(btTransform(bullet(shape->orientation), bullet(shape->location))));
+    result->parts.push_back(std::visit(Builder{}, shape->geometry));
   }
   if (shapes.size() == 1 && is_identity(poses.front())) {
     result->shape = std::move(result->parts.front());

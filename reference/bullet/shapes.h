@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "reference/ground.h"
-#include "simulation/experiment.h"
+#include "simulation/experiment/experiment.h"
 
 namespace hookpoint::reference {
 
@@ -34,8 +34,11 @@ struct BulletShape {
 };
 /// The shapes of a body in its principal frame. One shape on that frame stays itself, so that
 /// Bullet uses the pair algorithm of its kind; anything else is a compound.
-std::unique_ptr<BulletShape> make_bullet_shape(const std::vector<simulation::ShapeSpec>& shapes,
-                                               const btTransform& X_BP);
+std::unique_ptr<BulletShape> make_bullet_shape(
+    const std::vector<const simulation::ShapeSpec*>& shapes, const btTransform& X_BP);
+/// What stands by itself, about its own origin.
+std::unique_ptr<BulletShape> make_bullet_shape(const simulation::ShapeGeometry& geometry);
+/// Of stairs nothing: their steps stand by themselves.
 std::unique_ptr<BulletShape> make_bullet_ground(const Ground& ground);
 
 }  // namespace hookpoint::reference

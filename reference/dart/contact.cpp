@@ -96,11 +96,30 @@ bool DartShapesFilter::ignoresCollision(const dart::collision::CollisionObject* 
 
 bool DartShapesFilter::meets(const dart::dynamics::ShapeFrame* shape,
                              const dart::dynamics::ShapeFrame* other) const {
-  return other == ground && std::ranges::find(shapes, shape) != shapes.end();
+  const auto among = [](const auto& frames, const auto* frame) {
+    return std::ranges::find(frames, frame) != frames.end();
+  };
+  if (among(shapes, shape)) return other == ground || among(solids, other);
+  return among(balls, shape) && among(solids, other);
 }
 
-dart::collision::CollisionObject* DartGroundDetector::ground_object(int material) {
-  return claimCollisionObject(ground->materials[static_cast<std::size_t>(material)]).get();
+dart::collision::CollisionObject* DartGroundDetector::object_of(const DartStanding& standing,
+                                                                int foot, int material) {
+  return claimCollisionObject(standing.surfaces.at({foot, material})).get();
+}
+
+void DartGroundDetector::name_surface(dart::collision::Contact& contact) {
+  const auto foot = [&](const dart::collision::CollisionObject* object) {
+    return foot_materials.find(object->getShapeFrame());
+  };
+  const bool robot_is_first = foot(contact.collisionObject1) != foot_materials.end();
+  const int material =
+      foot(robot_is_first ? contact.collisionObject1 : contact.collisionObject2)->second;
+  auto*& other = robot_is_first ? contact.collisionObject2 : contact.collisionObject1;
+  const auto at = std::ranges::find_if(
+      standing, [&](const DartStanding& one) { return one.shape == other->getShapeFrame(); });
+  other = object_of(*at, material,
+                    at->material ? *at->material : terrain->query(vector(contact.point)).material);
 }
 
 bool DartGroundDetector::collide(dart::collision::CollisionGroup* group,
@@ -110,21 +129,14 @@ bool DartGroundDetector::collide(dart::collision::CollisionGroup* group,
   constexpr double rounding = 1e-9;
   FCLCollisionDetector::collide(group, option, result);
   shape_contacts = result->getNumContacts();
-  // The tile under the contact has the friction.
-  for (std::size_t i = 0; i < result->getNumContacts(); ++i) {
-    dart::collision::Contact& contact = result->getContact(i);
-    const bool first = contact.collisionObject1->getShapeFrame()->asShapeNode()->getSkeleton() ==
-                       ground->materials[0]->getSkeleton();
-    auto*& object = first ? contact.collisionObject1 : contact.collisionObject2;
-    object = ground_object(ground->terrain.query(vector(contact.point)).material);
-  }
+  for (std::size_t i = 0; i < result->getNumContacts(); ++i) name_surface(result->getContact(i));
   for (const DartBall& ball : balls) {
     const Eigen::Isometry3d& X_WB = ball.node->getBodyNodePtr()->getWorldTransform();
-    const Meeting meeting = meet(ground->terrain, ball.place, pose_of(X_WB));
+    const Meeting meeting = meet(*terrain, ball.place, pose_of(X_WB));
     if (!(meeting.depth >= -rounding)) continue;
     dart::collision::Contact contact;
     contact.collisionObject1 = claimCollisionObject(ball.node).get();
-    contact.collisionObject2 = ground_object(meeting.material);
+    contact.collisionObject2 = object_of(standing.front(), ball.place.material, meeting.material);
     contact.point = eigen(meeting.position);
     contact.normal = eigen(meeting.normal);
     contact.penetrationDepth = meeting.depth;

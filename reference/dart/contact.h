@@ -5,7 +5,9 @@
 #include <dart/collision/fcl/FCLCollisionDetector.hpp>
 #include <dart/constraint/ConstraintSolver.hpp>
 #include <dart/dynamics/ShapeNode.hpp>
+#include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "reference/dart/settings.h"
@@ -42,18 +44,21 @@ struct DartBall {
   const dart::dynamics::ShapeNode* node;
   TouchingPoint place;
 };
-/// The ground: as one shape for FCL, and as it is for balls.
-struct DartGroundParts {
-  contact::Terrain terrain;
-  std::vector<const dart::dynamics::ShapeNode*> materials;  ///< one a material
+/// What robots meet: the ground, a step of stairs, an obstacle.
+struct DartStanding {
+  const dart::dynamics::ShapeNode* shape = nullptr;  ///< for FCL; null: it sees none
+  std::optional<int> material;                       ///< none: the tile's under the contact
+  /// Of a foot's material and its own: a node with the friction and restitution of both.
+  std::map<std::pair<int, int>, const dart::dynamics::ShapeNode*> surfaces;
 };
 
-/// Of a pair of shapes FCL sees those that the ground's own shape is in, balls excepted: robots
-/// meet the ground only, as in every engine here.
+/// Of a pair of shapes FCL sees those of a robot and what stands: robots do not meet each other. A
+/// ball meets the ground by our terrain query, so that FCL does not see these two.
 class DartShapesFilter final : public dart::collision::CollisionFilter {
  public:
   const dart::dynamics::ShapeFrame* ground = nullptr;
-  std::vector<const dart::dynamics::ShapeFrame*> shapes;
+  std::vector<const dart::dynamics::ShapeFrame*> solids;
+  std::vector<const dart::dynamics::ShapeFrame*> shapes, balls;
 
   bool ignoresCollision(const dart::collision::CollisionObject* a,
                         const dart::collision::CollisionObject* b) const override;
@@ -63,8 +68,8 @@ class DartShapesFilter final : public dart::collision::CollisionFilter {
              const dart::dynamics::ShapeFrame* other) const;
 };
 
-/// FCL for boxes and cylinders; balls meet the ground's tiles exactly, as in our own engine. FCL
-/// gives a sphere on a mesh negative depths, of which DART makes no contact, and has no points.
+/// FCL for shapes; balls meet the ground's tiles exactly, as in our own engine. FCL gives a sphere on
+/// a mesh negative depths, of which DART makes no contact, and has no points.
 class DartGroundDetector final : public dart::collision::FCLCollisionDetector {
  public:
   // The setter of the same would print a warning.
@@ -72,7 +77,9 @@ class DartGroundDetector final : public dart::collision::FCLCollisionDetector {
     mPrimitiveShapeType = tessellated ? MESH : PRIMITIVE;
   }
 
-  std::optional<DartGroundParts> ground;
+  std::optional<contact::Terrain> terrain;
+  std::vector<DartStanding> standing;  ///< the ground first, where there is one
+  std::map<const dart::dynamics::ShapeFrame*, int> foot_materials;  ///< of robots' shapes
   std::vector<DartBall> balls;
   std::size_t shape_contacts = 0;  ///< that FCL found last
 
@@ -82,7 +89,9 @@ class DartGroundDetector final : public dart::collision::FCLCollisionDetector {
                dart::collision::CollisionResult* result) override;
 
  private:
-  dart::collision::CollisionObject* ground_object(int material);
+  /// Of a contact that FCL found, puts the node of both materials in the place of what stands.
+  void name_surface(dart::collision::Contact& contact);
+  dart::collision::CollisionObject* object_of(const DartStanding& standing, int foot, int material);
 };
 
 }  // namespace hookpoint::reference

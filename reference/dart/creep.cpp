@@ -23,7 +23,7 @@ simulation::ClosedForm<simulation::CreepVelocity> dart_creep(
   const DartSettings settings = dart_settings(kind, experiment.deltat, material);
   const auto body = resting_body(experiment);
   if (!body) return body.none();
-  if (settings.tessellated && !touches_by_points(experiment, 0))
+  if (settings.tessellated && !touching_shapes(experiment, experiment.robots[0].base).empty())
     return simulation::NoClosedForm{"DART's contacts of a mesh are those of its triangles"};
   const double friction = single_friction(material);
   if (settings.own_mixing) {

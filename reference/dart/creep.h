@@ -1,9 +1,9 @@
 // How a DART contact at rest creeps, in closed form.
 #pragma once
 
-#include "simulation/closed_form.h"
-#include "simulation/creep_velocity.h"
-#include "simulation/experiment.h"
+#include "simulation/engine_interface/engine.h"
+#include "simulation/experiment/closed_form.h"
+#include "simulation/experiment/experiment.h"
 
 namespace hookpoint::reference {
 

@@ -15,11 +15,23 @@ using enum simulation::EngineGap::Handling;
 
 /// What DART lacks.
 constexpr auto gaps = std::to_array<OwnGap>({
+    {feature::loops, refused, "choose engine dts, bullet, mujoco or ode"},
+    {feature::couplings, refused, "choose engine dts, bullet or mujoco"},
     single_friction_gap,
     matched_restitution_gap,
-    {feature::legcone, refused, "DART has no truncated cone; use Cylinder, Sphere or Box"},
+    {feature::legcone, noticed,
+     "DART has no truncated cone: its samples touch, as under touch = points"},
+    {feature::capsule, noticed,
+     "FCL as DART has it meets no capsule: its end balls touch, as under touch = points"},
+    {feature::hull, noticed,
+     "FCL as DART has it meets no hull: its vertices touch, as under touch = points"},
+    {feature::lying_cylinder, stated,
+     "FCL puts the contact of a cylinder that lies on a box beside the line below its axis, once it is "
+     "some millimetres deep: it stands on slopes"},
     {feature::tile_softness, noticed,
      "at `settings = matched` the constants of the terrain's own material hold on every tile"},
+    {feature::foot_softness, noticed,
+     "the engine has one softness: the terrain's own material holds under all of them"},
     {feature::rotors, refused, "joints of DART have no inertia of their own; use dts or mujoco"},
 });
 

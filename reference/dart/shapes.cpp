@@ -22,8 +22,9 @@ struct Builder {
   dart::dynamics::ShapePtr operator()(const simulation::Cylinder& cylinder) const {
     return std::make_shared<dart::dynamics::CylinderShape>(cylinder.radius, cylinder.length);
   }
-  dart::dynamics::ShapePtr operator()(const simulation::Legcone&) const {
-    throw std::logic_error("a Legcone is refused before any shape is made");
+  template <class Refused>
+  dart::dynamics::ShapePtr operator()(const Refused&) const {
+    throw std::logic_error("a shape that DART has not is refused before any is made");
   }
 };
 
@@ -64,6 +65,7 @@ dart::dynamics::ShapePtr make_dart_shape(const simulation::ShapeGeometry& geomet
 
 DartGround make_dart_ground(const Ground& ground, double width) {
   if (const auto* mesh = std::get_if<GroundMesh>(&ground)) return {mesh_shape(*mesh)};
+  if (std::holds_alternative<GroundStairs>(ground)) return {};
   const auto& plane = std::get<GroundPlane>(ground);
   constexpr double height = 20.;  // [m]
   DartGround result{

@@ -23,7 +23,7 @@ struct DartGround {
   dart::dynamics::ShapePtr shape;
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< X_WS
 };
-/// A plane is a box of `width` [m] with its top face there: FCL gives two boxes all their contacts,
+/// Without a shape of stairs, whose steps stand by themselves. A plane is a box of `width` [m] with its top face there: FCL gives two boxes all their contacts,
 /// and anything on its half-space one. A mesh has vertices in single precision: aiScene has no
 /// other.
 DartGround make_dart_ground(const Ground& ground, double width);

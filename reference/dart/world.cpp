@@ -14,6 +14,7 @@
 #include <dart/simulation/World.hpp>
 #include <limits>
 #include <mutex>
+#include <set>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -27,9 +28,12 @@
 #include "reference/external_forces.h"
 #include "reference/extremes.h"
 #include "reference/library_abort.h"
+#include "reference/pair_materials.h"
 #include "reference/robot_tree.h"
+#include "reference/solids.h"
 #include "reference/touching_points.h"
-#include "simulation/names.h"
+#include "simulation/experiment/names.h"
+#include "simulation/experiment/robot_tree.h"
 
 namespace hookpoint::reference {
 namespace {
@@ -40,6 +44,8 @@ using simulation::JointState;
 
 /// Contacts at once whose rows take DART's solver some 10 ms a step.
 constexpr std::size_t slow_contacts = 100;
+/// Of a ball that is never collided [m].
+constexpr double marker_size = 1e-3;
 
 /// What a collision shape belongs to.
 struct ShapeUse {
@@ -52,6 +58,7 @@ class DartWorld final : public PeerWorld {
  public:
   DartWorld(const simulation::Experiment& experiment, const DartSettings& settings)
       : settings_(settings),
+        materials_(experiment),
         detector_(std::make_shared<DartGroundDetector>(settings.tessellated)),
         filter_(std::make_shared<DartShapesFilter>()),
         world_(dart::simulation::World::create()),
@@ -68,10 +75,9 @@ class DartWorld final : public PeerWorld {
     const RobotTree tree = robot_tree(experiment);
     forced_ = forced_bodies(experiment, tree);
     for (const TreeBody& body : tree.bodies) add_body(body);
-    if (experiment.terrain) {
-      add_ground(experiment);
-      add_touching(experiment, tree);
-    }
+    if (experiment.terrain) add_ground(experiment);
+    for (const Solid& solid : solids_of(experiment)) add_solid(experiment, solid);
+    add_touching(experiment, tree);
     for (const auto& skeleton : skeletons_) world_->addSkeleton(skeleton);
     for (const TreeBody& body : tree.bodies) now_.push_back(body.initial);
     joints_now_.resize(tree.joints);
@@ -80,6 +86,7 @@ class DartWorld final : public PeerWorld {
 
   std::string advance(const simulation::WorldInputs& inputs) override {
     if (near_ground_) keep_below(*near_ground_);
+    move_surfaces(inputs);
     if (!apply(inputs)) return {};
     const DartConstantsTurn turn(settings_);
     const auto step = [this] {
@@ -246,38 +253,106 @@ class DartWorld final : public PeerWorld {
   }
 
   void add_ground(const simulation::Experiment& experiment) {
-    const auto skeleton = dart::dynamics::Skeleton::create("ground");
-    const auto [joint, node] = skeleton->createJointAndBodyNodePair<dart::dynamics::WeldJoint>();
-    skeleton->setMobile(false);
     const Ground plan = ground_of(*experiment.terrain);
+    detector_->terrain.emplace(*experiment.terrain);
+    BodyNode* node = nullptr;
+    dart::dynamics::WeldJoint* weld = nullptr;
+    if (simulation::ground_moves(experiment)) {
+      belt_ = add_standing_body<dart::dynamics::FreeJoint>("ground", node);
+    } else {
+      weld = add_standing_body<dart::dynamics::WeldJoint>("ground", node);
+    }
     const auto* plane = std::get_if<GroundPlane>(&plan);
     constexpr double far_width = 2e3;
     const double near_width = 20. * reach(experiment);
     // Two triangles meet in single precision in DART (tri_tri_intersection_test.hpp): on a ground
     // of 2 km a block has no contacts while it is less than some 30 um deep.
-    if (settings_.tessellated && plane != nullptr && near_width > 0.)
-      near_ground_ = NearGround{joint, eigen(plane->normal), near_width};
-    const DartGround ground = make_dart_ground(plan, near_ground_ ? near_width : far_width);
-    detector_->ground.emplace(DartGroundParts{contact::Terrain(*experiment.terrain), {}});
+    if (settings_.tessellated && plane != nullptr && weld != nullptr && near_width > 0.)
+      near_ground_ = NearGround{weld, eigen(plane->normal), near_width};
+    DartGround ground = make_dart_ground(plan, near_ground_ ? near_width : far_width);
+    const bool seen = ground.shape != nullptr;
+    // What stands for stairs under boundary points has no shape of its own.
+    if (!seen) ground.shape = std::make_shared<dart::dynamics::SphereShape>(marker_size);
+    DartStanding standing;
     const std::size_t materials = std::max<std::size_t>(experiment.materials.size(), 1);
-    for (std::size_t i = 0; i < materials; ++i) {
-      const auto material = material_at(experiment, static_cast<int>(i));
-      detector_->ground->materials.push_back(
-          add_shape(node, ground.shape, ground.pose, single_friction(material),
-                    settings_.restitution ? material.restitution : 0., {}));
+    for (std::size_t i = 0; i < materials; ++i)
+      add_surfaces(experiment, *node, ground, static_cast<int>(i), standing);
+    const int own = std::min(experiment.terrain->material, static_cast<int>(materials) - 1);
+    if (seen)
+      filter_->ground = standing.shape = standing.surfaces.at({simulation::no_material, own});
+    detector_->standing.push_back(std::move(standing));
+  }
+
+  /// A step of stairs belongs to the ground, an obstacle is a body of its own that is moved.
+  void add_solid(const simulation::Experiment& experiment, const Solid& solid) {
+    BodyNode* node = nullptr;
+    const Eigen::Isometry3d X_WS = transform(solid.pose.position, solid.pose.orientation);
+    DartGround shape{make_dart_shape(solid.geometry)};
+    DartStanding standing;
+    const std::string name = "solid " + std::to_string(detector_->standing.size());
+    auto* joint = add_standing_body<dart::dynamics::FreeJoint>(name, node);
+    dart::dynamics::FreeJoint::setTransformOf(joint, X_WS);
+    if (solid.obstacle) {
+      obstacles_.push_back({joint, *solid.obstacle});
+      standing.material = solid.material;
+      add_surfaces(experiment, *node, shape, solid.material, standing);
+    } else {
+      for (std::size_t i = 0; i < experiment.materials.size(); ++i)
+        add_surfaces(experiment, *node, shape, static_cast<int>(i), standing);
     }
-    const auto own = static_cast<std::size_t>(experiment.terrain->material);
-    filter_->ground = detector_->ground->materials[std::min(own, materials - 1)];
+    standing.shape = standing.surfaces.at({simulation::no_material, solid.material});
+    filter_->solids.push_back(standing.shape);
+    detector_->standing.push_back(std::move(standing));
+  }
+
+  /// A body that nothing but move_surfaces() moves.
+  template <class Joint>
+  Joint* add_standing_body(const std::string& name, BodyNode*& node) {
+    const auto skeleton = dart::dynamics::Skeleton::create(name);
+    const auto [joint, created] = skeleton->createJointAndBodyNodePair<Joint>();
+    skeleton->setMobile(false);
     skeletons_.push_back(skeleton);
+    node = created;
+    return joint;
+  }
+
+  /// A node for each material of a foot on `material`.
+  void add_surfaces(const simulation::Experiment& experiment, BodyNode& node,
+                    const DartGround& ground, int material, DartStanding& standing) {
+    std::set<int> feet{simulation::no_material};
+    for (const simulation::RobotSpec& robot : experiment.robots)
+      simulation::for_each_body(robot, [&](const simulation::BodySpec& body) {
+        feet.insert(body.boundary_materials.begin(), body.boundary_materials.end());
+        for (const simulation::ShapeSpec& shape : body.shapes) feet.insert(shape.material);
+      });
+    for (const int foot : feet) {
+      const auto& made = materials_.of(foot, material);
+      standing.surfaces[{foot, material}] =
+          add_shape(&node, ground.shape, ground.pose, single_friction(made),
+                    settings_.restitution ? made.restitution : 0., {});
+    }
+  }
+
+  void move_surfaces(const simulation::WorldInputs& inputs) {
+    if (belt_ != nullptr) belt_->setLinearVelocity(eigen(inputs.ground.belt_velocity));
+    for (const auto& [joint, index] : obstacles_) {
+      const simulation::SurfaceMotion& motion = inputs.obstacles[index];
+      dart::dynamics::FreeJoint::setTransformOf(joint,
+                                                transform(motion.position, motion.orientation));
+      joint->setAngularVelocity(eigen(motion.angular_velocity));
+      joint->setLinearVelocity(eigen(motion.velocity));
+    }
   }
 
   /// Of the shapes of the experiment's one body about its origin [m]; 0 where there are others.
   static double reach(const simulation::Experiment& experiment) {
-    if (experiment.robots.size() != 1 || touches_by_points(experiment, 0)) return 0.;
+    if (experiment.robots.size() != 1 || !experiment.robots[0].chains.empty()) return 0.;
+    const simulation::BodySpec& base = experiment.robots[0].base;
+    if (!touching_points(experiment, base, 0).empty()) return 0.;
     double largest = 0.;
-    for (const simulation::ShapeSpec& shape : experiment.robots[0].base.shapes) {
-      const auto box = make_dart_shape(shape.geometry)->getBoundingBox();
-      largest = std::max(largest, norm(shape.location) + box.computeHalfExtents().norm());
+    for (const simulation::ShapeSpec* shape : touching_shapes(experiment, base)) {
+      const auto box = make_dart_shape(shape->geometry)->getBoundingBox();
+      largest = std::max(largest, norm(shape->location) + box.computeHalfExtents().norm());
     }
     return largest;
   }
@@ -293,36 +368,43 @@ class DartWorld final : public PeerWorld {
 
   void add_touching(const simulation::Experiment& experiment, const RobotTree& tree) {
     const auto points = touching_points(experiment, tree);
-    for (std::size_t i = 0; i < points.size(); ++i) add_ball(points[i], static_cast<int>(i));
-    for (const Body& body : bodies_) {
-      const TreeBody& spec = tree.bodies[body.index];
-      if (!body.mobile || touches_by_points(experiment, spec.robot)) continue;
-      for (const simulation::ShapeSpec& shape : spec.body->shapes) {
-        const auto* sphere = std::get_if<simulation::Sphere>(&shape.geometry);
-        if (sphere != nullptr && !settings_.tessellated)
-          add_ball({body.index, -1, shape.location, sphere->radius}, -1);
-        else
-          filter_->shapes.push_back(add_robot_shape(body.node, make_dart_shape(shape.geometry),
-                                                    transform(shape.location, shape.orientation),
-                                                    {static_cast<int>(body.index), -1}));
-      }
-    }
+    if (experiment.terrain)
+      for (std::size_t i = 0; i < points.size(); ++i) add_ball(points[i], static_cast<int>(i));
+    for (const Body& body : bodies_)
+      if (body.mobile)
+        for (const auto* shape : touching_shapes(experiment, *tree.bodies[body.index].body))
+          add_robot_shape(experiment, body, *shape);
+  }
+
+  void add_robot_shape(const simulation::Experiment& experiment, const Body& body,
+                       const simulation::ShapeSpec& shape) {
+    const auto* sphere = std::get_if<simulation::Sphere>(&shape.geometry);
+    const bool stairs = experiment.terrain && filter_->ground == nullptr;
+    const bool round = sphere != nullptr && !settings_.tessellated && !stairs;
+    if (round && experiment.terrain)
+      add_ball({body.index, -1, shape.location, sphere->radius, shape.material}, -1);
+    if (round && filter_->solids.empty()) return;
+    const auto* node = add_robot_node(body.node, make_dart_shape(shape.geometry),
+                                      transform(shape.location, shape.orientation),
+                                      {static_cast<int>(body.index), -1});
+    detector_->foot_materials.emplace(node, shape.material);
+    (round ? filter_->balls : filter_->shapes).push_back(node);
   }
 
   void add_ball(const TouchingPoint& place, int point) {
-    constexpr double size = 1e-3;  // of a shape that nothing but its node is used of
-    const auto* node = add_robot_shape(
-        bodies_[place.body].node, std::make_shared<dart::dynamics::SphereShape>(size),
+    // Of a shape that nothing but its node is used of.
+    const auto* node = add_robot_node(
+        bodies_[place.body].node, std::make_shared<dart::dynamics::SphereShape>(marker_size),
         transform(place.p_BP, {}), {static_cast<int>(place.body), point});
     detector_->balls.push_back({node, place});
   }
 
   /// The smaller coefficient of friction counts, and the product of those of restitution: the
   /// ground has the material's, the robot others that leave it so.
-  const dart::dynamics::ShapeNode* add_robot_shape(BodyNode* node,
-                                                   const dart::dynamics::ShapePtr& shape,
-                                                   const Eigen::Isometry3d& X_BS,
-                                                   const ShapeUse& use) {
+  const dart::dynamics::ShapeNode* add_robot_node(BodyNode* node,
+                                                  const dart::dynamics::ShapePtr& shape,
+                                                  const Eigen::Isometry3d& X_BS,
+                                                  const ShapeUse& use) {
     return add_shape(node, shape, X_BS, std::numeric_limits<double>::max(), 1., use);
   }
 
@@ -366,6 +448,7 @@ class DartWorld final : public PeerWorld {
   }
 
   DartSettings settings_;
+  PairMaterials materials_;
   ShapeUses uses_;
   std::shared_ptr<DartGroundDetector> detector_;
   std::shared_ptr<DartShapesFilter> filter_;
@@ -377,6 +460,8 @@ class DartWorld final : public PeerWorld {
   std::vector<std::size_t> forced_;  ///< the body of each force
   std::optional<std::size_t> beyond_range_;
   std::optional<NearGround> near_ground_;
+  dart::dynamics::FreeJoint* belt_ = nullptr;  ///< of ground whose material moves
+  std::vector<std::pair<dart::dynamics::FreeJoint*, std::size_t>> obstacles_;
   std::vector<BodyState> now_;  ///< after the last step
   std::vector<JointState> joints_now_;
 };

@@ -9,7 +9,7 @@
 #include "reference/resting_body.h"
 #include "reference/static_depth.h"
 #include "reference/steady_creep.h"
-#include "simulation/robot_tree.h"
+#include "simulation/experiment/robot_tree.h"
 
 namespace hookpoint::reference {
 namespace {

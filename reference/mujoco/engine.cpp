@@ -20,6 +20,8 @@ constexpr auto gaps = std::to_array<OwnGap>({
      "damping"},
     {feature::tile_softness, noticed,
      "the ratio of tangential to normal constants (impratio) is one for a world, the ground's"},
+    {feature::foot_softness, noticed,
+     "the ratio of tangential to normal constants (impratio) is one for a world, the ground's"},
 });
 
 }  // namespace

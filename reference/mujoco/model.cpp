@@ -9,7 +9,9 @@
 
 #include "reference/ground.h"
 #include "reference/principal_axes.h"
+#include "reference/solids.h"
 #include "reference/touching_points.h"
+#include "simulation/experiment/loop_places.h"
 
 namespace hookpoint::reference {
 namespace {
@@ -51,17 +53,25 @@ Text& operator<<(Text& text, const simulation::Legcone& cone) {
   return text;
 }
 
+Text& operator<<(Text& text, const simulation::Hull& hull) {
+  for (const Vector3d& vertex : hull.vertices) text << vertex;
+  return text;
+}
+
 class Builder {
  public:
   Builder(const simulation::Experiment& experiment, const RobotTree& tree,
           const MujocoSettings& settings)
-      : experiment_(experiment), tree_(tree) {
+      : experiment_(experiment), tree_(tree), solids_(solids_of(experiment)) {
     write_options(settings);
     write_assets();
     text_ << "<worldbody>";
     if (experiment.terrain) write_ground(ground_of(*experiment.terrain));
+    for (std::size_t i = 0; i < solids_.size(); ++i) write_solid(i);
     for (const std::size_t base : tree.bases) write_body(base);
-    text_ << "</worldbody></mujoco>";
+    text_ << "</worldbody>";
+    write_constraints();
+    text_ << "</mujoco>";
   }
 
   const std::string& text() const { return text_.str(); }
@@ -69,11 +79,40 @@ class Builder {
   /// Heights of a grid between 0 and 1; its cells have the language's diagonal.
   void fill_heights(mjModel& model) const {
     const auto* grid = std::get_if<simulation::GridSpec>(&experiment_.terrain->surface);
-    if (grid == nullptr) return;
+    if (grid == nullptr || grid->stairs) return;
     const auto [low, high] = std::ranges::minmax(grid->heights);
     for (std::size_t i = 0; i < grid->heights.size(); ++i)
       model.hfield_data[i] =
           high > low ? static_cast<float>((grid->heights[i] - low) / (high - low)) : 0.f;
+  }
+
+  /// Places of loops, of which the compiler would take those at joint angles 0.
+  void place_loops(mjModel& model) const {
+    std::size_t row = 0;
+    for_each_place([&](const TreeBody& a, const TreeBody& b, const simulation::LoopPlace& place) {
+      const int id = mj_name2id(&model, mjOBJ_EQUALITY, name('l', row++).c_str());
+      const Vector3d p = place[0] - offset(a), q = place[1] - offset(b);
+      const std::array values{p.x, p.y, p.z, q.x, q.y, q.z};
+      std::ranges::copy(values, model.eq_data + mjNEQDATA * id);
+    });
+  }
+
+  /// Of each geometry of the model that was compiled from the text.
+  std::vector<MujocoGeometry> geometries(const mjModel& model) const {
+    std::vector<MujocoGeometry> result(static_cast<std::size_t>(model.ngeom));
+    const auto set = [&](const std::string& named, const MujocoGeometry& geometry) {
+      const int id = mj_name2id(&model, mjOBJ_GEOM, named.c_str());
+      if (id >= 0) result[static_cast<std::size_t>(id)] = geometry;
+    };
+    for (std::size_t i = 0; i < solids_.size(); ++i)
+      if (solids_[i].obstacle) set(name('o', i), {false, solids_[i].material, solids_[i].obstacle});
+    for (std::size_t i = 0; i < tree_.bodies.size(); ++i) {
+      set(name('g', i), {true, simulation::no_material});
+      const auto& shapes = tree_.bodies[i].body->shapes;
+      for (std::size_t k = 0; k < shapes.size(); ++k)
+        set(name('c', i) + name('s', k), {true, shapes[k].material});
+    }
+    return result;
   }
 
   /// Where MuJoCo has the body's frame: of a base that moves at its centre of mass, because a free
@@ -103,16 +142,25 @@ class Builder {
   void write_assets() {
     text_ << "<asset>";
     if (experiment_.terrain)
-      if (const auto* grid = std::get_if<simulation::GridSpec>(&experiment_.terrain->surface))
+      if (const auto* grid = std::get_if<simulation::GridSpec>(&experiment_.terrain->surface);
+          grid != nullptr && !grid->stairs)
         write_height_field(*grid);
+    for (std::size_t i = 0; i < solids_.size(); ++i) write_mesh(solids_[i].geometry, name('o', i));
     for (std::size_t i = 0; i < tree_.bodies.size(); ++i)
       for (std::size_t k = 0; k < tree_.bodies[i].body->shapes.size(); ++k)
-        if (const auto* cone =
-                std::get_if<simulation::Legcone>(&tree_.bodies[i].body->shapes[k].geometry)) {
-          text_ << "<mesh name=\"" << name('c', i) << name('s', k) << "\" vertex=\"";
-          text_ << *cone << "\"/>";
-        }
+        write_mesh(tree_.bodies[i].body->shapes[k].geometry, name('c', i) + name('s', k));
     text_ << "</asset>";
+  }
+
+  /// Of a shape that is none of MuJoCo's own.
+  void write_mesh(const simulation::ShapeGeometry& geometry, const std::string& named) {
+    const auto* cone = std::get_if<simulation::Legcone>(&geometry);
+    const auto* hull = std::get_if<simulation::Hull>(&geometry);
+    if (cone == nullptr && hull == nullptr) return;
+    text_ << "<mesh name=\"" << named << "\" vertex=\"";
+    if (cone != nullptr) text_ << *cone;
+    if (hull != nullptr) text_ << *hull;
+    text_ << "\"/>";
   }
 
   void write_height_field(const simulation::GridSpec& grid) {
@@ -123,7 +171,22 @@ class Builder {
           << 0.5 * spacing * (grid.rows - 1) << std::max(high - low, 1e-3) << 1. << "\"/>";
   }
 
+  /// A step of stairs is the world's, an obstacle a body of its own that is put where it is to be.
+  void write_solid(std::size_t index) {
+    const Solid& solid = solids_[index];
+    const std::string named = name('o', index);
+    if (solid.obstacle)
+      text_ << "<body name=\"" << named << "\" mocap=\"true\" pos=\"" << solid.pose.position
+            << "\" quat=\"" << solid.pose.orientation << "\">";
+    text_ << "<geom name=\"" << named << "\" contype=\"1\" conaffinity=\"0\" ";
+    if (!solid.obstacle)
+      text_ << "pos=\"" << solid.pose.position << "\" quat=\"" << solid.pose.orientation << "\" ";
+    std::visit([&](const auto& geometry) { write_shape(geometry, named); }, solid.geometry);
+    text_ << (solid.obstacle ? "\"/></body>" : "\"/>");
+  }
+
   void write_ground(const Ground& ground) {
+    if (std::holds_alternative<GroundStairs>(ground)) return;
     text_ << "<geom name=\"ground\" contype=\"1\" conaffinity=\"0\" ";
     if (const auto* plane = std::get_if<GroundPlane>(&ground)) {
       const Vector3d& n = plane->normal;
@@ -182,6 +245,41 @@ class Builder {
           << rotate(to_body, axes.normal) << "\"/>";
   }
 
+  template <class Visit>
+  void for_each_place(const Visit& visit) const {
+    for (const simulation::LoopSpec& loop : experiment_.loops)
+      for (const simulation::LoopPlace& place : simulation::loop_places(loop))
+        visit(tree_.bodies[tree_.index(loop.robot, loop.body_a)],
+              tree_.bodies[tree_.index(loop.robot, loop.body_b)], place);
+  }
+
+  /// Loops and coupled joints. `matched`: as stiff as MuJoCo lets a step of that length be.
+  void write_constraints() {
+    text_ << "<equality>";
+    std::size_t row = 0;
+    for_each_place([&](const TreeBody& a, const TreeBody& b, const simulation::LoopPlace&) {
+      text_ << "<connect name=\"" << name('l', row++) << "\" body1=\"" << body_name(a)
+            << "\" body2=\"" << body_name(b) << "\" anchor=\"0 0 0\"" << stiffest() << "/>";
+    });
+    for (const simulation::CouplingSpec& coupling : experiment_.couplings)
+      text_ << "<joint joint1=\"" << joint_name(coupling.robot, coupling.follower) << "\" joint2=\""
+            << joint_name(coupling.robot, coupling.leader) << "\" polycoef=\"" << coupling.offset
+            << coupling.ratio << "0 0 0\"" << stiffest() << "/>";
+    text_ << "</equality>";
+  }
+  std::string stiffest() const {
+    if (experiment_.settings != "matched") return "";
+    Text text;
+    text << " solref=\"" << 2. * experiment_.deltat << "1\" solimp=\"0.9999 0.9999 0.001\"";
+    return text.str();
+  }
+  std::string body_name(const TreeBody& body) const {
+    return name('b', static_cast<std::size_t>(&body - tree_.bodies.data()));
+  }
+  std::string joint_name(int robot, std::size_t joint) const {
+    return name('j', tree_.index(robot, static_cast<int>(joint) + 1));
+  }
+
   void write_inertia(const TreeBody& body) {
     const simulation::MassSpec& mass = body.body->mass;
     const PrincipalAxes axes = principal_axes(mass.inertia);
@@ -190,36 +288,41 @@ class Builder {
   }
 
   void write_geometries(const TreeBody& body, std::size_t index) {
-    if (!experiment_.terrain || !body.mobile) return;
-    if (touches_by_points(experiment_, body.robot)) {
+    if (!body.mobile) return;
+    if (!touching_points(experiment_, *body.body, index).empty())
       text_ << "<geom name=\"" << name('g', index)
             << "\" type=\"sphere\" size=\"0.001\" conaffinity=\"0\"/>";
-      return;
-    }
     for (std::size_t k = 0; k < body.body->shapes.size(); ++k) {
       const simulation::ShapeSpec& shape = body.body->shapes[k];
-      text_ << "<geom pos=\"" << shape.location - offset(body) << "\" quat=\"" << shape.orientation
-            << "\" ";
-      std::visit([&](const auto& geometry) { write_shape(geometry, index, k); }, shape.geometry);
+      if (!touches_as_it_is(experiment_, shape)) continue;
+      const std::string named = name('c', index) + name('s', k);
+      text_ << "<geom name=\"" << named << "\" pos=\"" << shape.location - offset(body)
+            << "\" quat=\"" << shape.orientation << "\" ";
+      std::visit([&](const auto& geometry) { write_shape(geometry, named); }, shape.geometry);
       text_ << "\"/>";
     }
   }
 
-  void write_shape(const simulation::Box& box, std::size_t, std::size_t) {
+  void write_shape(const simulation::Box& box, const std::string& /*named*/) {
     text_ << "type=\"box\" size=\"" << 0.5 * box.dimensions;
   }
-  void write_shape(const simulation::Sphere& sphere, std::size_t, std::size_t) {
+  void write_shape(const simulation::Sphere& sphere, const std::string& /*named*/) {
     text_ << "type=\"sphere\" size=\"" << sphere.radius;
   }
-  void write_shape(const simulation::Cylinder& cylinder, std::size_t, std::size_t) {
+  void write_shape(const simulation::Cylinder& cylinder, const std::string& /*named*/) {
     text_ << "type=\"cylinder\" size=\"" << cylinder.radius << 0.5 * cylinder.length;
   }
-  void write_shape(const simulation::Legcone&, std::size_t body, std::size_t shape) {
-    text_ << "type=\"mesh\" mesh=\"" << name('c', body) << name('s', shape);
+  void write_shape(const simulation::Capsule& capsule, const std::string& /*named*/) {
+    text_ << "type=\"capsule\" size=\"" << capsule.radius << 0.5 * capsule.length;
+  }
+  template <class Meshed>
+  void write_shape(const Meshed&, const std::string& named) {
+    text_ << "type=\"mesh\" mesh=\"" << named;
   }
 
   const simulation::Experiment& experiment_;
   const RobotTree& tree_;
+  std::vector<Solid> solids_;
   Text text_;
 };
 
@@ -236,7 +339,9 @@ MujocoModel make_mujoco_model(const simulation::Experiment& experiment, const Ro
   }
   const mjModel& model = *result.model;
   if (experiment.terrain) builder.fill_heights(*result.model);
-  result.ground = mj_name2id(&model, mjOBJ_GEOM, "ground");
+  builder.place_loops(*result.model);
+  result.geometries = builder.geometries(model);
+  result.ground = std::max(mj_name2id(&model, mjOBJ_GEOM, "ground"), 0);
   for (std::size_t i = 0; i < tree.bodies.size(); ++i) {
     MujocoBody body;
     body.id = mj_name2id(&model, mjOBJ_BODY, name('b', i).c_str());

@@ -12,8 +12,10 @@
 #include "reference/external_forces.h"
 #include "reference/mujoco/friction.h"
 #include "reference/mujoco/model.h"
+#include "reference/pair_materials.h"
 #include "reference/touching_points.h"
-#include "simulation/names.h"
+#include "simulation/experiment/loop_places.h"
+#include "simulation/experiment/names.h"
 
 static_assert(std::is_same_v<mjtNum, double>,
               "the tables say that MuJoCo runs in double precision");
@@ -28,6 +30,14 @@ bool finite(const mjtNum* values, int count) {
   return std::all_of(values, values + count, [](double x) { return std::isfinite(x); });
 }
 
+/// MuJoCo has their rows, three each, ahead of all others.
+std::size_t loop_place_count(const simulation::Experiment& experiment) {
+  std::size_t count = 0;
+  for (const simulation::LoopSpec& loop : experiment.loops)
+    count += simulation::loop_places(loop).size();
+  return count;
+}
+
 void write(const Vector3d& a, mjtNum* to) {
   to[0] = a.x;
   to[1] = a.y;
@@ -39,6 +49,7 @@ class MujocoWorld final : public PeerWorld {
   MujocoWorld(const simulation::Experiment& experiment, const MujocoSettings& settings)
       : experiment_(experiment),
         settings_(settings),
+        materials_(experiment_),
         tree_(robot_tree(experiment_)),
         touching_(touching_points(experiment_, tree_)),
         forced_(forced_bodies(experiment_, tree_)),
@@ -49,7 +60,8 @@ class MujocoWorld final : public PeerWorld {
         trails_(simulation::body_trails(experiment_)),
         contact_forces_(tree_.bodies.size()),
         contact_counts_(tree_.bodies.size()),
-        point_forces_(touching_.size()) {
+        point_forces_(touching_.size()),
+        loop_forces_(3 * loop_place_count(experiment_)) {
     if (experiment_.terrain) terrain_.emplace(*experiment_.terrain);
     for (std::size_t i = 0; i < tree_.bodies.size(); ++i) {
       const auto id = static_cast<std::size_t>(built_.bodies[i].id);
@@ -57,12 +69,14 @@ class MujocoWorld final : public PeerWorld {
       set_initial(tree_.bodies[i], built_.bodies[i]);
     }
     touch_.reserve(static_cast<std::size_t>(model_.nconmax));
+    place_obstacles(simulation::initial_inputs(experiment_).obstacles);
     see();
   }
 
   std::string advance(const simulation::WorldInputs& inputs) override {
     try {
       apply(inputs);
+      move_surfaces(inputs);
       // The second half of mj_step, without its check that on a value which is not finite starts
       // again at the reference pose.
       mj_fwdActuation(&model_, data_.get());
@@ -70,6 +84,10 @@ class MujocoWorld final : public PeerWorld {
       mj_fwdConstraint(&model_, data_.get());
       collect_forces();
       mj_Euler(&model_, data_.get());
+      std::vector<simulation::SurfaceMotion> obstacles = inputs.obstacles;
+      for (simulation::SurfaceMotion& obstacle : obstacles)
+        simulation::advance(obstacle, experiment_.deltat);
+      place_obstacles(obstacles);
       return see();
     } catch (const MujocoFailure& failure) {
       return std::string("MuJoCo gave up: ") + failure.what();
@@ -99,6 +117,22 @@ class MujocoWorld final : public PeerWorld {
       JointState& joint = joints[static_cast<std::size_t>(body.joint)];
       joint.angle = data_->qpos[mine.position];
       joint.rate = data_->qvel[mine.velocity];
+    }
+  }
+
+  void read_loops(std::span<simulation::LoopState> loops) const override {
+    std::ranges::fill(loops, simulation::LoopState{});
+    std::size_t row = 0;
+    for (std::size_t i = 0; i < loops.size(); ++i) {
+      const simulation::LoopSpec& loop = experiment_.loops[i];
+      const int body = built_.bodies[tree_.index(loop.robot, loop.body_a)].id;
+      for (const simulation::LoopPlace& place : simulation::loop_places(loop)) {
+        const Vector3d force = vector(loop_forces_.data() + row);
+        row += 3;
+        loops[i].force += force;
+        const Vector3d lever = rotate(quaternion(data_->xquat + 4 * body), place[0] - loop.point_a);
+        loops[i].moment += cross(lever, force);
+      }
     }
   }
 
@@ -158,36 +192,57 @@ class MujocoWorld final : public PeerWorld {
     return {};
   }
 
-  /// The tile's material for each contact that MuJoCo found of a shape, and a contact of each
-  /// boundary point that is in the ground.
+  /// The two sides of a contact, as geometries. MuJoCo has them in the order of their kinds.
+  struct Sides {
+    int robot = 0, ground = 0;
+    double sign = 1.;  ///< of the contact's normal, out of the ground
+  };
+  Sides sides_of(const mjContact& contact) const {
+    if (of(contact.geom2).of_robot) return {contact.geom2, contact.geom1, 1.};
+    return {contact.geom1, contact.geom2, -1.};
+  }
+  const MujocoGeometry& of(int geometry) const {
+    return built_.geometries[static_cast<std::size_t>(geometry)];
+  }
+
+  /// The constants of both materials for each contact that MuJoCo found of a shape, and a contact of
+  /// each boundary point that is in the ground.
   void set_contacts() {
-    if (!terrain_) return;
     touch_.clear();
     std::size_t of_shape = 0;
+    int last = -1;
     for (int i = 0; i < data_->ncon; ++i) {
       mjContact& contact = data_->contact[i];
-      set_material(contact, terrain_->query(vector(contact.pos)).material);
+      const Sides sides = sides_of(contact);
+      const int obstacle = of(sides.ground).material;
+      set_material(contact, of(sides.robot).material,
+                   obstacle == simulation::no_material && terrain_
+                       ? terrain_->query(vector(contact.pos)).material
+                       : obstacle);
       touch_.push_back(-1);
       // A shape's contacts follow one another.
-      const bool same = i > 0 && data_->contact[i - 1].geom2 == contact.geom2;
-      of_shape = same ? of_shape + 1 : 1;
-      if (of_shape == mjMAXCONPAIR) limit_.check(of_shape, trail_of(contact.geom2));
+      of_shape = sides.robot == last ? of_shape + 1 : 1;
+      last = sides.robot;
+      if (of_shape == mjMAXCONPAIR) limit_.check(of_shape, trail_of(sides.robot));
     }
+    if (!terrain_) return;
     BodyState body;
     for (std::size_t i = 0; i < touching_.size(); ++i) {
       const MujocoBody& mine = built_.bodies[touching_[i].body];
       read_pose(mine, body);
       const Meeting meeting = meet(*terrain_, touching_[i], body);
-      if (meeting.depth > 0. && add_contact(meeting, mine.geometry))
+      if (meeting.depth > 0. && add_contact(meeting, touching_[i].material, mine.geometry))
         touch_.push_back(static_cast<int>(i));
     }
   }
 
-  const std::string& trail_of(int geometry) const {
-    return trails_[body_of_[static_cast<std::size_t>(model_.geom_bodyid[geometry])]];
+  std::size_t body_index(int geometry) const {
+    return body_of_[static_cast<std::size_t>(model_.geom_bodyid[geometry])];
   }
 
-  bool add_contact(const Meeting& meeting, int geometry) {
+  const std::string& trail_of(int geometry) const { return trails_[body_index(geometry)]; }
+
+  bool add_contact(const Meeting& meeting, int foot, int geometry) {
     mjContact contact{};
     contact.dist = -meeting.depth;
     // Between the two surfaces, as MuJoCo's own colliders put it.
@@ -198,14 +253,14 @@ class MujocoWorld final : public PeerWorld {
     write(second, contact.frame + 6);
     contact.geom1 = built_.ground;
     contact.geom2 = geometry;
-    set_material(contact, meeting.material);
+    set_material(contact, foot, meeting.material);
     return mj_addContact(&model_, data_.get(), &contact) == 0;
   }
 
-  void set_material(mjContact& contact, int index) const {
-    const auto material = material_at(experiment_, index);
+  void set_material(mjContact& contact, int foot, int ground) const {
+    const contact::MaterialConstants<double>& material = materials_.of(foot, ground);
     // The constraint's "diagApprox" of a contact with the world (manual, Computation).
-    const int body = model_.geom_bodyid[contact.geom2];
+    const int body = model_.geom_bodyid[sides_of(contact).robot];
     const MujocoRow row =
         mujoco_row(settings_, experiment_.deltat, material, model_.body_invweight0[2 * body]);
     const double friction = single_friction(material);
@@ -236,21 +291,66 @@ class MujocoWorld final : public PeerWorld {
             inputs.joint_torques[static_cast<std::size_t>(tree_.bodies[i].joint)];
   }
 
+  void place_obstacles(const std::vector<simulation::SurfaceMotion>& obstacles) {
+    for (int geometry = 0; geometry < model_.ngeom; ++geometry) {
+      if (!of(geometry).obstacle) continue;
+      const simulation::SurfaceMotion& motion = obstacles[*of(geometry).obstacle];
+      const int place = model_.body_mocapid[model_.geom_bodyid[geometry]];
+      const Quaterniond& q = motion.orientation;
+      write(motion.position, data_->mocap_pos + 3 * place);
+      std::ranges::copy(std::array{q.w, q.x, q.y, q.z}, data_->mocap_quat + 4 * place);
+    }
+  }
+
+  /// MuJoCo takes a body that is moved for one at rest where it is. Its rows ask for the acceleration
+  /// a = -B v - K d r with the robot's velocity v along the row; v is to be that over the surface.
+  void move_surfaces(const simulation::WorldInputs& inputs) {
+    for (int i = 0; i < data_->ncon; ++i) {
+      const mjContact& contact = data_->contact[i];
+      const Sides sides = sides_of(contact);
+      Vector3d velocity = inputs.ground.belt_velocity;
+      if (const auto obstacle = of(sides.ground).obstacle) {
+        const simulation::SurfaceMotion& motion = inputs.obstacles[*obstacle];
+        velocity =
+            motion.velocity + cross(motion.angular_velocity, vector(contact.pos) - motion.position);
+      }
+      if (velocity == Vector3d{}) continue;
+      for (int row = 0; row < row_count(contact); ++row) {
+        const int at = contact.efc_address + row;
+        data_->efc_aref[at] +=
+            data_->efc_KBIP[4 * at + 1] * sides.sign * dot(velocity, row_direction(contact, row));
+      }
+    }
+  }
+  bool pyramid(const mjContact& contact) const {
+    return model_.opt.cone == mjCONE_PYRAMIDAL && contact.dim > 1;
+  }
+  int row_count(const mjContact& contact) const {
+    if (contact.efc_address < 0) return 0;
+    return pyramid(contact) ? 2 * (contact.dim - 1) : contact.dim;
+  }
+  Vector3d row_direction(const mjContact& contact, int row) const {
+    if (!pyramid(contact)) return vector(contact.frame + 3 * row);
+    const double slope = (row % 2 == 0 ? 1. : -1.) * contact.friction[row / 2];
+    return vector(contact.frame) + slope * vector(contact.frame + 3 * (1 + row / 2));
+  }
+
   void collect_forces() {
     std::ranges::fill(contact_forces_, Vector3d{});
     std::ranges::fill(contact_counts_, 0);
     std::ranges::fill(point_forces_, Vector3d{});
     shape_forces_.clear();
+    std::copy_n(data_->efc_force, loop_forces_.size(), loop_forces_.begin());
     for (int i = 0; i < data_->ncon; ++i) {
       const mjContact& contact = data_->contact[i];
       std::array<mjtNum, 6> components{};  // of force and torque, along the rows of the frame
       mj_contactForce(&model_, data_.get(), i, components.data());
       if (!(components[0] > 0.)) continue;
-      const Vector3d force = components[0] * vector(contact.frame) +
-                             components[1] * vector(contact.frame + 3) +
-                             components[2] * vector(contact.frame + 6);
-      const std::size_t body =
-          body_of_[static_cast<std::size_t>(model_.geom_bodyid[contact.geom2])];
+      const Sides sides = sides_of(contact);
+      const Vector3d force = sides.sign * (components[0] * vector(contact.frame) +
+                                           components[1] * vector(contact.frame + 3) +
+                                           components[2] * vector(contact.frame + 6));
+      const std::size_t body = body_index(sides.robot);
       contact_forces_[body] += force;
       ++contact_counts_[body];
       const int point = touch_[static_cast<std::size_t>(i)];
@@ -277,6 +377,7 @@ class MujocoWorld final : public PeerWorld {
 
   simulation::Experiment experiment_;
   MujocoSettings settings_;
+  PairMaterials materials_;
   RobotTree tree_;
   std::vector<TouchingPoint> touching_;
   std::vector<std::size_t> forced_;  ///< body of each force
@@ -291,6 +392,7 @@ class MujocoWorld final : public PeerWorld {
   std::vector<Vector3d> contact_forces_;
   std::vector<int> contact_counts_;
   std::vector<Vector3d> point_forces_;
+  std::vector<mjtNum> loop_forces_;  ///< rows of the loops in the last step, world axes [N]
   std::vector<ShapeForce> shape_forces_;
   std::array<bool, mjNWARNING> warned_{};
 };

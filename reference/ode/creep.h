@@ -1,9 +1,9 @@
 // What of an ODE contact at rest has a closed form: how it creeps, and how deep it stands.
 #pragma once
 
-#include "simulation/closed_form.h"
-#include "simulation/creep_velocity.h"
-#include "simulation/experiment.h"
+#include "simulation/engine_interface/engine.h"
+#include "simulation/experiment/closed_form.h"
+#include "simulation/experiment/experiment.h"
 
 namespace hookpoint::reference {
 

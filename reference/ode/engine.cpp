@@ -15,9 +15,14 @@ using enum simulation::EngineGap::Handling;
 
 /// What ODE lacks.
 constexpr auto gaps = std::to_array<OwnGap>({
+    {feature::couplings, refused,
+     "ODE's joints follow no other; choose engine dts, bullet or mujoco"},
     single_friction_gap,
     matched_restitution_gap,
-    {feature::legcone, refused, "ODE has no cone; use Cylinder, Sphere or Box"},
+    {feature::legcone, noticed, "ODE has no cone: its samples touch, as under touch = points"},
+    {feature::hull, noticed,
+     "ODE's convex geometry meets no triangles and no cylinder: its vertices touch, as under touch "
+     "= points"},
     {feature::massless, refused, "every body of ODE has a mass; give the link one"},
     {feature::no_inertia, refused,
      "every body of ODE has an inertia; give it a shape or an inertia"},

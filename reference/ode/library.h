@@ -8,7 +8,11 @@
 #include <mutex>
 #include <stdexcept>
 
+#include "math/vector3.h"
+
 namespace hookpoint::reference {
+
+inline Vector3d vector(const dReal* a) { return {a[0], a[1], a[2]}; }
 
 struct OdeDeleter {
   void operator()(dxWorld* world) const { dWorldDestroy(world); }

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "reference/settings.h"
-#include "simulation/experiment.h"
+#include "simulation/experiment/experiment.h"
 
 namespace hookpoint::reference {
 

@@ -15,16 +15,24 @@ struct Builder {
   dGeomID operator()(const simulation::Cylinder& cylinder) const {
     return dCreateCylinder(nullptr, cylinder.radius, cylinder.length);
   }
-  dGeomID operator()(const simulation::Legcone&) const {
-    throw std::logic_error("a Legcone is refused before any shape is made");
+  dGeomID operator()(const simulation::Capsule& capsule) const {
+    return dCreateCapsule(nullptr, capsule.radius, capsule.length);
+  }
+  template <class Refused>
+  dGeomID operator()(const Refused&) const {
+    throw std::logic_error("a shape that ODE has not is refused before any is made");
   }
 };
 
 }  // namespace
 
+OdePointer<dxGeom> make_ode_geometry(const simulation::ShapeGeometry& shape) {
+  return OdePointer<dxGeom>(std::visit(Builder{}, shape));
+}
+
 OdePointer<dxGeom> make_ode_geometry(const simulation::ShapeSpec& shape,
                                      const Vector3d& center_of_mass, dBodyID body) {
-  OdePointer<dxGeom> geometry(std::visit(Builder{}, shape.geometry));
+  OdePointer<dxGeom> geometry = make_ode_geometry(shape.geometry);
   dGeomSetBody(geometry.get(), body);
   const Vector3d offset = shape.location - center_of_mass;
   dGeomSetOffsetPosition(geometry.get(), offset.x, offset.y, offset.z);
@@ -56,6 +64,7 @@ void OdeGround::build(const GroundMesh& mesh) {
 }
 
 int OdeGround::collide(dGeomID geometry, dContact* contacts, int capacity) const {
+  if (!geometry_) return 0;
   if (!mesh_)
     return dCollide(geometry, geometry_.get(), capacity, &contacts->geom, sizeof(dContact));
   const std::lock_guard<std::mutex> lock(ode_mesh_mutex());

@@ -9,12 +9,14 @@
 namespace hookpoint::reference {
 
 /// The geometry of `shape` on `body`, whose origin is the centre of mass at `center_of_mass` (body
-/// frame, [m]). A Legcone, which ODE has not, is a gap of its row (engine.cpp).
+/// frame, [m]). A Legcone or a Hull, which ODE has not, is a gap of its row (engine.cpp).
 OdePointer<dxGeom> make_ode_geometry(const simulation::ShapeSpec& shape,
                                      const Vector3d& center_of_mass, dBodyID body);
+/// One that no body carries, at the world's origin.
+OdePointer<dxGeom> make_ode_geometry(const simulation::ShapeGeometry& shape);
 
-/// The ground's geometry with the arrays that ODE reads in place. Not to be moved after
-/// construction.
+/// The geometry of a plane or of a grid, with the arrays that ODE reads in place. Not to be moved
+/// after construction.
 class OdeGround {
  public:
   explicit OdeGround(const Ground& ground);
@@ -27,6 +29,7 @@ class OdeGround {
  private:
   void build(const GroundPlane& plane);
   void build(const GroundMesh& mesh);
+  void build(const GroundStairs& /*stairs*/) {}
 
   std::vector<double> vertices_;
   std::vector<dTriIndex> indices_;

@@ -14,9 +14,12 @@
 #include "reference/experiment_checks.h"
 #include "reference/external_forces.h"
 #include "reference/ode/joints.h"
+#include "reference/ode/loops.h"
 #include "reference/ode/shapes.h"
+#include "reference/pair_materials.h"
+#include "reference/solids.h"
 #include "reference/touching_points.h"
-#include "simulation/names.h"
+#include "simulation/experiment/names.h"
 
 static_assert(std::is_same_v<dReal, double>, "the tables say that ODE runs in double precision");
 
@@ -30,12 +33,22 @@ constexpr int max_contacts =
     64;  // a geometry's; a box on a plane has 4, on a mesh a few a triangle
 constexpr std::size_t no_point = static_cast<std::size_t>(-1);
 
-Vector3d vector(const dReal* a) { return {a[0], a[1], a[2]}; }
-
+struct Geometry {
+  OdePointer<dxGeom> id;
+  int material = simulation::no_material;
+};
 struct Body {
   dBodyID id = nullptr;     ///< owned by the world; null: a base that nothing moves
   Vector3d center_of_mass;  ///< in the body's frame [m]: where ODE has the body's origin
-  std::vector<OdePointer<dxGeom>> geometries;
+  std::vector<Geometry> geometries;
+};
+
+/// A step of stairs, or an obstacle: a body that is moved and that nothing pushes.
+struct Standing {
+  OdePointer<dxGeom> geometry;
+  int material = 0;
+  std::optional<std::size_t> obstacle;
+  dBodyID body = nullptr;  ///< of an obstacle; owned by the world
 };
 
 /// A contact joint of the last step, with the place where ODE puts its force.
@@ -105,25 +118,23 @@ class OdeWorld final : public PeerWorld {
  public:
   OdeWorld(const simulation::Experiment& experiment, Settings settings, OdeSolver solver)
       : solver_(solver),
+        settings_(settings),
         deltat_(experiment.deltat),
+        materials_(experiment),
         random_(static_cast<unsigned long>(experiment.seed)) {
     prepare_ode_for_this_thread();
     create_world(experiment.gravity,
                  ode_settings(settings, solver, deltat_, ground_material(experiment)));
     if (experiment.constraint_mixing) dWorldSetCFM(world_.get(), *experiment.constraint_mixing);
-    for (const simulation::MaterialSpec& material : experiment.materials)
-      surfaces_.push_back(surface_of(material.constants,
-                                     ode_settings(settings, solver, deltat_, material.constants)));
-    if (surfaces_.empty())
-      surfaces_.push_back(surface_of({}, ode_settings(settings, solver, deltat_, {})));
     const RobotTree tree = robot_tree(experiment);
     trails_ = simulation::body_trails(experiment);
     add_bodies(experiment, tree);
     forced_ = forced_bodies(experiment, tree);
+    for (const Solid& solid : solids_of(experiment)) add_standing(solid);
     if (!experiment.terrain) return;
     ground_.emplace(ground_of(*experiment.terrain));
     terrain_.emplace(*experiment.terrain);
-    material_ = static_cast<std::size_t>(experiment.terrain->material);
+    material_ = experiment.terrain->material;
     points_ = touching_points(experiment, tree);
   }
 
@@ -133,6 +144,8 @@ class OdeWorld final : public PeerWorld {
     try {
       apply_forces(inputs);
       joints_->apply(inputs.joint_torques);
+      move_obstacles(inputs);
+      belt_ = inputs.ground.belt_velocity;
       collide();
       const int taken = take_step();
       listen(messages);
@@ -161,6 +174,8 @@ class OdeWorld final : public PeerWorld {
     }
     joints_->read(bodies, joints);
   }
+
+  void read_loops(std::span<simulation::LoopState> loops) const override { loops_->read(loops); }
 
   void read_points(std::span<Vector3d> forces) const override {
     std::ranges::fill(forces, Vector3d{});
@@ -195,14 +210,15 @@ class OdeWorld final : public PeerWorld {
       body.center_of_mass = spec.body->mass.center_of_mass;
       if (spec.mobile) {
         body.id = make_body(world_.get(), spec.body->mass, spec.initial);
-        if (experiment.terrain && !touches_by_points(experiment, spec.robot))
-          for (const auto& shape : spec.body->shapes)
-            body.geometries.push_back(make_ode_geometry(shape, body.center_of_mass, body.id));
+        for (const simulation::ShapeSpec* shape : touching_shapes(experiment, *spec.body))
+          body.geometries.push_back(
+              {make_ode_geometry(*shape, body.center_of_mass, body.id), shape->material});
         if (spec.plane_normal) keep_in_plane(body.id, plane_axes(*spec.plane_normal));
       }
       ids.push_back(body.id);
     }
     joints_.emplace(tree, world_.get(), ids);
+    loops_.emplace(experiment, tree, world_.get(), ids);
   }
 
   /// Motors of any strength that hold what a plane holds at rest. (ODE's own joint Plane2D knows
@@ -235,19 +251,44 @@ class OdeWorld final : public PeerWorld {
     });
   }
 
+  void add_standing(const Solid& solid) {
+    Standing& standing = standing_.emplace_back();
+    standing.geometry = make_ode_geometry(solid.geometry);
+    standing.material = solid.material;
+    standing.obstacle = solid.obstacle;
+    if (solid.obstacle) {
+      standing.body = dBodyCreate(world_.get());
+      dBodySetKinematic(standing.body);
+      dGeomSetBody(standing.geometry.get(), standing.body);
+    }
+    place(standing, solid.pose.position, solid.pose.orientation);
+  }
+
+  static void place(const Standing& standing, const Vector3d& p, const Quaterniond& q) {
+    const dQuaternion orientation = {q.w, q.x, q.y, q.z};
+    dGeomSetPosition(standing.geometry.get(), p.x, p.y, p.z);
+    dGeomSetQuaternion(standing.geometry.get(), orientation);
+  }
+
+  void move_obstacles(const simulation::WorldInputs& inputs) {
+    for (const Standing& standing : standing_) {
+      if (!standing.obstacle) continue;
+      const simulation::SurfaceMotion& motion = inputs.obstacles[*standing.obstacle];
+      const Vector3d &v = motion.velocity, &w = motion.angular_velocity;
+      place(standing, motion.position, motion.orientation);
+      dBodySetLinearVel(standing.body, v.x, v.y, v.z);
+      dBodySetAngularVel(standing.body, w.x, w.y, w.z);
+    }
+  }
+
   void collide() {
     dJointGroupEmpty(contact_group_.get());
     touches_.clear();
     contact_joints_.clear();
-    if (!ground_) return;
     for (std::size_t body = 0; body < bodies_.size(); ++body)
-      for (const auto& geometry : bodies_[body].geometries) {
-        const int count = ground_->collide(geometry.get(), contacts_.data(), max_contacts);
-        limit_.check(static_cast<std::size_t>(count), trails_[body]);
-        for (int i = 0; i < count; ++i) {
-          dContact& contact = contacts_[static_cast<std::size_t>(i)];
-          add_touch(body, no_point, shape_material(contact), contact);
-        }
+      for (const Geometry& geometry : bodies_[body].geometries) {
+        if (ground_) collide_ground(body, geometry);
+        for (const Standing& standing : standing_) collide_standing(body, geometry, standing);
       }
     for (std::size_t i = 0; i < points_.size(); ++i) collide_point(i);
     // After the last push_back: ODE keeps the addresses for the step.
@@ -255,9 +296,28 @@ class OdeWorld final : public PeerWorld {
       dJointSetFeedback(contact_joints_[i], &touches_[i].feedback);
   }
 
-  std::size_t shape_material(const dContact& contact) const {
+  void collide_ground(std::size_t body, const Geometry& geometry) {
+    const int count = ground_->collide(geometry.id.get(), contacts_.data(), max_contacts);
+    limit_.check(static_cast<std::size_t>(count), trails_[body]);
+    for (int i = 0; i < count; ++i) {
+      dContact& contact = contacts_[static_cast<std::size_t>(i)];
+      add_touch({body, no_point, geometry.material, tile_material(contact)}, contact);
+    }
+  }
+
+  void collide_standing(std::size_t body, const Geometry& geometry, const Standing& standing) {
+    const int count = dCollide(geometry.id.get(), standing.geometry.get(), max_contacts,
+                               &contacts_.front().geom, sizeof(dContact));
+    for (int i = 0; i < count; ++i) {
+      dContact& contact = contacts_[static_cast<std::size_t>(i)];
+      const int material = standing.obstacle ? standing.material : tile_material(contact);
+      add_touch({body, no_point, geometry.material, material, standing.body}, contact);
+    }
+  }
+
+  int tile_material(const dContact& contact) const {
     if (terrain_->description().patches.empty()) return material_;
-    return static_cast<std::size_t>(terrain_->query(vector(contact.geom.pos)).material);
+    return terrain_->query(vector(contact.geom.pos)).material;
   }
 
   /// A contact where our own terrain has one; ODE makes the force of it.
@@ -272,15 +332,34 @@ class OdeWorld final : public PeerWorld {
     std::ranges::copy(at, contact.geom.pos);
     std::ranges::copy(out, contact.geom.normal);
     contact.geom.depth = depth;
-    add_touch(point.body, index, static_cast<std::size_t>(material), contact);
+    add_touch({point.body, index, point.material, material}, contact);
   }
 
-  void add_touch(std::size_t body, std::size_t point, std::size_t material, dContact& contact) {
-    contact.surface = surfaces_[std::min(material, surfaces_.size() - 1)];
+  /// Who touches what.
+  struct Sides {
+    std::size_t body, point;      ///< as those of a Touch
+    int foot_material, material;  ///< of either side
+    dBodyID other = nullptr;      ///< null: the world
+  };
+
+  void add_touch(const Sides& sides, dContact& contact) {
+    const auto& material = materials_.of(sides.foot_material, sides.material);
+    contact.surface = surface_of(material, ode_settings(settings_, solver_, deltat_, material));
+    if (sides.other == nullptr && belt_ != Vector3d{}) set_belt(contact);
     const dJointID joint = dJointCreateContact(world_.get(), contact_group_.get(), &contact);
-    dJointAttach(joint, bodies_[body].id, nullptr);
+    dJointAttach(joint, bodies_[sides.body].id, sides.other);
     contact_joints_.push_back(joint);
-    touches_.push_back({body, point, vector(contact.geom.pos), vector(contact.geom.normal), {}});
+    touches_.push_back(
+        {sides.body, sides.point, vector(contact.geom.pos), vector(contact.geom.normal), {}});
+  }
+
+  /// The velocity of the ground's material along ODE's own two directions of friction.
+  void set_belt(dContact& contact) const {
+    dVector3 first, second;
+    dPlaneSpace(contact.geom.normal, first, second);
+    contact.surface.mode |= dContactMotion1 | dContactMotion2;
+    contact.surface.motion1 = dot(belt_, vector(first));
+    contact.surface.motion2 = dot(belt_, vector(second));
   }
 
   int take_step() {
@@ -293,7 +372,7 @@ class OdeWorld final : public PeerWorld {
     if (messages.count() == 0) return;
     if (messages_ == 0)
       notice_ = std::string("ODE's solver reported \"") + messages.first() +
-                "\"; it went on with what it had, so forces of this step may be wrong; later "
+                "\"; it continued with what it had, so forces of this step may be wrong; later "
                 "reports are not repeated (docs/reference_engines.md)";
     messages_ += messages.count();
   }
@@ -303,17 +382,21 @@ class OdeWorld final : public PeerWorld {
   std::vector<std::string> trails_;  ///< of the bodies
   std::int64_t messages_ = 0;        ///< of the library so far
   OdeSolver solver_;
+  Settings settings_;
   double deltat_;
+  PairMaterials materials_;
   OdeRandomStream random_;
   OdePointer<dxThreadingImplementation> threading_;
   OdePointer<dxWorld> world_;
   OdePointer<dxJointGroup> contact_group_;
-  std::optional<OdeGround> ground_;           ///< for shapes
-  std::optional<contact::Terrain> terrain_;   ///< for points, and for the material of tiles
-  std::size_t material_ = 0;                  ///< where no patch lies
-  std::vector<dSurfaceParameters> surfaces_;  ///< of each material
-  std::vector<Body> bodies_;                  ///< as published
+  std::optional<OdeGround> ground_;          ///< for shapes
+  std::optional<contact::Terrain> terrain_;  ///< for points, and for the material of tiles
+  int material_ = 0;                         ///< where no patch lies
+  Vector3d belt_;                            ///< velocity of the ground's material [m/s]
+  std::vector<Standing> standing_;
+  std::vector<Body> bodies_;  ///< as published
   std::optional<OdeJoints> joints_;
+  std::optional<OdeLoops> loops_;
   std::vector<std::size_t> forced_;  ///< body of each force
   std::vector<TouchingPoint> points_;
   std::array<dContact, max_contacts> contacts_{};

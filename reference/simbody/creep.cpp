@@ -35,7 +35,7 @@ simulation::ClosedForm<simulation::CreepVelocity> simbody_creep(
   }
   // A point is a ball on a ground that is lowered by its radius, and touches below the point; a
   // ball of the scene is as large and the ground where it is.
-  if (touches_by_points(experiment, 0))
+  if (touching_shapes(experiment, experiment.robots[0].base).empty())
     for (std::size_t i = 0; i < body.arms.size(); ++i)
       if (body.radii[i] == 0.) body.arms[i] -= point_ball_radius * body.normal;
   const auto loads = normal_loads(body, body.pull);

@@ -14,13 +14,25 @@ using enum simulation::EngineGap::Handling;
 
 /// What Simbody lacks.
 constexpr auto gaps = std::to_array<OwnGap>({
+    {feature::loops, refused, "choose engine dts, bullet, mujoco or ode"},
+    {feature::couplings, refused, "choose engine dts, bullet or mujoco"},
     {feature::height_field, refused,
      "Simbody's balls and bricks meet half-spaces only; use Terrain.Flat or Terrain.Slope"},
+    {feature::obstacles, refused,
+     "Simbody's balls and bricks meet half-spaces only; choose engine dts, ode, bullet, mujoco or dart"},
+    {feature::belt, refused,
+     "a half-space of Simbody's stands still; choose engine dts, ode, bullet, mujoco or dart"},
     {feature::restitution, noticed,
      "Simbody has no coefficient of restitution: how a body rebounds follows from its contact's "
      "dissipation"},
-    {feature::legcone, refused, "Simbody has no cone; use Sphere or Box"},
-    {feature::cylinder, refused, "a half-space meets no cylinder in Simbody; use Sphere or Box"},
+    {feature::legcone, noticed, "Simbody has no cone: its samples touch, as under touch = points"},
+    {feature::capsule, noticed,
+     "a half-space meets no capsule in Simbody: its end balls touch, as under touch = points"},
+    {feature::hull, noticed,
+     "Simbody has no convex hull: its vertices touch, as under touch = points"},
+    {feature::cylinder, noticed,
+     "a half-space meets no cylinder in Simbody: the samples of its rims touch, as under touch = "
+     "points"},
     {feature::tile_friction, refused, "use one material"},
     {feature::tile_softness, refused, "use one material"},
     {feature::tile_restitution, refused, "use one material"},

@@ -79,18 +79,21 @@ Feelers feelers_of(const ContactGeometry& shape) {
 /// limit. Surface 1 is the half-space x > 0, surface 2 a robot's.
 class PenaltyGenerator final : public SimTK::ContactForceGenerator {
  public:
-  PenaltyGenerator(SimTK::ContactTypeId type, const Material& material)
-      : ContactForceGenerator(type), material_(material) {}
+  /// `materials`: by the number of the robot's surface; outlives this.
+  PenaltyGenerator(SimTK::ContactTypeId type, const std::vector<Material>& materials)
+      : ContactForceGenerator(type), materials_(materials) {}
 
   void calcContactForce(const SimTK::State&, const SimTK::Contact& contact, const SpatialVec& V_12,
                         SimTK::ContactForce& force) const override {
     const auto& tracker = getCompliantContactSubsystem().getContactTrackerSubsystem();
     const Feelers feelers = feelers_of(tracker.getContactSurface(contact.getSurface2()).getShape());
+    const Material& material = materials_[static_cast<std::size_t>(int{contact.getSurface2()})];
     const Transform& X_12 = contact.getTransform();
     SpatialVec sum(Vec3(0.), Vec3(0.));  // about the origin of surface 2
     for (const Vec3& point : feelers.points) {
       const Vec3 arm = X_12.R() * point + Vec3(feelers.radius, 0., 0.);
-      const Vec3 f = point_force((X_12.p() + arm)[0], V_12[1] + SimTK::cross(V_12[0], arm));
+      const Vec3 f =
+          point_force(material, (X_12.p() + arm)[0], V_12[1] + SimTK::cross(V_12[0], arm));
       sum += SpatialVec(SimTK::cross(arm, f), f);
     }
     force.setTo(contact.getContactId(), X_12.p(), sum, 0., 0.);
@@ -103,18 +106,18 @@ class PenaltyGenerator final : public SimTK::ContactForceGenerator {
   }
 
  private:
-  Vec3 point_force(double depth, const Vec3& v) const {
+  static Vec3 point_force(const Material& material, double depth, const Vec3& v) {
     if (!(depth > 0.)) return Vec3(0.);
     const double N =
-        std::max(0., material_.normal_stiffness * depth + material_.normal_damping * v[0]);
+        std::max(0., material.normal_stiffness * depth + material.normal_damping * v[0]);
     const double speed = std::hypot(v[1], v[2]);
-    const double limit = material_.kinetic_friction * N;
-    const double damper = material_.tangential_damping;
+    const double limit = material.kinetic_friction * N;
+    const double damper = material.tangential_damping;
     const double c = damper * speed > limit ? limit / speed : damper;
     return {-N, -c * v[1], -c * v[2]};
   }
 
-  Material material_;
+  const std::vector<Material>& materials_;
 };
 
 /// A contact surface's place among what is published.
@@ -160,11 +163,12 @@ struct Model::Parts {
   explicit Parts(const Description& description);
 
   void set_contact(const Material& material);
-  void add_ground(const Plane& plane);
+  void add_ground(const Plane& plane, const Material& material);
   void add_body(const Body& body, int number);
   void add_mobilizer(const Body& body, const SimTK::Body::Rigid& rigid);
   void start(const Description& description);
-  SimTK::ContactSurface surface(const ContactGeometry& shape) const { return {shape, material_}; }
+  /// A surface of that material, the next by number.
+  SimTK::ContactSurface surface(const ContactGeometry& shape, const Material& material);
   const MobilizedBody& body_of(int body) const { return matter_.getMobilizedBody(mobod(body)); }
   /// Of the ground on each body since the start [N s], three numbers a body.
   SimTK::Vector impulses() const { return forces_.getZ(integrator_.getState()); }
@@ -181,9 +185,9 @@ struct Model::Parts {
   // Not CPodes, which the example of stiff contact has: its N_VSpace and others are those of
   // SUNDIALS by name, and the program has SUNDIALS too.
   SimTK::RungeKuttaMersonIntegrator integrator_{system_};
-  SimTK::ContactMaterial material_;
-  Vec3 normal_{0.};     ///< of the ground
-  double offset_ = 0.;  ///< of the ground along it [m]
+  std::vector<Material> materials_;  ///< by ContactSurfaceIndex
+  Vec3 normal_{0.};                  ///< of the ground
+  double offset_ = 0.;               ///< of the ground along it [m]
   int tried_steps_ = most_tried_steps;
   // A clique's members do not meet: each ground shares one with what is the other's, and robots
   // share one among themselves.
@@ -201,7 +205,7 @@ Model::Parts::Parts(const Description& description) {
   forces_.setNumberOfThreads(1);
   const SimTK::Force::UniformGravity gravity(forces_, matter_, simtk(description.gravity));
   set_contact(description.material);
-  if (description.ground) add_ground(*description.ground);
+  if (description.ground) add_ground(*description.ground, description.material);
   for (const Body& body : description.bodies) add_body(body, static_cast<int>(mobilities_.size()));
   const auto bodies = static_cast<int>(description.bodies.size());
   const SimTK::Force::Custom ground(
@@ -213,23 +217,28 @@ Model::Parts::Parts(const Description& description) {
 }
 
 void Model::Parts::set_contact(const Material& material) {
-  material_ = SimTK::ContactMaterial(material.stiffness, material.dissipation,
-                                     material.static_friction, material.kinetic_friction);
   contact_.setTransitionVelocity(material.transition_velocity);
   if (!material.penalty) return;
   for (const SimTK::ContactTypeId type :
        {SimTK::CircularPointContact::classTypeId(), SimTK::BrickHalfSpaceContact::classTypeId()})
-    contact_.adoptForceGenerator(new PenaltyGenerator(type, material));
+    contact_.adoptForceGenerator(new PenaltyGenerator(type, materials_));
 }
 
-void Model::Parts::add_ground(const Plane& plane) {
+SimTK::ContactSurface Model::Parts::surface(const ContactGeometry& shape,
+                                            const Material& material) {
+  materials_.push_back(material);
+  return {shape, SimTK::ContactMaterial(material.stiffness, material.dissipation,
+                                        material.static_friction, material.kinetic_friction)};
+}
+
+void Model::Parts::add_ground(const Plane& plane, const Material& material) {
   normal_ = simtk(plane.normal);
   offset_ = plane.offset;
   const SimTK::Rotation into(SimTK::UnitVec3(-normal_), SimTK::XAxis);
   const auto add = [&](double offset, SimTK::ContactCliqueId clique) {
     matter_.Ground().updBody().addContactSurface(
         Transform(into, offset * normal_),
-        surface(ContactGeometry::HalfSpace()).joinClique(clique));
+        surface(ContactGeometry::HalfSpace(), material).joinClique(clique));
     uses_.push_back({});
   };
   add(plane.offset, points_);
@@ -246,7 +255,7 @@ void Model::Parts::add_body(const Body& body, int number) {
                                         : ContactGeometry::Sphere(part.radius);
       const auto clique = part.kind == Surface::Kind::point ? points_ : shapes_;
       rigid.addContactSurface(simtk(part.X_BS),
-                              surface(shape).joinClique(clique).joinClique(robots_));
+                              surface(shape, part.material).joinClique(clique).joinClique(robots_));
       uses_.push_back({number, part.point});
     }
   mobilities_.push_back(body.mobility);

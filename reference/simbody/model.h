@@ -16,6 +16,14 @@ struct Frame {
   std::array<double, 4> orientation{1., 0., 0., 0.};  ///< w, x, y, z
 };
 
+/// SI. Stiffness and dissipation are those of each of two equal surfaces.
+struct Material {
+  double stiffness = 0., dissipation = 0., static_friction = 0., kinetic_friction = 0.;
+  double transition_velocity = 0.;
+  bool penalty = false;  ///< the next three make the contact, without Hertz
+  double normal_stiffness = 0., normal_damping = 0., tangential_damping = 0.;
+};
+
 /// What of a body may meet the ground: a brick, a ball, or a ball in place of a point, which meets
 /// ground that is lowered by its radius.
 struct Surface {
@@ -25,6 +33,7 @@ struct Surface {
   Vec half_lengths{};  ///< of a brick [m]
   double radius = 0.;  ///< of a ball [m]
   int point = -1;      ///< index among the touching points; -1: none of them
+  Material material;
 };
 
 struct Body {
@@ -42,14 +51,6 @@ struct Body {
   std::vector<Surface> surfaces;
 };
 
-/// SI. Stiffness and dissipation are those of each of two equal surfaces.
-struct Material {
-  double stiffness = 0., dissipation = 0., static_friction = 0., kinetic_friction = 0.;
-  double transition_velocity = 0.;
-  bool penalty = false;  ///< the next three make the contact, without Hertz
-  double normal_stiffness = 0., normal_damping = 0., tangential_damping = 0.;
-};
-
 struct Plane {
   Vec normal{};         ///< unit, out of the ground
   double offset = 0.;   ///< of the plane along it [m]
@@ -59,7 +60,7 @@ struct Plane {
 struct Description {
   Vec gravity{};
   double accuracy = 1e-3;
-  Material material;
+  Material material;  ///< of the ground
   std::optional<Plane> ground;
   std::vector<Body> bodies;
 };
@@ -93,7 +94,7 @@ class Model {
   /// unused [N m, N]. The integrator keeps its history where nothing changes.
   void apply(const std::vector<Load>& on_bodies, const std::vector<double>& on_joints);
   /// Throws std::exception where the integrator gives up, or needs more steps than any motion that
-  /// is worth following does. Nothing may be asked of the model after that.
+  /// is worth following does. The model may not be queried after that.
   void step_to(double time);
   Motion motion(int body) const;
   std::vector<Touch> touches() const;

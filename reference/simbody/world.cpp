@@ -11,10 +11,12 @@
 #include "reference/external_forces.h"
 #include "reference/extremes.h"
 #include "reference/ground.h"
+#include "reference/pair_materials.h"
 #include "reference/robot_tree.h"
 #include "reference/simbody/model.h"
 #include "reference/simbody/settings.h"
 #include "reference/touching_points.h"
+#include "simulation/experiment/robot_tree.h"
 
 namespace hookpoint::reference {
 namespace {
@@ -57,6 +59,53 @@ simbody::Body describe(const TreeBody& tree) {
   return body;
 }
 
+/// Of a foot on the ground, or of the ground alone.
+simbody::Material describe(const contact::MaterialConstants<double>& material,
+                           const SimbodySettings& settings) {
+  return {settings.stiffness,        settings.dissipation,         material.static_friction,
+          material.kinetic_friction, settings.transition_velocity, settings.penalty,
+          material.normal_stiffness, material.normal_damping,      material.tangential_damping};
+}
+
+/// Simbody makes 2 a b/(a + b) of the coefficients a and b of two surfaces: a ground far rougher than
+/// all feet leaves what these say, twice.
+constexpr double rough = 1e6;
+double beside_rough(double friction) { return friction * rough / (2. * rough - friction); }
+
+/// The materials of the ground and of what touches it, as Simbody is to have them.
+class SimbodyMaterials {
+ public:
+  SimbodyMaterials(const simulation::Experiment& experiment, const SimbodySettings& settings)
+      : pairs_(experiment),
+        settings_(settings),
+        ground_(experiment.terrain ? experiment.terrain->material : simulation::no_material) {
+    if (settings.penalty) return;
+    for (const simulation::RobotSpec& robot : experiment.robots)
+      simulation::for_each_body(robot, [&](const simulation::BodySpec& body) {
+        by_feet_ = by_feet_ || has_material(body);
+      });
+  }
+
+  simbody::Material ground() const {
+    simbody::Material material = describe(pairs_.of(simulation::no_material, ground_), settings_);
+    if (by_feet_) material.static_friction = material.kinetic_friction = rough;
+    return material;
+  }
+  simbody::Material of(int foot) const {
+    simbody::Material material = describe(pairs_.of(foot, ground_), settings_);
+    if (!by_feet_) return material;
+    material.static_friction = beside_rough(material.static_friction);
+    material.kinetic_friction = beside_rough(material.kinetic_friction);
+    return material;
+  }
+
+ private:
+  PairMaterials pairs_;
+  const SimbodySettings& settings_;
+  int ground_;
+  bool by_feet_ = false;  ///< feet have materials of their own
+};
+
 simbody::Surface describe(const TouchingPoint& point, int index) {
   using Kind = simbody::Surface::Kind;
   simbody::Surface surface;
@@ -82,27 +131,29 @@ simbody::Surface describe(const simulation::ShapeSpec& shape) {
 
 simbody::Description describe(const simulation::Experiment& experiment, const RobotTree& tree,
                               const SimbodySettings& settings) {
-  const auto material = ground_material(experiment);
+  const SimbodyMaterials materials(experiment, settings);
   simbody::Description result;
   result.gravity = plain(experiment.gravity);
   result.accuracy = settings.accuracy;
-  result.material = {
-      settings.stiffness,        settings.dissipation,         material.static_friction,
-      material.kinetic_friction, settings.transition_velocity, settings.penalty,
-      material.normal_stiffness, material.normal_damping,      material.tangential_damping};
+  result.material = materials.ground();
+  const auto add = [&](simbody::Surface surface, int foot, simbody::Body& body) {
+    surface.material = materials.of(foot);
+    body.surfaces.push_back(surface);
+  };
   if (experiment.terrain) {
     const auto plane = std::get<GroundPlane>(ground_of(*experiment.terrain));
     result.ground = {plain(plane.normal), plane.offset, point_ball_radius};
   }
   for (const TreeBody& body : tree.bodies) {
     result.bodies.push_back(describe(body));
-    if (!body.mobile || touches_by_points(experiment, body.robot)) continue;
-    for (const auto& shape : body.body->shapes)
-      result.bodies.back().surfaces.push_back(describe(shape));
+    if (!body.mobile) continue;
+    for (const simulation::ShapeSpec* shape : touching_shapes(experiment, *body.body))
+      add(describe(*shape), shape->material, result.bodies.back());
   }
   const auto points = touching_points(experiment, tree);
   for (std::size_t i = 0; i < points.size(); ++i)
-    result.bodies[points[i].body].surfaces.push_back(describe(points[i], static_cast<int>(i)));
+    add(describe(points[i], static_cast<int>(i)), points[i].material,
+        result.bodies[points[i].body]);
   return result;
 }
 

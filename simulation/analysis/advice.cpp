@@ -11,8 +11,8 @@
 #include "simulation/analysis/advice_constants.h"
 #include "simulation/analysis/carried_load.h"
 #include "simulation/analysis/stability.h"
-#include "simulation/engine.h"
-#include "simulation/ground.h"
+#include "simulation/engine_interface/engine.h"
+#include "simulation/experiment/ground.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -43,7 +43,7 @@ double wanted_rebound(const AdviceWishes& wishes,
                       const contact::MaterialConstants<double>& material) {
   if (wishes.rebound && *wishes.rebound < least_rebound)
     throw ExperimentError(fmt::format(
-        "a damper takes all speed of a blow only when it is endlessly strong: ask for a rebound of "
+        "a damper takes all speed of a blow only when it is endlessly strong: require a rebound of "
         "{} or more",
         least_rebound));
   if (wishes.rebound) return *wishes.rebound;
@@ -61,18 +61,17 @@ void advise_constant(GroundAdvice& ground, const contact::MaterialConstants<doub
 
 /// The vertical speed about rest at which a body just leaves what the law reaches, without its
 /// damper: m v^2/2 = W (d + reach) - U(d) [m/s].
-double survival_speed(const contact::AnyForceLaw& law, const GroundAdvice& ground,
+double survival_speed(const contact::LawDescription& law, const GroundAdvice& ground,
                       const contact::MaterialConstants<double>& material) {
-  const double depth = contact::static_depth(law, ground.load, material);
-  const double reach = contact::reach(law, material);
-  const double energy =
-      ground.load * (depth + reach) - contact::stored_energy(law, depth, {}, material);
+  const double depth = law.static_depth(ground.load, material);
+  const double reach = law.reach(material);
+  const double energy = ground.load * (depth + reach) - law.stored_energy(depth, {}, material);
   return std::sqrt(2. * std::max(0., energy) / ground.mass);
 }
 
 /// The constant that sets the depth; of a law that acts above the tile the force there too, where
 /// it is more than `surface_share`. False for a law without one.
-bool advise_depth(GroundAdvice& ground, const contact::AnyForceLaw& law,
+bool advise_depth(GroundAdvice& ground, const contact::LawDescription& law,
                   const contact::MaterialConstants<double>& present) {
   using Constants = contact::MaterialConstants<double>;
   const auto stiffness = stiffness_field(law);
@@ -95,7 +94,7 @@ bool advise_depth(GroundAdvice& ground, const contact::AnyForceLaw& law,
   return true;
 }
 
-void advise_constants(GroundAdvice& ground, const contact::AnyForceLaw& law,
+void advise_constants(GroundAdvice& ground, const contact::LawDescription& law,
                       const contact::MaterialConstants<double>& present, double speed) {
   ground.advised = present;
   if (!advise_depth(ground, law, present)) return;
@@ -107,11 +106,11 @@ void advise_constants(GroundAdvice& ground, const contact::AnyForceLaw& law,
                     fmt::format("{:.4g} kg rebound with {:.3g} of the speed", ground.mass,
                                 ground.wanted_rebound));
   }
-  if (contact::reads(law, &contact::Constants::tangential_stiffness))
+  if (law.reads(&contact::Constants::tangential_stiffness))
     advise_constant(ground, present, Aim::friction, field_named("tangential_stiffness"),
                     ground.load / ground.wanted_depth,
                     "a hook gives as much along the ground as the point sinks");
-  if (damping && contact::reads(law, &contact::Constants::tangential_damping)) {
+  if (damping && law.reads(&contact::Constants::tangential_damping)) {
     const double zeta = contact::kelvin_voigt_damping_ratio(ground.wanted_rebound);
     const double stiffness = ground.load / ground.wanted_depth;
     advise_constant(ground, present, Aim::friction, field_named("tangential_damping"),
@@ -142,7 +141,7 @@ void check_ground(const GroundAdvice& ground) {
 std::vector<GroundAdvice> advise_robot(const Experiment& experiment, int index,
                                        const contact::Terrain& terrain, const WorldInputs& inputs,
                                        const AdviceWishes& wishes) {
-  const contact::AnyForceLaw law = *contact::find_force_law(experiment.contact);
+  const contact::LawDescription& law = *contact::find_force_law(experiment.contact);
   const auto robot = static_cast<std::size_t>(index);
   std::vector<GroundAdvice> grounds;
   for (const CarriedLoad& share : carried_loads(experiment, robot, terrain, inputs)) {
@@ -154,8 +153,8 @@ std::vector<GroundAdvice> advise_robot(const Experiment& experiment, int index,
     ground.mass = share.mass;
     ground.load = share.load;
     ground.least_mass = share.least_mass;
-    ground.depth = contact::static_depth(law, ground.load, spec.constants);
-    ground.rebound = contact::restitution(law, ground.mass, wishes.impact_speed, spec.constants);
+    ground.depth = law.static_depth(ground.load, spec.constants);
+    ground.rebound = law.restitution(ground.mass, wishes.impact_speed, spec.constants);
     ground.wanted_depth = wishes.penetration.value_or(spec.constants.nominal_penetration);
     ground.wanted_rebound = wanted_rebound(wishes, spec.constants);
     advise_constants(ground, law, spec.constants, wishes.impact_speed);
@@ -170,9 +169,9 @@ std::vector<GroundAdvice> advise_robot(const Experiment& experiment, int index,
 /// The experiment on the advised ground. Of two robots on one material the stiffer advice counts.
 Experiment advised_experiment(const Experiment& experiment,
                               const std::vector<GroundAdvice>& grounds) {
-  const contact::AnyForceLaw law = *contact::find_force_law(experiment.contact);
+  const contact::LawDescription& law = *contact::find_force_law(experiment.contact);
   const auto stiffness = [&](const GroundAdvice& ground) {
-    return contact::linearise(law, ground.load, ground.advised).normal_stiffness;
+    return law.linearise(ground.load, ground.advised).normal_stiffness;
   };
   Experiment advised = experiment;
   for (MaterialSpec& material : advised.materials) {

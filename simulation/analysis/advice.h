@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "contact/vocabulary.h"
-#include "simulation/experiment.h"
+#include "simulation/experiment/experiment.h"
 
 namespace hookpoint::simulation {
 

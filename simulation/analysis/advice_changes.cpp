@@ -8,7 +8,7 @@
 
 #include "contact/force_law.h"
 #include "simulation/analysis/stability.h"
-#include "simulation/material_fields.h"
+#include "simulation/experiment/material_fields.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -42,11 +42,12 @@ std::vector<Culprit> culprits() {
 }
 
 /// Whether the law reads the constant about that load.
-bool reads(const contact::AnyForceLaw& law, double load, const Constants& material, Member member) {
+bool reads(const contact::LawDescription& law, double load, const Constants& material,
+           Member member) {
   Constants more = material;
   more.*member = 1.001 * material.*member;
-  const auto now = contact::linearise(law, load, material);
-  const auto then = contact::linearise(law, load, more);
+  const auto now = law.linearise(load, material);
+  const auto then = law.linearise(load, more);
   return now.normal_stiffness != then.normal_stiffness ||
          now.normal_damping != then.normal_damping ||
          now.tangential_stiffness != then.tangential_stiffness ||
@@ -63,7 +64,7 @@ struct Place {
 /// weight, or one all of it.
 std::vector<Place> places(const Experiment& experiment, const Advice& advice,
                           const Culprit& culprit) {
-  const contact::AnyForceLaw law = *contact::find_force_law(experiment.contact);
+  const contact::LawDescription& law = *contact::find_force_law(experiment.contact);
   std::vector<Place> places;
   for (std::size_t i = 0; i < experiment.materials.size(); ++i) {
     const MaterialSpec& material = experiment.materials[i];

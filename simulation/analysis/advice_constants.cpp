@@ -5,10 +5,11 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "contact/bisect.h"
+
 namespace hookpoint::simulation {
 namespace {
 
-using contact::AnyForceLaw;
 using Constants = contact::MaterialConstants<double>;
 
 /// x in [10^low, 10^high] with f(x) = 0 for an f that falls with x; an end where it has no zero.
@@ -18,12 +19,8 @@ double bisect_decades(const Function& f, double low, double high) {
   if (f(std::pow(10., low)) <= 0.) return std::pow(10., low);
   while (low < high && f(std::pow(10., low + 1.)) > 0.) low += 1.;
   if (low >= high) return std::pow(10., high);
-  high = low + 1.;
-  for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (low + high);
-    (f(std::pow(10., middle)) > 0. ? low : high) = middle;
-  }
-  return std::pow(10., 0.5 * (low + high));
+  return std::pow(10.,
+                  contact::bisect([&](double x) { return -f(std::pow(10., x)); }, low, low + 1.));
 }
 
 }  // namespace
@@ -35,29 +32,29 @@ MaterialField field_named(std::string_view name) {
   throw std::logic_error(fmt::format("a Material has no constant `{}`", name));
 }
 
-std::optional<MaterialField> stiffness_field(const AnyForceLaw& law) {
-  const contact::Constant stiffness = contact::normal_constants(law).stiffness;
+std::optional<MaterialField> stiffness_field(const contact::LawDescription& law) {
+  const contact::Constant stiffness = law.normal_constants.stiffness;
   return stiffness == nullptr ? std::nullopt : std::optional(field_of(stiffness));
 }
 
-std::optional<MaterialField> damping_field(const AnyForceLaw& law) {
-  const contact::Constant damping = contact::normal_constants(law).damping;
+std::optional<MaterialField> damping_field(const contact::LawDescription& law) {
+  const contact::Constant damping = law.normal_constants.damping;
   return damping == nullptr ? std::nullopt : std::optional(field_of(damping));
 }
 
-double stiffness_for_depth(const AnyForceLaw& law, const MaterialField& field, double load,
-                           double depth, Constants material) {
+double stiffness_for_depth(const contact::LawDescription& law, const MaterialField& field,
+                           double load, double depth, Constants material) {
   return bisect_decades(
       [&](double stiffness) {
         material.*field.member = stiffness;
-        return contact::static_depth(law, load, material) - depth;
+        return law.static_depth(load, material) - depth;
       },
       -6., 18.);
 }
 
-bool carries_above_ground(const AnyForceLaw& law, double load, double share,
+bool carries_above_ground(const contact::LawDescription& law, double load, double share,
                           const Constants& material) {
-  return contact::static_depth(law, share * load, material) < 0.;
+  return law.static_depth(share * load, material) < 0.;
 }
 
 Constants exponential_for_depth(double load, double depth, double share, Constants material) {
@@ -68,11 +65,11 @@ Constants exponential_for_depth(double load, double depth, double share, Constan
   return material;
 }
 
-double damping_for_rebound(const AnyForceLaw& law, const MaterialField& field, double mass,
-                           double speed, double rebound, Constants material) {
+double damping_for_rebound(const contact::LawDescription& law, const MaterialField& field,
+                           double mass, double speed, double rebound, Constants material) {
   const auto excess = [&](double damping) {
     material.*field.member = damping;
-    return contact::restitution(law, mass, speed, material) - rebound;
+    return law.restitution(mass, speed, material) - rebound;
   };
   if (excess(0.) <= 0.) return 0.;
   return bisect_decades(excess, -12., 18.);

@@ -1,7 +1,7 @@
 // `deltat = auto`, the default: a step chosen from the largest stable one.
 #pragma once
 
-#include "simulation/experiment.h"
+#include "simulation/experiment/experiment.h"
 
 namespace hookpoint::simulation {
 

@@ -5,8 +5,8 @@
 #include <map>
 
 #include "dts/impulse_response.h"
-#include "simulation/engine/robot_system.h"
-#include "simulation/robot_tree.h"
+#include "simulation/dts_engine/robot_system.h"
+#include "simulation/experiment/robot_tree.h"
 
 namespace hookpoint::simulation {
 namespace {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "contact/terrain/terrain.h"
-#include "simulation/engine.h"
-#include "simulation/experiment.h"
+#include "simulation/engine_interface/engine.h"
+#include "simulation/experiment/experiment.h"
 
 namespace hookpoint::simulation {
 

@@ -9,11 +9,11 @@
 #include "dts/forward_kinematics.h"
 #include "dts/mass_matrix.h"
 #include "dts/planar_base.h"
-#include "simulation/engine/articulated_robot.h"
-#include "simulation/engine/robot_description.h"
-#include "simulation/joint_type.h"
-#include "simulation/names.h"
-#include "simulation/robot_tree.h"
+#include "simulation/dts_engine/articulated_robot.h"
+#include "simulation/dts_engine/robot_description.h"
+#include "simulation/experiment/joint_type.h"
+#include "simulation/experiment/names.h"
+#include "simulation/experiment/robot_tree.h"
 
 namespace hookpoint::simulation {
 namespace {

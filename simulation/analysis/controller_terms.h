@@ -8,8 +8,8 @@
 
 #include "dts/jacobian.h"
 #include "dts/state.h"
-#include "simulation/engine.h"
-#include "simulation/experiment.h"
+#include "simulation/engine_interface/engine.h"
+#include "simulation/experiment/experiment.h"
 
 namespace hookpoint::simulation {
 

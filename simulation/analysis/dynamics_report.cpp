@@ -4,10 +4,10 @@
 
 #include "dts/energy.h"
 #include "simulation/analysis/stability.h"
-#include "simulation/engine/robot_system.h"
-#include "simulation/ground.h"
-#include "simulation/names.h"
-#include "simulation/robot_tree.h"
+#include "simulation/dts_engine/robot_system.h"
+#include "simulation/experiment/ground.h"
+#include "simulation/experiment/names.h"
+#include "simulation/experiment/robot_tree.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -76,7 +76,7 @@ void check_finite(const RobotDynamics& robot) {
 DynamicsReport evaluate_dynamics(const Experiment& experiment) {
   DynamicsReport report;
   report.world = experiment.world;
-  const bool has_forces = contact::find_force_law(experiment.contact).has_value();
+  const bool has_forces = contact::find_force_law(experiment.contact) != nullptr;
   const auto ground = has_forces ? make_ground(experiment) : std::nullopt;
   const std::vector<std::string> names = body_trails(experiment);
   const WorldInputs inputs = initial_inputs(experiment);

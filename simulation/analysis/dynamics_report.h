@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "simulation/experiment.h"
+#include "simulation/experiment/experiment.h"
 
 namespace hookpoint::simulation {
 

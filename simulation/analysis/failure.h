@@ -1,7 +1,7 @@
 // Why a step failed, as far as the stability of the experiment tells.
 #pragma once
 
-#include "simulation/engine.h"
+#include "simulation/engine_interface/engine.h"
 
 namespace hookpoint::simulation {
 

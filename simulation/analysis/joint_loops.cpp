@@ -8,7 +8,7 @@
 #include <set>
 
 #include "language/wording.h"
-#include "simulation/robot_tree.h"
+#include "simulation/experiment/robot_tree.h"
 #include "simulation/wiring/components.h"
 
 namespace hookpoint::simulation {
@@ -70,7 +70,7 @@ class LoopFinder {
       if (reacting.contains(i)) control.left_out.push_back(spec.trail + ": " + why);
     }
     for (const WireSpec& wire : experiment_.wires) {
-      if (is_of_a_robot(wire.from) && !components_.find(wire.to) &&
+      if (is_of_a_robot(wire.from) && !components_.find(wire.from) && !components_.find(wire.to) &&
           wire.to.starts_with(experiment_.world + "."))
         control.left_out.push_back(wire.to + ": it follows " + wire.from +
                                    " by a wire alone, without a controller");

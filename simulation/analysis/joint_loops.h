@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "control/linear_feedback.h"
-#include "simulation/experiment.h"
+#include "simulation/experiment/experiment.h"
 
 namespace hookpoint::simulation {
 

@@ -82,21 +82,6 @@ Eigen::MatrixXd inverse_mass_matrix(const RobotSystem& robot, Workspace& workspa
   return symmetric;
 }
 
-/// -d(passive_joint_torque)/d(position), /d(rate) at rest.
-struct JointSpring {
-  double stiffness = 0., damping = 0.;
-};
-
-JointSpring joint_spring(const dts::JointProperties<double>& joint, double position) {
-  JointSpring spring{joint.stiffness + joint.friction / joint.friction_deflection,
-                     joint.damping + joint.friction / joint.friction_speed};
-  if (position < joint.lower_limit || position > joint.upper_limit) {
-    spring.stiffness += joint.limit_stiffness;
-    spring.damping += joint.limit_damping;
-  }
-  return spring;
-}
-
 }  // namespace
 
 double largest_eigenvalue(const Eigen::MatrixXd& symmetric) {
@@ -168,17 +153,18 @@ Vector3d RobotAtRest::base_rotation(const Eigen::VectorXd& z) const {
 
 LinearDynamics RobotAtRest::joints_alone() const {
   const Eigen::MatrixXd levers = joint_levers();
-  LinearDynamics dynamics{Eigen::MatrixXd::Zero(size(), size()),
-                          Eigen::MatrixXd::Zero(size(), size()), levers};
+  LinearDynamics dynamics{
+      Eigen::MatrixXd::Zero(size(), size()), Eigen::MatrixXd::Zero(size(), size()), levers, {}};
   for (Eigen::Index joint = 0; joint < levers.rows(); ++joint) {
     const auto l = static_cast<std::size_t>(joint);
-    const JointSpring spring =
-        joint_spring(robot_->robot().joints().properties()[l], robot_->state().joint_positions[l]);
+    const JointSpring spring = resting_spring(robot_->robot().joints().properties()[l],
+                                              robot_->state().joint_positions[l]);
     if (spring.stiffness == 0. && spring.damping == 0.) continue;
     const Eigen::VectorXd moved = levers.row(joint).transpose();
     dynamics.stiffness += spring.stiffness * moved * moved.transpose();
     dynamics.damping += spring.damping * moved * moved.transpose();
   }
+  dynamics.of_joints = {dynamics.stiffness, dynamics.damping};
   return dynamics;
 }
 

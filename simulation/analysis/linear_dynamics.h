@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "dts/impulse_response.h"
-#include "simulation/engine/robot_system.h"
+#include "simulation/dts_engine/robot_system.h"
 
 namespace hookpoint::simulation {
 
@@ -30,6 +30,10 @@ struct LinearDynamics {
   Eigen::MatrixXd stiffness;  ///< K [1/s^2]
   Eigen::MatrixXd damping;    ///< C [1/s]
   Eigen::MatrixXd joints;     ///< a row a joint: its position over z; a torque moves z by the row
+  /// What springs and dampers of joints have of K and C.
+  struct OfJoints {
+    Eigen::MatrixXd stiffness, damping;
+  } of_joints;
 };
 
 /// A refreshed robot at its present posture, at rest, in coordinates z in which its mass matrix

@@ -5,7 +5,7 @@
 #include "contact/force_law.h"
 #include "contact/predictions.h"
 #include "simulation/analysis/advice_constants.h"
-#include "simulation/ground.h"
+#include "simulation/experiment/ground.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -32,20 +32,23 @@ struct Wanted {
 
 /// alpha of k d^n (1 + alpha d'), whatever the spring: by its closed form of the rebound at the
 /// landing's speed, or alpha N = c about rest.
-double hysteresis_for(const Wanted& wanted, const contact::AnyForceLaw& law, const Constants& now) {
+double hysteresis_for(const Wanted& wanted, const contact::LawDescription& law,
+                      const Constants& now) {
   if (!wanted.lands() || wanted.damping == 0.) return wanted.damping / wanted.load;
   return damping_for_rebound(law, field_of(&Constants::hysteresis_damping), wanted.mass,
                              wanted.speed, wanted.rebound, now);
 }
 
 // k1 = W/d: one line with the stiffness beyond the nominal depth, which is hookpoint's own.
-Constants matched(const contact::Nominal&, const Wanted& wanted, Constants material) {
+Constants matched(const contact::Nominal&, const contact::LawDescription&, const Wanted& wanted,
+                  Constants material) {
   material.nominal_stiffness = wanted.stiffness;
   return material;
 }
 
 // n W/d = W/d wants n = 1; then k = W/d.
-Constants matched(const contact::HuntCrossley& law, const Wanted& wanted, Constants material) {
+Constants matched(const contact::HuntCrossley&, const contact::LawDescription& law,
+                  const Wanted& wanted, Constants material) {
   material.exponent = 1.;
   material.normal_stiffness = wanted.load / wanted.depth;
   material.hysteresis_damping = hysteresis_for(wanted, law, material);
@@ -53,7 +56,8 @@ Constants matched(const contact::HuntCrossley& law, const Wanted& wanted, Consta
 }
 
 // d1 exp(d2 (d + d0)) = W with the tangent d2 W = W/d.
-Constants matched(const contact::Exponential& law, const Wanted& wanted, Constants material) {
+Constants matched(const contact::Exponential&, const contact::LawDescription& law,
+                  const Wanted& wanted, Constants material) {
   material.exponential_rate = 1. / wanted.depth;
   material.exponential_force = wanted.load * std::exp(-material.exponential_rate *
                                                       (wanted.depth + material.exponential_height));
@@ -64,7 +68,8 @@ Constants matched(const contact::Exponential& law, const Wanted& wanted, Constan
 /// Any law by its own predictions: the constant that sets its depth, then the one of its rebound,
 /// or of its damping about rest, to which that is proportional.
 template <class Law>
-Constants matched(const Law& law, const Wanted& wanted, Constants material) {
+Constants matched(const Law&, const contact::LawDescription& law, const Wanted& wanted,
+                  Constants material) {
   const auto stiffness = stiffness_field(law), damping = damping_field(law);
   if (stiffness)
     material.*stiffness->member =
@@ -84,7 +89,8 @@ Constants matched(const Law& law, const Wanted& wanted, Constants material) {
 template <class Law>
 requires std::derived_from<Law, contact::SpringDamperPredictions> ||
     std::derived_from<Law, contact::LugrePredictions>
-        Constants matched(const Law&, const Wanted&, Constants material) {
+        Constants matched(const Law&, const contact::LawDescription&, const Wanted&,
+                          Constants material) {
   return material;
 }
 
@@ -103,18 +109,18 @@ std::vector<MatchedConstant> changed(const Constants& own, const Constants& chos
   return constants;
 }
 
-MatchedMaterial match(const contact::AnyForceLaw& law, const CarriedLoad& under,
+MatchedMaterial match(const contact::LawDescription& law, const CarriedLoad& under,
                       const MaterialSpec& spec) {
   const Wanted wanted(under, spec.constants);
-  const Constants chosen =
-      std::visit([&](const auto& one) { return matched(one, wanted, spec.constants); }, law);
-  const contact::LinearContact about = contact::linearise(law, wanted.load, chosen);
+  const Constants chosen = std::visit(
+      [&](const auto& one) { return matched(one, law, wanted, spec.constants); }, law.variant);
+  const contact::LinearContact about = law.linearise(wanted.load, chosen);
   MatchedMaterial made{under.material, spec.name, under,
-                       changed(spec.constants, chosen, contact::normal_constants(law))};
-  made.depth = contact::static_depth(law, wanted.load, chosen) / wanted.depth;
+                       changed(spec.constants, chosen, law.normal_constants)};
+  made.depth = law.static_depth(wanted.load, chosen) / wanted.depth;
   made.stiffness = about.normal_stiffness / wanted.stiffness;
   if (wanted.lands())
-    made.rebound = contact::restitution(law, wanted.mass, wanted.speed, chosen) / wanted.rebound;
+    made.rebound = law.restitution(wanted.mass, wanted.speed, chosen) / wanted.rebound;
   else if (wanted.damping > 0.)
     made.rebound = about.normal_damping / wanted.damping;
   return made;
@@ -149,7 +155,7 @@ std::vector<MatchedMaterial> matched_to_hookpoint(const Experiment& experiment) 
   // What carries the robot, and how it lands, is the scene's: under hookpoint.
   Experiment reference = experiment;
   reference.contact = contact::Hookpoint::name;
-  const auto law = contact::find_force_law(experiment.contact);
+  const auto* const law = contact::find_force_law(experiment.contact);
   std::vector<MatchedMaterial> materials;
   for (const CarriedLoad& under :
        carried_loads(reference, first_robot(reference), *terrain, initial_inputs(reference))) {

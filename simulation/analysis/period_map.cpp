@@ -1,5 +1,6 @@
 #include "simulation/analysis/period_map.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -32,11 +33,23 @@ class LinearMechanism final : public integrators::VectorSpaceSystem {
     acceleration = held;
     acceleration.noalias() -= dynamics_.stiffness * z;
     acceleration.noalias() -= dynamics_.damping * rate;
+    if (h_ == 0.) return integrators::Status::ok;
+    acceleration.noalias() -= h_ * dynamics_.of_joints.stiffness * rate;
+    acceleration = mass_.solve(acceleration).eval();
     return integrators::Status::ok;
+  }
+
+  void take_joints_at_end_of(double h) override {
+    if (h == h_) return;
+    h_ = h;
+    mass_.compute(MatrixXd::Identity(held.size(), held.size()) + h * dynamics_.of_joints.damping +
+                  h * h * dynamics_.of_joints.stiffness);
   }
 
  private:
   const LinearDynamics& dynamics_;
+  double h_ = 0.;
+  Eigen::LLT<MatrixXd> mass_;  ///< 1 + h C_j + h^2 K_j
 };
 
 /// One step of the integrator: a column is what the step itself makes of a unit position, velocity

@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "contact/force_law.h"
+#include "simulation/experiment/contact_materials.h"
+#include "simulation/experiment/kinematics.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -22,7 +24,7 @@ struct Freedom {
   bool is_velocity = false;
 };
 
-/// Of the body that is free, or kept in a plane: on a tile with normal `n`. A law without
+/// Of the robot that is free, or kept in a plane: on a tile with normal `n`. A law without
 /// tangential spring holds by moving along the tile.
 std::vector<Freedom> freedoms(const RobotSpec& robot, const Vector3d& n, bool springs) {
   if (robot.plane_normal) {
@@ -49,22 +51,39 @@ Quaterniond rotation_by(const Vector3d& vector) {
 class RestSearch {
  public:
   RestSearch(const Experiment& experiment, const RobotSpec& robot, const contact::Terrain& ground,
-             const contact::AnyForceLaw& law)
-      : experiment_(experiment), robot_(robot), ground_(ground), law_(law) {
-    const Vector3d& c = robot.base.mass.center_of_mass;
-    center_ = robot.location + rotate(robot.orientation, c);
-    for (const Vector3d& p_BP : robot.base.boundary_points)
-      arms_.push_back(rotate(robot.orientation, p_BP - c));
+             const contact::LawDescription& law)
+      : experiment_(experiment), robot_(robot), ground_(ground), law_(law), materials_(experiment) {
+    const std::vector<const BodySpec*> bodies = bodies_of(robot);
+    const std::vector<Pose> X_BL = body_poses(robot);
+    Vector3d moment;
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      const MassSpec& mass = bodies[i]->mass;
+      moment += mass.mass * (X_BL[i].position + rotate(X_BL[i].orientation, mass.center_of_mass));
+    }
+    const double mass = robot_mass(robot);
+    center_of_mass_ = (1. / mass) * moment;
+    center_ = robot.location + rotate(robot.orientation, center_of_mass_);
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      for (std::size_t k = 0; k < bodies[i]->boundary_points.size(); ++k) {
+        const Vector3d p_BP =
+            X_BL[i].position + rotate(X_BL[i].orientation, bodies[i]->boundary_points[k]);
+        arms_.push_back(rotate(robot.orientation, p_BP - center_of_mass_));
+        radii_.push_back(bodies[i]->boundary_radius(k));
+        foot_materials_.push_back(bodies[i]->boundary_material(k));
+      }
+    }
     for (const Vector3d& arm : arms_) size_ = std::max(size_, norm(arm));
     if (size_ == 0.) size_ = 1.;
-    weight_ = robot.base.mass.mass * experiment.gravity;
+    weight_ = mass * experiment.gravity;
     const contact::TilePoint below = ground.query(center_);
-    const auto& material = experiment.materials[static_cast<std::size_t>(below.material)].constants;
-    springs_ = contact::linearise(law, norm(weight_), material).tangential_stiffness > 0.;
+    const auto& material = materials_.of(
+        foot_materials_.empty() ? no_material : foot_materials_.front(), below.material);
+    springs_ = law.linearise(norm(weight_), material).tangential_stiffness > 0.;
     freedoms_ = freedoms(robot, below.normal, springs_);
-    depth_ = std::abs(
-        contact::static_depth(law, norm(weight_) / static_cast<double>(arms_.size()), material));
+    depth_ =
+        std::abs(law.static_depth(norm(weight_) / static_cast<double>(arms_.size()), material));
     speed_ = material.regularisation_speed;
+    farthest_shift_ = farthest_tilt * size_ + 10. * deflection(below.normal, material);
   }
 
   Resting find() {
@@ -74,11 +93,13 @@ class RestSearch {
     if (residual.norm() < 1e-12) return {};
     constexpr int most_steps = 60;
     for (int i = 0; i < most_steps && residual.norm() > at_rest; ++i) {
+      if (i > 1 && evaluations_ > most_evaluations)
+        return {std::nullopt, "the balance of so many boundary points takes too long to find"};
       const Eigen::VectorXd step =
           -jacobian(x, residual).completeOrthogonalDecomposition().solve(residual);
-      if (!advance(x, residual, step) || tilt(x) > farthest_tilt) break;
+      if (!advance(x, residual, step) || !is_near(x)) break;
     }
-    if (residual.norm() < nearly_at_rest && tilt(x) <= farthest_tilt) return {state_at(x), ""};
+    if (residual.norm() < nearly_at_rest && is_near(x)) return {state_at(x), ""};
     return {
         std::nullopt,
         "nothing balances its weight there: the slope is steeper than friction holds, it rolls, "
@@ -86,11 +107,25 @@ class RestSearch {
   }
 
  private:
+  /// How far the touching points deflect where they share the weight evenly [m].
+  double deflection(const Vector3d& normal,
+                    const contact::MaterialConstants<double>& material) const {
+    const auto touching = std::ranges::count_if(arms_, [&](const Vector3d& arm) {
+      const auto i = static_cast<std::size_t>(&arm - arms_.data());
+      return ground_.query(center_ + arm).depth + radii_[i] > 0.;
+    });
+    const double load = norm(weight_) / static_cast<double>(std::max<std::ptrdiff_t>(1, touching));
+    const double along = springs_ ? norm(tangential(weight_, normal)) / norm(weight_) * load /
+                                        material.tangential_stiffness
+                                  : 0.;
+    return std::abs(law_.static_depth(load, material)) + along;
+  }
+
   /// Of a unit of each unknown: tilts move points by as much as shifts do.
   double unit(const Freedom& freedom) const { return norm(freedom.about) > 0. ? 1. / size_ : 1.; }
 
   /// Halves the step until it brings the forces nearer to balance.
-  bool advance(Eigen::VectorXd& x, Eigen::VectorXd& residual, const Eigen::VectorXd& step) const {
+  bool advance(Eigen::VectorXd& x, Eigen::VectorXd& residual, const Eigen::VectorXd& step) {
     for (double part = 1.; part > 1e-9; part *= 0.5) {
       const Eigen::VectorXd tried = x + part * step;
       const Eigen::VectorXd left = residual_at(tried);
@@ -102,7 +137,7 @@ class RestSearch {
     return false;
   }
 
-  Eigen::MatrixXd jacobian(const Eigen::VectorXd& x, const Eigen::VectorXd& residual) const {
+  Eigen::MatrixXd jacobian(const Eigen::VectorXd& x, const Eigen::VectorXd& residual) {
     Eigen::MatrixXd slopes(residual.size(), x.size());
     for (Eigen::Index k = 0; k < x.size(); ++k) {
       const double h =
@@ -128,25 +163,30 @@ class RestSearch {
     }
     return sum;
   }
-  double tilt(const Eigen::VectorXd& x) const { return norm(moved(x).turn); }
+  /// Whether the robot rests on what it was placed on.
+  bool is_near(const Eigen::VectorXd& x) const {
+    const Moved by = moved(x);
+    return norm(by.turn) <= farthest_tilt && norm(by.shift) <= farthest_shift_;
+  }
 
   /// A point that touches: where it does, and the ground's force on it.
   struct Touch {
     Vector3d arm, force, stretch;
   };
   Touch touch(std::size_t i, const Moved& by) const {
-    const double radius = robot_.base.boundary_radius(i);
+    const double radius = radii_[i];
     const Vector3d arm = rotate(rotation_by(by.turn), arms_[i]);
     const contact::TilePoint tile = ground_.query(center_ + by.shift + arm);
-    const auto& material = experiment_.materials[static_cast<std::size_t>(tile.material)].constants;
+    const auto& material = materials_.of(foot_materials_[i], tile.material);
     const Vector3d down = -radius * tile.normal;
     Touch made{arm + down, {}, {}};
     const Vector3d velocity = by.velocity + cross(by.spin, made.arm);
     const contact::PointKinematics<double> point{
         center_ + by.shift + made.arm, velocity, tile.normal, tile.depth + radius, {}};
-    made.force = contact::evaluate(law_, point, {}, material, experiment_.deltat).force;
-    if (!springs_) return made;
+    made.force = law_.evaluate(point, {}, material, experiment_.deltat).force;
     const double load = dot(made.force, tile.normal);
+    if (material.adhesion > 0. && load > 0.) made.force -= material.adhesion * tile.normal;
+    if (!springs_) return made;
     const Vector3d way = by.shift + (arm - arms_[i]) + cross(by.turn, down);
     made.stretch = tangential(way, tile.normal);
     const double pull = material.tangential_stiffness * norm(made.stretch);
@@ -156,8 +196,9 @@ class RestSearch {
     return made;
   }
 
-  Eigen::VectorXd residual_at(const Eigen::VectorXd& x) const {
+  Eigen::VectorXd residual_at(const Eigen::VectorXd& x) {
     const Moved by = moved(x);
+    evaluations_ += static_cast<std::int64_t>(arms_.size());
     Vector3d force = weight_, torque;
     for (std::size_t i = 0; i < arms_.size(); ++i) {
       const Touch at = touch(i, by);
@@ -178,7 +219,7 @@ class RestSearch {
     const Moved by = moved(x);
     RestingState state;
     state.orientation = normalized(rotation_by(by.turn) * robot_.orientation);
-    const Vector3d arm = rotate(state.orientation, robot_.base.mass.center_of_mass);
+    const Vector3d arm = rotate(state.orientation, center_of_mass_);
     state.location = center_ + by.shift - arm;
     state.velocity = by.velocity - cross(by.spin, arm);
     state.angular_velocity = by.spin;
@@ -190,27 +231,33 @@ class RestSearch {
   const Experiment& experiment_;
   const RobotSpec& robot_;
   const contact::Terrain& ground_;
-  const contact::AnyForceLaw& law_;
-  Vector3d center_;             ///< of mass, at the robot's pose [m]
-  std::vector<Vector3d> arms_;  ///< from there to the boundary points [m]
-  double size_ = 0.;            ///< the longest of them, 1 m where all are 0 [m]
-  Vector3d weight_;             ///< [N]
-  bool springs_ = false;        ///< the law has a tangential spring
+  const contact::LawDescription& law_;
+  ContactMaterials materials_;
+  Vector3d center_of_mass_;     ///< base axes [m]
+  Vector3d center_;             ///< of mass, at the robot's pose, world axes [m]
+  std::vector<Vector3d> arms_;  ///< from there to the boundary points, body by body [m]
+  std::vector<double> radii_;   ///< of their balls [m]
+  std::vector<int> foot_materials_;
+  double size_ = 0.;      ///< the longest of them, 1 m where all are 0 [m]
+  Vector3d weight_;       ///< [N]
+  bool springs_ = false;  ///< the law has a tangential spring
   std::vector<Freedom> freedoms_;
-  double depth_ = 0.;  ///< of the points, about [m]
-  double speed_ = 0.;  ///< of creep, about [m/s]
+  double depth_ = 0.;             ///< of the points, about [m]
+  double speed_ = 0.;             ///< of creep, about [m/s]
+  double farthest_shift_ = 0.;    ///< [m]
+  std::int64_t evaluations_ = 0;  ///< of the law at a point
 };
 
 }  // namespace
 
 Resting resting_state(const Experiment& experiment, const RobotSpec& robot,
                       const contact::Terrain& ground) {
-  const auto law = contact::find_force_law(experiment.contact);
+  const auto* const law = contact::find_force_law(experiment.contact);
   if (!law || experiment.engine != Experiment{}.engine) return {};
-  if (!robot.chains.empty()) return {std::nullopt, "it has joints, which deflect too"};
-  if (norm(robot.velocity) > 0. || norm(robot.angular_velocity) > 0.)
-    return {std::nullopt, "it moves at the start"};
-  if (!(robot.base.mass.mass > 0.) || !(norm(experiment.gravity) > 0.))
+  bool moves = norm(robot.velocity) > 0. || norm(robot.angular_velocity) > 0.;
+  for_each_link(robot, [&](const TreeLink& at) { moves = moves || at.link.rate != 0.; });
+  if (moves) return {std::nullopt, "it moves at the start"};
+  if (!(robot_mass(robot) > 0.) || !(norm(experiment.gravity) > 0.))
     return {std::nullopt, "nothing weighs it down"};
   return RestSearch(experiment, robot, ground, *law).find();
 }

@@ -5,15 +5,17 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <span>
 
 #include "integrators/stepper.h"
-#include "simulation/analysis/linear_dynamics.h"
+#include "simulation/analysis/meeting_bodies.h"
+#include "simulation/analysis/robots_in_touch.h"
 #include "simulation/analysis/stable_step.h"
 #include "simulation/analysis/standing.h"
-#include "simulation/engine/robot_system.h"
-#include "simulation/ground.h"
-#include "simulation/robot_tree.h"
+#include "simulation/dts_engine/robot_system.h"
+#include "simulation/experiment/ground.h"
+#include "simulation/experiment/robot_tree.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -29,28 +31,29 @@ Eigen::Matrix3d along_and_across(const Eigen::Vector3d& n, double along, double 
   return along * projection + across * (Eigen::Matrix3d::Identity() - projection);
 }
 
-ContactSpring make_spring(const Experiment& experiment, const contact::AnyForceLaw& law,
-                          const CarryingPoint& carrying) {
-  const auto& material = constants_of(experiment, carrying.material);
-  contact::LinearContact linear = contact::linearise(law, carrying.load, material);
+/// The law about the load of a place that carries: a CarryingPoint or a TouchingPlace.
+template <class Carrying>
+PlaceSpring make_spring(const contact::LawDescription& law, const Carrying& carrying) {
+  const auto& material = carrying.material;
+  contact::LinearContact linear = law.linearise(carrying.load, material);
   // Without friction nothing sticks.
   if (material.static_friction == 0.) linear.tangential_stiffness = 0.;
   if (material.static_friction == 0.) linear.tangential_damping = material.viscous_friction;
   const Eigen::Vector3d n = eigen(carrying.normal);
-  return {carrying.lever, along_and_across(n, linear.normal_stiffness, linear.tangential_stiffness),
+  return {along_and_across(n, linear.normal_stiffness, linear.tangential_stiffness),
           along_and_across(n, linear.normal_damping, linear.tangential_damping)};
 }
 
 /// The least speed up to which the step resolves the bristles of the points that carry [m/s].
+template <class Carrying>
 double resolved_speed(const Experiment& experiment, const StepperDescription& stepper,
-                      const contact::AnyForceLaw& law, const Stance& stance) {
+                      const contact::LawDescription& law, const std::vector<Carrying>& points) {
   double least = infinity, most = 0.;
   if (stepper.adaptive()) return least;
-  for (const CarryingPoint& point : stance.points) most = std::max(most, point.load);
-  for (const CarryingPoint& point : stance.points) {
+  for (const Carrying& point : points) most = std::max(most, point.load);
+  for (const Carrying& point : points) {
     if (point.load < least_share * most) continue;
-    least = std::min(least, contact::resolved_speed(law, point.load, experiment.deltat,
-                                                    constants_of(experiment, point.material)));
+    least = std::min(least, law.resolved_speed(point.load, experiment.deltat, point.material));
   }
   return least;
 }
@@ -95,33 +98,32 @@ StabilityBound bound_of(const StepperDescription& stepper, const LinearDynamics&
   return bound;
 }
 
-Springs springs_of(const Experiment& experiment, const contact::AnyForceLaw& law,
-                   const Stance& stance) {
+Springs springs_of(const contact::LawDescription& law, const Stance& stance) {
   Springs springs{{}, stance.loads};
-  for (const CarryingPoint& point : stance.points)
-    springs.contacts.push_back(make_spring(experiment, law, point));
+  for (const CarryingPoint& point : stance.points) {
+    const PlaceSpring spring = make_spring(law, point);
+    springs.contacts.push_back({point.lever, spring.stiffness, spring.damping});
+  }
   return springs;
 }
 
 /// Whether the law is stiffer or damps more under a greater load.
-bool depends_on_load(const Experiment& experiment, const contact::AnyForceLaw& law,
-                     const CarryingPoint& point, double load) {
-  const auto& material = constants_of(experiment, point.material);
-  const contact::LinearContact now = contact::linearise(law, point.load, material);
-  const contact::LinearContact then = contact::linearise(law, load, material);
+bool depends_on_load(const contact::LawDescription& law, const CarryingPoint& point, double load) {
+  const auto& material = point.material;
+  const contact::LinearContact now = law.linearise(point.load, material);
+  const contact::LinearContact then = law.linearise(load, material);
   return then.normal_stiffness > now.normal_stiffness || then.normal_damping > now.normal_damping ||
          then.tangential_damping > now.tangential_damping;
 }
 
 /// Where the loads vary, under a law that stiffens with them: each point may carry all alone.
-void add_single_points(const Experiment& experiment, const contact::AnyForceLaw& law,
-                       std::vector<Stance>& stances) {
+void add_single_points(const contact::LawDescription& law, std::vector<Stance>& stances) {
   for (std::size_t i = 0, count = stances.size(); i < count; ++i) {
     double total = 0.;
     for (const CarryingPoint& point : stances[i].points) total += point.load;
     const std::vector<CarryingPoint> points = stances[i].points;
     for (CarryingPoint alone : points) {
-      if (!depends_on_load(experiment, law, alone, total)) continue;
+      if (!depends_on_load(law, alone, total)) continue;
       alone.load = total;
       stances.push_back({{alone}, {}});
     }
@@ -149,11 +151,10 @@ StabilityBound free_bound(const Experiment& experiment, const StepperDescription
 
 StabilityBound robot_bound(const Experiment& experiment, const StepperDescription& stepper,
                            std::size_t index, const contact::Terrain* ground,
-                           const WiredControl& control, const WorldInputs& inputs,
+                           const WiredControl& control, RobotSystem& robot,
                            AnalysisBudget& budget) {
-  const contact::AnyForceLaw law = *contact::find_force_law(experiment.contact);
+  const contact::LawDescription& law = *contact::find_force_law(experiment.contact);
   const RobotSpec& spec = experiment.robots[index];
-  RobotSystem robot(experiment, index, ground, inputs);
   const auto size = static_cast<double>(robot.dof_count());
   budget.spend(2. * size * size * size);
   const RobotAtRest rest(robot);
@@ -163,14 +164,14 @@ StabilityBound robot_bound(const Experiment& experiment, const StepperDescriptio
   Stances stances = find_stances(experiment, index, rest, control, budget);
   if (std::ranges::any_of(driven_of(control, index),
                           [](const DrivenJoint& joint) { return !joint.goal; }))
-    add_single_points(experiment, law, stances.all);
+    add_single_points(law, stances.all);
 
   const Contacts contacts = stances.lands ? Contacts::landing : Contacts::touching;
   StabilityBound least{infinity, 0., 0., spec.name, contacts};
   for (const Stance& stance : stances.all) {
-    const Springs springs = springs_of(experiment, law, stance);
+    const Springs springs = springs_of(law, stance);
     const double resolved =
-        std::min(least.resolved_speed, resolved_speed(experiment, stepper, law, stance));
+        std::min(least.resolved_speed, resolved_speed(experiment, stepper, law, stance.points));
     budget.spend(static_cast<double>(springs.contacts.size()) * 6. * size * size +
                  work_of_step(stepper, size, false));
     // The contacts alone decide which stance is worst; the loops then join it.
@@ -183,6 +184,75 @@ StabilityBound robot_bound(const Experiment& experiment, const StepperDescriptio
   }
   least.evaluations = stances.evaluations;
   return least;
+}
+
+/// Their controllers' loops, in the joints of all of them.
+std::vector<JointLoop> loops_of(const WiredControl& control, const RobotsInTouch& group,
+                                std::span<const RobotAtRest> rests) {
+  std::vector<JointLoop> all;
+  std::size_t first = 0;
+  for (const std::size_t robot : group.robots) {
+    for (JointLoop loop : loops_of(control, robot)) {
+      loop.sensed += first;
+      loop.driven += first;
+      all.push_back(loop);
+    }
+    first += rests[robot].robot().model().link_count();
+  }
+  return all;
+}
+
+/// Of robots that touch as shapes: all together, or where that takes too long each by itself.
+StabilityBound touching_bound(const Experiment& experiment, const StepperDescription& stepper,
+                              const RobotsInTouch& group, std::span<const RobotAtRest> rests,
+                              const WiredControl& control) {
+  const contact::LawDescription& law = *contact::find_force_law(experiment.contact);
+  std::vector<PlaceSpring> springs;
+  for (const TouchingPlace& place : group.places) {
+    PlaceSpring spring = make_spring(law, place);
+    springs.push_back({place.weight * spring.stiffness, place.weight * spring.damping});
+  }
+  std::vector<std::string> names;
+  double size = 0.;
+  for (const std::size_t robot : group.robots) {
+    if (!rests[robot].is_regular()) return {infinity, 0., 0., experiment.robots[robot].name};
+    names.push_back(experiment.robots[robot].name);
+    size += static_cast<double>(rests[robot].size());
+  }
+  try {
+    AnalysisBudget budget;
+    budget.spend(2. * static_cast<double>(springs.size()) * size * size);
+    StabilityBound bound =
+        bound_of(stepper, linear_dynamics(group, rests, springs, experiment.gravity),
+                 loops_of(control, group, rests), first_of(names), Contacts::touching, budget);
+    bound.resolved_speed = resolved_speed(experiment, stepper, law, group.places);
+    return bound;
+  } catch (const OverBudget&) {
+    if (group.robots.size() == 1) throw;
+    StabilityBound least{infinity};
+    for (const std::size_t robot : group.robots) {
+      const StabilityBound part =
+          touching_bound(experiment, stepper, alone(group, robot), rests, control);
+      if (part.step < least.step) least = part;
+    }
+    return least;
+  }
+}
+
+/// Of two bodies when they meet: one spring between them.
+StabilityBound meeting_bound(const Experiment& experiment, const StepperDescription& stepper,
+                             const Meeting& meeting, AnalysisBudget& budget) {
+  const contact::LawDescription& law = *contact::find_force_law(experiment.contact);
+  const PlaceSpring spring = make_spring(law, meeting);
+  const auto most = [&](const Eigen::Matrix3d& of_place) {
+    return Eigen::MatrixXd::Constant(1, 1, meeting.inverse_mass * largest_eigenvalue(of_place));
+  };
+  std::vector<std::string> names{experiment.robots[meeting.other].name};
+  if (meeting.robot != meeting.other) names.push_back(experiment.robots[meeting.robot].name);
+  const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(1, 1);
+  return bound_of(
+      stepper, {most(spring.stiffness), most(spring.damping), Eigen::MatrixXd(0, 1), {none, none}},
+      {}, first_of(names), Contacts::meeting, budget);
 }
 
 StabilityBound not_computed(const Experiment& experiment, std::size_t index,
@@ -230,13 +300,39 @@ StabilityBound stability_bound(const Experiment& experiment) {
   const auto ground = make_ground(experiment);
   const WiredControl control = wired_control(experiment);
   const WorldInputs inputs = initial_inputs(experiment);
+  const contact::Terrain* const below = ground ? &*ground : nullptr;
+  std::vector<std::unique_ptr<RobotSystem>> robots;
+  for (std::size_t i = 0; i < experiment.robots.size(); ++i)
+    robots.push_back(std::make_unique<RobotSystem>(experiment, i, below, inputs));
+
+  std::vector<bool> touches(robots.size());
+  const std::vector<RobotsInTouch> groups = robots_in_touch(experiment, below, inputs, robots);
+  std::vector<RobotAtRest> rests;
+  if (shapes_matter(experiment))
+    for (const auto& robot : robots) rests.emplace_back(*robot);
+  for (const RobotsInTouch& group : groups) {
+    for (const std::size_t robot : group.robots) touches[robot] = true;
+    try {
+      const StabilityBound bound = touching_bound(experiment, *stepper, group, rests, control);
+      if (bound.step < least.step) least = bound;
+    } catch (const OverBudget&) {
+      return not_computed(experiment, group.robots.front(), *stepper);
+    }
+  }
+
   AnalysisBudget budget;
+  for (const Meeting& meeting : meeting_bodies(experiment, rests, groups)) {
+    const StabilityBound bound = meeting_bound(experiment, *stepper, meeting, budget);
+    if (bound.step < least.step) least = bound;
+  }
   std::int64_t evaluations = 0;
   for (std::size_t i = 0; i < experiment.robots.size(); ++i) {
     try {
-      const StabilityBound bound = robot_bound(experiment, *stepper, i, ground ? &*ground : nullptr,
-                                               control, inputs, budget);
+      const StabilityBound bound =
+          robot_bound(experiment, *stepper, i, below, control, *robots[i], budget);
       evaluations += bound.evaluations;
+      // Their contacts are in touching_bound, exactly; here they are points sampled from the shapes.
+      if (touches[i] && bound.contacts == Contacts::touching) continue;
       if (bound.step < least.step) least = bound;
     } catch (const OverBudget&) {
       return not_computed(experiment, i, *stepper);

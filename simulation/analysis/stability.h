@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "simulation/experiment.h"
+#include "simulation/experiment/experiment.h"
 
 namespace hookpoint::simulation {
 
@@ -16,10 +16,11 @@ struct StabilityBound {
       0.;  ///< largest stable step of the experiment's integrator [s]; infinity without forces
   double stiffness = 0.;   ///< largest eigenvalue of M^-1 sum J^T K J [1/s^2]
   double damping = 0.;     ///< largest eigenvalue of M^-1 sum J^T C J [1/s]
-  std::string robot = {};  ///< the robot it belongs to
+  std::string robot = {};  ///< the robot it belongs to; several by first_of
   /// Which contacts are in it: those on which the robot stands near its initial state, else all of
-  /// the worst face on which it may land, or none where there is no ground to touch.
-  enum class Contacts { touching, landing, none };
+  /// the worst face on which it may land, that with another body or an obstacle that it may meet, or
+  /// none where there is nothing to touch.
+  enum class Contacts { touching, landing, meeting, none };
   Contacts contacts = Contacts::none;
   /// Sliding speed up to which deltat resolves the law's bristles; infinite for a law without
   /// bristles and for an adaptive integrator [m/s].
@@ -39,7 +40,8 @@ struct StabilityBound {
 /// The bound at the experiment's initial state, the smallest of its robots; only for engine dts
 /// under a force law. Each contact is linearised about the load that it carries: K = k n n^T + k_t
 /// (1 - n n^T), C alike; springs and dampers of joints are in it, the stiffness of gravity, and
-/// wired controllers where they can be (docs/contact.md). Of each robot O(points links^2) for how
+/// wired controllers where they can be (docs/contact.md). Under `touch = shapes` robots that touch at
+/// the start, each other too, are one dynamics with the places where they do. Of each robot O(points links^2) for how
 /// its points move; for each face on which it may land, or once, an equilibrium of a few to 200
 /// tries of O(points links^2) over the face's points, and O(40 links^3) for the step; and the hull
 /// of the points (convex_hull.h). What takes more than AnalysisBudget::most is not computed.

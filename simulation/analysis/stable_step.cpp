@@ -13,12 +13,20 @@ namespace {
 
 using integrators::StepperDescription;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double unlimited = std::numeric_limits<double>::infinity();
 /// Of the fastest: below, an eigenvalue is a motion that nothing resists, and round-off.
 constexpr double least_eigenvalue = 1e-6;
 /// Of an eigenvalue in units of the fastest, times its own size: what rounding adds to it, some
 /// sizes of a matrix whose positions and velocities differ by that size.
 constexpr double eigenvalue_rounding = 1e-14;
+
+/// K and C with what joints have of them as the method counts it.
+LinearDynamics counted(const integrators::MatrixBound& bound, LinearDynamics dynamics) {
+  if (bound.joints == 1.) return dynamics;
+  dynamics.stiffness += (bound.joints - 1.) * dynamics.of_joints.stiffness;
+  dynamics.damping += (bound.joints - 1.) * dynamics.of_joints.damping;
+  return dynamics;
+}
 
 /// Whether h^2 stiffness K + h damping C has all eigenvalues below 1.
 bool bears(const integrators::MatrixBound& bound, const LinearDynamics& dynamics, double h) {
@@ -31,13 +39,16 @@ bool bears(const integrators::MatrixBound& bound, const LinearDynamics& dynamics
 
 /// The step h at which h^2 stiffness K + h damping C first has the eigenvalue 1.
 double step_of(const integrators::MatrixBound& bound, const StepperDescription& stepper,
-               const LinearDynamics& dynamics, double least) {
+               const LinearDynamics& whole, double least) {
+  const LinearDynamics dynamics = counted(bound, whole);
   if (std::isfinite(least) && bears(bound, dynamics, least)) return least;
   const double k = std::max(0., largest_eigenvalue(dynamics.stiffness));
   const double c = std::max(0., largest_eigenvalue(dynamics.damping));
-  if (k == 0. && c == 0.) return infinity;
+  if (k == 0. && c == 0.) return unlimited;
   double low = integrators::largest_stable_step(stepper, {k, c, 1.});
   double high = std::min(1. / std::sqrt(bound.stiffness * k), 1. / (bound.damping * c));
+  // Where joints pull against the rest, the greatest K and C may not come together.
+  for (; bound.joints < 0. && bears(bound, dynamics, high); high *= 2.) low = high;
   for (int i = 0; i < 40 && high - low > 1e-12 * high; ++i) {
     const double h = 0.5 * (low + high);
     (bears(bound, dynamics, h) ? low : high) = h;
@@ -66,7 +77,7 @@ std::vector<std::complex<double>> eigenvalues(const LinearDynamics& dynamics) {
 }
 
 double step_of(const integrators::EigenvalueBound& bound, const LinearDynamics& dynamics) {
-  double least = infinity;
+  double least = unlimited;
   for (const std::complex<double>& eigenvalue : eigenvalues(dynamics))
     least = std::min(least, bound.largest_step(eigenvalue));
   return least;
@@ -86,7 +97,10 @@ double fastest_rate(const LinearDynamics& dynamics, std::span<const JointLoop> l
 
 /// Positions, velocities and what controllers remember in units of one size: time in 1/`rate`.
 LinearDynamics scaled(const LinearDynamics& dynamics, double rate) {
-  return {dynamics.stiffness / (rate * rate), dynamics.damping / rate, dynamics.joints};
+  return {dynamics.stiffness / (rate * rate),
+          dynamics.damping / rate,
+          dynamics.joints,
+          {dynamics.of_joints.stiffness / (rate * rate), dynamics.of_joints.damping / rate}};
 }
 
 std::vector<JointLoop> scaled(std::span<const JointLoop> loops, double rate) {
@@ -105,7 +119,7 @@ std::vector<JointLoop> scaled(std::span<const JointLoop> loops, double rate) {
 double step_of_map(const StepperDescription& stepper, const LinearDynamics& dynamics,
                    std::span<const JointLoop> loops, double least) {
   const double rate = fastest_rate(dynamics, loops);
-  if (rate == 0.) return infinity;
+  if (rate == 0.) return unlimited;
   const LinearDynamics slow = scaled(dynamics, rate);
   const std::vector<JointLoop> slow_loops = scaled(loops, rate);
   const double period = loops.empty() ? 0. : slow_loops.front().period;
@@ -123,10 +137,10 @@ double step_of_map(const StepperDescription& stepper, const LinearDynamics& dyna
 
 double largest_stable_step(const StepperDescription& stepper, const LinearDynamics& dynamics,
                            std::span<const JointLoop> loops, double least) {
-  if (stepper.adaptive()) return infinity;
+  if (stepper.adaptive()) return unlimited;
   if (!loops.empty()) return step_of_map(stepper, dynamics, loops, least);
-  if (dynamics.stiffness.isZero(0.) && dynamics.damping.isZero(0.)) return infinity;
-  if (!dynamics.stiffness.allFinite() || !dynamics.damping.allFinite()) return infinity;
+  if (dynamics.stiffness.isZero(0.) && dynamics.damping.isZero(0.)) return unlimited;
+  if (!dynamics.stiffness.allFinite() || !dynamics.damping.allFinite()) return unlimited;
   if (const auto* bound = std::get_if<integrators::EigenvalueBound>(&stepper.stability))
     return step_of(*bound, dynamics);
   if (const auto* bound = std::get_if<integrators::MatrixBound>(&stepper.stability))

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "simulation/analysis/convex_hull.h"
-#include "simulation/robot_tree.h"
+#include "simulation/experiment/robot_tree.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -110,7 +110,7 @@ class Settling {
   }
 
   const contact::MaterialConstants<double>& material(std::size_t i) const {
-    return constants_of(experiment_, supports_[i].place.material);
+    return supports_[i].place.material;
   }
 
   const MatrixXd& lever(std::size_t i) const { return supports_[i].place.lever; }
@@ -127,7 +127,7 @@ class Settling {
     contact::PointKinematics<double> point;
     point.normal = {0., 0., 1.};
     point.depth = depth;
-    return contact::evaluate(law_, point, {}, material(i), 1.).force.z;
+    return law_.evaluate(point, {}, material(i), 1.).force.z;
   }
 
   /// Along the tile; a law without such a spring creeps, and for the time of an equilibrium holds.
@@ -142,7 +142,7 @@ class Settling {
     for (std::size_t i = 0; i < supports_.size(); ++i) {
       const double N = load(i, depth(i, z));
       if (!(N > 0.)) continue;
-      const contact::LinearContact linear = contact::linearise(law_, N, material(i));
+      const contact::LinearContact linear = law_.linearise(N, material(i));
       budget_.spend(3. * size * size);
       const Eigen::Matrix3d along = normals_[i] * normals_[i].transpose();
       const Eigen::Matrix3d across = sticking(i, linear) * (Eigen::Matrix3d::Identity() - along);
@@ -159,8 +159,8 @@ class Settling {
       if (!(N > 0.)) continue;
       const Eigen::Vector3d x = moved(i, z);
       const double across = x.squaredNorm() - std::pow(normals_[i].dot(x), 2);
-      sum += contact::stored_energy(law_, d, {}, material(i)) +
-             0.5 * sticking(i, contact::linearise(law_, N, material(i))) * across;
+      sum += law_.stored_energy(d, {}, material(i)) +
+             0.5 * sticking(i, law_.linearise(N, material(i))) * across;
     }
     return sum;
   }
@@ -179,7 +179,7 @@ class Settling {
     return loads;
   }
 
-  const contact::AnyForceLaw law_;
+  const contact::LawDescription& law_;
   const Experiment& experiment_;
   const RobotAtRest& rest_;
   std::span<const Support> supports_;
@@ -212,13 +212,12 @@ struct Drives {
     for_each_link(experiment.robots[robot], [&](const TreeLink& tree) {
       const std::size_t joint = tree.joint();
       const double position = at.state().joint_positions[joint];
-      const dts::JointProperties<double>& properties = joints.properties()[joint];
+      const JointProperties& properties = joints.properties()[joint];
       const DrivenJoint* drive = find(joint);
       double asked = drive == nullptr ? tree.link.torque : 0.;
       if (drive != nullptr && drive->goal) asked = drive->proportional * (*drive->goal - position);
-      const double torque =
-          dts::drive_torque(properties, asked) +
-          dts::passive_joint_torque(properties, position, 0., joints.anchors()[joint]);
+      const double torque = drive_torque(properties, asked) +
+                            passive_joint_torque(properties, position, 0., joints.anchors()[joint]);
       sum += torque * levers.row(static_cast<Eigen::Index>(joint)).transpose();
     });
     return sum;
@@ -236,11 +235,13 @@ class StanceFinder {
         joint_torques_(drives_.torques(rest)),
         weight_(moving_mass(experiment.robots[index]) * norm(experiment.gravity)) {
     const auto size = static_cast<double>(rest.size());
-    for (const ContactPoint& point : rest.robot().contacts().points()) {
+    const ContactSet& contacts = rest.robot().contacts();
+    for (const ContactPoint& point : contacts.points()) {
       budget_.spend(3. * size * size);
       const dts::BodyPoint<double> place{point.body, point.position};
       supports_.push_back(
-          {{place, rest.lever(place), point.normal, point.material, 0.}, point.depth});
+          {{place, rest.lever(place), point.normal, contacts.constants(point, point.material), 0.},
+           point.depth});
     }
   }
 
@@ -304,11 +305,10 @@ class StanceFinder {
     MatrixXd stiffness = rest_.joints_alone().stiffness;
     if (drives_.driven.empty()) return stiffness;
     constexpr double held = 1e4;
-    const contact::AnyForceLaw law = *contact::find_force_law(experiment_.contact);
+    const contact::LawDescription& law = *contact::find_force_law(experiment_.contact);
     double ground = 0.;
     for (const Support& support : supports) {
-      const contact::LinearContact linear =
-          contact::linearise(law, weight_, constants_of(experiment_, support.place.material));
+      const contact::LinearContact linear = law.linearise(weight_, support.place.material);
       const VectorXd along = support.place.lever * eigen(support.place.normal);
       ground = std::max(ground, linear.normal_stiffness * along.squaredNorm());
     }
@@ -353,12 +353,10 @@ class StanceFinder {
 
   /// How deep the whole weight sinks on one point: so far apart, points touch together [m].
   double deepest_sink() const {
-    const contact::AnyForceLaw law = *contact::find_force_law(experiment_.contact);
+    const contact::LawDescription& law = *contact::find_force_law(experiment_.contact);
     double deepest = 0.;
     for (const Support& support : supports_)
-      deepest = std::max(
-          deepest,
-          contact::static_depth(law, weight_, constants_of(experiment_, support.place.material)));
+      deepest = std::max(deepest, law.static_depth(weight_, support.place.material));
     return deepest;
   }
 
@@ -419,10 +417,6 @@ class StanceFinder {
 };
 
 }  // namespace
-
-const contact::MaterialConstants<double>& constants_of(const Experiment& experiment, int material) {
-  return experiment.materials[static_cast<std::size_t>(material)].constants;
-}
 
 bool hang(const Experiment& experiment, std::size_t index, const WiredControl& control,
           RobotSystem& robot, AnalysisBudget& budget) {

@@ -15,10 +15,10 @@ namespace hookpoint::simulation {
 /// A boundary point that touches, and what it carries.
 struct CarryingPoint {
   dts::BodyPoint<double> point;
-  Eigen::MatrixXd lever;  ///< RobotAtRest::lever of the point
-  Vector3d normal;        ///< of the ground there, unit
-  int material = 0;
-  double load = 0.;  ///< along the normal [N]
+  Eigen::MatrixXd lever;                        ///< RobotAtRest::lever of the point
+  Vector3d normal;                              ///< of the ground there, unit
+  contact::MaterialConstants<double> material;  ///< what the law reads there
+  double load = 0.;                             ///< along the normal [N]
 };
 
 /// One way to stand.
@@ -51,8 +51,5 @@ Stances find_stances(const Experiment& experiment, std::size_t index, const Robo
 /// O(links^3) for each of at most 200 tries, or as many as half of the budget is enough for.
 bool hang(const Experiment& experiment, std::size_t index, const WiredControl& control,
           RobotSystem& robot, AnalysisBudget& budget);
-
-/// What the law reads of the experiment's material of that number.
-const contact::MaterialConstants<double>& constants_of(const Experiment& experiment, int material);
 
 }  // namespace hookpoint::simulation

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "simulation/analysis/stability.h"
-#include "simulation/experiment.h"
+#include "simulation/experiment/experiment.h"
 
 namespace hookpoint::simulation {
 

@@ -10,9 +10,9 @@
 #include <charconv>
 #include <cmath>
 
-#include "output/file.h"
-#include "output/text/csv.h"
-#include "output/text/number.h"
+#include "output/files/csv.h"
+#include "output/files/file.h"
+#include "text/number.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -20,7 +20,7 @@ namespace {
 const std::vector<std::string> columns{"step", "time [s]", "trail", "value"};
 
 std::string line_of(const Change& change) {
-  return fmt::format("{},{},{},{}\n", change.step, output::shortest(change.time),
+  return fmt::format("{},{},{},{}\n", change.step, text::shortest(change.time),
                      output::csv_field(change.trail), output::csv_field(change.value));
 }
 

@@ -1,4 +1,4 @@
-// What people changed while a run went on: changes.csv, from which the run is repeated byte for
+// What users changed while a run continued: changes.csv, from which the run is repeated byte for
 // byte (docs/data.md). The changes of step k are applied in their order after row k was written and
 // before the step to k + 1.
 #pragma once
@@ -16,7 +16,7 @@ namespace hookpoint::simulation {
 
 struct Change {
   std::int64_t step = 0;
-  double time = 0.;   ///< of the step, for people [s]
+  double time = 0.;   ///< of the step, for readers [s]
   std::string trail;  ///< a port that was set, or a field that was edited
   std::string value;  ///< the shortest text of a number, or a field's value as it was given
   bool operator==(const Change&) const = default;
@@ -48,7 +48,7 @@ class ChangeLog {
   void add(std::span<const Change> changes);
   /// Forgets all but the first `count`, in the file too. Throws output::FileError.
   void truncate(std::size_t count);
-  /// The file anew as it is to be, after somebody else cleared its folder.
+  /// The file again as it is to be, after somebody else cleared its folder.
   void rewrite();
   const std::vector<Change>& changes() const { return changes_; }
 

@@ -7,10 +7,9 @@
 #include <span>
 #include <variant>
 
-#include "dts/joint_forces.h"
-#include "simulation/joint_properties.h"
-#include "simulation/robot_tree.h"
-#include "simulation/rotors.h"
+#include "simulation/engine_interface/rotors.h"
+#include "simulation/experiment/joint_forces.h"
+#include "simulation/experiment/robot_tree.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -26,13 +25,13 @@ constexpr double faster = 3.;
 /// Of a contact's depth that counts [m].
 constexpr double least_jump = 1e-6;
 
-double spring_energy(const dts::JointProperties<double>& joint, double position, double drive) {
+double spring_energy(const JointProperties& joint, double position, double drive) {
   const double below = std::max(0., joint.lower_limit - position);
   const double above = std::max(0., position - joint.upper_limit);
   const double stretch = position - joint.rest_position;
   return 0.5 * (joint.stiffness * stretch * stretch +
                 joint.limit_stiffness * (below * below + above * above)) -
-         dts::drive_torque(joint, drive) * position;
+         drive_torque(joint, drive) * position;
 }
 
 }  // namespace
@@ -42,7 +41,8 @@ bool is_passive(const Experiment& experiment) {
     if (force.window || !(force.torque == Vector3d{})) return false;
   }
   return std::ranges::none_of(experiment.wires, [&](const WireSpec& wire) {
-    return wire.to.starts_with(experiment.world + ".") || wire.to.starts_with("Simulator.pull.");
+    return (wire.to.starts_with(experiment.world + ".") && !moves_a_surface(experiment, wire)) ||
+           wire.to.starts_with("Simulator.pull.");
   });
 }
 
@@ -50,6 +50,8 @@ EnergyWatch::EnergyWatch(const Experiment& experiment, const World& world, std::
     : experiment_(experiment), world_(world) {
   const std::int64_t steps = last - world.state().step;
   if (!is_passive(experiment) || !world.ground_energy() || steps < fewest_steps) return;
+  surfaces_move_ = surfaces_move(experiment);
+  if (surfaces_move_ && world.state().surface_works.empty()) return;
   stride_ = std::max<std::int64_t>(1, steps / (windows * samples_a_window));
   samples_.reserve(static_cast<std::size_t>(steps / stride_ + 2));
   std::size_t bodies = 0;
@@ -91,6 +93,7 @@ void EnergyWatch::sample() {
     now.energy -= dot(force.force, pushed.position + rotate(pushed.orientation, force.point));
   }
   now.energy += now.kinetic;
+  for (const double work : state.surface_works) now.energy -= work;
   now.jumped = jumps(samples_.empty() ? 0. : now.time - samples_.back().time);
   samples_.push_back(now);
 }
@@ -148,10 +151,14 @@ std::string EnergyWatch::finding() const {
     if (now.jumped && now.time > least->begin && before.time < most->end)
       at_edges += std::max(0., now.energy - before.energy);
   }
-  const std::string found = fmt::format("{} by {:.3g} J between {:.4g} and {:.4g} s",
-                                        energy_finding, rise, least->end, most->end);
+  const std::string found =
+      fmt::format("{}{} by {:.3g} J between {:.4g} and {:.4g} s", energy_finding,
+                  surfaces_move_ ? " beyond the work of what moves the ground" : "", rise,
+                  least->end, most->end);
   const char* const mend =
-      "give balls boundary_points, or the ground finer steps and less steep tiles";
+      experiment_.touch == "points"
+          ? "write touch = shapes, or give the ground finer steps and less steep tiles"
+          : "give the ground damping, or less steep tiles";
   if (at_edges > 0.5 * rise)
     return fmt::format("{}: contacts crossed edges of the ground, where their depth jumps; {}",
                        found, mend);

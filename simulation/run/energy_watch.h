@@ -12,13 +12,13 @@
 
 namespace hookpoint::simulation {
 
-/// Whether nothing drives the experiment: no wire ends at a joint or a Force, and no Force acts
-/// over a window or by a moment. What is constant has a potential: gravity, forces, torques of
-/// joints.
+/// Whether nothing drives the experiment but ground and obstacles that move, whose work is counted: no
+/// wire ends at a joint, a Force or gravity, and no Force acts over a window or by a moment. What is
+/// constant has a potential: gravity, forces, torques of joints.
 bool is_passive(const Experiment& experiment);
 
 /// T + V of all that moves [J]: kinetic energy, weights, Forces, springs and constant torques of
-/// joints, stops, and what the ground holds. Nothing is said of a world that is driven, or whose
+/// joints, stops, and what the ground holds, less the work of ground and obstacles that move. Nothing is said of a world that is driven, or whose
 /// engine does not tell what its ground holds. What joints' dry friction holds is not published:
 /// the most that it can hold counts as no rise. From published values. O(bodies + boundary points).
 class EnergyWatch {
@@ -55,7 +55,8 @@ class EnergyWatch {
 
   const Experiment& experiment_;
   const World& world_;
-  std::int64_t stride_ = 0;                ///< steps from one look to the next; 0: nothing is said
+  std::int64_t stride_ = 0;  ///< steps from one look to the next; 0: nothing is said
+  bool surfaces_move_ = false;
   double most_in_friction_ = 0.;           ///< that springs of joints' dry friction can hold [J]
   std::vector<std::size_t> first_bodies_;  ///< of each robot, in WorldState::bodies
   std::vector<Sample> samples_;

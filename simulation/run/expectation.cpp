@@ -5,7 +5,7 @@
 #include <iterator>
 
 #include "language/units.h"
-#include "simulation/engine.h"
+#include "simulation/engine_interface/engine.h"
 
 namespace hookpoint::simulation {
 
@@ -208,7 +208,7 @@ Expectations::Expectations(const Experiment& experiment, const std::vector<Port>
   for (const ExpectationSpec& spec : experiment.expectations) {
     if (!spec.covers(experiment)) continue;
     watched_.push_back(
-        {&spec, find_port(experiment, ports, spec.trail).value, Reducer(spec.reduction())});
+        {&spec, find_port(experiment, ports, spec.trail).value, Reducer(spec.reduction)});
   }
 }
 

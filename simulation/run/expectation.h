@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "language/dimension.h"
-#include "simulation/experiment.h"
+#include "simulation/experiment/experiment.h"
 #include "simulation/wiring/ports.h"
 
 namespace hookpoint::simulation {

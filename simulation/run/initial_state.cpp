@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "math/orientation.h"
-#include "simulation/start_problems.h"
+#include "simulation/experiment/start_problems.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -151,7 +151,7 @@ void write_initial_state(const Experiment& own, std::span<const InitialValue> wr
     const bool moved = std::ranges::any_of(written, [&](const InitialValue& value) {
       return value.numbers.front() >= firsts[r] && value.numbers.front() < end;
     });
-    start.robots[r].start_stretch = moved ? std::vector<Vector3d>{} : own.robots[r].start_stretch;
+    start.robots[r].settled = moved ? std::nullopt : own.robots[r].settled;
   }
   for (const RobotSpec& robot : start.robots) check(start, robot);
 }

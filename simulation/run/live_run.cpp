@@ -8,8 +8,9 @@
 #include <unordered_map>
 #include <utility>
 
-#include "output/text/number.h"
-#include "simulation/step_count.h"
+#include "simulation/engine_interface/step_count.h"
+#include "simulation/run/loop.h"
+#include "text/number.h"
 
 namespace hookpoint::simulation {
 
@@ -80,8 +81,8 @@ std::string difference(const std::vector<StateSection>& before,
 std::string why_not_alike(const World& before, const World& after, const Experiment& was,
                           const Experiment& is) {
   if (was.deltat != is.deltat)
-    return fmt::format("the step would be {} s instead of {} s", output::rounded(is.deltat, 6),
-                       output::rounded(was.deltat, 6));
+    return fmt::format("the step would be {} s instead of {} s", text::rounded(is.deltat, 6),
+                       text::rounded(was.deltat, 6));
   if (was.contact != is.contact)
     return fmt::format("what points on the ground remember under {} means nothing under {}",
                        was.contact, is.contact);
@@ -97,8 +98,8 @@ void check_times(const std::vector<Change>& script, double deltat) {
     if (std::abs(time - script[i].time) <= 1e-3 * deltat + 1e-12 * time) continue;
     throw ChangesError(fmt::format(
         "line {}: step {} is at {} s here, not at {} s: the file is of a run with another deltat",
-        line_of_change(i), script[i].step, output::rounded(time, 9),
-        output::rounded(script[i].time, 9)));
+        line_of_change(i), script[i].step, text::rounded(time, 9),
+        text::rounded(script[i].time, 9)));
   }
 }
 
@@ -165,7 +166,7 @@ std::unique_ptr<LiveRun::Track> LiveRun::edited(Track& track, const std::string&
         why_not_alike(track.world, next->world, track.experiment(), next->experiment());
     if (!why.empty()) {
       problem = fmt::format(
-          "`{}` cannot become {} while the run goes on: {}. A reset takes it, once it stands in "
+          "`{}` cannot become {} while the run continues: {}. A reset takes it, once it stands in "
           "the file",
           trail, value, why);
       return nullptr;
@@ -195,7 +196,7 @@ void LiveRun::use(std::unique_ptr<Track> track) {
 
 // A take: rows from time 0 on, and the changes that led to them.
 
-RunRequest LiveRun::files_of(const LoadedExperiment& loaded) const {
+RunFilesRequest LiveRun::files_of(const LoadedExperiment& loaded) const {
   return {request_.folder, request_.trails, loaded.text, request_.leaves_files,
           loaded.engine,   loaded.sources,  true};
 }
@@ -254,7 +255,7 @@ std::string LiveRun::set(std::span<const PortValue> values) {
   for (std::size_t i = 0; i < ports.size(); ++i) {
     world().set(ports[i], values[i].value);
     changes.push_back(
-        {present(), world().state().time, ports[i].trail, output::shortest(values[i].value)});
+        {present(), world().state().time, ports[i].trail, text::shortest(values[i].value)});
   }
   log(changes);
   return "";
@@ -413,13 +414,19 @@ void LiveRun::repeat(std::unique_ptr<Track>& track, std::int64_t step, std::size
       at_each();
     }
     if (track->step() == step) return;
-    if (files != nullptr) files->go_on();
-    const std::int64_t before = track->step();
-    const StepStatus status = track->world.step();
-    if (!status.ok() || track->step() == before)
-      throw ExperimentError(fmt::format("the run cannot be repeated from step {} on", before));
-    if (files != nullptr) files->row(track->step(), track->world.state().time);
-    at_each();
+    const bool changes_follow = track->changes < changes;
+    const std::int64_t next = changes_follow ? log_.changes()[track->changes].step : step;
+    const auto before = [&] {
+      if (files != nullptr) files->go_on();
+      return true;
+    };
+    const auto after = [&] {
+      if (files != nullptr) files->row(track->step(), track->world.state().time);
+      at_each();
+    };
+    if (!run_until(track->world, std::min(next, step), before, after).complete())
+      throw ExperimentError(
+          fmt::format("the run cannot be repeated from step {} on", track->step()));
   }
 }
 

@@ -1,4 +1,4 @@
-// A run that people may change: its world, the files that it leaves, and the log of what was
+// A run that a user may change: its world, the files that it leaves, and the log of what was
 // changed, by which it is repeated byte for byte. Whoever shows it and who repeats it (`run
 // --changes`) step the same code.
 #pragma once
@@ -58,6 +58,7 @@ class LiveRun {
   const Experiment& experiment() const;
   World& world();
   const World& world() const;
+  const WorldState& state() const { return world().state(); }
   /// Grows whenever `world()` is another one: who holds ports of it looks them up again.
   std::uint64_t generation() const { return generation_; }
 
@@ -65,17 +66,17 @@ class LiveRun {
   /// false. Allocates nothing where nothing is changed. Throws output::FileError, and ChangesError
   /// for a change of the script that cannot be made.
   StepStatus step();
-  /// Why a run without people ends here, or "" while it goes on.
+  /// Why a run without a user ends here, or "" while it continues.
   std::string ended() const { return world().ended(); }
 
   /// All of `values` or, where something is wrong, none: "" or what is wrong. A press of a `Button`
   /// (any value but 0) is taken back by itself once each of its wires has sampled it.
   std::string set(std::span<const PortValue> values);
-  /// A field of the file, `value` as --set takes it; the world goes on from where it is under the
+  /// A field of the file, `value` as --set takes it; the world continues from where it is under the
   /// new constants. "" or what is wrong.
   std::string edit(const std::string& trail, const std::string& value);
   /// To time 0 of the file as it now stands, without any change: a new take. "" or what is wrong;
-  /// the run then goes on as it was.
+  /// the run then continues as it was.
   std::string reset();
 
   /// What was changed up to the present moment, and after it where the run has gone back.
@@ -88,7 +89,7 @@ class LiveRun {
   /// The present moment. Throws ExperimentError where there is no history.
   void save(Moment& moment) const;
   /// Shows the moment of `step`: goes to `from`, a moment of this take at or before it, and repeats
-  /// the way to `step`, its changes included. The files stay as they are. `at_each` is told of
+  /// the way to `step`, its changes included. The files stay as they are. `at_each` is informed of
   /// `from`, and whenever the world has gone on or has become another one. "" or what is wrong.
   std::string seek(
       const Moment& from, std::int64_t step, const std::function<void()>& at_each = [] {});
@@ -105,8 +106,8 @@ class LiveRun {
   std::int64_t last_step() const;
   /// Changes of the script whose step has not come.
   std::size_t left_of_script() const { return script_.size() - scripted_; }
-  /// Completes the files, once; a reset begins them anew. Where a future was given up they are
-  /// written anew first, by repeating the take from time 0. Throws output::FileError.
+  /// Completes the files, once; a reset starts them again. Where a future was given up they are
+  /// written again first, by repeating the take from time 0. Throws output::FileError.
   void close();
   /// The same while the world is within a step that does not end; nothing is repeated.
   void close_within_step();
@@ -124,7 +125,7 @@ class LiveRun {
   std::unique_ptr<Track> edited(Track& track, const std::string& trail, const std::string& value,
                                 std::string& problem);
   void use(std::unique_ptr<Track> track);
-  RunRequest files_of(const LoadedExperiment& loaded) const;
+  RunFilesRequest files_of(const LoadedExperiment& loaded) const;
   std::unique_ptr<RunFiles> open_files(Track& track) const;
   void begin_take();
   bool writes() const { return files_ != nullptr && rewriting_ == nullptr; }

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <optional>
 
-#include "output/file.h"
-#include "simulation/identity.h"
+#include "output/files/file.h"
+#include "simulation/engine_interface/identity.h"
 
 namespace hookpoint::simulation {
 namespace {

@@ -1,4 +1,4 @@
-// The movies that an experiment asks for, written while it runs.
+// The movies that an experiment requests, written while it runs.
 #pragma once
 
 #include <filesystem>

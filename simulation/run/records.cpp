@@ -23,10 +23,13 @@ output::RecordHeader header_of(const RecordSpec& spec, const Experiment& experim
   return header;
 }
 
-/// A body's ports in the order of a pose in a row.
-constexpr std::array<const char*, output::numbers_of_pose> pose_ports{
-    ".location.x",    ".location.y",    ".location.z",   ".orientation.w",
-    ".orientation.x", ".orientation.y", ".orientation.z"};
+/// Ports of a frame in the order of a pose in a row.
+std::array<std::string, output::numbers_of_pose> pose_ports(const ShownFrame& frame) {
+  const std::string place = frame.trail + "." + frame.position,
+                    orientation = frame.trail + ".orientation";
+  return {place + ".x",       place + ".y",       place + ".z",      orientation + ".w",
+          orientation + ".x", orientation + ".y", orientation + ".z"};
+}
 
 }  // namespace
 
@@ -66,8 +69,9 @@ Records::Records(const Experiment& experiment, const std::vector<Port>& ports,
       const std::string unit = add(channel.path);
       if (channel.unit.empty()) channel.unit = unit;
     }
-    for (const output::SceneBody& body : header.scene.bodies)
-      for (const char* port : pose_ports) add(body.name + port);
+    if (!header.scene.bodies.empty())
+      for (const ShownFrame& frame : shown_frames(experiment))
+        for (const std::string& port : pose_ports(frame)) add(port);
     record.values.resize(record.sources.size());
     record.writer = output::make_record_writer(spec.format, folder / spec.file, header);
     records_.push_back(std::move(record));

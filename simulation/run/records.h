@@ -1,4 +1,4 @@
-// The data files that an experiment asks for, written row by row while it runs.
+// The data files that an experiment requests, written row by row while it runs.
 #pragma once
 
 #include <filesystem>
@@ -20,7 +20,7 @@ control::Schedule row_schedule(const std::optional<double>& rate, double deltat)
 /// An experiment as every file of its run tells it.
 struct RunText {
   std::string text;  ///< as printed
-  std::string hash;  ///< simulation/identity.h
+  std::string hash;  ///< simulation/engine_interface/identity.h
 };
 /// What every file of a run says of it: the experiment's hash, version, engine, law, seed ...
 std::vector<std::pair<std::string, std::string>> run_annotations(const Experiment& experiment,
@@ -38,7 +38,7 @@ class Records {
   /// Called with every step once, in order, from the first on. Allocates nothing. Throws
   /// output::FileError after all other files got their row.
   void row(std::int64_t step, double time);
-  /// From now on the values are those of `ports`: the run goes on in another world. Throws
+  /// From now on the values are those of `ports`: the run continues in another world. Throws
   /// ExperimentError where one is missing; all is then as it was.
   void rebind(const Experiment& experiment, const std::vector<Port>& ports);
   bool empty() const { return records_.empty(); }

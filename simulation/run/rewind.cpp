@@ -7,9 +7,10 @@
 #include <cmath>
 #include <sstream>
 
-#include "output/text/number.h"
+#include "simulation/engine_interface/step_count.h"
+#include "simulation/run/loop.h"
 #include "simulation/run/movies.h"
-#include "simulation/step_count.h"
+#include "text/number.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -17,7 +18,7 @@ namespace {
 /// A time [s] with the digits that tell the steps of a long run apart.
 std::string moment_text(double time) {
   constexpr int digits = 9;
-  return output::rounded(time, digits);
+  return text::rounded(time, digits);
 }
 
 using output::MovieError;
@@ -57,7 +58,7 @@ Rewind::Rewind(const Experiment& experiment, const output::MovieReader& movie, W
     if (!step_count_problem(time, experiment.deltat).empty())
       throw MovieError(
           fmt::format("the movie is damaged: no run with steps of {} s reaches its time {} s",
-                      output::rounded(experiment.deltat), output::rounded(time)));
+                      text::rounded(experiment.deltat), text::rounded(time)));
     steps_.push_back(step_count(time, experiment.deltat));
   }
   recorded_.resize(movie.header().size);
@@ -81,7 +82,7 @@ std::int64_t Rewind::step_at(double time) const {
     throw MovieError(
         fmt::format("there is no step at {} s: steps are {} s long, the nearest is at "
                     "{} s",
-                    moment_text(time), output::rounded(experiment_.deltat, 6), time_text(step)));
+                    moment_text(time), text::rounded(experiment_.deltat, 6), time_text(step)));
   return step;
 }
 
@@ -108,7 +109,7 @@ void Rewind::turn_to(std::int64_t step) {
 }
 
 std::string Rewind::go_on() {
-  step();
+  run_to(world_.state().step + 1);
   if (next_ == steps_.size() || world_.state().step < steps_[next_]) return "";
   std::string differs = difference(next_);
   if (!differs.empty()) world_.restore(recorded_);
@@ -133,17 +134,13 @@ void Rewind::put(std::size_t instant) {
 }
 
 void Rewind::run_to(std::int64_t step) {
-  while (world_.state().step < step) this->step();
-}
-
-void Rewind::step() {
-  const std::int64_t before = world_.state().step;
-  if (stop_ != nullptr && *stop_) throw MovieError("interrupted at " + time_text(before) + " s");
-  const StepStatus status = world_.step();
-  if (!status.ok() || world_.state().step == before)
-    throw MovieError(
-        fmt::format("the run cannot be repeated: no step leads on from {} s", time_text(before)));
-  whole_ = true;
+  const RunEnd end = run_until(
+      world_, step, [this] { return stop_ == nullptr || !*stop_; }, [this] { whole_ = true; });
+  if (end.complete()) return;
+  const std::string time = time_text(world_.state().step);
+  throw MovieError(end.interrupted()
+                       ? "interrupted at " + time + " s"
+                       : "the run cannot be repeated: no step leads on from " + time + " s");
 }
 
 void Rewind::compare(std::size_t instant) {
@@ -168,8 +165,8 @@ std::string Rewind::difference(std::size_t instant) {
       "computes other last digits, and a field that was edited while it ran (changes.csv) is not "
       "in "
       "the movie: --changes repeats such a run",
-      time_text(steps_[instant]), index, section->name, output::seventeen_digits(*differs),
-      output::seventeen_digits(computed_[static_cast<std::size_t>(differs - recorded_.begin())]),
+      time_text(steps_[instant]), index, section->name, text::seventeen_digits(*differs),
+      text::seventeen_digits(computed_[static_cast<std::size_t>(differs - recorded_.begin())]),
       version_of(movie_.header()), HOOKPOINT_VERSION);
 }
 

@@ -48,7 +48,6 @@ class Rewind {
  private:
   void put(std::size_t instant);
   void run_to(std::int64_t step);
-  void step();
   /// The last instant before `step`; of the first moment, that one.
   std::size_t instant_before(std::int64_t step) const;
   /// "" or how the world differs from the movie.

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
+#include "output/files/hash.h"
 #include "output/records/files.h"
-#include "output/text/hash.h"
-#include "simulation/identity.h"
+#include "simulation/engine_interface/identity.h"
 #include "simulation/run/changes.h"
 #include "simulation/wiring/port_search.h"
 
@@ -22,7 +22,7 @@ std::string name_in(const std::filesystem::path& folder, const std::string& file
 }
 
 /// All that the run writes into the folder, but for experiment.hook.
-std::vector<std::string> names_of(const Experiment& experiment, const RunRequest& request) {
+std::vector<std::string> names_of(const Experiment& experiment, const RunFilesRequest& request) {
   std::vector<std::string> names;
   if (!request.trails.empty()) names.emplace_back(trace_file);
   for (const RecordSpec& record : experiment.records)
@@ -35,7 +35,7 @@ std::vector<std::string> names_of(const Experiment& experiment, const RunRequest
 }
 
 std::unique_ptr<output::ResultFolder> open_folder(const Experiment& experiment,
-                                                  const RunRequest& request,
+                                                  const RunFilesRequest& request,
                                                   const std::string& hash) {
   std::vector<std::string> names = names_of(experiment, request);
   if (names.empty() && !request.leaves_files) return nullptr;
@@ -73,7 +73,7 @@ void add_movie(const std::filesystem::path& file, Experiment& experiment) {
 }
 
 void check_run_files(const Experiment& experiment, const World& world,
-                     const std::vector<Port>& ports, const RunRequest& request) {
+                     const std::vector<Port>& ports, const RunFilesRequest& request) {
   find_all_ports(experiment, ports, request.trails);
   for (const RecordSpec& record : experiment.records)
     for (const output::Channel& channel : record.channels)
@@ -86,12 +86,12 @@ std::vector<std::string> run_files() {
 }
 
 RunFiles::RunFiles(const Experiment& experiment, World& world, const std::vector<Port>& ports,
-                   const RunRequest& request, std::int64_t first_step)
+                   const RunFilesRequest& request, std::int64_t first_step)
     : RunFiles(experiment, world, ports, request,
                {request.text, experiment_hash(request.text, experiment)}, first_step) {}
 
 RunFiles::RunFiles(const Experiment& experiment, World& world, const std::vector<Port>& ports,
-                   const RunRequest& request, const RunText& text, std::int64_t first_step)
+                   const RunFilesRequest& request, const RunText& text, std::int64_t first_step)
     : place_(request.folder),
       ports_(find_all_ports(experiment, ports, request.trails)),
       values_(ports_.size()),

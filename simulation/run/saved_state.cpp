@@ -4,9 +4,9 @@
 #include <cstring>
 #include <vector>
 
+#include "output/files/hash.h"
 #include "output/records/mcap_records.h"
-#include "output/text/hash.h"
-#include "simulation/identity.h"
+#include "simulation/engine_interface/identity.h"
 #include "simulation/run/movies.h"
 
 namespace hookpoint::simulation {

@@ -17,7 +17,7 @@ class StateBytes {
 
   /// Of `world`, one of that experiment. O(state).
   std::string of(const World& world) const;
-  /// Puts `world`, one of that experiment, to the state that `bytes` hold; it goes on bit for bit
+  /// Puts `world`, one of that experiment, to the state that `bytes` hold; it continues bit for bit
   /// as the one that was saved. Throws ExperimentError, with the world as it was, where they are no
   /// state, damaged, or of another experiment.
   void restore(std::string_view bytes, World& world) const;

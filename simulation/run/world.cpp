@@ -1,3 +1,14 @@
+// One step of a run: sense, wires, controllers, engine, record (docs/wires.md, "One step"). At step
+// k, time k dt, between two steps of the engine:
+//
+//   samples that were under way arrive
+//   components that are due update, wires without delay carry values
+//   wires with delay sample
+//   drives and forces reach the engine
+//   row k of the record is written: the state at k dt and every signal as it then is
+//   the engine steps to k + 1 with the inputs held
+//
+// World::update has the first four, World::step the last; the loop around them writes the rows.
 #include "simulation/run/world.h"
 
 #include <fmt/format.h>
@@ -6,7 +17,7 @@
 
 #include "simulation/analysis/failure.h"
 #include "simulation/analysis/stability.h"
-#include "simulation/restartable.h"
+#include "simulation/engine_interface/restartable.h"
 #include "simulation/wiring/port_value.h"
 
 namespace hookpoint::simulation {
@@ -15,7 +26,7 @@ namespace {
 
 /// What costs something is worked out for those who ask for it, who are yet to come.
 std::unique_ptr<Engine> on_demand(std::unique_ptr<Engine> engine) {
-  engine->publish_contact_forces(false);
+  engine->enable_mean_forces(false);
   return engine;
 }
 
@@ -25,18 +36,38 @@ World::World(const Experiment& experiment, std::unique_ptr<Engine> engine)
     : experiment_(experiment),
       engine_(on_demand(std::move(engine))),
       signals_(experiment, *engine_) {
-  start_ = update_signals();
+  start_ = status_of_signals(update(signals_));
 }
 
+// From row k to row k + 1.
 StepStatus World::step() {
   if (!start_.ok()) return start_;
   if (!signals_.running()) return {};
+
+  // The engine steps with the inputs held, those that actuate() below left at k. Ours: step.cpp.
   const StepStatus status = engine_->step();
-  return status.ok() ? update_signals() : with_advice(status, experiment_);
+  if (!status.ok()) return with_advice(status, as_it_stands());
+
+  // The signals follow its state at k + 1.
+  return status_of_signals(update(signals_));
 }
 
-StepStatus World::update_signals() {
-  return status_of_signals(signals_.update(engine_->state().step));
+/// With the gains of this moment, which sliders may have moved.
+Experiment World::as_it_stands() const {
+  Experiment now = experiment_;
+  now.components = signals_.as_held(std::move(now.components));
+  return now;
+}
+
+bool World::update(Signals& signals) const {
+  const std::int64_t k = engine_->state().step;
+  signals.sense(k);      // accelerations, contacts and other ports derived from the engine's state
+  signals.deliver(k);    // samples that were under way arrive
+  signals.propagate(k);  // sensors, controllers and actuators that are due; wires without delay
+  signals.sample(k);     // wires with delay sample
+  signals.actuate(k);    // drives and forces reach the engine
+  return signals.finite();
+  // Row k is recorded from the ports as they are now: by who calls step() (records.h).
 }
 
 StepStatus World::status_of_signals(bool finite) {
@@ -114,7 +145,7 @@ void World::restart(const Experiment& start) {
   engine->restart(start);
   // Controllers and wires take the numbers of new ones at that state.
   Signals fresh(start, *engine_);
-  const bool finite = fresh.update(engine_->state().step);
+  const bool finite = update(fresh);
   std::vector<double> numbers(fresh.state_size());
   fresh.save(numbers);
   signals_.restore(numbers);

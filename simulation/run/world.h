@@ -31,7 +31,7 @@ class World {
   const WorldInputs& inputs() const { return engine_->inputs(); }
   /// From the next step on the bodies' `contact_force` in `state()` is right, as it is anyway once
   /// somebody reads its port.
-  void publish_contact_forces() { engine_->publish_contact_forces(true); }
+  void publish_contact_forces() { engine_->enable_mean_forces(true); }
   /// Every port of the run. O(ports).
   std::vector<Port> ports() { return signals_.ports(); }
   /// Every port that may be set between two steps. O(ports).
@@ -54,13 +54,13 @@ class World {
   /// `World.running` and `Simulator.quit`.
   bool running() const { return signals_.running(); }
   bool quit() const { return signals_.quit(); }
-  /// Why a run without windows ends here, or "" while it goes on: `Simulator.quit` is true, or
+  /// Why a run without windows ends here, or "" while it continues: `Simulator.quit` is true, or
   /// `World.running` is false, which nothing can change any more once time stands still.
   std::string ended() const;
 
-  /// Everything that evolves, as numbers: a world of the same experiment that restores them goes on
-  /// bit for bit as this one does. Ports that tell of the step that led to an instant (joints'
-  /// acceleration and total_torque, bodies' accelerations, hip forces) are right again after the
+  /// Everything that evolves, as numbers: a world of the same experiment that restores them
+  /// continues bit for bit as this one does. Ports that describe the step that led to an instant (joints'
+  /// acceleration, total_torque and reactions, bodies' accelerations, hip forces) are right again after the
   /// next step. Throws ExperimentError when the engine cannot be saved.
   std::vector<StateSection> state_layout() const;
   bool can_be_saved() const { return engine_->resumable() != nullptr; }
@@ -78,8 +78,10 @@ class World {
 
  private:
   Resumable& resumable() const;
-  StepStatus update_signals();
-  /// Of signals at the present instant: why the run cannot continue where a number is not finite.
+  Experiment as_it_stands() const;
+  /// Brings `signals` to the engine's present state. False where a number is no longer finite.
+  bool update(Signals& signals) const;
+  /// Why the run cannot continue where a number is not finite.
   StepStatus status_of_signals(bool finite);
 
   const Experiment& experiment_;

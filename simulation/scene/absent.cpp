@@ -10,46 +10,44 @@ namespace hookpoint::simulation {
 namespace {
 
 constexpr auto absent_words = std::to_array<language::Absent>({
-    {"Terrain.", "velocity|angular_velocity|motion|conveyor",
-     "the ground does not move; in the ground's own frame a Force on each body stands for its "
-     "acceleration"},
-    {"World.gravity", "input",
-     "gravity is constant during a run; a Force on a body, wired, stands for its changes"},
-    {"Material", "rolling_friction|rolling_resistance|torsional_friction|spinning_friction",
-     "no contact law resists rolling or spinning; a Force whose torque an Expression wires "
-     "against the spin does"},
+    {"Terrain.", "motion|conveyor",
+     "a belt has a `velocity`; ground that moves as a whole has a frame_velocity and a "
+     "frame_angular_velocity"},
+    {"Material", "rolling_friction|torsional_friction|spinning_friction",
+     "write rolling_resistance or spinning_resistance, a length: the lever of the load"},
     {"Material", "yield_pressure|yield_stress|unloading_stiffness|cohesion",
      "no contact law keeps a footprint: the ground springs back"},
-    {"Material", "adhesion|suction|magnet|stickiness",
-     "no contact law pulls; a Force that an Expression switches by `contact.count` does"},
+    {"Material", "suction|magnet|stickiness", "write adhesion, a force on each contact point"},
     {"Material.static_friction|Material.kinetic_friction", "...",
-     "friction is the same in all directions"},
+     "it is one coefficient, along the foot; friction_across is the one across it"},
     {"ContactPoint|Shape.|Base.|Link",
-     "material|friction|static_friction|kinetic_friction|mu|stiffness|damping|restitution",
-     "constants of contact belong to the ground: a Material of the Terrain, or of a Patch of it"},
-    {"Base.|Link", "contact.moment|contact.torque|contact.center_of_pressure|contact.wrench",
-     "a body publishes contact.force and contact.count; named ContactPoints publish position and "
-     "force each, for an Expression to add up"},
-    {"Link", "reaction|reaction_force|reaction_torque|wrench",
-     "of joints, the first of a Chain publishes its reaction: hip_force and hip_moment"},
-    {"Link.joint", "fixed|weld",
-     "what is fixed to a link is part of it: give that link the shapes, and mass, center_of_mass "
-     "and inertia of both"},
+     "friction|static_friction|kinetic_friction|mu|stiffness|damping|restitution",
+     "constants of contact belong to a Material: write one and name it as `material`"},
+    {"Base.|Link", "contact.torque|contact.wrench",
+     "a body publishes contact.force, contact.moment and contact.center_of_pressure"},
+    {"Link", "reaction|reaction_torque|wrench",
+     "what its joint transmits is reaction_force and reaction_moment"},
+    {"Link.joint", "weld|rigid|none", "a link that moves with what carries it has `joint = fixed`"},
     {"Link.joint", "ball|spherical|universal|cylindrical|screw",
      "a joint has one axis: write several Links in a row, those between without mass"},
     {"Link.joint", "free|floating|planar|mobile",
      "only the base of a Robot moves freely: Base.mobile or Base.planar"},
-    {"Link|Chain|Robot", "loop|connect|constraint|mimic|gear",
-     "links form a tree: nothing ties two of them together"},
-    {"", "Joint|Joint.|Constraint|Constraint.|Connect|Weld|Equality|Equality.|Tendon|Gear",
-     "links form a tree, each Link with the joint that carries it: nothing ties two of them "
-     "together"},
-    {"", "Shape.Capsule|Capsule", "write a Shape.Cylinder and two Shape.Spheres"},
-    {"", "Shape.Mesh|Mesh", "meshes come with a URDF: Include \"robot.urdf\" (meshes = hull)"},
+    {"Link|Chain", "loop|connect|constraint",
+     "links form a tree; what ties two of them together is a Loop in the robot"},
+    {"Link", "gear|gear_ratio|couple|follows",
+     "a joint that follows another names it as `mimic`, with mimic_ratio and mimic_offset"},
+    {"", "Joint|Joint.|Constraint|Constraint.|Connect|Weld|Equality|Equality.",
+     "each Link has the joint that carries it; a Loop closes a chain of links, and `mimic` in a Link "
+     "couples its joint to another's"},
+    {"", "Gear", "joints that turn together are coupled by `mimic` in a Link"},
+    {"", "Tendon", "nothing ties more than two joints together; `mimic` in a Link couples two"},
+    {"", "Shape.Mesh|Mesh",
+     "the convex hull of a mesh is a Shape.Hull { file = \"part.stl\"; }; meshes of a URDF come "
+     "with it: Include \"robot.urdf\" (meshes = hull)"},
     {"", "Shape.Plane|Plane|Ground", "the ground is a Terrain: Terrain.Flat or Terrain.Slope"},
     {"", "Body|Object",
-     "a body that moves by itself is a Robot with a Base.mobile; bodies of two Robots do not "
-     "meet"},
+     "a body that moves by itself is a Robot with a Base.mobile, one that stands an Obstacle; "
+     "under touch = shapes bodies touch each other"},
 });
 
 }  // namespace

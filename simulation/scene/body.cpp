@@ -7,6 +7,14 @@
 #include "simulation/scene/load_parts.h"
 
 namespace hookpoint::simulation {
+
+using language::Direction;
+using language::FieldSchema;
+using language::number_field;
+using language::orientation_field;
+using language::port_only;
+using language::vector_field;
+
 namespace {
 
 std::vector<Vector3d> sample(const Box& box, int density) {
@@ -21,14 +29,27 @@ std::vector<Vector3d> sample(const Cylinder& cylinder, int density) {
 std::vector<Vector3d> sample(const Legcone& cone, int density) {
   return contact::legcone_points(cone.length, cone.proximal_radius, cone.distal_radius, density);
 }
+std::vector<Vector3d> sample(const Capsule& capsule, int density) {
+  return contact::capsule_points(capsule.radius, capsule.length, density);
+}
+std::vector<Vector3d> sample(const Hull& hull, int) { return hull.vertices; }
 
 /// A sphere whose surface is not to be sampled: it rolls.
 const Sphere* rolling_sphere(const ShapeSpec& shape) {
   return shape.boundary_points == 0 ? std::get_if<Sphere>(&shape.geometry) : nullptr;
 }
 
-void add_point(const Vector3d& p_BP, double radius, BodySpec& body) {
+/// The same of a capsule: a ball at each end.
+const Capsule* rolling_capsule(const ShapeSpec& shape) {
+  return shape.boundary_points == 0 ? std::get_if<Capsule>(&shape.geometry) : nullptr;
+}
+
+void add_point(const Vector3d& p_BP, double radius, int material, BodySpec& body) {
   body.boundary_points.push_back(p_BP);
+  if (material != no_material) {
+    body.boundary_materials.resize(body.boundary_points.size(), no_material);
+    body.boundary_materials.back() = material;
+  }
   if (radius == 0.) return;
   body.boundary_radii.resize(body.boundary_points.size(), 0.);
   body.boundary_radii.back() = radius;
@@ -42,7 +63,7 @@ bool may_have_points(const language::Object& shape, std::size_t count, Loading& 
   if (loading.boundary_points <= most) return true;
   if (already) return false;
   loading.error(place_of(shape, boundary_points_field),
-                "with this shape the bodies ask for " +
+                "with this shape the bodies require " +
                     language::too_many(static_cast<double>(loading.boundary_points), most,
                                        "boundary points") +
                     ": make `boundary_points` smaller");
@@ -53,18 +74,26 @@ void add_shape_points(const language::Object& object, const ShapeSpec& shape, Bo
                       Loading& loading) {
   if (!may_have_points(object, 0, loading)) return;
   if (const Sphere* sphere = rolling_sphere(shape))
-    return add_point(shape.location, sphere->radius, body);
+    return add_point(shape.location, sphere->radius, shape.material, body);
+  if (const Capsule* capsule = rolling_capsule(shape)) {
+    for (const double z : {-0.5 * capsule->length, 0.5 * capsule->length}) {
+      const Vector3d end = shape.location + rotate(shape.orientation, Vector3d{0., 0., z});
+      add_point(end, capsule->radius, shape.material, body);
+    }
+    return;
+  }
   const auto sampled =
       std::visit([&](const auto& geometry) { return sample(geometry, shape.boundary_points); },
                  shape.geometry);
   if (!may_have_points(object, sampled.size(), loading)) return;
   for (const Vector3d& p_SP : sampled)
-    add_point(shape.location + rotate(shape.orientation, p_SP), 0., body);
+    add_point(shape.location + rotate(shape.orientation, p_SP), 0., shape.material, body);
 }
 
 }  // namespace
 
 std::vector<FieldSchema> contact_ports() {
+  const std::string where = "; engine dts with a force law only";
   return {
       port_only(Direction::output,
                 vector_field("contact.force", "N", "",
@@ -72,7 +101,20 @@ std::vector<FieldSchema> contact_ports() {
                              "length, world axes; at first 0")),
       port_only(Direction::output,
                 number_field("contact.count", "", "",
-                             "boundary points that carried force in the last step"))};
+                             "boundary points that carried force in the last step")),
+      port_only(Direction::output,
+                vector_field("contact.moment", "N.m", "",
+                             "of the ground on the body about its origin, world axes" + where)),
+      port_only(Direction::output,
+                vector_field("contact.center_of_pressure", "m", "",
+                             "mean of the places that touch, by normal load, world axes; without "
+                             "load the body's origin" +
+                                 where)),
+      port_only(Direction::output,
+                number_field("contact.normal_load", "N", "",
+                             "sum over the contacts, each along its normal" + where)),
+      port_only(Direction::output, number_field("contact.tangential_load", "N", "",
+                                                "size of the rest of the force" + where))};
 }
 
 std::vector<FieldSchema> acceleration_ports(const std::string& body) {
@@ -97,6 +139,18 @@ std::vector<FieldSchema> motion_ports(const std::string& position, const std::st
   };
 }
 
+BodySpec load_single_shape(const language::Object& object, ShapeGeometry geometry,
+                           Loading& loading) {
+  BodySpec body;
+  body.name = "base";
+  body.shapes.push_back({std::move(geometry), {}, {}});
+  body.shapes[0].material = foot_material(object, no_material, loading);
+  body.mass = load_mass(object, body.shapes, {&object}, true, loading);
+  add_shape_points(object, body.shapes[0], body, loading);
+  body.shapes[0].point_count = body.boundary_points.size();
+  return body;
+}
+
 BodySpec load_body(const language::Object& object, std::string name, bool must_have_inertia,
                    Loading& loading) {
   BodySpec body;
@@ -104,12 +158,16 @@ BodySpec load_body(const language::Object& object, std::string name, bool must_h
   const std::size_t errors_before = loading.diagnostics.error_count();
   const std::vector<const language::Object*> shape_objects = object.children_of("Shape.");
   std::vector<ShapeSpec> all;
-  for (const language::Object* shape : shape_objects) all.push_back(load_shape(*shape, loading));
+  const int own_material = foot_material(object, no_material, loading);
+  for (const language::Object* shape : shape_objects) {
+    all.push_back(load_shape(*shape, loading));
+    all.back().material = foot_material(*shape, own_material, loading);
+  }
   if (loading.diagnostics.error_count() != errors_before) return body;
   body.mass = load_mass(object, all, shape_objects, must_have_inertia, loading);
   for (const language::Object* point : object.children_of("ContactPoint")) {
     const BallSpec ball = load_contact_point(*point);
-    add_point(ball.location, ball.radius, body);
+    add_point(ball.location, ball.radius, foot_material(*point, own_material, loading), body);
   }
   std::vector<ShapePoints> shapes;
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -120,6 +178,8 @@ BodySpec load_body(const language::Object& object, std::string name, bool must_h
     body.shapes.push_back(all[i]);
     const std::size_t before = body.boundary_points.size();
     add_shape_points(*shape_objects[i], all[i], body, loading);
+    body.shapes.back().first_point = before;
+    body.shapes.back().point_count = body.boundary_points.size() - before;
     shapes.push_back({shape_objects[i],
                       &all[i],
                       {body.boundary_points.begin() + static_cast<std::ptrdiff_t>(before),

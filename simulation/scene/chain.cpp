@@ -3,12 +3,21 @@
 
 #include <vector>
 
-#include "simulation/kinematics.h"
+#include "simulation/experiment/kinematics.h"
 #include "simulation/scene/body.h"
+#include "simulation/scene/fixed_part.h"
 #include "simulation/scene/load_parts.h"
 #include "simulation/scene/schema.h"
 
 namespace hookpoint::simulation {
+
+using language::append;
+using language::Direction;
+using language::Fields;
+using language::orientation_field;
+using language::port_only;
+using language::vector_field;
+
 namespace {
 
 const Fields<ChainSpec>& chain_fields() {
@@ -54,6 +63,14 @@ struct Composite {
   }
 };
 
+BodySpec& body_of(RobotSpec& robot, int body) {
+  auto left = static_cast<std::size_t>(body);
+  if (left == 0) return robot.base;
+  auto chain = robot.chains.begin();
+  for (; left > chain->links.size(); ++chain) left -= chain->links.size();
+  return chain->links[left - 1].body;
+}
+
 }  // namespace
 
 void add_chain_class(language::Schema& schema) {
@@ -75,25 +92,45 @@ void load_chain(const language::Object& object, const language::Object& robot, B
   ChainSpec chain = load_fields(object, chain_fields());
   chain.name = name_within(object, robot);
   chain.carrier = static_cast<std::size_t>(carrier.body);
+  // What comes next stands in this body, its frame at X_BL; a joint counts from a frame that lies
+  // X_FL behind it: the hip, or the last link that moves.
+  BodyIndex at = carrier;
+  at.X_BL = carrier.X_BL * Pose{chain.hip_distance, chain.hip_orientation};
+  chain.hip_distance = at.X_BL.position;
+  chain.hip_orientation = at.X_BL.orientation;
+  Pose X_FL;
   const std::vector<const language::Object*> links = object.children_of("Link");
-  BodyIndex next{carrier.robot, static_cast<int>(loaded.links.size()) + 1};
-  const BodyIndex first = next;
   for (const language::Object* link : links) {
-    chain.links.push_back(load_link(*link, name_within(*link, object), loading));
-    loading.bodies.emplace(link, next);
-    loaded.links.push_back(link);
-    ++next.body;
+    LinkSpec spec = load_link(*link, name_within(*link, object), loading);
+    at.mass = spec.body.mass;
+    if (is_fixed(*link)) {
+      const Pose X = joint_pose(spec);
+      at.X_BL = at.X_BL * X;
+      X_FL = X_FL * X;
+      BodySpec& body =
+          chain.links.empty() ? body_of(loaded.spec, carrier.body) : chain.links.back().body;
+      at.first_point = body.boundary_points.size();
+      add_part(spec.body, at.X_BL, body);
+    } else {
+      const Pose ahead = X_FL * Pose{spec.joint_location, spec.joint_orientation};
+      spec.joint_location = ahead.position;
+      spec.joint_orientation = ahead.orientation;
+      X_FL = {};
+      loaded.links.push_back(link);
+      at = {carrier.robot, static_cast<int>(loaded.links.size()), {}, 0, at.mass};
+      chain.links.push_back(std::move(spec));
+    }
+    loading.bodies.emplace(link, at);
   }
   if (links.empty()) {
     loading.error(
         object.position,
         fmt::format("chain `{}` has no links; give it a Link NAME {{ ... }}", chain.name));
   }
-  loaded.spec.chains.push_back(std::move(chain));
-  for (std::size_t i = 0; i < links.size(); ++i) {
-    const BodyIndex link{first.robot, first.body + static_cast<int>(i)};
-    for (const language::Object* carried : links[i]->children_of("Chain"))
-      load_chain(*carried, robot, link, loaded, loading);
+  if (!chain.links.empty()) loaded.spec.chains.push_back(std::move(chain));
+  for (const language::Object* link : links) {
+    for (const language::Object* carried : link->children_of("Chain"))
+      load_chain(*carried, robot, loading.bodies.at(link), loaded, loading);
   }
 }
 

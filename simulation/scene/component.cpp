@@ -7,12 +7,24 @@
 #include <memory>
 
 #include "control/registry.h"
-#include "simulation/scene/fields.h"
+#include "language/tree/fields.h"
 #include "simulation/scene/formula_signals.h"
 #include "simulation/scene/load_parts.h"
 #include "simulation/scene/schema.h"
 
 namespace hookpoint::simulation {
+
+using language::append;
+using language::choice_field;
+using language::Direction;
+using language::Fields;
+using language::FieldSchema;
+using language::list_field;
+using language::number_field;
+using language::object_field;
+using language::port_only;
+using language::text_field;
+
 namespace {
 
 using control::Attachment;

@@ -2,11 +2,22 @@
 #include <algorithm>
 #include <tuple>
 
-#include "simulation/scene/fields.h"
+#include "language/tree/fields.h"
+#include "simulation/scene/body.h"
 #include "simulation/scene/load_parts.h"
 #include "simulation/scene/schema.h"
 
 namespace hookpoint::simulation {
+
+using language::append;
+using language::boolean_field;
+using language::Direction;
+using language::Fields;
+using language::FieldSchema;
+using language::number_field;
+using language::port_only;
+using language::vector_field;
+
 namespace {
 
 const Fields<BallSpec>& ball_fields() {
@@ -31,6 +42,7 @@ void add_contact_point_class(language::Schema& schema) {
   };
   const std::string where = "; engine dts with a force law only";
   point.fields = schemas(ball_fields());
+  point.fields.push_back(foot_material_field(""));
   append(
       point.fields,
       {
@@ -42,6 +54,10 @@ void add_contact_point_class(language::Schema& schema) {
           computed(number_field("contact.depth", "m", "",
                                 "how deep it is in the ground, below 0 outside" + where)),
           computed(boolean_field("contact.sliding", "", "whether it slips on the ground" + where)),
+          computed(number_field("contact.normal_load", "N", "",
+                                "part of the force along the ground's normal" + where)),
+          computed(number_field("contact.tangential_load", "N", "",
+                                "size of the part along the ground" + where)),
           computed(
               vector_field("contact.hook", "m", "",
                            "its anchor on the ground, world axes; the point itself while it is "
@@ -57,7 +73,7 @@ BallSpec load_contact_point(const language::Object& object) {
 
 void load_points(Loading& loading) {
   for (const auto& [object, at] : loading.bodies) {
-    int point = 0;
+    auto point = static_cast<int>(at.first_point);
     for (const language::Object* child : object->children_of("ContactPoint"))
       loading.experiment.points.push_back({loading.trails.at(child), at.robot, at.body, point++});
   }

@@ -7,14 +7,23 @@
 #include "contact/force_law.h"
 #include "integrators/stepper.h"
 #include "language/names.h"
+#include "language/tree/fields.h"
 #include "language/tree/references.h"
 #include "language/units.h"
 #include "simulation/run/expectation.h"
-#include "simulation/scene/fields.h"
+#include "simulation/scene/load.h"
 #include "simulation/scene/load_parts.h"
 #include "simulation/scene/schema.h"
 
 namespace hookpoint::simulation {
+
+using language::choice_field;
+using language::Fields;
+using language::LoadedField;
+using language::number_field;
+using language::text_field;
+using language::words_field;
+
 namespace {
 
 namespace expect_field {
@@ -23,28 +32,43 @@ constexpr const char *of = "of", *take = "take", *equals = "equals", *within = "
                      *except_laws = "except_laws", *integrators = "integrators";
 }
 
+/// A field of the expectation's reduction.
+LoadedField<ExpectationSpec> reduction_field(LoadedField<ReductionSpec> field) {
+  LoadedField<ExpectationSpec> of_expectation(static_cast<language::FieldSchema>(field));
+  of_expectation.store = [store = std::move(field.store)](const language::Field& given,
+                                                          ExpectationSpec& spec) {
+    store(given, spec.reduction);
+  };
+  return of_expectation;
+}
+
 const Fields<ExpectationSpec>& expect_fields() {
   using Spec = ExpectationSpec;
+  using Take = ReductionSpec;
   static const Fields<Spec> fields{
       required(words_field(expect_field::of, 1, "the port")),
-      choice_field(expect_field::take, reduction_names(), &Spec::take,
-                   "what becomes of its values: the last, the largest, ..., `slope` by least "
-                   "squares, `time_at` when it first crosses `level`; the manual's page of studies "
-                   "defines each"),
+      reduction_field(
+          choice_field(expect_field::take, reduction_names(), &Take::take,
+                       "what becomes of its values: the last, the largest, ..., `slope` by least "
+                       "squares, `time_at` when it first crosses `level`; the manual's page of "
+                       "studies defines each")),
       required(number_field(expect_field::equals, "?", &Spec::expected,
                             "the closed form, of the scene's Params")),
       not_negative(number_field("tolerance", "", &Spec::tolerance,
                                 "allowed difference relative to `equals`")),
       not_negative(without_default(
           number_field(expect_field::within, "?", &Spec::within, "allowed absolute difference"))),
-      number_field(expect_field::level, "?", &Spec::level,
-                   "of `time_at`, `count_above`, `time_above`; of `settle_time` what it settles "
-                   "about, if not where it ends"),
-      not_negative(number_field(expect_field::band, "?", &Spec::band,
-                                "of `settle_time`: how far off counts as settled")),
-      not_negative(number_field("from", "s", &Spec::from, "values before do not count")),
-      positive(number_field(expect_field::to, "s", &Spec::to,
-                            "values after do not count; default: the run's end")),
+      reduction_field(
+          number_field(expect_field::level, "?", &Take::level,
+                       "of `time_at`, `count_above`, `time_above`; of `settle_time` what it "
+                       "settles about, if not where it ends")),
+      reduction_field(
+          not_negative(number_field(expect_field::band, "?", &Take::band,
+                                    "of `settle_time`: how far off counts as settled"))),
+      reduction_field(
+          not_negative(number_field("from", "s", &Take::from, "values before do not count"))),
+      reduction_field(positive(number_field(expect_field::to, "s", &Take::to,
+                                            "values after do not count; default: the run's end"))),
       words_field(expect_field::laws, 20, "contact laws that it holds for; default: all"),
       words_field(expect_field::except_laws, 20, "contact laws that it says nothing of"),
       words_field(expect_field::integrators, 20, "integrators that it holds for; default: all"),
@@ -74,7 +98,7 @@ class ExpectationLoader {
     check_times();
     spec_.laws = known_words(expect_field::laws, contact::law_names());
     spec_.except_laws = known_words(expect_field::except_laws, contact::law_names());
-    spec_.integrators = known_words(expect_field::integrators, integrator_names());
+    spec_.integrators = known_words(expect_field::integrators, integrators::integrator_names());
     // Under another law the port may not exist.
     const Experiment& experiment = loading_.experiment;
     if (spec_.covers(experiment)) find_number_port();
@@ -88,13 +112,6 @@ class ExpectationLoader {
     if (!port) return;
     spec_.trail = port->trail;
     check_unit(port->target);
-  }
-
-  static std::vector<std::string> integrator_names() {
-    std::vector<std::string> names;
-    for (const integrators::StepperDescription& stepper : integrators::stepper_table())
-      names.emplace_back(stepper.name);
-    return names;
   }
 
   std::vector<std::string> known_words(const char* field, const std::vector<std::string>& known) {
@@ -111,9 +128,9 @@ class ExpectationLoader {
   }
 
   void check_times() {
-    if (spec_.to && *spec_.to <= spec_.from)
+    if (spec_.reduction.to && *spec_.reduction.to <= spec_.reduction.from)
       loading_.error(place_of(object_, expect_field::to), "`to` must be later than `from`");
-    if (const std::string missing = missing_of(spec_.reduction()); !missing.empty())
+    if (const std::string missing = missing_of(spec_.reduction); !missing.empty())
       loading_.error(place_of(object_, expect_field::take), missing);
     if (spec_.tolerance == 0. && spec_.within == 0.)
       loading_.error(object_.position,
@@ -125,9 +142,10 @@ class ExpectationLoader {
     const std::string& unit = target.object->unit_of(*target.field);
     const auto parsed = language::parse_unit(unit == "?" ? "" : unit);
     if (!parsed) return;
-    const language::Dimension wanted = dimension_of(spec_.take, parsed->dimension);
+    const language::Dimension wanted = dimension_of(spec_.reduction.take, parsed->dimension);
     constexpr language::Dimension some{0, 1, 0, 0};
-    const bool follows = dimension_of(spec_.take, some) != dimension_of(spec_.take, {});
+    const bool follows =
+        dimension_of(spec_.reduction.take, some) != dimension_of(spec_.reduction.take, {});
     spec_.unit = unit == "?" && follows ? "" : language::unit_text(wanted);
     if (unit == "?") return;
     for (const char* field : {expect_field::equals, expect_field::within})
@@ -169,6 +187,10 @@ void load_expectations(const language::Object& root, Loading& loading) {
   language::Names names;
   for (const language::Object* expectation : collect_all(root, "Expect"))
     ExpectationLoader(*expectation, names, loading).run();
+}
+
+const std::string& port_of_expect(const language::Object& expect) {
+  return expect.word(expect_field::of);
 }
 
 }  // namespace hookpoint::simulation

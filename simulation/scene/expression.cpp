@@ -4,11 +4,16 @@
 #include <algorithm>
 #include <array>
 
+#include "language/tree/fields.h"
 #include "language/units.h"
-#include "simulation/scene/fields.h"
 #include "simulation/scene/formula_signals.h"
 
 namespace hookpoint::simulation {
+
+using language::Direction;
+using language::FieldSchema;
+using language::port_only;
+
 namespace {
 
 using control::PortDescription;

@@ -2,12 +2,21 @@
 #include <exception>
 
 #include "control/core/rational.h"
+#include "language/tree/fields.h"
 #include "language/wording.h"
-#include "simulation/scene/fields.h"
 #include "simulation/scene/load_parts.h"
 #include "simulation/scene/schema.h"
 
 namespace hookpoint::simulation {
+
+using language::append;
+using language::Direction;
+using language::Fields;
+using language::number_field;
+using language::object_field;
+using language::port_only;
+using language::vector_field;
+
 namespace {
 
 namespace force_field {
@@ -112,6 +121,7 @@ void load_force(const language::Object& object, const language::Object& world, L
   force.name = name_within(object, world);
   force.robot = body->second.robot;
   force.body = body->second.body;
+  force.point = body->second.in_body(force.point);
   if (object.type == "Push") force.window = load_window(object, loading);
   loading.experiment.forces.push_back(std::move(force));
 }

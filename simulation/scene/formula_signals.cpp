@@ -35,9 +35,8 @@ std::optional<language::Formula> formula_of(const language::Object& object, std:
                                             Loading& loading) {
   const language::Position& quoted = place_of(object, field);
   const std::string& text = object.word(field);
-  language::ParsedFile file;
-  file.source.text = std::string(before_formula) + text;
-  language::index_lines(file.source);
+  const language::SourceFile source = language::source_file("", std::string(before_formula) + text);
+  language::ParsedFile file{source};
   language::parse_override(file);
   // A place in the text is one in the file, behind the quote; with an escape before it the field.
   const bool verbatim = quoted.file != nullptr && quoted.length == text.size() + 2;

@@ -1,13 +1,28 @@
 // Link: a body of a chain and the joint that carries it.
 #include <fmt/format.h>
 
-#include "output/text/number.h"
+#include <algorithm>
+
+#include "simulation/experiment/start_problems.h"
 #include "simulation/scene/body.h"
+#include "simulation/scene/fixed_part.h"
 #include "simulation/scene/load_parts.h"
 #include "simulation/scene/schema.h"
-#include "simulation/start_problems.h"
+#include "text/number.h"
 
 namespace hookpoint::simulation {
+
+using language::append;
+using language::choice_field;
+using language::Direction;
+using language::Fields;
+using language::FieldSchema;
+using language::LoadedField;
+using language::number_field;
+using language::orientation_field;
+using language::port_only;
+using language::vector_field;
+
 namespace {
 
 namespace link_field {
@@ -34,6 +49,7 @@ const Fields<LinkSpec>& frame_fields() {
 std::vector<std::string> joint_names() {
   std::vector<std::string> names;
   for (const JointType& type : joint_types) names.emplace_back(type.name);
+  names.emplace_back(fixed_joint);
   return names;
 }
 
@@ -47,8 +63,8 @@ Described by_joint(const char* JointUnits::*quantity, Described field) {
   }
   return field;
 }
-Field<LinkSpec> joint_field(std::string_view name, const char* JointUnits::*quantity,
-                            auto LinkSpec::*member, std::string doc) {
+LoadedField<LinkSpec> joint_field(std::string_view name, const char* JointUnits::*quantity,
+                                  auto LinkSpec::*member, std::string doc) {
   return by_joint(quantity, number_field(name, "", member, std::move(doc)));
 }
 FieldSchema joint_port(std::string_view name, const char* JointUnits::*quantity, std::string doc) {
@@ -58,11 +74,11 @@ FieldSchema joint_port(std::string_view name, const char* JointUnits::*quantity,
 
 /// A constant of joints of which each type has its own default: what it means, then "; if not
 /// given, 1000 N.m/rad (prismatic: 100000 N/m)".
-Field<LinkSpec> constant_field(std::string_view name, const char* JointUnits::*quantity,
-                               double LinkSpec::*member, double JointDefaults::*usual,
-                               std::string doc) {
+LoadedField<LinkSpec> constant_field(std::string_view name, const char* JointUnits::*quantity,
+                                     double LinkSpec::*member, double JointDefaults::*usual,
+                                     std::string doc) {
   const auto text = [&](const JointType& type) {
-    return fmt::format("{} {}", output::rounded(type.defaults.*usual), type.units.*quantity);
+    return fmt::format("{} {}", text::rounded(type.defaults.*usual), type.units.*quantity);
   };
   doc += "; if not given, " + text(joint_types[0]);
   for (const JointType& type : joint_types) {
@@ -75,8 +91,10 @@ const Fields<LinkSpec>& joint_fields() {
   using Units = JointUnits;
   using Usual = JointDefaults;
   static const Fields<LinkSpec> fields{
-      choice_field(link_field::joint, joint_names(), &LinkSpec::joint,
-                   "turns about, or slides along, the link's own z"),
+      choice_field(
+          link_field::joint, joint_names(), joint_types[0].name,
+          "turns about, or slides along, the link's own z; fixed: the link is a part of the "
+          "body that carries it"),
       with_port(Direction::output,
                 joint_field(link_field::angle, &Units::position, &LinkSpec::angle,
                             "joint variable, added to dhangle (prismatic: to dhoffset)")),
@@ -86,12 +104,20 @@ const Fields<LinkSpec>& joint_fields() {
                                              "of the joint's drive: constant unless wired")),
       joint_port("acceleration", &Units::acceleration, "d(rate)/dt, of the step just taken"),
       joint_port("total_torque", &Units::torque,
-                 "of the drive, spring, damping, friction and stops together, in the "
-                 "step just taken"),
+                 "of the drive, spring, damping, friction, stops and, of a coupled joint, the "
+                 "coupling together, in the step just taken"),
       joint_port("gravity_torque", &Units::torque,
                  "what gravity takes of the drive to hold the joint where it is"),
       joint_port("bias_torque", &Units::torque,
                  "what gravity and velocities take of the drive at accelerations of 0"),
+      port_only(
+          Direction::output,
+          vector_field("reaction_force", "N", "",
+                       "of the body that carries it, at their joint, world axes: in balance with "
+                       "the contact forces shown and the torques of the step just taken; "
+                       "engine dts with a force law only")),
+      port_only(Direction::output, vector_field("reaction_moment", "N.m", "",
+                                                "the same: moment about the link's origin")),
       joint_field(link_field::lower_limit, &Units::position, &LinkSpec::lower_limit,
                   "least angle; none if not given"),
       joint_field("upper_limit", &Units::position, &LinkSpec::upper_limit,
@@ -105,10 +131,9 @@ const Fields<LinkSpec>& joint_fields() {
       not_negative(joint_field("friction", &Units::torque, &LinkSpec::friction,
                                "dry friction: a joint that carries less than this sticks; one that "
                                "slips is braked by it")),
-      positive(
-          constant_field("friction_deflection", &Units::position, &LinkSpec::friction_deflection,
-                         &Usual::friction_deflection,
-                         "so far a joint that sticks gives way, as a spring, before it slips")),
+      positive(constant_field("friction_deflection", &Units::position,
+                              &LinkSpec::friction_deflection, &Usual::friction_deflection,
+                              "deflection of a joint that sticks, as a spring, before it slips")),
       positive(constant_field("friction_speed", &Units::rate, &LinkSpec::friction_speed,
                               &Usual::friction_speed,
                               "rate at which a joint that sticks is damped by its whole friction")),
@@ -117,7 +142,7 @@ const Fields<LinkSpec>& joint_fields() {
       joint_field("rest_angle", &Units::position, &LinkSpec::rest_angle,
                   "angle at which the joint spring is slack"),
       positive(joint_field("effort_limit", &Units::torque, &LinkSpec::effort_limit,
-                           "greatest `torque` that the drive gives, either way: what is asked "
+                           "greatest `torque` that the drive gives, either way: what is commanded "
                            "beyond it is not exerted, and a notice of the run says so; none if not "
                            "given")),
       not_negative(joint_field("rotor_inertia", &Units::inertia, &LinkSpec::rotor_inertia,
@@ -130,7 +155,8 @@ const Fields<LinkSpec>& joint_fields() {
 /// The joint of `object`'s type with the constants that such a joint has which states none.
 LinkSpec usual_joint(const language::Object& object) {
   LinkSpec link;
-  take(*object.find(link_field::joint), link.joint);
+  if (is_fixed(object)) return link;
+  language::assign(*object.find(link_field::joint), link.joint);
   const JointDefaults& usual = joint_type(link.joint).defaults;
   link.friction_deflection = usual.friction_deflection;
   link.friction_speed = usual.friction_speed;
@@ -148,7 +174,24 @@ void check_limits(const language::Object& object, const LinkSpec& link, Loading&
     loading.error(place_of(object, link_field::angle), problem);
 }
 
+/// A joint that does not move has nothing of its own.
+void check_fixed(const language::Object& object, Loading& loading) {
+  for (const language::FieldSchema& field : object.schema->fields) {
+    if (field.name == link_field::joint || !is_of_joint(field.name) || !object.given(field.name))
+      continue;
+    loading.error(place_of(object, field.name),
+                  fmt::format("a fixed joint has no `{}`: leave it out", field.name));
+  }
+}
+
 }  // namespace
+
+bool is_of_joint(std::string_view field) {
+  const auto has = [&](const auto& fields) {
+    return std::ranges::find(fields, field, &FieldSchema::name) != fields.end();
+  };
+  return has(joint_fields()) || has(coupling_fields());
+}
 
 void add_link_class(language::Schema& schema) {
   language::ClassSchema link;
@@ -163,7 +206,9 @@ void add_link_class(language::Schema& schema) {
   append(link.children, component_families());
   link.fields = schemas(frame_fields());
   append(link.fields, mass_fields("link"));
+  link.fields.push_back(foot_material_field(of_its_shapes));
   append(link.fields, schemas(joint_fields()));
+  append(link.fields, coupling_fields());
   append(link.fields, motion_ports("location", "the link's"));
   append(link.fields, acceleration_ports("the link's origin"));
   append(link.fields, contact_ports());
@@ -174,6 +219,10 @@ LinkSpec load_link(const language::Object& object, std::string name, Loading& lo
   LinkSpec link = usual_joint(object);
   link.body = load_body(object, std::move(name), false, loading);
   store_fields(object, frame_fields(), link);
+  if (is_fixed(object)) {
+    check_fixed(object, loading);
+    return link;
+  }
   store_fields(object, joint_fields(), link);
   check_limits(object, link, loading);
   return link;

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "simulation/analysis/automatic_step.h"
+#include "simulation/engine_interface/step_count.h"
 #include "simulation/scene/load_parts.h"
 #include "simulation/scene/unread_constants.h"
-#include "simulation/step_count.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -73,6 +73,7 @@ void load_signals(const language::Object& root, Loading& loading) {
   load_points(loading);
   load_components(root, loading);
   if (loading.diagnostics.error_count() == errors_before) load_wires(root, loading);
+  if (loading.diagnostics.error_count() == errors_before) check_moving_ground(root, loading);
   load_records(root, loading);
   load_movies(root, loading);
   load_expectations(root, loading);
@@ -128,6 +129,9 @@ std::optional<Experiment> load_experiment(const language::Object& root,
   warn_of_unstated_constants(*world, loading);
   warn_of_unread_constants(*world, loading);
   load_robots(*world, loading);
+  load_obstacles(*world, loading);
+  if (diagnostics.error_count() == errors_before) load_couplings(*world, loading);
+  if (diagnostics.error_count() == errors_before) load_loops(*world, loading);
   warn_of_overlaps(loading);
   load_forces(*world, loading);
   check_combinations(*world, loading);

@@ -4,11 +4,12 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "language/diagnostics.h"
 #include "language/tree/object.h"
-#include "simulation/experiment.h"
+#include "simulation/experiment/experiment.h"
 
 namespace hookpoint::simulation {
 
@@ -20,6 +21,12 @@ std::optional<Experiment> load_experiment(
     const language::Object& root, language::Diagnostics& diagnostics,
     const std::vector<std::filesystem::path>& search_path = {},
     const std::vector<FileSpec>& given = {});
+
+/// The port of an Expect as its file writes it.
+const std::string& port_of_expect(const language::Object& expect);
+
+/// The Material of a Terrain or of a Patch of one; null where it has none.
+const language::Object* material_of_ground(const language::Object& ground);
 
 /// Writes the step that was chosen into the World of `root` where it says `deltat = auto` or
 /// nothing, so that what is printed of it runs the same.

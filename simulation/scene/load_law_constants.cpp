@@ -9,8 +9,9 @@
 #include <vector>
 
 #include "contact/force_law.h"
+#include "contact/laws/surface_forces.h"
 #include "language/names.h"
-#include "simulation/material_fields.h"
+#include "simulation/experiment/material_fields.h"
 #include "simulation/scene/load_parts.h"
 #include "simulation/scene/unread_constants.h"
 
@@ -45,11 +46,22 @@ const contact::LawDescription* chosen_law(const Loading& loading) {
   return contact::find_law(experiment.contact);
 }
 
-/// Materials of the ground as written, by their indices; null for the defaults of a ground without
-/// one.
-std::vector<const language::Object*> written_materials(const Loading& loading) {
+/// Materials that shapes, points and bodies name, and those of Pairs.
+std::set<int> foot_materials_in_use(const language::Object& world, Loading& loading) {
+  std::set<int> used;
+  for (const char* type : {"Shape.", "ContactPoint", "Link", "Base."})
+    for (const language::Object* object : collect_all(world, type))
+      used.insert(foot_material(*object, no_material, loading));
+  for (const PairSpec& pair : loading.experiment.pairs) used.insert(pair.material);
+  used.erase(no_material);
+  return used;
+}
+
+/// Materials as written, by their indices; null for the defaults of a ground without one.
+std::vector<const language::Object*> written(const std::set<int>& materials,
+                                             const Loading& loading) {
   std::vector<const language::Object*> found;
-  for (const int used : materials_in_use(*loading.experiment.terrain))
+  for (const int used : materials)
     for (const auto& [material, index] : loading.materials)
       if (index == used) found.push_back(material);
   return found;
@@ -72,11 +84,13 @@ void check_unstated(const contact::LawDescription& law, const language::Object& 
       material == nullptr ? world.position : material->position,
       fmt::format("law {} has constants of its own, and {} none of them: it takes {}{}; state "
                   "those that you mean",
-                  law.name, who, constants, stiffness_unit(law.along_normal)));
+                  law.name, who, constants, stiffness_unit(law.normal_constants)));
 }
 
 bool law_reads(const contact::LawDescription& law, contact::Constant constant) {
-  return std::ranges::count(law.constants, constant) > 0;
+  // Beside every force law act the constants of surfaces.
+  return std::ranges::count(law.constants, constant) > 0 ||
+         (!law.is_impulse_law && std::ranges::count(contact::surface_constants, constant) > 0);
 }
 
 /// Whether a coefficient of friction changes nothing by itself: it is the other one too, or equal
@@ -136,14 +150,17 @@ void check_unread(const contact::LawDescription& law, const language::Object& wo
 void warn_of_unstated_constants(const language::Object& world, Loading& loading) {
   const contact::LawDescription* law = chosen_law(loading);
   if (law == nullptr) return;
-  for (const language::Object* material : written_materials(loading))
+  for (const language::Object* material :
+       written(materials_in_use(*loading.experiment.terrain), loading))
     check_unstated(*law, world, material, loading);
 }
 
 void warn_of_unread_constants(const language::Object& world, Loading& loading) {
   const contact::LawDescription* law = chosen_law(loading);
   if (law == nullptr) return;
-  for (const language::Object* material : written_materials(loading))
+  std::set<int> used = materials_in_use(*loading.experiment.terrain);
+  used.merge(foot_materials_in_use(world, loading));
+  for (const language::Object* material : written(used, loading))
     if (material != nullptr) check_unread(*law, world, *material, loading);
 }
 

@@ -12,14 +12,23 @@
 #include "language/diagnostics.h"
 #include "language/tree/object.h"
 #include "language/tree/references.h"
-#include "simulation/experiment.h"
+#include "simulation/experiment/experiment.h"
+#include "simulation/experiment/kinematics.h"
 #include "simulation/scene/trails.h"
 
 namespace hookpoint::simulation {
 
-/// A body of a robot: 0 the base, then the links chain by chain.
+/// The body of a robot that an object is, or is a part of: 0 the base, then the links that move,
+/// chain by chain.
 struct BodyIndex {
   int robot = 0, body = 0;
+  Pose X_BL{};                  ///< of the object's frame in the body's
+  std::size_t first_point = 0;  ///< of the object's own among the body's boundary points
+  MassSpec mass{};              ///< of the object alone
+
+  Vector3d in_body(const Vector3d& p_LQ) const {
+    return X_BL.position + rotate(X_BL.orientation, p_LQ);
+  }
 };
 
 /// What a name in a formula of a component reads.
@@ -70,6 +79,8 @@ inline constexpr const char *rate = "rate", *file = "file";
 }
 /// Of a Shape.
 inline constexpr const char *boundary_points_field = "boundary_points", *contact_field = "contact";
+/// Of a Shape, a ContactPoint, a Link and a Base.
+inline constexpr const char* material_field = "material";
 /// Of a component: what it is attached to.
 std::string_view attachment_field(control::Attachment attachment);
 
@@ -78,7 +89,7 @@ std::string_view attachment_field(control::Attachment attachment);
 /// All objects of `type` (a family when it ends in '.') anywhere below `parent`, in file order.
 std::vector<const language::Object*> collect_all(const language::Object& parent,
                                                  std::string_view type);
-/// The object's trail from `ancestor` down: "left.leg" for a chain laid down by an Include named
+/// The object's trail from `ancestor` down: "left.leg" for a chain created by an Include named
 /// left.
 std::string name_within(const language::Object& object, const language::Object& ancestor);
 /// Where `field` was written, else where the object was.
@@ -95,17 +106,37 @@ std::filesystem::path find_file(const std::string& name, const language::Positio
 /// All that a World says of itself but its step where it is `auto`.
 void load_world(const language::Object& world, Loading& loading);
 void load_materials(const language::Object& root, Loading& loading);
+/// The material of ground that names none: it states nothing.
+MaterialSpec default_material();
+/// The index of the Material that a Shape, ContactPoint, Link or Base names; `otherwise` if none.
+int foot_material(const language::Object& object, int otherwise, Loading& loading);
 void load_terrain(const language::Object& world, Loading& loading);
+/// Once the wires are known: says what to do where a ground that moves would not be felt.
+void check_moving_ground(const language::Object& root, Loading& loading);
 /// Warns of Materials in use that state none of the constants which the law has for itself.
 void warn_of_unstated_constants(const language::Object& world, Loading& loading);
 /// Robots as written; `rest_on` is resolved afterwards.
 void load_robots(const language::Object& world, Loading& loading);
+/// Those that are not free; free ones are robots.
+void load_obstacles(const language::Object& world, Loading& loading);
+/// What a Link says of the joint that its own follows.
+std::vector<language::FieldSchema> coupling_fields();
+/// Joints that follow others; sets their angles.
+void load_couplings(const language::Object& world, Loading& loading);
+/// Loops of robots; joints are moved until they are closed.
+void load_loops(const language::Object& world, Loading& loading);
 void load_forces(const language::Object& world, Loading& loading);
 /// Shapes, mass properties and boundary points of a base or a link. `must_have_inertia`: a body
 /// that moves by itself.
 BodySpec load_body(const language::Object& object, std::string name, bool must_have_inertia,
                    Loading& loading);
-/// A robot as it grows, and the objects of its links, one a body beyond the base.
+/// A body that moves by itself and has one shape, in its own frame.
+BodySpec load_single_shape(const language::Object& object, ShapeGeometry geometry,
+                           Loading& loading);
+/// The index of the Material that `material` of the object names; the default material, appended
+/// when first needed, if it names none.
+int material_index(const language::Object& object, Loading& loading);
+/// A robot as it grows, and the objects of its links that move, one a body beyond the base.
 struct LoadedRobot {
   RobotSpec spec;
   std::vector<const language::Object*> links;
@@ -116,7 +147,11 @@ void load_chain(const language::Object& object, const language::Object& robot, B
 /// Says which joints move no inertia. O(links depth).
 void check_joints(const LoadedRobot& loaded, Loading& loading);
 LinkSpec load_link(const language::Object& object, std::string name, Loading& loading);
+/// Whether a field or port of a Link is of a joint that moves.
+bool is_of_joint(std::string_view field);
 ShapeSpec load_shape(const language::Object& object, Loading& loading);
+/// Of a Shape, or of another family's class of the same name: Obstacle.Box.
+ShapeGeometry load_geometry(const language::Object& object, Loading& loading);
 /// A ContactPoint; a ball of radius 0 is a point.
 struct BallSpec {
   Vector3d location;   ///< p_BP, body axes [m]

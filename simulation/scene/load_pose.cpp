@@ -7,9 +7,10 @@
 #include "contact/force_law.h"
 #include "contact/terrain/terrain.h"
 #include "simulation/analysis/resting_state.h"
-#include "simulation/kinematics.h"
-#include "simulation/names.h"
-#include "simulation/robot_tree.h"
+#include "simulation/experiment/contact_materials.h"
+#include "simulation/experiment/kinematics.h"
+#include "simulation/experiment/names.h"
+#include "simulation/experiment/robot_tree.h"
 #include "simulation/scene/load_parts.h"
 
 namespace hookpoint::simulation {
@@ -20,6 +21,7 @@ struct RobotPoint {
   Vector3d p_BP;
   int body = 0;
   double radius = 0.;
+  int material = no_material;
 };
 
 std::vector<RobotPoint> points_in_base(const RobotSpec& robot) {
@@ -30,7 +32,8 @@ std::vector<RobotPoint> points_in_base(const RobotSpec& robot) {
     const std::vector<Vector3d>& of_body = bodies[i]->boundary_points;
     for (std::size_t k = 0; k < of_body.size(); ++k) {
       points.push_back({poses[i].position + rotate(poses[i].orientation, of_body[k]),
-                        static_cast<int>(i), bodies[i]->boundary_radius(k)});
+                        static_cast<int>(i), bodies[i]->boundary_radius(k),
+                        bodies[i]->boundary_material(k)});
     }
   }
   return points;
@@ -38,12 +41,13 @@ std::vector<RobotPoint> points_in_base(const RobotSpec& robot) {
 
 /// Depth at which `count` points bear the robot's weight across the tile: m g cos / n each. A peer,
 /// and a law without penetration, starts touching.
-double resting_depth(const RobotSpec& robot, int count, const contact::TilePoint& tile,
-                     const Experiment& experiment) {
-  const std::optional<contact::AnyForceLaw> law = contact::find_force_law(experiment.contact);
+double resting_depth(const RobotSpec& robot, int count, int foot_material,
+                     const contact::TilePoint& tile, const Experiment& experiment) {
+  const contact::LawDescription* law = contact::find_force_law(experiment.contact);
   const double load = -robot_mass(robot) * dot(experiment.gravity, tile.normal) / count;
   if (experiment.engine != "dts" || !law || !(load > 0.)) return 0.;
-  return contact::static_depth(*law, load, experiment.materials[tile.material].constants);
+  const auto material = contact_constants(experiment, foot_material, tile.material);
+  return law->static_depth(load + material.adhesion, material);
 }
 
 /// How much the robot has to rise for its deepest boundary point to be at `depth` [m]: a point that
@@ -72,13 +76,19 @@ void lay_down(const language::Object& base, const contact::Terrain& ground, Robo
   }
   double lowest = std::numeric_limits<double>::infinity();
   const auto bottom = [](const RobotPoint& point) { return point.p_BP.z - point.radius; };
-  for (const RobotPoint& point : points) lowest = std::min(lowest, bottom(point));
+  int foot_material = no_material;  // of the lowest point
+  for (const RobotPoint& point : points) {
+    if (bottom(point) >= lowest) continue;
+    lowest = bottom(point);
+    foot_material = point.material;
+  }
   constexpr double coplanar = 1e-9;  // [m]
   const auto count = std::ranges::count_if(
       points, [&](const RobotPoint& point) { return bottom(point) <= lowest + coplanar; });
   const std::vector<double>& at = base.numbers(base_field::at);
   const contact::TilePose pose = ground.pose_on_tile(at[0], at[1], base.number(base_field::yaw));
-  const double depth = resting_depth(robot, static_cast<int>(count), pose.tile, loading.experiment);
+  const double depth =
+      resting_depth(robot, static_cast<int>(count), foot_material, pose.tile, loading.experiment);
   // n . (p_WB + lowest n - p_tile) = -depth, with p_WB straight above p_tile.
   robot.location = pose.position;
   robot.location.z -= (depth + lowest) / pose.tile.normal.z;
@@ -89,21 +99,29 @@ void lay_down(const language::Object& base, const contact::Terrain& ground, Robo
   }
 }
 
-/// Brings the robot from where it was laid into static balance.
+/// Brings the robot from where it was laid into static balance. Where there is none, only a file
+/// that says `settled = true` is warned: a slope that is too steep or a ball is meant to move.
 void settle(const language::Object& base, const contact::Terrain& ground, RobotSpec& robot,
             Loading& loading) {
+  const bool written = base.given(base_field::settled);
+  // Joints whose torques start at 0 deflect under the load: a balance of the base alone does not
+  // last, and is there only for a file that says so.
+  if (!written && !robot.chains.empty()) return;
   const Resting resting = resting_state(loading.experiment, robot, ground);
-  if (!resting.problem.empty())
+  if (!resting.problem.empty() && written)
     loading.diagnostics.warning(
         place_of(base, base_field::settled),
         fmt::format("`{}` cannot start settled, and starts level on its points: {}", robot.name,
                     resting.problem));
   if (!resting.state) return;
+  // A law without tangential spring holds by creeping, which is no rest: it starts so only where
+  // the file says so.
+  if (resting.state->stretch.empty() && !written) return;
+  robot.settled = {robot.location, robot.orientation, resting.state->stretch};
   robot.location = resting.state->location;
   robot.orientation = resting.state->orientation;
   robot.velocity = resting.state->velocity;
   robot.angular_velocity = resting.state->angular_velocity;
-  robot.start_stretch = resting.state->stretch;
 }
 
 /// Where what touches is not what the robot stands on: bodies that lie below the ground.
@@ -159,10 +177,10 @@ void place_on_terrain(Loading& loading) {
     const language::Object& base = *loading.bases[i];
     const std::size_t errors_before = loading.diagnostics.error_count();
     if (base.given(base_field::rest_on)) lay_down(base, ground, robot, loading);
-    const bool laid = loading.diagnostics.error_count() == errors_before;
-    if (laid && robot.mobile && base.boolean(base_field::settled))
-      settle(base, ground, robot, loading);
-    if (laid && base.given(base_field::rest_on)) warn_of_bodies_below(base, ground, robot, loading);
+    const bool laid =
+        base.given(base_field::rest_on) && loading.diagnostics.error_count() == errors_before;
+    if (laid && base.boolean(base_field::settled)) settle(base, ground, robot, loading);
+    if (laid) warn_of_bodies_below(base, ground, robot, loading);
     check_inside(base, ground, robot, loading);
   }
 }

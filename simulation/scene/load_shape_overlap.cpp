@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "simulation/scene/load_parts.h"
+#include "simulation/scene/urdf/hull.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -30,12 +31,26 @@ bool holds(const Legcone& cone, const Vector3d& p, double near) {
   const double radius = cone.proximal_radius + part * (cone.distal_radius - cone.proximal_radius);
   return p.x >= -near && p.x <= cone.length + near && std::hypot(p.y, p.z) <= radius + near;
 }
+bool holds(const Capsule& capsule, const Vector3d& p, double near) {
+  const double beyond = std::max(std::abs(p.z) - 0.5 * capsule.length, 0.);
+  return norm(Vector3d{p.x, p.y, beyond}) <= capsule.radius + near;
+}
+bool holds(const Hull& hull, const Vector3d& p, double near) {
+  return std::ranges::all_of(hull.faces, [&](const std::vector<std::size_t>& face) {
+    return dot(p - hull.vertices[face[0]], face_normal(hull, face)) <= near;
+  });
+}
 
 double size_of(const Box& box) { return norm(box.dimensions); }
 double size_of(const Sphere& sphere) { return sphere.radius; }
 double size_of(const Cylinder& cylinder) { return std::hypot(cylinder.radius, cylinder.length); }
 double size_of(const Legcone& cone) {
   return std::hypot(cone.length, std::max(cone.proximal_radius, cone.distal_radius));
+}
+double size_of(const Capsule& capsule) { return capsule.radius + 0.5 * capsule.length; }
+double size_of(const Hull& hull) {
+  const auto [low, high] = bounds_of(hull.vertices);
+  return norm(high - low);
 }
 
 double size_of(const ShapePoints& shape) {

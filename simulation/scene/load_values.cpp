@@ -1,16 +1,18 @@
 // The numbers that can be read though nothing computes them.
 #include "control/registry.h"
 #include "language/tree/references.h"
-#include "simulation/robot_tree.h"
+#include "simulation/experiment/robot_tree.h"
 #include "simulation/scene/body.h"
+#include "simulation/scene/fixed_part.h"
 #include "simulation/scene/load_parts.h"
 
 namespace hookpoint::simulation {
-namespace {
 
 using language::Direction;
 using language::FieldSchema;
 using language::FieldType;
+
+namespace {
 
 class Values {
  public:
@@ -36,6 +38,7 @@ class Values {
       // A component's own ports are its values; what the stub says beside them is a constant.
       if (component && (!field.setting || field.port != Direction::output)) continue;
       if (field.port == Direction::none || !is_number(field)) continue;
+      if (is_part(object) && is_of_joint(field.name)) continue;
       const language::Field* value = object.find(field.name);
       const bool writable = field.port != Direction::output;
       if (value != nullptr) {
@@ -66,8 +69,7 @@ class Values {
   void add_loaded(const language::Object& object) {
     const auto at = loading_.bodies.find(&object);
     if (at == loading_.bodies.end()) return;
-    const RobotSpec& robot = loading_.experiment.robots[static_cast<std::size_t>(at->second.robot)];
-    const MassSpec& mass = bodies_of(robot)[static_cast<std::size_t>(at->second.body)]->mass;
+    const MassSpec& mass = at->second.mass;
     add_missing(object, mass_field::mass, {mass.mass});
     add_missing(object, mass_field::center_of_mass,
                 {mass.center_of_mass.x, mass.center_of_mass.y, mass.center_of_mass.z});

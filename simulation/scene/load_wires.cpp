@@ -16,12 +16,14 @@
 #include "simulation/wiring/wiring_order.h"
 
 namespace hookpoint::simulation {
+
+using language::FieldSchema;
+
 namespace {
 
 using control::Attachment;
 using control::PortDescription;
 using control::PortKind;
-using language::FieldSchema;
 
 /// What an end of a wire names: the object, its port without a part, and the trails of its numbers.
 struct End {
@@ -81,12 +83,13 @@ class Wires {
   void add_wire(const language::Wire& wire) {
     const End from = end_of(*wire.from), to = end_of(*wire.to);
     if (!has_value(from)) {
-      return loading_.error(wire.from->trail.empty() ? wire.position : wire.from->position,
+      return loading_.error(end_place(wire, *wire.from),
                             fmt::format("`{}` of this {} is not given, so there is nothing to read",
                                         from.field->name, from.object->type));
     }
-    if (const std::string why = missing_port(experiment_, *from.object, *from.field); !why.empty())
-      return loading_.error(wire.from->trail.empty() ? wire.position : wire.from->position, why);
+    if (!is_published(*from.object, *from.field, end_place(wire, *wire.from)) ||
+        !is_published(*to.object, *to.field, end_place(wire, *wire.to)))
+      return;
     for (std::size_t i = 0; i < from.trails.size(); ++i) {
       add({from.object, to.object, &wire, from.field, to.field, wire.position}, from.trails[i],
           to.trails[i]);
@@ -102,10 +105,24 @@ class Wires {
                             fmt::format("`{}` of this {} is not given, so there is nothing to read",
                                         from.field->name, from.object->type));
     }
+    if (!is_published(*from.object, *from.field, input.from.position)) return;
     const FieldSchema* in = object.schema->find("in");
     add({from.object, &object, nullptr, from.field, in, input.from.position}, from.trails[0],
         loading_.trails.at(&object) + "." + in->name +
             language::part_name(*in, static_cast<int>(input.element)));
+  }
+
+  static const language::Position& end_place(const language::Wire& wire,
+                                             const language::Reference& end) {
+    return end.trail.empty() ? wire.position : end.position;
+  }
+
+  /// Whether a run has that port; says why where it has not.
+  bool is_published(const language::Object& object, const FieldSchema& field,
+                    const language::Position& place) {
+    const std::string why = missing_port(experiment_, object, field);
+    if (!why.empty()) loading_.error(place, why);
+    return why.empty();
   }
 
   /// A setting that the file leaves open and nothing works out cannot be read.
@@ -175,8 +192,8 @@ class Wires {
         if (is_wired(port, own, target, i)) continue;
         if (target == nullptr) {
           missing.push_back(port.name + element_suffix(port, i));
-        } else {
-          add_attachment(object, *target, port, i, own);
+        } else if (!add_attachment(object, *target, port, i, own)) {
+          return;
         }
       }
     }
@@ -209,7 +226,8 @@ class Wires {
     return trail;
   }
 
-  void add_attachment(const language::Object& object, const language::Object& target,
+  /// False after saying that the target lacks the port.
+  bool add_attachment(const language::Object& object, const language::Object& target,
                       const PortDescription& port, std::size_t i, const std::string& own) {
     const FieldSchema* field = target.schema->find(port.attached);
     const std::string other = attached_trail(target, port, i);
@@ -218,17 +236,19 @@ class Wires {
     const control::ComponentClass& type = *control::Registry::instance().find(object.type);
     const language::Position& position = place_of(object, attachment_field(type.attachment));
     if (field == nullptr) {
-      return loading_.error(
-          position,
-          fmt::format("{} has no port `{}`, which {} needs", language::with_article(target.type),
-                      port.attached, language::with_article(object.type)));
+      loading_.error(position, fmt::format("{} has no port `{}`, which {} needs",
+                                           language::with_article(target.type), port.attached,
+                                           language::with_article(object.type)));
+      return false;
     }
+    if (!is_published(target, *field, position)) return false;
     const FieldSchema* self = object.schema->find(port.name);
     if (port.kind == PortKind::output) {
       add({&object, &target, nullptr, self, field, position}, own, other);
     } else {
       add({&target, &object, nullptr, field, self, position}, other, own);
     }
+    return true;
   }
 
   void check_lines() {
@@ -243,7 +263,7 @@ class Wires {
         loading_.error(drivers_[i].position, error.what());
       }
       if (samples > most)
-        loading_.error(drivers_[i].position, "with this one the wires ask for " +
+        loading_.error(drivers_[i].position, "with this one the wires require " +
                                                  language::too_many(static_cast<double>(samples),
                                                                     most, "samples under way") +
                                                  ": shorten the delays or lower the rates");

@@ -3,12 +3,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "dts/mass_properties.h"
 #include "simulation/scene/body.h"
 #include "simulation/scene/load_parts.h"
 
 namespace hookpoint::simulation {
+
+using language::FieldSchema;
+using language::list_field;
+using language::number_field;
+using language::vector_field;
+
 namespace {
 
 double volume(const Box& box) { return dts::box_volume(box.dimensions); }
@@ -16,6 +23,15 @@ double volume(const Sphere& sphere) { return dts::sphere_volume(sphere.radius); 
 double volume(const Cylinder& c) { return dts::cylinder_volume(c.radius, c.length); }
 double volume(const Legcone& cone) {
   return dts::legcone_volume(cone.length, cone.proximal_radius, cone.distal_radius);
+}
+double volume(const Capsule& c) { return dts::capsule_volume(c.radius, c.length); }
+double volume(const Hull& hull) { return dts::polyhedron_volume(hull.vertices, hull.faces); }
+
+/// Of a disc, which has no volume [m^2].
+double disc_area(const ShapeGeometry& geometry) {
+  const auto* disc = std::get_if<Cylinder>(&geometry);
+  return disc != nullptr && disc->length == 0. ? std::numbers::pi * disc->radius * disc->radius
+                                               : 0.;
 }
 
 dts::MassProperties<double> solid(double mass, const Box& box) {
@@ -30,10 +46,17 @@ dts::MassProperties<double> solid(double mass, const Cylinder& c) {
 dts::MassProperties<double> solid(double mass, const Legcone& cone) {
   return dts::legcone_mass(mass, cone.length, cone.proximal_radius, cone.distal_radius);
 }
+dts::MassProperties<double> solid(double mass, const Capsule& c) {
+  return dts::capsule_mass(mass, c.radius, c.length);
+}
+dts::MassProperties<double> solid(double mass, const Hull& hull) {
+  return dts::polyhedron_mass(mass, hull.vertices, hull.faces);
+}
 
 using ShapeObjects = std::vector<const language::Object*>;
 
-/// The mass of each shape: its own, or its share by volume of what the body's mass leaves.
+/// The mass of each shape: its own, or its share of what the body's mass leaves, by volume; of discs
+/// alone by area.
 std::vector<double> share_mass(const language::Object& object, const std::vector<ShapeSpec>& shapes,
                                const ShapeObjects& shape_objects, Loading& loading) {
   std::vector<double> masses(shapes.size(), 0.), volumes(shapes.size(), 0.);
@@ -48,6 +71,12 @@ std::vector<double> share_mass(const language::Object& object, const std::vector
     }
   }
   if (!object.given(mass_field::mass)) return masses;
+  if (shared_volume == 0.) {
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+      if (shape_objects[i]->given(mass_field::mass)) continue;
+      shared_volume += volumes[i] = disc_area(shapes[i].geometry);
+    }
+  }
   const double mass = object.number(mass_field::mass);
   const double left = mass - own;
   const double rounding = 1e-12 * std::max(mass, own);
@@ -96,23 +125,29 @@ bool triangle_inequality(const Symmetric3d& inertia) {
   return positive_semidefinite(second_moments, std::abs(half_trace));
 }
 
+}  // namespace
+
+std::string inertia_problem(const Symmetric3d& inertia) {
+  if (!positive_semidefinite(inertia, std::abs(inertia.xx + inertia.yy + inertia.zz)))
+    return "has a negative principal moment";
+  if (!triangle_inequality(inertia))
+    return "breaks the triangle inequality: no principal moment may exceed the sum of the other two";
+  return "";
+}
+
+namespace {
+
 void check_inertia(const language::Object& object, const MassSpec& mass, bool must_have_inertia,
                    Loading& loading) {
   const Symmetric3d& inertia = mass.inertia;
   const double trace = inertia.xx + inertia.yy + inertia.zz;
   const language::Position& place = place_of(object, mass_field::inertia);
-  if (object.given(mass_field::inertia) && !positive_semidefinite(inertia, std::abs(trace))) {
-    return loading.error(
-        place,
-        "inertia has a negative principal moment; the order is Ixx,Iyy,Izz,Ixy,Ixz,Iyz about the "
-        "centre of mass");
-  }
-  if (object.given(mass_field::inertia) && !triangle_inequality(inertia)) {
-    return loading.error(place,
-                         "inertia breaks the triangle inequality: no principal moment may exceed "
-                         "the sum of the other "
-                         "two; the order is Ixx,Iyy,Izz,Ixy,Ixz,Iyz about the centre of mass");
-  }
+  const std::string problem =
+      object.given(mass_field::inertia) ? inertia_problem(inertia) : std::string();
+  if (!problem.empty())
+    return loading.error(place, "inertia " + problem +
+                                    "; the order is Ixx,Iyy,Izz,Ixy,Ixz,Iyz about the centre of "
+                                    "mass");
   if (must_have_inertia && !positive_definite(inertia, trace)) {
     loading.error(place,
                   "a free body needs an inertia about every axis; give `inertia`, or a shape from "

@@ -1,18 +1,26 @@
 // Material: the constants of contact laws on some tiles of the ground.
 #include <fmt/format.h>
 
-#include "simulation/material_fields.h"
-#include "simulation/scene/fields.h"
+#include "language/tree/fields.h"
+#include "simulation/experiment/material_fields.h"
+#include "simulation/scene/body.h"
 #include "simulation/scene/load_parts.h"
 #include "simulation/scene/schema.h"
 
 namespace hookpoint::simulation {
+
+using language::Fields;
+using language::FieldSchema;
+using language::LoadedField;
+using language::number_field;
+using language::object_field;
+
 namespace {
 
 using Constants = contact::MaterialConstants<double>;
 
-Field<Constants> described(const MaterialField& constant) {
-  Field<Constants> field =
+LoadedField<Constants> described(const MaterialField& constant) {
+  LoadedField<Constants> field =
       number_field(constant.name, constant.unit, constant.member, constant.doc);
   field = constant.positive ? positive(std::move(field)) : not_negative(std::move(field));
   const bool friction = std::string_view(constant.name).ends_with("_friction");
@@ -38,6 +46,11 @@ void load_friction(const language::Object& object, contact::MaterialConstants<do
   if (has_kinetic) constants.kinetic_friction = object.number(kinetic_friction_field);
   if (has_static && !has_kinetic) constants.kinetic_friction = constants.static_friction;
   if (has_kinetic && !has_static) constants.static_friction = constants.kinetic_friction;
+  if (constants.friction_across > 0. && constants.kinetic_friction == 0.) {
+    loading.error(place_of(object, friction_across_field),
+                  "friction_across has no ratio to a kinetic_friction of 0; give kinetic_friction "
+                  "a small value");
+  }
   if (constants.kinetic_friction > constants.static_friction) {
     loading.error(
         place_of(object, kinetic_friction_field),
@@ -46,6 +59,24 @@ void load_friction(const language::Object& object, contact::MaterialConstants<do
             "sticking; lower it or raise static_friction",
             constants.kinetic_friction, constants.static_friction));
   }
+}
+
+/// The constants that the file leaves at their defaults. A coefficient of friction states both.
+std::vector<double Constants::*> unstated(const language::Object& object) {
+  const bool friction = object.given(static_friction_field) || object.given(kinetic_friction_field);
+  std::vector<double Constants::*> constants;
+  for (const MaterialField& field : material_fields()) {
+    const bool is_friction = field.member == &Constants::static_friction ||
+                             field.member == &Constants::kinetic_friction ||
+                             field.member == &Constants::friction_across;
+    if (!object.given(field.name) && !(is_friction && friction)) constants.push_back(field.member);
+  }
+  return constants;
+}
+
+/// One of the two materials of a Pair, and what they make.
+namespace pair_field {
+constexpr const char *a = "a", *b = "b", *material = "material";
 }
 
 }  // namespace
@@ -58,15 +89,55 @@ void add_material_class(language::Schema& schema) {
   material.top_level = true;
   material.fields = schemas(constants_fields());
   schema.add(std::move(material));
+  language::ClassSchema pair;
+  pair.name = "Pair";
+  pair.doc = "what contacts between two materials have instead of what `combine` makes of them";
+  pair.top_level = true;
+  pair.fields = {
+      required(object_field(pair_field::a, "Material", "of one side, foot or ground")),
+      required(object_field(pair_field::b, "Material", "of the other side")),
+      required(object_field(pair_field::material, "Material",
+                            "whose constants their contacts have, all of them")),
+  };
+  schema.add(std::move(pair));
+}
+
+FieldSchema foot_material_field(const std::string& whose) {
+  return object_field(material_field, "Material",
+                      "of its surface" + whose +
+                          "; with the ground's it makes what the contact law reads (`combine` of "
+                          "the World); if not given, the ground's alone");
+}
+
+MaterialSpec default_material() {
+  MaterialSpec material{"default", {}, {}};
+  for (const MaterialField& field : material_fields()) material.unstated.push_back(field.member);
+  return material;
+}
+
+int foot_material(const language::Object& object, int otherwise, Loading& loading) {
+  const language::Field* field = object.find(material_field);
+  if (field == nullptr) return otherwise;
+  const auto at = loading.materials.find(field->reference.object);
+  return at == loading.materials.end() ? otherwise : at->second;
 }
 
 void load_materials(const language::Object& root, Loading& loading) {
   for (const language::Object* object : collect_all(root, "Material")) {
-    MaterialSpec material{object->name, {}};
+    MaterialSpec material{object->name, {}, {}};
     store_fields(*object, constants_fields(), material.constants);
     load_friction(*object, material.constants, loading);
+    material.unstated = unstated(*object);
     loading.materials.emplace(object, static_cast<int>(loading.experiment.materials.size()));
     loading.experiment.materials.push_back(std::move(material));
+  }
+  const auto material_at = [&](const language::Object& pair, const char* field) {
+    return loading.materials.at(pair.find(field)->reference.object);
+  };
+  for (const language::Object* pair : collect_all(root, "Pair")) {
+    loading.experiment.pairs.push_back({material_at(*pair, pair_field::a),
+                                        material_at(*pair, pair_field::b),
+                                        material_at(*pair, pair_field::material)});
   }
 }
 

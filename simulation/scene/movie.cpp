@@ -6,14 +6,19 @@
 #include <set>
 
 #include "control/core/transmission_line.h"
+#include "language/tree/fields.h"
+#include "output/files/result_folder.h"
 #include "output/records/files.h"
-#include "output/result_folder.h"
 #include "simulation/run/run_files.h"
-#include "simulation/scene/fields.h"
 #include "simulation/scene/load_parts.h"
 #include "simulation/scene/schema.h"
 
 namespace hookpoint::simulation {
+
+using language::Fields;
+using language::number_field;
+using language::text_field;
+
 namespace {
 
 const Fields<MovieSpec>& movie_fields() {
@@ -54,7 +59,7 @@ void add_movie_class(language::Schema& schema) {
   language::ClassSchema movie;
   movie.name = "Movie";
   movie.doc =
-      "a log of the run's whole state, from which any moment of it is seen again and a run goes on";
+      "a log of the run's whole state, from which any moment of it is seen again and a run continues";
   movie.top_level = true;
   movie.naming = language::Naming::required;
   movie.fields = schemas(movie_fields());

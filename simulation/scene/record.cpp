@@ -5,14 +5,24 @@
 #include <algorithm>
 
 #include "control/core/transmission_line.h"
+#include "language/tree/fields.h"
 #include "language/tree/references.h"
 #include "output/records/files.h"
 #include "output/records/recorder.h"
-#include "simulation/scene/fields.h"
 #include "simulation/scene/load_parts.h"
 #include "simulation/scene/schema.h"
 
 namespace hookpoint::simulation {
+
+using language::boolean_field;
+using language::choice_field;
+using language::Fields;
+using language::FieldSchema;
+using language::FieldType;
+using language::number_field;
+using language::text_field;
+using language::words_field;
+
 namespace {
 
 namespace record_field {

@@ -3,12 +3,25 @@
 
 #include <algorithm>
 
+#include "simulation/experiment/start_problems.h"
 #include "simulation/scene/body.h"
 #include "simulation/scene/load_parts.h"
 #include "simulation/scene/schema.h"
-#include "simulation/start_problems.h"
 
 namespace hookpoint::simulation {
+
+using language::append;
+using language::boolean_field;
+using language::choice_field;
+using language::Direction;
+using language::Fields;
+using language::list_field;
+using language::number_field;
+using language::object_field;
+using language::orientation_field;
+using language::port_only;
+using language::vector_field;
+
 namespace {
 
 /// A base's motion: the initial one when assigned, the present one when read.
@@ -28,15 +41,20 @@ const Fields<RobotSpec>& motion_fields() {
   return fields;
 }
 
+constexpr const char* self_contact_field = "self_contact";
+
 language::ClassSchema robot_class() {
   language::ClassSchema robot;
   robot.name = "Robot";
   robot.doc = "a base that carries any number of chains of links";
   robot.naming = language::Naming::required;
   robot.top_level = true;
-  robot.children = {"Base.", "Chain"};
+  robot.children = {"Base.", "Chain", "Loop"};
   append(robot.children, component_families());
-  robot.fields = motion_ports("position", "the base's");
+  robot.fields = {boolean_field(self_contact_field, "false",
+                                "under touch = shapes: its bodies touch each other, but for those "
+                                "that a joint joins")};
+  append(robot.fields, motion_ports("position", "the base's"));
   append(robot.fields, acceleration_ports("the base's origin"));
   append(robot.fields, contact_ports());
   append(robot.fields,
@@ -79,12 +97,14 @@ language::ClassSchema base_class(std::string name, std::string doc) {
          list_field(base_field::at, "m", 2, 2, "0,0",
                     "with rest_on: world x,y of the base frame's origin"),
          number_field(base_field::yaw, "rad", "0", "with rest_on: turn about the ground's normal"),
-         boolean_field(base_field::settled, "false",
-                       "with rest_on, of a robot without joints: start in static balance, leaning "
-                       "and with tangential springs stretched by its weight, so that nothing moves "
-                       "at time 0; false: level on its points, with slack springs")});
+         boolean_field(base_field::settled, "true",
+                       "with rest_on: start in static balance, leaning and with tangential springs "
+                       "stretched by its weight, so that nothing moves at time 0; a robot with "
+                       "joints only where this is written, as one rigid body; false: level on its "
+                       "points, with slack springs")});
   }
   append(base.fields, mass_fields("base"));
+  base.fields.push_back(foot_material_field(of_its_shapes));
   append(base.fields, acceleration_ports("the base's origin"));
   append(base.fields, contact_ports());
   return base;
@@ -156,10 +176,12 @@ void load_robots(const language::Object& world, Loading& loading) {
   for (const language::Object* object : world.children_of("Robot")) {
     LoadedRobot robot;
     robot.spec.name = name_within(*object, world);
+    robot.spec.self_contact = object->boolean(self_contact_field);
     const language::Object* base = find_base(*object, loading);
     if (base == nullptr) continue;
-    const BodyIndex body{static_cast<int>(loading.experiment.robots.size()), 0};
     load_base(*base, robot.spec, loading);
+    const BodyIndex body{
+        static_cast<int>(loading.experiment.robots.size()), 0, {}, 0, robot.spec.base.mass};
     loading.bodies.emplace(base, body);
     const std::size_t errors_before = loading.diagnostics.error_count();
     for (const language::Object* chain : object->children_of("Chain"))

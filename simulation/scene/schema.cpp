@@ -1,14 +1,16 @@
 #include "simulation/scene/schema.h"
 
 #include "simulation/scene/absent.h"
+#include "simulation/scene/mjcf/mjcf.h"
 #include "simulation/scene/urdf/urdf.h"
 
 namespace hookpoint::simulation {
-namespace {
 
 using language::Direction;
 using language::FieldSchema;
 using language::FieldType;
+
+namespace {
 
 /// Every number of an object is readable by its trail.
 void make_readable(language::ClassSchema& schema) {
@@ -24,14 +26,17 @@ void make_readable(language::ClassSchema& schema) {
 
 void add_experiment_classes(language::Schema& schema, const PeerChoices& peers) {
   for (const char* ending : {".urdf", ".xacro"}) schema.add_reader(ending, include_urdf);
+  schema.add_reader(".mjcf", include_mjcf);
   add_absent_words();
   language::Schema classes;
   add_world_classes(classes, peers);
   add_force_classes(classes);
   add_robot_classes(classes);
+  add_loop_class(classes);
   add_chain_class(classes);
   add_link_class(classes);
   add_shape_classes(classes);
+  add_obstacle_classes(classes);
   add_contact_point_class(classes);
   add_material_class(classes);
   add_terrain_classes(classes);

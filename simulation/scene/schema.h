@@ -17,9 +17,11 @@ void add_experiment_classes(language::Schema& schema, const PeerChoices& peers);
 // The parts of it, one a file that loads their objects, too.
 void add_world_classes(language::Schema& schema, const PeerChoices& peers);
 void add_force_classes(language::Schema& schema);
+void add_loop_class(language::Schema& schema);
 void add_robot_classes(language::Schema& schema);
 void add_chain_class(language::Schema& schema);
 void add_link_class(language::Schema& schema);
+void add_obstacle_classes(language::Schema& schema);
 void add_shape_classes(language::Schema& schema);
 void add_contact_point_class(language::Schema& schema);
 void add_material_class(language::Schema& schema);

@@ -6,11 +6,16 @@
 #include <array>
 #include <sstream>
 
+#include "language/tree/fields.h"
 #include "language/units.h"
-#include "simulation/scene/fields.h"
 #include "simulation/scene/formula_signals.h"
 
 namespace hookpoint::simulation {
+
+using language::FieldSchema;
+using language::object_field;
+using language::text_field;
+
 namespace {
 
 using language::FormulaOperation;
@@ -109,9 +114,9 @@ bool is_condition(const language::Formula& formula) {
   const language::FormulaNode* node = &formula.nodes.back();
   while (node->operation == FormulaOperation::choose)
     node = &formula.nodes[formula.operands[node->operands.begin + 1]];
-  const FormulaOperation operation = node->operation;
-  return operation == FormulaOperation::boolean || operation == FormulaOperation::logical_not ||
-         (operation >= FormulaOperation::less && operation <= FormulaOperation::either);
+  if (node->operation != FormulaOperation::apply)
+    return node->operation == FormulaOperation::boolean;
+  return node->sign == language::Operator::logical_not || node->sign >= language::Operator::less;
 }
 
 class MachineLoader {

@@ -4,12 +4,26 @@
 
 #include <algorithm>
 
-#include "simulation/scene/fields.h"
+#include "language/tree/fields.h"
+#include "simulation/engine_interface/engine.h"
+#include "simulation/scene/load.h"
 #include "simulation/scene/load_parts.h"
 #include "simulation/scene/schema.h"
 #include "simulation/scene/terrain/classes.h"
 
 namespace hookpoint::simulation {
+
+using language::append;
+using language::Direction;
+using language::Fields;
+using language::FieldSchema;
+using language::list_field;
+using language::number_field;
+using language::object_field;
+using language::orientation_field;
+using language::port_only;
+using language::vector_field;
+
 namespace {
 
 namespace terrain_field {
@@ -32,12 +46,41 @@ const Fields<SlopeSpec>& slope_fields() {
   return fields;
 }
 
+const Fields<TerrainSpec>& moving_fields() {
+  static const Fields<TerrainSpec> fields{
+      with_port(Direction::both,
+                vector_field("velocity", "m/s", &TerrainSpec::velocity,
+                             "of its material along the surface, which stays: a belt, world axes; "
+                             "under touch = shapes")),
+      with_port(Direction::both, vector_field("frame_velocity", "m/s", &TerrainSpec::frame_velocity,
+                                              "of the whole ground: a shaker, a lift; world axes")),
+      with_port(
+          Direction::both,
+          vector_field("frame_angular_velocity", "rad/s", &TerrainSpec::frame_angular_velocity,
+                       "of the whole ground about what was the world's origin: a tilting "
+                       "plate; world axes")),
+  };
+  return fields;
+}
+
+/// Whether a ground that moves is felt; says what to do where it is not. A peer whose ground stands
+/// still says so by itself.
+void check_motion(const language::Object& object, Loading& loading) {
+  const Experiment& experiment = loading.experiment;
+  if (!ground_moves(experiment)) return;
+  if (experiment.touch != "shapes") {
+    loading.error(
+        object.position,
+        "under touch = points the ground stands still; write touch = shapes in the World");
+  }
+}
+
 const Fields<contact::TerrainDescription>& plane_fields() {
   using Description = contact::TerrainDescription;
   static const Fields<Description> fields{
       positive(number_field("spacing", "m", &Description::spacing, "edge of a cell of two tiles")),
       not_negative(list_field(
-          size_field, "m", 1, 2, text_of(Description{}.size_x),
+          size_field, "m", 1, 2, language::default_text(Description{}.size_x),
           "extent along x,y (one number: both), centred on the world's origin; 0 is unbounded")),
   };
   return fields;
@@ -60,17 +103,6 @@ language::ClassSchema patch_class() {
       required(object_field(terrain_field::material, "Material", "of the tiles covered")),
   };
   return patch;
-}
-
-/// The index of the Material that `field` names; the default material, appended when first needed,
-/// if it names none.
-int material_index(const language::Object& object, Loading& loading) {
-  const language::Field* field = object.find(terrain_field::material);
-  const language::Object* material = field == nullptr ? nullptr : field->reference.object;
-  const auto [entry, is_new] = loading.materials.try_emplace(
-      material, static_cast<int>(loading.experiment.materials.size()));
-  if (is_new) loading.experiment.materials.push_back({"default", {}});
-  return entry->second;
 }
 
 PatchSpec load_patch(const language::Object& object, Loading& loading) {
@@ -106,6 +138,15 @@ void load_surface(const language::Object& object, TerrainSpec& terrain, Loading&
 
 }  // namespace
 
+int material_index(const language::Object& object, Loading& loading) {
+  const language::Field* field = object.find(terrain_field::material);
+  const language::Object* material = field == nullptr ? nullptr : field->reference.object;
+  const auto [entry, is_new] = loading.materials.try_emplace(
+      material, static_cast<int>(loading.experiment.materials.size()));
+  if (is_new) loading.experiment.materials.push_back(default_material());
+  return entry->second;
+}
+
 language::ClassSchema terrain_class(const char* name, const char* doc,
                                     std::vector<FieldSchema> own) {
   language::ClassSchema terrain;
@@ -118,6 +159,16 @@ language::ClassSchema terrain_class(const char* name, const char* doc,
   terrain.fields.push_back(object_field(
       terrain_field::material, "Material",
       "of every tile that no Patch covers; if not given, a material with all defaults"));
+  append(terrain.fields, schemas(moving_fields()));
+  append(terrain.fields,
+         {port_only(Direction::output,
+                    number_field("work", "J", "",
+                                 "of its motion, frame and belt, on bodies since the start, under "
+                                 "touch = shapes")),
+          port_only(Direction::output,
+                    vector_field("position", "m", "", "of its frame's origin, 0 at first")),
+          port_only(Direction::output,
+                    orientation_field("orientation", "its frame to world axes, w,x,y,z"))});
   return terrain;
 }
 
@@ -152,7 +203,19 @@ void load_terrain(const language::Object& world, Loading& loading) {
   const std::string problem = contact::Terrain::problem(terrain);
   if (loading.diagnostics.error_count() != errors_before) return;
   if (!problem.empty()) return loading.error(object.position, problem);
+  store_fields(object, moving_fields(), terrain);
   loading.experiment.terrain = std::move(terrain);
+}
+
+void check_moving_ground(const language::Object& root, Loading& loading) {
+  for (const language::Object* world : root.children_of("World"))
+    for (const language::Object* object : world->children_of("Terrain."))
+      check_motion(*object, loading);
+}
+
+const language::Object* material_of_ground(const language::Object& ground) {
+  const language::Field* field = ground.find(terrain_field::material);
+  return field == nullptr ? nullptr : field->reference.object;
 }
 
 }  // namespace hookpoint::simulation

@@ -7,11 +7,14 @@
 
 #include "contact/force_law.h"
 #include "language/wording.h"
+#include "simulation/scene/fixed_part.h"
+#include "simulation/scene/load_parts.h"
 
 namespace hookpoint::simulation {
-namespace {
 
 using language::FieldType;
+
+namespace {
 
 class Naming {
  public:
@@ -51,11 +54,24 @@ ObjectTrails trails_of(const language::Object& root) { return Naming().run(root)
 
 std::string missing_port(const Experiment& experiment, const language::Object& object,
                          const language::FieldSchema& field) {
-  const bool detail = !field.setting && (object.type == "ContactPoint" || object.type == "Chain");
+  const auto of_body_contact = [&] {
+    return field.name == "contact.moment" || field.name == "contact.center_of_pressure" ||
+           field.name == "contact.normal_load" || field.name == "contact.tangential_load";
+  };
+  const auto of_reaction = [&] {
+    return field.name == "reaction_force" || field.name == "reaction_moment";
+  };
+  if (is_part(object) && (!field.setting || is_of_joint(field.name)))
+    return fmt::format(
+        "a {} is a part of the body that carries it and does not publish `{}`: read that body's",
+        object.type == "Link" ? "Link whose joint is fixed" : "Chain whose joints are fixed",
+        field.name);
+  const bool detail = !field.setting && (object.type == "ContactPoint" || object.type == "Chain" ||
+                                         of_body_contact() || of_reaction());
   const bool peer = experiment.engine != "dts";
   // A peer publishes ContactPoints, but no hips.
-  const bool published = peer ? object.type == "ContactPoint"
-                              : contact::find_force_law(experiment.contact).has_value();
+  const bool published =
+      peer ? object.type == "ContactPoint" : contact::find_force_law(experiment.contact) != nullptr;
   if (!detail || published) return "";
   return fmt::format(
       "{} {} does not publish `{}` of {}: choose engine dts and a force law, such "

@@ -9,7 +9,7 @@
 #include "language/diagnostics.h"
 #include "language/tree/object.h"
 #include "language/tree/references.h"
-#include "simulation/experiment.h"
+#include "simulation/experiment/experiment.h"
 
 namespace hookpoint::simulation {
 

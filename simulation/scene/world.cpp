@@ -1,31 +1,36 @@
 // World: what is simulated and how time advances. Simulator: the program that runs it.
 #include "contact/force_law.h"
 #include "integrators/stepper.h"
-#include "simulation/scene/fields.h"
+#include "language/tree/fields.h"
 #include "simulation/scene/load_parts.h"
 #include "simulation/scene/schema.h"
 
 namespace hookpoint::simulation {
+
+using language::append;
+using language::boolean_field;
+using language::choice_field;
+using language::Direction;
+using language::Fields;
+using language::integer_field;
+using language::list_field;
+using language::LoadedField;
+using language::number_field;
+using language::port_only;
+
 namespace {
 
 constexpr const char* gravity_field = "gravity";
 
-std::vector<std::string> integrator_names() {
-  std::vector<std::string> names;
-  for (const integrators::StepperDescription& row : integrators::stepper_table())
-    names.emplace_back(row.name);
-  return names;
-}
-
 /// Ours, then the peers.
-Field<Experiment> engine_field(const PeerChoices& peers) {
+LoadedField<Experiment> engine_field(const PeerChoices& peers) {
   std::vector<std::string> names{Experiment{}.engine};
   append(names, peers.engines);
   return choice_field("engine", names, &Experiment::engine,
                       "who computes the motion: the decoupled tree-structure engine or a peer");
 }
 
-Field<Experiment> settings_field(const PeerChoices& peers) {
+LoadedField<Experiment> settings_field(const PeerChoices& peers) {
   std::vector<std::string> names{"default", "recommended", "matched"};
   std::string doc =
       "how a peer is set up: its first example, its maintainers' practice, or nearest to the "
@@ -37,9 +42,9 @@ Field<Experiment> settings_field(const PeerChoices& peers) {
   return choice_field("settings", names, &Experiment::settings, doc);
 }
 
-Field<Experiment> step_field() {
+LoadedField<Experiment> step_field() {
   constexpr const char* automatic = "auto";
-  Field<Experiment> field = or_word(
+  LoadedField<Experiment> field = or_word(
       automatic, positive(number_field(deltat_field, "s", &Experiment::deltat,
                                        "time step; auto: half the largest stable one, at most 1 "
                                        "ms, rounded down to 1, 2 or 5 times a power of ten")));
@@ -49,11 +54,11 @@ Field<Experiment> step_field() {
 
 Fields<Experiment> world_fields(const PeerChoices& peers) {
   return {
-      list_field(gravity_field, "m/s^2", 1, 3, text_of(-Experiment{}.gravity.z),
+      list_field(gravity_field, "m/s^2", 1, 3, language::default_text(-Experiment{}.gravity.z),
                  "a number g means 0,0,-g; three numbers are the vector"),
       step_field(),
       choice_field(
-          "integrator", integrator_names(), &Experiment::integrator,
+          "integrator", integrators::integrator_names(), &Experiment::integrator,
           "how engine dts integrates a contact force law; an impulse law advances time itself"),
       positive(number_field("relative_tolerance", "", &Experiment::relative_tolerance,
                             "local error that an adaptive integrator allows, as a part of each "
@@ -62,14 +67,28 @@ Fields<Experiment> world_fields(const PeerChoices& peers) {
                             "local error allowed whatever the size: m, rad, m/s, rad/s")),
       choice_field("contact", contact::law_names(), &Experiment::contact,
                    "contact law of engine dts; a peer brings its own contact"),
+      choice_field("touch", {"points", "shapes"}, &Experiment::touch,
+                   "what of a body touches: points sampled from its shapes, each on the one tile "
+                   "under it, as in the paper; or the shapes as they are, with edges, corners and "
+                   "other bodies"),
+      choice_field(
+          "combine", contact::combination_names(), &Experiment::combine,
+          "what holds of the foot's a and the ground's b of friction, restitution, "
+          "adhesion and resistance: foot a, ground b, minimum, maximum, product a b, geometric "
+          "sqrt(a b), harmonic 2 a b/(a + b), series a b/(a + b); stiffness and damping "
+          "are in series always; what one side alone states holds; a Pair overrides"),
       engine_field(peers),
       settings_field(peers),
       not_negative(number_field("constraint_mixing", "m/N/s", &Experiment::constraint_mixing,
                                 "CFM of ODE's world instead of the library's 1e-10: a contact "
-                                "gives way at it times its force; 0 makes four corners singular; "
+                                "deflects by it times its force; 0 makes four corners singular; "
                                 "at settings = matched contacts have their own")),
       positive(number_field(duration_field, "s", &Experiment::duration, "simulated time of a run")),
       not_negative(integer_field("seed", &Experiment::seed, "seed of all random streams")),
+      port_only(Direction::both, number_field("gravity.x", "m/s^2", "",
+                                              "of the gravity now, world axes; of engine dts")),
+      port_only(Direction::both, number_field("gravity.y", "m/s^2", "", "the same along y")),
+      port_only(Direction::both, number_field("gravity.z", "m/s^2", "", "the same along z")),
       port_only(Direction::output, number_field("time", "s", "", "simulated time, step * deltat")),
       port_only(Direction::output, number_field("step", "", "", "steps taken")),
       port_only(Direction::output,
@@ -85,7 +104,7 @@ Fields<Experiment> world_fields(const PeerChoices& peers) {
                 number_field("integrator.jacobians", "", "", "Jacobian matrices so far")),
       port_only(Direction::output,
                 number_field("integrator.events", "", "",
-                             "events so far at which an adaptive integrator began anew")),
+                             "events so far at which an adaptive integrator restarted")),
       port_only(Direction::both, boolean_field("running", "", "false while the run is paused")),
   };
 }
@@ -97,7 +116,8 @@ language::ClassSchema world_class(const PeerChoices& peers) {
       "what is simulated: gravity, ground, robots, and how time advances; exactly one a run";
   world.top_level = true;
   world.default_name = "World";
-  world.children = {"Robot", "Material", "Terrain.", "Force", "Push", "Record", "Movie"};
+  world.children = {"Robot", "Material", "Pair", "Terrain.", "Obstacle.",
+                    "Force", "Push",     "Loop", "Record",   "Movie"};
   append(world.children, component_families());
   world.fields = schemas(world_fields(peers));
   return world;

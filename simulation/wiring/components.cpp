@@ -5,7 +5,7 @@
 
 #include "control/random.h"
 #include "control/registry.h"
-#include "simulation/engine.h"
+#include "simulation/engine_interface/engine.h"
 #include "simulation/wiring/timing.h"
 
 namespace hookpoint::simulation {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "control/component.h"
-#include "simulation/experiment.h"
+#include "simulation/experiment/experiment.h"
 
 namespace hookpoint::simulation {
 

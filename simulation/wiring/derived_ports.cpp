@@ -3,8 +3,8 @@
 #include <cmath>
 #include <span>
 
-#include "simulation/robot_tree.h"
-#include "simulation/rotors.h"
+#include "simulation/engine_interface/rotors.h"
+#include "simulation/experiment/robot_tree.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -22,7 +22,8 @@ DerivedPorts::DerivedPorts(const Experiment& experiment, Engine& engine)
       bodies_(engine.state().bodies.size()),
       joint_bias_(experiment),
       contact_forces_(engine),
-      details_(engine) {}
+      details_(engine),
+      reactions_(engine) {}
 
 void DerivedPorts::update() {
   finite_ = true;

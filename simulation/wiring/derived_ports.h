@@ -1,5 +1,5 @@
 // Values that follow from what every engine publishes. Each group is worked out only from the
-// moment on when somebody asks for one of it.
+// moment on when one of it is requested.
 #pragma once
 
 #include <vector>
@@ -16,13 +16,13 @@ class DerivedPorts {
   DerivedPorts(const DerivedPorts&) = delete;
   DerivedPorts& operator=(const DerivedPorts&) = delete;
 
-  /// The groups that are asked for, at the engine's present state; after every step. Allocates
+  /// The groups that are requested, at the engine's present state; after every step. Allocates
   /// nothing.
   void update();
 
-  /// Whether every number that somebody asked for is finite.
+  /// Whether every number that was requested is finite.
   bool finite() const { return finite_; }
-  /// The engine's state has become another one: differences begin anew.
+  /// The engine's state has become another one: differences restart.
   void restart();
 
   struct RobotValues {
@@ -47,10 +47,12 @@ class DerivedPorts {
   Lazy& contacts() { return contacts_; }
   /// What gravity and velocities take of the joints.
   Lazy& joint_bias() { return joint_terms_; }
-  /// The bodies' contact forces (Engine::publish_contact_forces).
+  /// The bodies' contact forces (Engine::enable_mean_forces).
   Lazy& contact_forces() { return contact_forces_; }
   /// The engine's own details (Engine::publish_details).
   Lazy& details() { return details_; }
+  /// The same of joint reactions (Engine::publish_reactions).
+  Lazy& reactions() { return reactions_; }
 
  private:
   struct Group final : Lazy {
@@ -70,14 +72,20 @@ class DerivedPorts {
     void (DerivedPorts::*compute_)();
   };
   struct Details final : Lazy {
-    explicit Details(Engine& asked) : engine(asked) {}
+    explicit Details(Engine& of_engine) : engine(of_engine) {}
     void begin() override { engine.publish_details(); }
     Engine& engine;
   };
 
+  struct Reactions final : Lazy {
+    explicit Reactions(Engine& of_engine) : engine(of_engine) {}
+    void begin() override { engine.publish_reactions(); }
+    Engine& engine;
+  };
+
   struct ContactForces final : Lazy {
-    explicit ContactForces(Engine& asked) : engine(asked) {}
-    void begin() override { engine.publish_contact_forces(true); }
+    explicit ContactForces(Engine& of_engine) : engine(of_engine) {}
+    void begin() override { engine.enable_mean_forces(true); }
     Engine& engine;
   };
 
@@ -99,6 +107,7 @@ class DerivedPorts {
   Group joint_terms_{*this, &DerivedPorts::compute_joint_bias};
   ContactForces contact_forces_;
   Details details_;
+  Reactions reactions_;
 };
 
 }  // namespace hookpoint::simulation

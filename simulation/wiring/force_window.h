@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "simulation/experiment.h"
+#include "simulation/experiment/experiment.h"
 
 namespace hookpoint::simulation {
 

@@ -1,8 +1,8 @@
 #include <algorithm>
 
-#include "simulation/engine.h"
-#include "simulation/restartable.h"
-#include "simulation/robot_tree.h"
+#include "simulation/engine_interface/engine.h"
+#include "simulation/engine_interface/restartable.h"
+#include "simulation/experiment/robot_tree.h"
 
 namespace hookpoint::simulation {
 
@@ -20,6 +20,18 @@ WorldInputs initial_inputs(const Experiment& experiment) {
     inputs.forces.push_back(
         {force.point, waits ? Vector3d{} : force.force, waits ? Vector3d{} : force.torque});
   }
+  inputs.gravity = experiment.gravity;
+  if (experiment.terrain) {
+    inputs.ground.belt_velocity = experiment.terrain->velocity;
+    inputs.ground.velocity = experiment.terrain->frame_velocity;
+    inputs.ground.angular_velocity = experiment.terrain->frame_angular_velocity;
+  }
+  for (const ObstacleSpec& obstacle : experiment.obstacles)
+    inputs.obstacles.push_back({obstacle.location,
+                                obstacle.orientation,
+                                obstacle.velocity,
+                                obstacle.angular_velocity,
+                                {}});
   return inputs;
 }
 
@@ -28,6 +40,9 @@ void restart_inputs(const Experiment& start, WorldInputs& inputs) {
   std::ranges::copy(initial.joint_torques, inputs.joint_torques.begin());
   std::ranges::copy(initial.forces, inputs.forces.begin());
   inputs.pull = initial.pull;
+  inputs.gravity = initial.gravity;
+  inputs.ground = initial.ground;
+  std::ranges::copy(initial.obstacles, inputs.obstacles.begin());
 }
 
 }  // namespace hookpoint::simulation

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "simulation/joint_type.h"
-#include "simulation/robot_tree.h"
+#include "simulation/experiment/joint_type.h"
+#include "simulation/experiment/robot_tree.h"
 
 namespace hookpoint::simulation {
 

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "simulation/engine.h"
-#include "simulation/experiment.h"
+#include "simulation/engine_interface/engine.h"
+#include "simulation/experiment/experiment.h"
 
 namespace hookpoint::simulation {
 

@@ -6,7 +6,7 @@
 #include <set>
 #include <utility>
 
-#include "language/document.h"
+#include "language/document/document.h"
 #include "language/names.h"
 #include "language/tree/references.h"
 

@@ -19,7 +19,7 @@ bool glob_fits(std::string_view pattern, std::string_view text);
 std::string_view whole_of(std::string_view trail);
 
 /// The ports that `pattern` names, in the order of `ports`, none twice, under the names by which
-/// they are asked for: from the top, or from within the world. A glob fits elements and wholes: all
+/// they are requested: from the top, or from within the world. A glob fits elements and wholes: all
 /// elements of a whole count. Their values are right from now on. Throws ExperimentError naming
 /// what is near when there is none. O(ports).
 std::vector<Port> find_ports(const Experiment& experiment, const std::vector<Port>& ports,

@@ -4,9 +4,9 @@
 
 #include <utility>
 
-#include "language/document.h"
+#include "language/document/document.h"
 #include "language/names.h"
-#include "simulation/robot_tree.h"
+#include "simulation/experiment/robot_tree.h"
 #include "simulation/wiring/derived_ports.h"
 
 namespace hookpoint::simulation {
@@ -27,6 +27,13 @@ void add_vector(std::vector<Port>& ports, const std::string& trail, const char* 
   ports.push_back(readable(trail + ".z", unit, v.z));
 }
 
+void add_orientation(std::vector<Port>& ports, const std::string& trail, const Quaterniond& q) {
+  ports.push_back(readable(trail + ".orientation.w", "", q.w));
+  ports.push_back(readable(trail + ".orientation.x", "", q.x));
+  ports.push_back(readable(trail + ".orientation.y", "", q.y));
+  ports.push_back(readable(trail + ".orientation.z", "", q.z));
+}
+
 /// Marks the ports from `first` on as worked out on demand.
 void on_demand(std::vector<Port>& ports, std::size_t first, Lazy& lazy) {
   for (; first < ports.size(); ++first) ports[first].lazy = &lazy;
@@ -37,10 +44,7 @@ void add_body(std::vector<Port>& ports, const std::string& trail, const char* po
               const BodyState& body, const DerivedPorts::BodyValues& values,
               DerivedPorts& derived) {
   add_vector(ports, trail + "." + position_name, "m", body.position);
-  ports.push_back(readable(trail + ".orientation.w", "", body.orientation.w));
-  ports.push_back(readable(trail + ".orientation.x", "", body.orientation.x));
-  ports.push_back(readable(trail + ".orientation.y", "", body.orientation.y));
-  ports.push_back(readable(trail + ".orientation.z", "", body.orientation.z));
+  add_orientation(ports, trail, body.orientation);
   add_vector(ports, trail + ".velocity", "m/s", body.velocity);
   add_vector(ports, trail + ".angular_velocity", "rad/s", body.angular_velocity);
   std::size_t first = ports.size();
@@ -88,7 +92,30 @@ void add_integrator(std::vector<Port>& ports, const std::string& trail,
   ports.push_back(readable(trail + "events", "", integrator.events));
 }
 
-/// What only some engines have: hips and ContactPoints.
+void add_input(std::vector<Port>& ports, const std::string& trail, const char* unit, Vector3d& v) {
+  add_vector(ports, trail, unit, v);
+  ports[ports.size() - 3].writable = &v.x;
+  ports[ports.size() - 2].writable = &v.y;
+  ports[ports.size() - 1].writable = &v.z;
+}
+
+/// Where an obstacle is, and how it moves in the next step.
+void add_obstacle(std::vector<Port>& ports, const std::string& trail, SurfaceMotion& motion) {
+  add_vector(ports, trail + ".position", "m", motion.position);
+  add_orientation(ports, trail, motion.orientation);
+  add_input(ports, trail + ".velocity", "m/s", motion.velocity);
+  add_input(ports, trail + ".angular_velocity", "rad/s", motion.angular_velocity);
+}
+
+void add_body_contact(std::vector<Port>& ports, const std::string& trail,
+                      const BodyContact& contact) {
+  add_vector(ports, trail + ".contact.moment", "N.m", contact.moment);
+  add_vector(ports, trail + ".contact.center_of_pressure", "m", contact.center_of_pressure);
+  ports.push_back(readable(trail + ".contact.normal_load", "N", contact.normal_load));
+  ports.push_back(readable(trail + ".contact.tangential_load", "N", contact.tangential_load));
+}
+
+/// What only some engines have: hips, ContactPoints, and what the contacts of a body come to.
 void add_details(std::vector<Port>& ports, const Experiment& experiment, const WorldState& state,
                  DerivedPorts& derived) {
   const std::size_t first = ports.size();
@@ -110,8 +137,38 @@ void add_details(std::vector<Port>& ports, const Experiment& experiment, const W
     add_vector(ports, trail + ".contact.hook", "m", point.hook);
     ports.push_back(readable(trail + ".contact.depth", "m", point.depth));
     ports.push_back(readable(trail + ".contact.sliding", "", point.sliding));
+    ports.push_back(readable(trail + ".contact.normal_load", "N", point.normal_load));
+    ports.push_back(readable(trail + ".contact.tangential_load", "N", point.tangential_load));
+  }
+  auto contact = state.body_contacts.begin();
+  for (const RobotSpec& robot : experiment.robots) {
+    if (contact == state.body_contacts.end()) break;
+    const std::string trail = experiment.world + "." + robot.name;
+    add_body_contact(ports, trail + "." + (robot.base.name.empty() ? "base" : robot.base.name),
+                     *contact);
+    add_body_contact(ports, trail, *contact++);
+    for_each_link(robot, [&](const TreeLink& at) {
+      add_body_contact(ports, trail + "." + at.chain.name + "." + at.link.body.name, *contact++);
+    });
   }
   on_demand(ports, first, derived.details());
+}
+
+void add_reactions(std::vector<Port>& ports, const Experiment& experiment, const WorldState& state,
+                   DerivedPorts& derived) {
+  const std::size_t first = ports.size();
+  auto reaction = state.reactions.begin();
+  for (const RobotSpec& robot : experiment.robots) {
+    for_each_link(robot, [&](const TreeLink& at) {
+      if (reaction == state.reactions.end()) return;
+      const std::string trail =
+          experiment.world + "." + robot.name + "." + at.chain.name + "." + at.link.body.name;
+      add_vector(ports, trail + ".reaction_force", "N", reaction->force);
+      add_vector(ports, trail + ".reaction_moment", "N.m", reaction->moment);
+      ++reaction;
+    });
+  }
+  on_demand(ports, first, derived.reactions());
 }
 
 /// Elements of short lists have letters: "gains[1]" as "gains.y", any other trail as it is.
@@ -149,7 +206,33 @@ std::vector<Port> list_ports(const Experiment& experiment, Engine& engine, Deriv
       ++joint;
     });
   }
+  add_input(ports, world + "gravity", "m/s^2", engine.inputs().gravity);
+  if (experiment.terrain) {
+    SurfaceMotion& ground = engine.inputs().ground;
+    const std::string trail = world + experiment.terrain->name;
+    add_vector(ports, trail + ".position", "m", ground.position);
+    add_orientation(ports, trail, ground.orientation);
+    add_input(ports, trail + ".velocity", "m/s", ground.belt_velocity);
+    add_input(ports, trail + ".frame_velocity", "m/s", ground.velocity);
+    add_input(ports, trail + ".frame_angular_velocity", "rad/s", ground.angular_velocity);
+    if (!state.surface_works.empty())
+      ports.push_back(readable(trail + ".work", "J", state.surface_works.front()));
+  }
+  for (std::size_t i = 0; i < experiment.obstacles.size(); ++i) {
+    const std::string trail = world + experiment.obstacles[i].name;
+    add_obstacle(ports, trail, engine.inputs().obstacles[i]);
+    if (!state.surface_works.empty())
+      ports.push_back(
+          readable(trail + ".work", "J", state.surface_works[i + (experiment.terrain ? 1 : 0)]));
+  }
+  for (std::size_t i = 0; i < state.loops.size(); ++i) {
+    const std::string trail = world + experiment.loops[i].name;
+    ports.push_back(readable(trail + ".error", "m", state.loops[i].error));
+    add_vector(ports, trail + ".force", "N", state.loops[i].force);
+    add_vector(ports, trail + ".moment", "N.m", state.loops[i].moment);
+  }
   add_details(ports, experiment, state, derived);
+  add_reactions(ports, experiment, state, derived);
   return ports;
 }
 

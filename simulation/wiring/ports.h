@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "simulation/engine.h"
+#include "simulation/engine_interface/engine.h"
 
 namespace hookpoint::simulation {
 

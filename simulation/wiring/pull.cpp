@@ -5,7 +5,7 @@
 #include <limits>
 #include <string>
 
-#include "simulation/robot_tree.h"
+#include "simulation/experiment/robot_tree.h"
 
 namespace hookpoint::simulation {
 namespace {

@@ -126,12 +126,18 @@ void Signals::connect(const std::vector<Port>& ports) {
   }
 }
 
-bool Signals::update(std::int64_t step) {
-  const double time = engine_.state().time;
+void Signals::sense(std::int64_t step) {
   held_.step = static_cast<double>(step);
   held_.impacts = static_cast<double>(engine_.state().impacts);
   derived_.update();
+}
+
+void Signals::deliver(std::int64_t step) {
   for (const std::size_t i : delayed_) *lines_[i].to = lines_[i].line.deliver(step);
+}
+
+void Signals::propagate(std::int64_t step) {
+  const double time = engine_.state().time;
   for (const WiringItem& item : order_) {
     if (item.is_wire) {
       Line& line = lines_[item.index];
@@ -141,8 +147,13 @@ bool Signals::update(std::int64_t step) {
       update_component(item.index, step, time);
     }
   }
+}
+
+void Signals::sample(std::int64_t step) {
   for (const std::size_t i : delayed_) lines_[i].line.sample(step, *lines_[i].from);
-  apply_forces(step);
+}
+
+bool Signals::finite() const {
   // Of finite numbers it is 0; one that is not finite makes it NaN.
   double nothing = 0.;
   for (const double* value : watched_) nothing += 0. * *value;
@@ -180,7 +191,17 @@ Port Signals::settable(std::string_view trail) {
 
 void Signals::follow() {
   for (const std::size_t i : held_lines_) *lines_[i].to = *lines_[i].from + 0.;
-  apply_forces(engine_.state().step);
+  actuate(engine_.state().step);
+}
+
+std::vector<ComponentSpec> Signals::as_held(std::vector<ComponentSpec> specs) const {
+  for (std::size_t i = 0; i < specs.size(); ++i) {
+    const auto& values = components_[i].values();
+    specs[i].values.clear();
+    for (std::size_t index = 0; index < values.size(); ++index)
+      if (std::isfinite(values[index])) specs[i].values.emplace_back(index, values[index]);
+  }
+  return specs;
 }
 
 bool Signals::sampled_after(std::int64_t step, const double* value) const {
@@ -205,7 +226,7 @@ void Signals::update_component(std::size_t index, std::int64_t step, double time
   ++updates.count;
 }
 
-void Signals::apply_forces(std::int64_t step) {
+void Signals::actuate(std::int64_t step) {
   pull_.act(engine_.state(), engine_.inputs().pull);
   std::vector<ForceInput>& acting = engine_.inputs().forces;
   for (std::size_t i = 0; i < acting.size(); ++i) {
@@ -366,7 +387,7 @@ void Signals::restore(std::span<const double> numbers) {
   }
   held_.step = static_cast<double>(step);
   held_.impacts = static_cast<double>(engine_.state().impacts);
-  apply_forces(step);
+  actuate(step);
   derived_.restart();
 }
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "simulation/resumable.h"
+#include "simulation/engine_interface/resumable.h"
 #include "simulation/wiring/components.h"
 #include "simulation/wiring/derived_ports.h"
 #include "simulation/wiring/ports.h"
@@ -22,11 +22,24 @@ class Signals {
   /// causes.
   Signals(const Experiment& experiment, Engine& engine);
 
-  /// All values at `step`, called with every step once, in order, from 0 on, when the engine has
-  /// the state of that step: lines deliver, due components update, the engine gets its inputs.
-  /// False where a number that a wire delivers, a component puts out or somebody has asked to be
-  /// worked out is no longer finite.
-  bool update(std::int64_t step);
+  // The parts of an update at `step` (World::step has their order): of every step once, from 0 on,
+  // when the engine has the state of that step. Allocate nothing.
+
+  /// Ports that are computed from the engine's new state.
+  void sense(std::int64_t step);
+  /// Samples that were under way arrive.
+  void deliver(std::int64_t step);
+  /// Components that are due update, and wires without delay carry values, each after what it takes
+  /// from.
+  void propagate(std::int64_t step);
+  /// Wires with delay sample.
+  void sample(std::int64_t step);
+  /// Forces reach the engine, a `Push` times its envelope; drives are there already.
+  void actuate(std::int64_t step);
+  /// False where a number that a wire delivers, a component puts out or a derived port has worked
+  /// out is no longer finite.
+  bool finite() const;
+
   /// The trail of the first port that is not finite, "" if there is none. O(ports), allocates.
   std::string first_not_finite();
 
@@ -45,6 +58,8 @@ class Signals {
   /// After numbers were set between two steps: what only copies them has them too, and what acts
   /// from outside follows. However often it is called, the values are the same. Allocates nothing.
   void follow();
+  /// The components as `specs` have them, with the numbers that they hold now. Allocates.
+  std::vector<ComponentSpec> as_held(std::vector<ComponentSpec> specs) const;
   /// Whether each wire that starts at `value` has sampled it in a step after `step`.
   bool sampled_after(std::int64_t step, const double* value) const;
 
@@ -82,7 +97,6 @@ class Signals {
   void connect(const std::vector<Port>& ports);
   void find_held_lines();
   void update_component(std::size_t index, std::int64_t step, double time);
-  void apply_forces(std::int64_t step);
   void watch_values();
   void add_held_ports(std::vector<Port>& ports);
   void add_component_ports(std::vector<Port>& ports);
@@ -97,7 +111,7 @@ class Signals {
   std::vector<Line> lines_;              // one a wire
   std::vector<std::size_t> delayed_;     // lines whose samples arrive in a later step
   std::vector<WiringItem> order_;        // the other lines and the components
-  std::vector<std::size_t> held_lines_;  // those that copy what only people change, in that order
+  std::vector<std::size_t> held_lines_;  // those that copy what only users change, in that order
   std::vector<Port> all_ports_;          // once somebody has set something
   std::vector<const double*> watched_;   // ends of lines, outputs of components
 };

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "control/core/transmission_line.h"
-#include "simulation/experiment.h"
+#include "simulation/experiment/experiment.h"
 
 namespace hookpoint::simulation {
 

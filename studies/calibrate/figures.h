@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "studies/calibrate/calibrate.h"
+#include "studies/calibrate/calibration.h"
 #include "studies/report/report.h"
 
 namespace hookpoint::studies {

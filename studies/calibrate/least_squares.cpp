@@ -8,7 +8,7 @@
 #include <unsupported/Eigen/NonLinearOptimization>
 #include <utility>
 
-#include "studies/tune/random_place.h"
+#include "studies/search/random_point.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -40,7 +40,7 @@ class BoundedProblem {
  public:
   BoundedProblem(const ResidualModel& model, const Linearisation& start, const FitOptions& options)
       : model_(model), start_(start), options_(options) {
-    start_angles_ = angles_of(start.place);
+    start_angles_ = angles_of(start.point);
     // Longer than the residuals at the start, so never taken.
     too_far_ =
         10. * std::sqrt(sum_of_squares(start.residuals) /
@@ -48,7 +48,7 @@ class BoundedProblem {
         1.;
   }
 
-  int inputs() const { return static_cast<int>(start_.place.size()); }
+  int inputs() const { return static_cast<int>(start_.point.size()); }
   int values() const { return static_cast<int>(start_.residuals.size()); }
 
   int operator()(const VectorXd& angles, VectorXd& residuals) {
@@ -64,31 +64,31 @@ class BoundedProblem {
   int df(const VectorXd& angles, MatrixXd& derivative) {
     const auto found = angles == start_angles_
                            ? std::optional(start_)
-                           : linearise([this](const Shares& place) { return ask(place); },
+                           : linearise([this](const UnitPoint& point) { return ask(point); },
                                        shares_of(angles), options_.difference);
-    if (!found) return -1;  // ends the search at this place
+    if (!found) return -1;  // ends the search at this point
     derivative = matrix_of(*found);
     for (Index i = 0; i < derivative.cols(); ++i) derivative.col(i) *= 0.5 * std::cos(angles[i]);
     return 0;
   }
 
-  static VectorXd angles_of(const Shares& shares) {
+  static VectorXd angles_of(const UnitPoint& shares) {
     VectorXd angles(static_cast<Index>(shares.size()));
     for (Index i = 0; i < angles.size(); ++i)
       angles[i] = angle_of(shares[static_cast<std::size_t>(i)]);
     return angles;
   }
-  static Shares shares_of(const VectorXd& angles) {
-    Shares shares;
+  static UnitPoint shares_of(const VectorXd& angles) {
+    UnitPoint shares;
     for (const double angle : angles) shares.push_back(share_at(angle));
     return shares;
   }
   std::size_t models() const { return models_; }
 
  private:
-  std::optional<Residuals> ask(const Shares& place) {
+  std::optional<Residuals> ask(const UnitPoint& point) {
     ++models_;
-    return model_(place);
+    return model_(point);
   }
 
   const ResidualModel& model_;
@@ -100,9 +100,9 @@ class BoundedProblem {
 };
 
 /// Within the box, and off its edges.
-Shares off_the_edges(Shares place) {
-  for (double& share : place) share = std::clamp(share, edge, 1. - edge);
-  return place;
+UnitPoint off_the_edges(UnitPoint point) {
+  for (double& share : point) share = std::clamp(share, edge, 1. - edge);
+  return point;
 }
 
 }  // namespace
@@ -113,22 +113,22 @@ double sum_of_squares(const Residuals& residuals) {
   return sum;
 }
 
-std::optional<Linearisation> linearise(const ResidualModel& model, const Shares& place,
+std::optional<Linearisation> linearise(const ResidualModel& model, const UnitPoint& point,
                                        double difference) {
-  Linearisation result{place, {}, {}};
-  auto here = model(place);
+  Linearisation result{point, {}, {}};
+  auto here = model(point);
   if (!here) return std::nullopt;
-  for (std::size_t i = 0; i < place.size(); ++i) {
+  for (std::size_t i = 0; i < point.size(); ++i) {
     const auto neighbour = [&](double share) -> std::optional<Residuals> {
-      Shares moved = place;
+      UnitPoint moved = point;
       moved[i] = share;
       return share < 0. || share > 1. ? std::nullopt : model(moved);
     };
-    const double below = place[i] - difference, above = place[i] + difference;
+    const double below = point[i] - difference, above = point[i] + difference;
     const auto less = neighbour(below), more = neighbour(above);
     const Residuals& left = less ? *less : *here;
     const Residuals& right = more ? *more : *here;
-    const double width = (more ? above : place[i]) - (less ? below : place[i]);
+    const double width = (more ? above : point[i]) - (less ? below : point[i]);
     Residuals& column = result.derivative.emplace_back(here->size(), 0.);
     if (width > 0.)
       for (std::size_t j = 0; j < column.size(); ++j) column[j] = (right[j] - left[j]) / width;
@@ -145,15 +145,15 @@ LeastSquaresFit refine(const ResidualModel& model, const Linearisation& start,
   solver.parameters.maxfev = options.most_steps;
   solver.parameters.ftol = options.tolerance;
   solver.parameters.xtol = options.tolerance;
-  VectorXd angles = BoundedProblem::angles_of(start.place);
+  VectorXd angles = BoundedProblem::angles_of(start.point);
   solver.minimize(angles);
   LeastSquaresFit fit{BoundedProblem::shares_of(angles), solver.fnorm * solver.fnorm,
                       problem.models()};
   if (fit.sum <= sum_of_squares(start.residuals)) return fit;
-  return {start.place, sum_of_squares(start.residuals), problem.models()};
+  return {start.point, sum_of_squares(start.residuals), problem.models()};
 }
 
-std::optional<LeastSquaresFit> refine(const ResidualModel& model, const Shares& start,
+std::optional<LeastSquaresFit> refine(const ResidualModel& model, const UnitPoint& start,
                                       const FitOptions& options) {
   const auto linearised = linearise(model, off_the_edges(start), options.difference);
   if (!linearised) return std::nullopt;
@@ -162,8 +162,8 @@ std::optional<LeastSquaresFit> refine(const ResidualModel& model, const Shares& 
   return fit;
 }
 
-std::vector<Shares> spread_starts(std::size_t constants, std::vector<Shares> first,
-                                  std::size_t count, std::uint64_t seed) {
+std::vector<UnitPoint> spread_starts(std::size_t constants, std::vector<UnitPoint> first,
+                                     std::size_t count, std::uint64_t seed) {
   // The positive root g of g^(d+1) = g + 1: the golden ratio of d dimensions. Point n is frac(shift
   // + n (1/g, 1/g^2, ...)) (M. Roberts, "The unreasonable effectiveness of quasirandom sequences",
   // 2018).
@@ -171,14 +171,14 @@ std::vector<Shares> spread_starts(std::size_t constants, std::vector<Shares> fir
   for (int i = 0; i < 60; ++i)
     ratio = std::pow(1. + ratio, 1. / (static_cast<double>(constants) + 1.));
   std::mt19937_64 random(seed);
-  Shares shift(constants);
-  for (double& part : shift) part = random_place(random);
+  UnitPoint shift(constants);
+  for (double& part : shift) part = random_point(random);
   for (std::size_t n = 1; n <= count; ++n) {
-    Shares& point = first.emplace_back(constants);
+    UnitPoint& point = first.emplace_back(constants);
     for (std::size_t i = 0; i < constants; ++i) {
-      const double place =
+      const double unwrapped =
           shift[i] + static_cast<double>(n) * std::pow(ratio, -static_cast<double>(i + 1));
-      point[i] = place - std::floor(place);
+      point[i] = unwrapped - std::floor(unwrapped);
     }
   }
   return first;
@@ -206,7 +206,7 @@ std::optional<std::vector<std::vector<double>>> covariance(const Linearisation& 
   return result;
 }
 
-Shares gauss_newton_step(const Linearisation& fit) {
+UnitPoint gauss_newton_step(const Linearisation& fit) {
   const MatrixXd derivative = matrix_of(fit);
   const VectorXd step = derivative.completeOrthogonalDecomposition().solve(
       -VectorXd::Map(fit.residuals.data(), derivative.rows()));
@@ -215,9 +215,9 @@ Shares gauss_newton_step(const Linearisation& fit) {
 
 LinearProfile linear_profile(const Linearisation& fit, std::size_t constant) {
   const auto rows = static_cast<Index>(fit.residuals.size());
-  const std::size_t count = fit.place.size();
+  const std::size_t count = fit.point.size();
   const MatrixXd derivative = matrix_of(fit);
-  LinearProfile linear{0., Shares(count, 0.)};
+  LinearProfile linear{0., UnitPoint(count, 0.)};
   VectorXd rest = derivative.col(static_cast<Index>(constant));
   if (count > 1) {
     MatrixXd others(rows, static_cast<Index>(count) - 1);

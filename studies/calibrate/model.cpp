@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <utility>
 
+#include "simulation/run/loop.h"
 #include "simulation/run/world.h"
 #include "studies/measurements/sampled_port.h"
 
@@ -18,56 +20,56 @@ constexpr double largest_residual_to_square = 1e150;
 
 }  // namespace
 
-std::vector<ConstantSetting> CalibrationModel::settings_at(const Shares& place) const {
+std::vector<ConstantSetting> CalibrationModel::settings_at(const UnitPoint& point) const {
   std::vector<ConstantSetting> settings;
-  for (std::size_t i = 0; i < place.size(); ++i) {
+  for (std::size_t i = 0; i < point.size(); ++i) {
     if (plan_.offset_of(subject_.constants[i]) != nullptr) continue;
     const VariedConstant& constant = plan_.varied[subject_.constants[i]];
-    settings.push_back(constant.setting(exact_value(constant, place[i])));
+    settings.push_back(constant.setting(exact_value(constant, point[i])));
   }
   return settings;
 }
 
-double CalibrationModel::offset_at(const Shares& place, const TracePlan& trace) const {
+double CalibrationModel::offset_at(const UnitPoint& point, const TracePlan& trace) const {
   for (const FittedOffset& offset : plan_.offsets) {
     if (offset.trace != trace.name) continue;
     const VariedConstant& constant = plan_.varied[offset.constant];
     const auto found = std::ranges::find(subject_.constants, offset.constant);
     const auto index = static_cast<std::size_t>(found - subject_.constants.begin());
-    return constant.unit.to_si(index < place.size() ? exact_value(constant, place[index])
+    return constant.unit.to_si(index < point.size() ? exact_value(constant, point[index])
                                                     : *plan_.own[offset.constant]);
   }
   return 0.;
 }
 
-std::optional<Residuals> CalibrationModel::residuals(const Shares& place,
+std::optional<Residuals> CalibrationModel::residuals(const UnitPoint& point,
                                                      std::span<const std::size_t> cases,
                                                      std::string* why) const {
   Residuals all;
   std::string problem;
   for (const std::size_t one : cases) {
-    if (add_case(place, plan_.cases[one], all, problem)) continue;
+    if (add_case(point, plan_.cases[one], all, problem)) continue;
     if (why != nullptr) *why = std::move(problem);
     return std::nullopt;
   }
   return all;
 }
 
-bool CalibrationModel::add_case(const Shares& place, const CalibrationCase& one,
+bool CalibrationModel::add_case(const UnitPoint& point, const CalibrationCase& one,
                                 Residuals& residuals, std::string& why) const {
-  std::vector<ConstantSetting> settings = settings_at(place);
+  std::vector<ConstantSetting> settings = settings_at(point);
   settings.insert(settings.end(), one.settings.begin(), one.settings.end());
   language::Diagnostics found;
   auto scene = subject_.scene->load(settings, 1, found);
   if (!scene) {
-    why = first_error_of(found);
+    why = found.first_error();
     return false;
   }
   simulation::Experiment& experiment = scene->experiment;
   std::vector<double> offsets;
   experiment.duration = 0.;
   for (const TracePlan& trace : one.traces) {
-    offsets.push_back(offset_at(place, trace));
+    offsets.push_back(offset_at(point, trace));
     experiment.duration =
         std::max(experiment.duration, trace.measured.time.back() - offsets.back());
   }
@@ -85,13 +87,14 @@ bool CalibrationModel::add_case(const Shares& place, const CalibrationCase& one,
         if (!port.complete()) return false;
       return true;
     };
-    for (observe(); !complete(); observe()) {
-      if (stop_.load(std::memory_order_relaxed)) throw CalibrationInterrupted{};
-      const std::int64_t before = world.state().step;
-      const simulation::StepStatus status = world.step();
-      if (status.ok() && world.state().step > before) continue;
-      why = status.ok() ? "ended before the last sample: " + world.ended()
-                        : fmt::format("stopped at {:.6g} s: {}", status.time, status.advice);
+    observe();
+    const simulation::RunEnd end = simulation::run_until(
+        world, std::numeric_limits<std::int64_t>::max(),
+        [&] { return !complete() && !stop_.load(std::memory_order_relaxed); }, observe);
+    if (!complete()) {
+      if (end.interrupted()) throw CalibrationInterrupted{};
+      why = end.failed() ? "stopped " + simulation::failure_text(end.status)
+                         : "ended before the last sample: " + end.why;
       return false;
     }
     for (std::size_t i = 0; i < sampled.size(); ++i) {

@@ -7,25 +7,22 @@
 #include <iterator>
 #include <span>
 
-#include "output/file.h"
-#include "output/text/json.h"
-#include "output/text/number.h"
 #include "studies/calibrate/figures.h"
+#include "studies/calibrate/report.h"
 #include "studies/measurements/trace_residual.h"
+#include "studies/report/page_parts.h"
 #include "studies/run/results_csv.h"
-#include "studies/tune/material_text.h"
+#include "studies/search/material_text.h"
+#include "text/json.h"
+#include "text/number.h"
 
 namespace hookpoint::studies {
 namespace {
 
-using output::shortest;
+using text::shortest;
 
 /// Of curves.csv: hundreds of runs are millions of numbers.
 constexpr int curve_digits = 7;
-
-std::string number_or_empty(const std::optional<double>& value) {
-  return value ? shortest(*value) : std::string();
-}
 
 /// Calls `visit(subject of the plan, its result)` for each that was begun.
 template <class Visit>
@@ -38,14 +35,14 @@ std::string constant_title(const VariedConstant& constant) {
   return output::column_title(constant.name, constant.unit.text);
 }
 
-/// Values of all constants of the plan, empty where the subject has none; its places are of
+/// Values of all constants of the plan, empty where the subject has none; its points are of
 /// `fitted`.
 void add_values(std::vector<std::string>& row, const CalibrationPlan& plan,
-                const std::vector<FittedConstant>& fitted, const Shares& place) {
+                const std::vector<FittedConstant>& fitted, const UnitPoint& point) {
   for (std::size_t constant = 0; constant < plan.varied.size(); ++constant) {
     const auto found = std::ranges::find(fitted, constant, &FittedConstant::constant);
     const auto index = static_cast<std::size_t>(found - fitted.begin());
-    row.push_back(index < place.size() ? shortest(plan.varied[constant].at(place[index])) : "");
+    row.push_back(index < point.size() ? shortest(plan.varied[constant].at(point[index])) : "");
   }
 }
 
@@ -75,7 +72,7 @@ std::string misfit_of(const CalibrationPlan& plan, const SubjectCalibration& fou
       "Try more `starts` (now {}), {}, another clock `offset`, or another law: this one may not "
       "make "
       "the measured curve",
-      output::rounded(*found.error), plan.starts,
+      text::rounded(*found.error), plan.starts,
       ends.empty() ? "wider ranges" : "a wider range of " + ends);
 }
 
@@ -92,7 +89,7 @@ std::vector<std::string> misfits(const CalibrationPlan& plan, const CalibrationR
 }
 
 std::string calibration_json(const CalibrationPlan& plan, const CalibrationResult& result) {
-  output::JsonWriter json;
+  text::JsonWriter json;
   json.begin_object().member("name", plan.runs.name).member("interrupted", result.interrupted);
   json.key("subjects").begin_object();
   for_each_subject(
@@ -114,10 +111,11 @@ std::string calibration_json(const CalibrationPlan& plan, const CalibrationResul
             return share ? std::optional(varied.at(*share)) : std::nullopt;
           };
           json.key(varied.name).begin_object().member("unit", varied.unit.text);
-          number("value", constant.told || !constant.low ? value(constant.share) : std::nullopt);
+          number("value",
+                 constant.identifiable || !constant.low ? value(constant.share) : std::nullopt);
           number("low", value(constant.low));
           number("high", value(constant.high));
-          json.member("identifiable", constant.told).member("reason", constant.reason);
+          json.member("identifiable", constant.identifiable).member("reason", constant.reason);
           json.end_object();
         }
         json.end_object().key("left_out").begin_object();
@@ -134,18 +132,6 @@ std::string value_text(const CalibrationPlan& plan, const FittedConstant& consta
 
 std::string material_file(const CalibrationPlan& plan, const CalibrationSubject& subject) {
   return "materials/" + plan.material + "_" + subject.info.name + ".hook";
-}
-
-std::vector<std::string> calibration_files(const CalibrationPlan& plan) {
-  std::vector<std::string> files{store_folder,       "calibration.csv", "calibration.json",
-                                 "correlations.csv", "evaluations.csv", "folds.csv",
-                                 "curves.csv",       "own_curves.csv",  "experiment.hook",
-                                 "scene.hook",       "provenance.json", "report.html"};
-  for (const CalibrationSubject& subject : plan.subjects)
-    files.push_back(material_file(plan, subject));
-  for (const std::string& figure : calibration_figure_names(plan))
-    for (const char* type : {".svg", ".csv", ".gp"}) files.push_back(figure + type);
-  return files;
 }
 
 output::CsvTable calibration_table(const CalibrationPlan& plan, const CalibrationResult& result) {
@@ -166,9 +152,9 @@ output::CsvTable calibration_table(const CalibrationPlan& plan, const Calibratio
           if (fitted != found.constants.end()) {
             // Of a constant that is not identifiable the interval stands there, the number does
             // not.
-            const bool known = fitted->told || !fitted->low;
+            const bool known = fitted->identifiable || !fitted->low;
             row.insert(row.end(), {known ? share_text(fitted->share) : "", share_text(fitted->low),
-                                   share_text(fitted->high), fitted->told ? "yes" : "no",
+                                   share_text(fitted->high), fitted->identifiable ? "yes" : "no",
                                    std::string(range_end(fitted->share)), fitted->reason});
           } else {
             row.insert(row.end(),
@@ -207,9 +193,9 @@ output::CsvTable fits_table(const CalibrationPlan& plan, const CalibrationResult
           std::vector<std::string>& row = table.rows.emplace_back();
           row = {subject.info.name, std::string(name_of(record.stage)),
                  std::to_string(record.number)};
-          add_values(row, plan, found.constants, record.place);
+          add_values(row, plan, found.constants, record.point);
           row.insert(row.end(),
-                     {number_or_empty(record.error), std::to_string(record.models), record.status});
+                     {shortest(record.error), std::to_string(record.models), record.status});
         }
       });
   return table;
@@ -231,11 +217,11 @@ output::CsvTable folds_table(const CalibrationPlan& plan, const CalibrationResul
             held += (held.empty() ? "" : " ") + plan.cases[one].name;
           std::vector<std::string>& row = table.rows.emplace_back();
           row = {subject.info.name, std::to_string(i + 1), held};
-          add_values(row, plan, found.constants, fold.place);
-          row.insert(row.end(), {number_or_empty(fold.training), number_or_empty(fold.held)});
-          for (double PromisedError::*part :
-               {&PromisedError::error, &PromisedError::low, &PromisedError::high})
-            row.push_back(fold.promised ? output::shortest((*fold.promised).*part) : "");
+          add_values(row, plan, found.constants, fold.point);
+          row.insert(row.end(), {shortest(fold.training), shortest(fold.held)});
+          for (double PredictionInterval::*part :
+               {&PredictionInterval::error, &PredictionInterval::low, &PredictionInterval::high})
+            row.push_back(fold.prediction ? text::shortest((*fold.prediction).*part) : "");
         }
       });
   return table;
@@ -255,14 +241,14 @@ output::CsvTable curves_table(const CalibrationPlan& plan, const CalibrationResu
         const std::vector<double> values = measured(trace, i);
         for (std::size_t part = 0; part < values.size(); ++part)
           rows.push_back({trace.name, trace.parts[part], trace.port_unit,
-                          output::rounded(trace.measured.time[i], curve_digits),
-                          output::rounded(values[part], curve_digits)});
+                          text::rounded(trace.measured.time[i], curve_digits),
+                          text::rounded(values[part], curve_digits)});
         for (const SubjectCalibration& found : result.subjects) {
           const auto of_trace = residuals_of(found.*residuals, trace, first);
           const std::vector<double> model =
               of_trace.empty() ? std::vector<double>() : modelled(trace, i, of_trace);
           for (std::size_t part = 0; part < rows.size(); ++part)
-            rows[part].push_back(model.empty() ? "" : output::rounded(model[part], curve_digits));
+            rows[part].push_back(model.empty() ? "" : text::rounded(model[part], curve_digits));
         }
         std::ranges::move(rows, std::back_inserter(table.rows));
       }
@@ -275,8 +261,8 @@ output::CsvTable curves_table(const CalibrationPlan& plan, const CalibrationResu
 std::string material_text(const CalibrationPlan& plan, const CalibrationSubject& subject,
                           const SubjectCalibration& result, const std::string& command) {
   if (result.constants.empty()) return "";
-  language::Diagnostics untold;
-  const auto tree = subject.scene->compose(fitted_settings(plan, result), 1, untold);
+  language::Diagnostics ignored;
+  const auto tree = subject.scene->compose(fitted_settings(plan, result), 1, ignored);
   if (tree == nullptr) return "";
   std::string text = comment_line(
       fmt::format("{} for {} as calibrated by `{}`{}", plan.material, subject.info.name, command,
@@ -284,13 +270,13 @@ std::string material_text(const CalibrationPlan& plan, const CalibrationSubject&
   for (const FittedConstant& constant : result.constants) {
     const VariedConstant& varied = plan.varied[constant.constant];
     const std::string unit = varied.unit.text.empty() ? "" : " " + varied.unit.text;
-    text +=
-        comment_line(constant.told ? fmt::format("{} = {}{}, 95 % from {} to {}", varied.name,
-                                                 value_text(plan, constant, constant.share), unit,
-                                                 value_text(plan, constant, *constant.low),
-                                                 value_text(plan, constant, *constant.high))
-                                   : fmt::format("{}: not identifiable from these data, {}",
-                                                 varied.name, constant.reason));
+    text += comment_line(constant.identifiable
+                             ? fmt::format("{} = {}{}, 95 % from {} to {}", varied.name,
+                                           value_text(plan, constant, constant.share), unit,
+                                           value_text(plan, constant, *constant.low),
+                                           value_text(plan, constant, *constant.high))
+                             : fmt::format("{}: not identifiable from these data, {}", varied.name,
+                                           constant.reason));
   }
   for (const LeftOut& left : result.left_out)
     text += comment_line(plan.varied[left.constant].name + ": left out, " + left.reason);
@@ -298,39 +284,64 @@ std::string material_text(const CalibrationPlan& plan, const CalibrationSubject&
          material_block(subject.scene->material_of(*tree), plan.material + "_" + subject.info.name);
 }
 
-std::vector<std::string> write_calibration_files(const CalibrationPlan& plan,
-                                                 const CalibrationRun& run,
-                                                 const std::string& command) {
-  const std::filesystem::path& folder = run.folder;
+namespace {
+
+/// The files that the report links to.
+std::vector<output::ResultFile> linked_calibration_files(const CalibrationPlan& plan,
+                                                         const CalibrationRun& run,
+                                                         const std::string& command) {
   const CalibrationResult& result = run.result;
-  std::vector<std::string> files;
-  const auto write = [&](const char* name, const output::CsvTable& table) {
-    if (table.rows.empty()) return;
-    output::write_csv(folder / name, table);
-    files.emplace_back(name);
+  std::vector<output::ResultFile> files;
+  const auto add = [&](const char* name, auto table) {
+    files.push_back({name, [table] {
+                       const output::CsvTable made = table();
+                       return made.rows.empty() ? "" : made.text();
+                     }});
   };
-  write("calibration.csv", calibration_table(plan, result));
-  write("correlations.csv", correlations_table(plan, result));
-  write("evaluations.csv", fits_table(plan, result));
-  write("folds.csv", folds_table(plan, result));
-  write("curves.csv", curves_table(plan, result));
-  if (!plan.varied.empty())
-    write("own_curves.csv", curves_table(plan, result, &SubjectCalibration::own_residuals));
-  const auto write_text = [&](const std::string& name, const std::string& text) {
-    if (text.empty()) return;
-    output::make_folder_of(folder / name);
-    output::write_file(folder / name, text);
-    files.push_back(name);
-  };
-  for_each_subject(
-      plan, result, [&](const CalibrationSubject& subject, const SubjectCalibration& found) {
-        write_text(material_file(plan, subject), material_text(plan, subject, found, command));
-      });
-  write_text("calibration.json", calibration_json(plan, result));
-  write_text("experiment.hook", plan.runs.printed);
-  write_text("scene.hook", plan.runs.scene_printed);
-  write_text("provenance.json", provenance_json(run.provenance));
+  add("calibration.csv", [&] { return calibration_table(plan, result); });
+  add("correlations.csv", [&] { return correlations_table(plan, result); });
+  add("evaluations.csv", [&] { return fits_table(plan, result); });
+  add("folds.csv", [&] { return folds_table(plan, result); });
+  add("curves.csv", [&] { return curves_table(plan, result); });
+  add("own_curves.csv", [&] {
+    return plan.varied.empty() ? output::CsvTable{}
+                               : curves_table(plan, result, &SubjectCalibration::own_residuals);
+  });
+  for (std::size_t i = 0; i < plan.subjects.size(); ++i)
+    files.push_back({material_file(plan, plan.subjects[i]), [&, i] {
+                       return i < result.subjects.size()
+                                  ? material_text(plan, plan.subjects[i], result.subjects[i],
+                                                  command)
+                                  : "";
+                     }});
+  files.push_back({"calibration.json", [&] { return calibration_json(plan, result); }});
+  files.push_back({"experiment.hook", [&] { return plan.runs.printed; }});
+  files.push_back({"scene.hook", [&] { return plan.runs.scene_printed; }});
+  files.push_back({"provenance.json", [&] { return provenance_json(run.provenance); }});
   return files;
+}
+
+}  // namespace
+
+std::vector<std::string> calibration_files(const CalibrationPlan& plan) {
+  std::vector<std::string> files = output::names_of(linked_calibration_files(plan, {}, {}));
+  files.insert(files.end(), {store_folder, "report.html"});
+  for (const std::string& figure : calibration_figure_names(plan))
+    for (const char* type : {".svg", ".csv", ".gp"}) files.push_back(figure + type);
+  return files;
+}
+
+std::vector<std::string> write_calibration(output::ResultFolder& folder,
+                                           const CalibrationPlan& plan, const CalibrationRun& run,
+                                           const std::string& command) {
+  folder.write(linked_calibration_files(plan, run, command));
+  const auto figures = draw_calibration_figures(plan, run.result, folder.path());
+  folder.write(
+      "report.html",
+      calibration_html(plan, run.result,
+                       {command, {}, provenance_lines(run.provenance), folder.written()}, figures));
+  folder.finish();
+  return undrawn(figures);
 }
 
 }  // namespace hookpoint::studies

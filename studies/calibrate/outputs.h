@@ -1,12 +1,12 @@
-// The files of a calibration's folder beside its figures and report.
+// The files of a calibration's folder.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "output/text/csv.h"
-#include "studies/calibrate/calibrate.h"
+#include "output/files/csv.h"
+#include "studies/calibrate/calibration.h"
 
 namespace hookpoint::studies {
 
@@ -14,11 +14,11 @@ namespace hookpoint::studies {
 std::vector<std::string> calibration_files(const CalibrationPlan& plan);
 
 /// A row a subject and constant: value and 95 % interval in the constant's unit, whether the data
-/// identify it (`told`), and the end of its range where the fit ends there; of one that they do not
-/// identify, or that was left out, no value but the reason.
+/// identify it, and the end of its range where the fit ends there. A constant that they do not
+/// identify, or that was left out, has no value but the reason.
 output::CsvTable calibration_table(const CalibrationPlan& plan, const CalibrationResult& result);
 output::CsvTable correlations_table(const CalibrationPlan& plan, const CalibrationResult& result);
-/// Every place that was looked at or fitted, in order.
+/// Every point that was looked at or fitted, in order.
 output::CsvTable fits_table(const CalibrationPlan& plan, const CalibrationResult& result);
 output::CsvTable folds_table(const CalibrationPlan& plan, const CalibrationResult& result);
 /// Every sample: measured, and what each subject makes of it by these residuals of it; each in its
@@ -43,10 +43,10 @@ std::string material_file(const CalibrationPlan& plan, const CalibrationSubject&
 std::string material_text(const CalibrationPlan& plan, const CalibrationSubject& subject,
                           const SubjectCalibration& result, const std::string& command);
 
-/// Writes all of them that there are, experiment.hook, scene.hook and provenance.json; their names.
-/// Throws output::FileError.
-std::vector<std::string> write_calibration_files(const CalibrationPlan& plan,
-                                                 const CalibrationRun& run,
-                                                 const std::string& command);
+/// Writes all of them that there are, figures and report.html too, and the folder's list of them.
+/// What could not be drawn comes back. Throws output::FileError.
+std::vector<std::string> write_calibration(output::ResultFolder& folder,
+                                           const CalibrationPlan& plan, const CalibrationRun& run,
+                                           const std::string& command);
 
 }  // namespace hookpoint::studies

@@ -8,14 +8,15 @@
 
 #include "contact/force_law.h"
 #include "language/names.h"
-#include "output/text/hash.h"
-#include "simulation/identity.h"
-#include "simulation/material_fields.h"
+#include "output/files/hash.h"
+#include "simulation/engine_interface/identity.h"
+#include "simulation/experiment/material_fields.h"
 #include "simulation/run/world.h"
 #include "simulation/wiring/ports.h"
+#include "studies/blocks/trace.h"
+#include "studies/blocks/vary.h"
 #include "studies/calibrate/subject_name.h"
-#include "studies/measurements/trace_blocks.h"
-#include "studies/plan/plan_parts.h"
+#include "studies/results/selection.h"
 #include "studies/tune/step_warnings.h"
 
 namespace hookpoint::studies {
@@ -25,14 +26,11 @@ using language::Diagnostics;
 using language::Object;
 using language::Position;
 
-/// What --quick leaves of the work.
-constexpr std::size_t quick_starts = 4, quick_folds = 2;
-constexpr int quick_generations = 3;
-
 /// What a plan is made from.
 struct PlanSource {
   const Object& root;
   const Object& calibrate;
+  const CalibrateBlock& block;
   const std::string& file;
   language::Library& library;
   const EngineTable& engines;
@@ -41,43 +39,18 @@ struct PlanSource {
   void error(const Position& position, std::string message) const {
     diagnostics.error(position, std::move(message));
   }
-  /// The file that a field names; empty after an error.
-  std::filesystem::path find(const Object& block, const char* field) const {
-    const std::filesystem::path found = library.find(block.word(field), file);
-    if (found.empty())
-      error(block.find(field)->position,
-            "no file \"" + block.word(field) + "\" beside the Calibrate or in configs/");
-    return found;
+  std::filesystem::path find(const language::Placed<std::string>& name) const {
+    return file_beside(calibrate, name, file, library, diagnostics);
   }
 };
 
-std::vector<ConstantSetting> fixed(const Object& owner) {
-  std::vector<ConstantSetting> settings;
-  for (const Object* fix : owner.children_of("Fix"))
-    settings.push_back({ConstantPlace::scene_parameter, fix->name, text_of(*fix->find("value"))});
-  return settings;
-}
-
-std::shared_ptr<const TuneScene> scene_of(const PlanSource& from, const Object* block,
-                                          const SubjectPlan& subject) {
-  SceneSource source;
-  const Object& calibrate = from.calibrate;
-  source.scene = from.find(calibrate, "scene");
-  if (calibrate.given("terrain")) source.terrain = from.find(calibrate, "terrain");
-  if (calibrate.given("material")) source.material = calibrate.word("material");
-  source.settled = fixed(calibrate);
-  if (block != nullptr)
-    for (ConstantSetting& setting : fixed(*block)) source.settled.push_back(std::move(setting));
-  const auto set = [&](const char* field, const std::string& value) {
-    if (!value.empty()) source.world.emplace_back(field, value);
-  };
-  set("contact", subject.contact);
-  set("integrator", subject.integrator);
-  set("engine", subject.engine);
-  set("settings", subject.settings);
+std::shared_ptr<const VariedScene> scene_of(const PlanSource& from, const Object* subject,
+                                            const Composition& words) {
+  SceneSource source = scene_source(from.calibrate, from.block, subject, words, from.file,
+                                    from.library, from.diagnostics);
   if (from.diagnostics.has_errors()) return nullptr;
-  auto scene = std::make_shared<const TuneScene>(from.library, std::move(source),
-                                                 calibrate.position, from.diagnostics);
+  auto scene = std::make_shared<const VariedScene>(from.library, std::move(source),
+                                                   from.calibrate.position, from.diagnostics);
   return from.diagnostics.has_errors() ? nullptr : scene;
 }
 
@@ -100,8 +73,8 @@ std::vector<AskedSubject> asked_subjects(const PlanSource& from,
     else
       asked.push_back(std::move(subject));
   };
-  if (from.calibrate.given("subjects")) {
-    const language::Field& field = *from.calibrate.find("subjects");
+  if (from.block.subjects) {
+    const language::Field& field = *from.block.subjects.field;
     for (std::size_t i = 0; i < field.words.size(); ++i) {
       const Position& place = i < field.places.size() ? field.places[i] : field.position;
       const auto subject = subject_named(world, field.words[i]);
@@ -152,14 +125,14 @@ bool same_settings(const std::vector<ConstantSetting>& one,
 
 /// A Trace's Fix blocks, in their places.
 std::vector<ConstantSetting> case_settings(const PlanSource& from, const Object& block,
-                                           const CalibrationPlan& plan, const TuneScene& scene) {
-  std::vector<ConstantSetting> settings = fixed(block);
+                                           const CalibrationPlan& plan, const VariedScene& scene) {
+  std::vector<ConstantSetting> settings = fixed_constants(block);
   for (ConstantSetting& setting : settings) {
     const auto place = scene.place_of(setting.name);
     if (!place)
       from.error(block.position, fmt::format("no Param of the scene is called `{}`{}", setting.name,
                                              language::did_you_mean(setting.name, scene.names())));
-    setting.place = place.value_or(ConstantPlace::scene_parameter);
+    setting.place = place.value_or(ConstantPlace::parameter);
     if (std::ranges::find(plan.varied, setting.name, &VariedConstant::name) != plan.varied.end())
       from.error(block.position,
                  fmt::format("`{}` is varied: it cannot be fixed as well", setting.name));
@@ -178,22 +151,18 @@ void add_offset(const PlanSource& from, CalibrationPlan& plan, const Object& tra
                              vary->name));
       continue;
     }
-    const language::Dimension time{0, 0, 1, 0};
-    for (const char* end : {"from", "to"})
-      if (!language::fits(vary->find(end)->dimension, time))
-        from.error(vary->find(end)->position, "an offset is a time, as 12.3 s");
+    check_varied(*vary, {0, 0, 1, 0}, "an offset is a time, as 12.3 s", from.diagnostics);
     VariedConstant constant = varied_range(*vary, from.diagnostics);
     constant.name = trace.name + ".offset";
     plan.offsets.push_back({plan.varied.size(), trace.name});
     plan.own.resize(plan.varied.size());
-    const double own =
-        constant.unit.from_si(trace.given("offset") ? trace.number("offset") : first);
+    const double own = constant.unit.from_si(trace_block(trace).offset.value.value_or(first));
     plan.own.push_back(std::max(constant.from, std::min(own, constant.to)));
     plan.varied.push_back(std::move(constant));
   }
 }
 
-void add_traces(const PlanSource& from, CalibrationPlan& plan, const TuneScene& scene,
+void add_traces(const PlanSource& from, CalibrationPlan& plan, const VariedScene& scene,
                 const TraceReader& reader) {
   for (const Object* block : from.calibrate.children_of("Trace")) {
     auto settings = case_settings(from, *block, plan, scene);
@@ -214,20 +183,20 @@ void add_traces(const PlanSource& from, CalibrationPlan& plan, const TuneScene& 
 }
 
 /// Names of the Params that a table's columns may set.
-std::vector<std::string> parameters_of(const TuneScene& scene) {
+std::vector<std::string> parameters_of(const VariedScene& scene) {
   std::vector<std::string> names = scene.names();
   std::erase_if(names, [&](const std::string& name) {
     const auto place = scene.place_of(name);
-    return place != ConstantPlace::scene_parameter && place != ConstantPlace::terrain_parameter;
+    return place != ConstantPlace::parameter;
   });
   return names;
 }
 
 /// The cases of a Cases block: each row of its table that its Only blocks admit, set as its columns
 /// say, with the part of each Trace that is of it.
-void add_case_table(const PlanSource& from, CalibrationPlan& plan, const TuneScene& scene,
+void add_case_table(const PlanSource& from, CalibrationPlan& plan, const VariedScene& scene,
                     const TraceReader& reader, const Object& block) {
-  const std::filesystem::path file = from.find(block, "file");
+  const std::filesystem::path file = from.find(cases_block(block).file);
   if (file.empty()) return;
   const auto rows = read_cases(block, file, parameters_of(scene), from.diagnostics);
   if (!rows) return;
@@ -239,7 +208,7 @@ void add_case_table(const PlanSource& from, CalibrationPlan& plan, const TuneSce
   if (block.children_of("Trace").empty())
     from.error(block.position, "Cases need a Trace: nothing was measured");
   for (const Object* trace : block.children_of("Trace"))
-    if (!trace->given("weight"))
+    if (!trace_block(*trace).weight)
       from.error(trace->position, "a Calibrate needs the `weight` of a Trace: it adds them up");
   auto traces = reader.read_cases(block, rows->cases);
   if (!traces) return;
@@ -252,27 +221,6 @@ void add_case_table(const PlanSource& from, CalibrationPlan& plan, const TuneSce
     one.traces = std::move((*traces)[i]);
     for (TracePlan& trace : one.traces) trace.name = one.name + "_" + trace.name;
   }
-}
-
-void set_work(CalibrationPlan& plan, const Object& calibrate, bool quick) {
-  const auto whole = [&](const char* field) {
-    return static_cast<std::size_t>(calibrate.number(field));
-  };
-  plan.folds = whole("folds");
-  plan.resamples = whole("resamples");
-  plan.starts = whole("starts");
-  plan.seed = whole("seed");
-  plan.method = calibrate.word("method") == "cmaes" ? FitMethod::cmaes : FitMethod::least_squares;
-  plan.population = static_cast<int>(calibrate.number("population"));
-  plan.generations = static_cast<int>(calibrate.number("generations"));
-  if (calibrate.given("most_cases")) plan.most_cases = whole("most_cases");
-  plan.bootstrap =
-      calibrate.word("bootstrap") == "one_step" ? Bootstrap::one_step : Bootstrap::refits;
-  if (!quick) return;
-  plan.folds = std::min(plan.folds, quick_folds);
-  plan.bootstrap = Bootstrap::one_step;
-  plan.generations = std::min(plan.generations, quick_generations);
-  plan.starts = std::min(plan.starts, quick_starts);
 }
 
 /// Makes the subjects of a plan, and hashes what decides their runs.
@@ -289,16 +237,16 @@ class SubjectMaker {
     const auto own = subject.scene->load({}, 1, found);
     const bool peer = !asked.plan.engine.empty() && asked.plan.engine != "dts";
     if (own) {
-      complete_subject(subject.info, own->experiment, from_.engines);
+      subject.info = composition_of(own->experiment, from_.engines, subject.info.name);
       warn_of_step(own->experiment, asked.position, "with subject = " + subject.info.name,
                    from_.diagnostics);
     } else if (peer) {
       // What it lacks is told in the report, as a study tells it.
       subject.info.engine = asked.plan.engine;
       subject.info.settings = asked.plan.settings;
-      subject.refusal = first_error_of(found);
+      subject.refusal = found.first_error();
     } else {
-      from_.error(asked.position, first_error_of(found));
+      from_.error(asked.position, found.first_error());
       return;
     }
     if (!subject.info.available && subject.refusal.empty())
@@ -311,21 +259,15 @@ class SubjectMaker {
   std::set<std::string> inputs;
 
  private:
-  std::string runs_hash(const CalibrationSubject& subject, const std::optional<TunedScene>& own) {
+  std::string runs_hash(const CalibrationSubject& subject, const std::optional<LoadedScene>& own) {
     output::Hash hash;
     hash.add(subject.info.name).add(subject.refusal);
     if (own) {
-      const std::string printed = language::print(*own->tree);
-      if (plan_.runs.scene_printed.empty()) plan_.runs.scene_printed = printed;
-      hash.add(simulation::experiment_hash(printed, own->experiment));
-      inputs.merge(simulation::files_read(own->experiment));
-      for (std::string& source : language::sources_of(*own->tree)) inputs.insert(std::move(source));
+      if (plan_.runs.scene_printed.empty()) plan_.runs.scene_printed = own->printed();
+      hash.add(own->hash());
+      inputs.merge(own->sources());
     }
-    const auto engine = from_.engines.find(subject.info.engine);
-    return simulation::run_hash(
-        hash.text(), engine == from_.engines.end()
-                         ? simulation::EngineDescription{subject.info.engine, {}, {}, false, {}}
-                         : engine->second.description);
+    return simulation::run_hash(hash.text(), from_.engines.describe(subject.info.engine));
   }
 
   const PlanSource& from_;
@@ -347,17 +289,17 @@ void set_hash(const PlanSource& from, CalibrationPlan& plan, std::set<std::strin
 }
 
 /// The scene as our engine has it where the file's own is not to be had: ports are the same in all.
-bool read_traces(const PlanSource& from, CalibrationPlan& plan, const TuneScene& scene) {
+bool read_traces(const PlanSource& from, CalibrationPlan& plan, const VariedScene& scene) {
   const auto own = scene.load({}, 1, from.diagnostics);
   if (!own) return false;
-  const auto engine = from.engines.find(own->experiment.engine);
-  if (engine == from.engines.end() || !engine->second.description.found) {
+  const EngineEntry* engine = from.engines.find(own->experiment.engine);
+  if (engine == nullptr || !engine->description.found) {
     from.error(from.calibrate.position,
                "engine " + own->experiment.engine + " is not on this machine");
     return false;
   }
   try {
-    simulation::World world(own->experiment, engine->second.make(own->experiment));
+    simulation::World world(own->experiment, engine->make(own->experiment));
     const std::vector<simulation::Port> ports = world.ports();
     const auto port = [&](const std::string& trail, std::string& why) -> std::optional<TracePort> {
       try {
@@ -369,7 +311,7 @@ bool read_traces(const PlanSource& from, CalibrationPlan& plan, const TuneScene&
       }
     };
     const TraceSource source{
-        [&](const Object& block, const char* field) { return from.find(block, field); }, port,
+        [&](const language::Placed<std::string>& name) { return from.find(name); }, port,
         from.diagnostics};
     const TraceReader reader(source);
     add_traces(from, plan, scene, reader);
@@ -412,19 +354,20 @@ std::optional<CalibrationPlan> make_calibration_plan(const Object& root, const O
                                                      language::Library& library,
                                                      const EngineTable& engines, bool quick,
                                                      Diagnostics& diagnostics) {
-  const PlanSource from{root, calibrate, file, library, engines, diagnostics};
+  const CalibrateBlock block = load_calibrate(calibrate, quick);
+  const PlanSource from{root, calibrate, block, file, library, engines, diagnostics};
   CalibrationPlan plan;
   plan.runs.name = calibrate.name;
   plan.runs.file = file;
   plan.runs.quick = quick;
   plan.runs.printed = language::print(root);
-  if (calibrate.given("title")) plan.runs.title = calibrate.word("title");
-  if (calibrate.given("question")) plan.runs.question = calibrate.word("question");
+  plan.runs.title = block.title;
+  plan.runs.question = block.question;
   const auto scene = scene_of(from, nullptr, {});
   if (scene == nullptr) return std::nullopt;
   plan.material = scene->material();
-  for (const Object* block : calibrate.children_of("Vary"))
-    if (auto constant = varied_constant(*block, *scene, diagnostics))
+  for (const Object* vary : calibrate.children_of("Vary"))
+    if (auto constant = varied_constant(*vary, *scene, diagnostics))
       plan.varied.push_back(std::move(*constant));
   const bool fits_offsets =
       std::ranges::any_of(calibrate.children_of("Trace"),
@@ -434,7 +377,7 @@ std::optional<CalibrationPlan> make_calibration_plan(const Object& root, const O
   if (calibrate.children_of("Trace").empty() && calibrate.children_of("Cases").empty())
     from.error(calibrate.position, "a Calibrate needs a Trace: nothing was measured");
   if (diagnostics.has_errors() || !read_traces(from, plan, *scene)) return std::nullopt;
-  set_work(plan, calibrate, quick);
+  static_cast<CalibrationWork&>(plan) = block;
   plan.own.resize(plan.varied.size());
   for (std::size_t i = 0; i < plan.varied.size(); ++i) {
     if (plan.offset_of(i) != nullptr) continue;

@@ -10,13 +10,14 @@
 #include <string>
 #include <vector>
 
-#include "language/document.h"
+#include "language/document/document.h"
+#include "studies/blocks/calibrate.h"
 #include "studies/calibrate/least_squares.h"
-#include "studies/engine_table.h"
+#include "studies/measure/engine_table.h"
 #include "studies/measurements/trace_plan.h"
 #include "studies/plan/plan.h"
+#include "studies/search/varied_scene.h"
 #include "studies/tune/problem.h"
-#include "studies/tune/scene.h"
 
 namespace hookpoint::studies {
 
@@ -39,23 +40,11 @@ struct LeftOut {
 /// A law, or an engine with its settings, and which of the constants it reads.
 struct CalibrationSubject {
   SubjectInfo info;
-  std::shared_ptr<const TuneScene> scene;
+  std::shared_ptr<const VariedScene> scene;
   std::vector<std::size_t> constants;  ///< indices into CalibrationPlan::varied
   std::vector<LeftOut> left_out;
   std::string refusal;    ///< why it cannot run the scene; "" when it can
   std::string runs_hash;  ///< of all that decides a run but constants and cases
-};
-
-/// How the spread of the constants is found.
-enum class Bootstrap {
-  refits,   ///< every sample is fitted from the optimum on
-  one_step  ///< every sample is solved with the model linearised at the optimum
-};
-
-/// What is made least, and how.
-enum class FitMethod {
-  least_squares,  ///< the sum of all squares, by derivatives
-  cmaes           ///< the mean distance, without derivatives
 };
 
 /// A constant that is no constant of the scene: what the clock of a trace reads at time 0.
@@ -64,7 +53,7 @@ struct FittedOffset {
   std::string trace;         ///< name
 };
 
-struct CalibrationPlan {
+struct CalibrationPlan : CalibrationWork {
   StudyPlan runs;  ///< name, file, texts, hash and inputs, for what tells of the folder; no rows
   std::string material;
   std::vector<VariedConstant> varied;
@@ -73,13 +62,6 @@ struct CalibrationPlan {
   std::vector<CalibrationCase> cases;
   std::vector<CalibrationSubject> subjects;
   std::vector<std::filesystem::path> case_tables;
-  std::size_t folds = 5;  ///< of the cases; fewer than 2: no cross-validation
-  std::size_t resamples = 200, starts = 16;
-  FitMethod method = FitMethod::least_squares;
-  int population = 12, generations = 10;  ///< of cmaes
-  std::size_t most_cases = 0;             ///< that a search of cmaes looks at; 0: all
-  Bootstrap bootstrap = Bootstrap::refits;
-  std::uint64_t seed = 1;
 
   std::size_t residuals() const;  ///< of all cases
   /// The offset that a constant is; null where it is one of the scene.

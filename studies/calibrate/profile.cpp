@@ -10,7 +10,7 @@ namespace {
 
 /// A smaller sum than the optimum's by this part of the bound's margin is another optimum.
 constexpr double better_part = 0.1;
-/// The first place is this much farther out than the linearised model expects the end. Where the
+/// The first point is this much farther out than the linearised model expects the end. Where the
 /// excess there is beyond the bound, by no more than this factor, it confirms the model: the end
 /// follows from the parabola through it. (Within the bound the sum may level off.)
 constexpr double first_beyond = 1.2, confirmed_to = 2.;
@@ -33,9 +33,9 @@ class Walk {
         options_(options),
         least_(sum_of_squares(fit.residuals)),
         margin_(bound - least_),
-        room_(up ? 1. - fit.place[constant] : fit.place[constant]),
+        room_(up ? 1. - fit.point[constant] : fit.point[constant]),
         linear_(linear_profile(fit, constant)) {
-    end_.place = fit.place;
+    end_.point = fit.point;
     end_.sum = least_;
   }
 
@@ -67,7 +67,7 @@ class Walk {
       distance = between(interpolates);
       interpolates = !interpolates;
     }
-    end_.share = std::clamp(fit_.place[constant_] + sign_ * crossing(), 0., 1.);
+    end_.share = std::clamp(fit_.point[constant_] + sign_ * crossing(), 0., 1.);
     end_.without_runs = outside_ && std::isinf(outside_excess_);
     return std::move(end_);
   }
@@ -92,7 +92,7 @@ class Walk {
     return outside_ && *outside_ - inside_ <= std::max(options_.resolution * inside_, finest);
   }
 
-  /// Where the sum crosses the bound between the two places: its root is taken for a straight line.
+  /// Where the sum crosses the bound between the two points: its root is taken for a straight line.
   double crossing() const {
     if (!outside_ || std::isinf(outside_excess_)) return inside_;
     const double less = std::sqrt(inside_excess_), more = std::sqrt(outside_excess_);
@@ -109,64 +109,64 @@ class Walk {
                         : middle;
   }
 
-  double sum_at(const Shares& place) {
+  double sum_at(const UnitPoint& point) {
     ++end_.models;
-    const auto residuals = model_(place);
+    const auto residuals = model_(point);
     return residuals ? sum_of_squares(*residuals) : std::numeric_limits<double>::infinity();
   }
 
-  Shares moved(double distance, const Shares& others) const {
-    Shares place = fit_.place;
-    for (std::size_t i = 0; i < place.size(); ++i)
-      place[i] = i == constant_
-                     ? std::clamp(place[i] + sign_ * distance, 0., 1.)
-                     : std::clamp(place[i] + sign_ * distance * others[i], inset, 1. - inset);
-    return place;
+  UnitPoint moved(double distance, const UnitPoint& others) const {
+    UnitPoint point = fit_.point;
+    for (std::size_t i = 0; i < point.size(); ++i)
+      point[i] = i == constant_
+                     ? std::clamp(point[i] + sign_ * distance, 0., 1.)
+                     : std::clamp(point[i] + sign_ * distance * others[i], inset, 1. - inset);
+    return point;
   }
 
   /// What the least sum over the other constants exceeds the optimum's by.
   double excess_at(double distance) {
-    Shares place = moved(distance, linear_.others);
-    double sum = sum_at(place);
-    if (inside_ > 0. && fit_.place.size() > 1) {
-      // Along the line from the optimum through the last place within the bound.
-      Shares others(fit_.place.size(), 0.);
+    UnitPoint point = moved(distance, linear_.others);
+    double sum = sum_at(point);
+    if (inside_ > 0. && fit_.point.size() > 1) {
+      // Along the line from the optimum through the last point within the bound.
+      UnitPoint others(fit_.point.size(), 0.);
       for (std::size_t i = 0; i < others.size(); ++i)
-        others[i] = sign_ * (end_.place[i] - fit_.place[i]) / inside_;
-      Shares along = moved(distance, others);
+        others[i] = sign_ * (end_.point[i] - fit_.point[i]) / inside_;
+      UnitPoint along = moved(distance, others);
       if (const double other = sum_at(along); other < sum) {
         sum = other;
-        place = std::move(along);
+        point = std::move(along);
       }
     }
-    if (sum - least_ > surely_inside * margin_ && fit_.place.size() > 1 && std::isfinite(sum))
-      refit(place, sum);
+    if (sum - least_ > surely_inside * margin_ && fit_.point.size() > 1 && std::isfinite(sum))
+      refit(point, sum);
     const double excess = sum - least_;
-    if (excess < -better_part * margin_) end_.better = LeastSquaresFit{place, sum, 0};
+    if (excess < -better_part * margin_) end_.better = LeastSquaresFit{point, sum, 0};
     if (excess <= margin_) {
-      end_.place = std::move(place);
+      end_.point = std::move(point);
       end_.sum = sum;
     }
     return excess;
   }
 
-  void refit(Shares& place, double& sum) {
-    const auto whole = [&](const Shares& others) {
-      Shares all = place;
+  void refit(UnitPoint& point, double& sum) {
+    const auto whole = [&](const UnitPoint& others) {
+      UnitPoint all = point;
       for (std::size_t i = 0, at = 0; i < all.size(); ++i)
         if (i != constant_) all[i] = others[at++];
       return all;
     };
-    Shares start;
-    for (std::size_t i = 0; i < place.size(); ++i)
-      if (i != constant_) start.push_back(place[i]);
-    const auto fit =
-        refine([&](const Shares& others) { return model_(whole(others)); }, start, options_.refit);
+    UnitPoint start;
+    for (std::size_t i = 0; i < point.size(); ++i)
+      if (i != constant_) start.push_back(point[i]);
+    const auto fit = refine([&](const UnitPoint& others) { return model_(whole(others)); }, start,
+                            options_.refit);
     if (!fit) return;
     end_.models += fit->models;
     if (!(fit->sum < sum)) return;
     sum = fit->sum;
-    place = whole(fit->place);
+    point = whole(fit->point);
   }
 
   const ResidualModel& model_;

@@ -12,9 +12,9 @@ namespace hookpoint::studies {
 
 /// Bounds on the work of a profile.
 struct ProfileOptions {
-  FitOptions refit;              ///< of the other constants at each place
+  FitOptions refit;              ///< of the other constants at each point
   std::size_t most_places = 16;  ///< of the constant, one side of the optimum
-  /// Where two places, within the bound and beyond it, are closer than this part of their distance
+  /// Where two points, within the bound and beyond it, are closer than this part of their distance
   /// from the optimum, the end lies between them.
   double resolution = 0.05;
 };
@@ -22,19 +22,19 @@ struct ProfileOptions {
 /// One end of a constant's interval.
 struct ProfileEnd {
   double share = 0.;  ///< the constant, where the sum of squares reaches the bound
-  /// The farthest place found at which the sum is within the bound.
-  Shares place;
+  /// The farthest point found at which the sum is within the bound.
+  UnitPoint point;
   double sum = 0.;            ///< of squares there
   bool without_runs = false;  ///< the model has no residuals beyond
-  std::size_t models = 0;     ///< places at which the model was evaluated
-  /// A place whose sum is less than the optimum's by a part of the bound: the search then ended
+  std::size_t models = 0;     ///< points at which the model was evaluated
+  /// A point whose sum is less than the optimum's by a part of the bound: the search then ended
   /// there.
   std::optional<LeastSquaresFit> better{};
 };
 
 /// From the optimum `fit` towards 0 (`up` false) or 1: how far `constant` can move while the least
 /// sum of squares over the other constants stays within `bound`, which is greater than the
-/// optimum's. At least the first crossing; a place beyond a barrier is found if a step lands on it.
+/// optimum's. At least the first crossing; a point beyond a barrier is found if a step lands on it.
 ProfileEnd profile_end(const ResidualModel& model, const Linearisation& fit, std::size_t constant,
                        bool up, double bound, const ProfileOptions& options);
 

@@ -8,13 +8,14 @@
 #include <optional>
 
 #include "output/figures/plot.h"
-#include "output/text/number.h"
 #include "studies/calibrate/figures.h"
+#include "studies/calibrate/idleness.h"
 #include "studies/calibrate/outputs.h"
 #include "studies/report/page_parts.h"
 #include "studies/report/report_page.h"
 #include "studies/report/report_tables.h"
-#include "studies/summary.h"
+#include "studies/results/summary.h"
+#include "text/number.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -39,19 +40,13 @@ std::string value_words(const CalibrationPlan& plan, const FittedConstant& const
     return exact_value(varied, share.value_or(constant.share));
   };
   const int digits = digits_of(at(constant.low), at(constant.high));
-  const auto text = [&](double share) {
-    return output::rounded(exact_value(varied, share), digits);
-  };
+  const auto text = [&](double share) { return text::rounded(exact_value(varied, share), digits); };
   if (!constant.low) return text(constant.share) + spaced_unit(varied);
-  if (!constant.told)
+  if (!constant.identifiable)
     return fmt::format("not identifiable ({} to {}{})", text(*constant.low), text(*constant.high),
                        spaced_unit(varied));
   return fmt::format("{} ({} to {}){}", text(constant.share), text(*constant.low),
                      text(*constant.high), spaced_unit(varied));
-}
-
-std::string error_words(const std::optional<double>& error) {
-  return error ? output::rounded(*error) : "–";
 }
 
 /// What a subject's calibration says of a constant of the plan, and why when it says no number.
@@ -60,7 +55,7 @@ std::string constant_words(const CalibrationPlan& plan, const SubjectCalibration
   const auto fitted = std::ranges::find(found.constants, constant, &FittedConstant::constant);
   if (fitted != found.constants.end())
     return value_words(plan, *fitted) +
-           (fitted->told || fitted->reason.empty() ? "" : ": " + fitted->reason);
+           (fitted->identifiable || fitted->reason.empty() ? "" : ": " + fitted->reason);
   const auto left = std::ranges::find(found.left_out, constant, &LeftOut::constant);
   return left == found.left_out.end() ? "–" : "left out: " + left->reason;
 }
@@ -73,7 +68,7 @@ std::string subject_composition(const SubjectInfo& info) {
 }
 
 std::optional<double> promised_error(const FoldResult& fold) {
-  return fold.promised ? std::optional(fold.promised->error) : std::nullopt;
+  return fold.prediction ? std::optional(fold.prediction->error) : std::nullopt;
 }
 
 /// Means of the folds' errors, weighed alike; `error` is a part of a FoldResult or a function of
@@ -98,10 +93,10 @@ std::string subjects_table(const CalibrationPlan& plan, const CalibrationResult&
     const SubjectCalibration& found = result.subjects[i];
     const SubjectInfo& info = plan.subjects[i].info;
     table.row({html(info.name) + "<small> " + html(subject_composition(info)) + "</small>",
-               error_words(found.error), error_words(found.own_error),
-               error_words(mean_error(found.folds, &FoldResult::training)),
-               error_words(mean_error(found.folds, promised_error)),
-               error_words(mean_error(found.folds, &FoldResult::held)), html(found.status)});
+               text::rounded(found.error, "–"), text::rounded(found.own_error, "–"),
+               text::rounded(mean_error(found.folds, &FoldResult::training), "–"),
+               text::rounded(mean_error(found.folds, promised_error), "–"),
+               text::rounded(mean_error(found.folds, &FoldResult::held), "–"), html(found.status)});
   }
   return table.text();
 }
@@ -113,8 +108,8 @@ std::string constants_of_subjects(const CalibrationPlan& plan, const Calibration
       const VariedConstant& varied = plan.varied[constant];
       table.row({html(plan.subjects[i].info.name), html(varied.name),
                  html(constant_words(plan, result.subjects[i], constant)),
-                 html(fmt::format("{} to {}{}{}", output::rounded(varied.from, 6),
-                                  output::rounded(varied.to, 6), spaced_unit(varied),
+                 html(fmt::format("{} to {}{}{}", text::rounded(varied.from, 6),
+                                  text::rounded(varied.to, 6), spaced_unit(varied),
                                   varied.logarithmic ? ", log" : ""))});
     }
   }
@@ -147,7 +142,7 @@ std::string correlations_of_subjects(const CalibrationPlan& plan, const Calibrat
         table.row({html(plan.subjects[subject].info.name),
                    html(plan.varied[found.constants[i].constant].name),
                    html(plan.varied[found.constants[j].constant].name),
-                   output::rounded(found.correlations[i][j], 3)});
+                   text::rounded(found.correlations[i][j], 3)});
       }
     }
   }
@@ -174,8 +169,9 @@ std::string search_words(const CalibrationPlan& plan) {
       plan.generations, plan.population,
       plan.most_cases == 0 ? plan.cases.size() : std::min(plan.most_cases, plan.cases.size()),
       plan.resamples,
-      folds_begin_anew(plan) ? ""
-                             : ", from where the first search ended, whose cases none holds out");
+      folds_search_whole_box(plan)
+          ? ""
+          : ", from where the first search ended, whose cases none holds out");
 }
 
 std::string method_words(const CalibrationPlan& plan, const CalibrationResult& result) {
@@ -219,7 +215,7 @@ std::string traces_table(const CalibrationPlan& plan) {
       if (++rows > most_trace_figures) continue;
       table.row({html(trace.name), html(trace.file.filename().string()), html(trace.column),
                  html(trace.port), std::to_string(trace.measured.time.size()),
-                 output::rounded(trace.measured.time.back())});
+                 text::rounded(trace.measured.time.back())});
     }
   }
   std::string text = section("What was measured") + table.text();
@@ -250,9 +246,12 @@ std::string verdict_words(const CalibrationPlan& plan, const CalibrationResult& 
     index = i;
   }
   if (best == nullptr) return text_block("verdict bad", "✗ No subject has a fit.");
-  return text_block("verdict good",
-                    html(fmt::format("Least error: {}, {}.", plan.subjects[index].info.name,
-                                     error_words(best->error))));
+  const std::vector<IdleBlock> idle = idle_blocks(plan, result);
+  const std::string words = idle_words(idle);
+  return text_block(
+      has_fault(idle) ? "verdict bad" : "verdict good",
+      html(fmt::format("Least error: {}, {}{}.", plan.subjects[index].info.name,
+                       text::rounded(best->error, "–"), words.empty() ? "" : "; " + words)));
 }
 
 /// "1 case", "2 cases".
@@ -288,6 +287,7 @@ std::string calibration_html(const CalibrationPlan& plan, const CalibrationResul
   page += section("How well each fits") + subjects_table(plan, result) +
           text_block("note soft", html(method_words(plan, result)));
   page += figures_of(figures);
+  page += idle_table(idle_blocks(plan, result));
   page += correlations_of_subjects(plan, result) + traces_table(plan);
   page += provenance_table(context.provenance);
   return page + page_end_with_script();
@@ -299,19 +299,22 @@ std::string calibration_terminal_text(const CalibrationPlan& plan,
   for (std::size_t i = 0; i < result.subjects.size(); ++i) {
     const SubjectCalibration& found = result.subjects[i];
     text += fmt::format("  {}: ", plan.subjects[i].info.name);
-    text += found.error ? fmt::format("error {}, with the scene's own constants {}",
-                                      error_words(found.error), error_words(found.own_error))
-                        : std::string("no fit");
+    text += found.error
+                ? fmt::format("error {}, with the scene's own constants {}",
+                              text::rounded(found.error, "–"), text::rounded(found.own_error, "–"))
+                : std::string("no fit");
     text += (found.status == "ok" ? "" : "; " + found.status) + "\n";
     for (std::size_t constant = 0; constant < plan.varied.size(); ++constant)
       text += fmt::format("    {:<22} {}\n", plan.varied[constant].name,
                           constant_words(plan, found, constant));
     const auto held = mean_error(found.folds, &FoldResult::held);
     if (held)
-      text += fmt::format("    {:<22} {}, training {}\n", "held-out error", error_words(held),
-                          error_words(mean_error(found.folds, &FoldResult::training)));
+      text +=
+          fmt::format("    {:<22} {}, training {}\n", "held-out error", text::rounded(held, "–"),
+                      text::rounded(mean_error(found.folds, &FoldResult::training), "–"));
   }
   for (const std::string& misfit : misfits(plan, result)) text += "  " + misfit + "\n";
+  for (const IdleBlock& block : idle_blocks(plan, result)) text += "  " + line_of(block) + "\n";
   return text;
 }
 

@@ -1,10 +1,10 @@
-// A calibration for people: report.html and the terminal's text.
+// A calibration for readers: report.html and the terminal's text.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "studies/calibrate/calibrate.h"
+#include "studies/calibrate/calibration.h"
 #include "studies/report/report.h"
 
 namespace hookpoint::studies {

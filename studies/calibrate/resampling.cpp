@@ -4,24 +4,21 @@
 #include <cmath>
 #include <numeric>
 
-#include "studies/tune/random_place.h"
+#include "studies/results/statistics.h"
+#include "studies/search/random_point.h"
 
 namespace hookpoint::studies {
 namespace {
-
-double mean_of_part(std::span<const double> values) {
-  return std::accumulate(values.begin(), values.end(), 0.) / static_cast<double>(values.size());
-}
 
 /// Shorter curves say nothing of how their residuals are correlated.
 constexpr std::size_t least_correlated = 8;
 
 /// Sum of the products of residuals that are `lag` samples apart, each less their mean.
 double autocovariance(std::span<const double> curve, std::size_t lag) {
-  const double mean = mean_of_part(curve);
+  const double middle = mean(curve);
   double sum = 0.;
   for (std::size_t i = lag; i < curve.size(); ++i)
-    sum += (curve[i] - mean) * (curve[i - lag] - mean);
+    sum += (curve[i] - middle) * (curve[i - lag] - middle);
   return sum;
 }
 
@@ -46,11 +43,11 @@ Residuals shift_of_blocks(const Residuals& at_optimum, std::span<const std::size
   std::size_t first = 0;
   for (const std::size_t size : sizes) {
     const std::span<const double> curve(at_optimum.data() + first, size);
-    const double mean = mean_of_part(curve);
+    const double middle = mean(curve);
     std::size_t from = 0;
     for (std::size_t i = 0; i < size; ++i, ++from) {
       if (i % block == 0) from = random_index(random, size);
-      shift[first + i] = widened * (curve[from % size] - mean) - curve[i];
+      shift[first + i] = widened * (curve[from % size] - middle) - curve[i];
     }
     first += size;
   }
@@ -93,25 +90,6 @@ std::vector<std::size_t> fold_of_each(std::size_t count, std::size_t folds, std:
   for (std::size_t i = 0; i < count; ++i) fold[i] = i % folds;
   for (std::size_t i = count; i > 1; --i) std::swap(fold[i - 1], fold[random_index(random, i)]);
   return fold;
-}
-
-double correlation(std::span<const double> one, std::span<const double> other) {
-  const double mean_one = mean_of_part(one), mean_other = mean_of_part(other);
-  double both = 0., first = 0., second = 0.;
-  for (std::size_t i = 0; i < one.size(); ++i) {
-    const double a = one[i] - mean_one, b = other[i] - mean_other;
-    both += a * b;
-    first += a * a;
-    second += b * b;
-  }
-  // A row that changes by rounding alone does not change.
-  constexpr double rounding = 1e-12;
-  const double count = static_cast<double>(one.size());
-  const auto changes = [&](double squares, double mean) {
-    return std::sqrt(squares / count) > rounding * std::abs(mean);
-  };
-  if (!changes(first, mean_one) || !changes(second, mean_other)) return 0.;
-  return both / std::sqrt(first * second);
 }
 
 }  // namespace hookpoint::studies

@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "studies/calibrate/least_squares.h"
-#include "studies/tune/bootstrap.h"
+#include "studies/search/bootstrap.h"
 
 namespace hookpoint::studies {
 
 /// What is to be added to the residuals, wherever they are taken, for those at the optimum to be
-/// drawn anew, within each curve of `sizes` samples: whole blocks of neighbours from anywhere in
+/// drawn again, within each curve of `sizes` samples: whole blocks of neighbours from anywhere in
 /// it, around its end (Politis & Romano 1992), less their mean, times sqrt(n/(n - constants)) for
 /// what the fit took of them.
 Residuals shift_of_blocks(const Residuals& at_optimum, std::span<const std::size_t> sizes,
@@ -32,8 +32,5 @@ double statistical_inefficiency(const Residuals& at_optimum, std::span<const std
 /// Which of `folds` parts each of `count` things is in, drawn by `seed`, as equally large as can
 /// be.
 std::vector<std::size_t> fold_of_each(std::size_t count, std::size_t folds, std::uint64_t seed);
-
-/// Correlation of two equally long rows; 0 where one of them does not change but by rounding.
-double correlation(std::span<const double> one, std::span<const double> other);
 
 }  // namespace hookpoint::studies

@@ -12,7 +12,7 @@ namespace {
 using Index = Eigen::Index;
 
 constexpr std::size_t places_a_coefficient = 3;
-/// How far from the middle of the places a surface is believed, in half widths of their box.
+/// How far from the middle of the points a surface is believed, in half widths of their box.
 constexpr double reach = 3.;
 
 Index signed_size(std::size_t size) { return static_cast<Index>(size); }
@@ -40,7 +40,7 @@ double sum_of(const std::vector<double>& errors) {
 
 std::optional<ResponseSurface> ResponseSurface::fit(std::vector<PlacedErrors> looked) {
   if (looked.empty()) return std::nullopt;
-  const std::size_t constants = looked.front().place.size(), things = looked.front().errors.size();
+  const std::size_t constants = looked.front().point.size(), things = looked.front().errors.size();
   const std::size_t count = coefficient_count(constants);
   if (looked.size() < places_a_coefficient * count) return std::nullopt;
   std::ranges::stable_sort(looked, {}, [](const PlacedErrors& one) { return sum_of(one.errors); });
@@ -48,9 +48,9 @@ std::optional<ResponseSurface> ResponseSurface::fit(std::vector<PlacedErrors> lo
   ResponseSurface surface;
   for (std::size_t i = 0; i < constants; ++i) {
     const auto [low, high] =
-        std::ranges::minmax(looked, {}, [&](const PlacedErrors& one) { return one.place[i]; });
-    surface.middle_.push_back(0.5 * (low.place[i] + high.place[i]));
-    surface.half_width_.push_back(0.5 * (high.place[i] - low.place[i]));
+        std::ranges::minmax(looked, {}, [&](const PlacedErrors& one) { return one.point[i]; });
+    surface.middle_.push_back(0.5 * (low.point[i] + high.point[i]));
+    surface.half_width_.push_back(0.5 * (high.point[i] - low.point[i]));
     if (!(surface.half_width_.back() > 0.)) return std::nullopt;
   }
   Eigen::MatrixXd terms(signed_size(looked.size()), signed_size(count));
@@ -58,7 +58,7 @@ std::optional<ResponseSurface> ResponseSurface::fit(std::vector<PlacedErrors> lo
   for (std::size_t row = 0; row < looked.size(); ++row) {
     Eigen::VectorXd u(signed_size(constants));
     for (std::size_t i = 0; i < constants; ++i)
-      u(signed_size(i)) = (looked[row].place[i] - surface.middle_[i]) / surface.half_width_[i];
+      u(signed_size(i)) = (looked[row].point[i] - surface.middle_[i]) / surface.half_width_[i];
     terms.row(signed_size(row)) = terms_at(u).transpose();
     for (std::size_t i = 0; i < things; ++i)
       errors(signed_size(row), signed_size(i)) = looked[row].errors[i];
@@ -73,7 +73,7 @@ std::optional<ResponseSurface> ResponseSurface::fit(std::vector<PlacedErrors> lo
   return surface;
 }
 
-std::optional<Shares> ResponseSurface::least(std::span<const int> times) const {
+std::optional<UnitPoint> ResponseSurface::least(std::span<const int> times) const {
   const Index constants = signed_size(middle_.size());
   const auto sum = [&](std::size_t coefficient) {
     const std::vector<double>& row = coefficients_[coefficient];
@@ -91,11 +91,11 @@ std::optional<Shares> ResponseSurface::least(std::span<const int> times) const {
   const Eigen::LLT<Eigen::MatrixXd> solver(curvature);
   if (solver.info() != Eigen::Success) return std::nullopt;
   const Eigen::VectorXd u = solver.solve(-slope);
-  Shares place;
+  UnitPoint point;
   for (std::size_t i = 0; i < middle_.size(); ++i)
-    place.push_back(std::clamp(
+    point.push_back(std::clamp(
         middle_[i] + half_width_[i] * std::clamp(u(signed_size(i)), -reach, reach), 0., 1.));
-  return place;
+  return point;
 }
 
 }  // namespace hookpoint::studies

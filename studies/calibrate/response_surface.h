@@ -1,5 +1,5 @@
-// A quadratic function of a place, fitted to what was found at many: a rough error made smooth, so
-// that its least place does not hang on where one looked. What was found may be any function.
+// A quadratic function of a point, fitted to what was found at many: a rough error made smooth, so
+// that its least point does not hang on where one looked. What was found may be any function.
 #pragma once
 
 #include <optional>
@@ -10,22 +10,22 @@
 
 namespace hookpoint::studies {
 
-/// Errors of several things at a place, all of them known there.
+/// Errors of several things at a point, all of them known there.
 struct PlacedErrors {
-  Shares place;
+  UnitPoint point;
   std::vector<double> errors;  ///< one a thing
 };
 
-/// One quadratic function a thing, by least squares over the best places, best by the sum of their
+/// One quadratic function a thing, by least squares over the best points, best by the sum of their
 /// errors, three times as many as it has coefficients (Box & Wilson 1951).
 class ResponseSurface {
  public:
-  /// Nothing with too few places, or where they lie in a plane.
+  /// Nothing with too few points, or where they lie in a plane.
   static std::optional<ResponseSurface> fit(std::vector<PlacedErrors> looked);
 
   /// Where the sum over the things, each counted `times`, is least, within three times the box of
-  /// the places that were fitted, and the unit box; nothing where the sum is not convex.
-  std::optional<Shares> least(std::span<const int> times) const;
+  /// the points that were fitted, and the unit box; nothing where the sum is not convex.
+  std::optional<UnitPoint> least(std::span<const int> times) const;
 
  private:
   std::vector<double> middle_, half_width_;        ///< of that box

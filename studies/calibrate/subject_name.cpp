@@ -1,20 +1,7 @@
 #include "studies/calibrate/subject_name.h"
 
-#include <array>
-
 namespace hookpoint::studies {
 namespace {
-
-/// A field of the World that a part of the name may set.
-struct NamedField {
-  const char* field;
-  std::string SubjectPlan::*value;
-};
-
-constexpr std::array named_fields{NamedField{"engine", &SubjectPlan::engine},
-                                  NamedField{"contact", &SubjectPlan::contact},
-                                  NamedField{"settings", &SubjectPlan::settings},
-                                  NamedField{"integrator", &SubjectPlan::integrator}};
 
 const std::vector<std::string>& choices_of(const language::ClassSchema& world, const char* field) {
   return world.find(field)->choices;
@@ -22,15 +9,15 @@ const std::vector<std::string>& choices_of(const language::ClassSchema& world, c
 
 /// Takes `rest` apart, name by name: names may hold `_` themselves, so each that fits is tried.
 bool take_apart(const language::ClassSchema& world, std::string_view rest, SubjectPlan& subject) {
-  for (const NamedField& part : named_fields) {
-    if (!(subject.*part.value).empty()) continue;
+  for (const CompositionWord& part : composition_words) {
+    if (!(subject.*part.member).empty()) continue;
     for (const std::string& choice : choices_of(world, part.field)) {
       if (!rest.starts_with(choice)) continue;
       const std::string_view left = rest.substr(choice.size());
       if (!left.empty() && left.front() != '_') continue;
-      subject.*part.value = choice;
+      subject.*part.member = choice;
       if (left.empty() || take_apart(world, left.substr(1), subject)) return true;
-      (subject.*part.value).clear();
+      (subject.*part.member).clear();
     }
   }
   return false;
@@ -49,7 +36,7 @@ std::optional<SubjectPlan> subject_named(const language::ClassSchema& world,
 
 std::vector<std::string> subject_parts(const language::ClassSchema& world) {
   std::vector<std::string> names;
-  for (const NamedField& part : named_fields) {
+  for (const CompositionWord& part : composition_words) {
     const auto& choices = choices_of(world, part.field);
     names.insert(names.end(), choices.begin(), choices.end());
   }

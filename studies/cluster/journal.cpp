@@ -8,7 +8,7 @@
 #include <charconv>
 #include <chrono>
 
-#include "output/file.h"
+#include "output/files/file.h"
 
 namespace hookpoint::studies {
 namespace {

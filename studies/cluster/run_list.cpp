@@ -1,27 +1,27 @@
 #include "studies/cluster/run_list.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <charconv>
 #include <map>
 #include <memory>
-#include <string_view>
 #include <utility>
 
-#include "output/file.h"
-#include "output/text/json.h"
-#include "output/text/json_reader.h"
-#include "output/text/number.h"
+#include "output/files/file.h"
 #include "simulation/run/expectation.h"
+#include "text/json.h"
+#include "text/json_reader.h"
+#include "text/number.h"
 
 namespace hookpoint::studies {
 namespace {
 
-constexpr std::string_view runs_key = "runs[", measured_key = "measured[";
-
-void write_pair(output::JsonWriter& json, const std::string& name, const std::string& value) {
+void write_pair(text::JsonWriter& json, const std::string& name, const std::string& value) {
   json.begin_array().value(name).value(value).end_array();
 }
 
-void write_parameters(output::JsonWriter& json, const char* key,
+void write_parameters(text::JsonWriter& json, const char* key,
                       const std::map<std::string, std::string>& parameters) {
   json.key(key).begin_array();
   for (const auto& [name, value] : parameters) write_pair(json, name, value);
@@ -43,17 +43,13 @@ enum OwnPart {
   own_trails
 };
 
-std::string optional_text(const std::optional<double>& value) {
-  return value ? output::shortest(*value) : "";
-}
-
-void write_own(output::JsonWriter& json, const UserMetric& metric) {
+void write_own(text::JsonWriter& json, const UserMetric& metric) {
   const simulation::ReductionSpec& spec = metric.reduction;
   json.begin_array().value(metric.name).value(metric.expectation).value(metric.trace);
-  json.value(output::shortest(metric.scale)).value(metric.of == nullptr ? "" : metric.of->text);
+  json.value(text::shortest(metric.scale)).value(metric.of == nullptr ? "" : metric.of->text);
   json.value(simulation::reduction_names()[static_cast<std::size_t>(spec.take)]);
-  json.value(output::shortest(spec.from)).value(optional_text(spec.to));
-  json.value(optional_text(spec.level)).value(optional_text(spec.band));
+  json.value(text::shortest(spec.from)).value(text::shortest(spec.to));
+  json.value(text::shortest(spec.level)).value(text::shortest(spec.band));
   for (const std::string& trail : metric.trails) json.value(trail);
   json.end_array();
 }
@@ -67,7 +63,7 @@ class WrittenTraces {
         if (numbers_.try_emplace(trace.get(), traces_.size()).second)
           traces_.push_back(trace.get());
   }
-  void write(output::JsonWriter& json) const {
+  void write(text::JsonWriter& json) const {
     json.key("measured").begin_array();
     for (const TracePlan* trace : traces_) {
       json.begin_object().member("unit_of_port", trace->unit_of_port);
@@ -83,7 +79,7 @@ class WrittenTraces {
   std::size_t number_of(const TracePlan& trace) const { return numbers_.at(&trace); }
 
  private:
-  static void write_numbers(output::JsonWriter& json, const char* key,
+  static void write_numbers(text::JsonWriter& json, const char* key,
                             const std::vector<double>& numbers) {
     json.key(key).begin_array();
     for (const double number : numbers) json.value(number);
@@ -94,7 +90,7 @@ class WrittenTraces {
   std::map<const TracePlan*, std::size_t> numbers_;
 };
 
-void write_run(output::JsonWriter& json, const RunRequest& run, const WrittenTraces& traces) {
+void write_run(text::JsonWriter& json, const RunRequest& run, const WrittenTraces& traces) {
   json.begin_object().member("name", run.name).member("identity", run.identity);
   json.member("scene", std::filesystem::absolute(run.scene.file).string());
   write_parameters(json, "parameters", run.scene.options.parameters);
@@ -123,187 +119,168 @@ void write_run(output::JsonWriter& json, const RunRequest& run, const WrittenTra
   json.end_array().member("path", run.measurement.path).end_object();
 }
 
+using text::JsonValue;
+using ListedTraces = std::vector<std::shared_ptr<const TracePlan>>;
+
+/// `number` becomes what the text says; false if it is no number.
 bool read_number(const std::string& text, double& number) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   return error == std::errc{} && end == text.data() + text.size();
 }
+bool read_number(const std::string& text, std::optional<double>& number) {
+  return text.empty() || read_number(text, number.emplace());
+}
 
-/// Reads the leaves of what was measured as they come: "measured[2].time[7]".
-class TraceListReader {
- public:
-  bool read(std::string_view key, const std::string& value) {
-    const std::size_t dot = key.find('.');
-    if (dot == std::string_view::npos) return false;
-    if (place_ != key.substr(0, dot)) {
-      place_ = key.substr(0, dot);
-      traces_.push_back(std::make_shared<TracePlan>());
-    }
-    TracePlan& trace = *traces_.back();
-    const std::string_view field = key.substr(dot + 1);
-    const std::string_view kind = field.substr(0, field.find('['));
-    if (kind == "unit_of_port") return read_number(value, trace.unit_of_port);
-    if (kind == "weight") return read_number(value, trace.weight);
-    if (kind == "time") return read_number(value, trace.measured.time.emplace_back());
-    if (kind == "value") return read_number(value, trace.measured.value.emplace_back());
-    if (kind != "parts") return false;
-    trace.parts.push_back(value);
-    trace.measured.width = trace.parts.size();
-    return true;
-  }
-  /// The curve of that number; null where there is none, or not as many samples as times.
-  std::shared_ptr<const TracePlan> trace(std::size_t number) const {
-    if (number >= traces_.size()) return nullptr;
-    const auto& found = traces_[number];
-    const MeasuredTrace& measured = found->measured;
-    return measured.value.size() == measured.time.size() * found->parts.size() ? found : nullptr;
-  }
+/// Calls `take` with each item of a list; false if it is no list, or `take` says so.
+template <class Take>
+bool read_each(const JsonValue& list, Take take) {
+  return list.is_list() && std::ranges::all_of(list.items(), take);
+}
 
- private:
-  std::string place_;
-  std::vector<std::shared_ptr<TracePlan>> traces_;
-};
+/// Calls `take` with the two texts of each item, as write_pair writes them.
+template <class Take>
+bool read_pairs(const JsonValue& list, Take take) {
+  return read_each(list, [&](const JsonValue& item) {
+    const auto pair = item.items();
+    return pair.size() == 2 && take(pair[0].text(), pair[1].text());
+  });
+}
 
-/// Reads the leaves of one run as they come.
-class RunReader {
- public:
-  RunReader(RunRequest& run, const TraceListReader& traces) : run_(run), traces_(traces) {}
+bool read_parameters(const JsonValue& list, std::map<std::string, std::string>& parameters) {
+  return read_pairs(list, [&](const std::string& name, const std::string& value) {
+    parameters[name] = value;
+    return true;
+  });
+}
 
-  /// `key` from the run on: "overrides[2][0]". False for what no run has.
-  bool read(std::string_view key, const std::string& value) {
-    const std::string_view kind = key.substr(0, key.find('['));
-    const bool second = key.ends_with("[1]");
-    if (kind == "name")
-      run_.name = value;
-    else if (kind == "identity")
-      run_.identity = value;
-    else if (kind == "scene")
-      run_.scene.file = value;
-    else if (kind == "parameters")
-      return read_parameter(run_.scene.options.parameters, second, value);
-    else if (kind == "ground")
-      run_.scene.ground = {value, {}};
-    else if (kind == "ground_parameters" && run_.scene.ground)
-      return read_parameter(run_.scene.ground->parameters, second, value);
-    else if (kind == "overrides")
-      return read_override(second, value);
-    else if (kind == "body")
-      run_.measurement.body = value;
-    else if (kind == "settle")
-      return read_number(value, run_.measurement.settle);
-    else if (kind == "duration")
-      return read_number(value, run_.measurement.duration);
-    else if (kind == "metrics")
-      return read_metric(value);
-    else if (kind == "own")
-      return read_own(key, value);
-    else if (kind == "traces")
-      return read_trace(second, value);
-    else if (kind == "signals")
-      return read_signal(second, value);
-    else if (kind == "path")
-      run_.measurement.path = value == "true";
-    else
-      return false;
-    return true;
-  }
+bool read_numbers(const JsonValue& list, std::vector<double>& numbers) {
+  return read_each(list, [&](const JsonValue& item) {
+    return read_number(item.text(), numbers.emplace_back());
+  });
+}
 
-  /// Once all has been read: false where a metric of the user's own is not whole.
-  bool finish() {
-    for (const std::vector<std::string>& parts : own_)
-      if (!add_own(parts)) return false;
-    return true;
+/// One curve; null where it is not whole, or has not as many samples as times.
+std::shared_ptr<const TracePlan> read_measured(const JsonValue& object) {
+  auto trace = std::make_shared<TracePlan>();
+  MeasuredTrace& measured = trace->measured;
+  for (const auto& [name, value] : object.members()) {
+    const bool whole = name == "unit_of_port" ? read_number(value.text(), trace->unit_of_port)
+                       : name == "weight"     ? read_number(value.text(), trace->weight)
+                       : name == "time"       ? read_numbers(value, measured.time)
+                       : name == "value"      ? read_numbers(value, measured.value)
+                       : name == "parts"      ? read_each(value,
+                                                          [&](const JsonValue& part) {
+                                                       trace->parts.push_back(part.text());
+                                                       return true;
+                                                     })
+                                              : false;
+    if (!whole) return nullptr;
   }
+  measured.width = trace->parts.size();
+  return measured.value.size() == measured.time.size() * measured.width ? trace : nullptr;
+}
 
- private:
-  bool read_own(std::string_view key, const std::string& value) {
-    if (key.ends_with("[0]")) own_.emplace_back();
-    if (own_.empty()) return false;
-    own_.back().push_back(value);
-    return true;
+/// A metric of the user's own, from its parts. The run's traces are there.
+bool read_own(const JsonValue& list, Measurement& measurement) {
+  std::vector<std::string> parts;
+  for (const JsonValue& part : list.items()) parts.push_back(part.text());
+  if (parts.size() < own_trails) return false;
+  UserMetric metric;
+  metric.name = parts[own_name];
+  metric.expectation = parts[own_expectation];
+  metric.trace = parts[own_trace];
+  metric.trails.assign(parts.begin() + own_trails, parts.end());
+  const auto take = simulation::find_reduction(parts[own_take]);
+  if (!take) return false;
+  metric.reduction.take = *take;
+  const bool numbers = read_number(parts[own_scale], metric.scale) &&
+                       read_number(parts[own_from], metric.reduction.from) &&
+                       read_number(parts[own_to], metric.reduction.to) &&
+                       read_number(parts[own_level], metric.reduction.level) &&
+                       read_number(parts[own_band], metric.reduction.band);
+  if (!numbers) return false;
+  if (!metric.trace.empty()) {
+    if (!measurement.traces.contains(metric.trace)) return false;
+  } else if (metric.expectation.empty()) {
+    auto formula = language::read_formula(parts[own_formula]);
+    if (!formula || formula->names.size() != metric.trails.size()) return false;
+    metric.of = std::make_shared<const language::Formula>(std::move(*formula));
   }
-  static bool read_optional(const std::string& text, std::optional<double>& number) {
-    return text.empty() || read_number(text, number.emplace());
-  }
-  bool add_own(const std::vector<std::string>& parts) {
-    if (parts.size() < own_trails) return false;
-    UserMetric metric;
-    metric.name = parts[own_name];
-    metric.expectation = parts[own_expectation];
-    metric.trace = parts[own_trace];
-    metric.trails.assign(parts.begin() + own_trails, parts.end());
-    const auto take = simulation::find_reduction(parts[own_take]);
-    if (!take) return false;
-    metric.reduction.take = *take;
-    const bool numbers = read_number(parts[own_scale], metric.scale) &&
-                         read_number(parts[own_from], metric.reduction.from) &&
-                         read_optional(parts[own_to], metric.reduction.to) &&
-                         read_optional(parts[own_level], metric.reduction.level) &&
-                         read_optional(parts[own_band], metric.reduction.band);
-    if (!numbers) return false;
-    if (!metric.trace.empty()) {
-      if (!run_.measurement.traces.contains(metric.trace)) return false;
-    } else if (metric.expectation.empty()) {
-      auto formula = language::read_formula(parts[own_formula]);
-      if (!formula || formula->names.size() != metric.trails.size()) return false;
-      metric.of = std::make_shared<const language::Formula>(std::move(*formula));
-    }
-    auto kept = std::make_shared<UserMetric>(std::move(metric));
-    complete(*kept);
-    run_.measurement.metrics.push_back(&kept->definition);
-    run_.measurement.owned.push_back(std::move(kept));
-    return true;
-  }
-  bool read_parameter(std::map<std::string, std::string>& parameters, bool second,
-                      const std::string& value) {
-    if (second)
-      parameters[parameter_] = value;
-    else
-      parameter_ = value;
-    return true;
-  }
-  bool read_override(bool second, const std::string& value) {
-    auto& overrides = run_.scene.options.overrides;
-    if (!second)
-      overrides.push_back({value, {}});
-    else if (!overrides.empty())
-      overrides.back().value = value;
-    return true;
-  }
-  bool read_trace(bool second, const std::string& value) {
-    if (!second) {
-      trace_ = value;
-      return true;
-    }
-    std::size_t number = 0;
-    const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
-    if (error != std::errc{} || end != value.data() + value.size()) return false;
-    auto& trace = run_.measurement.traces[trace_];
-    trace = traces_.trace(number);
-    return trace != nullptr;
-  }
-  bool read_metric(const std::string& name) {
-    run_.measurement.metrics.push_back(find_metric(name));
-    return run_.measurement.metrics.back() != nullptr;
-  }
-  bool read_signal(bool second, const std::string& value) {
-    auto& signals = run_.measurement.signals;
-    if (!second)
-      signals.push_back({find_signal(value), false});
-    else if (!signals.empty())
-      signals.back().logarithmic = value == "log";
-    return !signals.empty() && signals.back().signal != nullptr;
-  }
+  auto stored = std::make_shared<UserMetric>(std::move(metric));
+  complete(*stored);
+  measurement.metrics.push_back(&stored->definition);
+  measurement.owned.push_back(std::move(stored));
+  return true;
+}
 
-  RunRequest& run_;
-  const TraceListReader& traces_;
-  std::string parameter_, trace_;
-  std::vector<std::vector<std::string>> own_;
-};
+bool read_metrics(const JsonValue& list, Measurement& measurement) {
+  return read_each(list, [&](const JsonValue& name) {
+    measurement.metrics.push_back(find_metric(name.text()));
+    return measurement.metrics.back() != nullptr;
+  });
+}
+
+bool read_traces(const JsonValue& list, const ListedTraces& all, Measurement& measurement) {
+  return read_pairs(list, [&](const std::string& name, const std::string& text) {
+    double number = -1.;
+    const bool there =
+        read_number(text, number) && number >= 0. && number < static_cast<double>(all.size());
+    if (there) measurement.traces[name] = all[static_cast<std::size_t>(number)];
+    return there;
+  });
+}
+
+bool read_signals(const JsonValue& list, Measurement& measurement) {
+  return read_pairs(list, [&](const std::string& name, const std::string& scale) {
+    measurement.signals.push_back({find_signal(name), scale == "log"});
+    return measurement.signals.back().signal != nullptr;
+  });
+}
+
+bool read_overrides(const JsonValue& list, std::vector<language::Override>& overrides) {
+  return read_pairs(list, [&](const std::string& trail, const std::string& value) {
+    overrides.push_back({trail, value});
+    return true;
+  });
+}
+
+/// One member of a run; false for what no run has. Metrics of the user's own come after all others.
+bool read_member(const std::string& name, const JsonValue& value, const ListedTraces& traces,
+                 RunRequest& run) {
+  Measurement& measurement = run.measurement;
+  if (name == "parameters") return read_parameters(value, run.scene.options.parameters);
+  if (name == "ground_parameters")
+    return run.scene.ground && read_parameters(value, run.scene.ground->parameters);
+  if (name == "overrides") return read_overrides(value, run.scene.options.overrides);
+  if (name == "metrics") return read_metrics(value, measurement);
+  if (name == "own") return value.is_list();
+  if (name == "traces") return read_traces(value, traces, measurement);
+  if (name == "signals") return read_signals(value, measurement);
+  if (!value.is_leaf()) return false;
+  const std::string& text = value.text();
+  if (name == "settle") return read_number(text, measurement.settle);
+  if (name == "duration") return read_number(text, measurement.duration);
+  if (name == "name")
+    run.name = text;
+  else if (name == "identity")
+    run.identity = text;
+  else if (name == "scene")
+    run.scene.file = text;
+  else if (name == "ground")
+    run.scene.ground = {text, {}};
+  else if (name == "body")
+    measurement.body = text;
+  else if (name == "path")
+    measurement.path = text == "true";
+  else
+    return false;
+  return true;
+}
 
 }  // namespace
 
 std::string run_list_text(const RunList& list) {
-  output::JsonWriter json;
+  text::JsonWriter json;
   const WrittenTraces traces(list);
   json.begin_object().member("allow_plugins", list.allow_plugins);
   traces.write(json);
@@ -314,37 +291,39 @@ std::string run_list_text(const RunList& list) {
 }
 
 RunList read_run_list(const std::filesystem::path& file) {
-  const auto text = output::read_file(file);
-  if (!text) throw RunListError("cannot read " + file.string());
-  const auto leaves = output::json_leaves(*text);
+  const auto content = output::read_file(file);
+  if (!content) throw RunListError("cannot read " + file.string());
   const auto refuse = [&](const std::string& why) {
     throw RunListError(file.string() + " is no list of runs of this hookpoint: " + why);
   };
-  if (!leaves) refuse("it is not JSON");
+  const auto root = text::read_json(*content);
+  if (!root) refuse("it is not JSON");
   RunList list;
-  std::string place;
-  TraceListReader traces;
-  std::unique_ptr<RunReader> reader;
-  for (const auto& [key, value] : *leaves) {
+  ListedTraces traces;
+  for (const auto& [key, value] : root->members()) {
     if (key == "allow_plugins") {
-      list.allow_plugins = value == "true";
-      continue;
+      list.allow_plugins = value.text() == "true";
+    } else if (key == "measured") {
+      for (const JsonValue& trace : value.items()) {
+        traces.push_back(read_measured(trace));
+        if (traces.back() == nullptr) refuse(fmt::format("`measured[{}]`", traces.size() - 1));
+      }
+    } else if (key != "runs" || !value.is_list()) {
+      refuse("`" + key + "`");
+    } else {
+      for (const JsonValue& object : value.items()) {
+        RunRequest& run = list.runs.emplace_back();
+        for (const auto& [name, member] : object.members())
+          if (!read_member(name, member, traces, run))
+            refuse(fmt::format("`runs[{}].{}`{}", list.runs.size() - 1, name,
+                               member.is_leaf() ? " is " + member.text() : ""));
+        const JsonValue* own = object.member("own");
+        if (own != nullptr)
+          for (const JsonValue& metric : own->items())
+            if (!read_own(metric, run.measurement)) refuse("a metric of " + run.name);
+      }
     }
-    if (key.starts_with(measured_key)) {
-      if (!traces.read(key, value)) refuse("`" + key + "` is " + value);
-      continue;
-    }
-    const std::size_t dot = key.find('.');
-    if (!key.starts_with(runs_key) || dot == std::string::npos) refuse("`" + key + "`");
-    if (place != key.substr(0, dot)) {
-      if (reader && !reader->finish()) refuse("a metric of " + list.runs.back().name);
-      place = key.substr(0, dot);
-      reader = std::make_unique<RunReader>(list.runs.emplace_back(), traces);
-    }
-    if (!reader->read(std::string_view(key).substr(dot + 1), value))
-      refuse("`" + key + "` is " + value);
   }
-  if (reader && !reader->finish()) refuse("a metric of " + list.runs.back().name);
   return list;
 }
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "studies/run/run_request.h"
+#include "studies/run/runs.h"
 
 namespace hookpoint::studies {
 

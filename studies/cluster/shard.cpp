@@ -4,8 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "simulation/identity.h"
-#include "studies/workers.h"
+#include "studies/measure/workers.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -15,12 +14,11 @@ simulation::Experiment experiment_of(const RunRequest& run, language::Library& l
   language::Diagnostics found;
   auto loaded = load_scene(library, run.scene, found);
   const std::string identity =
-      loaded ? run_identity(simulation::experiment_hash(loaded->printed, loaded->experiment),
-                            run.measurement, loaded->experiment.engine, engines)
+      loaded ? run_identity(loaded->hash(), run.measurement, loaded->experiment.engine, engines)
              : "";
   if (identity != run.identity)
     throw RunListError(run.name +
-                       ": this is not the run that was asked for; the program, its engines or the "
+                       ": this is not the run that was requested; the program, its engines or the "
                        "files of the scene are not the same here");
   loaded->experiment.duration = run.measurement.duration;
   return std::move(loaded->experiment);

@@ -11,8 +11,8 @@
 #include <thread>
 #include <utility>
 
-#include "output/child.h"
-#include "output/file.h"
+#include "output/files/child.h"
+#include "output/files/file.h"
 #include "studies/cluster/run_list.h"
 
 namespace hookpoint::studies {
@@ -103,7 +103,7 @@ bool SlurmRuns::run(std::size_t count, const Request& request, const Done& done,
       std::string numbers;
       for (const Job& job : jobs_) numbers += " " + job.numbers.back();
       if (!numbers.empty())
-        options_.tell("what is in Slurm's queue goes on there: --resume waits for it, `scancel" +
+        options_.tell("what is in Slurm's queue continues there: --resume waits for it, `scancel" +
                       numbers + "` ends it");
       return false;
     }

@@ -13,7 +13,7 @@
 
 #include "studies/cluster/journal.h"
 #include "studies/cluster/slurm_script.h"
-#include "studies/run/run_request.h"
+#include "studies/run/runs.h"
 
 namespace hookpoint::studies {
 

@@ -6,10 +6,13 @@
 #include <string_view>
 #include <utility>
 
-#include "output/text/hash.h"
+#include "output/files/hash.h"
+#include "text/shell_word.h"
 
 namespace hookpoint::studies {
 namespace {
+
+using text::quoted_shell_word;
 
 constexpr std::string_view letters_and_digits =
     "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789";
@@ -42,18 +45,27 @@ bool is_time_limit(std::string_view text) {
   return false;
 }
 
-/// One word for bash, whatever is in it: a quote is closed, written by itself, and opened again.
-std::string quoted(const std::string& text) {
-  std::string word = "'";
-  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return word + "'";
-}
-
 std::string file_name(const char* kind, std::size_t task, const char* type) {
   return kind + ("_" + task_number(task)) + type;
 }
 
 }  // namespace
+
+std::string option_words(const SlurmSettings& settings) {
+  std::string words = " --slurm";
+  const auto add = [&words](const char* option, const std::string& value) {
+    if (!value.empty()) words += std::string(" ") + option + " " + text::shell_word(value);
+  };
+  const auto count = [](std::size_t number) {
+    return number > 0 ? std::to_string(number) : std::string();
+  };
+  add("--partition", settings.partition);
+  add("--account", settings.account);
+  add("--time", settings.time);
+  add("--chunk", count(settings.chunk));
+  add("--array-limit", count(settings.array_limit));
+  return words;
+}
 
 std::optional<std::string> problem_of(const SlurmSettings& settings) {
   const std::pair<const char*, const std::string*> names[] = {{"--partition", &settings.partition},
@@ -108,14 +120,14 @@ std::string slurm_script(const SlurmSettings& settings, const SlurmPlace& place,
   if (!settings.time.empty()) option("time=" + settings.time);
   // Each task writes its own log, below: in the names that Slurm takes, % and \ mean something.
   option("output=/dev/null");
-  script += "folder=" + quoted(folder.string()) + "\n";
+  script += "folder=" + quoted_shell_word(folder.string()) + "\n";
   script += "printf -v number '%05d' \"$SLURM_ARRAY_TASK_ID\"\n";
   script += "exec >>\"$folder/log_$number.txt\" 2>&1\n";
   if (!place.search_path.empty())
-    script += "export HOOKPOINT_PATH=" + quoted(place.search_path) + "\n";
-  script += "cd " + quoted(place.directory.string()) + " || exit 3\n";
+    script += "export HOOKPOINT_PATH=" + quoted_shell_word(place.search_path) + "\n";
+  script += "cd " + quoted_shell_word(place.directory.string()) + " || exit 3\n";
   script +=
-      "exec " + quoted(place.program.string()) +
+      "exec " + quoted_shell_word(place.program.string()) +
       " runs \"$folder/list_$number.json\" --journal \"$folder/runs_$number.journal\" --jobs " +
       std::to_string(settings.jobs) + "\n";
   return script;

@@ -15,11 +15,14 @@ struct SlurmSettings {
   int jobs = 1;                          ///< threads, and processors, of a task
 };
 
-/// What is wrong with them, as a sentence; nothing when Slurm may be asked.
+/// The options of the command line that say them, each after a space: " --slurm --partition short".
+std::string option_words(const SlurmSettings& settings);
+
+/// What is wrong with them, as a sentence; nothing when Slurm may be used.
 std::optional<std::string> problem_of(const SlurmSettings& settings);
 
 /// How many runs a task makes of `runs`: so few that several machines have something to do, and so
-/// many that there are at most the 1000 tasks which Slurm takes unless told otherwise.
+/// many that there are at most the 1000 tasks which Slurm takes unless configured otherwise.
 std::size_t runs_of_a_task(std::size_t runs, const SlurmSettings& settings);
 
 /// "00042": of a task's files.

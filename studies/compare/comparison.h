@@ -37,7 +37,7 @@ struct WordChange {
 
 struct MetricComparison {
   std::string title;    ///< "creep_speed [m/s]"
-  bool timing = false;  ///< told, but no reason to call runs different: no two are alike
+  bool timing = false;  ///< reported, but no reason to call runs different: no two are alike
   int rows = 0;         ///< where at least one run has a value
   std::vector<ValueDifference> differences;
   double greatest_absolute = 0., greatest_relative = 0.;  ///< over rows that both have
@@ -70,7 +70,7 @@ struct Comparison {
   std::vector<std::string> notes;
   bool nothing_measured = false;  ///< neither rows nor trajectories: the experiments decide
 
-  /// Whether results agree within the tolerance. Settings and speeds are told, but do not decide.
+  /// Whether results agree within the tolerance. Settings and speeds do not count.
   bool same() const;
 };
 

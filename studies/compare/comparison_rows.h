@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "output/text/csv.h"
+#include "output/files/csv.h"
 
 namespace hookpoint::studies {
 

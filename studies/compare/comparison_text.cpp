@@ -5,16 +5,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "output/text/json.h"
-#include "output/text/number.h"
 #include "studies/compare/comparison.h"
 #include "studies/report/terminal_blocks.h"
-#include "unicode/display.h"
+#include "text/display.h"
+#include "text/json.h"
+#include "text/number.h"
 
 namespace hookpoint::studies {
 namespace {
 
-using output::rounded;
+using text::rounded;
 
 constexpr std::size_t most_listed = 20;
 constexpr int digits = 6;
@@ -32,7 +32,7 @@ std::string listed(const std::string& heading, CellRow titles, const std::vector
                     rows.begin() + static_cast<long>(std::min(rows.size(), most_listed)));
   for (CellRow& row : group.rows) row.front().text.insert(0, "  ");
   group.measure();
-  std::string text = "\n" + unicode::printable(heading) + "\n" + print_groups({&group}, color);
+  std::string text = "\n" + text::printable(heading) + "\n" + print_groups({&group}, color);
   if (rows.size() > most_listed)
     text += fmt::format("  and {} more (--json lists all)\n", rows.size() - most_listed);
   return text;
@@ -64,7 +64,7 @@ const ValueDifference* worst_of(const MetricComparison& metric) {
 }
 
 std::string value_text(const std::optional<double>& value) {
-  return value ? rounded(*value, digits) : "none";
+  return rounded(value, "none", digits);
 }
 
 std::string metrics_part(const Comparison& comparison, bool color) {
@@ -72,7 +72,7 @@ std::string metrics_part(const Comparison& comparison, bool color) {
   for (const MetricComparison& metric : comparison.metrics) {
     const ValueDifference* worst = worst_of(metric);
     const Tone tone = worst == nullptr ? Tone::good : metric.timing ? Tone::faint : Tone::bad;
-    rows.push_back({left(metric.title + (metric.timing ? " (told only)" : "")),
+    rows.push_back({left(metric.title + (metric.timing ? " (reported only)" : "")),
                     right(fmt::format("{} of {}", metric.differences.size(), metric.rows), tone),
                     right(rounded(metric.greatest_absolute, 3)),
                     right(rounded(metric.greatest_relative, 3)),
@@ -135,13 +135,12 @@ std::string verdict(const Comparison& comparison, bool color) {
          "\n";
 }
 
-void optional_member(output::JsonWriter& json, const char* name,
-                     const std::optional<double>& value) {
+void optional_member(text::JsonWriter& json, const char* name, const std::optional<double>& value) {
   json.key(name);
   value ? json.value(*value) : json.null();
 }
 
-void settings_json(output::JsonWriter& json, const char* name,
+void settings_json(text::JsonWriter& json, const char* name,
                    const std::vector<SettingDifference>& differences) {
   json.key(name).begin_array();
   for (const SettingDifference& each : differences) {
@@ -155,13 +154,13 @@ void settings_json(output::JsonWriter& json, const char* name,
   json.end_array();
 }
 
-void texts_json(output::JsonWriter& json, const char* name, const std::vector<std::string>& texts) {
+void texts_json(text::JsonWriter& json, const char* name, const std::vector<std::string>& texts) {
   json.key(name).begin_array();
   for (const std::string& text : texts) json.value(text);
   json.end_array();
 }
 
-void metrics_json(output::JsonWriter& json, const std::vector<MetricComparison>& metrics) {
+void metrics_json(text::JsonWriter& json, const std::vector<MetricComparison>& metrics) {
   json.key("metrics").begin_array();
   for (const MetricComparison& metric : metrics) {
     json.begin_object().member("metric", metric.title).member("timing", metric.timing);
@@ -178,7 +177,7 @@ void metrics_json(output::JsonWriter& json, const std::vector<MetricComparison>&
   json.end_array();
 }
 
-void trajectories_json(output::JsonWriter& json,
+void trajectories_json(text::JsonWriter& json,
                        const std::vector<TrajectoryComparison>& trajectories) {
   json.key("trajectories").begin_array();
   for (const TrajectoryComparison& trajectory : trajectories) {
@@ -200,8 +199,7 @@ void trajectories_json(output::JsonWriter& json,
 
 std::string comparison_text(const Comparison& comparison, const TableStyle& style) {
   std::string text = "first:  " + comparison.first + "\nsecond: " + comparison.second + "\n";
-  for (const std::string& note : comparison.notes)
-    text += "note: " + unicode::printable(note) + "\n";
+  for (const std::string& note : comparison.notes) text += "note: " + text::printable(note) + "\n";
   text += settings_part("experiment", comparison.experiment, style.color);
   text += settings_part("provenance", comparison.provenance, style.color);
   if (comparison.experiment.empty() && comparison.provenance.empty())
@@ -215,7 +213,7 @@ std::string comparison_text(const Comparison& comparison, const TableStyle& styl
 }
 
 std::string comparison_json(const Comparison& comparison) {
-  output::JsonWriter json;
+  text::JsonWriter json;
   json.begin_object().member("first", comparison.first).member("second", comparison.second);
   json.member("tolerance", comparison.tolerance).member("same", comparison.same());
   json.key("settings").begin_object();

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "output/text/hash.h"
+#include "output/files/hash.h"
 #include "studies/compare/comparison.h"
 #include "studies/compare/comparison_rows.h"
 

@@ -8,29 +8,27 @@
 #include <string>
 #include <vector>
 
-#include "language/document.h"
-#include "output/text/csv.h"
+#include "language/document/document.h"
+#include "output/files/csv.h"
 #include "studies/plan/plan.h"
+#include "studies/results/idleness.h"
 #include "studies/run/run.h"
 
 namespace hookpoint::studies {
 
 struct WallScene {
-  std::string name;   ///< "braking_block"
-  std::string title;  ///< what it shows
-  std::string file;   ///< as the Wall writes it
+  std::string name;                       ///< "braking_block"
+  std::string title;                      ///< what it shows
+  std::string file;                       ///< as the Wall writes it
+  std::vector<std::string> expects = {};  ///< names of all that it expects, of whatever law
 };
 
-/// What a Wall knows of a run beside its row.
-struct WallRunPlan {
-  std::vector<simulation::ExpectationSpec> expectations;  ///< that cover it
-  std::string law, integrator;                            ///< "" where it has none
-};
-
+/// A Wall as a study whose one sweep is its scenes.
 struct WallPlan {
-  StudyPlan study;  ///< name, subjects, hash; a row a run, its one value the index of the scene
-  std::vector<WallRunPlan> runs;  ///< one a row
+  StudyPlan study;
+  std::vector<std::vector<simulation::ExpectationSpec>> expectations;  ///< that cover it, one a row
   std::vector<WallScene> scenes;
+  std::vector<std::string> unselected;  ///< Subjects that --only leaves out
 };
 
 /// The result of one truth under one subject.
@@ -47,7 +45,7 @@ struct WallLine {
   std::size_t scene = 0;
   std::string name, formula, source, unit;
   std::string allowed;          ///< "0.1 %", "1e-06 m"
-  bool relative = true;         ///< how errors are told
+  bool relative = true;         ///< how errors are written
   std::vector<WallCell> cells;  ///< one a subject
 };
 
@@ -57,6 +55,9 @@ struct WallResult {
   std::vector<SubjectInfo> subjects;
   std::vector<WallLine> lines;        ///< scenes in order, their truths in order
   std::vector<std::string> warnings;  ///< the plan's
+  std::vector<IdleBlock> idle;        ///< Expects that cover no run
+  /// Every verdict holds, and no scene's Expects all judge nothing: what exit status 0 means.
+  bool holds() const { return failed() == 0 && !has_fault(idle); }
   int passed() const;
   int failed() const;
   int left_out() const;  ///< truths that no run judges, for want of an engine
@@ -70,18 +71,16 @@ struct WallRun {
   std::vector<std::string> notices;             ///< of its runs (collect_notices)
 };
 
-/// The file that a Scene of a Wall means, as an Include would name it.
-std::string scene_file(const language::Object& scene);
 /// The plan of `wall`, an object of `root`. Nothing when `diagnostics` got an error: a scene that
 /// is not there, has no Expect, or that no subject covers. A run whose step is above its law's
 /// stability bound gets a warning. Every run's scene is loaded here.
 std::optional<WallPlan> make_wall_plan(const language::Object& root, const language::Object& wall,
                                        const std::string& file, language::Library& library,
-                                       const PlanOptions& options,
+                                       const EngineTable& engines, const PlanOptions& options,
                                        language::Diagnostics& diagnostics);
 
-/// A run of the Wall as a study's row, before it has run: its scene's index is what varies.
-RunResult empty_wall_row(const RowPlan& row);
+/// The table of the Wall's runs with no row run: how many truths hold in each.
+StudyResult empty_wall_table(const WallPlan& plan);
 
 /// Runs all, by `options.jobs` threads, with the same result for any number of them; nothing when
 /// `stop` was set. Finished runs are kept as those of a study are; with `options.resume` they are
@@ -97,6 +96,7 @@ output::CsvTable wall_results_table(const WallResult& result);
 
 /// results.csv (the table), experiment.hook and provenance.json in the Wall's folder.
 /// Throws output::FileError.
-void write_wall_files(const WallRun& run, const WallPlan& plan, const Provenance& provenance);
+void write_wall_files(output::ResultFolder& folder, const WallResult& result, const WallPlan& plan,
+                      const Provenance& provenance);
 
 }  // namespace hookpoint::studies

@@ -4,16 +4,15 @@
 #include <algorithm>
 #include <set>
 
-#include "contact/force_law.h"
 #include "language/names.h"
-#include "output/text/hash.h"
 #include "simulation/analysis/step_warning.h"
-#include "simulation/identity.h"
 #include "simulation/scene/load.h"
+#include "studies/blocks/fix.h"
+#include "studies/blocks/measure.h"
+#include "studies/blocks/wall.h"
 #include "studies/compare/wall.h"
-#include "studies/plan/plan_parts.h"
-#include "studies/plan/plan_values.h"
-#include "studies/plan/scene_settings.h"
+#include "studies/plan/row_planner.h"
+#include "studies/plan/scene.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -21,73 +20,83 @@ namespace {
 using language::Diagnostics;
 using language::Object;
 
-class WallPlanner {
+/// The rows of a Wall: each scene under the subjects that its truths cover.
+class WallPlanner : public RowPlanner {
  public:
-  WallPlanner(WallPlan& plan, language::Library& library, const PlanOptions& options,
+  WallPlanner(WallPlan& plan, const EngineTable& engines, const PlanOptions& options,
               Diagnostics& diagnostics)
-      : plan_(plan), library_(library), options_(options), diagnostics_(diagnostics) {}
+      : RowPlanner(plan.study, engines, options.jobs, diagnostics),
+        wall_(plan),
+        library_(*plan.study.library),
+        options_(options) {
+    SweepPlan& sweep = plan_.sweeps.emplace_back();
+    sweep.role = SweepRole::scenes;
+    sweep.column.name = "scene";
+  }
 
   void add_subject(const Object& block) {
-    plan_.study.subjects.push_back(subject_of(block));
+    plan_.subjects.push_back(subject_of(block));
     subjects_.push_back(&block);
   }
 
   void add_scene(const Object& block) {
-    if (options_.quick && block.find("quick") != nullptr && !block.boolean("quick")) return;
+    const SceneBlock scene = scene_block(block);
+    if (options_.quick && !scene.quick) return;
     const std::string file = scene_file(block);
-    const std::filesystem::path path = library_.find(file, plan_.study.file);
+    const std::filesystem::path path = library_.find(file, plan_.file);
     if (path.empty()) {
       diagnostics_.error(block.position, "no file \"" + file + "\" beside the Wall or in configs/");
       return;
     }
-    plan_.scenes.push_back(
-        {block.name, block.given("title") ? block.word("title") : std::string(), file});
-    const std::size_t runs_before = plan_.study.rows.size();
+    wall_.scenes.push_back({block.name, scene.title, file});
+    const std::size_t runs_before = plan_.rows.size();
     const std::size_t errors_before = diagnostics_.error_count();
     covered_.clear();
+    block_ = &block;
     for (std::size_t i = 0; i < subjects_.size(); ++i) add_run(block, path, i);
-    if (plan_.study.rows.size() > runs_before || diagnostics_.error_count() > errors_before) return;
-    plan_.scenes.pop_back();
+    finish();
+    if (plan_.rows.size() > runs_before || diagnostics_.error_count() > errors_before)
+      return add_value(block);
+    wall_.scenes.pop_back();
     if (options_.only.empty())
       diagnostics_.error(block.position,
                          "the scene has no Expect that covers one of the Wall's subjects");
   }
 
-  output::Hash& hash() { return hash_; }
-  std::set<std::string>& inputs() { return inputs_; }
-
  private:
-  /// The names of the Params of the scene at `path`.
-  std::vector<std::string> names_of(const std::filesystem::path& path) {
-    std::vector<std::string> names;
-    for (const auto& parameter : library_.parameters(path, diagnostics_))
-      names.push_back(parameter.name);
-    return names;
+  /// The scene as a value of what the study varies.
+  void add_value(const Object& block) {
+    SweepPlan& sweep = plan_.sweeps.front();
+    const auto index = static_cast<double>(sweep.si.size());
+    sweep.si.push_back(index);
+    sweep.column.values.push_back(index);
+    sweep.column.words.push_back(block.name);
+    sweep.texts.push_back(block.name);
+    sweep.places.push_back(block.position);
   }
 
   /// Sets the scene's Params by Fix blocks, the Scene's after the Subject's. A Subject's is left
   /// out where the scene has no such Param; a Scene's is then an error.
   bool set_parameters(const Object& block, const std::filesystem::path& path, std::size_t subject,
                       language::EvaluateOptions& evaluate) {
-    const std::vector<std::string> names = names_of(path);
+    const std::vector<std::string> names = parameter_names(library_, path, diagnostics_);
     for (const Object* fix : subjects_[subject]->children_of("Fix")) {
-      if (std::ranges::find(names, fix->name) != names.end())
-        evaluate.parameters[fix->name] = text_of(*fix->find("value"));
+      if (language::contains(names, fix->name)) evaluate.parameters[fix->name] = fixed_text(*fix);
     }
     for (const Object* fix : block.children_of("Fix")) {
-      if (std::ranges::find(names, fix->name) == names.end()) {
+      if (!language::contains(names, fix->name)) {
         diagnostics_.error(fix->position,
                            fmt::format("no Param of the scene is called `{}`{}", fix->name,
                                        language::did_you_mean(fix->name, names)));
         return false;
       }
-      evaluate.parameters[fix->name] = text_of(*fix->find("value"));
+      evaluate.parameters[fix->name] = fixed_text(*fix);
     }
     return true;
   }
 
   void add_run(const Object& block, const std::filesystem::path& path, std::size_t index) {
-    const SubjectPlan& subject = plan_.study.subjects[index];
+    const SubjectPlan& subject = plan_.subjects[index];
     language::EvaluateOptions evaluate;
     if (!set_parameters(block, path, index, evaluate)) return;
     const auto plain = library_.evaluate(path, evaluate, diagnostics_);
@@ -95,9 +104,10 @@ class WallPlanner {
     const auto worlds = plain->children_of("World");
     if (worlds.empty()) return diagnostics_.error(block.position, "the scene has no World");
     const std::string world = worlds.front()->trail();
-    for (const std::string& name : names_of(path)) plan_.study.settable.push_back(name);
-    for (const auto& child : plain->children) plan_.study.settable.push_back(child->name);
-    const auto taken = settings_of_scene(options_.settings, names_of(path), *plain, world);
+    const std::vector<std::string> names = parameter_names(library_, path, diagnostics_);
+    plan_.settable.insert(plan_.settable.end(), names.begin(), names.end());
+    for (const auto& child : plain->children) plan_.settable.push_back(child->name);
+    const auto taken = settings_of_scene(options_.settings, names, *plain, world);
     for (const language::Override& setting : taken) {
       if (const auto problem = setting_problem(setting, world, subject))
         return refuse(block, *problem);
@@ -106,27 +116,22 @@ class WallPlanner {
                       fmt::format("a Fix sets `{}`: it cannot be set as well", setting.trail));
     }
     if (!taken.empty() && !evaluate.parameters.empty()) {
-      Diagnostics untold;  // a Param that only a Fix gives a value lacks one here
-      const auto unfixed = library_.evaluate(path, {}, untold);
+      Diagnostics unreported;  // a Param that only a Fix gives a value lacks one here
+      const auto unfixed = library_.evaluate(path, {}, unreported);
       const auto* decided = unfixed ? changed_setting(taken, *unfixed, *plain) : nullptr;
       if (decided != nullptr) return refuse(block, decided_already(*decided));
     }
-    evaluate.overrides = taken;
-    const bool has_ground = !worlds.front()->children_of("Terrain.").empty();
-    const auto set = [&](const char* field, const std::string& value) {
-      if (!value.empty()) evaluate.overrides.push_back({world + "." + field, value});
-    };
-    set("engine", subject.engine);
-    set("contact", has_ground ? subject.contact : "");
-    set("integrator", subject.integrator);
-    set("settings", subject.settings);
+    ScenePlan scene{path, evaluate, world};
+    scene.options.overrides = taken;
+    Composition words = subject;
+    if (worlds.front()->children_of("Terrain.").empty()) words.contact.clear();
+    scene.set_world(words);
     if (!covers_some(*plain, subject)) return;
-    Diagnostics found;
     RowPlan row;
-    row.scene = std::make_shared<const RowScene>(RowScene{path, evaluate});
-    auto loaded = load_scene(library_, *row.scene, found);
-    tell(found, block, subject.info.name);
-    if (loaded) add_row(block, std::move(row), std::move(*loaded), index);
+    row.values = {static_cast<int>(wall_.scenes.size()) - 1};
+    row.subject = static_cast<int>(index);
+    row.scene = std::make_shared<const ScenePlan>(std::move(scene));
+    add(std::move(row));
   }
 
   /// An error of a scene, told once however many subjects have it.
@@ -135,12 +140,15 @@ class WallPlanner {
       diagnostics_.error(block.position, problem);
   }
 
-  /// Whether one of the scene's Expects covers the subject. Asked before the scene is loaded under
-  /// the subject's law, for which it may not be made.
-  bool covers_some(const Object& scene, const SubjectPlan& subject) const {
-    Diagnostics untold;
-    const auto experiment = simulation::load_experiment(scene, untold, library_.search_path());
+  /// Whether one of the scene's Expects, which are noted, covers the subject. Asked before the scene
+  /// is loaded under the subject's law, for which it may not be made.
+  bool covers_some(const Object& scene, const SubjectPlan& subject) {
+    Diagnostics unreported;
+    const auto experiment = simulation::load_experiment(scene, unreported, library_.search_path());
     if (!experiment) return true;  // what is wrong is told when it is loaded for its run
+    std::vector<std::string>& expects = wall_.scenes.back().expects;
+    for (const simulation::ExpectationSpec& spec : experiment->expectations)
+      if (!language::contains(expects, spec.name)) expects.push_back(spec.name);
     const std::string& law = subject.contact.empty() ? experiment->contact : subject.contact;
     const std::string& integrator =
         subject.integrator.empty() ? experiment->integrator : subject.integrator;
@@ -149,98 +157,101 @@ class WallPlanner {
         [&](const simulation::ExpectationSpec& spec) { return spec.covers(law, integrator); });
   }
 
-  /// Plans a run. Without ground all contact laws are the same: then only the first subject of each
-  /// integrator has one.
-  void add_row(const Object& block, RowPlan row, LoadedScene loaded, std::size_t index) {
-    const simulation::Experiment& experiment = loaded.experiment;
-    if (!experiment.terrain && experiment.engine == "dts" &&
-        !covered_.insert(experiment.integrator).second)
-      return;
-    warn_of_step(block, experiment, index);
-    row.hash = simulation::experiment_hash(loaded.printed, experiment);
-    hash_.add(row.hash);
-    inputs_.merge(loaded.sources);
-    plan_.study.seeds.insert(experiment.seed);
-    row.values = {static_cast<int>(plan_.scenes.size()) - 1};
-    row.subject = static_cast<int>(index);
-    row.deltat = experiment.deltat;
-    row.duration = experiment.duration;
-    row.engine = experiment.engine;
-    plan_.study.rows.push_back(std::move(row));
-    WallRunPlan& run = plan_.runs.emplace_back();
-    run.law = experiment.terrain ? experiment.contact : "";
-    run.integrator = contact::find_force_law(experiment.contact) ? experiment.integrator : "";
-    for (const simulation::ExpectationSpec& spec : experiment.expectations)
-      if (spec.covers(experiment)) run.expectations.push_back(spec);
+  LoadedRow load(const RowPlan& row) const override {
+    LoadedRow loaded;
+    const auto scene = load_scene(library_, *row.scene, loaded.found);
+    if (!scene) return loaded;
+    take(*scene, loaded);
+    // Without ground no law does anything.
+    if (!loaded.has_ground) loaded.composition.law.clear();
+    loaded.warning = simulation::step_warning(scene->experiment);
+    for (const simulation::ExpectationSpec& spec : scene->experiment.expectations)
+      if (spec.covers(scene->experiment)) loaded.expectations.push_back(spec);
+    return loaded;
   }
 
-  void warn_of_step(const Object& block, const simulation::Experiment& experiment,
-                    std::size_t index) {
-    const std::optional<std::string> what = simulation::step_warning(experiment);
-    if (!what) return;
-    const std::string& subject = plan_.study.subjects[index].info.name;
-    diagnostics_.warning(block.position, *what);
-    diagnostics_.note(block.position, "with subject = " + subject);
-    plan_.study.warnings.push_back(block.name + " under " + subject + ": " + *what);
-  }
-
-  void tell(const Diagnostics& found, const Object& block, const std::string& subject) {
-    for (const language::Diagnostic& diagnostic : found.all()) {
+  /// Without ground all contact laws are the same: then only the first subject of each integrator
+  /// has a run. The errors of one row hide none of the next.
+  Answer accept(LoadedRow& loaded, RowPlan& row) override {
+    for (const language::Diagnostic& diagnostic : loaded.found.all()) {
       if (diagnostic.severity != language::Severity::error) continue;
       diagnostics_.error(diagnostic.position, diagnostic.message);
-      diagnostics_.note(block.position, "with subject = " + subject);
+      diagnostics_.note(block_->position, "with subject = " + planned_subject(row).info.name);
     }
+    if (!loaded.loads || (!loaded.has_ground && loaded.composition.engine == "dts" &&
+                          !covered_.insert(loaded.integrator).second))
+      return Answer::dropped;
+    if (loaded.warning)
+      warn_of_step(block_->position, block_->name + " under " + planned_subject(row).info.name, row,
+                   *loaded.warning);
+    row.deltat = loaded.deltat;
+    row.duration = loaded.duration;
+    wall_.expectations.push_back(std::move(loaded.expectations));
+    return Answer::taken;
   }
 
-  WallPlan& plan_;
+  WallPlan& wall_;
   language::Library& library_;
   const PlanOptions& options_;
-  Diagnostics& diagnostics_;
+  const Object* block_ = nullptr;  ///< the present scene
   std::vector<const Object*> subjects_;
   std::set<std::string> covered_;
   std::set<std::string> refused_;  ///< scenes, each with what is wrong
-  output::Hash hash_;
-  std::set<std::string> inputs_;  ///< files that the rows were made from and read
 };
 
-/// A subject that names no engine has that of its scenes.
-void complete_subjects(StudyPlan& study) {
-  for (const RowPlan& row : study.rows)
-    study.subjects[static_cast<std::size_t>(row.subject)].info.engine = row.engine;
+/// Measures the truths of all scenes, by their names: a run has those that cover it.
+void measure_expectations(WallPlan& plan) {
+  StudyPlan& study = plan.study;
+  for (const auto& expectations : plan.expectations)
+    for (const simulation::ExpectationSpec& spec : expectations) {
+      if (study.metric_index(spec.name) >= 0) continue;
+      UserMetric metric;
+      metric.name = metric.expectation = spec.name;
+      add_user_metric(std::move(metric), study);
+    }
+  for (std::size_t row = 0; row < study.rows.size(); ++row) {
+    RowForm none;
+    none.missing = "no Expect of that name covers the run";
+    study.rows[row].forms.assign(study.metrics.size(), none);
+    for (const simulation::ExpectationSpec& spec : plan.expectations[row])
+      study.rows[row].forms[static_cast<std::size_t>(study.metric_index(spec.name))] = {};
+  }
 }
 
 }  // namespace
 
-std::string scene_file(const Object& scene) {
-  return scene.given("file") ? scene.word("file") : "scenes/" + scene.name + ".hook";
-}
-
 std::optional<WallPlan> make_wall_plan(const Object& root, const Object& wall,
                                        const std::string& file, language::Library& library,
-                                       const PlanOptions& options, Diagnostics& diagnostics) {
+                                       const EngineTable& engines, const PlanOptions& options,
+                                       Diagnostics& diagnostics) {
   WallPlan plan;
   plan.study.name = wall.name;
   plan.study.file = file;
   plan.study.library = &library;
   plan.study.quick = options.quick;
-  if (wall.find("title") != nullptr) plan.study.title = wall.word("title");
-  if (wall.find("question") != nullptr) plan.study.question = wall.word("question");
-  WallPlanner planner(plan, library, options, diagnostics);
+  plan.study.may_end = true;
+  const Heading heading = wall_heading(wall);
+  plan.study.title = heading.title;
+  plan.study.question = heading.question;
+  WallPlanner planner(plan, engines, options, diagnostics);
   for (const Object* subject : wall.children_of("Subject")) {
-    if (options.only.empty() ||
-        std::ranges::find(options.only, subject->name) != options.only.end())
+    if (options.only.empty() || language::contains(options.only, subject->name))
       planner.add_subject(*subject);
+    else
+      plan.unselected.push_back(subject->name);
   }
   if (plan.study.subjects.empty())
     diagnostics.error(wall.position, "the Wall has no Subject, or none that --only names");
   for (const Object* scene : wall.children_of("Scene")) planner.add_scene(*scene);
+  if (plan.study.rows.empty() && !diagnostics.has_errors())
+    diagnostics.error(wall.position,
+                      "the Wall has no run: no Scene, or none that is left by "
+                      "--quick and --only");
   if (diagnostics.has_errors()) return std::nullopt;
   plan.study.printed = language::print(root);
-  planner.hash().add(plan.study.printed);
-  plan.study.hash = planner.hash().text();
-  for (std::string& source : language::sources_of(root)) planner.inputs().insert(std::move(source));
-  plan.study.inputs = simulation::hashed(planner.inputs());
-  complete_subjects(plan.study);
+  planner.hash.add(plan.study.printed);
+  planner.complete(root);
+  measure_expectations(plan);
   return plan;
 }
 

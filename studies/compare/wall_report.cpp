@@ -4,11 +4,11 @@
 
 #include <algorithm>
 
-#include "output/text/number.h"
 #include "studies/report/page_files.h"
 #include "studies/report/report_page.h"
 #include "studies/report/report_tables.h"
 #include "studies/report/terminal_blocks.h"
+#include "text/number.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -18,8 +18,8 @@ bool judged(const WallCell& cell) {
 }
 
 std::string error_text(const WallLine& line, double error) {
-  if (line.relative) return output::rounded(100. * error, 2) + " %";
-  return output::rounded(error, 2) + (line.unit.empty() ? "" : " " + line.unit);
+  if (line.relative) return text::rounded(100. * error, 2) + " %";
+  return text::rounded(error, 2) + (line.unit.empty() ? "" : " " + line.unit);
 }
 
 /// The closed form's value where all subjects have the same, else nothing.
@@ -35,7 +35,7 @@ std::optional<double> common_expected(const WallLine& line) {
 
 std::string expected_text(const WallLine& line) {
   const auto common = common_expected(line);
-  const std::string value = common ? output::rounded(*common, 5) : "by law";
+  const std::string value = common ? text::rounded(*common, 5) : "by law";
   return value + (line.unit.empty() ? "" : " " + line.unit);
 }
 
@@ -46,10 +46,9 @@ std::string cell_html(const WallLine& line, const WallCell& cell) {
     return "<td class=\"fails status\"><span class=\"bad\">✗</span> " +
            html(cell.status == "ok" ? "never reached" : cell.status) + "</td>";
   const char* mark = cell.ok ? "<span class=\"good\">✓</span> " : "<span class=\"bad\">✗</span> ";
-  const std::string wanted =
-      common_expected(line) ? "" : " of " + output::rounded(cell.expected, 4);
+  const std::string wanted = common_expected(line) ? "" : " of " + text::rounded(cell.expected, 4);
   return std::string(cell.ok ? "<td>" : "<td class=\"fails\">") + mark +
-         html(output::rounded(*cell.measured, 4)) + html(wanted) + "<small>" +
+         html(text::rounded(*cell.measured, 4)) + html(wanted) + "<small>" +
          html(error_text(line, *cell.error)) + "</small></td>";
 }
 
@@ -103,16 +102,31 @@ std::string left_out_words(const WallResult& wall) {
   return left_out == 0 ? "" : fmt::format(", {} of them left out for want of an engine", left_out);
 }
 
+/// ", 1 Expect judges nothing"; "" where all judge.
+std::string idle_words_after(const WallResult& wall) {
+  const std::string words = idle_words(wall.idle);
+  return words.empty() ? "" : ", " + words;
+}
+
 std::string verdict(const WallResult& wall) {
   const int passed = wall.passed(), failed = wall.failed();
-  const std::string counted = fmt::format(" ({} scenes, {} truths{})", wall.scenes.size(),
-                                          wall.lines.size(), left_out_words(wall));
-  if (passed + failed == 0) return fmt::format("<p class=\"verdict\">No verdict{}.</p>\n", counted);
-  if (failed == 0)
-    return fmt::format("<p class=\"verdict good\">✓ All {} verdicts hold{}.</p>\n", passed,
+  const std::string counted =
+      fmt::format("{} ({} scenes, {} truths{})", idle_words_after(wall), wall.scenes.size(),
+                  wall.lines.size(), left_out_words(wall));
+  const bool fault = has_fault(wall.idle);
+  std::string text;
+  if (passed + failed == 0)
+    text = fmt::format("<p class=\"verdict{}No verdict{}.</p>\n", fault ? " bad\">✗ " : "\">",
                        counted);
-  return fmt::format("<p class=\"verdict bad\">✗ {} of {} verdicts do not hold{}.</p>\n", failed,
-                     passed + failed, counted);
+  else if (failed == 0)
+    text = fmt::format("<p class=\"verdict {}All {} verdicts hold{}.</p>\n",
+                       fault ? "bad\">✗ " : "good\">✓ ", passed, counted);
+  else
+    text = fmt::format("<p class=\"verdict bad\">✗ {} of {} verdicts do not hold{}.</p>\n", failed,
+                       passed + failed, counted);
+  for (const std::string& line : fault_lines(wall.idle))
+    text += "<p class=\"note bad\">Not judged: " + html(line) + ".</p>\n";
+  return text;
 }
 
 /// The largest error of a line as a part of what is allowed decides which subject is named.
@@ -134,8 +148,8 @@ std::string failures(const WallResult& wall, const TableStyle& style) {
       const WallCell& cell = line.cells[i];
       if (!judged(cell) || cell.ok) continue;
       const std::string found =
-          cell.measured ? fmt::format("{} instead of {} {}", output::rounded(*cell.measured),
-                                      output::rounded(cell.expected), line.unit)
+          cell.measured ? fmt::format("{} instead of {} {}", text::rounded(*cell.measured),
+                                      text::rounded(cell.expected), line.unit)
                         : cell.status;
       text += toned("  ✗ ", Tone::bad, style.color) +
               fmt::format("{}.{} under {}: {}\n", wall.scenes[line.scene].name, line.name,
@@ -188,9 +202,13 @@ std::string wall_terminal_table(const WallResult& wall, const TableStyle& style)
   }
   group.measure();
   std::string text = print_groups({&group}, style.color) + "\n" + failures(wall, style);
-  return text + fmt::format("{} of {} verdicts hold: {} truths of {} scenes under {} subjects{}\n",
-                            wall.passed(), wall.passed() + wall.failed(), wall.lines.size(),
-                            wall.scenes.size(), wall.subjects.size(), left_out_words(wall));
+  for (const std::string& line : fault_lines(wall.idle))
+    text += toned("  ✗ not judged: ", Tone::bad, style.color) + line + "\n";
+  return text +
+         fmt::format("{} of {} verdicts hold{}: {} truths of {} scenes under {} subjects{}\n",
+                     wall.passed(), wall.passed() + wall.failed(), idle_words_after(wall),
+                     wall.lines.size(), wall.scenes.size(), wall.subjects.size(),
+                     left_out_words(wall));
 }
 
 }  // namespace hookpoint::studies

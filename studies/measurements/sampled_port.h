@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "simulation/experiment.h"
+#include "simulation/experiment/experiment.h"
 #include "simulation/wiring/ports.h"
 #include "studies/measurements/trace_plan.h"
 

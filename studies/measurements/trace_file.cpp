@@ -7,10 +7,10 @@
 #include <cmath>
 #include <utility>
 
-#include "formats/formats.h"
 #include "language/names.h"
-#include "output/file.h"
-#include "output/text/number.h"
+#include "output/files/file.h"
+#include "text/formats.h"
+#include "text/number.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -18,7 +18,7 @@ namespace {
 using language::Diagnostics;
 using language::Position;
 
-std::optional<language::Unit> unit_of_column(const tables::Table& table, std::size_t column,
+std::optional<language::Unit> unit_of_column(const text::Table& table, std::size_t column,
                                              const TraceRequest& request, const Position& place,
                                              Diagnostics& diagnostics) {
   const ColumnTitle title = parts_of(table.header[column]);
@@ -45,7 +45,7 @@ double in_si(double value, const language::Unit& unit) {
 /// Turns a table's rows into samples.
 class TraceRows {
  public:
-  TraceRows(const TraceRequest& request, const tables::Table& table, const TraceColumns& columns,
+  TraceRows(const TraceRequest& request, const text::Table& table, const TraceColumns& columns,
             Diagnostics& diagnostics)
       : request_(request), table_(table), columns_(columns), diagnostics_(diagnostics) {}
 
@@ -74,15 +74,14 @@ class TraceRows {
                             ? std::string("begins before 0 s, where the scene does")
                             : fmt::format("begins before the scene does: the clock's {} s less the "
                                           "offset of {} s",
-                                          output::rounded(seconds + request_.offset, 6),
-                                          output::rounded(request_.offset, 6)));
+                                          text::rounded(seconds + request_.offset, 6),
+                                          text::rounded(request_.offset, 6)));
     if (seconds > latest_sample)
-      return wrong(row,
-                   fmt::format("its time, {} s, is beyond {} s: no run is that long",
-                               output::rounded(seconds, 6), output::rounded(latest_sample, 6)));
+      return wrong(row, fmt::format("its time, {} s, is beyond {} s: no run is that long",
+                                    text::rounded(seconds, 6), text::rounded(latest_sample, 6)));
     if (!trace.time.empty() && !(seconds > trace.time.back()))
       return wrong(row, fmt::format("its time, {} s, is not after that of the sample before it",
-                                    output::shortest(seconds)));
+                                    text::shortest(seconds)));
     trace.time.push_back(seconds);
     for (std::size_t i = 0; i < columns_.values.size(); ++i) {
       const auto value = field(row, columns_.values[i]);
@@ -108,12 +107,12 @@ class TraceRows {
   }
 
   const TraceRequest& request_;
-  const tables::Table& table_;
+  const text::Table& table_;
   const TraceColumns& columns_;
   Diagnostics& diagnostics_;
 };
 
-std::optional<TraceColumns> trace_columns(const TraceRequest& request, const tables::Table& table,
+std::optional<TraceColumns> trace_columns(const TraceRequest& request, const text::Table& table,
                                           Diagnostics& diagnostics) {
   TraceColumns columns;
   const auto find = [&](const std::string& title, const Position& place) {
@@ -152,7 +151,7 @@ std::optional<TraceColumns> trace_columns(const TraceRequest& request, const tab
 }
 
 /// "its columns are `time (s)`, `z`, separated by semicolons".
-std::string columns_of(const tables::Table& table) {
+std::string columns_of(const text::Table& table) {
   constexpr std::size_t most = 20;
   std::vector<std::string> titles;
   for (std::size_t i = 0; i < std::min(most, table.header.size()); ++i)
@@ -163,17 +162,17 @@ std::string columns_of(const tables::Table& table) {
     return "its one column is " + titles.front() +
            ": fields are separated by commas, semicolons or tabs";
   return fmt::format("its columns are {}, separated by {}", language::join(titles, ", "),
-                     tables::separators(table.separator));
+                     text::separators(table.separator));
 }
 
 }  // namespace
 
-void tell_wrong_row(const std::filesystem::path& file, const tables::Table& table, std::size_t row,
+void tell_wrong_row(const std::filesystem::path& file, const text::Table& table, std::size_t row,
                     const std::string& what, const Position& place, Diagnostics& diagnostics) {
   diagnostics.error(place, fmt::format("{}, row {}: {}", file.string(), table.lines[row], what));
 }
 
-std::optional<double> number_at(const tables::Table& table, std::size_t row, std::size_t column,
+std::optional<double> number_at(const text::Table& table, std::size_t row, std::size_t column,
                                 const std::filesystem::path& file, const Position& place,
                                 Diagnostics& diagnostics) {
   const std::string& text = table.rows[row][column];
@@ -200,7 +199,7 @@ ColumnTitle parts_of(const std::string& title) {
   return {title, ""};
 }
 
-std::optional<std::size_t> column_of(const tables::Table& table, const std::string& wanted,
+std::optional<std::size_t> column_of(const text::Table& table, const std::string& wanted,
                                      const std::filesystem::path& file, const Position& place,
                                      Diagnostics& diagnostics) {
   std::optional<std::size_t> named;
@@ -222,22 +221,21 @@ std::optional<std::size_t> column_of(const tables::Table& table, const std::stri
   return std::nullopt;
 }
 
-std::optional<tables::Table> read_table(const std::filesystem::path& file, const Position& place,
-                                        Diagnostics& diagnostics) {
+std::optional<text::Table> read_table(const std::filesystem::path& file, const Position& place,
+                                      Diagnostics& diagnostics) {
   const auto text = output::read_file(file);
   if (!text) {
     diagnostics.error(place, "cannot read " + file.string());
     return std::nullopt;
   }
-  if (const std::string refusal = formats::refusal(*text, file, formats::Use::series);
-      !refusal.empty()) {
+  if (const std::string refusal = text::refusal(*text, file, text::Use::series); !refusal.empty()) {
     diagnostics.error(place, file.string() + ": " + refusal);
     return std::nullopt;
   }
-  tables::Fault fault;
-  auto table = tables::read_foreign(*text, fault);
+  text::Fault fault;
+  auto table = text::read_foreign(*text, fault);
   if (!table)
-    diagnostics.error(place, fault.kind == tables::Fault::Kind::empty
+    diagnostics.error(place, fault.kind == text::Fault::Kind::empty
                                  ? file.string() + " is no table: it is empty"
                                  : fmt::format("{} is no table: row {}: {}", file.string(),
                                                fault.line, fault.text()));

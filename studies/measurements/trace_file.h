@@ -11,7 +11,7 @@
 
 #include "language/diagnostics.h"
 #include "language/units.h"
-#include "tables/csv_reader.h"
+#include "text/csv_reader.h"
 
 namespace hookpoint::studies {
 
@@ -40,14 +40,14 @@ struct MeasuredTrace {
 /// Later samples would take a run of decades [s].
 constexpr double latest_sample = 1e9;
 
-/// A table with its header, in any of the forms that tables/csv_reader.h reads; nothing after an
+/// A table with its header, in any of the forms that text/csv_reader.h reads; nothing after an
 /// error at `place`.
-std::optional<tables::Table> read_table(const std::filesystem::path& file,
-                                        const language::Position& place,
-                                        language::Diagnostics& diagnostics);
+std::optional<text::Table> read_table(const std::filesystem::path& file,
+                                      const language::Position& place,
+                                      language::Diagnostics& diagnostics);
 
 /// The column of that title, or the only one of that name; nothing after an error at `place`.
-std::optional<std::size_t> column_of(const tables::Table& table, const std::string& wanted,
+std::optional<std::size_t> column_of(const text::Table& table, const std::string& wanted,
                                      const std::filesystem::path& file,
                                      const language::Position& place,
                                      language::Diagnostics& diagnostics);
@@ -59,12 +59,12 @@ struct ColumnTitle {
 ColumnTitle parts_of(const std::string& title);
 
 /// Error in a row of a table: "FILE, row 3: WHAT" with the row's line in the file, at `place`.
-void tell_wrong_row(const std::filesystem::path& file, const tables::Table& table, std::size_t row,
+void tell_wrong_row(const std::filesystem::path& file, const text::Table& table, std::size_t row,
                     const std::string& what, const language::Position& place,
                     language::Diagnostics& diagnostics);
 
 /// The finite number in a field; nothing after an error at `place`.
-std::optional<double> number_at(const tables::Table& table, std::size_t row, std::size_t column,
+std::optional<double> number_at(const text::Table& table, std::size_t row, std::size_t column,
                                 const std::filesystem::path& file, const language::Position& place,
                                 language::Diagnostics& diagnostics);
 

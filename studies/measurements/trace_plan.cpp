@@ -2,7 +2,7 @@
 
 #include <fmt/ranges.h>
 
-#include "output/text/hash.h"
+#include "output/files/hash.h"
 
 namespace hookpoint::studies {
 

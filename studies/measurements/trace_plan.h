@@ -23,6 +23,7 @@ struct TracePlan {
   double unit_of_port = 1.;  ///< in SI
   double weight = 1.;        ///< in one over the SI unit; of an orientation in 1/rad
   MeasuredTrace measured;
+  bool may_be_empty = false;  ///< it may be that no constant changes it
 
   bool is_orientation() const { return parts.size() == 4; }
   /// Residuals of a sample: one a part; of an orientation the three of a rotation vector.

@@ -1,10 +1,14 @@
 // Metrics of what physics conserves: energy and momentum of a robot that nothing touches, and what
 // a rebound and a support leave of them.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 #include <type_traits>
 
-#include "studies/metric.h"
+#include "studies/measure/metric.h"
+#include "studies/metrics/table.h"
+#include "studies/predictions/predictions.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -110,8 +114,6 @@ class SupportForce : public Metric {
   long count_ = 0;
 };
 
-}  // namespace
-
 std::unique_ptr<Metric> make_energy_drift(const RunContext& context) {
   return std::make_unique<Drift<decltype(&mechanical_energy)>>(context, &mechanical_energy);
 }
@@ -126,6 +128,38 @@ std::unique_ptr<Metric> make_rebound(const RunContext& context) {
 }
 std::unique_ptr<Metric> make_support_force(const RunContext& context) {
   return std::make_unique<SupportForce>(context);
+}
+
+}  // namespace
+
+std::span<const MetricDefinition> conservation_metrics() {
+  static const auto rows = std::to_array<MetricDefinition>({
+      {.name = "support_force",
+       .unit = "N",
+       .doc = "mean force of the ground along its normal after `settle`, on all bodies",
+       .make = make_support_force,
+       .predict = predicted::support_force,
+       .needs = {.contact_force = true}},
+      {.name = "rebound",
+       .unit = "",
+       .doc =
+           "greatest speed away from the ground over the greatest towards it, of the body's origin",
+       .make = make_rebound,
+       .predict = predicted::rebound},
+      {.name = "energy_drift",
+       .unit = "J",
+       .doc = "greatest change of kinetic and gravitational energy since the start, either way",
+       .make = make_energy_drift},
+      {.name = "momentum_drift",
+       .unit = "kg.m/s",
+       .doc = "greatest distance of the momentum from that of a free flight, p0 + m g t",
+       .make = make_momentum_drift},
+      {.name = "angular_momentum_drift",
+       .unit = "kg.m^2/s",
+       .doc = "greatest change of the angular momentum about the centre of mass",
+       .make = make_angular_momentum_drift},
+  });
+  return rows;
 }
 
 }  // namespace hookpoint::studies

@@ -1,9 +1,13 @@
 // Metrics of the contact: depths, paths of points, contacts lost, impulses.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 
-#include "studies/metric.h"
+#include "studies/measure/metric.h"
+#include "studies/metrics/table.h"
+#include "studies/predictions/predictions.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -153,8 +157,6 @@ class Impacts : public Metric {
   std::uint64_t to_ = 0;
 };
 
-}  // namespace
-
 std::unique_ptr<Metric> make_stick_displacement(const RunContext& context) {
   return std::make_unique<StickDisplacement>(context);
 }
@@ -175,6 +177,53 @@ std::unique_ptr<Metric> make_contact_breaks(const RunContext& context) {
 }
 std::unique_ptr<Metric> make_impacts(const RunContext& context) {
   return std::make_unique<Impacts>(context);
+}
+
+}  // namespace
+
+std::span<const MetricDefinition> contact_metrics() {
+  static const auto rows = std::to_array<MetricDefinition>({
+      {.name = "stick_displacement",
+       .unit = "m",
+       .doc = "mean downhill displacement of the points that touch at the end",
+       .make = make_stick_displacement,
+       .predict = predicted::stick_displacement,
+       .needs = {.points = true},
+       .regime = Regime::holds},
+      {.name = "slip_distance",
+       .unit = "m",
+       .doc = "longest tangential path of a boundary point while it is loaded",
+       .make = make_slip_distance,
+       .needs = {.points = true, .contact_force = true}},
+      {.name = "penetration_max",
+       .unit = "m",
+       .doc = "greatest depth of a boundary point after `settle`",
+       .make = make_penetration_max,
+       .predict = predicted::penetration_max,
+       .needs = {.points = true}},
+      {.name = "penetration_mean",
+       .unit = "m",
+       .doc = "mean depth of the points inside the ground after `settle`",
+       .make = make_penetration_mean,
+       .predict = predicted::penetration_mean,
+       .needs = {.points = true}},
+      {.name = "penetration_rms",
+       .unit = "m",
+       .doc = "root mean square of the same depths",
+       .make = make_penetration_rms,
+       .predict = predicted::penetration_rms,
+       .needs = {.points = true}},
+      {.name = "contact_breaks",
+       .unit = "1/s",
+       .doc = "contacts lost per second after `settle`",
+       .make = make_contact_breaks},
+      {.name = "impacts",
+       .unit = "1/s",
+       .doc = "impulses per second after `settle` (event-driven laws)",
+       .make = make_impacts,
+       .predict = predicted::impacts},
+  });
+  return rows;
 }
 
 }  // namespace hookpoint::studies

@@ -8,9 +8,12 @@
 // that Le Lidec et al., Contact Models in Robotics: a Comparative Analysis (2023), hold solvers to.
 // Over the speed they are newtons; below `onset_speed` a contact counts as at rest, and they fade.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
-#include "studies/metric.h"
+#include "studies/measure/metric.h"
+#include "studies/metrics/table.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -86,8 +89,6 @@ class ForceResidualPart : public ForceResidual {
   double Residuals::*part_;
 };
 
-}  // namespace
-
 std::unique_ptr<Metric> make_force_residual(const RunContext& context) {
   return std::make_unique<ForceResidual>(context);
 }
@@ -99,6 +100,36 @@ std::unique_ptr<Metric> make_force_residual_cone(const RunContext& context) {
 }
 std::unique_ptr<Metric> make_force_residual_dissipation(const RunContext& context) {
   return std::make_unique<ForceResidualPart>(context, &Residuals::dissipation);
+}
+
+}  // namespace
+
+std::span<const MetricDefinition> force_metrics() {
+  static const auto rows = std::to_array<MetricDefinition>({
+      {.name = "force_residual",
+       .unit = "N",
+       .doc =
+           "mean after `settle` of what the ground's single forces owe Signorini, Coulomb and maximum dissipation: the sum of its parts _normal, _cone and _dissipation; nothing for an engine that does not tell them",
+       .make = make_force_residual,
+       .needs = {.forces = true}},
+      {.name = "force_residual_normal",
+       .unit = "N",
+       .doc =
+           "of it, normal forces that pull, that act across a gap, or while the contact opens or closes",
+       .make = make_force_residual_normal,
+       .needs = {.forces = true}},
+      {.name = "force_residual_cone",
+       .unit = "N",
+       .doc = "of it, tangential force beyond mu times the normal force",
+       .make = make_force_residual_cone,
+       .needs = {.forces = true}},
+      {.name = "force_residual_dissipation",
+       .unit = "N",
+       .doc = "of it, what friction lacks of mu times the normal force against the slip",
+       .make = make_force_residual_dissipation,
+       .needs = {.forces = true}},
+  });
+  return rows;
 }
 
 }  // namespace hookpoint::studies

@@ -1,11 +1,15 @@
 // Metrics of the integration itself: what it cost, and how far it is from its own limit.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
 #include "contact/force_law.h"
-#include "simulation/engine/dts_engine.h"
+#include "simulation/dts_engine/dts_engine.h"
+#include "simulation/run/loop.h"
 #include "simulation/run/world.h"
-#include "studies/metric.h"
+#include "studies/measure/metric.h"
+#include "studies/metrics/table.h"
 #include "studies/predictions/predictions.h"
 
 namespace hookpoint::studies {
@@ -39,8 +43,9 @@ class DistanceFromLimit : public Metric {
   void observe(const Observation& observation) override {
     if (!world_) return;
     const std::int64_t wanted = steps_ * observation.world.step;
-    while (world_->state().step < wanted) {
-      if (world_->step().ok() && world_->ended().empty()) continue;
+    const simulation::RunEnd end = simulation::run_until(
+        *world_, wanted, [] { return true; }, [] {});
+    if (!end.complete()) {
       world_.reset();
       return;
     }
@@ -83,8 +88,6 @@ class TruthError : public Metric {
   std::optional<RigidSlide> slide_;
   std::optional<double> error_;
 };
-
-}  // namespace
 
 std::unique_ptr<Metric> make_notices(const RunContext&) { return std::make_unique<NoticeCount>(); }
 std::unique_ptr<Metric> make_truth_error(const RunContext& context) {
@@ -130,6 +133,55 @@ std::unique_ptr<Metric> make_reference_error(const RunContext& context) {
   }
   return std::make_unique<DistanceFromLimit>(own, std::move(nearer),
                                              static_cast<std::int64_t>(steps));
+}
+
+}  // namespace
+
+std::span<const MetricDefinition> integrator_metrics() {
+  static const auto rows = std::to_array<MetricDefinition>({
+      {.name = "integrator_steps",
+       .unit = "",
+       .doc = "steps of the integrator, of an adaptive one its internal steps",
+       .make = make_integrator_steps},
+      {.name = "rejected_steps",
+       .unit = "",
+       .doc = "steps that an adaptive integrator took back",
+       .make = make_rejected_steps},
+      {.name = "evaluations",
+       .unit = "",
+       .doc = "evaluations of accelerations, those for Jacobians included",
+       .make = make_evaluations},
+      {.name = "jacobians",
+       .unit = "",
+       .doc = "Jacobian matrices by difference quotients",
+       .make = make_jacobians},
+      {.name = "events",
+       .unit = "",
+       .doc =
+           "touch-downs, lift-offs, ends of slip, joint limits at which an adaptive integrator restarted",
+       .make = make_events},
+      {.name = "notices",
+       .unit = "",
+       .doc =
+           "warnings that the engine gave, each once: 1 for ODE where its solver reported failures",
+       .make = make_notices},
+      {.name = "self_error",
+       .unit = "m",
+       .doc =
+           "greatest distance of the body's origin from the same run nearer to its limit: an eighth of deltat, a hundredth of the tolerances",
+       .make = make_self_error},
+      {.name = "truth_error",
+       .unit = "m",
+       .doc =
+           "greatest distance of the downhill displacement from that of a rigid block under Coulomb friction",
+       .make = make_truth_error},
+      {.name = "reference_error",
+       .unit = "m",
+       .doc =
+           "greatest distance of the body's origin from the run of arkode with tolerances of 1e-10 and steps of 0.1 ms or less, for a peer only where there is no ground",
+       .make = make_reference_error},
+  });
+  return rows;
 }
 
 }  // namespace hookpoint::studies

@@ -1,8 +1,11 @@
 // The metric of the joints: whether an engine keeps them together.
 #include <algorithm>
+#include <array>
+#include <span>
 
-#include "simulation/kinematics.h"
-#include "studies/metric.h"
+#include "simulation/experiment/kinematics.h"
+#include "studies/measure/metric.h"
+#include "studies/metrics/table.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -50,10 +53,20 @@ class JointGap : public Metric {
   double gap_ = 0.;
 };
 
-}  // namespace
-
 std::unique_ptr<Metric> make_joint_gap(const RunContext& context) {
   return std::make_unique<JointGap>(context);
+}
+
+}  // namespace
+
+std::span<const MetricDefinition> joints_metrics() {
+  static const auto rows = std::to_array<MetricDefinition>({
+      {.name = "joint_gap",
+       .unit = "m",
+       .doc = "greatest distance after `settle` of a link from where its joint lets it be",
+       .make = make_joint_gap},
+  });
+  return rows;
 }
 
 }  // namespace hookpoint::studies

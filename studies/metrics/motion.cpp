@@ -1,8 +1,12 @@
 // Metrics of the body's motion: displacement fits, stopping, direction, energy.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
-#include "studies/metric.h"
+#include "studies/measure/metric.h"
+#include "studies/metrics/table.h"
+#include "studies/predictions/predictions.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -177,8 +181,6 @@ class SpinMax : public Metric {
   double greatest_ = 0.;
 };
 
-}  // namespace
-
 std::unique_ptr<Metric> make_creep_speed(const RunContext& context) {
   return std::make_unique<CreepSpeed>(context);
 }
@@ -205,6 +207,70 @@ std::unique_ptr<Metric> make_energy_gain(const RunContext& context) {
 }
 std::unique_ptr<Metric> make_spin_max(const RunContext& context) {
   return std::make_unique<SpinMax>(context);
+}
+
+}  // namespace
+
+std::span<const MetricDefinition> motion_metrics() {
+  static const auto rows = std::to_array<MetricDefinition>({
+      {.name = "creep_speed",
+       .unit = "m/s",
+       .doc = "least-squares slope of the downhill displacement over [settle, duration]",
+       .make = make_creep_speed,
+       .predict = predicted::creep_speed,
+       .regime = Regime::holds},
+      {.name = "creep_sideways",
+       .unit = "m/s",
+       .doc = "the same of the displacement across the fall, along normal x downhill",
+       .make = make_creep_sideways,
+       .predict = predicted::creep_sideways,
+       .regime = Regime::holds},
+      {.name = "slip_acceleration",
+       .unit = "m/s^2",
+       .doc = "least-squares parabola of the same: its second derivative",
+       .make = make_slip_acceleration,
+       .predict = predicted::slip_acceleration,
+       .regime = Regime::slides},
+      {.name = "friction",
+       .unit = "",
+       .doc =
+           "force of the ground against the motion downhill over that along its normal, from the motion: (g_t - slip_acceleration)/g_n; nothing under external forces",
+       .make = make_friction,
+       .predict = predicted::friction,
+       .regime = Regime::slides},
+      {.name = "anisotropy",
+       .unit = "",
+       .doc =
+           "greatest over least friction of the runs that differ in the swept direction alone, less 1",
+       .make = make_friction,
+       .predict = predicted::anisotropy,
+       .regime = Regime::slides,
+       .scope = MetricScope::sweep},
+      {.name = "settle_shift",
+       .unit = "m",
+       .doc = "downhill displacement at `settle`",
+       .make = make_settle_shift},
+      {.name = "stopping_distance",
+       .unit = "m",
+       .doc = "displacement at the end, if the body rests then",
+       .make = make_stopping_distance,
+       .predict = predicted::stopping_distance},
+      {.name = "direction_error",
+       .unit = "rad",
+       .doc = "angle between the displacement after `settle` and downhill",
+       .make = make_direction_error,
+       .predict = predicted::direction_error,
+       .regime = Regime::slides},
+      {.name = "energy_gain",
+       .unit = "J",
+       .doc = "greatest rise of kinetic and gravitational energy above the start's",
+       .make = make_energy_gain},
+      {.name = "spin_max",
+       .unit = "rad/s",
+       .doc = "greatest angular speed of the body after `settle`",
+       .make = make_spin_max},
+  });
+  return rows;
 }
 
 }  // namespace hookpoint::studies

@@ -2,10 +2,14 @@
 #include "simulation/analysis/stability.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
 #include "contact/force_law.h"
-#include "studies/metric.h"
+#include "studies/measure/metric.h"
+#include "studies/metrics/table.h"
+#include "studies/predictions/predictions.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -50,8 +54,6 @@ class StableStep : public Metric {
   const RunContext& context_;
 };
 
-}  // namespace
-
 std::unique_ptr<Metric> make_unrest(const RunContext& context) {
   return std::make_unique<Unrest>(context);
 }
@@ -60,6 +62,29 @@ std::unique_ptr<Metric> make_restless(const RunContext& context) {
 }
 std::unique_ptr<Metric> make_stable_step(const RunContext& context) {
   return std::make_unique<StableStep>(context);
+}
+
+}  // namespace
+
+std::span<const MetricDefinition> stability_metrics() {
+  static const auto rows = std::to_array<MetricDefinition>({
+      {.name = "unrest",
+       .unit = "m/s",
+       .doc = "greatest sqrt(2 T/m) after `settle`, T the kinetic energy of the robot, m its mass",
+       .make = make_unrest},
+      {.name = "restless",
+       .unit = "",
+       .doc =
+           "1 if unrest is above 1 mm/s or the engine broke the run off: what should rest does not; else 0",
+       .make = make_restless,
+       .predict = predicted::restless},
+      {.name = "stable_step",
+       .unit = "s",
+       .doc =
+           "largest stable step of the run's integrator at its start (docs/contact.md); nothing for a peer, an impulse law or an adaptive integrator",
+       .make = make_stable_step},
+  });
+  return rows;
 }
 
 }  // namespace hookpoint::studies

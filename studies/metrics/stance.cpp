@@ -2,8 +2,11 @@
 // the ground, how deep, and whether it stays where it is. From poses, counts of contacts and the
 // gait's ports, so they mean the same under every engine and law.
 #include <algorithm>
+#include <array>
+#include <span>
 
-#include "studies/metric.h"
+#include "studies/measure/metric.h"
+#include "studies/metrics/table.h"
 #include "studies/metrics/walk_metric.h"
 
 namespace hookpoint::studies {
@@ -127,8 +130,6 @@ class StanceDepth : public StanceMetric {
   }
 };
 
-}  // namespace
-
 std::unique_ptr<Metric> make_hook_losses(const RunContext& context) {
   return std::make_unique<HookLosses>(context);
 }
@@ -141,6 +142,37 @@ std::unique_ptr<Metric> make_stance_depth(const RunContext& context) {
 
 std::unique_ptr<Metric> make_stance_lift(const RunContext& context) {
   return std::make_unique<StanceLift>(context);
+}
+
+}  // namespace
+
+std::span<const MetricDefinition> stance_metrics() {
+  static const auto rows = std::to_array<MetricDefinition>({
+      {.name = "hook_losses",
+       .unit = "",
+       .doc =
+           "contacts of a foot lost while its leg is to stand, per stance; nothing without a gait that tells `stance`",
+       .make = make_hook_losses,
+       .needs = {.feet = true, .stance = true}},
+      {.name = "stance_slip",
+       .unit = "m",
+       .doc =
+           "distance along the ground from where a foot first touches in a stance to where it last does, mean of the stances",
+       .make = make_stance_slip,
+       .needs = {.feet = true, .stance = true}},
+      {.name = "stance_depth",
+       .unit = "m",
+       .doc = "mean depth of a foot in the ground while its leg is to stand and it touches",
+       .make = make_stance_depth,
+       .needs = {.feet = true, .stance = true}},
+      {.name = "stance_lift",
+       .unit = "m",
+       .doc =
+           "greatest height over the ground that a foot reaches between two touches of a stance, mean of the stances",
+       .make = make_stance_lift,
+       .needs = {.feet = true, .stance = true}},
+  });
+  return rows;
 }
 
 }  // namespace hookpoint::studies

@@ -1,7 +1,11 @@
 // Metrics of the threshold of slip, of a body that is driven over it slowly.
+#include <array>
 #include <cmath>
+#include <span>
 
-#include "studies/metric.h"
+#include "studies/measure/metric.h"
+#include "studies/metrics/table.h"
+#include "studies/predictions/predictions.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -58,13 +62,30 @@ class ThresholdError : public SlipOnset {
   std::optional<double> friction_;
 };
 
-}  // namespace
-
 std::unique_ptr<Metric> make_slip_onset(const RunContext& context) {
   return std::make_unique<SlipOnset>(context);
 }
 std::unique_ptr<Metric> make_threshold_error(const RunContext& context) {
   return std::make_unique<ThresholdError>(context);
+}
+
+}  // namespace
+
+std::span<const MetricDefinition> threshold_metrics() {
+  static const auto rows = std::to_array<MetricDefinition>({
+      {.name = "slip_onset",
+       .unit = "rad",
+       .doc =
+           "angle of the driving force, weight and external forces, from the ground's normal when, after `settle`, the speed along the ground first exceeds 1 mm/s for 10 ms on end; nothing if it never does",
+       .make = make_slip_onset,
+       .predict = predicted::slip_onset},
+      {.name = "threshold_error",
+       .unit = "rad",
+       .doc = "slip_onset less atan(mu_s)",
+       .make = make_threshold_error,
+       .predict = predicted::threshold_error},
+  });
+  return rows;
 }
 
 }  // namespace hookpoint::studies

@@ -7,11 +7,11 @@
 #include <optional>
 #include <utility>
 
-#include "output/text/hash.h"
-#include "output/text/number.h"
+#include "output/files/hash.h"
 #include "simulation/run/expectation.h"
 #include "studies/measurements/sampled_port.h"
 #include "studies/measurements/trace_residual.h"
+#include "text/number.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -52,7 +52,7 @@ class MeasuredFormula : public Metric {
   }
   std::string why_not() const override {
     if (!lost_) return "";
-    return fmt::format("`{}` has no value at {} s", metric_.of->text, output::rounded(*lost_, 6));
+    return fmt::format("`{}` has no value at {} s", metric_.of->text, text::rounded(*lost_, 6));
   }
 
  private:
@@ -113,7 +113,7 @@ class MeasuredDistance : public Metric {
 class MeasuredExpect : public Metric {
  public:
   MeasuredExpect(const simulation::ExpectationSpec& spec, const double* source)
-      : source_(source), reducer_(spec.reduction()) {}
+      : source_(source), reducer_(spec.reduction) {}
   void observe(const Observation& observation) override {
     reducer_.observe(observation.world.time, *source_);
   }
@@ -124,24 +124,22 @@ class MeasuredExpect : public Metric {
   simulation::Reducer reducer_;
 };
 
-std::string spec_text(const std::optional<double>& value) {
-  return value ? output::shortest(*value) : "-";
-}
-
 std::string own_key(const UserMetric& metric) {
-  if (!metric.expectation.empty()) return "expect:" + metric.expectation;
+  if (!metric.expectation.empty()) return expectation_key(metric.expectation);
   constexpr std::size_t digits = 16;
   const simulation::ReductionSpec& spec = metric.reduction;
   output::Hash hash;
   hash.add(metric.of != nullptr ? metric.of->text : "trace " + metric.trace);
   for (const std::string& trail : metric.trails) hash.add(trail);
-  hash.add(fmt::format("{} {} {} {} {} {}", static_cast<int>(spec.take),
-                       output::shortest(spec.from), spec_text(spec.to), spec_text(spec.level),
-                       spec_text(spec.band), output::shortest(metric.scale)));
+  hash.add(fmt::format("{} {} {} {} {} {}", static_cast<int>(spec.take), text::shortest(spec.from),
+                       text::shortest(spec.to, "-"), text::shortest(spec.level, "-"),
+                       text::shortest(spec.band, "-"), text::shortest(metric.scale)));
   return metric.name + "@" + hash.text().substr(0, digits);
 }
 
 }  // namespace
+
+std::string expectation_key(const std::string& name) { return "expect:" + name; }
 
 void complete(UserMetric& metric) {
   metric.key = own_key(metric);

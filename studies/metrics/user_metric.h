@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "language/values/formula.h"
-#include "simulation/experiment.h"
+#include "simulation/experiment/experiment.h"
 #include "simulation/wiring/ports.h"
+#include "studies/measure/metric.h"
 #include "studies/measurements/trace_plan.h"
-#include "studies/metric.h"
 
 namespace hookpoint::studies {
 
@@ -36,6 +36,9 @@ struct UserMetric {
 
   double in_unit(double si) const { return si / scale; }
 };
+
+/// The key of an Expect of that name.
+std::string expectation_key(const std::string& name);
 
 /// Sets `key` and `definition` from the rest, which stays as it is and where it is.
 void complete(UserMetric& metric);

@@ -1,14 +1,20 @@
 // Metrics of a robot that walks, from poses alone: so they mean the same under every engine.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 
-#include "studies/metric.h"
+#include "studies/measure/metric.h"
+#include "studies/metrics/table.h"
 #include "studies/metrics/walk_metric.h"
+#include "studies/predictions/predictions.h"
 
 namespace hookpoint::studies {
 namespace {
 
+/// A robot has fallen by its height over the ground under its feet too.
+constexpr MetricNeeds sees_feet{.feet = true};
 constexpr double least_walk = 1e-3;  // [m]: a ratio to a shorter way is rounding
 
 class Fell : public WalkMetric {
@@ -136,8 +142,6 @@ class TiltMax : public WalkMetric {
   double greatest_ = 0.;
 };
 
-}  // namespace
-
 std::unique_ptr<Metric> make_fell(const RunContext& context) {
   return std::make_unique<Fell>(context);
 }
@@ -158,6 +162,53 @@ std::unique_ptr<Metric> make_body_height_min(const RunContext& context) {
 }
 std::unique_ptr<Metric> make_tilt_max(const RunContext& context) {
   return std::make_unique<TiltMax>(context);
+}
+
+}  // namespace
+
+std::span<const MetricDefinition> walk_metrics() {
+  static const auto rows = std::to_array<MetricDefinition>({
+      {.name = "fell",
+       .unit = "",
+       .doc =
+           "1 if the base came lower over the lowest ground under it and its feet than half its height at the start, or its z turned by more than 60 deg; else 0",
+       .make = make_fell,
+       .predict = predicted::fell,
+       .needs = sees_feet},
+      {.name = "walked_distance",
+       .unit = "m",
+       .doc =
+           "displacement of the base from `settle` to the end or the fall, along its x at the start",
+       .make = make_walked_distance,
+       .needs = sees_feet},
+      {.name = "walking_speed",
+       .unit = "m/s",
+       .doc = "walked_distance over its time; nothing for a robot that fell",
+       .make = make_walking_speed,
+       .needs = sees_feet},
+      {.name = "foot_slip",
+       .unit = "",
+       .doc = "path of a foot over the ground while in it, mean of the feet, per walked_distance",
+       .make = make_foot_slip,
+       .needs = sees_feet},
+      {.name = "cost_of_transport",
+       .unit = "",
+       .doc =
+           "work of the joints' torques, taken positive whichever way it goes, per weight and walked_distance",
+       .make = make_cost_of_transport,
+       .needs = sees_feet},
+      {.name = "body_height_min",
+       .unit = "m",
+       .doc = "least height of the base over the ground after `settle`",
+       .make = make_body_height_min,
+       .needs = sees_feet},
+      {.name = "tilt_max",
+       .unit = "rad",
+       .doc = "greatest angle after `settle` of the base's z from where it was at the start",
+       .make = make_tilt_max,
+       .needs = sees_feet},
+  });
+  return rows;
 }
 
 }  // namespace hookpoint::studies

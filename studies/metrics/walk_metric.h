@@ -1,9 +1,10 @@
 // What metrics of a robot that walks have in common.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
-#include "studies/metric.h"
+#include "studies/measure/metric.h"
 
 namespace hookpoint::studies {
 
@@ -22,7 +23,7 @@ class WalkMetric : public Metric {
   void observe(const Observation& observation) final {
     constexpr double fallen_share = 0.5;   // of the height at the start
     constexpr double fallen_cosine = 0.5;  // of the tilt: 60 deg
-    fallen_ = fallen_ || observation.height < fallen_share * start_height_ ||
+    fallen_ = fallen_ || height_over_lowest(observation) < fallen_share * start_height_ ||
               dot(upright_, up(observation.body)) < fallen_cosine;
     if (!fallen_ && settled(context_, observation)) watch(observation);
   }
@@ -41,6 +42,18 @@ class WalkMetric : public Metric {
   }
 
  private:
+  /// Over the lowest ground that is under the base or a foot: before a step the ground under the base
+  /// rises, and the robot has not fallen.
+  double height_over_lowest(const Observation& observation) const {
+    double height = observation.height;
+    if (!context_.ground || simulation::is_plane(context_.ground->description())) return height;
+    for (const FootObservation& foot : observation.feet) {
+      const double depth = context_.ground->query(foot.position).depth;
+      const Vector3d below = foot.position + depth * context_.normal;
+      height = std::max(height, dot(observation.body.position - below, context_.normal));
+    }
+    return height;
+  }
   static Vector3d up(const simulation::BodyState& base) {
     return rotate(base.orientation, Vector3d{0., 0., 1.});
   }

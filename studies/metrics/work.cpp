@@ -5,9 +5,12 @@
 // step M (v_k+1 - v_k) = h F keeps its books exactly; a force that is a function of the state,
 // W = h (F_k . v_k + F_k+1 . v_k+1)/2.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
-#include "studies/metric.h"
+#include "studies/measure/metric.h"
+#include "studies/metrics/table.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -129,10 +132,22 @@ class EnergyResidual : public Metric {
   double work_ = 0., residual_ = 0., exchanged_ = 0., greatest_kinetic_ = 0.;  ///< [J]
 };
 
-}  // namespace
-
 std::unique_ptr<Metric> make_energy_residual(const RunContext& context) {
   return std::make_unique<EnergyResidual>(context);
+}
+
+}  // namespace
+
+std::span<const MetricDefinition> work_metrics() {
+  static const auto rows = std::to_array<MetricDefinition>({
+      {.name = "energy_residual",
+       .unit = "",
+       .doc =
+           "greatest difference, since the start, between the change of kinetic and gravitational energy and the work of ground, joints and external forces, per energy exchanged",
+       .make = make_energy_residual,
+       .needs = {.forces = true}},
+  });
+  return rows;
 }
 
 }  // namespace hookpoint::studies

@@ -1,17 +1,51 @@
 #include "studies/plan/row_forms.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
-#include "simulation/closed_form.h"
-#include "studies/plan/scene_probe.h"
-#include "studies/plan/scene_words.h"
+#include "language/syntax/syntax.h"
+#include "simulation/experiment/closed_form.h"
+#include "studies/measure/scene_names.h"
 
 namespace hookpoint::studies {
 namespace {
+
+bool is_word(std::string_view text) {
+  const auto part_of_word = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; };
+  if (text.empty() || std::isdigit(static_cast<unsigned char>(text.front())) != 0) return false;
+  return std::ranges::all_of(text, part_of_word) && text != "true" && text != "false" &&
+         text != "pi";
+}
+
+/// Adds the words that Params of `file` hold, some of which are given.
+void add_words(SceneWords& words, language::Library& library, const std::filesystem::path& file,
+               const std::map<std::string, std::string>& given) {
+  language::Diagnostics unreported;
+  const auto declared = library.parameters(file, unreported);
+  for (const language::ParameterDeclaration& parameter : declared) {
+    const auto set = given.find(parameter.name);
+    const std::string& text = set == given.end() ? parameter.default_text : set->second;
+    if (is_string(text)) {
+      words.try_emplace(parameter.name, language::unquote(text));
+      continue;
+    }
+    if (!is_word(text)) continue;
+    // In the file itself the name of a Param means what that holds.
+    const bool names_another =
+        set == given.end() &&
+        std::ranges::find(declared, text, &language::ParameterDeclaration::name) != declared.end();
+    if (!names_another)
+      words.try_emplace(parameter.name, text);
+    else if (const auto other = words.find(text); other != words.end())
+      words.try_emplace(parameter.name, other->second);
+  }
+}
 
 simulation::ClosedForm<double> value_of(const language::Formula& formula, SceneNames& names) {
   std::vector<double> values;
@@ -68,6 +102,19 @@ RowForm form_of_expectation(const UserMetric& metric, const simulation::Experime
 }
 
 }  // namespace
+
+SceneWords words_of(const StudyPlan& plan, const RowPlan& row) {
+  SceneWords words;
+  for (std::size_t i = 0; i < plan.sweeps.size(); ++i) {
+    const SweepColumn& column = plan.sweeps[i].column;
+    if (!column.words.empty())
+      words[column.name] = column.words[static_cast<std::size_t>(row.values[i])];
+  }
+  const ScenePlan scene = plan.scene_of(row);
+  add_words(words, *plan.library, scene.file, scene.options.parameters);
+  if (scene.ground) add_words(words, *plan.library, scene.ground->file, scene.ground->parameters);
+  return words;
+}
 
 std::vector<RowForm> row_forms(const StudyPlan& plan, const RowPlan& row,
                                const language::Object& tree,

@@ -5,7 +5,7 @@
 
 #include "contact/force_law.h"
 #include "contact/predictions.h"
-#include "studies/body_on_plane.h"
+#include "studies/measure/body_on_plane.h"
 #include "studies/predictions/predictions.h"
 
 namespace hookpoint::studies {
@@ -50,7 +50,7 @@ Prediction rolling_acceleration(const RunContext& context) {
   return contact::slip_acceleration(gravity, std::atan2(sine, cosine), ground->kinetic_friction);
 }
 
-Prediction rebound(const RunContext& context) {
+Prediction predicted::rebound(const RunContext& context, const PeerContact&) {
   const auto ground = ground_of_lone_body(context);
   if (!ground) return ground.none();
   const simulation::RobotSpec& robot = context.robot_spec();
@@ -63,15 +63,15 @@ Prediction rebound(const RunContext& context) {
   const simulation::Experiment& experiment = *context.experiment;
   const double mass = robot.base.mass.mass;
   if (experiment.engine == "dts") {
-    const auto law = contact::find_force_law(experiment.contact);
-    return law ? contact::restitution(*law, mass, approach, *ground) : ground->restitution;
+    const auto* const law = contact::find_force_law(experiment.contact);
+    return law ? law->restitution(mass, approach, *ground) : ground->restitution;
   }
   if (experiment.settings != "matched") return ground->restitution;
   return contact::kelvin_voigt_restitution(ground->normal_damping /
                                            (2. * std::sqrt(ground->normal_stiffness * mass)));
 }
 
-Prediction support_force(const RunContext& context) {
+Prediction predicted::support_force(const RunContext& context, const PeerContact&) {
   const simulation::Experiment& experiment = *context.experiment;
   if (!context.ground) return NoClosedForm{"there is no ground"};
   if (!experiment.forces.empty())

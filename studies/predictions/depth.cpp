@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "studies/body_on_plane.h"
+#include "studies/measure/body_on_plane.h"
 #include "studies/predictions/predictions.h"
 
 namespace hookpoint::studies {
@@ -58,7 +58,7 @@ Prediction greatest_depth(double gravity, double gap, double depth, double decay
 std::optional<double> linear_damping(const BodyOnPlane& body) {
   if (!body.law) return body.material.normal_damping;
   const auto damping = [&](double load) {
-    return contact::linearise(*body.law, load, body.material).normal_damping;
+    return body.law->linearise(load, body.material).normal_damping;
   };
   const double once = damping(body.normal_load()), twice = damping(2. * body.normal_load());
   return once == twice ? std::optional(once) : std::nullopt;
@@ -77,10 +77,11 @@ Prediction depth_of_landing(const RunContext& context, const BodyOnPlane& body,
                         *damping * body.contacts() / (2. * body.mass));
 }
 
-}  // namespace
+/// What a metric takes of the depths of the points.
+enum class DepthOfPoints { greatest, mean, root_mean_square };
 
-Prediction penetration(std::string_view metric, const RunContext& context,
-                       const simulation::ClosedForm<double>& softness) {
+Prediction depth_of_points(DepthOfPoints taken, const RunContext& context,
+                           const simulation::ClosedForm<double>& softness) {
   if (std::string why = not_resting_as_one_body(context); !why.empty())
     return NoClosedForm{std::move(why)};
   const BodyOnPlane body = body_on_plane(context);
@@ -89,24 +90,36 @@ Prediction penetration(std::string_view metric, const RunContext& context,
     return NoClosedForm{"depths in other engines are known on level ground alone"};
   if (body.peer && body.speed > 0.) return NoClosedForm{"the body is thrown along the ground"};
   if (!body.peer && !body.law) return 0.;
-  const auto depths = footprint_depths(
-      context, body,
-      body.law ? contact::static_depth(*body.law, body.normal_load(), body.material)
-               : *softness * body.normal_load());
+  const auto depths =
+      footprint_depths(context, body,
+                       body.law ? body.law->static_depth(body.normal_load(), body.material)
+                                : *softness * body.normal_load());
   if (!depths) return depths.none();
-  if (context.settle == 0. && body.level() && body.speed == 0.) {
-    if (metric != "penetration_max")
+  if (context.settle == 0. && body.level() && body.speed == 0. && !body.settled) {
+    if (taken != DepthOfPoints::greatest)
       return NoClosedForm{"with `settle = 0` the body's landing counts"};
     return depth_of_landing(context, body, *depths);
   }
-  if (metric == "penetration_max") return std::ranges::max(*depths);
+  if (taken == DepthOfPoints::greatest) return std::ranges::max(*depths);
   double sum = 0., squares = 0.;
   for (const double depth : *depths) {
     sum += depth;
     squares += depth * depth;
   }
   const double count = body.contacts();
-  return metric == "penetration_mean" ? sum / count : std::sqrt(squares / count);
+  return taken == DepthOfPoints::mean ? sum / count : std::sqrt(squares / count);
+}
+
+}  // namespace
+
+Prediction predicted::penetration_max(const RunContext& context, const PeerContact& peer) {
+  return depth_of_points(DepthOfPoints::greatest, context, peer.softness);
+}
+Prediction predicted::penetration_mean(const RunContext& context, const PeerContact& peer) {
+  return depth_of_points(DepthOfPoints::mean, context, peer.softness);
+}
+Prediction predicted::penetration_rms(const RunContext& context, const PeerContact& peer) {
+  return depth_of_points(DepthOfPoints::root_mean_square, context, peer.softness);
 }
 
 }  // namespace hookpoint::studies

@@ -5,7 +5,7 @@
 #include <memory>
 #include <set>
 
-#include "simulation/engine/dts_engine.h"
+#include "simulation/dts_engine/dts_engine.h"
 
 namespace hookpoint::studies {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "simulation/run/world.h"
-#include "studies/metric.h"
+#include "studies/measure/metric.h"
 
 namespace hookpoint::studies {
 

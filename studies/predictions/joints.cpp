@@ -1,3 +1,4 @@
+// The closed form of a walking robot whose joint loops are unstable.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -47,7 +48,7 @@ double delay_from(const Experiment& experiment, const std::string& port) {
 
 }  // namespace
 
-Prediction joint_loop_fails(const RunContext& context) {
+Prediction predicted::fell(const RunContext& context, const PeerContact&) {
   const Experiment& experiment = *context.experiment;
   const auto spec = std::find_if(
       experiment.components.begin(), experiment.components.end(),

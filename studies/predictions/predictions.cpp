@@ -1,13 +1,12 @@
 #include "studies/predictions/predictions.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string>
 
 #include "contact/force_law.h"
 #include "contact/predictions.h"
-#include "studies/body_on_plane.h"
+#include "studies/measure/body_on_plane.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -27,8 +26,7 @@ std::string why_it_may_break_away(const RunContext& context, const BodyOnPlane& 
         return load <= body.material.static_friction * normal;
       });
   if (holds) return "";
-  return "the slope is between kinetic and static friction: a contact that breaks away at the "
-         "start "
+  return "the slope is between kinetic and static friction: a contact that breaks away at the start "
          "may take the others with it";
 }
 
@@ -40,14 +38,14 @@ Prediction sticking_creep(const RunContext& context, const BodyOnPlane& body,
   }
   const std::string& law = context.experiment->contact;
   if (body.law) {
-    const auto speed = contact::creep_speed(*body.law, body.tangent(), body.material);
+    const auto speed = body.law->creep_speed(body.tangent(), body.material);
     if (!speed) return NoClosedForm{"the friction of " + law + " never carries the body"};
     return *speed;
   }
-  const auto impulse_law = contact::find_impulse_law(law);
+  const auto* const impulse_law = contact::find_impulse_law(law);
   if (!impulse_law) return NoClosedForm{"the law " + law + " has none of its creep"};
   const auto speed =
-      contact::creep_speed(*impulse_law, body.tangent(), body.single_point, body.material);
+      impulse_law->impulse->creep_speed(body.tangent(), body.single_point, body.material);
   if (!speed) return NoClosedForm{"a body with several contact points rocks between the impacts"};
   return *speed;
 }
@@ -97,7 +95,7 @@ Prediction anisotropy(const RunContext&, const BodyOnPlane& body, const PeerCont
 /// to its load: only then has a load that is put on at once, or a slide that ends, a closed form.
 Prediction elastic_shift(const RunContext& context, const BodyOnPlane& body, double load) {
   const auto shift = [&](double f) {
-    return contact::stick_displacement(*body.law, f, body.normal_load(), body.material);
+    return body.law->stick_displacement(f, body.normal_load(), body.material);
   };
   const std::optional<double> half = shift(0.5 * load), whole = shift(load);
   if (!half || !whole || std::abs(*whole - 2. * *half) > 1e-12 * *whole)
@@ -106,12 +104,12 @@ Prediction elastic_shift(const RunContext& context, const BodyOnPlane& body, dou
   return *whole;
 }
 
-Prediction stick_displacement(const RunContext& context, const BodyOnPlane& body,
-                              const PeerContact&) {
+/// What a start with slack springs becomes at rest; from a start in balance nothing moves.
+Prediction slack_give(const RunContext& context, const BodyOnPlane& body, const PeerContact&) {
   if (body.peer || !body.law) return NoClosedForm{"the contact has no tangential springs"};
   if (body.speed > 0.) return thrown;
   if (!body.sticks()) return NoClosedForm{"the body slides"};
-  if (contact::creep_speed(*body.law, body.tangent(), body.material) != 0.)
+  if (body.law->creep_speed(body.tangent(), body.material) != 0.)
     return NoClosedForm{"the body creeps: no spring holds it"};
   const Prediction shift = elastic_shift(context, body, body.friction_load());
   if (!shift) return shift;
@@ -124,6 +122,12 @@ Prediction stick_displacement(const RunContext& context, const BodyOnPlane& body
   if (!within)
     return NoClosedForm{"a contact may slip as the body swings past its rest at the start"};
   return shift;
+}
+
+Prediction stick_displacement(const RunContext& context, const BodyOnPlane& body,
+                              const PeerContact& peer) {
+  const bool springs_hold = body.settled && body.tangential_stiffness() > 0. && body.sticks();
+  return springs_hold ? 0. : slack_give(context, body, peer);
 }
 
 Prediction stopping_distance(const RunContext& context, const BodyOnPlane& body,
@@ -142,11 +146,11 @@ Prediction stopping_distance(const RunContext& context, const BodyOnPlane& body,
 }
 
 Prediction impacts(const RunContext& context, const BodyOnPlane& body, const PeerContact&) {
-  const auto impulse_law = contact::find_impulse_law(context.experiment->contact);
+  const auto* const impulse_law = contact::find_impulse_law(context.experiment->contact);
   if (body.peer || !impulse_law) return NoClosedForm{"the contact has no impulses"};
   if (!body.single_point)
     return NoClosedForm{"a body with several contact points rocks between the impacts"};
-  const auto rate = contact::impact_rate(*impulse_law, body.gravity * body.cosine, body.material);
+  const auto rate = impulse_law->impulse->impact_rate(body.gravity * body.cosine, body.material);
   if (!rate)
     return NoClosedForm{"the law " + context.experiment->contact + " has none of its rate"};
   return *rate;
@@ -168,46 +172,6 @@ Prediction of_body(const RunContext& context, const PeerContact& peer) {
   return form(context, body_on_plane(context), peer);
 }
 
-Prediction acceleration_of_ball_or_body(const RunContext& context, const PeerContact& peer) {
-  return is_ball(context) ? rolling_acceleration(context)
-                          : of_body<slip_acceleration>(context, peer);
-}
-
-struct Form {
-  std::string_view metric;
-  Prediction (*predict)(const RunContext&, const PeerContact&);
-};
-
-constexpr auto forms = std::to_array<Form>({
-    {"creep_speed", of_body<creep_speed>},
-    {"creep_sideways", of_body<creep_sideways>},
-    {"slip_acceleration", acceleration_of_ball_or_body},
-    {"friction", of_body<friction>},
-    {"anisotropy", of_body<anisotropy>},
-    {"stick_displacement", of_body<stick_displacement>},
-    {"stopping_distance", of_body<stopping_distance>},
-    {"impacts", of_body<impacts>},
-    {"direction_error", of_body<direction_error>},
-    {"slip_onset", slip_onset},
-    {"threshold_error", threshold_error},
-    {"penetration_max",
-     [](const RunContext& c, const PeerContact& p) {
-       return penetration("penetration_max", c, p.softness);
-     }},
-    {"penetration_mean",
-     [](const RunContext& c, const PeerContact& p) {
-       return penetration("penetration_mean", c, p.softness);
-     }},
-    {"penetration_rms",
-     [](const RunContext& c, const PeerContact& p) {
-       return penetration("penetration_rms", c, p.softness);
-     }},
-    {"rebound", [](const RunContext& c, const PeerContact&) { return rebound(c); }},
-    {"support_force", [](const RunContext& c, const PeerContact&) { return support_force(c); }},
-    {"restless", [](const RunContext& c, const PeerContact&) { return restless(c); }},
-    {"fell", [](const RunContext& c, const PeerContact&) { return joint_loop_fails(c); }},
-});
-
 }  // namespace
 
 PeerContact peer_contact(const EngineEntry& engine, const simulation::Experiment& experiment) {
@@ -218,15 +182,47 @@ PeerContact peer_contact(const EngineEntry& engine, const simulation::Experiment
   return contact;
 }
 
-Prediction predict(std::string_view metric, const RunContext& context, const PeerContact& peer) {
-  const auto form = std::ranges::find(forms, metric, &Form::metric);
-  if (form == forms.end()) return NoClosedForm{"none is known of " + std::string(metric)};
-  return form->predict(context, peer);
+namespace predicted {
+
+Prediction creep_speed(const RunContext& context, const PeerContact& peer) {
+  return of_body<studies::creep_speed>(context, peer);
+}
+Prediction creep_sideways(const RunContext& context, const PeerContact& peer) {
+  return of_body<studies::creep_sideways>(context, peer);
+}
+Prediction slip_acceleration(const RunContext& context, const PeerContact& peer) {
+  if (is_ball(context)) return rolling_acceleration(context);
+  return of_body<studies::slip_acceleration>(context, peer);
+}
+Prediction friction(const RunContext& context, const PeerContact& peer) {
+  return of_body<studies::friction>(context, peer);
+}
+Prediction anisotropy(const RunContext& context, const PeerContact& peer) {
+  return of_body<studies::anisotropy>(context, peer);
+}
+Prediction stick_displacement(const RunContext& context, const PeerContact& peer) {
+  return of_body<studies::stick_displacement>(context, peer);
+}
+Prediction stopping_distance(const RunContext& context, const PeerContact& peer) {
+  return of_body<studies::stopping_distance>(context, peer);
+}
+Prediction impacts(const RunContext& context, const PeerContact& peer) {
+  return of_body<studies::impacts>(context, peer);
+}
+Prediction direction_error(const RunContext& context, const PeerContact& peer) {
+  return of_body<studies::direction_error>(context, peer);
 }
 
-bool may_be_predicted(std::string_view metric) {
-  return std::ranges::find(forms, metric, &Form::metric) != forms.end();
+}  // namespace predicted
+
+Prediction predict(std::string_view metric, const RunContext& context, const PeerContact& peer) {
+  const MetricDefinition* const row = find_metric(metric);
+  if (row == nullptr || row->predict == nullptr)
+    return NoClosedForm{"none is known of " + std::string(metric)};
+  return row->predict(context, peer);
 }
+
+Prediction tangential_give(const RunContext& context) { return of_body<slack_give>(context, {}); }
 
 double RigidSlide::displacement(double time) const {
   const bool rests = speed > 0. && acceleration < 0. && time > -speed / acceleration;

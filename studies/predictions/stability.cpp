@@ -3,12 +3,12 @@
 
 #include <cmath>
 
-#include "studies/body_on_plane.h"
+#include "studies/measure/body_on_plane.h"
 #include "studies/predictions/predictions.h"
 
 namespace hookpoint::studies {
 
-Prediction restless(const RunContext& context) {
+Prediction predicted::restless(const RunContext& context, const PeerContact&) {
   const simulation::Experiment& experiment = *context.experiment;
   const double bound = simulation::stability_bound(experiment).step;
   if (!std::isfinite(bound))

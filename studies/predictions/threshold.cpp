@@ -19,7 +19,7 @@
 #include "contact/bisect.h"
 #include "contact/force_law.h"
 #include "contact/laws/stribeck.h"
-#include "studies/body_on_plane.h"
+#include "studies/measure/body_on_plane.h"
 #include "studies/predictions/driving_force.h"
 #include "studies/predictions/predictions.h"
 
@@ -29,9 +29,9 @@ namespace {
 using Constants = contact::MaterialConstants<double>;
 
 /// Tangent of the steepest slope on which the law creeps no faster than `onset_speed`.
-double steepest_hold(const contact::AnyForceLaw& law, const Constants& material) {
+double steepest_hold(const contact::LawDescription& law, const Constants& material) {
   const auto fast = [&](double tangent) {
-    const std::optional<double> speed = contact::creep_speed(law, tangent, material);
+    const std::optional<double> speed = law.creep_speed(tangent, material);
     return !speed || *speed > onset_speed;
   };
   const double friction = material.static_friction;
@@ -155,8 +155,7 @@ class PulledBlock {
   }
 
   double friction_at(double speed) const {
-    const bool falls_with_speed =
-        body_.law && contact::reads(*body_.law, &Constants::stribeck_speed);
+    const bool falls_with_speed = body_.law && body_.law->reads(&Constants::stribeck_speed);
     return falls_with_speed ? contact::stribeck_friction(speed, body_.material)
                             : body_.material.kinetic_friction;
   }
@@ -164,13 +163,14 @@ class PulledBlock {
   /// A start on a slope puts the pull on springs that are not stretched yet. "" where that is over
   /// at `settle` and has broken no contact away.
   std::string why_start_counts() const {
+    if (body_.settled) return "";
     const PlaneLoad load = present_load();
     const double stiffness = body_.tangential_stiffness();
     const bool pulled = norm(load.pull) > 1e-9 * load.press;
     if (!pulled || stiffness == 0. || load.tangent() > body_.material.static_friction) return "";
     const double damping =
         body_.contacts() *
-        contact::linearise(*body_.law, body_.normal_load(), body_.material).tangential_damping;
+        body_.law->linearise(body_.normal_load(), body_.material).tangential_damping;
     const double frequency = std::sqrt(stiffness / body_.mass);
     const double zeta = damping / (2. * std::sqrt(stiffness * body_.mass));
     const double decay = frequency * (zeta < 1. ? zeta : zeta - std::sqrt(zeta * zeta - 1.));
@@ -272,7 +272,8 @@ std::string why_not_pulled_block(const RunContext& context) {
   RunContext without = context;
   without.experiment = &unloaded;
   if (std::string why = not_one_rigid_body(without); !why.empty()) return why;
-  if (norm(context.robot_spec().velocity) > 0.) return "the body moves at the start";
+  if (!context.robot_spec().settled && norm(context.robot_spec().velocity) > 0.)
+    return "the body moves at the start";
   if (context.robot_spec().plane_normal) return "the robot's base is kept in a plane";
   if (context.weight == 0.) return "there is no gravity";
   return "";
@@ -280,7 +281,7 @@ std::string why_not_pulled_block(const RunContext& context) {
 
 }  // namespace
 
-Prediction slip_onset(const RunContext& context, const PeerContact& peer) {
+Prediction predicted::slip_onset(const RunContext& context, const PeerContact& peer) {
   if (std::string why = why_not_pulled_block(context); !why.empty())
     return NoClosedForm{std::move(why)};
   const BodyOnPlane body = body_on_plane(context);
@@ -295,7 +296,7 @@ Prediction slip_onset(const RunContext& context, const PeerContact& peer) {
   }
 }
 
-Prediction threshold_error(const RunContext& context, const PeerContact& peer) {
+Prediction predicted::threshold_error(const RunContext& context, const PeerContact& peer) {
   const Prediction onset = slip_onset(context, peer);
   if (!onset) return onset;
   return *onset - std::atan(*static_friction(context));

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "studies/report/figure_parts.h"
-#include "studies/summary.h"
+#include "studies/results/summary.h"
 
 namespace hookpoint::studies {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "output/figures/plot.h"
-#include "studies/result.h"
+#include "studies/results/result.h"
 
 namespace hookpoint::studies {
 

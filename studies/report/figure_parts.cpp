@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "output/text/number.h"
-#include "studies/summary.h"
+#include "studies/results/summary.h"
+#include "text/number.h"
 
 namespace hookpoint::studies {
 
@@ -38,7 +38,7 @@ std::string fixed_values_text(const StudyResult& study, const PlotSpec& spec) {
     text += (text.empty() ? "" : ", ") + spoken(name) + " = ";
     for (std::size_t i = 0; i < values.size(); ++i)
       text += (i > 0 ? " or " : "") +
-              (sweep ? label_of(study.sweeps[*sweep], values[i]) : output::rounded(values[i], 6));
+              (sweep ? label_of(study.sweeps[*sweep], values[i]) : text::rounded(values[i], 6));
     if (sweep && !study.sweeps[*sweep].unit.empty()) text += " " + study.sweeps[*sweep].unit;
   }
   return text;

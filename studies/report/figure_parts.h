@@ -5,7 +5,7 @@
 #include <string>
 
 #include "studies/report/figures.h"
-#include "studies/selection.h"
+#include "studies/results/selection.h"
 
 namespace hookpoint::studies {
 
@@ -17,7 +17,7 @@ bool selected(const StudyResult& study, const PlotSpec& spec, const RunResult& r
 /// and not fixed by `where`. "azimuth and dt"; "" for none.
 std::string undecided_sweeps(const StudyResult& study, const PlotSpec& spec);
 /// What `where` fixes, for a figure's subtitle: "mu = 0.8, dt = 1 ms". Without the axes and the
-/// panels, which are told elsewhere.
+/// panels, which are reported elsewhere.
 std::string fixed_values_text(const StudyResult& study, const PlotSpec& spec);
 
 /// The values of the sweep `name` that are drawn: those in `where`, else all.

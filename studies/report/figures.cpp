@@ -9,11 +9,11 @@
 #include <optional>
 #include <utility>
 
-#include "output/text/number.h"
 #include "studies/report/figure_notes.h"
 #include "studies/report/figure_parts.h"
-#include "studies/seed_means.h"
-#include "studies/summary.h"
+#include "studies/results/seed_means.h"
+#include "studies/results/summary.h"
+#include "text/number.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -291,8 +291,8 @@ std::string caption_of(const StudyResult& study, const PlotSpec& spec, const out
                                [&](double y) { return std::abs(y) <= axes.y.floor; });
   });
   if (axes.y.logarithmic && vanishing)
-    caption += " In the grey strip: at most " + output::rounded(axes.y.floor, 2) + " " +
-               axes.y.unit + ", which counts as zero.";
+    caption += " In the grey strip: at most " + text::rounded(axes.y.floor, 2) + " " + axes.y.unit +
+               ", which counts as zero.";
   if (spec.x == "time" && spec.log_y) caption += " The zero at time 0 is not drawn.";
   caption += coinciding_note(plots) + vanishing_note(spec, plots);
   std::string absent;

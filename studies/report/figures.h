@@ -7,7 +7,7 @@
 
 #include "output/figures/heat_map.h"
 #include "output/figures/plot.h"
-#include "studies/result.h"
+#include "studies/results/result.h"
 
 namespace hookpoint::studies {
 

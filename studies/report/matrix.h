@@ -1,19 +1,19 @@
-// A Matrix: studies of several files told in one page, every subject in every scene by every
+// A Matrix: studies of several files shown in one page, every subject in every scene by every
 // metric.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "output/text/csv.h"
+#include "output/files/csv.h"
 #include "studies/report/report.h"
-#include "studies/result.h"
+#include "studies/results/result.h"
 
 namespace hookpoint::studies {
 
 /// A study of the matrix as it was run.
 struct MatrixStudy {
-  StudyResult result;
+  const StudyResult* result;          ///< outlives the matrix
   std::string text;                   ///< of the .hook file that makes it
   std::vector<ReportFigure> figures;  ///< as its own report has them
 };

@@ -5,9 +5,6 @@
 #include <set>
 #include <utility>
 
-#include "output/text/json.h"
-#include "output/text/number.h"
-#include "studies/idleness.h"
 #include "studies/report/figures.h"
 #include "studies/report/matrix_rows.h"
 #include "studies/report/page_files.h"
@@ -15,7 +12,10 @@
 #include "studies/report/report_page.h"
 #include "studies/report/report_tables.h"
 #include "studies/report/terminal_blocks.h"
-#include "studies/seed_means.h"
+#include "studies/results/idleness.h"
+#include "studies/results/seed_means.h"
+#include "text/json.h"
+#include "text/number.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -44,8 +44,8 @@ std::string runs_text(const SubjectSummary& counts) {
 std::string cell_html(const MatrixStudy& study, const std::string& subject) {
   const MatrixCell cell = matrix_cell(study, subject);
   if (!cell.there) return "<td class=\"soft\">·</td>";
-  output::JsonWriter shows;
-  shows.begin_object().member("study", study.result.name).member("subject", subject).end_object();
+  text::JsonWriter shows;
+  shows.begin_object().member("study", study.result->name).member("subject", subject).end_object();
   std::string shown = shows.text();
   std::ranges::replace(shown, '\n', ' ');
   const auto linked = [&](const char* style, const std::string& text) {
@@ -72,7 +72,7 @@ std::string overview(const MatrixResult& matrix) {
       "overview\">\n"
       "<thead><tr><th class=\"text\">subject</th>";
   for (const MatrixStudy& study : matrix.studies)
-    text += "<th>" + link("#study-" + study.result.name, spoken(study.result.name)) + "</th>";
+    text += "<th>" + link("#study-" + study.result->name, spoken(study.result->name)) + "</th>";
   text += "</tr></thead>\n<tbody>\n";
   for (const std::string& subject : matrix_subjects(matrix)) {
     text += "<tr><th scope=\"row\">" + html(subject) + "</th>";
@@ -102,8 +102,8 @@ std::string choice(const char* label, const char* name, const std::vector<std::s
 std::string filter(const MatrixResult& matrix) {
   std::vector<std::string> studies, metrics;
   for (const MatrixStudy& study : matrix.studies) {
-    studies.push_back(study.result.name);
-    for (const MetricColumn& metric : study.result.metrics) metrics.push_back(metric.name);
+    studies.push_back(study.result->name);
+    for (const MetricColumn& metric : study.result->metrics) metrics.push_back(metric.name);
   }
   return "<div class=\"filter\" hidden><label>Filter <input type=\"search\" placeholder=\"words\" "
          "size=\"18\"></label>" +
@@ -122,16 +122,16 @@ std::string kinds(const MatrixRow& row) {
 }
 
 std::string number_cell(bool there, double value, const char* style = "") {
-  return tag("td", style, there ? output::rounded(value) : "<span class=\"soft\">–</span>");
+  return tag("td", style, there ? text::rounded(value) : "<span class=\"soft\">–</span>");
 }
 
 /// Figures that draw the metric, then the file that makes them.
 std::string links_cell(const MatrixStudy& study, const std::string& metric) {
   std::string links;
-  for (const PlotSpec& plot : study.result.plots)
+  for (const PlotSpec& plot : study.result->plots)
     if (plot.y == metric || plot.color == metric || plot.x == metric)
-      links += link("#" + anchor(study.result.name, plot.name), plot.name) + " ";
-  return tag("td", "text links", links + link("#hook-" + study.result.name, ".hook"));
+      links += link("#" + anchor(study.result->name, plot.name), plot.name) + " ";
+  return tag("td", "text links", links + link("#hook-" + study.result->name, ".hook"));
 }
 
 std::string verdict_cell(const MetricSummary& summary) {
@@ -144,19 +144,19 @@ std::string verdict_cell(const MetricSummary& summary) {
 std::string row_html(const MatrixResult& matrix, const MatrixRow& row,
                      const std::vector<std::vector<int>>& styles) {
   const MatrixStudy& study = matrix.studies[row.study];
-  const SubjectInfo& subject = study.result.subjects[row.subject];
-  const std::string metric = row.metric ? study.result.metrics[*row.metric].name : "";
-  const std::string unit = row.metric ? study.result.metrics[*row.metric].unit : "";
+  const SubjectInfo& subject = study.result->subjects[row.subject];
+  const std::string metric = row.metric ? study.result->metrics[*row.metric].name : "";
+  const std::string unit = row.metric ? study.result->metrics[*row.metric].unit : "";
   const MetricSummary& summary = row.summary;
   const RunResult* run =
-      summary.worst < 0 ? nullptr : &study.result.rows[static_cast<std::size_t>(summary.worst)];
+      summary.worst < 0 ? nullptr : &study.result->rows[static_cast<std::size_t>(summary.worst)];
   const MetricValue worst = run != nullptr ? run->metrics[*row.metric] : MetricValue{};
   std::string text =
       fmt::format("<tr data-study=\"{}\" data-subject=\"{}\" data-metric=\"{}\" data-kind=\"{}\">",
-                  html(study.result.name), html(subject.name), html(metric), kinds(row));
+                  html(study.result->name), html(subject.name), html(metric), kinds(row));
   text += tag(
       "td", "text",
-      link(study.result.name + "/report.html", spoken(study.result.name)) +
+      link(study.result->name + "/report.html", spoken(study.result->name)) +
           (row.regime == Regime::none ? ""
                                       : "<small>" + std::string(word(row.regime)) + "</small>"));
   text += tag("td", "text",
@@ -168,9 +168,8 @@ std::string row_html(const MatrixResult& matrix, const MatrixRow& row,
   text += number_cell(any, summary.median, "first") + number_cell(any, summary.least) +
           number_cell(any, summary.largest);
   text += "<td class=\"first\" title=\"" +
-          html(run != nullptr ? parameters_text(study.result, *run) : "") + "\">" +
-          (worst.measured ? output::rounded(*worst.measured) : "<span class=\"soft\">–</span>") +
-          "</td>";
+          html(run != nullptr ? parameters_text(*study.result, *run) : "") + "\">" +
+          text::rounded(worst.measured, "<span class=\"soft\">–</span>") + "</td>";
   text += number_cell(worst.predicted.has_value(), worst.predicted.value_or(0.)) +
           verdict_cell(summary);
   text += fmt::format("<td>{}/{}</td>", row.counts.finished, row.counts.rows());
@@ -181,7 +180,7 @@ std::string row_html(const MatrixResult& matrix, const MatrixRow& row,
 
 std::string rows_table(const MatrixResult& matrix) {
   std::vector<std::vector<int>> styles;
-  for (const MatrixStudy& study : matrix.studies) styles.push_back(subject_styles(study.result));
+  for (const MatrixStudy& study : matrix.studies) styles.push_back(subject_styles(*study.result));
   std::string text =
       "<h2 id=\"rows\">Every scene, subject and metric</h2>\n" + filter(matrix) +
       "<div class=\"scroll tall\" tabindex=\"0\"><table class=\"runs\">\n<thead><tr>";
@@ -201,7 +200,7 @@ std::string rows_table(const MatrixResult& matrix) {
 }
 
 std::string study_section(const MatrixStudy& study) {
-  const StudyResult& result = study.result;
+  const StudyResult& result = *study.result;
   const StudySummary summary = summarise(result);
   std::string text = fmt::format("<h2 id=\"study-{}\">{}</h2>\n", html(result.name),
                                  html(result.title.empty() ? spoken(result.name) : result.title));
@@ -229,14 +228,14 @@ std::string verdict(const MatrixResult& matrix) {
   int passed = 0, failed = 0, stopped = 0, runs = 0, skipped = 0, refused = 0;
   std::vector<IdleBlock> idle;
   for (const MatrixStudy& study : matrix.studies) {
-    const StudySummary summary = summarise(study.result);
+    const StudySummary summary = summarise(*study.result);
     passed += summary.passed;
     failed += summary.failed;
     stopped += summary.total.stopped;
     skipped += summary.total.skipped;
     refused += summary.total.refused;
     runs += summary.total.rows();
-    for (IdleBlock& block : idle_blocks(study.result)) idle.push_back(std::move(block));
+    for (IdleBlock& block : idle_blocks(*study.result)) idle.push_back(std::move(block));
   }
   const std::string facts = fmt::format(
       "{} runs of {} subjects in {} studies: {} finished, {} stopped on the way, {} skipped, {} "
@@ -262,7 +261,7 @@ std::string matrix_html(const MatrixResult& matrix, const ReportContext& context
   page += verdict(matrix) + "<pre>" + html(context.command) + "</pre>\n" +
           tag("p", "facts", link("matrix.csv", "matrix.csv")) + "\n";
   for (const MatrixStudy& study : matrix.studies)
-    page += claim_lines(study.result.seed_sweep ? over_seeds(study.result) : study.result);
+    page += claim_lines(study.result->seed_sweep ? over_seeds(*study.result) : *study.result);
   page += overview(matrix) + rows_table(matrix);
   for (const MatrixStudy& study : matrix.studies) page += study_section(study);
   return page + provenance_table(context.provenance) + page_end_with_script();
@@ -276,12 +275,12 @@ std::string terminal_verdicts(const MatrixResult& matrix, bool color) {
   int passed = 0, failed = 0;
   std::vector<IdleBlock> idle;
   for (const MatrixStudy& study : matrix.studies) {
-    const StudySummary summary = summarise(study.result);
+    const StudySummary summary = summarise(*study.result);
     passed += summary.passed;
     failed += summary.failed;
-    for (IdleBlock& block : idle_blocks(study.result)) {
+    for (IdleBlock& block : idle_blocks(*study.result)) {
       const Tone tone = block.idleness.idle == Idle::fault ? Tone::bad : Tone::faint;
-      text += toned(study.result.name + ": " + line_of(block), tone, color) + "\n";
+      text += toned(study.result->name + ": " + line_of(block), tone, color) + "\n";
       idle.push_back(std::move(block));
     }
   }
@@ -295,7 +294,7 @@ std::string matrix_terminal_table(const MatrixResult& matrix, bool color) {
   ColumnGroup group;
   group.rows.push_back({{"subject", Tone::faint, false}});
   for (const MatrixStudy& study : matrix.studies)
-    group.rows.front().push_back({study.result.name, Tone::faint, true});
+    group.rows.front().push_back({study.result->name, Tone::faint, true});
   for (const std::string& subject : matrix_subjects(matrix)) {
     CellRow row{{subject, Tone::plain, false}};
     for (const MatrixStudy& study : matrix.studies) {

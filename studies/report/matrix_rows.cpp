@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "output/text/number.h"
+#include "text/number.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -17,7 +17,7 @@ std::string first_status(const StudyResult& study, int subject, std::optional<Re
 
 void add_rows(const MatrixResult& matrix, std::size_t study, const RegimeTable& table,
               std::vector<MatrixRow>& rows) {
-  const StudyResult& result = matrix.studies[study].result;
+  const StudyResult& result = *matrix.studies[study].result;
   for (const std::size_t subject : table.subjects) {
     MatrixRow row{study, subject, std::nullopt, table.regime, {}, table.summary.subjects[subject],
                   {}};
@@ -36,14 +36,14 @@ void add_rows(const MatrixResult& matrix, std::size_t study, const RegimeTable& 
   }
 }
 
-std::string number(bool there, double value) { return there ? output::shortest(value) : ""; }
+std::string number(bool there, double value) { return there ? text::shortest(value) : ""; }
 
 }  // namespace
 
 std::vector<MatrixRow> matrix_rows(const MatrixResult& matrix) {
   std::vector<MatrixRow> rows;
   for (std::size_t i = 0; i < matrix.studies.size(); ++i)
-    for (const RegimeTable& table : regime_tables(matrix.studies[i].result))
+    for (const RegimeTable& table : regime_tables(*matrix.studies[i].result))
       add_rows(matrix, i, table, rows);
   return rows;
 }
@@ -51,24 +51,24 @@ std::vector<MatrixRow> matrix_rows(const MatrixResult& matrix) {
 std::vector<std::string> matrix_subjects(const MatrixResult& matrix) {
   std::vector<std::string> names;
   for (const MatrixStudy& study : matrix.studies)
-    for (const SubjectInfo& subject : study.result.subjects)
+    for (const SubjectInfo& subject : study.result->subjects)
       if (std::ranges::find(names, subject.name) == names.end()) names.push_back(subject.name);
   return names;
 }
 
 MatrixCell matrix_cell(const MatrixStudy& study, const std::string& subject) {
   MatrixCell cell;
-  const auto& subjects = study.result.subjects;
+  const auto& subjects = study.result->subjects;
   const auto found = std::ranges::find(subjects, subject, &SubjectInfo::name);
   if (found == subjects.end()) return cell;
   const auto index = found - subjects.begin();
-  cell.counts = summarise(study.result).subjects[static_cast<std::size_t>(index)];
+  cell.counts = summarise(*study.result).subjects[static_cast<std::size_t>(index)];
   cell.there = cell.counts.rows() > 0;
   for (const MetricSummary& metric : cell.counts.metrics) {
     cell.passed += metric.passed;
     cell.failed += metric.failed;
   }
-  cell.status = first_status(study.result, static_cast<int>(index), std::nullopt);
+  cell.status = first_status(*study.result, static_cast<int>(index), std::nullopt);
   return cell;
 }
 
@@ -78,7 +78,7 @@ output::CsvTable matrix_table(const MatrixResult& matrix) {
                   "integrator", "settings",    "runs",   "finished", "median",  "least",  "largest",
                   "worst",      "closed_form", "passed", "failed",   "status"};
   for (const MatrixRow& row : matrix_rows(matrix)) {
-    const StudyResult& study = matrix.studies[row.study].result;
+    const StudyResult& study = *matrix.studies[row.study].result;
     if (row.metric && study.metrics[*row.metric].timing) continue;
     const SubjectInfo& subject = study.subjects[row.subject];
     const MetricSummary& summary = row.summary;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "studies/report/matrix.h"
-#include "studies/summary.h"
+#include "studies/results/summary.h"
 
 namespace hookpoint::studies {
 

@@ -2,19 +2,19 @@
 
 #include "output/figures/inline_svg.h"
 #include "output/figures/plot.h"
-#include "output/file.h"
-#include "output/text/number.h"
-#include "studies/idleness.h"
-#include "studies/matched_grounds.h"
+#include "output/files/file.h"
 #include "studies/report/figures.h"
 #include "studies/report/report_claims.h"
 #include "studies/report/report_distances.h"
 #include "studies/report/report_page.h"
 #include "studies/report/report_pivots.h"
 #include "studies/report/report_tables.h"
-#include "studies/seed_means.h"
-#include "studies/selection.h"
-#include "studies/summary.h"
+#include "studies/results/idleness.h"
+#include "studies/results/matched_grounds.h"
+#include "studies/results/seed_means.h"
+#include "studies/results/selection.h"
+#include "studies/results/summary.h"
+#include "text/number.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -56,7 +56,7 @@ std::string facts_line(const StudySummary& summary) {
   std::string text = std::to_string(total.rows()) + " runs of " +
                      std::to_string(summary.subjects.size()) +
                      " subjects: " + std::to_string(total.finished) + " finished";
-  if (total.foretold > 0) text += ", " + std::to_string(total.foretold) + " broke off as foretold";
+  if (total.expected > 0) text += ", " + std::to_string(total.expected) + " broke off as expected";
   if (total.stopped > 0) text += ", " + std::to_string(total.stopped) + " stopped on the way";
   if (total.skipped > 0) text += ", " + std::to_string(total.skipped) + " skipped";
   if (total.refused > 0) text += ", " + std::to_string(total.refused) + " refused";

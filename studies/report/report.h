@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "studies/result.h"
+#include "studies/results/result.h"
 
 namespace hookpoint::studies {
 

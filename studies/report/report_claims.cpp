@@ -1,8 +1,8 @@
 #include "studies/report/report_claims.h"
 
-#include "studies/claims.h"
 #include "studies/report/page_parts.h"
 #include "studies/report/report_page.h"
+#include "studies/results/claims.h"
 
 namespace hookpoint::studies {
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "output/text/number.h"
 #include "studies/report/report_page.h"
+#include "text/number.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -56,7 +56,7 @@ std::string cell(const std::optional<double>& distance, const Scale& scale,
   if (!distance) return "<td class=\"soft\">–</td>";
   return fmt::format("<td style=\"background:rgba(214,96,30,{:.2f})\" title=\"{}\">{}</td>",
                      0.05 + 0.7 * color_share(*distance, scale), html(pair),
-                     output::rounded(scale.factor * *distance, 2));
+                     text::rounded(scale.factor * *distance, 2));
 }
 
 }  // namespace

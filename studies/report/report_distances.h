@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "studies/result.h"
+#include "studies/results/result.h"
 
 namespace hookpoint::studies {
 

@@ -2,26 +2,25 @@
 
 #include <fmt/format.h>
 
-#include "output/text/number.h"
-#include "studies/pivot.h"
 #include "studies/report/page_parts.h"
 #include "studies/report/report_page.h"
+#include "studies/results/pivot.h"
+#include "text/number.h"
 
 namespace hookpoint::studies {
 namespace {
 
 std::string pivot_cell(const PivotCell& cell) {
   if (cell.rows == 0) return "<td></td>";
-  std::string text = fmt::format("<td class=\"first{}\">{}", cell.failed > 0 ? " fails" : "",
-                                 cell.interval ? text_of(*cell.interval)
-                                 : cell.mean   ? output::rounded(*cell.mean)
-                                               : "–");
+  std::string text =
+      fmt::format("<td class=\"first{}\">{}", cell.failed > 0 ? " fails" : "",
+                  cell.interval ? text_of(*cell.interval) : text::rounded(cell.mean, "–"));
   if (cell.difference)
     text += fmt::format("<small>difference {}</small>", text_of(*cell.difference));
   if (const auto spread = spread_of(cell); spread && !cell.interval)
     text += fmt::format("<small>{} … {}</small>", spread->first, spread->second);
   if (cell.predicted)
-    text += fmt::format("<small>closed form {}</small>", output::rounded(*cell.predicted));
+    text += fmt::format("<small>closed form {}</small>", text::rounded(*cell.predicted));
   if (cell.values < cell.rows)
     text += fmt::format("<small>{} of {} runs have a value</small>", cell.values, cell.rows);
   if (const int all = cell.passed + cell.failed; all > 0)

@@ -5,10 +5,10 @@
 #include <initializer_list>
 
 #include "output/figures/plot.h"
-#include "output/text/number.h"
 #include "studies/report/figures.h"
 #include "studies/report/report_page.h"
-#include "studies/selection.h"
+#include "studies/results/selection.h"
+#include "text/number.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -36,7 +36,7 @@ std::vector<NeededColumns> needed_columns(const StudyResult& study,
 }
 
 std::string number(const std::optional<double>& value) {
-  return value ? output::rounded(*value) : "<span class=\"soft\">–</span>";
+  return text::rounded(value, "<span class=\"soft\">–</span>");
 }
 
 std::string unit_of(const std::string& unit) { return unit.empty() ? "" : " [" + html(unit) + "]"; }
@@ -83,8 +83,8 @@ std::string metric_cells(const StudyResult& study, const MetricSummary& summary,
     std::string cell = "<td class=\"first" + fails + "\">";
     cell += number(summary.values > 0 ? std::optional(summary.median) : std::nullopt);
     if (summary.least < summary.largest)
-      cell += "<small>" + output::rounded(summary.least, 3) + " … " +
-              output::rounded(summary.largest, 3) + "</small>";
+      cell += "<small>" + text::rounded(summary.least, 3) + " … " +
+              text::rounded(summary.largest, 3) + "</small>";
     return cell + verdict_text(summary) + "</td>";
   }
   if (summary.worst < 0)
@@ -94,8 +94,7 @@ std::string metric_cells(const StudyResult& study, const MetricSummary& summary,
   std::string cells =
       "<td class=\"first" + fails + "\" title=\"" + html(parameters_text(study, row)) + "\">" +
       run_link(study, static_cast<std::size_t>(summary.worst), number(worst.measured));
-  if (summary.values > 1)
-    cells += "<small>median " + output::rounded(summary.median, 3) + "</small>";
+  if (summary.values > 1) cells += "<small>median " + text::rounded(summary.median, 3) + "</small>";
   return cells + "</td><td class=\"" + fails + "\">" + number(worst.predicted) +
          verdict_text(summary) + "</td>";
 }
@@ -128,7 +127,7 @@ std::string verdict_cell(const MetricValue& value) {
   return *value.ok ? "<td class=\"good\">✓</td>" : "<td class=\"bad fails\">✗</td>";
 }
 
-/// Words for the filter: fails, stopped, foretold, skipped, finished.
+/// Words for the filter: fails, stopped, expected, skipped, finished.
 std::string kinds_of(const RunResult& row) {
   std::string kinds;
   if (std::any_of(row.metrics.begin(), row.metrics.end(),
@@ -137,8 +136,8 @@ std::string kinds_of(const RunResult& row) {
   switch (outcome_of(row)) {
     case RunOutcome::finished:
       return kinds + "finished";
-    case RunOutcome::foretold:
-      return kinds + "foretold";
+    case RunOutcome::expected:
+      return kinds + "expected";
     case RunOutcome::stopped:
       return kinds + "stopped";
     case RunOutcome::skipped:
@@ -180,7 +179,7 @@ std::string run_row(const StudyResult& study, const std::vector<NeededColumns>& 
   for (std::size_t i = 0; i < needed.size(); ++i) {
     const MetricValue value = i < row.metrics.size() ? row.metrics[i] : MetricValue{};
     text += "<td class=\"first\">" + number(value.measured) +
-            (value.half_width ? " ± " + output::rounded(*value.half_width, 2) : "") + "</td>";
+            (value.half_width ? " ± " + text::rounded(*value.half_width, 2) : "") + "</td>";
     if (needed[i].predicted)
       text += (value.predicted || value.no_form.empty()
                    ? std::string("<td>")
@@ -364,8 +363,8 @@ std::string runs_table(const StudyResult& study) {
       "fails</option>"
       "<option value=\"stopped\">stopped</option><option value=\"skipped\">skipped</option>"
       "<option value=\"refused\">refused</option>"
-      "<option value=\"finished\">finished</option><option value=\"foretold\">broke off as "
-      "foretold</option></select></label><output></output></div>\n";
+      "<option value=\"finished\">finished</option><option value=\"expected\">broke off as "
+      "expected</option></select></label><output></output></div>\n";
   return text + "<div class=\"scroll tall\" tabindex=\"0\"><table class=\"runs\">\n" +
          runs_head(study, needed) + "<tbody>\n" + rows + "</tbody></table></div>\n";
 }

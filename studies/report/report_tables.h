@@ -5,9 +5,9 @@
 #include <utility>
 #include <vector>
 
-#include "studies/idleness.h"
-#include "studies/result.h"
-#include "studies/summary.h"
+#include "studies/results/idleness.h"
+#include "studies/results/result.h"
+#include "studies/results/summary.h"
 
 namespace hookpoint::studies {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "unicode/display.h"
+#include "text/display.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -12,8 +12,8 @@ constexpr std::size_t between_columns = 2;
 constexpr std::size_t between_groups = 3;
 
 std::string padded(const Cell& cell, std::size_t width, bool color) {
-  const std::string shown = unicode::printable(cell.text);
-  const std::string space(width - std::min(width, unicode::display_width(shown)), ' ');
+  const std::string shown = text::printable(cell.text);
+  const std::string space(width - std::min(width, text::display_width(shown)), ' ');
   const std::string text = toned(shown, cell.tone, color);
   return cell.right ? space + text : text + space;
 }
@@ -29,13 +29,13 @@ void ColumnGroup::measure() {
   widths.assign(rows.front().size(), 0);
   for (const CellRow& row : rows)
     for (std::size_t i = 0; i < row.size(); ++i)
-      widths[i] = std::max(widths[i], unicode::display_width(row[i].text));
+      widths[i] = std::max(widths[i], text::display_width(row[i].text));
 }
 
 std::size_t ColumnGroup::width() const {
   std::size_t sum = between_columns * (widths.size() - 1);
   for (const std::size_t one : widths) sum += one;
-  return std::max(sum, unicode::display_width(title));
+  return std::max(sum, text::display_width(title));
 }
 
 std::string toned(const std::string& text, Tone tone, bool color) {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "output/text/number.h"
 #include "studies/report/terminal_blocks.h"
+#include "text/number.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -12,10 +12,10 @@ Cell pivot_value(const PivotCell& cell) {
   if (cell.rows == 0) return {"", Tone::faint};
   const Tone tone = cell.failed > 0 ? Tone::bad : cell.passed > 0 ? Tone::good : Tone::plain;
   if (!cell.mean) return {"-", cell.failed > 0 ? Tone::bad : Tone::faint};
-  std::string text = cell.interval ? text_of(*cell.interval) : output::rounded(*cell.mean);
+  std::string text = cell.interval ? text_of(*cell.interval) : text::rounded(*cell.mean);
   if (const auto spread = spread_of(cell); spread && !cell.interval)
     text += " (" + spread->first + " .. " + spread->second + ")";
-  if (cell.predicted) text += " / " + output::rounded(*cell.predicted);
+  if (cell.predicted) text += " / " + text::rounded(*cell.predicted);
   return {text, tone};
 }
 

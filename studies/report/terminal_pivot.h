@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "studies/pivot.h"
 #include "studies/report/terminal_table.h"
+#include "studies/results/pivot.h"
 
 namespace hookpoint::studies {
 

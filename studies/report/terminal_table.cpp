@@ -5,16 +5,16 @@
 #include <utility>
 #include <vector>
 
-#include "output/text/csv.h"
-#include "output/text/number.h"
-#include "studies/claims.h"
-#include "studies/idleness.h"
-#include "studies/matched_grounds.h"
+#include "output/files/csv.h"
 #include "studies/report/terminal_blocks.h"
 #include "studies/report/terminal_pivot.h"
-#include "studies/seed_means.h"
-#include "studies/summary.h"
-#include "unicode/display.h"
+#include "studies/results/claims.h"
+#include "studies/results/idleness.h"
+#include "studies/results/matched_grounds.h"
+#include "studies/results/seed_means.h"
+#include "studies/results/summary.h"
+#include "text/display.h"
+#include "text/number.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -31,7 +31,7 @@ Cell verdict_cell(const MetricSummary& metric) {
 }
 
 Cell number_cell(const std::optional<double>& value) {
-  return value ? Cell{output::rounded(*value)} : Cell{"-", Tone::faint};
+  return value ? Cell{text::rounded(*value)} : Cell{"-", Tone::faint};
 }
 
 /// Which sub-columns a metric needs over all subjects.
@@ -92,7 +92,7 @@ ColumnGroup metric_group(const StudyResult& study, const RegimeTable& table, std
   return group;
 }
 
-Cell finished_cell(const SubjectSummary& subject) {
+Cell finished_runs(const SubjectSummary& subject) {
   if (subject.skipped == subject.rows()) return {"skipped", Tone::faint};
   if (subject.refused == subject.rows()) return {"refused", Tone::faint};
   const std::string text = std::to_string(subject.finished) + "/" + std::to_string(subject.rows());
@@ -104,7 +104,7 @@ ColumnGroup subject_group(const StudyResult& study, const RegimeTable& table) {
   group.rows.push_back({{"subject", Tone::faint, false}, {"runs", Tone::faint}});
   for (const std::size_t i : table.subjects)
     group.rows.push_back(
-        {{study.subjects[i].name, Tone::plain, false}, finished_cell(table.summary.subjects[i])});
+        {{study.subjects[i].name, Tone::plain, false}, finished_runs(table.summary.subjects[i])});
   group.measure();
   return group;
 }
@@ -209,8 +209,8 @@ std::string failure_list(const StudyResult& study, const TableStyle& style) {
     const auto metric = static_cast<std::size_t>(failure.metric);
     const MetricValue& value = row.metrics[metric];
     std::string line = run_name(study, row) + ": " + study.metrics[metric].name + " ";
-    line += value.measured ? output::rounded(*value.measured) : "not measured";
-    if (value.predicted) line += ", predicted " + output::rounded(*value.predicted);
+    line += text::rounded(value.measured, "not measured");
+    if (value.predicted) line += ", predicted " + text::rounded(*value.predicted);
     lines.push_back(std::move(line));
   }
   return listed("fails", lines, style);
@@ -226,8 +226,8 @@ std::string claim_list(const StudyResult& study, const TableStyle& style) {
     const Tone tone = said.verdict == ClaimVerdict::holds ? Tone::good
                       : faint                             ? Tone::faint
                                                           : Tone::bad;
-    text += wrapped(unicode::printable(said.text), style.width) + std::string(indent, ' ') +
-            toned("(" + unicode::printable(said.why) + ")", tone, style.color) + "\n";
+    text += wrapped(text::printable(said.text), style.width) + std::string(indent, ' ') +
+            toned("(" + text::printable(said.why) + ")", tone, style.color) + "\n";
   }
   return text.empty() ? "" : text + "\n";
 }
@@ -281,7 +281,7 @@ std::string counts(const StudySummary& summary, const std::vector<IdleBlock>& id
   const auto& total = summary.total;
   std::string text =
       std::to_string(total.rows()) + " runs: " + std::to_string(total.finished) + " finished";
-  if (total.foretold > 0) text += ", " + std::to_string(total.foretold) + " broke off as foretold";
+  if (total.expected > 0) text += ", " + std::to_string(total.expected) + " broke off as expected";
   if (total.stopped > 0)
     text +=
         ", " + toned(std::to_string(total.stopped) + " stopped on the way", Tone::bad, style.color);

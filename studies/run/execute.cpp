@@ -11,37 +11,21 @@
 #include <string>
 #include <utility>
 
-#include "output/text/hash.h"
-#include "simulation/identity.h"
-#include "simulation/run/energy_watch.h"
+#include "output/files/hash.h"
+#include "simulation/engine_interface/identity.h"
+#include "simulation/engine_interface/step_count.h"
+#include "simulation/run/loop.h"
 #include "simulation/run/world.h"
-#include "simulation/step_count.h"
+#include "simulation/run/world_watch.h"
+#include "studies/measure/measured_body.h"
 #include "studies/predictions/predictions.h"
 #include "studies/run/stance_ports.h"
 
 namespace hookpoint::studies {
 namespace {
 
-using simulation::StepStatus;
-
-std::string_view kind_name(StepStatus::Kind kind) {
-  switch (kind) {
-    case StepStatus::Kind::ok:
-      return "ok";
-    case StepStatus::Kind::not_finite:
-      return "not_finite";
-    case StepStatus::Kind::step_too_large:
-      return "step_too_large";
-    case StepStatus::Kind::solver_failed:
-      return "solver_failed";
-  }
-  return "failed";
-}
-
-std::string failure(const StepStatus& status) {
-  return fmt::format("{} at {:.6g} s ({}): {}", kind_name(status.kind), status.time, status.body,
-                     status.advice);
-}
+/// In the order of StepStatus::Kind.
+constexpr std::array kind_names{"ok", "not_finite", "step_too_large", "solver_failed"};
 
 /// A curve over time being recorded: at step 0, then at `trace_samples` steps. A signal that counts
 /// from `settle` starts there.
@@ -131,7 +115,7 @@ class Watch {
       if (metric->user != nullptr)
         metrics_.back() = make_user_metric(*metric->user, context, ports, measurement.traces);
     }
-    if (std::ranges::any_of(measurement.metrics, &MetricDefinition::needs_stance))
+    if (any_needs(measurement.metrics, &MetricNeeds::stance))
       stance_ = stance_ports(context, world);
     if (measurement.path) path_.emplace(measurement.duration);
     const std::int64_t settle =
@@ -167,13 +151,11 @@ class Watch {
   }
 
  private:
-  bool needs_feet() const {
-    return std::ranges::any_of(measurement_.metrics, &MetricDefinition::needs_feet);
-  }
+  bool needs_feet() const { return any_needs(measurement_.metrics, &MetricNeeds::feet); }
   bool needs_points() const {
-    return std::ranges::any_of(measurement_.metrics, &MetricDefinition::needs_points) ||
+    return any_needs(measurement_.metrics, &MetricNeeds::points) ||
            std::ranges::any_of(measurement_.signals, [](const RecordedSignal& recorded) {
-             return recorded.signal->name == "penetration";
+             return recorded.signal->needs_points;
            });
   }
   const Measurement& measurement_;
@@ -212,6 +194,21 @@ void predict_all(const Measurement& measurement, const RunContext& context,
     }
 }
 
+/// Of a measurement that looks at ports alone nothing need move.
+RunContext context_of(const Measurement& measurement, const simulation::Experiment& experiment) {
+  const bool of_ports =
+      measurement.signals.empty() && !measurement.path && measurement.body.empty() &&
+      std::ranges::all_of(measurement.metrics,
+                          [](const auto* metric) { return metric->user != nullptr; });
+  if (!of_ports || something_moves(experiment))
+    return make_context(experiment, measurement.settle, measurement.duration, measurement.body);
+  RunContext context;
+  context.experiment = &experiment;
+  context.settle = measurement.settle;
+  context.duration = measurement.duration;
+  return context;
+}
+
 /// As `execute`, of an engine that is there; may throw.
 std::optional<RunRecord> step_through(const Measurement& measurement, const RunContext& context,
                                       const EngineEntry& engine, RunRecord record,
@@ -219,30 +216,27 @@ std::optional<RunRecord> step_through(const Measurement& measurement, const RunC
   const simulation::Experiment& experiment = *context.experiment;
   const std::int64_t steps = simulation::step_count(measurement.duration, experiment.deltat);
   auto made = engine.make(experiment);
-  if (std::ranges::any_of(measurement.metrics, &MetricDefinition::needs_forces))
-    made->publish_ground_forces();
+  if (any_needs(measurement.metrics, &MetricNeeds::forces)) made->publish_ground_forces();
   simulation::World world(experiment, std::move(made));
-  if (std::ranges::any_of(measurement.metrics, &MetricDefinition::needs_contact_force))
-    world.publish_contact_forces();
+  if (any_needs(measurement.metrics, &MetricNeeds::contact_force)) world.publish_contact_forces();
   Watch watch(measurement, context, steps, world);
-  simulation::EnergyWatch energy(experiment, world, steps);
-  StepStatus status;
+  simulation::WorldWatch watched(experiment, world, steps);
   watch.observe(world);
-  std::string ended = world.ended();
-  for (std::int64_t step = 0; step < steps && status.ok() && ended.empty(); ++step) {
-    if (stop.load(std::memory_order_relaxed)) return std::nullopt;
-    status = world.step();
-    if (status.ok()) watch.observe(world);
-    if (status.ok()) energy.observe();
-    ended = world.ended();
-  }
-  if (!status.ok()) record.status = failure(status);
+  const simulation::RunEnd end = simulation::run_until(
+      world, steps, [&] { return !stop.load(std::memory_order_relaxed); },
+      [&] {
+        watch.observe(world);
+        watched.observe();
+      });
+  if (end.interrupted()) return std::nullopt;
+  if (end.failed())
+    record.status = fmt::format("{} {}", kind_names[static_cast<std::size_t>(end.status.kind)],
+                                simulation::failure_text(end.status));
+  else if (!end.complete() && !measurement.may_end)
+    record.status = fmt::format("ended at {:.6g} s: {}", world.state().time, end.why);
   record.notices = world.state().notices;
-  if (std::string finding = energy.finding(); !finding.empty())
-    record.notices.push_back(std::move(finding));
-  const bool cut_short = status.ok() && world.state().step < steps;
-  if (cut_short) record.status = fmt::format("ended at {:.6g} s: {}", world.state().time, ended);
-  watch.finish(record, status.ok() && !cut_short, !status.ok());
+  for (std::string& finding : watched.findings()) record.notices.push_back(std::move(finding));
+  watch.finish(record, record.status == "ok", end.failed());
   return record;
 }
 
@@ -268,32 +262,14 @@ bool Measurement::found_in(const RunRecord& record) const {
          (!path || record.curves.contains(path_curve));
 }
 
-Measurement measurement_of(const StudyPlan& plan, const RowPlan& row) {
-  Measurement measurement{plan.settle, row.duration, {}, {}, plan.measures(MetricScope::subjects)};
-  measurement.body = plan.body;
-  for (const MetricDefinition* metric : plan.metrics) {
-    const bool missing = metric->user != nullptr && !row.forms[metric->user->index].missing.empty();
-    if (!metric->timing() && !missing) measurement.metrics.push_back(metric);
-    if (metric->user != nullptr && !missing && !metric->user->trace.empty())
-      measurement.traces[metric->user->trace] = plan.measured_in(row, metric->user->trace);
-  }
-  for (const PlotPlan& plot : plan.plots)
-    if (plot.signal != nullptr && plan.covers(plot.only, row))
-      measurement.signals.push_back({plot.signal, plot.spec.log_x});
-  return measurement;
-}
-
 std::string run_identity(const std::string& experiment, const Measurement& measurement,
                          const std::string& engine, const EngineTable& engines) {
-  const auto entry = engines.find(engine);
-  const simulation::EngineDescription description =
-      entry == engines.end() ? simulation::EngineDescription{engine, {}, {}, false, {}}
-                             : entry->second.description;
   output::Hash hash;
   hash.add("measured")
       .add(fmt::format("{} {} {}", measurement.settle, measurement.duration, measurement.body))
-      .add(simulation::run_hash(experiment, description));
+      .add(simulation::run_hash(experiment, engines.describe(engine)));
   for (const auto& [name, trace] : measurement.traces) hash.add(name).add(trace_hash(*trace));
+  if (measurement.may_end) hash.add("may end");
   return hash.text();
 }
 
@@ -313,26 +289,25 @@ std::optional<RunRecord> execute(const Measurement& measurement,
                                  const simulation::Experiment& experiment,
                                  const EngineTable& engines, const std::string& refusal,
                                  const std::atomic<bool>& stop) {
-  const auto engine = engines.find(experiment.engine);
-  const bool found = engine != engines.end() && engine->second.description.found;
+  const EngineEntry* engine = engines.find(experiment.engine);
   const std::string why_not =
-      !found ? fmt::format("skipped: engine {} is not on this machine", experiment.engine)
+      !engines.available(experiment.engine)
+          ? fmt::format("skipped: engine {} is not on this machine", experiment.engine)
       : !refusal.empty() ? "refused: " + refusal
                          : "";
   RunRecord record;
   try {
-    RunContext context =
-        make_context(experiment, measurement.settle, measurement.duration, measurement.body);
-    if (engine != engines.end()) context.one_friction = engine->second.has_one_friction(experiment);
-    record.regime = regime_of(context);
+    RunContext context = context_of(measurement, experiment);
+    if (engine != nullptr) context.one_friction = engine->has_one_friction(experiment);
+    if (something_moves(experiment)) record.regime = regime_of(context);
     if (!why_not.empty()) return not_run(measurement, std::move(record), why_not);
-    context.make = engine->second.make;
+    context.make = engine->make;
     try {
-      predict_all(measurement, context, engine->second, record);
+      predict_all(measurement, context, *engine, record);
     } catch (const simulation::ExperimentError&) {
       // The run itself says why, if it cannot be.
     }
-    return step_through(measurement, context, engine->second, record, stop);
+    return step_through(measurement, context, *engine, record, stop);
   } catch (const simulation::ExperimentError& error) {
     if (!why_not.empty()) return not_run(measurement, std::move(record), why_not);
     const bool peer = experiment.engine != "dts";
@@ -360,11 +335,10 @@ RunRecord execute_timing(std::span<const MetricDefinition* const> metrics,
   }
   std::sort(stretches.begin(), stretches.end());
   const double step_time = stretches[stretches.size() / 2] / steps;
-  for (auto& [name, value] : record.values) {
-    if (name == "step_time") value.measured = step_time;
-    // Where the clock has not moved, there is none.
-    if (name == "realtime_factor" && step_time > 0.) value.measured = experiment.deltat / step_time;
-  }
+  for (const MetricDefinition* metric : metrics)
+    if (metric->timing())
+      record.values[std::string(metric->name)].measured =
+          metric->of_step_time(step_time, experiment.deltat);
   return record;
 }
 

@@ -8,9 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "studies/engine_table.h"
-#include "studies/metric.h"
-#include "studies/plan/plan.h"
+#include "studies/measure/engine_table.h"
+#include "studies/measure/metric.h"
+#include "studies/metrics/user_metric.h"
+#include "studies/results/result.h"
 #include "studies/run/run_record.h"
 
 namespace hookpoint::studies {
@@ -27,7 +28,7 @@ struct RecordedSignal {
   std::string name() const;
 };
 
-/// What is looked at while a run goes on.
+/// What is looked at while a run continues.
 struct Measurement {
   double settle = 0., duration = 0.;  ///< [s]
   std::vector<const MetricDefinition*> metrics;
@@ -38,20 +39,20 @@ struct Measurement {
   /// Of the metrics, where no plan has them.
   std::vector<std::shared_ptr<const UserMetric>> owned = {};
 
-  std::string body = {};  ///< trail of the body measured (studies/measured_body.h)
+  std::string body = {};  ///< trail of the body measured (studies/measure/measured_body.h)
 
   MeasuredTraces traces = {};  ///< that its metrics are of
+
+  /// A run that ends by itself has its values, as one that came to the end of its duration.
+  bool may_end = false;
 
   /// Whether `record` has all of it.
   bool found_in(const RunRecord& record) const;
 };
 
-/// What the row of the plan is measured for; timing is not.
-Measurement measurement_of(const StudyPlan& plan, const RowPlan& row);
-
 /// What decides the numbers of a run, whatever study it stands in: experiment, times, what it is
 /// held against, program, engine; as 32 hexadecimal digits. `experiment`: its hash
-/// (simulation/identity.h).
+/// (simulation/engine_interface/identity.h).
 std::string run_identity(const std::string& experiment, const Measurement& measurement,
                          const std::string& engine, const EngineTable& engines);
 

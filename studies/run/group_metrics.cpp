@@ -34,7 +34,7 @@ std::vector<std::vector<std::size_t>> groups_of_subjects(const StudyPlan& plan) 
 }
 
 PeerDistances distances_of(const StudyPlan& plan, const std::vector<std::size_t>& group,
-                           const KeptRows& kept, const StudyResult& result) {
+                           const StudyRows& kept, const StudyResult& result) {
   const std::size_t subjects = plan.subjects.size();
   PeerDistances matrix{result.rows[group.front()].parameters,
                        std::vector<std::optional<double>>(subjects * subjects)};
@@ -61,7 +61,7 @@ std::optional<double> median_distance(const PeerDistances& matrix, std::size_t s
   return others[(others.size() - 1) / 2];
 }
 
-void measure_between_subjects(const StudyPlan& plan, std::size_t metric, const KeptRows& kept,
+void measure_between_subjects(const StudyPlan& plan, std::size_t metric, const StudyRows& kept,
                               StudyResult& result) {
   for (const std::vector<std::size_t>& group : groups_of_subjects(plan)) {
     PeerDistances matrix = distances_of(plan, group, kept, result);
@@ -91,7 +91,7 @@ std::optional<double> spread(std::span<const double> values) {
   return greatest / least - 1.;
 }
 
-void measure_groups(const StudyPlan& plan, const KeptRows& kept, StudyResult& result) {
+void measure_groups(const StudyPlan& plan, const StudyRows& kept, StudyResult& result) {
   for (std::size_t metric = 0; metric < plan.metrics.size(); ++metric) {
     if (plan.metrics[metric]->scope == MetricScope::sweep) measure_over_sweep(plan, metric, result);
     if (plan.metrics[metric]->scope == MetricScope::subjects)

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "studies/plan/plan.h"
-#include "studies/run/kept_rows.h"
+#include "studies/run/rows.h"
 
 namespace hookpoint::studies {
 
@@ -17,6 +17,6 @@ std::optional<double> spread(std::span<const double> values);
 
 /// Fills in the metrics of scope sweep, whose rows hold each run's part so far, and of scope
 /// subjects, and `result.peer_distances`.
-void measure_groups(const StudyPlan& plan, const KeptRows& kept, StudyResult& result);
+void measure_groups(const StudyPlan& plan, const StudyRows& kept, StudyResult& result);
 
 }  // namespace hookpoint::studies

@@ -7,8 +7,8 @@
 #include <ctime>
 #include <thread>
 
-#include "output/text/hash.h"
-#include "output/text/json.h"
+#include "output/files/hash.h"
+#include "text/json.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -50,7 +50,7 @@ Provenance make_provenance(const StudyPlan& plan, const EngineTable& engines) {
 }
 
 std::string provenance_json(const Provenance& provenance) {
-  output::JsonWriter json;
+  text::JsonWriter json;
   json.begin_object()
       .member("study", provenance.study)
       .member("file", provenance.file)

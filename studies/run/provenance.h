@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "output/result_folder.h"
-#include "studies/engine_table.h"
+#include "output/files/result_folder.h"
+#include "studies/measure/engine_table.h"
 #include "studies/plan/plan.h"
 
 namespace hookpoint::studies {
@@ -34,7 +34,7 @@ Provenance make_provenance(const StudyPlan& plan, const EngineTable& engines);
 /// provenance.json.
 std::string provenance_json(const Provenance& provenance);
 
-/// The same as names and values for people: "ode" -> "0.16.2, double precision".
+/// The same as names and values for readers: "ode" -> "0.16.2, double precision".
 std::vector<std::pair<std::string, std::string>> provenance_lines(const Provenance& provenance);
 
 }  // namespace hookpoint::studies

@@ -5,17 +5,17 @@
 #include <algorithm>
 #include <cmath>
 
-#include "output/file.h"
-#include "output/text/number.h"
-#include "studies/matched_grounds.h"
-#include "studies/pivot.h"
-#include "studies/selection.h"
+#include "output/files/file.h"
+#include "studies/results/matched_grounds.h"
+#include "studies/results/pivot.h"
+#include "studies/results/selection.h"
+#include "text/number.h"
 
 namespace hookpoint::studies {
 namespace {
 
 /// No value where it is none: after an overflow, as in a smaller unit.
-std::string field(double value) { return std::isfinite(value) ? output::shortest(value) : ""; }
+std::string field(double value) { return std::isfinite(value) ? text::shortest(value) : ""; }
 std::string field(const std::optional<double>& value) { return value ? field(*value) : ""; }
 std::string field(const std::optional<bool>& value) {
   return value ? (*value ? "true" : "false") : std::string();
@@ -94,7 +94,7 @@ void write_traces(const std::filesystem::path& folder, const StudyResult& result
 }
 
 /// peer_distance.csv: a row a pair of subjects at equal swept values.
-void write_distances(const std::filesystem::path& folder, const StudyResult& result) {
+void write_distances(output::ResultFolder& folder, const StudyResult& result) {
   if (result.peer_distances.empty()) return;
   output::CsvTable table;
   for (const SweepColumn& sweep : result.sweeps)
@@ -115,12 +115,11 @@ void write_distances(const std::filesystem::path& folder, const StudyResult& res
                                 field(*matrix.distances[cell])});
     }
   }
-  output::write_csv(folder / "peer_distance.csv", table);
+  folder.write("peer_distance.csv", table.text());
 }
 
 /// <table>.csv: a row a cell of the Table, down and then across.
-void write_pivot(const std::filesystem::path& folder, const StudyResult& result,
-                 const TableSpec& spec) {
+void write_pivot(output::ResultFolder& folder, const StudyResult& result, const TableSpec& spec) {
   const Pivot pivot = pivot_of(result, spec);
   output::CsvTable table;
   table.header = {pivot.down, pivot.across, pivot.metric};
@@ -145,7 +144,7 @@ void write_pivot(const std::filesystem::path& folder, const StudyResult& result,
       table.rows.back().push_back(difference ? field(difference->mean) : "");
       table.rows.back().push_back(difference ? field(difference->half_width) : "");
     }
-  output::write_csv(folder / (spec.name + ".csv"), table);
+  folder.write(spec.name + ".csv", table.text());
 }
 
 }  // namespace
@@ -164,25 +163,31 @@ std::vector<std::string> study_files(const StudyPlan& plan) {
   for (const TableSpec& table : plan.tables) files.push_back(table.name + ".csv");
   for (const PlotPlan& plot : plan.plots) {
     for (const char* type : {".svg", ".csv", ".gp"}) files.push_back(plot.spec.name + type);
-    for (std::size_t row = 0; row < plan.rows.size() && plot.signal != nullptr; ++row)
-      files.push_back(trace_file(plot.spec.name, row));
+    for (std::size_t row = 0; row < plan.rows.size(); ++row)
+      if (plan.records(plot, plan.rows[row])) files.push_back(trace_file(plot.spec.name, row));
   }
   return files;
 }
 
-void write_study_files(const std::filesystem::path& folder, const StudyPlan& plan,
+void write_origin(output::ResultFolder& folder, const StudyPlan& plan,
+                  const Provenance& provenance) {
+  folder.write("experiment.hook", plan.printed);
+  if (!plan.scene_printed.empty()) folder.write("scene.hook", plan.scene_printed);
+  folder.write("provenance.json", provenance_json(provenance));
+}
+
+void write_study_files(output::ResultFolder& folder, const StudyPlan& plan,
                        const StudyResult& result, const Provenance& provenance) {
-  output::write_csv(folder / "results.csv", results_table(result, false));
+  folder.write("results.csv", results_table(result, false).text());
   if (std::any_of(result.metrics.begin(), result.metrics.end(),
                   [](const MetricColumn& m) { return m.timing; }))
-    output::write_csv(folder / "timing.csv", results_table(result, true));
-  output::write_file(folder / "experiment.hook", plan.printed);
-  output::write_file(folder / "scene.hook", plan.scene_printed);
-  output::write_file(folder / "provenance.json", provenance_json(provenance));
-  write_traces(folder, result);
+    folder.write("timing.csv", results_table(result, true).text());
   write_distances(folder, result);
-  if (!result.matched.empty()) output::write_csv(folder / "matched.csv", matched_table(result));
   for (const TableSpec& table : result.tables) write_pivot(folder, result, table);
+  write_origin(folder, plan, provenance);
+  write_traces(folder.path(), result);
+  if (!result.matched.empty())
+    output::write_csv(folder.path() / "matched.csv", matched_table(result));
 }
 
 }  // namespace hookpoint::studies

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "output/text/csv.h"
+#include "output/files/csv.h"
 #include "studies/plan/plan.h"
-#include "studies/result.h"
+#include "studies/results/result.h"
 #include "studies/run/provenance.h"
 
 namespace hookpoint::studies {
@@ -23,11 +23,17 @@ output::CsvTable results_table(const StudyResult& result, bool timing);
 inline constexpr const char* store_folder = "store/";
 inline constexpr const char* cluster_folder = "cluster/";
 
-/// The names of all that a study may leave in its folder, reports and figures too.
+/// The names of all that a study or a Wall may leave in its folder, reports and figures too.
 std::vector<std::string> study_files(const StudyPlan& plan);
 
-/// Writes all of them into `folder`. Throws output::FileError.
-void write_study_files(const std::filesystem::path& folder, const StudyPlan& plan,
+/// What the results are of: experiment.hook, scene.hook where all rows have one scene, and
+/// provenance.json. Throws output::FileError.
+void write_origin(output::ResultFolder& folder, const StudyPlan& plan,
+                  const Provenance& provenance);
+
+/// Writes all of them into `folder`: through ResultFolder::write those that a report links to.
+/// Throws output::FileError.
+void write_study_files(output::ResultFolder& folder, const StudyPlan& plan,
                        const StudyResult& result, const Provenance& provenance);
 
 }  // namespace hookpoint::studies

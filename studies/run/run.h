@@ -10,37 +10,14 @@
 #include <span>
 #include <string>
 
-#include "output/result_folder.h"
-#include "studies/engine_table.h"
+#include "output/files/result_folder.h"
+#include "studies/measure/engine_table.h"
 #include "studies/plan/plan.h"
-#include "studies/result.h"
+#include "studies/results/result.h"
 #include "studies/run/provenance.h"
-#include "studies/run/run_request.h"
-#include "studies/run/run_store.h"
+#include "studies/run/runs.h"
 
 namespace hookpoint::studies {
-
-struct Progress {
-  std::size_t done = 0, total = 0;
-  std::size_t resumed = 0;   ///< of `done`, those read from an earlier run
-  double seconds_left = 0.;  ///< an estimate from the rows done so far
-};
-
-struct RunOptions {
-  int jobs = 1;                                   ///< worker threads
-  bool resume = false;                            ///< take over the finished rows of an earlier run
-  std::filesystem::path folder;                   ///< of the results; empty: runs/<study>-<hash>
-  std::function<void(const Progress&)> progress;  ///< one call at a time, from any thread
-  std::function<void(const std::string&)> tell;   ///< what the user should know
-  /// A row that has finished, or was taken over from an earlier run; one call at a time, from any
-  /// thread. What only all rows together tell is missing: its verdicts where they need other rows,
-  /// metrics of several runs, timing.
-  std::function<void(std::size_t row, const RunResult& result)> row_done{};
-  /// Of several studies that share their runs; none: one in the study's folder. It then has the
-  /// runs of before with `resume` alone.
-  std::shared_ptr<RunStore> store{};
-  RemoteRuns* remote = nullptr;  ///< who makes the runs; null: this process
-};
 
 struct StudyRun {
   StudyResult result;
@@ -55,10 +32,6 @@ struct StudyRun {
 
 /// How many of the plan's runs another process could make: those that have an engine.
 std::size_t remote_runs(const StudyPlan& plan, const EngineTable& engines);
-
-/// The store of runs that `options` ask for, for results in `folder`. Throws StoreError.
-std::shared_ptr<RunStore> open_store(const RunOptions& options,
-                                     const std::filesystem::path& folder);
 
 /// Runs all rows of `plan`, then the timing metrics alone, and writes results.csv, timing.csv (with
 /// timing metrics), experiment.hook, scene.hook, provenance.json, traces/ and files.json, after

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "output/file.h"
-#include "output/text/hash.h"
-#include "output/text/json_reader.h"
+#include "output/files/file.h"
+#include "output/files/hash.h"
+#include "text/json_reader.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -115,7 +115,7 @@ void read_provenance(RunFolder& run) {
       if (key != "run") run.provenance.emplace_back(key, value);
     return add_inputs(run.manifest.inputs, run.provenance);
   }
-  const auto leaves = output::json_leaves(*text);
+  const auto leaves = text::json_leaves(*text);
   if (!leaves) throw RunFolderError(file.string() + " is not JSON");
   std::vector<output::InputFile> inputs;
   for (const auto& [key, value] : *leaves) {

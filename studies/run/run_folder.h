@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "output/result_folder.h"
-#include "output/text/csv.h"
+#include "output/files/csv.h"
+#include "output/files/result_folder.h"
 #include "studies/run/setting_list.h"
 
 namespace hookpoint::studies {

@@ -7,8 +7,8 @@
 #include <limits>
 #include <utility>
 
-#include "output/text/hash.h"
-#include "output/text/number.h"
+#include "output/files/hash.h"
+#include "text/number.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -26,7 +26,7 @@ std::string on_one_line(std::string text) {
 void append_optional(std::string& text, const std::optional<double>& value) {
   text += ' ';
   if (value)
-    output::append_shortest(text, *value);
+    text::append_shortest(text, *value);
   else
     text += no_value;
 }

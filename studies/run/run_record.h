@@ -1,4 +1,4 @@
-// What is kept of a finished run, under names, so that every study finds in it what it asks for.
+// What is kept of a finished run, under names, so that every study finds in it what it requires.
 #pragma once
 
 #include <map>
@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "studies/regime.h"
+#include "studies/measure/regime.h"
 
 namespace hookpoint::studies {
 
@@ -36,7 +36,7 @@ struct RunRecord {
 };
 
 /// All but the samples, a line each: values with as many digits as read back to the same double,
-/// and at the end a hash of it all. The status and each notice are told on one line.
+/// and at the end a hash of it all. The status and each notice are written on one line.
 std::string numbers_text(const RunRecord& record);
 /// Nothing when a byte of it is missing or changed. Its curves have sizes and no samples.
 std::optional<RunRecord> read_numbers(std::string_view text);

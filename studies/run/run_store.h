@@ -1,4 +1,4 @@
-// Finished runs on disk, by what decides their numbers: an interrupted study goes on where it
+// Finished runs on disk, by what decides their numbers: an interrupted study continues where it
 // stopped, and no run is made twice, in whatever study it stands.
 #pragma once
 
@@ -23,7 +23,7 @@ struct StoreError : std::runtime_error {
 
 /// `runs.sqlite` in a folder: one writer, this process, for as long as the object lives. What
 /// `save` has returned from is there whenever the process ends. Any thread may call. Damage within
-/// a run is told by its hashes: the run then counts as missing.
+/// a run is recognised by its hashes: the run then counts as missing.
 class RunStore {
  public:
   static constexpr const char* file_name = "runs.sqlite";

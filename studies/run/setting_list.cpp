@@ -40,6 +40,8 @@ class PrintedSettings {
   std::string text(const Span& span) const { return text_.substr(span.offset, span.length); }
 
   std::string value_text(const Item& assignment) const {
+    // A damaged file may hold `field = ;`, an empty list.
+    if (assignment.value.begin == assignment.value.end) return "";
     const Span first = syntax_.expressions[assignment.value.begin].span;
     const Span last = syntax_.expressions[assignment.value.end - 1].span;
     return text({first.offset, last.offset + last.length - first.offset});
@@ -120,9 +122,8 @@ class PrintedSettings {
 }  // namespace
 
 std::optional<SettingList> settings_of_text(std::string text) {
-  language::ParsedFile file;
-  file.source.text = std::move(text);
-  language::index_lines(file.source);
+  const language::SourceFile source = language::source_file("", std::move(text));
+  language::ParsedFile file{source};
   language::parse(file);
   if (file.report.has_errors()) return std::nullopt;
   return PrintedSettings(file).run();

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "simulation/run/world.h"
-#include "studies/metric.h"
+#include "studies/measure/metric.h"
 
 namespace hookpoint::studies {
 

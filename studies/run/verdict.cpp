@@ -5,12 +5,12 @@
 #include <string>
 #include <utility>
 
-#include "studies/idleness.h"
 #include "studies/predictions/predictions.h"
+#include "studies/results/idleness.h"
+#include "studies/results/seed_means.h"
+#include "studies/results/summary.h"
 #include "studies/run/execute.h"
 #include "studies/run/group_metrics.h"
-#include "studies/seed_means.h"
-#include "studies/summary.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -154,11 +154,12 @@ MetricValue value_of(const StudyPlan& plan, std::size_t metric, std::size_t row,
   return value;
 }
 
-RunResult run_result(const StudyPlan& plan, const KeptRows& kept, std::size_t row,
+RunResult run_result(const StudyPlan& plan, const StudyRows& kept, std::size_t row,
                      RunRecord record) {
   RunResult run = empty_row(plan, plan.rows[row]);
   run.status = record.status;
   run.regime = record.regime;
+  run.metrics.reserve(plan.metrics.size());
   for (std::size_t i = 0; i < plan.metrics.size(); ++i)
     run.metrics.push_back(value_of(plan, i, row, record));
   run.traces.reserve(plan.plots.size());
@@ -257,14 +258,14 @@ StudyResult empty_table(const StudyPlan& plan) {
     result.metrics.push_back(
         {std::string(metric.name), plan.units[i].text, metric.timing(), metric.regime,
          metric.scope == MetricScope::subjects ? why_others_are_left_out(plan) : "",
-         metric.user != nullptr ? metric.user->predicted != nullptr
-                                : may_be_predicted(metric.name)});
+         metric.user != nullptr ? metric.user->predicted != nullptr : metric.predict != nullptr});
   }
   for (const PlotPlan& plot : plan.plots) result.plots.push_back(plot.spec);
   result.tables = plan.tables;
   result.claims = plan.claims;
   for (const TruthPlan& truth : plan.truths)
     result.truths.push_back({truth.name, truth.words, static_cast<int>(truth.metric)});
+  result.rows.reserve(plan.rows.size());
   for (const RowPlan& row : plan.rows) {
     result.rows.push_back(empty_row(plan, row));
     RunResult& run = result.rows.back();
@@ -280,7 +281,7 @@ StudyResult empty_table(const StudyPlan& plan) {
   return result;
 }
 
-RunResult assemble_row(const StudyPlan& plan, const KeptRows& kept, std::size_t row) {
+RunResult assemble_row(const StudyPlan& plan, const StudyRows& kept, std::size_t row) {
   RunResult run = run_result(plan, kept, row, kept.numbers(row));
   for (const TruthPlan& truth : plan.truths) {
     MetricValue& value = run.metrics[truth.metric];
@@ -293,7 +294,7 @@ RunResult assemble_row(const StudyPlan& plan, const KeptRows& kept, std::size_t 
   return run;
 }
 
-StudyResult assemble(const StudyPlan& plan, const KeptRows& kept, Notices& notices) {
+StudyResult assemble(const StudyPlan& plan, const StudyRows& kept, Notices& notices) {
   StudyResult result = empty_table(plan);
   for (std::size_t row = 0; row < plan.rows.size(); ++row) {
     RunRecord record = kept.numbers(row);

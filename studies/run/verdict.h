@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "studies/plan/plan.h"
-#include "studies/run/kept_rows.h"
-#include "studies/run/row_runner.h"
+#include "studies/run/rows.h"
+#include "studies/run/runs.h"
 
 namespace hookpoint::studies {
 
@@ -14,11 +14,11 @@ namespace hookpoint::studies {
 StudyResult empty_table(const StudyPlan& plan);
 
 /// A row by itself, with the verdicts of the Truths that look at no other.
-RunResult assemble_row(const StudyPlan& plan, const KeptRows& kept, std::size_t row);
+RunResult assemble_row(const StudyPlan& plan, const StudyRows& kept, std::size_t row);
 
 /// The table of `plan`. Depends on the kept runs alone, not on the order in which they came.
 /// `notices` gets those of the runs.
-StudyResult assemble(const StudyPlan& plan, const KeptRows& kept, Notices& notices);
+StudyResult assemble(const StudyPlan& plan, const StudyRows& kept, Notices& notices);
 
 /// Every Truth holds, no run failed, and no Truth, Claim, Plot or Table judges or shows nothing
 /// that is not expected: what exit status 0 means. Skipped rows neither pass nor fail.

@@ -1,34 +1,58 @@
 #include "studies/tune/candidates.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <map>
+
+#include "output/files/hash.h"
+#include "studies/results/statistics.h"
 
 namespace hookpoint::studies {
 namespace {
 
 /// A run without a value misses more than any with one.
 constexpr double without_value = 1e6;
+/// The score of a candidate in an objective of which it may lack the value, worse than any value.
+constexpr double worst_score = 1e100;
 
-/// The candidate as its runs left it.
-Candidate finished_candidate(const TunePlan& plan, const Candidates::Wanted& wanted,
-                             std::span<const WantedOutcome> outcomes) {
+/// The candidate before its runs.
+Candidate candidate_of(const TunePlan& plan, const Candidates::Wanted& wanted) {
   Candidate candidate{wanted.stage, wanted.generation, {}, wanted.first_seed, {}, {}};
   if (wanted.values.empty())
     candidate.values = plan.own;
   else
     candidate.values.assign(wanted.values.begin(), wanted.values.end());
-  for (const WantedOutcome& outcome : outcomes) {
-    candidate.statuses.push_back(outcome.status);
-    candidate.measured.push_back(outcome.measured);
-  }
   return candidate;
 }
 
-/// The part of the seeds that have no value of the metric.
-double missing_part(const Candidate& candidate, std::size_t metric) {
+void add_run(const TunePlan& plan, const RunRecord& record, Candidate& candidate) {
+  candidate.statuses.push_back(record.status);
+  auto& measured = candidate.measured.emplace_back();
+  for (const MetricDefinition* metric : plan.runs.metrics)
+    measured.push_back(record.values.at(kept_name(*metric)).measured);
+}
+
+/// Of a run whose scene cannot be loaded: every metric is there, without a value.
+RunRecord unloadable(const Measurement& measurement, const language::Diagnostics& found) {
+  RunRecord record;
+  record.status = "cannot run: " + found.first_error();
+  for (const MetricDefinition* metric : measurement.metrics) record.values[kept_name(*metric)] = {};
+  return record;
+}
+
+/// Whether a seed's run lacks the value of a metric. A run that came to its end may lack one that
+/// may be empty.
+bool lacks(const Candidate& candidate, std::size_t seed, std::size_t metric, bool may_be_empty) {
+  return !candidate.measured[seed][metric] && !(may_be_empty && candidate.statuses[seed] == "ok");
+}
+
+/// The part of the seeds that lack the value of the metric.
+double missing_part(const Candidate& candidate, std::size_t metric, bool may_be_empty) {
   double missing = 0.;
-  for (const auto& measured : candidate.measured) missing += measured[metric] ? 0. : 1.;
+  for (std::size_t seed = 0; seed < candidate.measured.size(); ++seed)
+    missing += lacks(candidate, seed, metric, may_be_empty) ? 1. : 0.;
   return missing / static_cast<double>(candidate.seeds());
 }
 
@@ -61,23 +85,8 @@ std::optional<std::vector<double>> values_of_seeds(const Candidate& candidate, s
   return values;
 }
 
-double mean_of(std::span<const double> values) {
-  double sum = 0.;
-  for (const double value : values) sum += value;
-  return sum / static_cast<double>(values.size());
-}
-
-double standard_error_of(std::span<const double> values) {
-  const auto count = static_cast<double>(values.size());
-  if (values.size() < 2) return 0.;
-  const double mean = mean_of(values);
-  double squares = 0.;
-  for (const double value : values) squares += (value - mean) * (value - mean);
-  return std::sqrt(squares / (count - 1.) / count);
-}
-
 double take_of(const ObjectivePlan& objective, std::span<const double> values) {
-  if (objective.take == ObjectivePlan::Take::mean) return mean_of(values);
+  if (objective.take == ObjectivePlan::Take::mean) return mean(values);
   const auto [least, greatest] = std::ranges::minmax(values);
   return objective.maximise ? least : greatest;
 }
@@ -96,26 +105,33 @@ std::optional<double> value_of(const ObjectivePlan& objective, const Candidate& 
 }
 
 bool meets(const Candidate& candidate, const RequirementPlan& required) {
-  return std::ranges::all_of(candidate.measured, [&](const auto& measured) {
-    const auto& value = measured[required.metric];
-    return value && !(required.missed_by(*value) > 0.);
-  });
+  for (std::size_t seed = 0; seed < candidate.measured.size(); ++seed) {
+    const auto& value = candidate.measured[seed][required.metric];
+    if (lacks(candidate, seed, required.metric, required.may_be_empty)) return false;
+    if (value && required.missed_by(*value) > 0.) return false;
+  }
+  return true;
 }
 
 double violation_of(const TunePlan& plan, const Candidate& candidate) {
   double violation = 0.;
-  std::set<std::size_t> needed;
-  for (const ObjectivePlan& objective : plan.objectives) needed.insert(objective.metric);
+  std::map<std::size_t, bool> needed;  // metrics, and whether they may be empty
+  const auto need = [&needed](std::size_t metric, bool may_be_empty) {
+    bool& may = needed.try_emplace(metric, true).first->second;
+    may = may && may_be_empty;
+  };
+  for (const ObjectivePlan& objective : plan.objectives)
+    need(objective.metric, objective.may_be_empty);
   for (const RequirementPlan& required : plan.requirements) {
-    needed.insert(required.metric);
+    need(required.metric, required.may_be_empty);
     double most = 0.;
     for (const auto& measured : candidate.measured)
       if (measured[required.metric])
         most = std::max(most, required.missed_by(*measured[required.metric]));
     violation += most;
   }
-  for (const std::size_t metric : needed)
-    violation += without_value * missing_part(candidate, metric);
+  for (const auto& [metric, may_be_empty] : needed)
+    violation += without_value * missing_part(candidate, metric, may_be_empty);
   return violation;
 }
 
@@ -123,16 +139,45 @@ Score score_of(const TunePlan& plan, const Candidate& candidate) {
   Score score;
   score.violation = violation_of(plan, candidate);
   for (const ObjectivePlan& objective : plan.objectives) {
-    const double value = value_of(objective, candidate).value_or(0.);
-    score.objectives.push_back(objective.maximise ? -value : value);
+    const auto value = value_of(objective, candidate);
+    const double lacking = objective.may_be_empty ? worst_score : 0.;
+    score.objectives.push_back(!value ? lacking : objective.maximise ? -*value : *value);
   }
   return score;
+}
+
+std::string Candidates::identity_of(const SeedRun& run) const {
+  output::Hash identity;
+  identity.add(plan_.runs_hash).add(std::to_string(run.seed));
+  for (const ConstantSetting& constant : run.constants)
+    identity.add(constant.name).add(constant.text);
+  return identity.text();
+}
+
+std::optional<RunRecord> Candidates::make(const SeedRun& run) const {
+  if (stop_.load(std::memory_order_relaxed)) return std::nullopt;
+  const Measurement measurement = plan_.measurement();
+  language::Diagnostics found;
+  auto scene = plan_.scene->load(run.constants, run.seed, found);
+  if (!scene) return unloadable(measurement, found);
+  scene->experiment.duration = measurement.duration;
+  return execute(measurement, scene->experiment, engines_, "", stop_);
+}
+
+std::optional<RunRequest> Candidates::request_of(const SeedRun& run) const {
+  const Measurement measurement = plan_.measurement();
+  language::Diagnostics unreported;
+  const auto scene = plan_.scene->load(run.constants, run.seed, unreported);
+  if (!scene) return std::nullopt;
+  return RunRequest{fmt::format("{}, seed {}", plan_.runs.name, run.seed),
+                    run_identity(scene->hash(), measurement, scene->experiment.engine, engines_),
+                    plan_.scene->under(run.constants, run.seed), measurement};
 }
 
 std::vector<std::size_t> Candidates::evaluate(const std::vector<Wanted>& wanted) {
   std::vector<std::size_t> indices;
   std::vector<std::size_t> fresh;  // of `wanted`
-  std::vector<WantedRun> requests;
+  std::vector<SeedRun> runs;
   const std::size_t first = all_.size();
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     const Wanted& asked = wanted[i];
@@ -141,31 +186,38 @@ std::vector<std::size_t> Candidates::evaluate(const std::vector<Wanted>& wanted)
     const auto [entry, is_new] = known_.try_emplace(Key{asked.values, asked.first_seed}, next);
     indices.push_back(entry->second);
     if (!is_new) {
-      batches_.skip(static_cast<std::size_t>(asked.seeds));
+      runs_.skip(static_cast<std::size_t>(asked.seeds));
       continue;
     }
     fresh.push_back(i);
     for (int seed = 0; seed < asked.seeds; ++seed)
-      requests.push_back(
+      runs.push_back(
           {plan_.settings(asked.values), asked.first_seed + static_cast<std::uint64_t>(seed)});
   }
-  const auto take = [&](const std::vector<std::optional<WantedOutcome>>& outcomes) {
-    std::size_t at = 0;
-    for (const std::size_t i : fresh) {
-      std::vector<WantedOutcome> runs;
-      for (int seed = 0; seed < wanted[i].seeds; ++seed, ++at)
-        if (outcomes[at]) runs.push_back(*outcomes[at]);
-      if (runs.size() == static_cast<std::size_t>(wanted[i].seeds))
-        all_.push_back(finished_candidate(plan_, wanted[i], runs));
-    }
+  RunBatch batch;
+  batch.count = runs.size();
+  batch.identity = [&](std::size_t run) { return identity_of(runs[run]); };
+  batch.make = [&](std::size_t run) { return make(runs[run]); };
+  batch.complete = [measurement = plan_.measurement()](std::size_t, const RunRecord& record) {
+    return measurement.found_in(record);
   };
-  try {
-    const std::vector<WantedOutcome> outcomes = batches_.run(requests);
-    take({outcomes.begin(), outcomes.end()});
-  } catch (const BatchInterrupted& interrupted) {
-    take(interrupted.finished);
-    throw;
+  // A request is asked for several times, and costs as much as loading the scene.
+  std::vector<std::optional<std::optional<RunRequest>>> requests(runs.size());
+  batch.request = [&](std::size_t run) {
+    if (!requests[run]) requests[run] = request_of(runs[run]);
+    return *requests[run];
+  };
+  const auto records = runs_.records(batch);
+  auto record = records.begin();
+  for (const std::size_t i : fresh) {
+    const auto end = record + wanted[i].seeds;
+    if (std::all_of(record, end, [](const auto& made) { return made.has_value(); })) {
+      Candidate& candidate = all_.emplace_back(candidate_of(plan_, wanted[i]));
+      for (auto made = record; made != end; ++made) add_run(plan_, **made, candidate);
+    }
+    record = end;
   }
+  if (all_.size() < first + fresh.size()) throw TuneInterrupted{};
   return indices;
 }
 

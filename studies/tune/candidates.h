@@ -1,6 +1,7 @@
 // The candidates of a tuning: their values, what their runs measured, and how good that is.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -11,10 +12,13 @@
 #include <utility>
 #include <vector>
 
+#include "studies/run/runs.h"
 #include "studies/tune/problem.h"
-#include "studies/tune/run_batches.h"
 
 namespace hookpoint::studies {
+
+/// `stop` was set.
+struct TuneInterrupted {};
 
 /// Why a candidate was evaluated.
 enum class CandidateStage { own, analytic, search, fresh_seeds, one_at_a_time, sobol };
@@ -34,10 +38,6 @@ struct Candidate {
 
 /// A metric's values over seeds; nothing unless every seed has one.
 std::optional<std::vector<double>> values_of_seeds(const Candidate& candidate, std::size_t metric);
-
-double mean_of(std::span<const double> values);
-/// Standard error of the mean; 0 of a single value.
-double standard_error_of(std::span<const double> values);
 
 /// What an objective makes of the seeds' values.
 double take_of(const ObjectivePlan& objective, std::span<const double> values);
@@ -59,7 +59,10 @@ Score score_of(const TunePlan& plan, const Candidate& candidate);
 /// All that were evaluated, in order.
 class Candidates {
  public:
-  Candidates(const TunePlan& plan, RunBatches& batches) : plan_(plan), batches_(batches) {}
+  /// All outlives it.
+  Candidates(const TunePlan& plan, const EngineTable& engines, CachedRuns& runs,
+             const std::atomic<bool>& stop)
+      : plan_(plan), engines_(engines), runs_(runs), stop_(stop) {}
 
   /// What is to be evaluated.
   struct Wanted {
@@ -69,8 +72,9 @@ class Candidates {
     std::uint64_t first_seed = 1;
     int seeds = 1;
   };
-  /// Indices of the candidates; one that is known with these seeds is not run again. When that is
-  /// interrupted, those whose runs are all finished are kept.
+  /// Indices of the candidates, whatever the number of threads; one that is known with these seeds
+  /// is not run again. A scene that cannot be loaded so is a run with that status. When interrupted,
+  /// keeps those whose runs are all finished and throws TuneInterrupted. Throws StoreError.
   std::vector<std::size_t> evaluate(const std::vector<Wanted>& wanted);
 
   const std::vector<Candidate>& all() const { return all_; }
@@ -79,8 +83,20 @@ class Candidates {
  private:
   using Key = std::pair<std::vector<double>, std::uint64_t>;
 
+  /// One run of a candidate.
+  struct SeedRun {
+    std::vector<ConstantSetting> constants;
+    std::uint64_t seed = 1;
+  };
+  std::string identity_of(const SeedRun& run) const;
+  std::optional<RunRecord> make(const SeedRun& run) const;
+  /// For another process; nothing where its scene cannot be loaded.
+  std::optional<RunRequest> request_of(const SeedRun& run) const;
+
   const TunePlan& plan_;
-  RunBatches& batches_;
+  const EngineTable& engines_;
+  CachedRuns& runs_;
+  const std::atomic<bool>& stop_;
   std::vector<Candidate> all_;
   std::map<Key, std::size_t> known_;
 };

@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
+
+#include "studies/results/statistics.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -61,13 +62,6 @@ class KneeDistance {
   Scores ideal_, nadir_;
 };
 
-/// Half of the two-sided 95 % interval of a mean of `count` values, in standard errors.
-double student_factor(std::size_t count) {
-  constexpr double upper = 0.975;
-  const boost::math::students_t_distribution<double> student(static_cast<double>(count - 1));
-  return boost::math::quantile(student, upper);
-}
-
 }  // namespace
 
 bool is_feasible(const TunePlan& plan, const Candidate& candidate) {
@@ -105,10 +99,7 @@ std::optional<Recommendation> recommend(const TunePlan& plan,
   std::vector<Scores> others;
   for (const std::size_t reference : references) {
     const Candidate& other = candidates[reference];
-    const bool told = std::ranges::all_of(plan.objectives, [&](const ObjectivePlan& objective) {
-      return value_of(objective, other).has_value();
-    });
-    if (told && is_feasible(plan, other)) others.push_back(score_of(plan, other).objectives);
+    if (is_feasible(plan, other)) others.push_back(score_of(plan, other).objectives);
   }
   const auto beats_all = [&](const Scores& scores) {
     return std::ranges::all_of(others,
@@ -162,8 +153,9 @@ std::vector<ObjectiveComparison> compare_candidates(const TunePlan& plan, const 
     const auto theirs = objective_of_seeds(objective, other);
     Scores differences;
     for (std::size_t i = 0; i < ours->size(); ++i) differences.push_back((*ours)[i] - (*theirs)[i]);
-    comparison.difference = mean_of(differences);
-    comparison.margin = student_factor(differences.size()) * standard_error_of(differences);
+    comparison.difference = mean(differences);
+    comparison.margin =
+        student_quantile(static_cast<double>(differences.size())) * standard_error(differences);
     if (!(std::abs(comparison.difference) > comparison.margin))
       comparison.verdict = Verdict::within_noise;
     else

@@ -37,15 +37,15 @@ std::optional<Recommendation> recommend(const TunePlan& plan,
 
 /// A candidate's objective beside another's, both with the same seeds.
 struct ObjectiveComparison {
-  enum class Verdict { better, worse, within_noise, untold };
+  enum class Verdict { better, worse, within_noise, undecided };
   std::optional<double> tuned, other;  ///< what the objective makes of the seeds
   double difference = 0.;              ///< tuned less other: mean over the seeds
   double margin = 0.;  ///< half of the 95 % interval of that mean: Student's t, paired by seeds
-  Verdict verdict = Verdict::untold;
+  Verdict verdict = Verdict::undecided;
 };
 
 /// One an objective. Better and worse are beyond the margin; with a single seed, or without values
-/// of the tuned one, nothing is told; better than one without values.
+/// of the tuned one, nothing is decided; better than one without values.
 std::vector<ObjectiveComparison> compare_candidates(const TunePlan& plan, const Candidate& tuned,
                                                     const Candidate& other);
 

@@ -6,6 +6,7 @@
 
 #include "output/figures/bar_chart.h"
 #include "output/figures/plot.h"
+#include "studies/results/statistics.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -41,7 +42,7 @@ Axis axis_of(const TunePlan& plan, const ObjectivePlan& objective) {
 std::optional<double> metric_of(const ObjectivePlan& objective, const Candidate& candidate) {
   if (!objective.target) return value_of(objective, candidate);
   const auto values = values_of_seeds(candidate, objective.metric);
-  return values ? std::optional(mean_of(*values)) : std::nullopt;
+  return values ? std::optional(mean(*values)) : std::nullopt;
 }
 
 /// A logarithmic axis where positive values reach over more than two decades.
@@ -121,9 +122,10 @@ Plot convergence_figure(const TunePlan& plan, const TuneResult& result,
   const auto better = [&](double a, double b) { return objective.maximise ? a > b : a < b; };
   for (const Candidate& candidate : result.candidates) {
     if (candidate.stage != CandidateStage::search || !is_feasible(plan, candidate)) continue;
-    const double value = *value_of(objective, candidate);
-    const auto [entry, is_new] = best.try_emplace(candidate.generation, value);
-    if (!is_new && better(value, entry->second)) entry->second = value;
+    const auto value = value_of(objective, candidate);
+    if (!value) continue;
+    const auto [entry, is_new] = best.try_emplace(candidate.generation, *value);
+    if (!is_new && better(*value, entry->second)) entry->second = *value;
   }
   Plot plot;
   plot.name = convergence_name(plan, objective);

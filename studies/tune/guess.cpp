@@ -14,8 +14,8 @@ using Advised = std::vector<simulation::ConstantAdvice>;
 
 /// What is advised for the plan's material under the first robot that stands on it.
 std::optional<Advised> advised_constants(const TunePlan& plan, std::string& why) {
-  language::Diagnostics untold;
-  auto own = plan.scene->load({}, 1, untold);
+  language::Diagnostics unreported;
+  auto own = plan.scene->load({}, 1, unreported);
   if (!own) return std::nullopt;
   simulation::Experiment& experiment = own->experiment;
   if (experiment.engine != "dts" || !contact::find_force_law(experiment.contact)) {
@@ -74,8 +74,8 @@ class NearestParameters {
   double distance_with(std::size_t parameter, double value) const {
     std::vector<double> values = values_;
     values[parameter] = value;
-    language::Diagnostics untold;
-    const auto tree = plan_.scene->compose(plan_.settings(values), 1, untold);
+    language::Diagnostics unreported;
+    const auto tree = plan_.scene->compose(plan_.settings(values), 1, unreported);
     if (tree == nullptr) return std::numeric_limits<double>::infinity();
     const language::Object& material = plan_.scene->material_of(*tree);
     double sum = 0.;

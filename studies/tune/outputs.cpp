@@ -3,22 +3,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
+#include <utility>
 
-#include "output/file.h"
-#include "output/text/json.h"
-#include "output/text/number.h"
+#include "studies/report/page_parts.h"
+#include "studies/results/statistics.h"
 #include "studies/run/results_csv.h"
+#include "studies/search/material_text.h"
 #include "studies/tune/figures.h"
-#include "studies/tune/material_text.h"
+#include "studies/tune/report.h"
+#include "text/json.h"
+#include "text/number.h"
 
 namespace hookpoint::studies {
 namespace {
 
-using output::shortest;
-
-std::string empty_or(const std::optional<double>& value) {
-  return value ? shortest(*value) : std::string();
-}
+using text::shortest;
 
 void add_constant_titles(output::CsvTable& table, const TunePlan& plan) {
   for (const VariedConstant& constant : plan.varied)
@@ -26,7 +26,7 @@ void add_constant_titles(output::CsvTable& table, const TunePlan& plan) {
 }
 
 void add_constants(std::vector<std::string>& row, const Candidate& candidate) {
-  for (const auto& value : candidate.values) row.push_back(empty_or(value));
+  for (const auto& value : candidate.values) row.push_back(shortest(value));
 }
 
 /// "ok", or what the first run that did not finish says.
@@ -49,8 +49,8 @@ void add_titles(output::CsvTable& table, const std::string& name, std::string_vi
 /// A value made of the seeds and its standard error; empty without.
 void add_mean(std::vector<std::string>& row, const std::optional<double>& value,
               const std::optional<std::vector<double>>& seeds) {
-  row.push_back(empty_or(value));
-  row.push_back(seeds ? shortest(standard_error_of(*seeds)) : "");
+  row.push_back(shortest(value));
+  row.push_back(seeds ? shortest(standard_error(*seeds)) : "");
 }
 
 void add_objective(std::vector<std::string>& row, const ObjectivePlan& objective,
@@ -61,17 +61,16 @@ void add_objective(std::vector<std::string>& row, const ObjectivePlan& objective
 /// Mean, standard error and "1.5 2.5", the seeds' values, of one metric.
 void add_metric(std::vector<std::string>& row, const Candidate& candidate, std::size_t metric) {
   const auto values = values_of_seeds(candidate, metric);
-  add_mean(row, values ? std::optional(mean_of(*values)) : std::nullopt, values);
+  add_mean(row, values ? std::optional(mean(*values)) : std::nullopt, values);
   std::string each;
   for (const auto& measured : candidate.measured)
-    each += (each.empty() ? "" : " ") + (measured[metric] ? shortest(*measured[metric]) : "-");
+    each += (each.empty() ? "" : " ") + shortest(measured[metric], "-");
   row.push_back(each);
 }
 
 std::string number_text(std::size_t index) { return std::to_string(index + 1); }
 
-void write_value(output::JsonWriter& json, std::string_view key,
-                 const std::optional<double>& value) {
+void write_value(text::JsonWriter& json, std::string_view key, const std::optional<double>& value) {
   json.key(key);
   if (value)
     json.value(*value);
@@ -79,7 +78,7 @@ void write_value(output::JsonWriter& json, std::string_view key,
     json.null();
 }
 
-void write_constants(output::JsonWriter& json, const TunePlan& plan, const Candidate& candidate) {
+void write_constants(text::JsonWriter& json, const TunePlan& plan, const Candidate& candidate) {
   json.key("constants").begin_object();
   for (std::size_t i = 0; i < plan.varied.size(); ++i) {
     json.key(plan.varied[i].name).begin_object();
@@ -89,7 +88,7 @@ void write_constants(output::JsonWriter& json, const TunePlan& plan, const Candi
   json.end_object();
 }
 
-void write_requirements(output::JsonWriter& json, const TunePlan& plan, const TuneResult& result) {
+void write_requirements(text::JsonWriter& json, const TunePlan& plan, const TuneResult& result) {
   json.key("requirements").begin_array();
   for (const RequirementPlan& required : plan.requirements) {
     json.begin_object()
@@ -102,7 +101,7 @@ void write_requirements(output::JsonWriter& json, const TunePlan& plan, const Tu
   json.end_array();
 }
 
-void write_reference(output::JsonWriter& json, const TunePlan& plan, const TuneResult& result,
+void write_reference(text::JsonWriter& json, const TunePlan& plan, const TuneResult& result,
                      const TuneReference& reference) {
   const Candidate& candidate = result.candidates[reference.candidate];
   json.key(reference.key).begin_object().member("evaluation", reference.candidate + 1);
@@ -125,7 +124,7 @@ const char* direction_of(const ObjectivePlan& objective) {
   return objective.target ? "target" : objective.maximise ? "maximise" : "minimise";
 }
 
-void write_objectives(output::JsonWriter& json, const TunePlan& plan, const TuneResult& result) {
+void write_objectives(text::JsonWriter& json, const TunePlan& plan, const TuneResult& result) {
   json.key("objectives").begin_object();
   for (const ObjectivePlan& objective : plan.objectives) {
     json.key(plan.name_of(objective)).begin_object();
@@ -133,11 +132,11 @@ void write_objectives(output::JsonWriter& json, const TunePlan& plan, const Tune
     json.member("direction", direction_of(objective));
     const auto values = values_of_seeds(result.best(), objective.metric);
     const auto error_of = [](const std::optional<std::vector<double>>& seeds) {
-      return seeds ? std::optional(standard_error_of(*seeds)) : std::nullopt;
+      return seeds ? std::optional(standard_error(*seeds)) : std::nullopt;
     };
     if (objective.target) {
       json.member("target", *objective.target);
-      write_value(json, "value", values ? std::optional(mean_of(*values)) : std::nullopt);
+      write_value(json, "value", values ? std::optional(mean(*values)) : std::nullopt);
       write_value(json, "distance", value_of(objective, result.best()));
       write_value(json, "distance_error", error_of(objective_of_seeds(objective, result.best())));
     } else {
@@ -159,8 +158,8 @@ std::string_view words_of(ObjectiveComparison::Verdict verdict) {
       return "worse";
     case ObjectiveComparison::Verdict::within_noise:
       return "within the noise";
-    case ObjectiveComparison::Verdict::untold:
-      return "not told";
+    case ObjectiveComparison::Verdict::undecided:
+      return "not decided";
   }
   return "";
 }
@@ -174,15 +173,6 @@ std::vector<ConstantSetting> settings_of(const TunePlan& plan, const Candidate& 
 
 std::string material_file(const TunePlan& plan) {
   return "materials/" + plan.scene->material() + "_tuned.hook";
-}
-
-std::vector<std::string> tune_files(const TunePlan& plan) {
-  std::vector<std::string> files{
-      store_folder,        "evaluations.csv", "pareto.csv", "sobol.csv",       "recommended.json",
-      material_file(plan), "experiment.hook", "scene.hook", "provenance.json", "report.html"};
-  for (const std::string& figure : tune_figure_names(plan))
-    for (const char* type : {".svg", ".csv", ".gp"}) files.push_back(figure + type);
-  return files;
 }
 
 output::CsvTable evaluations_table(const TunePlan& plan, const TuneResult& result) {
@@ -231,7 +221,8 @@ output::CsvTable pareto_table(const TunePlan& plan, const TuneResult& result) {
     add_constants(row, candidate);
     for (const ObjectivePlan& objective : plan.objectives) {
       const auto values = values_of_seeds(candidate, objective.metric);
-      if (objective.target) add_mean(row, mean_of(*values), values);
+      if (objective.target)
+        add_mean(row, values ? std::optional(mean(*values)) : std::nullopt, values);
       add_objective(row, objective, candidate);
     }
     row.emplace_back(member == result.recommended->candidate ? "yes" : "");
@@ -260,7 +251,7 @@ output::CsvTable indices_table(const TunePlan& plan, const TuneResult& result) {
 }
 
 std::string recommended_json(const TunePlan& plan, const TuneResult& result) {
-  output::JsonWriter json;
+  text::JsonWriter json;
   json.begin_object().member("tune", plan.label).member("material", plan.scene->material());
   json.member("complete", !result.interrupted);
   json.member("evaluations", result.candidates.size());
@@ -282,8 +273,8 @@ std::string recommended_json(const TunePlan& plan, const TuneResult& result) {
 
 std::string material_text(const TunePlan& plan, const TuneResult& result,
                           const std::string& command) {
-  language::Diagnostics untold;
-  const auto tree = plan.scene->compose(settings_of(plan, result.best()), 1, untold);
+  language::Diagnostics unreported;
+  const auto tree = plan.scene->compose(settings_of(plan, result.best()), 1, unreported);
   if (tree == nullptr) return "";
   std::string text = comment_line(plan.scene->material() + " as tuned by `" + command + "`" +
                                   (result.interrupted ? ", which was interrupted" : ""));
@@ -296,21 +287,54 @@ std::string material_text(const TunePlan& plan, const TuneResult& result,
   return text + material_block(plan.scene->material_of(*tree), plan.scene->material() + "_tuned");
 }
 
-void write_tune_files(const TunePlan& plan, const TuneRun& run, const std::string& command) {
-  const std::filesystem::path& folder = run.folder;
+namespace {
+
+/// The scene with the recommended constants.
+std::string scene_text(const TunePlan& plan, const TuneResult& result) {
+  language::Diagnostics unreported;
+  const auto scene = plan.scene->compose(settings_of(plan, result.best()), 1, unreported);
+  return scene == nullptr ? "" : language::print(*scene);
+}
+
+/// The files that the report links to.
+std::vector<output::ResultFile> linked_tune_files(const TunePlan& plan, const TuneRun& run,
+                                                  const std::string& command) {
   const TuneResult& result = run.result;
-  output::write_csv(folder / "evaluations.csv", evaluations_table(plan, result));
-  output::write_file(folder / "recommended.json", recommended_json(plan, result));
-  output::write_file(folder / "experiment.hook", plan.runs.printed);
-  output::write_file(folder / "provenance.json", provenance_json(run.provenance));
-  if (!result.indices.empty()) output::write_csv(folder / "sobol.csv", indices_table(plan, result));
-  if (!result.recommended) return;
-  output::write_csv(folder / "pareto.csv", pareto_table(plan, result));
-  output::make_folder_of(folder / material_file(plan));
-  output::write_file(folder / material_file(plan), material_text(plan, result, command));
-  language::Diagnostics untold;
-  const auto scene = plan.scene->compose(settings_of(plan, result.best()), 1, untold);
-  if (scene != nullptr) output::write_file(folder / "scene.hook", language::print(*scene));
+  const auto if_recommended = [&result](std::function<std::string()> text) {
+    return [&result, text = std::move(text)] { return result.recommended ? text() : ""; };
+  };
+  return {
+      {"evaluations.csv", [&] { return evaluations_table(plan, result).text(); }},
+      {"recommended.json", [&] { return recommended_json(plan, result); }},
+      {"experiment.hook", [&] { return plan.runs.printed; }},
+      {"provenance.json", [&] { return provenance_json(run.provenance); }},
+      {"sobol.csv",
+       [&] { return result.indices.empty() ? "" : indices_table(plan, result).text(); }},
+      {"pareto.csv", if_recommended([&] { return pareto_table(plan, result).text(); })},
+      {material_file(plan), if_recommended([&] { return material_text(plan, result, command); })},
+      {"scene.hook", if_recommended([&] { return scene_text(plan, result); })}};
+}
+
+}  // namespace
+
+std::vector<std::string> tune_files(const TunePlan& plan) {
+  std::vector<std::string> files = output::names_of(linked_tune_files(plan, {}, {}));
+  files.insert(files.end(), {store_folder, "report.html"});
+  for (const std::string& figure : tune_figure_names(plan))
+    for (const char* type : {".svg", ".csv", ".gp"}) files.push_back(figure + type);
+  return files;
+}
+
+std::vector<std::string> write_tuning(output::ResultFolder& folder, const TunePlan& plan,
+                                      const TuneRun& run, const std::string& command) {
+  folder.write(linked_tune_files(plan, run, command));
+  const auto figures = draw_tune_figures(plan, run.result, folder.path());
+  folder.write(
+      "report.html",
+      tune_html(plan, run.result, {command, {}, provenance_lines(run.provenance), folder.written()},
+                figures));
+  folder.finish();
+  return undrawn(figures);
 }
 
 }  // namespace hookpoint::studies

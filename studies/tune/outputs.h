@@ -1,10 +1,10 @@
-// The files of a tuning's folder beside its figures and report.
+// The files of a tuning's folder.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "output/text/csv.h"
+#include "output/files/csv.h"
 #include "studies/tune/tune.h"
 
 namespace hookpoint::studies {
@@ -30,14 +30,15 @@ std::string material_text(const TunePlan& plan, const TuneResult& result,
 /// "materials/clay_tuned.hook".
 std::string material_file(const TunePlan& plan);
 
-/// Writes all of them, experiment.hook, scene.hook (with the recommended constants) and
-/// provenance.json. Throws output::FileError.
-void write_tune_files(const TunePlan& plan, const TuneRun& run, const std::string& command);
+/// Writes all of them, figures and report.html too, and the folder's list of them. What could not
+/// be drawn comes back. Throws output::FileError.
+std::vector<std::string> write_tuning(output::ResultFolder& folder, const TunePlan& plan,
+                                      const TuneRun& run, const std::string& command);
 
 /// What a candidate sets in the scene; nothing for the files' own constants.
 std::vector<ConstantSetting> settings_of(const TunePlan& plan, const Candidate& candidate);
 
-/// "better", "worse", "within the noise", "not told".
+/// "better", "worse", "within the noise", "not decided".
 std::string_view words_of(ObjectiveComparison::Verdict verdict);
 
 }  // namespace hookpoint::studies

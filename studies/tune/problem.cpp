@@ -8,23 +8,23 @@
 #include <cmath>
 
 #include "language/names.h"
-#include "output/text/hash.h"
-#include "output/text/number.h"
-#include "simulation/identity.h"
-#include "simulation/step_count.h"
-#include "studies/plan/plan_builder.h"
-#include "studies/plan/plan_parts.h"
-#include "studies/run/execute.h"
+#include "output/files/hash.h"
+#include "simulation/engine_interface/identity.h"
+#include "simulation/engine_interface/step_count.h"
+#include "studies/blocks/block.h"
+#include "studies/blocks/fix.h"
+#include "studies/blocks/measure.h"
+#include "studies/blocks/tune.h"
+#include "studies/blocks/vary.h"
+#include "studies/results/selection.h"
 #include "studies/tune/step_warnings.h"
+#include "text/number.h"
 
 namespace hookpoint::studies {
 namespace {
 
 using language::Diagnostics;
 using language::Object;
-
-/// What --quick leaves of a search.
-constexpr int quick_population = 8, quick_generations = 3, quick_seeds = 2, quick_samples = 0;
 
 double to_six_digits(double value) {
   char digits[32];
@@ -45,50 +45,48 @@ class TuneBuilder {
   }
 
   /// Metrics of the user's own, of ports of the scene `own`.
-  void add_measures(const Object& tune, const TunedScene& own) {
+  void add_measures(const Object& tune, const LoadedScene& own) {
     SceneNames names(*own.tree);
-    const PlanOptions options;
-    PlanBuilder builder(plan_.runs, options, diagnostics_);
-    builder.know(&names);
     for (const Object* block : tune.children_of("Measure")) {
       const MetricDefinition* known = find_metric(block->name);
       if (known != nullptr && !is_of_one_run(*block, *known)) continue;
-      if (block->given("predicted"))
-        error(block->find("predicted")->position,
+      const MeasureBlock measure = measure_block(*block);
+      if (measure.predicted != nullptr)
+        error(measure.predicted->position,
               "a Tune compares nothing with a closed form: leave `predicted` out");
-      builder.add_metric(*block);
-      check_ports(*block, names, own.experiment);
-      check_from(*block);
+      load_measure(*block, &names, plan_.runs, diagnostics_);
+      check_ports(*block, measure, names, own.experiment);
+      check_from(measure);
     }
   }
 
-  void add_objective(const Object& block) {
-    const auto metric = metric_of(block);
+  void add_objective(const Object& object) {
+    const auto metric = metric_of(object);
     if (!metric) return;
-    const bool less = !block.children_of("minimise").empty();
-    const bool more = !block.children_of("maximise").empty();
-    ObjectivePlan objective{
-        *metric, more,
-        block.word("take") == "worst" ? ObjectivePlan::Take::worst : ObjectivePlan::Take::mean};
-    objective.target = number(block, "target", *metric);
-    if (less + more + objective.target.has_value() != 1)
-      error(block.position, "an Objective says one of `minimise;`, `maximise;` and `target = `");
-    if (objective.target) objective.target_text = written_text(*block.find("target"), *metric);
+    const ObjectiveBlock block = objective_block(object);
+    ObjectivePlan objective{*metric, block.maximise, block.take};
+    objective.target = number(block.target, *metric);
+    if (block.minimise + block.maximise + objective.target.has_value() != 1)
+      error(object.position, "an Objective says one of `minimise;`, `maximise;` and `target = `");
+    if (objective.target) objective.target_text = written_text(block.target, *metric);
+    objective.may_be_empty = block.may_be_empty;
     plan_.objectives.push_back(std::move(objective));
   }
 
-  void add_requirement(const Object& block) {
-    const auto metric = metric_of(block);
+  void add_requirement(const Object& object) {
+    const auto metric = metric_of(object);
     if (!metric) return;
+    const RequireBlock block = require_block(object);
     RequirementPlan require;
     require.metric = *metric;
-    require.equals = number(block, "equals", *metric);
-    require.above = number(block, "above", *metric);
-    require.below = number(block, "below", *metric);
-    require.within = number(block, "within", *metric).value_or(0.);
+    require.equals = number(block.equals, *metric);
+    require.above = number(block.above, *metric);
+    require.below = number(block.below, *metric);
+    require.within = number(block.within, *metric).value_or(0.);
     if (!require.equals && !require.above && !require.below)
-      error(block.position, "a Require says `equals`, `above` or `below`");
-    require.words = words_of(block, require);
+      error(object.position, "a Require says `equals`, `above` or `below`");
+    require.words = object.name + " " + words_of(block, require);
+    require.may_be_empty = block.may_be_empty;
     plan_.requirements.push_back(std::move(require));
   }
 
@@ -106,11 +104,10 @@ class TuneBuilder {
   }
 
   /// The run's engine and law publish what the metric is of.
-  void check_ports(const Object& block, SceneNames& names,
+  void check_ports(const Object& block, const MeasureBlock& measure, SceneNames& names,
                    const simulation::Experiment& experiment) {
-    const language::Field* of = block.find("of");
-    if (of == nullptr || diagnostics_.has_errors()) return;
-    for (const std::string& name : of->formula->names) {
+    if (measure.of == nullptr || diagnostics_.has_errors()) return;
+    for (const std::string& name : measure.of->formula->names) {
       std::string why;
       const auto port = names.port(name, why, &experiment);
       if (port && !port->missing.empty())
@@ -119,13 +116,13 @@ class TuneBuilder {
   }
 
   /// A run lasts until the Measure begins.
-  void check_from(const Object& block) {
-    if (!block.given("from") || block.number("from") < plan_.runs.duration) return;
-    error(block.find("from")->position,
+  void check_from(const MeasureBlock& block) {
+    if (!block.from || *block.from < plan_.runs.duration) return;
+    error(block.from.position(),
           fmt::format("a run ends at {} s{}: nothing would be measured from {} s on",
-                      output::rounded(plan_.runs.duration, 6),
+                      text::rounded(plan_.runs.duration, 6),
                       plan_.runs.quick ? " under --quick (`quick_duration`)" : "",
-                      output::rounded(block.number("from"), 6)));
+                      text::rounded(*block.from, 6)));
   }
 
   /// Its index among the metrics of a run.
@@ -150,129 +147,80 @@ class TuneBuilder {
   }
 
   /// What the field holds, in the metric's unit.
-  std::optional<double> number(const Object& block, const char* name, std::size_t metric) {
-    const language::Field* given = block.find(name);
-    if (given == nullptr) return std::nullopt;
-    const auto unit = language::parse_unit(plan_.runs.metrics[metric]->unit);
-    if (unit && !language::fits(given->dimension, unit->dimension))
-      error(given->position, fmt::format("`{}` is in {}, not {}", name,
-                                         language::describe_dimension(unit->dimension),
-                                         language::describe_dimension(given->dimension)));
-    return block.number(name) * (unit ? unit->denominator / unit->numerator : 1.);
+  std::optional<double> number(const language::Placed<double>& field, std::size_t metric) {
+    if (!field) return std::nullopt;
+    return number_in(*field.field, plan_.runs.metrics[metric]->unit, diagnostics_);
   }
 
   /// The number in the unit that the file writes, else in the metric's.
-  std::string written_text(const language::Field& field, std::size_t metric) const {
-    WrittenUnit unit = written_unit(field);
+  std::string written_text(const language::Placed<double>& field, std::size_t metric) const {
+    WrittenUnit unit = written_unit(*field.field);
     if (unit.text.empty()) {
       unit.text = plan_.runs.metrics[metric]->unit;
       unit.unit = language::parse_unit(unit.text).value_or(language::Unit{});
     }
-    return output::rounded(unit.from_si(field.numbers.at(0)), 6) +
-           (unit.text.empty() ? "" : " " + unit.text);
+    return text::rounded(unit.from_si(*field), 6) + (unit.text.empty() ? "" : " " + unit.text);
   }
 
-  /// "stable_step is above 0.5 ms", in the units that the block writes.
-  std::string words_of(const Object& block, const RequirementPlan& require) const {
-    const auto value = [&](const char* field) {
-      return written_text(*block.find(field), require.metric);
+  /// "is above 0.5 ms", in the units that the block writes.
+  std::string words_of(const RequireBlock& block, const RequirementPlan& require) const {
+    const auto value = [&](const language::Placed<double>& field) {
+      return written_text(field, require.metric);
     };
     std::vector<std::string> parts;
     if (require.equals)
-      parts.push_back("equals " + value("equals") +
-                      (require.within > 0. ? " within " + value("within") : ""));
-    if (require.above) parts.push_back("is above " + value("above"));
-    if (require.below) parts.push_back("is below " + value("below"));
-    return block.name + " " + language::join(parts, " and ");
+      parts.push_back("equals " + value(block.equals) +
+                      (require.within > 0. ? " within " + value(block.within) : ""));
+    if (require.above) parts.push_back("is above " + value(block.above));
+    if (require.below) parts.push_back("is below " + value(block.below));
+    return language::join(parts, " and ");
   }
 
   TunePlan& plan_;
   Diagnostics& diagnostics_;
 };
 
-void set_times(TunePlan& plan, const Object& tune, bool quick, double scene_duration) {
-  constexpr double quick_part = 0.2;
-  StudyPlan& runs = plan.runs;
-  runs.duration = tune.given("duration") ? tune.number("duration") : scene_duration;
-  runs.settle = tune.number("settle");
-  if (!quick) return;
-  runs.duration =
-      tune.given("quick_duration") ? tune.number("quick_duration") : quick_part * runs.duration;
-  runs.settle = tune.given("quick_settle") ? tune.number("quick_settle") : quick_part * runs.settle;
+void set_times(TunePlan& plan, const TuneBlock& block, double scene_duration) {
+  const RunTimes times = load_times(block, plan.runs.quick, scene_duration);
+  plan.runs.settle = times.settle;
+  plan.runs.duration = *times.duration;
 }
 
-void set_search(TunePlan& plan, const Object& tune, bool quick) {
-  const auto whole = [&](const char* field) { return static_cast<int>(tune.number(field)); };
-  plan.method = tune.word("method") == "cmaes" ? SearchMethod::cmaes : SearchMethod::nsga2;
-  plan.population = whole("population");
-  plan.generations = whole("generations");
-  plan.seeds = whole("seeds");
-  plan.samples = whole("samples");
-  plan.seed = static_cast<std::uint64_t>(tune.number("seed"));
-  if (!quick) return;
-  plan.population = std::min(plan.population, quick_population);
-  plan.generations = std::min(plan.generations, quick_generations);
-  plan.seeds = std::min(plan.seeds, quick_seeds);
-  plan.samples = std::min(plan.samples, quick_samples);
+void set_search(TunePlan& plan, const TuneBlock& block) {
+  plan.method = *block.method == "cmaes" ? SearchMethod::cmaes : SearchMethod::nsga2;
+  plan.population = *block.population;
+  plan.generations = block.generations;
+  plan.seeds = block.seeds;
+  plan.samples = block.samples;
+  plan.seed = block.seed;
 }
 
-void check_search(const TunePlan& plan, const Object& tune, double deltat,
+void check_search(const TunePlan& plan, const Object& tune, const TuneBlock& block, double deltat,
                   Diagnostics& diagnostics) {
   if (plan.varied.empty())
     diagnostics.error(tune.position, "a Tune needs a Vary: nothing is to be tuned");
   if (plan.objectives.empty())
     diagnostics.error(tune.position, "a Tune needs an Objective: nothing is wanted");
-  const auto at = [&](const char* field) {
-    return tune.given(field) ? tune.find(field)->position : tune.position;
-  };
   if (plan.method == SearchMethod::cmaes && plan.objectives.size() > 1)
-    diagnostics.error(at("method"),
+    diagnostics.error(block.method.position_or(tune.position),
                       "cmaes takes one Objective; nsga2 takes several, and Require what must hold");
   if (plan.method == SearchMethod::nsga2 && plan.population % 4 != 0)
-    diagnostics.error(at("population"), "nsga2 pairs its candidates: a multiple of 4");
+    diagnostics.error(block.population.position_or(tune.position),
+                      "nsga2 pairs its candidates: a multiple of 4");
+  const auto& said = block.duration ? block.duration : block.quick_duration;
   if (const std::string problem = simulation::step_count_problem(plan.runs.duration, deltat);
       !problem.empty())
-    diagnostics.error(
-        at(tune.given("quick_duration") && !tune.given("duration") ? "quick_duration" : "duration"),
-        problem);
+    diagnostics.error(said.position_or(tune.position), problem);
   if (plan.runs.settle >= plan.runs.duration)
-    diagnostics.error(at("settle"),
+    diagnostics.error(block.settle.position_or(tune.position),
                       "settle must be shorter than the duration: nothing would be measured");
 }
 
-std::filesystem::path find_file(const Object& tune, const char* field, const std::string& file,
-                                const language::Library& library, Diagnostics& diagnostics) {
-  if (!tune.given(field)) return {};
-  const std::filesystem::path found = library.find(tune.word(field), file);
-  if (found.empty())
-    diagnostics.error(tune.find(field)->position,
-                      "no file \"" + tune.word(field) + "\" beside the Tune or in configs/");
-  return found;
-}
-
-SceneSource source_of(const Object& tune, const Object* subject, const SubjectPlan& settings,
-                      const std::string& file, const language::Library& library,
-                      Diagnostics& diagnostics) {
-  SceneSource source;
-  source.scene = find_file(tune, "scene", file, library, diagnostics);
-  source.terrain = find_file(tune, "terrain", file, library, diagnostics);
-  if (tune.given("material")) source.material = tune.word("material");
-  for (const Object* owner : {&tune, subject}) {
-    if (owner == nullptr) continue;
-    for (const Object* fix : owner->children_of("Fix"))
-      source.settled.push_back(
-          {ConstantPlace::scene_parameter, fix->name, text_of(*fix->find("value"))});
-    for (const Object* only : owner->children_of("Only"))
-      diagnostics.error(only->position, "a Tune sweeps nothing: there is no Only here");
-  }
-  const auto set = [&](const char* field, const std::string& value) {
-    if (!value.empty()) source.world.emplace_back(field, value);
-  };
-  set("contact", settings.contact);
-  set("integrator", settings.integrator);
-  set("engine", settings.engine);
-  set("settings", settings.settings);
-  return source;
+/// A Tune sweeps nothing.
+void refuse_only(const Object* owner, Diagnostics& diagnostics) {
+  if (owner == nullptr) return;
+  for (const Object* only : owner->children_of("Only"))
+    diagnostics.error(only->position, "a Tune sweeps nothing: there is no Only here");
 }
 
 /// Loads the scene with every constant at the end `share` of its range. False after errors.
@@ -303,8 +251,8 @@ void check_effects(const TunePlan& plan, const Object& tune, Diagnostics& diagno
     for (std::size_t i = 0; i < constants.size(); ++i)
       if (i == varied || others)
         settings.push_back(constants[i].setting(constants[i].at(i == varied ? place : *others)));
-    Diagnostics untold;
-    const auto tree = plan.scene->compose(settings, 1, untold);
+    Diagnostics unreported;
+    const auto tree = plan.scene->compose(settings, 1, unreported);
     return tree == nullptr ? std::string() : language::print(*tree);
   };
   const auto blocks = tune.children_of("Vary");
@@ -320,21 +268,16 @@ void check_effects(const TunePlan& plan, const Object& tune, Diagnostics& diagno
   }
 }
 
-void set_hashes(TunePlan& plan, const TunedScene& own, const EngineTable& engines) {
+void set_hashes(TunePlan& plan, const LoadedScene& own, const EngineTable& engines) {
   StudyPlan& runs = plan.runs;
-  std::set<std::string> inputs = simulation::files_read(own.experiment);
-  for (std::string& source : language::sources_of(*own.tree)) inputs.insert(std::move(source));
-  runs.scene_printed = language::print(*own.tree);
+  const std::set<std::string> inputs = own.sources();
+  runs.scene_printed = own.printed();
   output::Hash hash;
-  hash.add(simulation::experiment_hash(runs.scene_printed, own.experiment));
+  hash.add(own.hash());
   hash.add(fmt::format("{} {}", runs.settle, runs.duration));
   for (const MetricDefinition* metric : runs.metrics) hash.add(kept_name(*metric));
   for (const output::InputFile& input : simulation::hashed(inputs)) hash.add(input.hash);
-  const auto engine = engines.find(own.experiment.engine);
-  plan.runs_hash = simulation::run_hash(
-      hash.text(), engine == engines.end()
-                       ? simulation::EngineDescription{own.experiment.engine, {}, {}, false, {}}
-                       : engine->second.description);
+  plan.runs_hash = simulation::run_hash(hash.text(), engines.describe(own.experiment.engine));
   runs.hash = output::Hash()
                   .add(runs.printed)
                   .add(plan.label)
@@ -350,30 +293,33 @@ std::optional<TunePlan> make_tune_plan(const Object& root, const Object& tune,
                                        bool quick, Diagnostics& diagnostics) {
   TunePlan plan;
   plan.name = tune.name;
-  if (tune.given("title")) plan.title = tune.word("title");
-  if (tune.given("question")) plan.question = tune.word("question");
+  const TuneBlock block = load_tune(tune, quick);
+  plan.title = block.title;
+  plan.question = block.question;
   SubjectPlan settings = subject == nullptr ? SubjectPlan{} : subject_of(*subject);
   plan.label = tune.name + (several ? "_" + settings.info.name : "");
   plan.runs.name = plan.label;
   plan.runs.file = file;
   plan.runs.quick = quick;
   plan.runs.printed = language::print(root);
-  SceneSource source = source_of(tune, subject, settings, file, library, diagnostics);
+  SceneSource source = scene_source(tune, block, subject, settings, file, library, diagnostics);
+  refuse_only(&tune, diagnostics);
+  refuse_only(subject, diagnostics);
   if (diagnostics.has_errors()) return std::nullopt;
   plan.scene =
-      std::make_shared<const TuneScene>(library, std::move(source), tune.position, diagnostics);
+      std::make_shared<const VariedScene>(library, std::move(source), tune.position, diagnostics);
   if (diagnostics.has_errors()) return std::nullopt;
   const auto own = plan.scene->load({}, 1, diagnostics);
   if (!own) return std::nullopt;
   warn_of_step(own->experiment, tune.position, "", diagnostics);
-  set_times(plan, tune, quick, own->experiment.duration);
+  set_times(plan, block, own->experiment.duration);
   TuneBuilder builder(plan, diagnostics);
-  for (const Object* block : tune.children_of("Vary")) builder.add_constant(*block);
+  for (const Object* vary : tune.children_of("Vary")) builder.add_constant(*vary);
   builder.add_measures(tune, *own);
-  for (const Object* block : tune.children_of("Objective")) builder.add_objective(*block);
-  for (const Object* block : tune.children_of("Require")) builder.add_requirement(*block);
-  set_search(plan, tune, quick);
-  check_search(plan, tune, own->experiment.deltat, diagnostics);
+  for (const Object* objective : tune.children_of("Objective")) builder.add_objective(*objective);
+  for (const Object* require : tune.children_of("Require")) builder.add_requirement(*require);
+  set_search(plan, block);
+  check_search(plan, tune, block, own->experiment.deltat, diagnostics);
   if (diagnostics.has_errors()) return std::nullopt;
   for (const double share : {0., 1.})
     if (!check_corner(plan, tune, share, diagnostics)) return std::nullopt;
@@ -384,7 +330,7 @@ std::optional<TunePlan> make_tune_plan(const Object& root, const Object& tune,
     plan.own.push_back(value ? std::optional(to_six_digits(constant.unit.from_si(*value)))
                              : std::nullopt);
   }
-  complete_subject(settings.info, own->experiment, engines);
+  settings.info = composition_of(own->experiment, engines, settings.info.name);
   plan.runs.subjects.push_back(std::move(settings));
   set_hashes(plan, *own, engines);
   return plan;
@@ -392,7 +338,7 @@ std::optional<TunePlan> make_tune_plan(const Object& root, const Object& tune,
 
 }  // namespace
 
-std::optional<VariedConstant> varied_constant(const Object& block, const TuneScene& scene,
+std::optional<VariedConstant> varied_constant(const Object& block, const VariedScene& scene,
                                               Diagnostics& diagnostics) {
   const auto place = scene.place_of(block.name);
   if (!place) {
@@ -408,30 +354,9 @@ std::optional<VariedConstant> varied_constant(const Object& block, const TuneSce
 }
 
 VariedConstant varied_range(const Object& block, Diagnostics& diagnostics) {
-  VariedConstant constant{
-      block.name, ConstantPlace::scene_parameter, written_unit(*block.find("from")), 0., 1., false};
-  if (!language::fits(block.find("to")->dimension, block.find("from")->dimension) ||
-      !language::fits(block.find("from")->dimension, block.find("to")->dimension))
-    diagnostics.error(block.find("to")->position, "`from` and `to` are of different units");
-  constant.from = tidy(constant.unit.from_si(block.number("from")));
-  constant.to = tidy(constant.unit.from_si(block.number("to")));
-  constant.logarithmic = block.word("scale") == "log";
-  if (!(constant.from < constant.to))
-    diagnostics.error(block.find("to")->position, "`to` must be greater than `from`");
-  else if (constant.logarithmic && !(constant.from > 0.))
-    diagnostics.error(block.find("from")->position, "a range on a log scale begins above 0");
-  return constant;
-}
-
-void complete_subject(SubjectInfo& info, const simulation::Experiment& experiment,
-                      const EngineTable& engines) {
-  info.engine = experiment.engine;
-  const auto entry = engines.find(info.engine);
-  info.available = entry != engines.end() && entry->second.description.found;
-  const bool ours = info.engine == "dts";
-  info.law = ours ? experiment.contact : "";
-  info.integrator = ours ? experiment.integrator : "";
-  info.settings = ours ? "" : experiment.settings;
+  VaryRange range = load_vary(block, diagnostics);
+  return {block.name, ConstantPlace::parameter, std::move(range.unit), range.from,
+          range.to,   range.logarithmic};
 }
 
 double VariedConstant::at(double share) const {

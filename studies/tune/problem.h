@@ -1,4 +1,4 @@
-// What a Tune block asks for: what is varied, what is wanted, what is required, and how it is
+// What a Tune block requires: what is varied, what is wanted, what is required, and how it is
 // searched.
 #pragma once
 
@@ -10,10 +10,12 @@
 #include <string>
 #include <vector>
 
+#include "studies/blocks/objective.h"
+#include "studies/blocks/written_values.h"
 #include "studies/plan/plan.h"
-#include "studies/plan/plan_values.h"
-#include "studies/tune/optimiser.h"
-#include "studies/tune/scene.h"
+#include "studies/run/execute.h"
+#include "studies/search/optimiser.h"
+#include "studies/search/varied_scene.h"
 
 namespace hookpoint::studies {
 
@@ -21,7 +23,7 @@ namespace hookpoint::studies {
 /// file is what was run.
 struct VariedConstant {
   std::string name;
-  ConstantPlace place = ConstantPlace::scene_parameter;
+  ConstantPlace place = ConstantPlace::parameter;
   WrittenUnit unit;
   double from = 0., to = 1.;
   bool logarithmic = false;
@@ -34,26 +36,23 @@ struct VariedConstant {
 };
 
 /// Of a Vary block; errors go to `diagnostics`, nothing where the scene has no such constant.
-std::optional<VariedConstant> varied_constant(const language::Object& block, const TuneScene& scene,
+std::optional<VariedConstant> varied_constant(const language::Object& block,
+                                              const VariedScene& scene,
                                               language::Diagnostics& diagnostics);
 
 /// The range of a Vary block, whatever it is of; errors go to `diagnostics`.
 VariedConstant varied_range(const language::Object& block, language::Diagnostics& diagnostics);
 
-/// Engine, law, integrator and settings as the experiment has them, and whether the engine is
-/// there.
-void complete_subject(SubjectInfo& info, const simulation::Experiment& experiment,
-                      const EngineTable& engines);
-
 /// An Objective block. What is minimised or maximised is the metric or, where there is a target,
 /// minimised the distance of the metric from it in each run, in the metric's unit.
 struct ObjectivePlan {
-  enum class Take { mean, worst };
+  using Take = SeedsTake;
   std::size_t metric = 0;  ///< index into TunePlan::runs.metrics
   bool maximise = false;
   Take take = Take::mean;
   std::optional<double> target = {};  ///< in the metric's unit
   std::string target_text = {};       ///< as its author wrote it: "3 mm"
+  bool may_be_empty = false;          ///< it may judge nothing
 
   /// What the objective is for a run with this value of the metric.
   double of_run(double value) const { return target ? std::abs(value - *target) : value; }
@@ -64,7 +63,8 @@ struct RequirementPlan {
   std::size_t metric = 0;
   std::optional<double> equals, above, below;
   double within = 0.;
-  std::string words;  ///< "stable_step is above 0.5 ms"
+  std::string words;          ///< "stable_step is above 0.5 ms"
+  bool may_be_empty = false;  ///< it may judge nothing
 
   /// How far a value is from what is required, as a part of the bound's magnitude (of 1 where that
   /// is 0); 0 where it holds.
@@ -83,7 +83,7 @@ struct TunePlan {
   SearchMethod method = SearchMethod::nsga2;
   int population = 40, generations = 25, seeds = 4, samples = 32;
   std::uint64_t seed = 1;
-  std::shared_ptr<const TuneScene> scene;
+  std::shared_ptr<const VariedScene> scene;
   std::string runs_hash;  ///< of all that decides the numbers of a run but its constants and seed
 
   std::string unit_of(const ObjectivePlan& objective) const;
@@ -94,6 +94,7 @@ struct TunePlan {
   std::size_t runs_of_a_generation() const {
     return static_cast<std::size_t>(population) * static_cast<std::size_t>(seeds);
   }
+  Measurement measurement() const { return {runs.settle, runs.duration, runs.metrics, {}, false}; }
   /// What a candidate sets in the scene; of no values nothing.
   std::vector<ConstantSetting> settings(const std::vector<double>& values) const;
 };

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 
-#include "output/text/number.h"
 #include "studies/report/page_parts.h"
 #include "studies/report/report_page.h"
 #include "studies/report/report_tables.h"
-#include "studies/summary.h"
+#include "studies/results/statistics.h"
+#include "studies/results/summary.h"
+#include "studies/tune/idleness.h"
 #include "studies/tune/outputs.h"
+#include "text/number.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -17,13 +19,13 @@ namespace {
 using Verdict = ObjectiveComparison::Verdict;
 
 std::string number_with(double value, const std::string& unit) {
-  return output::rounded(value) + (unit.empty() ? "" : " " + unit);
+  return text::rounded(value) + (unit.empty() ? "" : " " + unit);
 }
 
 /// "0.02 ± 0.001 m" of what is made of the seeds' values.
 std::string seeds_text(double value, std::span<const double> seeds, const std::string& unit) {
   if (seeds.size() < 2) return number_with(value, unit);
-  return output::rounded(value) + " ± " + number_with(standard_error_of(seeds), unit);
+  return text::rounded(value) + " ± " + number_with(standard_error(seeds), unit);
 }
 
 /// "0.02 ± 0.001 m"; of an objective with a target "2.9 ± 0.1 mm, 0.1 ± 0.1 mm off".
@@ -33,8 +35,7 @@ std::string with_error(const ObjectivePlan& objective, const Candidate& candidat
   if (!values) return "no value";
   const auto wanted = *objective_of_seeds(objective, candidate);
   const std::string text = seeds_text(take_of(objective, wanted), wanted, unit);
-  return objective.target ? seeds_text(mean_of(*values), *values, unit) + ", " + text + " off"
-                          : text;
+  return objective.target ? seeds_text(mean(*values), *values, unit) + ", " + text + " off" : text;
 }
 
 /// "minimise foot_slip", "sink = 3 mm".
@@ -45,14 +46,13 @@ std::string goal_text(const TunePlan& plan, const ObjectivePlan& objective) {
 }
 
 std::string constant_text(const VariedConstant& constant, const std::optional<double>& value) {
-  return value ? output::rounded(*value, 6) +
+  return value ? text::rounded(*value, 6) +
                      (constant.unit.text.empty() ? "" : " " + constant.unit.text)
-               : "not told";
+               : "not decided";
 }
 
 std::string range_text(const VariedConstant& constant) {
-  return fmt::format("{} to {}{}{}", output::rounded(constant.from, 6),
-                     output::rounded(constant.to, 6),
+  return fmt::format("{} to {}{}{}", text::rounded(constant.from, 6), text::rounded(constant.to, 6),
                      constant.unit.text.empty() ? "" : " " + constant.unit.text,
                      constant.logarithmic ? ", log" : "");
 }
@@ -76,9 +76,9 @@ std::string constants_table(const TunePlan& plan, const TuneResult& result) {
 /// "better by 0.01 ± 0.002"
 std::string comparison_text(const ObjectiveComparison& comparison) {
   std::string text(words_of(comparison.verdict));
-  if (comparison.verdict == Verdict::untold || !comparison.other) return text;
-  return fmt::format("{} ({} ± {})", text, output::rounded(comparison.difference, 3),
-                     output::rounded(comparison.margin, 2));
+  if (comparison.verdict == Verdict::undecided || !comparison.other) return text;
+  return fmt::format("{} ({} ± {})", text, text::rounded(comparison.difference, 3),
+                     text::rounded(comparison.margin, 2));
 }
 
 std::string comparison_cell(const ObjectiveComparison& comparison) {
@@ -120,7 +120,7 @@ std::string range_of_seeds(const Candidate& candidate, std::size_t metric,
   if (!values) return "no value";
   const auto [least, greatest] = std::ranges::minmax(*values);
   if (least == greatest) return number_with(least, unit);
-  return output::rounded(least) + " to " + number_with(greatest, unit);
+  return text::rounded(least) + " to " + number_with(greatest, unit);
 }
 
 std::string requirements_table(const TunePlan& plan, const TuneResult& result) {
@@ -160,8 +160,7 @@ std::string front_table(const TunePlan& plan, const TuneResult& result) {
     const bool chosen = member == result.recommended->candidate;
     std::vector<std::string> row{(chosen ? "<b>" : "") + std::to_string(member + 1) +
                                  (chosen ? " recommended</b>" : "")};
-    for (const auto& value : candidate.values)
-      row.push_back(value ? output::rounded(*value, 6) : "");
+    for (const auto& value : candidate.values) row.push_back(text::rounded(value, "", 6));
     for (const ObjectivePlan& objective : plan.objectives)
       row.push_back(html(with_error(objective, candidate, "")));
     table.row(row);
@@ -175,8 +174,8 @@ std::string front_table(const TunePlan& plan, const TuneResult& result) {
 
 /// "0.72 (0.5 to 0.9)"
 std::string index_text(double value, const IndexInterval& interval) {
-  return fmt::format("{} ({} to {})", output::rounded(value, 3), output::rounded(interval.low, 2),
-                     output::rounded(interval.high, 2));
+  return fmt::format("{} ({} to {})", text::rounded(value, 3), text::rounded(interval.low, 2),
+                     text::rounded(interval.high, 2));
 }
 
 std::string indices_rows(const TunePlan& plan, const TuneResult& result) {
@@ -229,7 +228,12 @@ std::string verdict_paragraph(const TunePlan& plan, const TuneResult& result) {
   if (!result.holds(plan))
     return text_block("verdict bad",
                       "✗ The recommended constants miss a requirement on fresh seeds.");
-  return text_block("verdict good", "✓ The recommended constants meet all requirements.");
+  const std::vector<IdleBlock> idle = idle_blocks(plan, result);
+  const std::string words = idle_words(idle);
+  return text_block(has_fault(idle) ? "verdict bad" : "verdict good",
+                    html(std::string(has_fault(idle) ? "✗" : "✓") +
+                         " The recommended constants meet all requirements" +
+                         (words.empty() ? "" : "; " + words) + "."));
 }
 
 std::string opening_of(const TunePlan& plan, const TuneResult& result,
@@ -244,7 +248,7 @@ std::string opening_of(const TunePlan& plan, const TuneResult& result,
       html(fmt::format(
           "{} candidates, {} runs of {} s; {} with {} candidates a generation, {} generations, {} "
           "seeds; engine {}{}{}.",
-          result.candidates.size(), run_count(result), output::rounded(plan.runs.duration),
+          result.candidates.size(), run_count(result), text::rounded(plan.runs.duration),
           plan.method == SearchMethod::nsga2 ? "NSGA-II" : "CMA-ES", plan.population,
           plan.generations, plan.seeds, subject.engine,
           subject.law.empty() ? "" : ", law " + subject.law,
@@ -323,6 +327,7 @@ std::string tune_terminal_text(const TunePlan& plan, const TuneResult& result) {
   for (const RequirementPlan& required : plan.requirements)
     text += "  required: " + required.words + "\n";
   if (!result.holds(plan)) text += "  the requirements are not met\n";
+  for (const IdleBlock& block : idle_blocks(plan, result)) text += "  " + line_of(block) + "\n";
   return text + "  " + result.recommended->reason + "\n";
 }
 

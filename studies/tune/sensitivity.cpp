@@ -4,8 +4,9 @@
 #include <cmath>
 #include <random>
 
-#include "studies/tune/bootstrap.h"
-#include "studies/tune/random_place.h"
+#include "studies/results/statistics.h"
+#include "studies/search/bootstrap.h"
+#include "studies/search/random_point.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -17,7 +18,7 @@ std::vector<BoxPoint> shifted_sequence(std::size_t count, std::size_t dimensions
                                        std::uint64_t seed) {
   std::mt19937_64 random(seed);
   BoxPoint shift(dimensions);
-  for (double& part : shift) part = random_place(random);
+  for (double& part : shift) part = random_point(random);
   boost::random::sobol sequence(dimensions);
   std::vector<BoxPoint> points(count, BoxPoint(dimensions));
   for (BoxPoint& point : points) {

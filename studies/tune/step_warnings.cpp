@@ -12,7 +12,7 @@ void warn_of_step(const simulation::Experiment& experiment, const language::Posi
   if (!note.empty()) diagnostics.note(place, note);
 }
 
-std::optional<std::string> step_warning(const TuneScene& scene,
+std::optional<std::string> step_warning(const VariedScene& scene,
                                         std::span<const ConstantSetting> constants) {
   language::Diagnostics unreported;
   const auto loaded = scene.load(constants, 1, unreported);

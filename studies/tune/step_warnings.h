@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "studies/tune/scene.h"
+#include "studies/search/varied_scene.h"
 
 namespace hookpoint::studies {
 
@@ -16,7 +16,7 @@ void warn_of_step(const simulation::Experiment& experiment, const language::Posi
 
 /// Warning of the step of the scene with these constants; none where it is stable, and where the
 /// scene cannot be loaded with them.
-std::optional<std::string> step_warning(const TuneScene& scene,
+std::optional<std::string> step_warning(const VariedScene& scene,
                                         std::span<const ConstantSetting> constants);
 
 }  // namespace hookpoint::studies

@@ -4,11 +4,10 @@
 #include <chrono>
 #include <utility>
 
-#include "output/text/number.h"
 #include "studies/tune/guess.h"
 #include "studies/tune/outputs.h"
-#include "studies/tune/run_batches.h"
 #include "studies/tune/step_warnings.h"
+#include "text/number.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -26,9 +25,8 @@ class Tuning {
         options_(options),
         stop_(stop),
         guess_(analytic_guess(plan, result_.analytic_words)),
-        batches_({*plan.scene, plan.runs, plan.runs_hash}, engines, options.run, folder,
-                 total_runs(), stop),
-        candidates_(plan, batches_) {
+        runs_(plan.runs.name, options.run, folder, total_runs(), stop),
+        candidates_(plan, engines, runs_, stop) {
     if (guess_) result_.analytic_words = guess_->words;
   }
 
@@ -42,7 +40,7 @@ class Tuning {
       vary_one_at_a_time();
       find_indices();
       record_depths();
-    } catch (const BatchInterrupted&) {
+    } catch (const TuneInterrupted&) {
       result_.interrupted = true;
       if (!result_.recommended) choose();
     }
@@ -122,18 +120,19 @@ class Tuning {
     if (!options_.generation) return;
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
     GenerationReport report{generation, plan_.generations, 0., 0, {}};
-    report.runs_per_second = static_cast<double>(batches_.count()) / elapsed.count();
+    report.runs_per_second = static_cast<double>(runs_.count()) / elapsed.count();
     const auto pareto = pareto_set(plan_, candidates_.all());
     report.pareto = pareto.size();
     for (const ObjectivePlan& objective : plan_.objectives) {
       std::optional<double> best;
       for (const std::size_t member : pareto) {
-        const double value = *value_of(objective, candidates_[member]);
-        if (!best || (objective.maximise ? value > *best : value < *best)) best = value;
+        const auto value = value_of(objective, candidates_[member]);
+        if (!value) continue;
+        if (!best || (objective.maximise ? *value > *best : *value < *best)) best = value;
       }
       const std::string unit = plan_.unit_of(objective);
       if (best)
-        report.best.push_back(plan_.label_of(objective) + " " + output::rounded(*best, 3) +
+        report.best.push_back(plan_.label_of(objective) + " " + text::rounded(*best, 3) +
                               (unit.empty() ? "" : " " + unit));
     }
     options_.generation(report);
@@ -228,12 +227,12 @@ class Tuning {
     const Measurement depth{
         plan_.runs.settle, plan_.runs.duration, {}, {{find_signal("penetration"), false}}, false};
     const auto record = [&](const std::string& name, std::size_t candidate) {
-      language::Diagnostics untold;
-      auto scene = plan_.scene->load(plan_.settings(wanted_values(candidate)), 1, untold);
+      language::Diagnostics unreported;
+      auto scene = plan_.scene->load(plan_.settings(wanted_values(candidate)), 1, unreported);
       if (!scene) return;
       scene->experiment.duration = depth.duration;
       const auto run = execute(depth, scene->experiment, engines_, "", stop_);
-      if (!run) throw BatchInterrupted({});
+      if (!run) throw TuneInterrupted{};
       result_.depths.push_back({name, trace_of(run->curves.at(depth.signals.front().name()))});
     };
     record("recommended", result_.recommended->candidate);
@@ -247,7 +246,7 @@ class Tuning {
   const std::atomic<bool>& stop_;
   TuneResult result_;
   std::optional<AnalyticGuess> guess_;
-  RunBatches batches_;
+  CachedRuns runs_;
   Candidates candidates_;
   std::chrono::steady_clock::time_point start_;
 };

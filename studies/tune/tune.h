@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "output/result_folder.h"
+#include "output/files/result_folder.h"
 #include "studies/run/provenance.h"
 #include "studies/tune/choice.h"
 #include "studies/tune/sensitivity.h"
@@ -48,7 +48,7 @@ struct TuneResult {
   std::optional<Recommendation> recommended;
   std::optional<std::size_t> fresh;                  ///< the recommended with the fresh seeds
   std::vector<OneAtATime> one_at_a_time;             ///< one a constant
-  std::vector<std::optional<SobolIndices>> indices;  ///< one an objective; empty: not asked for
+  std::vector<std::optional<SobolIndices>> indices;  ///< one an objective; empty: not requested
   std::vector<DepthCurve> depths;
   bool interrupted = false;
 

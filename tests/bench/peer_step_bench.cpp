@@ -6,7 +6,7 @@
 #include <string>
 
 #include "reference/engines.h"
-#include "simulation/engine/dts_engine.h"
+#include "simulation/dts_engine/dts_engine.h"
 #include "tests/support/load_text.h"
 
 namespace hookpoint {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "control/registry.h"
-#include "simulation/engine/dts_engine.h"
+#include "simulation/dts_engine/dts_engine.h"
 #include "simulation/run/records.h"
 #include "simulation/run/world.h"
 #include "tests/support/load_text.h"

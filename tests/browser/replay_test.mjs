@@ -30,6 +30,7 @@ test("a movie is scrubbed to half of it, plotted and played", async (t) => {
 
   // Any variable: found among all values and plotted; the legend has its value at the last moment of the whole movie.
   if ((await page.getByRole("searchbox", { name: "search in all values" }).count()) === 0) await page.keyboard.press("t");
+  await page.getByRole("tab", { name: "Values" }).click();
   await page.getByRole("searchbox", { name: "search in all values" }).fill(rate);
   await page.getByRole("button", { name: `plot ${rate}`, exact: true }).first().click();
   const plot = widget(page, `plot of ${rate}`);

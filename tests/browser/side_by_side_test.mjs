@@ -8,7 +8,7 @@ before(async () => { browser = await openBrowser(); });
 after(() => browser?.close());
 
 test("--with ode and rk4: two ghosts, their displacements, and what is predicted of them", async (t) => {
-  const served = await serve(t, ["view", `${configs}/scenes/sloped_block.hook`, "--with", "ode", "--with", "rk4", "--no-open"], workFolder(t));
+  const served = await serve(t, ["view", `${configs}/scenes/sloped_block.hook`, "--with", "ode", "--with", "rk4", "--for", "10000 s", "--no-open"], workFolder(t));
   const page = await openPage(browser, served.url);
   t.after(() => page.context().close());
   const rows = page.getByRole("table", { name: "creep of each subject" }).locator("tbody tr");

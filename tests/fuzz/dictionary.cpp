@@ -4,13 +4,13 @@
 #include <set>
 #include <string>
 
+#include "apps/view/widgets/schema.h"
 #include "language/syntax/token.h"
 #include "language/units.h"
 #include "language/values/expression.h"
 #include "reference/engines.h"
 #include "simulation/scene/schema.h"
-#include "studies/schema.h"
-#include "view/schema.h"
+#include "studies/blocks/schema.h"
 
 int main() {
   using namespace hookpoint;

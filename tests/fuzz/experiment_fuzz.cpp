@@ -11,13 +11,13 @@
 #include <memory>
 #include <string>
 
-#include "language/document.h"
+#include "apps/view/widgets/schema.h"
+#include "language/document/document.h"
 #include "reference/engines.h"
 #include "simulation/scene/load.h"
 #include "simulation/scene/schema.h"
-#include "studies/schema.h"
+#include "studies/blocks/schema.h"
 #include "tests/fuzz/fuzz.h"
-#include "view/schema.h"
 
 namespace hookpoint {
 namespace {

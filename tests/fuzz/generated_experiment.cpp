@@ -27,6 +27,8 @@ class Generator : DrawnText {
 
   GeneratedExperiment world() {
     const std::string contact = one_of(choices("World", "contact"));
+    // Under an impulse law a robot that has a loop or a coupled joint is refused.
+    constrains_ = contact.starts_with("impulse") ? 0.05 : 1.;
     const std::string integrator = one_of(choices("World", "integrator"));
     // One step of an adaptive integrator may take as many evaluations as it is allowed.
     const bool adaptive = integrator.starts_with("cvode") || integrator.starts_with("arkode");
@@ -245,7 +247,8 @@ class Generator : DrawnText {
       always.insert("mass");
       if (shapes == 0) always.insert("inertia");
       without.insert({"lower_limit", "upper_limit"});
-      if (type == "Link" && chance(0.2))
+      // What a joint that follows another begins at is none of its own.
+      if (type == "Link" && !without.contains("rate") && chance(0.2))
         write("lower_limit = -1.5; upper_limit = " + number(between(0., 1.5)) + "; angle = -0.01;");
     }
     fields(type, without, always);
@@ -265,6 +268,45 @@ class Generator : DrawnText {
       trails_.push_back("w." + link + port);
   }
 
+  std::vector<std::string> links_of(const std::string& robot) const {
+    std::vector<std::string> links;
+    std::ranges::copy_if(links_, std::back_inserter(links),
+                         [&](const std::string& link) { return link.starts_with(robot + "."); });
+    return links;
+  }
+
+  /// Two links tied together, by a spring at places that need not meet, or exactly.
+  void loop(const std::string& robot) {
+    const std::vector<std::string> links = links_of(robot);
+    if (links.size() < 2 || !chance(0.2 * constrains_)) return;
+    write("Loop { a = " + links[0] + "; b = " + links[1 + below(links.size() - 1)] + ";");
+    std::set<std::string> always;
+    if (chance(0.7)) {
+      write("point_a = 0.1, 0, 0;");
+      always.insert("stiffness");
+    }
+    fields("Loop",
+           {"a", "b", "axis", "point_a", always.empty() ? "stiffness" : "",
+            always.empty() ? "damping" : ""},
+           always);
+    write("}");
+  }
+
+  /// A part of what carries it: what belongs to a joint it has not.
+  void fixed_link(const std::string& trail) {
+    write("joint = fixed;");
+    static const std::set<std::string> has{
+        "mass",    "center_of_mass", "inertia", "material",       "dhlength",
+        "dhtwist", "dhoffset",       "dhangle", "joint_location", "joint_orientation"};
+    std::set<std::string> without;
+    for (const auto& field : schema_.find("Link")->fields)
+      if (!has.contains(field.name)) without.insert(field.name);
+    body("Link", without);
+    write("}");
+    if (!moving_.empty() && moving_.back().starts_with(trail.substr(0, trail.rfind('.') + 1)))
+      moving_.push_back(trail);
+  }
+
   void chain(const std::string& robot) {
     const std::string name = "c" + std::to_string(named_++);
     write("Chain " + name + " {");
@@ -273,9 +315,19 @@ class Generator : DrawnText {
       const std::string link = "l" + std::to_string(named_++),
                         trail = robot + "." + name + "." + link;
       write("Link " + link + " {");
+      if (chance(0.15)) {
+        fixed_link(trail);
+        continue;
+      }
       const bool turns = chance(0.75);
       if (!turns) write("joint = prismatic;");
-      body("Link", {"joint", "angle"});
+      std::set<std::string> without{"joint", "angle", "mimic", "mimic_ratio", "mimic_offset"};
+      if (const std::vector<std::string> leaders = links_of(robot);
+          !leaders.empty() && chance(0.1 * constrains_)) {
+        write("mimic = " + one_of(leaders) + "; mimic_ratio = " + number(between(-2., 2.)) + ";");
+        without.insert("rate");
+      }
+      body("Link", without);
       write("}");
       links_.push_back(trail);
       bodies_.push_back(trail);
@@ -293,7 +345,7 @@ class Generator : DrawnText {
     const bool placed = !chance(0.5) || terrains_.empty();
     if (placed && !fixed) write("location = 0, 0, " + number(between(0., 0.6)) + ";");
     if (!placed && !fixed) write("rest_on = " + one_of(terrains_) + ";");
-    std::set<std::string> without{"rest_on", "at", "yaw", "location"};
+    std::set<std::string> without{"rest_on", "at", "yaw", "settled", "location"};
     if (!placed) without = {"rest_on", "location", "orientation"};
     if (fixed) without.insert({"velocity", "angular_velocity"});
     body(fixed ? "Base.fixed" : "Base.mobile", without);
@@ -307,6 +359,7 @@ class Generator : DrawnText {
     sources_.push_back({name + ".base.location.z", "m"});
     sources_.push_back({name + ".base.velocity.x", "m/s"});
     for (std::size_t i = chance(0.3) ? 0 : 1 + below(3); i > 0; --i) chain(name);
+    loop(name);
     write("}");
     robots_.push_back(name);
   }
@@ -378,6 +431,7 @@ class Generator : DrawnText {
   std::vector<Port> sources_, drives_;
   std::vector<GeneratedFile> files_;
   std::size_t named_ = 0;
+  double constrains_ = 1.;  ///< how often, of what may be, a loop or a coupled joint is there
 };
 
 }  // namespace

@@ -18,12 +18,12 @@
 #include <map>
 #include <string>
 
-#include "cli/commands.h"
-#include "cli/exit_status.h"
-#include "output/file.h"
+#include "apps/cli/commands.h"
+#include "apps/cli/exit_status.h"
+#include "output/files/file.h"
 #include "reference/engines.h"
 #include "simulation/scene/schema.h"
-#include "studies/schema.h"
+#include "studies/blocks/schema.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/generated_experiment.h"
 #include "tests/fuzz/generated_study.h"
@@ -68,14 +68,16 @@ bool has_non_finite(std::string text) {
       arguments.out = out;
       arguments.record = drawn.trails;
       status = cli::run(arguments);
-      if (dynamics) status = std::max(status, cli::dynamics(file, {}, true, false));
+      const int of_dynamics = dynamics ? cli::dynamics(file, {}, true, false) : cli::fine;
+      if (status == cli::fine) status = of_dynamics;
     } else {
-      application::StudyArguments arguments;
+      application::TaskArguments arguments;
       arguments.file = file;
       arguments.out = out;
       arguments.jobs = 1;
-      status = drawn.command == GeneratedCommand::study ? cli::study(arguments, std::nullopt)
-                                                        : cli::tune(arguments);
+      status = cli::run_tasks(drawn.command == GeneratedCommand::study ? application::study_command
+                                                                       : application::tune_command,
+                              arguments);
     }
   } catch (const output::FileError& error) {
     std::fprintf(stderr, "%s\n", error.what());

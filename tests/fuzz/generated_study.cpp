@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "simulation/run/expectation.h"
-#include "studies/metric.h"
+#include "studies/measure/metric.h"
 #include "tests/fuzz/drawn_text.h"
 #include "tests/fuzz/generated_robot.h"
 

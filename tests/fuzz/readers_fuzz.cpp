@@ -13,12 +13,12 @@
 #include "control/plugin/elf_constant.h"
 #include "control/plugin/plugin_abi.h"
 #include "language/units.h"
+#include "output/files/csv.h"
+#include "output/files/hash.h"
 #include "output/movies/movie.h"
 #include "output/records/spool.h"
-#include "output/text/csv.h"
-#include "output/text/hash.h"
-#include "output/text/json_reader.h"
 #include "simulation/run/changes.h"
+#include "simulation/scene/mjcf/mjcf.h"
 #include "simulation/scene/terrain/ascii_grid.h"
 #include "simulation/scene/terrain/png_grid.h"
 #include "simulation/scene/urdf/hull.h"
@@ -30,8 +30,9 @@
 #include "studies/run/run_record.h"
 #include "studies/run/run_store.h"
 #include "tests/fuzz/fuzz.h"
-#include "unicode/display.h"
-#include "unicode/utf8.h"
+#include "text/display.h"
+#include "text/json_reader.h"
+#include "text/utf8.h"
 
 namespace hookpoint {
 namespace {
@@ -92,13 +93,15 @@ void read_rational(const std::string& bytes) {
                 "a fraction far from its number");
 }
 
-void read_urdf(const std::string& bytes) {
-  language::SourceFile file{"robot.urdf", bytes, {}};
-  language::index_lines(file);
+using RobotReader = std::vector<language::ForeignObject>(const language::SourceFile&,
+                                                         const language::ForeignArguments&,
+                                                         language::FileStore&, language::Report&);
+void read_robot_by(RobotReader* reader, const std::string& bytes) {
+  const language::SourceFile file = language::source_file("robot.xml", bytes);
   language::Report report;
   const language::Schema schema;
   language::FileStore files(schema, {});
-  const auto objects = simulation::include_urdf(file, {}, files, report);
+  const auto objects = reader(file, {}, files, report);
   fuzz::require(!objects.empty() || report.has_errors(), "neither a robot nor a mistake");
   language::Diagnostics diagnostics;
   report.deliver(diagnostics);
@@ -118,7 +121,8 @@ void read_meshes(const std::string& bytes) {
 }
 
 void read_robot(const std::string& bytes) {
-  read_urdf(bytes);
+  read_robot_by(simulation::include_urdf, bytes);
+  read_robot_by(simulation::include_mjcf, bytes);
   read_meshes(bytes);
 }
 
@@ -139,7 +143,7 @@ void read_spool(const std::string& bytes) {
 }
 
 void read_json(const std::string& bytes) {
-  const auto leaves = output::json_leaves(bytes);
+  const auto leaves = text::json_leaves(bytes);
   if (!leaves) return;
   for (const auto& [path, text] : *leaves)
     fuzz::require(path.size() <= bytes.size() * 12, "a path that is longer than its document");
@@ -222,12 +226,12 @@ void read_folder(const std::string& bytes) {
 
 /// What is shown commands nothing, and a second time is the same.
 void read_text(const std::string& bytes) {
-  const std::string shown = unicode::printable(bytes);
-  fuzz::require(unicode::find_control(shown) == std::string::npos, "a command to the terminal");
-  fuzz::require(unicode::printable(shown) == shown, "a text that changes");
-  fuzz::require(unicode::display_width(shown) <= 2 * bytes.size(), "a text that is too wide");
-  const std::string repaired = unicode::repaired(bytes);
-  fuzz::require(unicode::repaired(repaired) == repaired, "a text that is not repaired");
+  const std::string shown = text::printable(bytes);
+  fuzz::require(text::find_control(shown) == std::string::npos, "a command to the terminal");
+  fuzz::require(text::printable(shown) == shown, "a text that changes");
+  fuzz::require(text::display_width(shown) <= 2 * bytes.size(), "a text that is too wide");
+  const std::string repaired = text::repaired(bytes);
+  fuzz::require(text::repaired(repaired) == repaired, "a text that is not repaired");
 }
 
 void run(char kind, const std::string& bytes) {

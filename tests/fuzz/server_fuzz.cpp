@@ -11,10 +11,10 @@
 #include <string_view>
 #include <vector>
 
+#include "apps/view/wire/server.h"
+#include "apps/view/wire/websocket.h"
 #include "tests/fuzz/fuzz.h"
-#include "unicode/utf8.h"
-#include "view/server.h"
-#include "view/websocket.h"
+#include "text/utf8.h"
 
 namespace hookpoint {
 namespace {
@@ -78,7 +78,7 @@ void require_events() {
   for (const view::Server::Event& event : server().take_events()) {
     if (event.kind != view::Server::Event::Kind::said) continue;
     fuzz::require(event.text.size() <= view::Server::longest_message, "a message too long");
-    fuzz::require(unicode::repaired(event.text) == event.text, "a message that is not UTF-8");
+    fuzz::require(text::repaired(event.text) == event.text, "a message that is not UTF-8");
   }
 }
 

@@ -46,6 +46,7 @@ simulation::Experiment block_with_corners(double angle, double azimuth, double m
     for (const double y : {-0.1, 0.1})
       for (const double z : {-0.05, 0.05})
         experiment.robots[0].base.boundary_points.push_back({x, y, z});
+  experiment.robots[0].base.shapes[0].point_count = 8;
   return experiment;
 }
 
@@ -244,6 +245,29 @@ TEST_F(Mujoco, LetsAHexapodWalk) {
     EXPECT_NEAR(run["hexapod.base.location.x"], 0.09 * 6., 0.1) << settings;
     EXPECT_NEAR(run["hexapod.base.location.y"], 0., 0.02) << settings;
   }
+}
+
+/// Of friction 0.1 on ground of 0.9, as a shape and as points: a = g (sin - 0.1 cos).
+TEST_F(Mujoco, HasWhatFootAndGroundMakeTogether) {
+  const auto slides = [](const std::string& body) {
+    const std::string text =
+        "World w { deltat = 0.1 ms; engine = mujoco; Material floor { static_friction = 0.9; } "
+        "Material steel { static_friction = 0.1; } Terrain.Slope ground { angle = 30 deg; material "
+        "= floor; } Robot box { Base.mobile { rest_on = ground; " +
+        body + " } } }";
+    Running run(text, reference::mujoco_peer.make);
+    run.step(5000);
+    const double before = run["box.velocity.x"];
+    run.step(5000);
+    return (run["box.velocity.x"] - before) / 0.5 / std::sqrt(0.75);
+  };
+  const double expected = 9.81 * (0.5 - 0.1 * std::sqrt(0.75));
+  EXPECT_NEAR(slides("Shape.Box { dimensions = 0.2, 0.2, 0.05; mass = 2; material = steel; }"),
+              expected, 0.01 * expected);
+  EXPECT_NEAR(
+      slides("mass = 2; inertia = 0.02, 0.02, 0.02, 0, 0, 0; material = steel; For x in "
+             "-0.1, 0.1 { For y in -0.1, 0.1 { ContactPoint { location = x, y, -0.05; } } }"),
+      expected, 0.01 * expected);
 }
 
 }  // namespace

@@ -131,6 +131,7 @@ TEST(DegenerateScene, EndsARunAtMost) {
 // Its assertions call abort(): with a hip as far away as that a matrix of its is not symmetric.
 TEST(Dart, EndsTheRunWhereAnAssertionOfItsFails) {
   simulation::Experiment experiment = with_link(simulation::JointKind::prismatic);
+  experiment.touch = "points";  // of which it has none
   experiment.robots[0].chains[0].hip_distance = {-1e57, -0.05, 0.};
   experiment.robots[0].location = {};
   const auto good = sloped_block(0.1, 0., 0.5, 1e-3);

@@ -7,10 +7,10 @@
 #include <bit>
 #include <cstdint>
 
-#include "output/text/number.h"
 #include "tests/support/command.h"
 #include "tests/support/read_record.h"
 #include "tests/support/record_scene.h"
+#include "text/number.h"
 
 namespace hookpoint {
 namespace {
@@ -170,7 +170,7 @@ TEST_P(RecordReaders, FindTheRowsBeforeTheDiskWasFull) {
   }
   ASSERT_NE(message, "") << "the disk never got full";
   EXPECT_NE(message.find(path()), std::string::npos) << message;
-  const std::string moment = output::shortest(testing::awkward_time(written));
+  const std::string moment = text::shortest(testing::awkward_time(written));
   EXPECT_NE(
       message.find("File too large (the limit of file sizes, `ulimit -f`), at " + moment + " s"),
       std::string::npos)

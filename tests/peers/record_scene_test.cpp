@@ -187,6 +187,32 @@ TEST_F(RecordScene, ShapesStandWhereTheLanguagePutsThem) {
   expect_numbers(cylinders[2], {0., 0., 0., 1., 0., 0., 0., 0.1, 0.1, 0.3, 1., 1.});
 }
 
+// A gate at 0.5 m/s along x, ground that sinks at 0.2 m/s.
+TEST_F(RecordScene, ObstaclesAndGroundThatMoveHaveTheirOwnFrames) {
+  place_.file("run.hook", R"(World w {
+  deltat = 1 ms; duration = 0.1;
+  Terrain.Flat ground { size = 2; frame_velocity = 0, 0, -0.2; }
+  Obstacle.Box gate { dimensions = 0.1, 1, 0.5; location = 1, 2, 3; velocity = 0.5, 0, 0; }
+  Obstacle.Sphere ball { radius = 0.1; mass = 1; free = true; location = 0, 0, 9; }
+  Record seen { format = mcap; trails = time; rate = 10 Hz; }
+})");
+  const testing::CommandResult result = place_.hookpoint("run run.hook --out out");
+  ASSERT_EQ(result.status, 0) << result.err;
+  read(out("seen.mcap"));
+  if (IsSkipped() || HasFatalFailure()) return;
+  const Lines entities = lines("entity"), transforms = lines("transform");
+  ASSERT_EQ(entities.size(), 3u);
+  EXPECT_EQ(entities[1][5], "w.gate");
+  EXPECT_EQ(entities[2][4], "w.ground[0]");
+  EXPECT_EQ(entities[2][5], "w.ground");
+  ASSERT_EQ(transforms.size(), 6u) << "two rows";
+  EXPECT_EQ(transforms[3][5], "w.ball.base");
+  EXPECT_EQ(transforms[4][5], "w.gate");
+  EXPECT_EQ(transforms[5][5], "w.ground");
+  EXPECT_NEAR(numbers(transforms[4], 6)[0], 1.05, 1e-12);
+  EXPECT_NEAR(numbers(transforms[5], 6)[2], -0.02, 1e-12);
+}
+
 TEST_F(RecordScene, GroundIsTrianglesOfEachMaterial) {
   run("Record seen { format = mcap; trails = time; }");
   read(out("seen.mcap"));

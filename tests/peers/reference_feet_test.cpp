@@ -8,7 +8,7 @@
 #include "reference/engines.h"
 #include "reference/ode/engine.h"
 #include "reference/touching_points.h"
-#include "simulation/engine/dts_engine.h"
+#include "simulation/dts_engine/dts_engine.h"
 #include "tests/support/reference_scenes.h"
 #include "tests/support/run_text.h"
 

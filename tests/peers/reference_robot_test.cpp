@@ -4,7 +4,7 @@
 
 #include "reference/engines.h"
 #include "reference/robot_tree.h"
-#include "simulation/engine/dts_engine.h"
+#include "simulation/dts_engine/dts_engine.h"
 #include "tests/support/reference_robots.h"
 
 namespace hookpoint {

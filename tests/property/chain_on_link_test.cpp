@@ -7,7 +7,7 @@
 #include "simulation/analysis/controller_terms.h"
 #include "simulation/analysis/dynamics_report.h"
 #include "simulation/analysis/stability.h"
-#include "simulation/engine/dts_engine.h"
+#include "simulation/dts_engine/dts_engine.h"
 #include "tests/support/load_text.h"
 #include "tests/support/printed_run.h"
 #include "tests/support/run_text.h"

@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "contact/impulse/impulse.h"
-#include "simulation/engine/dts_engine.h"
-#include "simulation/engine/impulse_robot.h"
-#include "simulation/ground.h"
+#include "simulation/dts_engine/dts_engine.h"
+#include "simulation/dts_engine/impulse_group.h"
+#include "simulation/experiment/ground.h"
 #include "tests/support/dense_dynamics.h"
 #include "tests/support/impulse_scene.h"
 #include "tests/support/random_robot.h"
@@ -199,14 +199,15 @@ TEST(ImpulseRobotImpact, ThrownRobotsStayOutOfTheGroundAndGetWhatIsReported) {
       testing::points_of(experiment, body) = {random.vector(0.4), random.vector(0.4)};
     const simulation::WorldInputs inputs = simulation::initial_inputs(experiment);
     const auto level = simulation::make_ground(experiment);
-    simulation::ImpulseRobot thrown(experiment, 0, contact::ImpulseLaw::impulse, &*level, inputs);
+    simulation::ImpulseGroup thrown(experiment, {0, 1}, contact::ImpulseLaw::impulse, &*level,
+                                    inputs);
     const auto ground = [&](const Vector3d& point) {
       return contact::GroundPoint{point.z, {0., 0., 1.}, &floor};
     };
     std::vector<simulation::BodyState> published(bodies);
     std::vector<simulation::JointState> joints(bodies - 1);
     Eigen::Vector3d momentum =
-        tests::DenseDynamics(robot, thrown.robot().state()).momentum().linear;
+        tests::DenseDynamics(robot, thrown.robots()[0].state()).momentum().linear;
     std::int64_t impacts = 0;
     for (int step = 0; step < 250; ++step) {
       const contact::ImpulseTally tally = thrown.advance(ground);
@@ -217,7 +218,7 @@ TEST(ImpulseRobotImpact, ThrownRobotsStayOutOfTheGroundAndGetWhatIsReported) {
       Vector3d gained = dt * mass * gravity;
       for (const simulation::BodyState& body : published) gained += dt * body.contact_force;
       const Eigen::Vector3d after =
-          tests::DenseDynamics(robot, thrown.robot().state()).momentum().linear;
+          tests::DenseDynamics(robot, thrown.robots()[0].state()).momentum().linear;
       EXPECT_LT((after - momentum - tests::eigen(gained)).norm(), 5e-8) << k << " " << step;
       momentum = after;
     }

@@ -9,7 +9,7 @@
 
 #include "contact/force_law.h"
 #include "integrators/stepper.h"
-#include "simulation/engine/dts_engine.h"
+#include "simulation/dts_engine/dts_engine.h"
 #include "simulation/run/world.h"
 #include "tests/support/command.h"
 #include "tests/support/load_text.h"

@@ -166,7 +166,7 @@ class Crossings : public ::testing::TestWithParam<std::string> {
   /// the one vertical depth that all sides share.
   void check(const Ground& ground, const Terrain& terrain, const Materials& materials,
              const Crossing& crossing, double vertical_depth) {
-    const AnyForceLaw law = *find_force_law(GetParam());
+    const LawDescription& law = *find_force_law(GetParam());
     for (const Crossing::Side& side : crossing.sides) {
       constexpr double step = 1e-12;  // [m]
       PointKinematics<double> point;
@@ -177,7 +177,7 @@ class Crossings : public ::testing::TestWithParam<std::string> {
       ASSERT_EQ(tile.material, material);
       point.normal = tile.normal;
       point.depth = tile.depth;
-      const Vector3d force = evaluate(law, point, {}, materials[tile.material], 1e-4).force;
+      const Vector3d force = law.evaluate(point, {}, materials[tile.material], 1e-4).force;
       const double depth = vertical_depth * side.triangle.normal.z;
       const Vector3d expected =
           resting_force(GetParam(), depth, materials[material]) * side.triangle.normal;
@@ -214,7 +214,7 @@ TEST_P(Crossings, JumpByNormalAndStiffnessAlone) {
 }
 
 /// The law's forces along a path over a terrain, with the memory and the bristle that they leave.
-std::vector<Vector3d> forces_along(const AnyForceLaw& law, const std::vector<Vector3d>& path,
+std::vector<Vector3d> forces_along(const LawDescription& law, const std::vector<Vector3d>& path,
                                    const Terrain& terrain, const Materials& materials, double dt) {
   std::vector<Vector3d> forces;
   Memory<double> memory;
@@ -227,7 +227,7 @@ std::vector<Vector3d> forces_along(const AnyForceLaw& law, const std::vector<Vec
     point.normal = tile.normal;
     point.depth = tile.depth;
     point.bristle = bristle;
-    const Reaction<double> reaction = evaluate(law, point, memory, materials[tile.material], dt);
+    const Reaction<double> reaction = law.evaluate(point, memory, materials[tile.material], dt);
     forces.push_back(reaction.force);
     memory = reaction.next;
     bristle.deflection = reaction.bristle.deflection + dt * reaction.bristle_rate.deflection;
@@ -287,7 +287,7 @@ double largest_difference(const std::vector<Vector3d>& a, const std::vector<Vect
 // crossing their edges, vertices and diagonals by the hundred leaves nothing but rounding.
 TEST_P(Crossings, OfCoplanarTilesLeaveNoTrace) {
   Random random;
-  const AnyForceLaw law = *find_force_law(GetParam());
+  const LawDescription& law = *find_force_law(GetParam());
   const Materials materials(1);
   for (const double reach : {2e-5, 2e-3}) {
     for (int n = 0; n < 10; ++n) {
@@ -306,7 +306,7 @@ TEST_P(Crossings, OfCoplanarTilesLeaveNoTrace) {
 // crosses it. A sticking point dances about a vertex of six tiles.
 TEST_P(Crossings, OfACreaseJumpInProportionToIt) {
   Random random;
-  const AnyForceLaw law = *find_force_law(GetParam());
+  const LawDescription& law = *find_force_law(GetParam());
   Materials materials(1);
   materials[0].static_friction = materials[0].kinetic_friction = 1.5;
   const auto path = walk(plane(), 2e-6, random);
@@ -361,8 +361,7 @@ TEST(MaterialBorder, ChangesTheConstantsAndNothingElse) {
       point.position = {side == 0 ? -1e-13 : 1e-13, 0., -point.depth};
       const TilePoint tile = terrain.query(point.position.x, y, point.position.z);
       ASSERT_EQ(tile.material, side);
-      forces[side] =
-          evaluate(AnyForceLaw{Hookpoint{}}, point, memory, materials[tile.material], 1e-4).force;
+      forces[side] = Hookpoint::evaluate(point, memory, materials[tile.material], 1e-4).force;
       const MaterialConstants<double>& m = materials[side];
       const double N = m.normal_stiffness * point.depth - m.normal_damping * point.velocity.z;
       const Vector3d v{point.velocity.x, point.velocity.y, 0.};

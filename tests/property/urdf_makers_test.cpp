@@ -94,6 +94,11 @@ const Written writings[] = {
      robot(link_l + "<link name=\"lidar\"/>" + joint("j", "continuous", "") +
            joint("k", "continuous", "", "b", "lidar")),
      "note 1:2 left out: joint that carries no mass: fixed (1)\n"},
+    {"products_of_inertia_that_are_not_given",
+     robot("<link name=\"l\"><inertial><mass value=\"1\"/><inertia ixx=\"1\" iyy=\"1\" izz=\"1\" "
+           "ixz=\"0\"/></inertial></link>" +
+           joint("j", "continuous", "")),
+     "note 1:2 left out: product of inertia that is not given: 0 (2)\n"},
     {"link_without_mass_between_two_joints",
      robot("<link name=\"l\"/><link name=\"m\">" + inertial + "</link>" +
            joint("j", "continuous", "") +

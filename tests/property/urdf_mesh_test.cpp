@@ -10,7 +10,7 @@
 #include <sstream>
 #include <tuple>
 
-#include "simulation/engine/dts_engine.h"
+#include "simulation/dts_engine/dts_engine.h"
 #include "simulation/scene/urdf/hull.h"
 #include "simulation/scene/urdf/mesh.h"
 #include "simulation/scene/urdf/mesh_path.h"
@@ -221,8 +221,7 @@ TEST(UrdfMesh, ABrickThatTouchesByItsHullRestsOnASlopeAsABoxDoes) {
   const std::string world =
       "World w { deltat = 1 ms; Material floor { static_friction = 0.8; kinetic_friction = 0.7; } "
       "Terrain.Slope ground { angle = 15 deg; material = floor; } Include \"robot.urdf\" (rest_on "
-      "= "
-      "ground, meshes = hull); }";
+      "= ground, settled = false, meshes = hull); }";
   const auto end_of = [&](const std::string& geometry, const std::string& origin) {
     robot.file("robot.urdf", robot_of(geometry, origin));
     const Loaded loaded = load_file(robot.file("scene.hook", world));
@@ -267,6 +266,8 @@ TEST(UrdfMesh, IsLookedUpInItsPackageAndAlongTheSearchPath) {
   EXPECT_EQ(found("package://dog_description/meshes/leg.stl", dog),
             "dog_description/meshes/leg.stl");
   EXPECT_EQ(found("../meshes/leg.stl", dog), "dog_description/meshes/leg.stl");
+  EXPECT_EQ(found("package:///dog_description/meshes/leg.stl", dog),
+            found("package://dog_description/meshes/leg.stl", dog));
   EXPECT_EQ(found("package://cat_description/meshes/ear.stl", dog),
             "cat_description/meshes/ear.stl");
   EXPECT_EQ(found("model://cow/horn.stl", dog), "elsewhere/cow/horn.stl");
@@ -463,6 +464,23 @@ TEST(Hull, IsOfWhatStandsOut) {
   ASSERT_EQ(few.size(), 4u);
   for (const Vector3d& p : few)
     EXPECT_TRUE((p.x == 0. || p.x == 1.) && (p.y == 0. || p.y == 1.)) << p.x << ' ' << p.y;
+}
+
+// Every point is on the inner side of every face, and the faces of a cube's grid are its six.
+TEST(Meshes, ConvexHullHasFacesThatLookOutwards) {
+  std::vector<Vector3d> grid;
+  for (int x = 0; x <= 2; ++x)
+    for (int y = 0; y <= 2; ++y)
+      for (int z = 0; z <= 2; ++z) grid.push_back({0.1 * x, 0.2 * y, 0.3 * z});
+  const simulation::Hull hull = simulation::convex_hull(grid);
+  EXPECT_EQ(hull.vertices.size(), 8u);
+  EXPECT_EQ(hull.faces.size(), 6u);
+  for (const auto& face : hull.faces) {
+    const Vector3d normal = simulation::face_normal(hull, face);
+    for (const Vector3d& p : grid) EXPECT_LE(dot(normal, p - hull.vertices[face[0]]), 1e-12);
+  }
+  grid.resize(9);  // x = 0
+  EXPECT_TRUE(simulation::convex_hull(grid).faces.empty());
 }
 
 }  // namespace

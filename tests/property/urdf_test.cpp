@@ -11,8 +11,8 @@
 #include "dts/configuration.h"
 #include "dts/energy.h"
 #include "dts/forward_dynamics.h"
-#include "simulation/engine/robot_description.h"
-#include "simulation/robot_tree.h"
+#include "simulation/dts_engine/robot_description.h"
+#include "simulation/experiment/robot_tree.h"
 #include "tests/support/command.h"
 #include "tests/support/printed_run.h"
 #include "tests/support/run_text.h"
@@ -156,11 +156,12 @@ TEST(Urdf, LimitsDampingFrictionAndEffortComeAlong) {
                            "<limit lower=\"-0.5\" upper=\"1.25\" effort=\"9\" velocity=\"9\"/>"
                            "<dynamics damping=\"0.3\" friction=\"0.2\"/>")),
       ", knee = -10 deg, location = 1,2,3, yaw_is_none = 1");
-  EXPECT_EQ(loaded.diagnostics,
-            "note 1:2 left out: limit of velocity (1)\n"
-            "error 1:77 the robot takes no argument `yaw_is_none`; it takes name, base, shapes, "
-            "meshes, mimic, hold, rotor_inertia, fields of its base, and the names of its moving "
-            "joints\n");
+  EXPECT_EQ(
+      loaded.diagnostics,
+      "note 1:2 left out: limit of velocity (1)\n"
+      "error 1:77 the robot takes no argument `yaw_is_none`; it takes name, base, shapes, "
+      "meshes, mimic, lock, inertia, hold, rotor_inertia, fields of its base, and the names of its moving "
+      "joints\n");
   const Loaded good = load_urdf(
       robot(link_l + joint("knee", "revolute",
                            "<limit lower=\"-0.5\" upper=\"1.25\" effort=\"9\" velocity=\"9\"/>"
@@ -237,8 +238,9 @@ TEST(Urdf, AJointThatFollowsAnotherMovesByItselfOrIsFixedAtItsOffset) {
   EXPECT_EQ(free.experiment->robots.at(0).chains.at(0).links.at(0).angle, 0.25);
   EXPECT_NE(free.diagnostics.find("<mimic>: the joint moves by itself (1)"), std::string::npos)
       << free.diagnostics;
-  EXPECT_NE(load_urdf(heavy, ", mimic = both").diagnostics.find("`mimic` is ignore or fixed"),
-            std::string::npos);
+  EXPECT_NE(
+      load_urdf(heavy, ", mimic = both").diagnostics.find("`mimic` is couple, ignore or fixed"),
+      std::string::npos);
 }
 
 TEST(Urdf, TellsInOneLineWhatItLeftOut) {
@@ -396,16 +398,22 @@ const Case cases[] = {
     {"unknown_type", robot(link_l + joint("j", "ball", "")),
      "error 4:17 `ball` is no type of joint: expected revolute, continuous, prismatic or fixed\n"},
     {"mimic", robot(link_l + joint("j", "continuous", "\n<mimic joint=\"k\"/>")),
-     "error 6:2 joint `j` follows another (<mimic>), and joints that are geared together are not "
-     "supported: the argument mimic = ignore lets it move by itself, mimic = fixed fixes it at its "
-     "offset\n"},
+     "error 6:2 joint `j` follows `k`, and there is no such joint\n"},
+    {"mimic_ring",
+     robot(link_l + "<link name=\"m\">" + inertial + "</link>\n" +
+           joint("j", "continuous", "\n<mimic joint=\"k\"/>") +
+           joint("k", "continuous", "\n<mimic joint=\"j\"/>", "b", "m")),
+     "error 7:2 joint `j` follows others in a ring\nerror 10:2 joint `k` follows others in a ring\n"},
     {"capsule",
      robot("<link name=\"l\">" + inertial +
            "<collision><geometry>\n<capsule radius=\"1\"/></geometry></collision></link>" +
            joint("j", "continuous", "")),
-     "error 4:2 <geometry> takes a box, a cylinder, a sphere or a mesh: a capsule is a cylinder "
-     "and "
-     "two spheres, each in a <collision> of its own\n"},
+     "error 4:2 <capsule> lacks length=\"...\"\n"},
+    {"cone",
+     robot("<link name=\"l\">" + inertial +
+           "<collision><geometry>\n<cone radius=\"1\"/></geometry></collision></link>" +
+           joint("j", "continuous", "")),
+     "error 4:2 <geometry> takes a box, a cylinder, a sphere, a capsule or a mesh\n"},
     {"two_roots", robot(link_l),
      "error 3:2 no joint carries link `l`, and none `b`: a robot has one root\n"},
     {"two_parents", robot(link_l + joint("j", "continuous", "") + joint("k", "fixed", "")),
@@ -425,7 +433,7 @@ const Case cases[] = {
      robot("<link name=\"l\"><inertial><mass value=\"one\"/><inertia ixx=\"1\" iyy=\"1\" "
            "izz=\"1e999\" ixy=\"0\" ixz=\"0\"/></inertial></link>\n" +
            joint("j", "continuous", "<origin xyz=\"1 2\"/>")),
-     "error 3:32 `one` is no number\nerror 3:46 <inertia> lacks iyz=\"...\"\nerror 3:70 `1e999` is "
+     "error 3:32 `one` is no number\nerror 3:70 `1e999` is "
      "no number\nerror 5:44 xyz takes three numbers: \"x y z\"\n"},
     {"negative_damping", robot(link_l + joint("j", "continuous", "\n<dynamics damping=\"-1\"/>")),
      "error 6:11 `damping` must be at least 0, not -1\n"},
@@ -435,8 +443,9 @@ const Case cases[] = {
      robot("<link name=\"l\"><inertial><mass value=\"1\"/>\n<inertia ixx=\"9\" iyy=\"1\" "
            "izz=\"1\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial></link>\n" +
            joint("j", "continuous", "")),
-     "error 3:17 inertia breaks the triangle inequality: no principal moment may exceed the sum of "
-     "the other two; the order is Ixx,Iyy,Izz,Ixy,Ixz,Iyz about the centre of mass\n"},
+     "error 3:17 the inertia of link `l` breaks the triangle inequality: no principal moment may "
+     "exceed the sum of the other two: the argument inertia = repair takes the nearest that a body "
+     "can have, 35 % of its greatest moment away\n"},
     {"two_links", robot(link_l + link_l + joint("j", "continuous", "")),
      "error 4:2 a second link `l`\nnote 3:2 the first is here\n"},
     {"same_names",
@@ -447,8 +456,8 @@ const Case cases[] = {
      "error 2:18 this is not XML: Start-end tags mismatch\n"},
     {"no_urdf", "<sdf/>",
      "error 1:1 this is SDF (the format of Gazebo), which is not read here: expected a file of the "
-     "language (.hook) or a URDF (.urdf, .xacro); take the robot's URDF, or convert it to one, and "
-     "Include that\n"},
+     "language (.hook), a URDF (.urdf, .xacro) or an MJCF (.xml); take the robot's URDF or MJCF, or "
+     "convert it to one, and Include that\n"},
     {"empty", "", "error 1:1 this is not XML: No document element found\n"},
     {"xacro", robot("<xacro:property name=\"x\" value=\"1\"/>"),
      "error 3:2 the macros of xacro need its program, which is not installed: it comes with ROS "

@@ -71,7 +71,8 @@ def without_warnings(test):
 
 # Ports that only a step computes, and the values of the file.
 OF_STEPS = (".acceleration", ".total_torque", "acceleration.x", "acceleration.y", "acceleration.z", "hip_force.x", "hip_force.y", "hip_force.z",
-            "hip_moment.x", "hip_moment.y", "hip_moment.z")
+            "hip_moment.x", "hip_moment.y", "hip_moment.z", "reaction_force.x", "reaction_force.y", "reaction_force.z",
+            "reaction_moment.x", "reaction_moment.y", "reaction_moment.z")
 
 
 class InitialState(unittest.TestCase):

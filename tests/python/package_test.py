@@ -18,7 +18,7 @@ import hookpoint
 
 SOURCE = pathlib.Path(os.environ["HOOKPOINT_SOURCE_DIR"])
 BUILD = os.environ["HOOKPOINT_BUILD_DIR"]
-STUBS = SOURCE / "python" / "hookpoint-stubs" / "__init__.pyi"
+STUBS = SOURCE / "apps/python" / "hookpoint-stubs" / "__init__.pyi"
 
 
 def module_from(path):
@@ -88,7 +88,7 @@ class Stubs(unittest.TestCase):
 class Wheel(unittest.TestCase):
     def test_has_the_module_and_its_types(self):
         with tempfile.TemporaryDirectory() as folder:
-            backend = module_from(SOURCE / "python" / "packaging" / "cmake_wheel.py")
+            backend = module_from(SOURCE / "apps/python" / "packaging" / "cmake_wheel.py")
             self.assertEqual(backend.version(), hookpoint.__version__)
             name = backend.build_wheel(folder, {"build-dir": BUILD})
             with zipfile.ZipFile(pathlib.Path(folder) / name) as wheel:

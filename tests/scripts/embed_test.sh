@@ -32,7 +32,7 @@ build() { cmake --build "$work/build" >"$work/log" 2>&1 || { cat "$work/log"; ex
 # expect_file WHAT FILE: the program shows it to the byte.
 expect_file() { expect "$1: bytes" "$("$work/build/shows" "$1" | od -An -tx1)" "$(od -An -tx1 "$project/page/$2")"; }
 
-cmake -S "$project" -B "$work/build" >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
+cmake -G Ninja -S "$project" -B "$work/build" >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
 build
 expect_file text text.css
 expect_file bytes "every byte.bin"

@@ -29,13 +29,13 @@ fi
 expect "status of the committed page" "$status" 0
 
 # A source that was changed and not built. The lock holds no address of a registry.
-mkdir -p "$work/clone/scripts" "$work/clone/view"
+mkdir -p "$work/clone/scripts" "$work/clone/apps/view"
 cp "$page" "$work/clone/scripts/"
-(cd "$root/view" && tar -c --exclude=node_modules page) | tar -x -C "$work/clone/view"
-cp -r "$root/view/page/node_modules" "$work/clone/view/page/"
-echo 'body { margin: 1px; }' >>"$work/clone/view/page/page.css"
+(cd "$root/apps/view" && tar -c --exclude=node_modules page) | tar -x -C "$work/clone/apps/view"
+cp -r "$root/apps/view/page/node_modules" "$work/clone/apps/view/page/"
+echo 'body { margin: 1px; }' >>"$work/clone/apps/view/page/page.css"
 status=0; run "$work/clone/scripts/page" --check || status=$?
 expect "status where the page is older than its sources" "$status" 1
 expect "it says what to do" "$(grep -c 'run scripts/page and commit it' <<<"$said")" 1
-expect "addresses in package-lock.json" "$(grep -c '"resolved"' "$root/view/page/package-lock.json" || true)" 0
+expect "addresses in package-lock.json" "$(grep -c '"resolved"' "$root/apps/view/page/package-lock.json" || true)" 0
 finish

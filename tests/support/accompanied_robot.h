@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "simulation/engine/robot_system.h"
-#include "simulation/ground.h"
+#include "simulation/dts_engine/robot_system.h"
+#include "simulation/experiment/ground.h"
 
 namespace hookpoint::test_support {
 

@@ -15,7 +15,7 @@
 
 #include "contact/law_interface.h"
 #include "contact/laws/lugre_bristle.h"
-#include "simulation/material_fields.h"
+#include "simulation/experiment/material_fields.h"
 #include "tests/support/contact_path.h"
 #include "tests/support/lanes.h"
 

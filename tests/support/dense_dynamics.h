@@ -214,6 +214,13 @@ class DenseDynamics {
     return M_.fullPivLu().solve(f);
   }
 
+  /// J' v of the point `x` (world) that moves with `body`.
+  Eigen::Vector3d point_bias(std::size_t body, const Eigen::Vector3d& x) const {
+    const auto& at = still_.bodies()[body];
+    const Eigen::Vector3d r = x - at.c, w = at.J_angular * velocity_;
+    return linear_bias_[body] + angular_bias_[body].cross(r) + w.cross(w.cross(r));
+  }
+
   /// The wrench of chain `k` on its carrier about its hip: less the rate of momentum of the chain
   /// and all that hangs on it, plus what acts on them.
   DenseWrench hip_wrench(std::size_t k, const Eigen::VectorXd& a, const Eigen::Vector3d& gravity,

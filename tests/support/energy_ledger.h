@@ -71,7 +71,7 @@ class EnergyLedger final : public AccompaniedRobot<2> {
  public:
   explicit EnergyLedger(const simulation::Experiment& experiment)
       : AccompaniedRobot(experiment),
-        law_(contact::rate_form(*contact::find_force_law(experiment_.contact))) {
+        law_(contact::find_force_law(experiment_.contact)->rate_form()) {
     for (const simulation::ChainSpec& chain : experiment_.robots[0].chains)
       for (const simulation::LinkSpec& link : chain.links) links_.push_back(link);
   }
@@ -132,32 +132,32 @@ class EnergyLedger final : public AccompaniedRobot<2> {
     const auto place =
         simulation::contact_kinematics(point, robot_.workspace().bodies[point.body], *ground_);
     contact::Bristle<double> bristle;
-    if (const std::size_t states = contact::bristle_states(law_)) {
+    if (const std::size_t states = law_.bristle_states) {
       const double* z = &v[dts::velocity_count(robot_.model()) + states * index];
       bristle = {{z[0], z[1], z[2]}, states > 3 ? z[3] : 0.};
     }
     return {place.position, place.velocity, place.tile.normal,
-            point.depth_on_side(place.tile.depth, contact::reach(law_, material())), bristle};
+            simulation::depth_on_side(point.inside, place.tile.depth, law_.reach(material())),
+            bristle};
   }
   const MaterialConstants<double>& material() const { return experiment_.materials[0].constants; }
   /// The bristle's deflection, or how far the point is from its hook [m].
   Vector3d stretch(std::size_t index, const contact::PointKinematics<double>& point) const {
-    if (contact::bristle_states(law_) > 0)
-      return tangential(point.bristle.deflection, point.normal);
+    if (law_.bristle_states > 0) return tangential(point.bristle.deflection, point.normal);
     const contact::Memory<double>& memory = robot_.contacts().points()[index].committed;
     return memory.attached ? tangential(point.position - memory.hook, point.normal) : Vector3d{};
   }
   double stored(std::size_t index, std::span<const double> v) const {
     const auto point = kinematics(index, v);
-    return contact::stored_energy(law_, point.depth, stretch(index, point), material());
+    return law_.stored_energy(point.depth, stretch(index, point), material());
   }
   double contact_heat(std::size_t index, std::span<const double> v) const {
     const auto point = kinematics(index, v);
     const Vector3d e = stretch(index, point);
     return std::visit(
         [&]<class Law>(const Law& law) {
-          const auto reaction =
-              law.evaluate(point, robot_.contacts().points()[index].committed, material(), 0.);
+          const auto reaction = law.evaluate(point, robot_.contacts().points()[index].committed,
+                                             material(), contact::differential_equation);
           if (!reaction.next.attached) return 0.;
           const double N = dot(reaction.force, point.normal);
           const double depth_rate = -dot(point.velocity, point.normal);
@@ -165,10 +165,10 @@ class EnergyLedger final : public AccompaniedRobot<2> {
                  tangential_heat<Law>(reaction, tangential(point.velocity, point.normal), e,
                                       -tangential(reaction.force, point.normal), N, material());
         },
-        law_);
+        law_.variant);
   }
 
-  contact::AnyForceLaw law_;
+  const contact::LawDescription& law_;
   std::vector<simulation::LinkSpec> links_;
   double let_go_ = 0.;
 };

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "language/document.h"
+#include "language/document/document.h"
 #include "tests/support/language_schema.h"
 #include "tests/support/text.h"
 

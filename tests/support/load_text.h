@@ -10,12 +10,12 @@
 #include <sstream>
 #include <string>
 
-#include "language/document.h"
+#include "apps/view/widgets/schema.h"
+#include "language/document/document.h"
 #include "reference/engines.h"
 #include "simulation/scene/load.h"
 #include "simulation/scene/schema.h"
-#include "studies/schema.h"
-#include "view/schema.h"
+#include "studies/blocks/schema.h"
 
 namespace hookpoint {
 

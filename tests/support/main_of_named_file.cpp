@@ -1,12 +1,22 @@
 // A program of several tests' files runs those of the file that it is called by: dts_dense_test
-// those of dts_dense_test.cpp. Called by a name that is none of its files', it runs them all. Tests
-// in a header belong to no file: a program of such is not called by a file's name
-// (HOOKPOINT_TESTS_ALONE in tests/CMakeLists.txt).
+// those of dts_dense_test.cpp or of dts/dense_test.cpp. Called by a name that is none of its
+// files', it runs them all. Tests in a header belong to no file: a program of such is not called by
+// a file's name (HOOKPOINT_TESTS_ALONE in tests/CMakeLists.txt).
 #include <gtest/gtest.h>
 
 #include <cstdio>
 #include <filesystem>
 #include <string>
+
+namespace {
+
+/// Whether the tests of `file` have this name, with or without the folder before it.
+bool is_named(const std::filesystem::path& file, const std::string& name) {
+  return file.filename() == name ||
+         file.parent_path().filename().string() + "_" + file.filename().string() == name;
+}
+
+}  // namespace
 
 int main(int count, char** arguments) {
   testing::InitGoogleTest(&count, arguments);
@@ -22,10 +32,10 @@ int main(int count, char** arguments) {
       const std::filesystem::path file = test.file();
       if (file.extension() != ".cpp") {
         in_a_header = test.file();
-      } else if (file.filename() != wanted) {
+      } else if (!is_named(file, wanted)) {
         several = true;
       }
-      parts[file.filename() == wanted] += std::string(suite.name()) + "." + test.name() + ":";
+      parts[is_named(file, wanted)] += std::string(suite.name()) + "." + test.name() + ":";
     }
     const std::string whole = std::string(suite.name()) + ".*:";
     if (!parts[1].empty()) own += parts[0].empty() ? whole : parts[1];

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string_view>
 
-#include "studies/metric.h"
+#include "studies/measure/metric.h"
 
 namespace hookpoint::testing {
 

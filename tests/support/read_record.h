@@ -105,9 +105,9 @@ struct Reader {
 /// npm's code for a registry that is not reached (no network, or a closed proxy), "" for another
 /// failure.
 inline std::string network_problem(const std::string& complaints) {
-  for (const char* code :
-       {"ENOTFOUND", "EAI_AGAIN", "ECONNREFUSED", "ECONNRESET", "ECONNABORTED", "ENETUNREACH",
-        "EHOSTUNREACH", "ETIMEDOUT", "ERR_SOCKET_TIMEOUT", "ENOTCACHED"})
+  for (const char* code : {"ENOTFOUND", "EAI_AGAIN", "ECONNREFUSED", "ECONNRESET", "ECONNABORTED",
+                           "ENETUNREACH", "EHOSTUNREACH", "ETIMEDOUT", "ERR_SOCKET_TIMEOUT",
+                           "ENOTCACHED", "SELF_SIGNED_CERT_IN_CHAIN", "UNABLE_TO_GET_ISSUER_CERT"})
     if (complaints.find(code) != std::string::npos) return code;
   return "";
 }

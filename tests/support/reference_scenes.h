@@ -11,7 +11,7 @@
 
 #include "reference/engines.h"
 #include "reference/experiment_checks.h"
-#include "simulation/engine.h"
+#include "simulation/engine_interface/engine.h"
 
 namespace hookpoint::reference_scenes {
 

@@ -4,15 +4,11 @@
 
 #include <filesystem>
 #include <map>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "language/document.h"
-#include "reference/engines.h"
-#include "simulation/scene/load.h"
-#include "simulation/scene/schema.h"
+#include "tests/support/load_text.h"
 
 namespace hookpoint::testing {
 
@@ -20,19 +16,9 @@ inline simulation::Experiment load_scene(const std::string& file,
                                          const std::map<std::string, std::string>& parameters,
                                          const std::vector<language::Override>& overrides = {}) {
   const std::filesystem::path configs = std::filesystem::path(HOOKPOINT_SOURCE_DIR) / "configs";
-  language::Schema schema;
-  simulation::add_experiment_classes(schema, reference::peer_choices());
-  language::Library library(schema, {configs});
-  language::Diagnostics diagnostics;
-  const auto root = library.evaluate(configs / file, {parameters, overrides}, diagnostics);
-  std::optional<simulation::Experiment> experiment;
-  if (root) experiment = simulation::load_experiment(*root, diagnostics);
-  if (!experiment) {
-    std::ostringstream text;
-    diagnostics.print(text, false);
-    throw std::runtime_error(text.str());
-  }
-  return *experiment;
+  const Loaded loaded = load_file(configs / file, {parameters, overrides});
+  if (!loaded.experiment) throw std::runtime_error(loaded.diagnostics);
+  return *loaded.experiment;
 }
 
 }  // namespace hookpoint::testing

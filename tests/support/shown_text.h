@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "simulation/engine/dts_engine.h"
+#include "simulation/dts_engine/dts_engine.h"
 #include "simulation/run/world.h"
 #include "tests/support/load_text.h"
 

@@ -14,8 +14,8 @@
 
 #include "reference/engines.h"
 #include "simulation/scene/schema.h"
+#include "studies/blocks/schema.h"
 #include "studies/run/run.h"
-#include "studies/schema.h"
 #include "tests/support/text.h"
 
 namespace hookpoint::studies {
@@ -84,8 +84,8 @@ class StudyRunner : public ::testing::Test {
     simulation::add_experiment_classes(schema_, reference::peer_choices());
     add_study_classes(schema_);
     write("scene.hook", slider_scene);
-    engines_["dts"] = {{"dts", "test", "double", true, {}, {}}, make, nullptr};
-    engines_["ode"] = engines_["dts"];
+    for (const char* name : {"dts", "ode"})
+      engines_.add(name, {{"dts", "test", "double", true, {}, {}}, make, nullptr});
     Slider::steps_taken = 0;
   }
   ~StudyRunner() override { std::filesystem::remove_all(folder_); }

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "studies/result.h"
+#include "studies/results/result.h"
 
 namespace hookpoint::testing {
 

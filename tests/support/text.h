@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "output/file.h"
+#include "output/files/file.h"
 
 namespace hookpoint::testing {
 

@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-#include "output/text/json_reader.h"
+#include "text/json_reader.h"
 
 namespace hookpoint::testing {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "integrators/stepper.h"
-#include "simulation/engine/dts_engine.h"
+#include "simulation/dts_engine/dts_engine.h"
 #include "tests/support/load_text.h"
 #include "tests/support/scene.h"
 

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "contact/force_law.h"
-#include "simulation/engine/dts_engine.h"
+#include "simulation/dts_engine/dts_engine.h"
 #include "tests/support/drawn.h"
 #include "tests/support/load_text.h"
 
@@ -93,7 +93,7 @@ World w {
   simulation::RobotSpec& robot = experiment.robots[0];
   robot.base.mass.mass = drawn.mass;
   const auto& constants = experiment.materials[0].constants;
-  robot.location.z = -contact::static_depth(*contact::find_force_law(law), weight, constants);
+  robot.location.z = -contact::find_force_law(law)->static_depth(weight, constants);
   return experiment;
 }
 

@@ -9,8 +9,9 @@
 #include <numbers>
 #include <random>
 
-#include "application/calibration_plans.h"
+#include "studies/calibrate/calibration.h"
 #include "tests/support/command.h"
+#include "tests/support/planned.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -99,8 +100,7 @@ class MeasuredCases : public ::testing::Test {
   /// What became of the one constant, and its range.
   SubjectCalibration calibrate(const std::string& port, const std::string& vary,
                                const std::string& more = "") {
-    application::StudyArguments arguments;
-    arguments.file = place_.file(
+    const auto file = place_.file(
         "measured.hook",
         "Calibrate measured { scene = \"scene.hook\"; method = cmaes; generations = 8; "
         "population = 8; " +
@@ -109,14 +109,12 @@ class MeasuredCases : public ::testing::Test {
             "  Cases case { file = \"states.csv\"; case = case;\n"
             "    Trace way { file = \"curves.csv\"; column = way; time = \"time\"; of = " +
             port + "; weight = 1 / (2 mm); } }\n  Vary " + vary + " }\n");
-    const auto root = application_.evaluate(arguments.file, {});
-    const auto plans = application::plan_calibrate_file(application_, *root, arguments);
+    const auto plans = planned_calibrations(application_, file);
     CalibrationOptions options;
     options.run.jobs = 2;
     options.run.folder = place_.folder() / "out";
     const std::atomic<bool> stop = false;
-    return run_calibration(plans->front(), application_.engines(), options, stop)
-        .result.subjects[0];
+    return run_calibration(plans.front(), application_.engines(), options, stop).result.subjects[0];
   }
 
   /// What is made up: the scene, the Param `begin` of its cases, their truth, and what is asked.
@@ -139,7 +137,7 @@ class MeasuredCases : public ::testing::Test {
           asked.port, std::string(asked.constant) + " { from = 0; to = 1; }", "folds = 0;");
       ASSERT_EQ(found.constants.size(), 1U) << "seed " << seed << ": " << found.status;
       const FittedConstant& constant = found.constants.front();
-      EXPECT_TRUE(constant.told) << "seed " << seed << ": " << constant.reason;
+      EXPECT_TRUE(constant.identifiable) << "seed " << seed << ": " << constant.reason;
       EXPECT_LT(*constant.high - *constant.low, 0.02) << "seed " << seed;
       EXPECT_NEAR(*found.error, mean_noise, 0.1) << "seed " << seed;
       if (*constant.low <= value && value <= *constant.high) ++inside;
@@ -169,13 +167,13 @@ TEST_F(MeasuredCases, WhatAFoldHasNotSeenIsAsItPromised) {
   int kept = 0;
   std::size_t held = 0;
   for (const FoldResult& fold : found.folds) {
-    ASSERT_TRUE(fold.promised);
+    ASSERT_TRUE(fold.prediction);
     held += fold.held_out.size();
-    EXPECT_NEAR(fold.promised->error, mean_noise, 0.1);
+    EXPECT_NEAR(fold.prediction->error, mean_noise, 0.1);
     // A case's mean of 61 spreads by sqrt(1 - 2/pi)/sqrt(61) = 0.077, twelve and twelve of them
     // differ by 2.2 * 0.077 sqrt(2/12) = 0.07.
-    EXPECT_NEAR(fold.promised->high - fold.promised->low, 0.14, 0.07);
-    if (fold.promised->low <= *fold.held && *fold.held <= fold.promised->high) ++kept;
+    EXPECT_NEAR(fold.prediction->high - fold.prediction->low, 0.14, 0.07);
+    if (fold.prediction->low <= *fold.held && *fold.held <= fold.prediction->high) ++kept;
   }
   EXPECT_GE(kept, 4);
   EXPECT_EQ(held, 54U);  // all but those of the first search, where the folds' begin
@@ -187,7 +185,7 @@ TEST_F(MeasuredCases, NothingIsPromisedWhereASearchLooksAtAll) {
   const SubjectCalibration found = calibrate("point.base.location.x", "mu { from = 0; to = 1; }");
   ASSERT_EQ(found.folds.size(), 5U);
   for (const FoldResult& fold : found.folds) {
-    EXPECT_FALSE(fold.promised);
+    EXPECT_FALSE(fold.prediction);
     EXPECT_NEAR(*fold.held, mean_noise, 0.15);
   }
 }

@@ -1,6 +1,8 @@
 // Calibrations of constants that are known: traces made from the laws' equations, by a closed form
 // and by an integration of this test's own, with noise of twenty seeds. The true constants lie
 // within their 95 % intervals in at least 18 of them.
+#include "studies/calibrate/calibration.h"
+
 #include <gtest/gtest.h>
 
 #include <array>
@@ -9,8 +11,8 @@
 #include <numbers>
 #include <random>
 
-#include "application/calibration_plans.h"
 #include "tests/support/command.h"
+#include "tests/support/planned.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -97,17 +99,13 @@ class KnownConstants : public ::testing::Test {
 
   CalibrationResult calibrate(const std::string& name, const std::string& text,
                               const std::string& folder, int jobs = 2) {
-    application::StudyArguments arguments;
-    arguments.file = place_.file(name, text);
-    const auto root = application_.evaluate(arguments.file, {});
-    if (!root) return {};
-    const auto plans = application::plan_calibrate_file(application_, *root, arguments);
-    if (!plans || plans->size() != 1) return {};
+    const auto plans = planned_calibrations(application_, place_.file(name, text));
+    if (plans.size() != 1) return {};
     const std::atomic<bool> stop = false;
     CalibrationOptions options;
     options.run.jobs = jobs;
     options.run.folder = place_.folder() / folder;
-    return run_calibration(plans->front(), application_.engines(), options, stop).result;
+    return run_calibration(plans.front(), application_.engines(), options, stop).result;
   }
 
   Workplace place_;
@@ -124,7 +122,7 @@ struct Recovered {
     for (std::size_t i = 0; i < 2; ++i) {
       const FittedConstant& constant = found.constants[i];
       ASSERT_TRUE(constant.low) << constant.reason;
-      told += constant.told ? 1 : 0;
+      told += constant.identifiable ? 1 : 0;
       inside[i] += *constant.low <= truth[i] && truth[i] <= *constant.high ? 1 : 0;
     }
   }
@@ -254,12 +252,12 @@ World world {
       ASSERT_EQ(result.subjects.size(), 1U);
       const auto& constants = result.subjects[0].constants;
       ASSERT_EQ(constants.size(), 2U) << result.subjects[0].status;
-      EXPECT_TRUE(constants[0].told) << number << ": " << constants[0].reason;
+      EXPECT_TRUE(constants[0].identifiable) << number << ": " << constants[0].reason;
       const double truth = share_of_log(stiffness, 300., 30e3);
       inside += *constants[0].low <= truth && truth <= *constants[0].high ? 1 : 0;
       // Not of width 0 because the friction is singular, nor much wider than it is known.
       EXPECT_GT(*constants[0].high - *constants[0].low, 1e-3) << number;
-      EXPECT_FALSE(constants[1].told) << number;
+      EXPECT_FALSE(constants[1].identifiable) << number;
       EXPECT_GT(*constants[1].high, 0.999) << number;
       const double low = 0.1 + 1.9 * *constants[1].low;
       EXPECT_LT(low, least + 0.05) << number;

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <string>
 
-#include "simulation/engine/dts_engine.h"
+#include "simulation/dts_engine/dts_engine.h"
 #include "tests/support/scene.h"
 
 namespace hookpoint {

@@ -7,7 +7,7 @@
 
 #include "contact/force_law.h"
 #include "simulation/analysis/stability.h"
-#include "simulation/engine/dts_engine.h"
+#include "simulation/dts_engine/dts_engine.h"
 #include "tests/support/scene.h"
 
 namespace hookpoint {

@@ -1,14 +1,13 @@
 // Impacts of articulated robots against what is solved by hand: hinged rods, pendulums, robots
 // whose chains have nothing to do; and the flight between impacts.
-#include "simulation/engine/impulse_robot.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "simulation/engine/dts_engine.h"
-#include "simulation/ground.h"
+#include "simulation/dts_engine/dts_engine.h"
+#include "simulation/dts_engine/impulse_group.h"
+#include "simulation/experiment/ground.h"
 #include "tests/support/impulse_scene.h"
 #include "tests/support/random_robot.h"
 #include "tests/support/scene.h"
@@ -350,7 +349,7 @@ TEST(ImpulseRobot, TooManyImpactsIsAStatusAndTheStateIsThatBefore) {
   const Experiment experiment = falling_arm("impulse", 1e-4);
   const simulation::WorldInputs inputs = simulation::initial_inputs(experiment);
   const auto level = simulation::make_ground(experiment);
-  simulation::ImpulseRobot robot(experiment, 0, contact::ImpulseLaw::impulse, &*level, inputs,
+  simulation::ImpulseGroup robot(experiment, {0, 1}, contact::ImpulseLaw::impulse, &*level, inputs,
                                  {.tolerance = 1e-10, .most_impacts = 20});
   const auto ground = [&](const Vector3d& point) {
     return contact::GroundPoint{point.z, {0., 0., 1.}, &experiment.materials[0].constants};
@@ -358,20 +357,20 @@ TEST(ImpulseRobot, TooManyImpactsIsAStatusAndTheStateIsThatBefore) {
   dts::State<double> before;
   contact::ImpulseTally tally;
   for (int step = 0; step < 1000 && tally.status == contact::AdvanceStatus::ok; ++step) {
-    before = robot.robot().state();
+    before = robot.robots()[0].state();
     tally = robot.advance(ground);
     EXPECT_LE(tally.deepest, 1e-10);
   }
   ASSERT_EQ(tally.status, contact::AdvanceStatus::too_many_impacts);
-  EXPECT_EQ(robot.robot().state().joint_positions, before.joint_positions);
-  EXPECT_EQ(robot.robot().state().joint_rates, before.joint_rates);
+  EXPECT_EQ(robot.robots()[0].state().joint_positions, before.joint_positions);
+  EXPECT_EQ(robot.robots()[0].state().joint_rates, before.joint_rates);
 }
 
 TEST(ImpulseRobot, EndsAtItsWork) {
   const Experiment experiment = falling_arm("impulse", 5e-3);
   const simulation::WorldInputs inputs = simulation::initial_inputs(experiment);
   const auto level = simulation::make_ground(experiment);
-  simulation::ImpulseRobot robot(experiment, 0, contact::ImpulseLaw::impulse, &*level, inputs,
+  simulation::ImpulseGroup robot(experiment, {0, 1}, contact::ImpulseLaw::impulse, &*level, inputs,
                                  {.tolerance = 1e-10, .most_work = 60.});
   const auto ground = [&](const Vector3d& point) {
     return contact::GroundPoint{point.z, {0., 0., 1.}, &experiment.materials[0].constants};

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "reference/engines.h"
-#include "simulation/engine/dts_engine.h"
+#include "simulation/dts_engine/dts_engine.h"
 #include "tests/support/load_text.h"
 
 namespace hookpoint {
@@ -72,8 +72,8 @@ TEST(EffortLimit, IsToldOnceWhereItIsMet) {
     for (int i = 0; i < 3; ++i) EXPECT_TRUE(engine->step().ok());
     ASSERT_EQ(engine->state().notices.size(), before + 1);
     EXPECT_EQ(engine->state().notices.back(),
-              "0.001 s: the drive of r.c.l is asked for -5 N.m and gives its effort_limit, 2 N.m "
-              "(told once)");
+              "0.001 s: the drive of r.c.l has to give -5 N.m and gives its effort_limit, 2 N.m "
+              "(reported once)");
     EXPECT_EQ(engine->state().joints[0].torque, -2.);
   };
   look(simulation::make_dts);

@@ -1,4 +1,4 @@
-// The study of docs/studies/low_stiffness.md: its page is that of its summary, and its reduced size
+// The study of docs/papers/low_stiffness/page.md: its page is that of its summary, and its reduced size
 // says what the page says.
 #include <gtest/gtest.h>
 
@@ -47,7 +47,8 @@ double largest(const std::string& results, const std::string& metric,
 
 TEST(LowStiffness, ThePageIsThatOfItsSummaryAndOfItsPrediction) {
   const Workplace work;
-  const std::string command = "'" HOOKPOINT_SOURCE_DIR "/scripts/low_stiffness' --check >'" +
+  const std::string command = "'" HOOKPOINT_SOURCE_DIR
+                              "/docs/papers/low_stiffness/make.py' --check >'" +
                               (work.folder() / "out").string() + "' 2>&1";
   EXPECT_EQ(std::system(command.c_str()), 0) << work.read("out");
 }

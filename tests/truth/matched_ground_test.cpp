@@ -9,7 +9,7 @@
 #include <functional>
 #include <map>
 
-#include "simulation/material_fields.h"
+#include "simulation/experiment/material_fields.h"
 #include "tests/support/command.h"
 #include "tests/support/run_text.h"
 

@@ -7,8 +7,9 @@
 #include <cstdlib>
 #include <string>
 
-#include "application/calibration_plans.h"
+#include "studies/calibrate/calibration.h"
 #include "tests/support/command.h"
+#include "tests/support/planned.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -27,7 +28,7 @@ bool has_numpy() { return python("-c 'import numpy'").empty(); }
 
 TEST(RealImpacts, ThePageIsThatOfItsSummaries) {
   if (!has_numpy()) GTEST_SKIP() << "python3-numpy is not installed";
-  EXPECT_EQ(python("'" HOOKPOINT_SOURCE_DIR "/scripts/real_impacts' --check"), "");
+  EXPECT_EQ(python("'" HOOKPOINT_SOURCE_DIR "/docs/papers/real_impacts/make.py' --check"), "");
 }
 
 TEST(RealImpacts, FrameAndCubeAreFoundInThrowsThatAreMadeOfThem) {
@@ -46,17 +47,14 @@ TEST(RealImpacts, TwentyThrowsUnderConstantsThatAreGiven) {
     for (const language::Diagnostic& diagnostic : found.all())
       EXPECT_NE(diagnostic.severity, language::Severity::error) << diagnostic.message;
   });
-  application::StudyArguments arguments;
-  arguments.file = HOOKPOINT_SOURCE_DIR "/configs/tunings/acrylic_on_wood_given.hook";
-  const auto root = application.evaluate(arguments.file, {});
-  ASSERT_TRUE(root);
-  const auto plans = application::plan_calibrate_file(application, *root, arguments);
-  ASSERT_TRUE(plans);
+  const auto plans = planned_calibrations(
+      application, HOOKPOINT_SOURCE_DIR "/configs/tunings/acrylic_on_wood_given.hook");
+  ASSERT_FALSE(plans.empty());
   CalibrationOptions options;
   options.run.jobs = 2;
   options.run.folder = work.folder() / "out";
   const std::atomic<bool> stop = false;
-  const CalibrationPlan& plan = plans->front();
+  const CalibrationPlan& plan = plans.front();
   EXPECT_EQ(plan.cases.size(), 20U);
   const CalibrationResult result =
       run_calibration(plan, application.engines(), options, stop).result;

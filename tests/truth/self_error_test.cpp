@@ -5,9 +5,9 @@
 
 #include "reference/engines.h"
 #include "reference/ode/engine.h"
-#include "simulation/engine/dts_engine.h"
+#include "simulation/dts_engine/dts_engine.h"
 #include "simulation/run/world.h"
-#include "studies/metric.h"
+#include "studies/measure/metric.h"
 #include "tests/support/load_text.h"
 
 namespace hookpoint {

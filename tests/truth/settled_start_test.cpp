@@ -1,11 +1,14 @@
-// `settled = true`: a body that rests on its ground starts in static balance. A block on a slope
-// against the statics of a rigid body on springs, and that nothing moves, under every force law.
+// A body that rests on its ground starts in static balance, unless it says `settled = false`. A
+// block on a slope against the statics of a rigid body on springs, and that nothing moves, under
+// every force law.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
 #include "contact/force_law.h"
+#include "studies/measure/metric.h"
+#include "studies/predictions/predictions.h"
 #include "tests/support/run_text.h"
 
 namespace hookpoint {
@@ -45,9 +48,10 @@ TEST(SettledStart, LeansAndStretchesAsStaticsSays) {
       contact::Terrain(*loaded.experiment->terrain).query(robot.location);
   const Vector3d& n = below.normal;
   EXPECT_NEAR(std::acos(n.z), slope, 1e-12);
-  ASSERT_EQ(robot.start_stretch.size(), 8U);
+  ASSERT_TRUE(robot.settled);
+  ASSERT_EQ(robot.settled->stretch.size(), 8U);
   Vector3d pull;
-  for (const Vector3d& stretch : robot.start_stretch) pull += k_t * stretch;
+  for (const Vector3d& stretch : robot.settled->stretch) pull += k_t * stretch;
   EXPECT_LT(norm(pull - tangential(Vector3d{0., 0., -weight}, n)), 1e-9 * weight);
   const double lean = weight * height * std::sin(slope) /
                       (4. * half * half * k - weight * height * std::cos(slope));
@@ -120,10 +124,9 @@ TEST(SettledStart, ALawWithoutSpringStartsWithItsCreep) {
   text.replace(text.find("deltat = 0.1 ms"), 15, "deltat = 0.01 ms");
   const Loaded loaded = load_text(text);
   ASSERT_TRUE(loaded.experiment) << loaded.diagnostics;
-  const contact::AnyForceLaw law = *contact::find_force_law("hunt_crossley");
+  const contact::LawDescription& law = *contact::find_force_law("hunt_crossley");
   const double creep =
-      contact::creep_speed(law, std::tan(slope), loaded.experiment->materials.at(0).constants)
-          .value();
+      law.creep_speed(std::tan(slope), loaded.experiment->materials.at(0).constants).value();
   Running run(loaded);
   EXPECT_NEAR(norm(vector(run, "w.b.base.velocity")), creep, 1e-6 * creep);
   run.step();
@@ -132,10 +135,14 @@ TEST(SettledStart, ALawWithoutSpringStartsWithItsCreep) {
   EXPECT_NEAR(norm(vector(run, "w.b.base.velocity")), creep, 1e-6 * creep);
 }
 
-// Slack springs, by default: the block gives by what they take.
-TEST(SettledStart, IsNotTheDefault) {
+std::string without(std::string text, const std::string& part) {
+  return text.erase(text.find(part), part.size());
+}
+
+// Slack springs: the block deflects by what they take.
+TEST(SettledStart, IsLeftOutWhereTheFileSaysSo) {
   std::string text = block("hookpoint", 15.);
-  text.replace(text.find("settled = true; "), 16, "");
+  text.replace(text.find("settled = true"), 14, "settled = false");
   Running run(text);
   const Vector3d start = vector(run, "w.b.base.location");
   run.step(20000);
@@ -143,12 +150,126 @@ TEST(SettledStart, IsNotTheDefault) {
               0.2 * weight * std::sin(slope) / (4. * k_t));
 }
 
+// Every law with tangential springs, without a word in the file; a point, whose stretch is all of
+// m g sin/k_t, and a block.
+TEST(SettledStart, IsTheDefaultOfLawsWithSprings) {
+  for (const contact::LawDescription& law : contact::law_table()) {
+    if (law.is_impulse_law || law.name == "hunt_crossley") continue;
+    for (const double degrees : {5., 20.}) {
+      SCOPED_TRACE(std::string(law.name) + " " + std::to_string(degrees));
+      const std::string plain = without(block(std::string(law.name), degrees), "settled = true; ");
+      std::string point = plain;
+      const std::string box = "Shape.Box { dimensions = 0.2, 0.2, 0.1; mass = 2 kg; }";
+      point.replace(point.find(box), box.size(),
+                    "mass = 2; inertia = 0.01, 0.01, 0.01, 0, 0, 0; ContactPoint tip { }");
+      for (const std::string& text : {plain, point}) {
+        const Loaded loaded = load_text(text);
+        ASSERT_TRUE(loaded.experiment) << loaded.diagnostics;
+        EXPECT_EQ(loaded.diagnostics.find("settled"), std::string::npos) << loaded.diagnostics;
+        const simulation::RobotSpec& robot = loaded.experiment->robots.at(0);
+        ASSERT_TRUE(robot.settled);
+        Vector3d pull;
+        for (const Vector3d& stretch : robot.settled->stretch) pull += k_t * stretch;
+        EXPECT_NEAR(norm(pull), weight * std::sin(degrees * std::numbers::pi / 180.),
+                    1e-9 * weight);
+        Running run(loaded);
+        run.step();
+        EXPECT_LT(norm(vector(run, "w.b.base.linear_acceleration")), 1e-9 * g);
+        for (int i = 0; i < 1000; ++i) {
+          run.step();
+          ASSERT_LT(norm(vector(run, "w.b.base.velocity")), 1e-9);
+        }
+      }
+    }
+  }
+}
+
+// Nothing gives from a balance, under bristles either, whose give from slack springs has no closed
+// form; slack springs give W sin/(4 k_t).
+TEST(SettledStart, ClosedFormsKnowIt) {
+  for (const char* law : {"hookpoint", "lugre"}) {
+    for (const bool settled : {true, false}) {
+      SCOPED_TRACE(std::string(law) + (settled ? " settled" : " slack"));
+      std::string text = block(law, 15.);
+      if (!settled) text.replace(text.find("settled = true"), 14, "settled = false");
+      const Loaded loaded = load_text(text);
+      ASSERT_TRUE(loaded.experiment) << loaded.diagnostics;
+      const studies::RunContext context = studies::make_context(*loaded.experiment, 0.5, 1.);
+      const auto shift = studies::predict("stick_displacement", context);
+      const auto creep = studies::predict("creep_speed", context);
+      const double give = weight * std::sin(slope) / (4. * k_t);
+      if (settled) {
+        ASSERT_TRUE(shift) << shift.why();
+        EXPECT_EQ(*shift, 0.);
+      } else if (std::string(law) == "hookpoint") {
+        ASSERT_TRUE(shift) << shift.why();
+        EXPECT_NEAR(*shift, give, 1e-12 * give);
+      }
+      if (settled && std::string(law) == "hookpoint") {
+        const auto rest = studies::tangential_give(context);
+        ASSERT_TRUE(rest) << rest.why();
+        EXPECT_NEAR(*rest, give, 1e-12 * give);
+      }
+      ASSERT_TRUE(creep) << creep.why();
+      EXPECT_EQ(*creep, 0.);
+    }
+  }
+}
+
+// What is meant to move starts as it always did, and says nothing: a slope steeper than friction
+// holds, a ball, a law that holds by creeping, an impulse law, a base with a speed.
+TEST(SettledStart, IsLevelWithoutAWordWhereNothingRests) {
+  const std::string holds = without(block("hookpoint", 15.), "settled = true; ");
+  std::string ball = holds, moving = holds;
+  const std::string box = "Shape.Box { dimensions = 0.2, 0.2, 0.1; mass = 2 kg; }";
+  ball.replace(ball.find(box), box.size(), "Shape.Sphere { radius = 0.1; mass = 2 kg; }");
+  moving.replace(moving.find("yaw"), 0, "velocity = 1, 0, 0; ");
+  for (const std::string& text :
+       {without(block("hookpoint", 45.), "settled = true; "), ball, moving,
+        without(block("hunt_crossley", 15.), "settled = true; ")}) {
+    const Loaded loaded = load_text(text);
+    ASSERT_TRUE(loaded.experiment) << loaded.diagnostics;
+    EXPECT_EQ(loaded.diagnostics.find("settled"), std::string::npos) << loaded.diagnostics;
+    const simulation::RobotSpec& robot = loaded.experiment->robots.at(0);
+    EXPECT_FALSE(robot.settled);
+    const contact::TilePoint below =
+        contact::Terrain(*loaded.experiment->terrain).query(robot.location);
+    const Vector3d up = rotate(robot.orientation, Vector3d{0., 0., 1.});
+    EXPECT_LT(norm(cross(up, below.normal)), 1e-12);
+  }
+}
+
+// A link whose centre of mass lies on its joint's axis loads no joint, so that the robot rests as
+// one rigid body of 2 kg with its centre of mass in the middle. A robot with joints starts in
+// balance only where the file says so.
+TEST(SettledStart, OfARobotWithJointsIsThatOfOneRigidBody) {
+  std::string text = block("hookpoint", 15.);
+  const std::string end = "mass = 2 kg; } } }";
+  text.replace(text.find(end), end.size(),
+               "mass = 1 kg; } } Chain arm { Link tip { mass = 1 kg; inertia = 0.001, 0.001, "
+               "0.001, 0, 0, 0; } } }");
+  const Loaded written = load_text(text);
+  ASSERT_TRUE(written.experiment) << written.diagnostics;
+  const simulation::RobotSpec& robot = written.experiment->robots.at(0);
+  ASSERT_TRUE(robot.settled);
+  Vector3d pull;
+  for (const Vector3d& stretch : robot.settled->stretch) pull += k_t * stretch;
+  // 2 kg in all, whichever body they are on.
+  EXPECT_NEAR(norm(pull), weight * std::sin(slope), 1e-9 * weight);
+  Running run(written);
+  run.step();
+  EXPECT_LT(norm(vector(run, "w.b.base.linear_acceleration")), 1e-8 * g);
+  const Loaded plain = load_text(without(text, "settled = true; "));
+  ASSERT_TRUE(plain.experiment) << plain.diagnostics;
+  EXPECT_FALSE(plain.experiment->robots.at(0).settled);
+}
+
 TEST(SettledStart, SaysWhereNothingBalances) {
   const Loaded steep = load_text(block("hookpoint", 45.));
   ASSERT_TRUE(steep.experiment) << steep.diagnostics;
   EXPECT_NE(steep.diagnostics.find("`b` cannot start settled"), std::string::npos)
       << steep.diagnostics;
-  EXPECT_TRUE(steep.experiment->robots.at(0).start_stretch.empty());
+  EXPECT_FALSE(steep.experiment->robots.at(0).settled);
   const Loaded away = load_text(
       "World w { Terrain.Flat f; Robot b { Base.mobile { settled = true; location = 0, 0, 1; "
       "Shape.Sphere { radius = 0.1; mass = 1; } } } }");

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "simulation/engine/dts_engine.h"
+#include "simulation/dts_engine/dts_engine.h"
 #include "tests/support/scene.h"
 
 namespace hookpoint {

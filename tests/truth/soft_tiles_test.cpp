@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "contact/force_law.h"
-#include "simulation/engine/dts_engine.h"
+#include "simulation/dts_engine/dts_engine.h"
 #include "tests/support/load_text.h"
 
 namespace hookpoint {

@@ -44,7 +44,8 @@ class Draw {
   std::mt19937 random_;
 };
 
-constexpr const char* integrators[] = {"explicit_euler", "semi_implicit_euler", "rk4"};
+constexpr const char* integrators[] = {"explicit_euler", "semi_implicit_euler", "implicit_joints",
+                                       "rk4"};
 constexpr const char* linear_laws[] = {"hookpoint", "hookpoint_reset", "lugre", "elastoplastic"};
 constexpr const char* all_laws[] = {"hookpoint",     "hookpoint_reset", "lugre",
                                     "elastoplastic", "nominal",         "azad_featherstone",

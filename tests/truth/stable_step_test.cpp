@@ -6,10 +6,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <eigen3/Eigen/LU>
 #include <vector>
 
 #include "integrators/cvode.h"
 #include "integrators/explicit_euler.h"
+#include "integrators/implicit_joints.h"
 #include "integrators/rk4.h"
 #include "integrators/semi_implicit_euler.h"
 #include "integrators/vector_space_system.h"
@@ -25,6 +27,9 @@ LinearDynamics coupled(double damping) {
   dynamics.stiffness = Eigen::Matrix3d{{900., -300., 0.}, {-300., 500., -100.}, {0., -100., 200.}};
   dynamics.damping = damping * Eigen::Matrix3d{{2., 0., -1.}, {0., 4., 0.}, {-1., 0., 6.}};
   dynamics.joints = Eigen::MatrixXd::Zero(0, 3);
+  // Springs and dampers of the first and the last coordinate alone; the rest resists too.
+  dynamics.of_joints.stiffness = Eigen::Vector3d(400., 0., 50.).asDiagonal();
+  dynamics.of_joints.damping = damping * Eigen::Vector3d(1., 0., 2.).asDiagonal().toDenseMatrix();
   return dynamics;
 }
 
@@ -34,7 +39,7 @@ StepperDescription silent(StepperDescription stepper) {
 }
 
 const StepperDescription methods[] = {integrators::explicit_euler, integrators::semi_implicit_euler,
-                                      integrators::rk4};
+                                      integrators::implicit_joints, integrators::rk4};
 
 TEST(StableStep, InClosedFormIsThatOfTheStepsThemselves) {
   for (const StepperDescription& method : methods) {
@@ -61,6 +66,7 @@ TEST(StableStep, OfWhatFeelsNoForceAndOfAnAdaptiveIntegratorIsAny) {
   EXPECT_TRUE(std::isinf(largest_stable_step(integrators::cvode_bdf, free)));
   free.stiffness.setZero();
   free.damping.setZero();
+  free.of_joints = {free.stiffness, free.damping};
   for (const StepperDescription& method : methods) {
     EXPECT_TRUE(std::isinf(largest_stable_step(method, free)));
     EXPECT_TRUE(std::isinf(largest_stable_step(silent(method), free)));
@@ -75,14 +81,22 @@ class Mechanism final : public integrators::VectorSpaceSystem {
   integrators::Status accelerations(integrators::Stage, double, std::span<const double> q,
                                     std::span<const double> v, std::span<double> a) override {
     const Eigen::Index n = dynamics_.stiffness.rows();
-    Eigen::Map<Eigen::VectorXd>(a.data(), n) =
-        -dynamics_.stiffness * Eigen::Map<const Eigen::VectorXd>(q.data(), n) -
-        dynamics_.damping * Eigen::Map<const Eigen::VectorXd>(v.data(), n);
+    const Eigen::Map<const Eigen::VectorXd> z(q.data(), n), rate(v.data(), n);
+    Eigen::Map<Eigen::VectorXd> acceleration(a.data(), n);
+    acceleration = -dynamics_.stiffness * z - dynamics_.damping * rate;
+    if (h_ == 0.) return integrators::Status::ok;
+    const auto& [K, C] = dynamics_.of_joints;
+    acceleration = (Eigen::MatrixXd::Identity(n, n) + h_ * C + h_ * h_ * K)
+                       .lu()
+                       .solve(acceleration - h_ * K * rate)
+                       .eval();
     return integrators::Status::ok;
   }
+  void take_joints_at_end_of(double h) override { h_ = h; }
 
  private:
   const LinearDynamics& dynamics_;
+  double h_ = 0.;
 };
 
 /// How much more it moves in the last quarter of 4000 steps than in the first.

@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "output/text/csv.h"
-#include "output/text/number.h"
+#include "output/files/csv.h"
 #include "tests/support/command.h"
 #include "tests/support/page_blocks.h"
+#include "text/number.h"
 
 namespace hookpoint {
 namespace {
@@ -85,7 +85,7 @@ Study thrown {
 
 std::string fields(const std::vector<double>& numbers) {
   std::string text;
-  for (const double number : numbers) text += "," + output::shortest(number);
+  for (const double number : numbers) text += "," + text::shortest(number);
   return text + "\n";
 }
 
@@ -210,7 +210,7 @@ TEST_F(StudyCases, AreTheSameBytesHoweverTheyAreRun) {
 TEST_F(StudyCases, RunAnewWhatWasMeasuredAnew) {
   EXPECT_EQ(work_.hookpoint("study study.hook --out here").status, 0);
   const std::string again = work_.hookpoint("study study.hook --out here --resume").err;
-  EXPECT_EQ(again.find("anew"), std::string::npos) << again;
+  EXPECT_EQ(again.find("run again"), std::string::npos) << again;
   // Another measurement of one case alone.
   const std::string curves = work_.read("curves.csv");
   std::string changed = curves;
@@ -228,7 +228,7 @@ TEST_F(StudyCases, RunAnewWhatWasMeasuredAnew) {
   std::string states = throw_table();
   work_.file("throws.csv", states.replace(states.find("low,100"), 7, "low,101"));
   const auto two = work_.hookpoint("study study.hook --out here --resume");
-  EXPECT_NE(two.err.find("anew"), std::string::npos) << two.err;
+  EXPECT_NE(two.err.find("run again"), std::string::npos) << two.err;
   EXPECT_NEAR(Results(work_, "here").number(0, "off [mm]"), sqrt(9. + 16. + 4.), 1e-9);
   EXPECT_NEAR(Results(work_, "here").number(2, "off [mm]"), 13., 1e-9);
 }

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "contact/force_law.h"
-#include "simulation/engine/dts_engine.h"
+#include "simulation/dts_engine/dts_engine.h"
 #include "tests/support/scene.h"
 
 namespace hookpoint {

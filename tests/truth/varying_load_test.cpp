@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "simulation/engine/dts_engine.h"
+#include "simulation/dts_engine/dts_engine.h"
 #include "tests/support/load_text.h"
 
 namespace hookpoint {

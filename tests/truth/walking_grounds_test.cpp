@@ -4,13 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <map>
-#include <memory>
 #include <string>
 
-#include "simulation/engine/dts_engine.h"
-#include "simulation/run/world.h"
-#include "studies/metric.h"
-#include "tests/support/scene.h"
+#include "tests/support/walk.h"
 
 namespace hookpoint::testing {
 namespace {
@@ -20,35 +16,8 @@ using Parameters = std::map<std::string, std::string>;
 constexpr double settle = 3.;  ///< [s] stood, begun, at speed
 constexpr double command = 0.1;
 
-struct Walk {
-  bool finished = false, fell = true;
-  double speed = 0., slip = 0., depth = 0., tilt = 0.;
-};
-
-Walk walk(const std::string& scene, const Parameters& parameters, double duration = 6.) {
-  const simulation::Experiment experiment = load_scene("scenes/" + scene, parameters);
-  const studies::RunContext context = studies::make_context(experiment, settle, duration);
-  studies::Observer observer(context, true, true);
-  std::map<std::string, std::unique_ptr<studies::Metric>> metrics;
-  for (const char* name : {"fell", "walking_speed", "foot_slip", "penetration_max", "tilt_max"})
-    metrics[name] = studies::find_metric(name)->make(context);
-  simulation::World world(experiment, simulation::make_dts(experiment));
-  const auto observe = [&] {
-    const studies::Observation seen = observer.observe(world.state());
-    for (const auto& [name, metric] : metrics) metric->observe(seen);
-  };
-  observe();
-  while (world.state().time < duration - 0.5 * experiment.deltat) {
-    if (!world.step().ok()) return {};
-    observe();
-  }
-  const auto value = [&](const char* name) { return metrics[name]->value().value_or(-1.); };
-  return {true,
-          value("fell") > 0.,
-          value("walking_speed"),
-          value("foot_slip"),
-          value("penetration_max"),
-          value("tilt_max")};
+Walk short_walk(const std::string& scene, const Parameters& parameters) {
+  return walk(scene, parameters, settle, 6.);
 }
 
 /// A scene, what it is given, how far the speed may be from the command, how much of the way feet
@@ -68,7 +37,7 @@ TEST_P(WalkingGrounds, WalksAsFastAsToldWithoutFalling) {
   const auto& [walked, cruse] = GetParam();
   Parameters parameters = walked.parameters;
   parameters["cruse"] = std::to_string(cruse);
-  const Walk result = walk(walked.scene, parameters);
+  const Walk result = short_walk(walked.scene, parameters);
   ASSERT_TRUE(result.finished);
   EXPECT_FALSE(result.fell);
   EXPECT_NEAR(result.speed, command, walked.speed_tolerance * command);
@@ -96,13 +65,13 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(WalkingSlope, TheBodyFollowsTheSlopeNotTheLevel) {
   // Parallel to the ground within what the level walk tilts (docs/gaits.md), not to gravity.
-  EXPECT_LT(walk("walking_slope.hook", {}).tilt, 0.02);
+  EXPECT_LT(short_walk("walking_slope.hook", {}).tilt, 0.02);
 }
 
 TEST(WalkingLate, FallsWhereALegsLoopIsUnstableAndNotWhereGoalsAloneAreLate) {
   // K = 20 1/s bears pi/2/K = 78 ms.
-  EXPECT_TRUE(walk("walking_late.hook", {{"delay", "100 ms"}, {"rate", "1000 Hz"}}).fell);
-  const Walk local = walk("walking_late.hook", {{"delay", "100 ms"}, {"local_joints", "1"}});
+  EXPECT_TRUE(short_walk("walking_late.hook", {{"delay", "100 ms"}, {"rate", "1000 Hz"}}).fell);
+  const Walk local = short_walk("walking_late.hook", {{"delay", "100 ms"}, {"local_joints", "1"}});
   ASSERT_TRUE(local.finished);
   EXPECT_FALSE(local.fell);
   EXPECT_NEAR(local.speed, command, 0.2 * command);

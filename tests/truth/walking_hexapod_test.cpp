@@ -12,7 +12,7 @@
 #include <numbers>
 #include <string>
 
-#include "simulation/engine/dts_engine.h"
+#include "simulation/dts_engine/dts_engine.h"
 #include "simulation/run/world.h"
 #include "tests/support/scene.h"
 

@@ -103,7 +103,7 @@ TEST(Maps, AreAsTheirClosedFormsSay) {
   const auto stability =
       work.hookpoint("study " + config("studies/stability_map.hook") + " --quick --out stability");
   EXPECT_EQ(stability.status, 0) << stability.out << stability.err;
-  EXPECT_NE(stability.out.find("broke off as foretold; 18 of 18 verdicts hold"), std::string::npos)
+  EXPECT_NE(stability.out.find("broke off as expected; 18 of 18 verdicts hold"), std::string::npos)
       << stability.out;
   const auto threshold = work.hookpoint("study " + config("studies/threshold_map.hook") +
                                         " --quick --only hookpoint --out threshold");
@@ -125,6 +125,80 @@ TEST(Wall, FailsWhereATruthDoes) {
   EXPECT_NE(result.out.find("drop.wrong under ours"), std::string::npos) << result.out;
   EXPECT_EQ(result.out.find("drop.right under ours"), std::string::npos) << result.out;
   EXPECT_NE(result.out.find("1 of 2 verdicts hold"), std::string::npos) << result.out;
+}
+
+/// A box that falls, in a scene without ground: its law is the scene's own under any Subject.
+void make_drop(const Workplace& work, const std::string& expects) {
+  work.file("drop.hook",
+            "World w { gravity = 9.81; deltat = 1 ms; duration = 1 s; integrator = rk4;\n"
+            "  Robot b { Base.mobile { mass = 1; Shape.Box dimensions = 1, 1, 1; } } }\n" +
+                expects);
+  work.file("wall.hook",
+            "Wall one { Subject ours { engine = dts; contact = lugre; } Scene drop { file = "
+            "\"drop.hook\"; } }\n");
+}
+
+TEST(Wall, IsNotGreenWhereAllExpectsOfASceneJudgeNothing) {
+  const Workplace work;
+  make_drop(work,
+            "Expect fall { of = w.b.velocity.z; equals = -9.81 m/s; within = 1; laws = lugre; }\n");
+  const auto result = work.hookpoint("study wall.hook --out here");
+  EXPECT_EQ(result.status, 1) << result.err;
+  EXPECT_NE(result.out.find("0 of 0 verdicts hold, 1 Expect judges nothing"), std::string::npos)
+      << result.out;
+  EXPECT_NE(result.out.find("not judged: Expect drop.fall: it covers neither"), std::string::npos)
+      << result.out;
+  const std::string page = work.read("here/report.html");
+  EXPECT_NE(page.find("✗ No verdict, 1 Expect judges nothing"), std::string::npos);
+  EXPECT_NE(page.find("Not judged: Expect drop.fall"), std::string::npos);
+}
+
+TEST(Wall, LetsAnExpectOfAnotherLawJudgeNothing) {
+  const Workplace work;
+  make_drop(work,
+            "Expect fall { of = w.b.velocity.z; equals = -9.81 m/s; within = 1; laws = lugre; }\n"
+            "Expect drop { of = w.b.velocity.z; equals = -9.81 m/s; tolerance = 0.001 %; }\n");
+  const auto result = work.hookpoint("study wall.hook --out here");
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.out.find("1 of 1 verdicts hold, 1 Expect judges nothing, as it may"),
+            std::string::npos)
+      << result.out;
+}
+
+TEST(Wall, WithoutARunIsAnError) {
+  const Workplace work;
+  work.file("empty.hook", "Wall one { Subject ours { engine = dts; } }\n");
+  const auto result = work.hookpoint("study empty.hook --out here");
+  EXPECT_EQ(result.status, 2) << result.out;
+  EXPECT_NE(result.err.find("empty.hook:1:1: error: the Wall has no run"), std::string::npos)
+      << result.err;
+}
+
+TEST(Wall, RunsASceneInWhichNothingMoves) {
+  const Workplace work;
+  work.file(
+      "clock.hook",
+      "World w { deltat = 1 ms; duration = 0.5 s; Expression twice { formula = \"2 * time\"; } "
+      "}\nExpect end { of = w.twice.output; take = final; equals = 1; within = 1e-9; }\n");
+  work.file("wall.hook",
+            "Wall one { Subject ours { engine = dts; } Scene clock { file = \"clock.hook\"; } }\n");
+  const auto result = work.hookpoint("study wall.hook --out here");
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.out.find("1 of 1 verdicts hold"), std::string::npos) << result.out;
+}
+
+TEST(Wall, JudgesARunThatEndsByItself) {
+  const Workplace work;
+  work.file(
+      "quits.hook",
+      "World w { deltat = 1 ms; duration = 0.5 s; Expression late { formula = \"time > 0.2 s\"; "
+      "Wire TO Simulator.quit; } }\n"
+      "Expect end { of = w.time; take = final; equals = 0.2 s; within = 2 ms; }\n");
+  work.file("wall.hook",
+            "Wall one { Subject ours { engine = dts; } Scene quits { file = \"quits.hook\"; } }\n");
+  const auto result = work.hookpoint("study wall.hook --out here");
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.out.find("1 of 1 verdicts hold"), std::string::npos) << result.out;
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // `hookpoint tune` with a Calibrate as a user runs it: what it prints, leaves and returns.
 #include <gtest/gtest.h>
 
-#include "output/text/csv.h"
+#include "output/files/csv.h"
 #include "tests/support/child_process.h"
 #include "tests/support/command.h"
 
@@ -32,18 +32,46 @@ TEST(CalibrateCommand, TheExampleFindsTheTruthOfItsDrop) {
     if (row[1] == "normal_stiffness") stiffness = std::stod(row[3]);
     if (row[1] == "hysteresis_damping") hysteresis = std::stod(row[3]);
   }
-  EXPECT_NEAR(stiffness, 200., 40.) << result.out;  // scripts/drop_data
+  EXPECT_NEAR(stiffness, 200., 40.) << result.out;  // configs/data/make_drop.py
   EXPECT_NEAR(hysteresis, 0.5, 0.05) << result.out;
 }
 
 TEST(CalibrateCommand, TheExamplesDataAreWhatTheirScriptMakes) {
   const Workplace place;
-  ASSERT_EQ(std::system(("'" HOOKPOINT_SOURCE_DIR "/scripts/drop_data' > '" +
+  ASSERT_EQ(std::system(("'" HOOKPOINT_SOURCE_DIR "/configs/data/make_drop.py' > '" +
                          (place.folder() / "drop.csv").string() + "'")
                             .c_str()),
             0);
   EXPECT_EQ(place.read("drop.csv"),
             testing::read_file(HOOKPOINT_SOURCE_DIR "/configs/data/drop.csv"));
+}
+
+// In free flight no constant of the ground changes the height: the fit judged nothing.
+TEST(CalibrateCommand, AConstantThatChangesNoTraceIsAFault) {
+  const Workplace place;
+  place.file("flight.csv", "time [s],z [m]\n0,0.1\n0.01,0.0995\n0.02,0.098\n0.03,0.0956\n");
+  const auto tune = [&](const std::string& word) {
+    place.file("drop.hook", R"(Calibrate floor {
+  scene = "scenes/dropped_box.hook";
+  Trace drop { file = "flight.csv"; column = "z [m]"; of = world.box.base.location.z; weight = 1 / (0.5 mm); )" +
+                                word + R"( }
+  Vary normal_stiffness { from = 5 kN/m; to = 50 kN/m; }
+  subjects = hookpoint; starts = 2; resamples = 2;
+}
+)");
+    return place.hookpoint("tune drop.hook --out out");
+  };
+  const CommandResult result = tune("");
+  EXPECT_EQ(result.status, 1) << result.out;
+  EXPECT_NE(result.err.find("floor: Subject hookpoint: none of the constants changes a trace"),
+            std::string::npos)
+      << result.err;
+  EXPECT_NE(place.read("out/report.html").find("1 Subject judges nothing"), std::string::npos);
+  const CommandResult allowed = tune("may_be_empty = true;");
+  EXPECT_EQ(allowed.status, 0) << allowed.err;
+  EXPECT_EQ(allowed.err.find("error"), std::string::npos) << allowed.err;
+  EXPECT_NE(place.read("out/report.html").find("1 Subject judges nothing, as it may"),
+            std::string::npos);
 }
 
 TEST(CalibrateCommand, RefusesABadTraceWithItsPlace) {
@@ -78,7 +106,7 @@ TEST(CalibrateCommand, InterruptedItLeavesWhatIsKnownAndGoesOn) {
   })) << calibrating.err();
   calibrating.signal(SIGINT);
   EXPECT_EQ(calibrating.wait(), 130);
-  EXPECT_NE(calibrating.err().find("--resume` goes on from there"), std::string::npos)
+  EXPECT_NE(calibrating.err().find("--resume` continues from there"), std::string::npos)
       << calibrating.err();
   EXPECT_NE(place.read("out/report.html").find("Interrupted"), std::string::npos);
   EXPECT_EQ(place.hookpoint("tune drop.hook --out out --resume").status, 0);

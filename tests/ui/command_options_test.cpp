@@ -6,11 +6,11 @@
 #include <set>
 #include <sstream>
 
-#include "application/application.h"
-#include "cli/described.h"
+#include "apps/cli/described.h"
+#include "apps/shared/application.h"
 #include "contact/force_law.h"
 #include "integrators/stepper.h"
-#include "studies/metric.h"
+#include "studies/measure/metric.h"
 #include "tests/support/command.h"
 #include "tests/support/message_rules.h"
 #include "tests/support/text.h"

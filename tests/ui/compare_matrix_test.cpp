@@ -7,8 +7,8 @@
 #include <sstream>
 #include <string>
 
-#include "output/text/json_reader.h"
 #include "tests/support/falling_ball.h"
+#include "text/json_reader.h"
 
 namespace hookpoint {
 namespace {
@@ -21,7 +21,7 @@ using testing::Workplace;
 constexpr double pi = 3.14159265358979323846;
 
 std::map<std::string, std::string> leaves(const std::string& json) {
-  const auto all = output::json_leaves(json);
+  const auto all = text::json_leaves(json);
   EXPECT_TRUE(all.has_value()) << json;
   return all ? std::map<std::string, std::string>(all->begin(), all->end())
              : std::map<std::string, std::string>();

@@ -22,7 +22,7 @@ TEST(DocumentedTables, TheCreepOfEveryPeerIsThatOfItsStudy) {
       results + output;
   ASSERT_EQ(std::system(run.c_str()), 0) << work.read("out");
   for (const std::string table : {"peer_creep", "readme_creep"}) {
-    const std::string check = "'" HOOKPOINT_SOURCE_DIR "/scripts/documented_tables' --check " +
+    const std::string check = "'" HOOKPOINT_SOURCE_DIR "/docs/make/documented_tables' --check " +
                               table + " " + results + output;
     EXPECT_EQ(std::system(check.c_str()), 0) << table << "\n" << work.read("out");
   }
@@ -32,14 +32,14 @@ TEST(DocumentedTables, TheWalksOnSevenGroundsAreThoseOfTheirStudy) {
   const testing::Workplace work;
   const std::string command = "HOOKPOINT='" HOOKPOINT_BINARY_DIR
                               "/hookpoint' '" HOOKPOINT_SOURCE_DIR
-                              "/scripts/documented_tables' --check terrains >'" +
+                              "/docs/make/documented_tables' --check terrains >'" +
                               (work.folder() / "out").string() + "' 2>&1";
   EXPECT_EQ(std::system(command.c_str()), 0) << work.read("out");
 }
 
 TEST(DocumentedTables, TheTunedGroundsAreThoseOfTheirMaterials) {
   const testing::Workplace work;
-  const std::string command = "'" HOOKPOINT_SOURCE_DIR "/scripts/tuned_grounds' --check >'" +
+  const std::string command = "'" HOOKPOINT_SOURCE_DIR "/docs/papers/terrains/make.py' --check >'" +
                               (work.folder() / "out").string() + "' 2>&1";
   EXPECT_EQ(std::system(command.c_str()), 0) << work.read("out");
 }

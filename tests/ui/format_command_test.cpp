@@ -11,7 +11,7 @@ using testing::CommandResult;
 using testing::count;
 using testing::Workplace;
 
-const std::string mjcf = "<mujoco model=\"go2\">\n  <worldbody/>\n</mujoco>\n";
+const std::string sdf = "<sdf version=\"1.6\">\n  <world/>\n</sdf>\n";
 const std::string ball =
     "World w { deltat = 1 ms; duration = 1 ms; Terrain.Flat g; Robot b { Base.mobile { rest_on = "
     "g; Shape.Sphere { radius = 0.1; mass = 1; } } } }\n";
@@ -25,19 +25,19 @@ void expect_named(const CommandResult& result, const std::string& format) {
 
 TEST(FormatCommand, FilesOfOtherProgramsAreNamed) {
   const Workplace work;
-  work.file("go2.xml", mjcf);
-  for (const char* command : {"run go2.xml", "check go2.xml", "print go2.xml", "fmt go2.xml",
-                              "view go2.xml --no-open", "dynamics go2.xml", "ports go2.xml",
-                              "study go2.xml", "tune go2.xml", "advise go2.xml", "go2.xml"})
-    expect_named(work.hookpoint(command), "MJCF");
+  work.file("go2.sdf", sdf);
+  for (const char* command : {"run go2.sdf", "check go2.sdf", "print go2.sdf", "fmt go2.sdf",
+                              "view go2.sdf --no-open", "dynamics go2.sdf", "ports go2.sdf",
+                              "study go2.sdf", "tune go2.sdf", "advise go2.sdf", "go2.sdf"})
+    expect_named(work.hookpoint(command), "SDF");
 }
 
 TEST(FormatCommand, AnIncludeNamesItWithoutSpeakingOfArguments) {
   const Workplace work;
-  work.file("go2.xml", mjcf);
-  work.file("scene.hook", "World w { Include \"go2.xml\" (name = go2, rest_on = g); }\n");
+  work.file("go2.sdf", sdf);
+  work.file("scene.hook", "World w { Include \"go2.sdf\" (name = go2, rest_on = g); }\n");
   const CommandResult result = work.hookpoint("check scene.hook");
-  expect_named(result, "MJCF");
+  expect_named(result, "SDF");
   EXPECT_NE(result.err.find("included here"), std::string::npos) << result.err;
 }
 

@@ -21,16 +21,15 @@ TEST(Grammar, IsThatOfThisProgram) {
   const Workplace work;
   const auto described = work.hookpoint("describe --textmate");
   EXPECT_EQ(described.status, 0) << described.err;
-  EXPECT_EQ(described.out, work.read(source / "editors/vscode/syntaxes/hook.tmLanguage.json"))
-      << "hookpoint describe --textmate > editors/vscode/syntaxes/hook.tmLanguage.json";
+  EXPECT_EQ(described.out,
+            work.read(source / "language/editors/vscode/syntaxes/hook.tmLanguage.json"))
+      << "hookpoint describe --textmate > language/editors/vscode/syntaxes/hook.tmLanguage.json";
 }
 
 /// The class of each token of a file, by what the parser made of it.
 class Truth {
  public:
-  explicit Truth(const std::string& text) {
-    file_.source.text = text;
-    index_lines(file_.source);
+  explicit Truth(const std::string& text) : source_(source_file("", text)) {
     parse(file_);
     mark(file_.syntax.top);
     for (const Argument& argument : file_.syntax.arguments) mark(argument.name, "field");
@@ -75,7 +74,8 @@ class Truth {
     return marked == kinds_.end() ? "other" : marked->second;
   }
 
-  ParsedFile file_;
+  SourceFile source_;
+  ParsedFile file_{source_};
   std::map<std::size_t, std::string> kinds_;
 };
 
@@ -92,7 +92,7 @@ class Colours : public ::testing::Test {
     const std::string list = work_.file("list", list_);
     const std::string command =
         "python3 '" + (source / "tests/support/grammar/compare.py").string() + "' '" +
-        (source / "editors/vscode/syntaxes/hook.tmLanguage.json").string() + "' '" + list +
+        (source / "language/editors/vscode/syntaxes/hook.tmLanguage.json").string() + "' '" + list +
         "' > '" + (work_.folder() / "said").string() + "' 2>&1";
     const int status = std::system(command.c_str());
     return status == 0 ? "" : work_.read("said");

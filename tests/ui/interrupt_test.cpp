@@ -154,7 +154,7 @@ TEST(InterruptedStudy, BeginsNoOther) {
       << study.err();
   study.signal(SIGINT);
   EXPECT_EQ(study.wait(), 130);
-  EXPECT_NE(study.err().find("--resume` goes on from there"), std::string::npos) << study.err();
+  EXPECT_NE(study.err().find("--resume` continues from there"), std::string::npos) << study.err();
   EXPECT_FALSE(fs::exists(place.folder() / "out/second"));
 }
 

@@ -51,7 +51,7 @@ class ReplayWindow : public ::testing::Test {
   /// Values by `read`, in the order of `trails`.
   std::vector<double> values(const std::string& answer) {
     std::vector<double> all;
-    const auto leaves = output::json_leaves(answer);
+    const auto leaves = text::json_leaves(answer);
     if (!leaves) return all;
     for (const auto& [path, value] : *leaves)
       if (path.ends_with("].value")) all.push_back(std::stod(value));

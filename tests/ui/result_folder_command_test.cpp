@@ -2,8 +2,8 @@
 // and compared.
 #include <gtest/gtest.h>
 
-#include "output/result_folder.h"
-#include "output/text/hash.h"
+#include "output/files/hash.h"
+#include "output/files/result_folder.h"
 #include "tests/support/falling_ball.h"
 #include "tests/support/png_file.h"
 #include "tests/support/record_scene.h"
@@ -163,12 +163,12 @@ TEST(Resume, AnInputThatWasEditedIsAnotherExperiment) {
   ASSERT_EQ(white.status, 0) << white.err;
   const std::string stands = work.read("s/results.csv");
   const CommandResult same = work.hookpoint("study study.hook --jobs 1 --resume --out s");
-  EXPECT_EQ(same.err.find("anew"), std::string::npos) << same.err;
+  EXPECT_EQ(same.err.find("run again"), std::string::npos) << same.err;
   write_image(work, '\0');
   const CommandResult black = work.hookpoint("study study.hook --jobs 1 --resume --out s");
   EXPECT_EQ(black.status, 0) << black.err;
   EXPECT_NE(black.err.find("note: 2 of the finished rows are of another study, scene, input file, "
-                           "program or engine, or damaged: they are run anew"),
+                           "program or engine, or damaged: they are run again"),
             std::string::npos)
       << black.err;
   EXPECT_NE(work.read("s/results.csv"), stands);
@@ -222,14 +222,14 @@ TEST(FullDisk, KeepsTheRowsAndSaysHowToGoOn) {
     EXPECT_NE(result.err.find("hookpoint: error: cannot write s/"), std::string::npos)
         << result.err;
     EXPECT_NE(result.err.find("what is finished is kept in s: `hookpoint study study.hook --out s "
-                              "--resume` goes on from there"),
+                              "--resume` continues from there"),
               std::string::npos)
         << result.err;
   }
   const CommandResult resumed = work.hookpoint("study study.hook --jobs 1 --out s --resume");
   EXPECT_EQ(resumed.status, 0) << resumed.err;
   EXPECT_EQ(work.read("s/results.csv"), work.read("whole/results.csv"));
-  EXPECT_EQ(resumed.err.find("anew"), std::string::npos) << resumed.err;
+  EXPECT_EQ(resumed.err.find("run again"), std::string::npos) << resumed.err;
   EXPECT_FALSE(work.read("s/report.html").empty());
 }
 

@@ -181,7 +181,7 @@ TEST_F(Slurm, WhatADeadFrontEndLeftIsTakenUp) {
       work_.hookpoint("study study.hook --slurm --resume --chunk 8 --out dead");
   EXPECT_EQ(resumed.status, 0) << resumed.err;
   EXPECT_NE(resumed.err.find("is still in Slurm's queue"), std::string::npos) << resumed.err;
-  EXPECT_EQ(resumed.err.find("anew"), std::string::npos) << resumed.err;
+  EXPECT_EQ(resumed.err.find("run again"), std::string::npos) << resumed.err;
   expect_same("dead");
 }
 
@@ -210,7 +210,7 @@ TEST_F(Slurm, ATaskThatFailsTwiceSaysWhy) {
   ASSERT_TRUE(cluster_->release());
   EXPECT_EQ(front.wait(), 1);
   EXPECT_NE(front.err().find("failed twice: "), std::string::npos) << front.err();
-  EXPECT_NE(front.err().find("this is not the run that was asked for"), std::string::npos)
+  EXPECT_NE(front.err().find("this is not the run that was requested"), std::string::npos)
       << front.err();
 }
 

@@ -32,14 +32,14 @@ TEST(StudyBudget, ASweepOfTooManyValuesIsRefused) {
       run_study(place, "  Sweep mass { from = 1 kg; to = 2 kg; step = 1e-12 kg; }\n");
   EXPECT_EQ(stepped.status, wrong_input);
   EXPECT_NE(
-      stepped.err.find("many.hook:3:47: error: the Sweep asks for 1e+12 values, more than the "
+      stepped.err.find("many.hook:3:47: error: the Sweep requires 1e+12 values, more than the "
                        "1000000 allowed"),
       std::string::npos)
       << stepped.err;
   const CommandResult counted =
       run_study(place, "  Sweep mass { from = 1 kg; to = 2 kg; count = 1e12; }\n");
   EXPECT_EQ(counted.status, wrong_input);
-  EXPECT_NE(counted.err.find("the Sweep asks for 1e+12 values"), std::string::npos) << counted.err;
+  EXPECT_NE(counted.err.find("the Sweep requires 1e+12 values"), std::string::npos) << counted.err;
   const CommandResult half =
       run_study(place, "  Sweep mass { from = 1 kg; to = 2 kg; count = 2.5; }\n");
   EXPECT_EQ(half.status, wrong_input);
@@ -80,7 +80,7 @@ TEST(StudyBudget, RunsAreCountedOverAllSweeps) {
                 "  Sweep mass { from = 1 kg; to = 2 kg; count = 2000; }\n"
                 "  Sweep height { from = 1 m; to = 2 m; count = 3000; }\n");
   EXPECT_EQ(result.status, wrong_input);
-  EXPECT_NE(result.err.find("the study's sweeps and subjects ask for 6e+06 runs, more than the "
+  EXPECT_NE(result.err.find("the study's sweeps and subjects require 6e+06 runs, more than the "
                             "1000000 allowed"),
             std::string::npos)
       << result.err;

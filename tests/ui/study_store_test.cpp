@@ -52,7 +52,7 @@ TEST_F(StudyStore, OfAFullDiskKeepsTheRunsAndGoesOn) {
     }
     const CommandResult resumed = work_.hookpoint("study study.hook --out s --resume");
     EXPECT_EQ(resumed.status, 0) << resumed.err;
-    EXPECT_EQ(resumed.err.find("anew"), std::string::npos) << resumed.err;
+    EXPECT_EQ(resumed.err.find("run again"), std::string::npos) << resumed.err;
     EXPECT_EQ(work_.read("s/results.csv"), work_.read("whole/results.csv"));
   }
   EXPECT_GE(met, 2);

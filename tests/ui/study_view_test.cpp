@@ -7,11 +7,11 @@
 #include <map>
 #include <set>
 
-#include "output/text/json_reader.h"
 #include "tests/support/child_process.h"
 #include "tests/support/chromium.h"
 #include "tests/support/command.h"
 #include "tests/support/window_client.h"
+#include "text/json_reader.h"
 
 namespace hookpoint {
 namespace {
@@ -47,6 +47,14 @@ std::string small_study() {
   return text;
 }
 
+// Which is still running when the test has said what it has to.
+std::string long_study() {
+  std::string text = small_study();
+  const std::string duration = "duration = 0.2 s";
+  text.replace(text.find(duration), duration.size(), "duration = 500 s");
+  return text;
+}
+
 /// The whole first line of standard output: none before it is there.
 std::string first_line(const std::string& out) {
   const std::size_t end = out.find('\n');
@@ -67,7 +75,7 @@ Told listen(WindowClient& client) {
   while (told.report.empty()) {
     const auto message = client.hear();
     if (!message) return told;
-    const auto leaves = output::json_leaves(*message);
+    const auto leaves = text::json_leaves(*message);
     EXPECT_TRUE(leaves) << *message;
     if (!leaves) return told;
     Leaves read(leaves->begin(), leaves->end());
@@ -169,7 +177,7 @@ TEST_F(StudyView, ARowsWindowHasAFolderOfItsOwn) {
   listen(client);
   for (const char* row : {"0", "1"}) {
     const auto answer =
-        output::json_leaves(client.ask("open", std::string(R"("study": 0, "row": )") + row));
+        text::json_leaves(client.ask("open", std::string(R"("study": 0, "row": )") + row));
     ASSERT_TRUE(answer);
     const Leaves opened(answer->begin(), answer->end());
     ASSERT_TRUE(opened.contains("url")) << process.err();
@@ -216,9 +224,7 @@ TEST_F(StudyView, WhatIsNoRequestIsAnsweredByItsReason) {
 }
 
 TEST_F(StudyView, QuitInTheMidstIsAnInterruptThatMayBeResumed) {
-  std::string longer = small_study();
-  longer.replace(longer.find("duration = 0.2 s"), 16, "duration = 500 s");
-  work_.file("watched.hook", longer);
+  work_.file("watched.hook", long_study());
   ChildProcess process(work_.folder(), words("out"));
   WindowClient client(wait_for_url(process));
   ASSERT_TRUE(client.connected()) << process.err();
@@ -229,7 +235,7 @@ TEST_F(StudyView, QuitInTheMidstIsAnInterruptThatMayBeResumed) {
 }
 
 TEST_F(StudyView, APortThatIsTakenIsToldWithWhatToDo) {
-  work_.file("watched.hook", small_study());
+  work_.file("watched.hook", long_study());  // The port is taken as long as the study runs.
   ChildProcess first(work_.folder(), words("first"));
   const std::string url = wait_for_url(first);
   const std::string port = url.substr(17, url.find('/', 17) - 17);

@@ -49,6 +49,60 @@ TEST(TuneCommand, LeavesWhatItSaysAndExitsWithZero) {
   EXPECT_EQ(place.hookpoint("tune.hook --out out --resume").status, 0);
 }
 
+// The friction of a block on level ground changes nothing: the tuning judged nothing.
+TEST(TuneCommand, AnObjectiveThatNoConstantChangesIsAFault) {
+  const Workplace place;
+  place.file("block.hook", block);
+  place.file("tune.hook", R"(Tune idle {
+  scene = "block.hook"; duration = 0.1 s;
+  Vary static_friction { from = 0.5; to = 1; }
+  Objective penetration_max { minimise; }
+  population = 8; generations = 2; seeds = 1; samples = 0;
+}
+)");
+  const CommandResult result = place.hookpoint("tune tune.hook --out out --jobs 2");
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.err.find("idle: Objective penetration_max: the same for every candidate"),
+            std::string::npos)
+      << result.err;
+  EXPECT_NE(place.read("out/report.html").find("1 Objective judges nothing"), std::string::npos);
+}
+
+// The block never rises by a metre: neither what is required of that time nor what is minimised has
+// a value.
+TEST(TuneCommand, BlocksThatMayBeEmptyAreNoFault) {
+  const Workplace place;
+  place.file("block.hook", block);
+  const auto tune = [&](const std::string& word) {
+    place.file("tune.hook", R"(Tune idle {
+  scene = "block.hook"; duration = 0.1 s;
+  Vary static_friction { from = 0.5; to = 1; }
+  Measure risen { of = block.position.z; take = time_at; level = 1 m; }
+  Measure late { of = block.position.z; take = time_at; level = 2 m; }
+  Objective penetration_max { minimise; )" +
+                                word + R"( }
+  Objective late { target = 1 s; )" +
+                                word + R"( }
+  Require risen { below = 1 s; )" +
+                                word + R"( }
+  population = 8; generations = 2; seeds = 1; samples = 0;
+}
+)");
+    return place.hookpoint("tune tune.hook --out out --jobs 2");
+  };
+  const CommandResult fault = tune("");
+  EXPECT_EQ(fault.status, 1) << fault.err;
+  EXPECT_NE(fault.err.find("Require risen: no candidate has a value of risen"), std::string::npos)
+      << fault.err;
+  const CommandResult allowed = tune("may_be_empty = true;");
+  EXPECT_EQ(allowed.status, 0) << allowed.err;
+  EXPECT_EQ(allowed.err.find("error"), std::string::npos) << allowed.err;
+  EXPECT_NE(place.read("out/report.html")
+                .find("✓ The recommended constants meet all requirements; 2 Objectives judge "
+                      "nothing, as they may, 1 Require judges nothing, as it may."),
+            std::string::npos);
+}
+
 TEST(TuneCommand, BringsAMeasureToItsTarget) {
   const Workplace place;
   place.file("block.hook", block);
@@ -129,7 +183,7 @@ TEST(TuneCommand, InterruptedItLeavesWhatIsKnownAndGoesOn) {
   })) << tuning.err();
   tuning.signal(SIGINT);
   EXPECT_EQ(tuning.wait(), 130);
-  EXPECT_NE(tuning.err().find("--resume` goes on from there"), std::string::npos) << tuning.err();
+  EXPECT_NE(tuning.err().find("--resume` continues from there"), std::string::npos) << tuning.err();
   EXPECT_NE(place.read("out/recommended.json").find("\"complete\": false"), std::string::npos);
   EXPECT_NE(place.read("out/report.html").find("Interrupted"), std::string::npos);
   EXPECT_EQ(place.hookpoint("tune tune.hook --out out --resume").status, 0);

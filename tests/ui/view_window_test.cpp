@@ -8,10 +8,10 @@
 #include <map>
 #include <memory>
 
-#include "output/text/json_reader.h"
 #include "tests/support/child_process.h"
 #include "tests/support/command.h"
 #include "tests/support/window_client.h"
+#include "text/json_reader.h"
 
 namespace hookpoint {
 namespace {
@@ -61,7 +61,7 @@ class ViewWindow : public ::testing::Test {
   /// What is answered to request `id`; what comes before it is dropped.
   Leaves hear(int id) {
     while (const auto message = client->hear()) {
-      const auto leaves = output::json_leaves(*message);
+      const auto leaves = text::json_leaves(*message);
       if (!leaves) continue;
       Leaves read(leaves->begin(), leaves->end());
       if (read["id"] == std::to_string(id)) return read;
@@ -153,7 +153,7 @@ TEST_F(ViewWindow, WhatHasEndedIsNotChanged) {
   EXPECT_EQ(ask("seek", "\"time\": 0.05")["ok"], "true");
   for (const Leaves& answer : {ask("set", "\"values\": {\"sideways.value\": 1}"),
                                edit("slope", "10 deg"), ask("step"), ask("run")})
-    EXPECT_EQ(answer.at("error"), "the run has ended; reset begins it anew");
+    EXPECT_EQ(answer.at("error"), "the run has ended; reset starts it again");
   say("quit");
   EXPECT_EQ(ends(), 0) << program->err();
   EXPECT_FALSE(whole.empty());
@@ -212,6 +212,7 @@ TEST_F(ViewWindow, DisplacementsAreSinceTheStartThroughHistoryAndChange) {
     const std::size_t begin = alone.find(line);
     alone.erase(begin, alone.find('\n', begin) - begin);
   }
+  alone.replace(alone.find("rest_on = ground;"), 17, "rest_on = ground; settled = false;");
   place.file("scene.hook", alone);
   open({"--with", "rk4"});
   ask("pause");
@@ -273,10 +274,10 @@ TEST_F(ViewWindow, AFileThatIsSavedBrokenLeavesTheRunAsItWas) {
   for (std::size_t at; (at = renamed.find("block")) != std::string::npos;)
     renamed.replace(at, 5, "crate");
   place.file("scene.hook", renamed);
-  EXPECT_TRUE(told("the run goes on as it was"));
+  EXPECT_TRUE(told("the run continues as it was"));
   EXPECT_EQ(read("w.time"), before);
   place.file("scene.hook", "World w {");
-  EXPECT_TRUE(told("the run goes on as it was"));
+  EXPECT_TRUE(told("the run continues as it was"));
   EXPECT_NE(ask("patch")["error"], "");
   step(20);
   EXPECT_NEAR(read("w.time"), before + 0.02, 1e-12);

@@ -22,17 +22,17 @@ CommandResult limited(const Workplace& place, int kilobytes, const std::string& 
           place.read(".err")};
 }
 
-/// A box on steps whose cells are that wide.
-std::string on_steps(const std::string& engine, const std::string& spacing) {
+/// A box on rough ground whose cells are that wide.
+std::string on_rough_ground(const std::string& engine, const std::string& spacing) {
   return "World w { deltat = 1 ms; duration = 2 ms; engine = " + engine +
-         "; Terrain.Steps g { height = 0.01; run = 0.5; spacing = " + spacing +
+         "; Terrain.Rough g { amplitude = 0.01; wavelength = 0.5; seed = 1; spacing = " + spacing +
          "; } Robot r { Base.mobile { location = 0, 0, 0.05; Shape.Box { dimensions = 0.1, 0.1, "
          "0.1; mass = 1; } } } }";
 }
 
 TEST(WorkBounds, GroundThatALibraryCannotHoldIsWrongInput) {
   const Workplace place;
-  const std::string file = place.file("fine.hook", on_steps("ode", "0.003"));
+  const std::string file = place.file("fine.hook", on_rough_ground("ode", "0.003"));
   const CommandResult result = place.hookpoint("run '" + file + "' --out out");
   EXPECT_EQ(result.status, 2) << result.err;
   EXPECT_NE(result.err.find("raise its spacing"), std::string::npos) << result.err;
@@ -41,7 +41,7 @@ TEST(WorkBounds, GroundThatALibraryCannotHoldIsWrongInput) {
 #ifndef __SANITIZE_ADDRESS__
 TEST(WorkBounds, TooLittleMemoryIsStatusThreeInWords) {
   const Workplace place;
-  const std::string file = place.file("fine.hook", on_steps("ode", "0.0072"));
+  const std::string file = place.file("fine.hook", on_rough_ground("ode", "0.0072"));
   const CommandResult result = limited(place, 900000, "run '" + file + "' --out out");
   EXPECT_EQ(result.status, 3) << result.err;
   EXPECT_NE(result.err.find("not enough memory"), std::string::npos) << result.err;

@@ -21,7 +21,7 @@ struct AsciiGrid {
 /// The grid, or what is wrong with the file and where.
 struct AsciiGridResult {
   std::optional<AsciiGrid> grid;
-  std::string message;  ///< for people; empty when there is a grid
+  std::string message;  ///< for the user; empty when there is a grid
   int line = 0;         ///< of the mistake, from 1; 0 when it is not in one line
 };
 

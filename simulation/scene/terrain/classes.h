@@ -23,7 +23,8 @@ void add_grid_class(language::Schema& schema);
 void add_rough_class(language::Schema& schema);
 void add_steps_class(language::Schema& schema);
 
-// The heights of an object of each class; the edge of its cells goes to `terrain`. Errors are told.
+// The heights of an object of each class; the edge of its cells goes to `terrain`. Errors are
+// reported.
 
 GridSpec load_grid(const language::Object& object, TerrainSpec& terrain, Loading& loading);
 GridSpec load_rough(const language::Object& object, TerrainSpec& terrain, Loading& loading);

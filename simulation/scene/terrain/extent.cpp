@@ -1,8 +1,11 @@
 // How far a computed ground reaches.
-#include "simulation/scene/fields.h"
+#include "language/tree/fields.h"
 #include "simulation/scene/terrain/classes.h"
 
 namespace hookpoint::simulation {
+
+using language::FieldSchema;
+using language::list_field;
 
 FieldSchema grid_size_field() {
   return positive(list_field(size_field, "m", 1, 2, "10",

@@ -4,13 +4,19 @@
 #include <algorithm>
 #include <cctype>
 
-#include "formats/formats.h"
-#include "simulation/scene/fields.h"
+#include "language/tree/fields.h"
 #include "simulation/scene/terrain/ascii_grid.h"
 #include "simulation/scene/terrain/classes.h"
 #include "simulation/scene/terrain/png_grid.h"
+#include "text/formats.h"
 
 namespace hookpoint::simulation {
+
+using language::Fields;
+using language::list_field;
+using language::number_field;
+using language::text_field;
+
 namespace {
 
 namespace grid_field {
@@ -68,7 +74,7 @@ std::optional<AsciiGrid> read_heights(const language::Object& object, Loading& l
   const std::string& name = object.word(grid_field::file);
   const std::filesystem::path path = find_file(name, place, loading);
   if (path.empty()) return std::nullopt;
-  if (const std::string refusal = formats::refusal(path, formats::Use::heights); !refusal.empty()) {
+  if (const std::string refusal = text::refusal(path, text::Use::heights); !refusal.empty()) {
     loading.error(place, fmt::format("\"{}\" cannot be read as heights: {}", name, refusal));
     return std::nullopt;
   }

@@ -17,7 +17,7 @@ struct PngGrid {
 /// The grid, or what is wrong with the file.
 struct PngGridResult {
   std::optional<PngGrid> grid;
-  std::string message;  ///< for people; empty when there is a grid
+  std::string message;  ///< for the user; empty when there is a grid
 };
 
 /// Reads a PNG of 8 or 16 bits of gray, not interlaced. The image's top row is the greatest y, as

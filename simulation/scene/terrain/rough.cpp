@@ -1,8 +1,15 @@
 // Terrain.Rough: smooth random ground.
-#include "simulation/scene/fields.h"
+#include "language/tree/fields.h"
 #include "simulation/scene/terrain/classes.h"
 
 namespace hookpoint::simulation {
+
+using language::append;
+using language::Fields;
+using language::FieldSchema;
+using language::integer_field;
+using language::number_field;
+
 namespace {
 
 const Fields<RoughGround>& rough_fields() {

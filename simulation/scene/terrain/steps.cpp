@@ -1,8 +1,15 @@
 // Terrain.Steps: stairs.
-#include "simulation/scene/fields.h"
+#include "language/tree/fields.h"
 #include "simulation/scene/terrain/classes.h"
 
 namespace hookpoint::simulation {
+
+using language::append;
+using language::Fields;
+using language::FieldSchema;
+using language::integer_field;
+using language::number_field;
+
 namespace {
 
 const Fields<StepsGround>& steps_fields() {
@@ -30,8 +37,8 @@ void add_steps_class(language::Schema& schema) {
                   grid_size_field()});
   schema.add(terrain_class(
       "Terrain.Steps",
-      "stairs along +x turned by azimuth about z; a riser is a ramp one cell wide, at the foot of "
-      "its tread",
+      "stairs along +x turned by azimuth about z; under touch = points a riser is a ramp one cell "
+      "wide, at the foot of its tread",
       std::move(fields)));
 }
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-#include "simulation/experiment.h"
+#include "simulation/experiment/experiment.h"
 
 namespace hookpoint::simulation {
 

@@ -20,6 +20,15 @@ std::string steps_problem(const StepsGround& steps, const Extent& extent) {
 [[gnu::flatten]] GridSpec steps_surface(const StepsGround& steps, const Extent& extent) {
   GridSpec grid = level_grid(extent);
   const SineCosine<double> uphill = polynomial_sine_cosine(steps.azimuth);
+  const double farthest = std::abs(uphill.cosine) * grid.columns * extent.spacing / 2. +
+                          std::abs(uphill.sine) * grid.rows * extent.spacing / 2.;
+  const double to_the_edge = std::max(0., std::ceil((farthest - steps.from) / steps.run));
+  if (steps.height != 0.)
+    grid.stairs = {{uphill.cosine, uphill.sine, 0.},
+                   steps.from,
+                   steps.run,
+                   steps.height,
+                   std::min(steps.count, to_the_edge)};
   const int middle_row = grid.rows / 2, middle_column = grid.columns / 2;
   std::size_t vertex = 0;
   for (int row = 0; row < grid.rows; ++row) {

@@ -1,7 +1,7 @@
 // Springs and dampers by which a robot holds its pose. The joint whose outer bodies reach l [m]
 // carries at most the weight M g at their end, a moment M g l. With
 //   k = M g l/sag     c = 2 sqrt(k I)
-// it gives way by no more than `sag` at rest, and its outer bodies, of moment of inertia I about
+// it deflects by no more than `sag` at rest, and its outer bodies, of moment of inertia I about
 // its axis with the rotor's, come to rest without overshoot while they swing free. A stop as firm
 // as any joint's would ask for steps of microseconds of a finger: it is 10 k at most, and as well
 // damped; so is dry friction while it sticks, by its friction_speed.
@@ -55,8 +55,9 @@ class UrdfHolding {
     const Pose X_BL = X_BP * body.joint_pose;
     const Way way{body, before};
     double lowest = X_BL.position.z;
-    for (const ShapeSpec& shape : body.shapes)
-      lowest = std::min(lowest, (X_BL * Pose{shape.location, shape.orientation}).position.z);
+    for (const UrdfShape& shape : body.shapes)
+      lowest =
+          std::min(lowest, (X_BL * Pose{shape.spec.location, shape.spec.orientation}).position.z);
     for (const Vector3d& point : body.points)
       lowest = std::min(lowest, (X_BL * Pose{point, {}}).position.z);
     lowest_ = std::min(lowest_, lowest);
@@ -79,8 +80,8 @@ class UrdfHolding {
     beyond.mass += mass.mass;
     beyond.inertia += in_joint.inertia.zz + mass.mass * (c.x * c.x + c.y * c.y);
     beyond.reach = std::max({beyond.reach, norm(c), norm(X_JL.position)});
-    for (const ShapeSpec& shape : body.shapes) {
-      const Pose X_JS = X_JL * Pose{shape.location, shape.orientation};
+    for (const UrdfShape& shape : body.shapes) {
+      const Pose X_JS = X_JL * Pose{shape.spec.location, shape.spec.orientation};
       beyond.reach = std::max(beyond.reach, norm(X_JS.position));
     }
     for (const Vector3d& point : body.points)
@@ -91,7 +92,7 @@ class UrdfHolding {
     const bool slides = joint.type == UrdfJointType::prismatic;
     const bool is_leg = mobile_ && beyond.lowest < 0. && beyond.lowest <= 0.5 * lowest_;
     const double weight = standard_gravity * (is_leg ? mass_ : beyond.mass);
-    // A joint that slides gives way by as much as the end of one that turns, and by some.
+    // A joint that slides deflects by as much as the end of one that turns, and by some.
     const double stiffness =
         slides ? weight / (sag_ * std::max(beyond.reach, 0.01)) : weight * beyond.reach / sag_;
     const double moved = (slides ? beyond.mass : beyond.inertia) + joint.rotor_inertia;

@@ -22,13 +22,11 @@ ShapeSpec inertia_box(const MassSpec& body) {
 
 void take_inertia_box(UrdfBody& body) {
   body.shapes.clear();
-  body.shape_places.clear();
   body.points.clear();
   body.point_places.clear();
   const auto& [mass, center, I] = body.mass;
   if (!(mass > 0.) || !(I.xx + I.yy + I.zz > 0.)) return;
-  body.shapes.push_back(inertia_box(body.mass));
-  body.shape_places.push_back(body.inertial_place);
+  body.shapes.push_back({inertia_box(body.mass), body.inertial_place, true, ""});
 }
 
 void take_inertia_boxes(UrdfChain& chain) {

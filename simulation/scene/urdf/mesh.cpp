@@ -12,8 +12,8 @@
 #include <iterator>
 #include <tuple>
 
-#include "formats/formats.h"
 #include "simulation/scene/urdf/mesh_words.h"
+#include "text/formats.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -170,7 +170,7 @@ MeshPoints read_mesh(const std::filesystem::path& path) {
                       : ending == ".obj" ? read_obj
                       : ending == ".dae" ? read_collada
                                          : nullptr;
-  std::string refusal = formats::refusal(path, formats::Use::mesh);
+  std::string refusal = text::refusal(path, text::Use::mesh);
   if (!refusal.empty()) return {{}, std::move(refusal)};
   if (reader == nullptr) return {{}, "meshes are read from STL, OBJ and DAE (Collada) files"};
   if (std::filesystem::file_size(path, error) > largest_mesh || error)

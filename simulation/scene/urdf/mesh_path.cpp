@@ -50,8 +50,11 @@ std::vector<fs::path> mesh_places(const std::string& filename, const fs::path& r
   if (std::ranges::any_of(filename, is_control)) return {};
   const std::string_view text = filename;
   for (const std::string_view scheme : {"package://", "model://"}) {
-    if (text.starts_with(scheme))
-      return package_places(text.substr(scheme.size()), robot, search_path);
+    if (!text.starts_with(scheme)) continue;
+    // Some exporters leave an empty place before the name: package:///NAME/REST.
+    std::string_view name_and_rest = text.substr(scheme.size());
+    if (name_and_rest.starts_with('/')) name_and_rest.remove_prefix(1);
+    return package_places(name_and_rest, robot, search_path);
   }
   constexpr std::string_view file_scheme = "file://";
   const bool has_scheme = text.starts_with(file_scheme);

@@ -5,11 +5,13 @@
 #include <cmath>
 #include <unordered_map>
 
-#include "language/document.h"
+#include "language/document/document.h"
 #include "language/names.h"
-#include "simulation/scene/urdf/hull.h"
+#include "simulation/scene/urdf/inertia_repair.h"
+#include "simulation/scene/urdf/joint_rules.h"
 #include "simulation/scene/urdf/mesh.h"
 #include "simulation/scene/urdf/mesh_path.h"
+#include "simulation/scene/urdf/mesh_shape.h"
 #include "simulation/scene/urdf/urdf.h"
 #include "simulation/scene/urdf/xml.h"
 
@@ -20,12 +22,12 @@ using language::Position;
 
 class UrdfReader : private UrdfXml {
  public:
-  UrdfReader(const language::SourceFile& file, const UrdfGeometry& geometry, UrdfMimic mimic,
+  UrdfReader(const language::SourceFile& file, const UrdfChoices& choices,
              language::FileStore& files, language::Report& report)
       : UrdfXml(file, report),
         path_(file.path),
-        geometry_(geometry),
-        mimic_(mimic),
+        geometry_(choices.geometry),
+        choices_(choices),
         files_(files) {}
 
   std::optional<UrdfRobot> run();
@@ -46,9 +48,6 @@ class UrdfReader : private UrdfXml {
   void read_axis(const pugi::xml_node& node, UrdfJoint& joint);
   void read_limit(const pugi::xml_node& node, UrdfJoint& joint);
   void read_mimic(const pugi::xml_node& node, UrdfJoint& joint);
-  void refuse_followers();
-  /// The joint no longer moves: it stays at `q`.
-  static void fix_at(double q, UrdfJoint& joint);
   void read_dynamics(const pugi::xml_node& node, UrdfJoint& joint);
   void read_transmission(const pugi::xml_node& node);
   /// A joint that carries nothing of mass moves nothing: it is fixed where it is.
@@ -58,16 +57,15 @@ class UrdfReader : private UrdfXml {
 
   const std::filesystem::path path_;
   const UrdfGeometry geometry_;
-  const UrdfMimic mimic_;
+  const UrdfChoices choices_;
   language::FileStore& files_;
   UrdfRobot robot_;
   std::unordered_map<std::string, std::size_t> links_, joints_;
-  int hints_ = 0;                                            ///< given so far
-  std::vector<std::pair<std::string, Position>> followers_;  ///< joints that follow others
+  int hints_ = 0;  ///< given so far
 };
 
 std::optional<UrdfRobot> UrdfReader::run() {
-  const pugi::xml_node root = open("robot");
+  const pugi::xml_node root = open({"robot"}, "URDF");
   if (!root) return std::nullopt;
   robot_.name = root.attribute("name").value();
   robot_.place = place(root);
@@ -84,7 +82,6 @@ std::optional<UrdfRobot> UrdfReader::run() {
   for (const pugi::xml_node& node : root.children("joint")) {
     if (!full()) read_joint(node);
   }
-  refuse_followers();
   for (const pugi::xml_node& node : root.children("transmission")) {
     if (!full()) read_transmission(node);
   }
@@ -113,6 +110,7 @@ void UrdfReader::read_link(const pugi::xml_node& node) {
 
 void UrdfReader::read_inertial(const pugi::xml_node& node, UrdfLink& link) {
   link.inertial_place = place(node);
+  const std::size_t errors_before = errors();
   const Pose X_LC = read_origin(node);
   const pugi::xml_node mass = only(node, "mass"), inertia = only(node, "inertia");
   if (!mass || !inertia) {
@@ -123,11 +121,18 @@ void UrdfReader::read_inertial(const pugi::xml_node& node, UrdfLink& link) {
   link.mass.mass = number(mass, "value", {});
   if (link.mass.mass < 0.) fail(place(mass, "value"), "a mass is not negative");
   const Symmetric3d I_C{number(inertia, "ixx", {}), number(inertia, "iyy", {}),
-                        number(inertia, "izz", {}), number(inertia, "ixy", {}),
-                        number(inertia, "ixz", {}), number(inertia, "iyz", {})};
+                        number(inertia, "izz", {}), number(inertia, "ixy", 0.),
+                        number(inertia, "ixz", 0.), number(inertia, "iyz", 0.)};
+  for (const char* product : {"ixy", "ixz", "iyz"}) {
+    if (!inertia.attribute(product)) leave_out("product of inertia that is not given: 0");
+  }
   link.mass.center_of_mass = X_LC.position;
   link.mass.inertia = rotate(rotation_matrix(X_LC.orientation), I_C);
   link.has_inertial = link.mass.mass != 0. || I_C != Symmetric3d{};
+  if (errors() > errors_before) return;
+  if (const std::string problem = settle_inertia(choices_.inertia, link, robot_.repaired);
+      !problem.empty())
+    fail(link.inertial_place, problem);
 }
 
 void UrdfReader::read_shape(const pugi::xml_node& node, UrdfLink& link) {
@@ -144,8 +149,8 @@ void UrdfReader::read_shape(const pugi::xml_node& node, UrdfLink& link) {
   }
   const std::optional<ShapeGeometry> read = read_geometry(geometry);
   if (!read) return;
-  link.shapes.push_back({*read, X_LS.position, X_LS.orientation, 0});
-  link.shape_places.push_back(place(geometry.first_child()));
+  link.shapes.push_back(
+      {{*read, X_LS.position, X_LS.orientation, 0}, place(geometry.first_child()), true, ""});
 }
 
 void UrdfReader::read_mesh_at(const pugi::xml_node& node, const Pose& X_LS, UrdfLink& link) {
@@ -156,30 +161,7 @@ void UrdfReader::read_mesh_at(const pugi::xml_node& node, const Pose& X_LS, Urdf
     fail(place(node, "scale"), "a scale of 0 leaves nothing of a mesh");
     return;
   }
-  std::vector<Vector3d> points;
-  for (const Vector3d& p : mesh->vertices)
-    points.push_back({scale.x * p.x, scale.y * p.y, scale.z * p.z});
-  if (geometry_.meshes == UrdfMeshes::box) {
-    const auto [low, high] = bounds_of(points);
-    // A flat mesh is a plate.
-    constexpr double thinnest = 1e-6;  // [m]
-    const Vector3d edges = high - low;
-    const Box box{
-        {std::max(edges.x, thinnest), std::max(edges.y, thinnest), std::max(edges.z, thinnest)}};
-    const Pose X_LB = X_LS * Pose{0.5 * (low + high), {}};
-    link.shapes.push_back({box, X_LB.position, X_LB.orientation, 0});
-    link.shape_places.push_back(place(node));
-    return;
-  }
-  const std::vector<Vector3d> hull = hull_vertices(points);
-  const std::vector<Vector3d> taken = spread_points(hull, most_hull_points);
-  if (taken.size() < hull.size())
-    leave_out(fmt::format("vertex of a hull, beyond {} of it", most_hull_points),
-              hull.size() - taken.size());
-  for (const Vector3d& p : taken) {
-    link.points.push_back(X_LS.position + rotate(X_LS.orientation, p));
-    link.point_places.push_back(place(node));
-  }
+  add_mesh(mesh->vertices, scale, geometry_.meshes, X_LS, place(node), link, robot_.left_out);
 }
 
 const MeshPoints* UrdfReader::find_mesh(const pugi::xml_node& node) {
@@ -226,21 +208,22 @@ std::optional<ShapeGeometry> UrdfReader::read_geometry(const pugi::xml_node& nod
     leave_out("shape of size 0");
     return std::nullopt;
   }
-  if (kind == "sphere" || kind == "cylinder") {
+  if (kind == "sphere" || kind == "cylinder" || kind == "capsule") {
     const double radius = not_negative(shape, "radius");
     const double length = kind == "sphere" ? 1. : not_negative(shape, "length");
     if (radius == 0. || length == 0.) {
       leave_out("shape of size 0");
       return std::nullopt;
     }
+    if (kind == "capsule") return Capsule{radius, length};
     return kind == "sphere" ? ShapeGeometry(Sphere{radius}) : Cylinder{radius, length};
   }
-  std::string problem = "<geometry> takes a box, a cylinder, a sphere or a mesh";
-  if (kind == "capsule")
-    problem += ": a capsule is a cylinder and two spheres, each in a <collision> of its own";
-  if (kind == "plane")
-    problem += ": the ground is a Terrain of the World, beside the Include of the robot";
-  fail(shape ? place(shape) : place(node), problem);
+  if (kind == "plane") {
+    leave_out("plane: the ground is a Terrain of the World");
+    return std::nullopt;
+  }
+  fail(shape ? place(shape) : place(node),
+       "<geometry> takes a box, a cylinder, a sphere, a capsule or a mesh");
   return std::nullopt;
 }
 
@@ -344,7 +327,7 @@ void UrdfReader::read_limit(const pugi::xml_node& node, UrdfJoint& joint) {
   if (*joint.lower_limit < *joint.upper_limit) return;
   if (*joint.lower_limit == *joint.upper_limit && limit.attribute("lower") &&
       limit.attribute("upper")) {
-    fix_at(*joint.lower_limit, joint);
+    fix_joint(*joint.lower_limit, joint);
     leave_out("joint whose limits are equal: fixed");
     return;
   }
@@ -356,35 +339,14 @@ void UrdfReader::read_limit(const pugi::xml_node& node, UrdfJoint& joint) {
 void UrdfReader::read_mimic(const pugi::xml_node& node, UrdfJoint& joint) {
   const pugi::xml_node mimic = only(node, "mimic");
   if (!mimic || joint.type == UrdfJointType::fixed) return;
-  if (mimic_ == UrdfMimic::refused) followers_.emplace_back(joint.name, place(mimic));
-  if (mimic_ == UrdfMimic::ignored) leave_out("<mimic>: the joint moves by itself");
-  if (mimic_ != UrdfMimic::fixed) return;
-  fix_at(number(mimic, "offset", 0.), joint);
+  const double offset = number(mimic, "offset", 0.);
+  if (choices_.mimic == UrdfMimic::ignore) leave_out("<mimic>: the joint moves by itself");
+  if (choices_.mimic == UrdfMimic::couple)
+    joint.follows = {mimic.attribute("joint").value(), number(mimic, "multiplier", 1.), offset,
+                     place(mimic)};
+  if (choices_.mimic != UrdfMimic::fixed) return;
+  fix_joint(offset, joint);
   leave_out("<mimic>: the joint is fixed at its offset");
-}
-
-void UrdfReader::refuse_followers() {
-  if (followers_.empty()) return;
-  const auto& [name, at] = followers_.front();
-  const std::size_t others = followers_.size() - 1;
-  fail(at,
-       fmt::format("joint `{}`{} another (<mimic>), and joints that are geared together are not "
-                   "supported: the argument mimic = ignore lets {} move by {}, mimic = fixed "
-                   "fixes {} at {} offset",
-                   name, others == 0 ? " follows" : fmt::format(" and {} more follow", others),
-                   others == 0 ? "it" : "them", others == 0 ? "itself" : "themselves",
-                   others == 0 ? "it" : "them", others == 0 ? "its" : "their"));
-}
-
-void UrdfReader::fix_at(double q, UrdfJoint& joint) {
-  const double half = 0.5 * q;
-  const Pose moved = joint.type == UrdfJointType::prismatic
-                         ? Pose{q * joint.axis, {}}
-                         : Pose{{},
-                                {std::cos(half), std::sin(half) * joint.axis.x,
-                                 std::sin(half) * joint.axis.y, std::sin(half) * joint.axis.z}};
-  joint.origin = joint.origin * moved;
-  joint.type = UrdfJointType::fixed;
 }
 
 void UrdfReader::read_dynamics(const pugi::xml_node& node, UrdfJoint& joint) {
@@ -436,7 +398,7 @@ void UrdfReader::fix_idle_joints() {
     if (heavy[joint.child] || joint.type == UrdfJointType::fixed ||
         joint.type == UrdfJointType::floating)
       continue;
-    joint.type = UrdfJointType::fixed;
+    fix_joint(0., joint);
     leave_out("joint that carries no mass: fixed");
   }
 }
@@ -450,10 +412,9 @@ Pose UrdfReader::read_origin(const pugi::xml_node& parent) {
 
 }  // namespace
 
-std::optional<UrdfRobot> read_urdf(const language::SourceFile& file, const UrdfGeometry& geometry,
-                                   UrdfMimic mimic, language::FileStore& files,
-                                   language::Report& report) {
-  return UrdfReader(file, geometry, mimic, files, report).run();
+std::optional<UrdfRobot> read_urdf(const language::SourceFile& file, const UrdfChoices& choices,
+                                   language::FileStore& files, language::Report& report) {
+  return UrdfReader(file, choices, files, report).run();
 }
 
 }  // namespace hookpoint::simulation

@@ -9,14 +9,6 @@
 namespace hookpoint::simulation {
 namespace {
 
-/// The least rotation that takes z to the unit vector `axis`: (1 + z.axis, z x axis), normalised.
-Quaterniond from_z_to(const Vector3d& axis) {
-  const double across = axis.x * axis.x + axis.y * axis.y;
-  if (axis.z < 0. && across == 0.) return {0., 1., 0., 0.};
-  const double w = axis.z < 0. ? across / (1. - axis.z) : 1. + axis.z;
-  return normalized(Quaterniond{w, -axis.y, axis.x, 0.});
-}
-
 Pose inverse(const Pose& X) {
   const Quaterniond back = conjugate(X.orientation);
   return {-rotate(back, X.position), back};
@@ -179,13 +171,11 @@ class UrdfAssembly {
       if (!body.has_inertial) body.inertial_place = link.inertial_place;
       body.has_inertial = true;
     }
-    for (std::size_t i = 0; i < link.shapes.size(); ++i) {
-      ShapeSpec shape = link.shapes[i];
-      const Pose X_FS = X_FL * Pose{shape.location, shape.orientation};
-      shape.location = X_FS.position;
-      shape.orientation = X_FS.orientation;
-      body.shapes.push_back(shape);
-      body.shape_places.push_back(link.shape_places[i]);
+    for (UrdfShape shape : link.shapes) {
+      const Pose X_FS = X_FL * Pose{shape.spec.location, shape.spec.orientation};
+      shape.spec.location = X_FS.position;
+      shape.spec.orientation = X_FS.orientation;
+      body.shapes.push_back(std::move(shape));
     }
     for (const Vector3d& point : link.points)
       body.points.push_back(X_FL.position + rotate(X_FL.orientation, point));
@@ -209,6 +199,14 @@ class UrdfAssembly {
 };
 
 }  // namespace
+
+// (1 + z.axis, z x axis), normalised.
+Quaterniond from_z_to(const Vector3d& axis) {
+  const double across = axis.x * axis.x + axis.y * axis.y;
+  if (axis.z < 0. && across == 0.) return {0., 1., 0., 0.};
+  const double w = axis.z < 0. ? across / (1. - axis.z) : 1. + axis.z;
+  return normalized(Quaterniond{w, -axis.y, axis.x, 0.});
+}
 
 std::optional<UrdfTree> assemble_urdf(const UrdfRobot& robot, language::Report& report) {
   return UrdfAssembly(robot, report).run();

@@ -1,7 +1,7 @@
 // Robots written as URDF: the file, expanded where xacro wrote it (xacro.h), as it stands
 // (read.cpp) with its meshes (mesh.h, hull.h), its tree with what is fixed together made one
 // (tree.cpp), and the objects of the language that it comes to (urdf.cpp), held in its pose if
-// asked to (hold.cpp).
+// requested to (hold.cpp).
 #pragma once
 
 #include <map>
@@ -9,12 +9,20 @@
 #include <string>
 #include <vector>
 
-#include "language/files.h"
+#include "language/syntax/files.h"
 #include "language/tree/foreign.h"
-#include "simulation/experiment.h"
-#include "simulation/kinematics.h"
+#include "simulation/experiment/experiment.h"
+#include "simulation/experiment/kinematics.h"
 
 namespace hookpoint::simulation {
+
+/// A shape, and what of it counts.
+struct UrdfShape {
+  ShapeSpec spec;
+  language::Position place;
+  bool touches = true;
+  std::string material;  ///< the name of an object; "": none of its own
+};
 
 struct UrdfLink {
   std::string name;
@@ -22,8 +30,7 @@ struct UrdfLink {
   bool has_inertial = false;
   language::Position inertial_place;
   MassSpec mass;  ///< link's frame
-  std::vector<ShapeSpec> shapes;
-  std::vector<language::Position> shape_places;
+  std::vector<UrdfShape> shapes;
   std::vector<Vector3d> points;  ///< that touch the ground, link's frame
   std::vector<language::Position> point_places;
 
@@ -31,6 +38,21 @@ struct UrdfLink {
 };
 
 enum class UrdfJointType { fixed, revolute, continuous, prismatic, floating };
+
+/// A drive that holds a joint, or its rate, at a goal.
+struct UrdfServo {
+  bool of_rate = false;
+  double gain = 0., damping = 0.;  ///< torque per error, and per rate
+  std::optional<double> goal;      ///< none: where the joint starts
+  language::Position place;
+};
+
+/// A joint that follows another: q = ratio q_leader + offset.
+struct UrdfFollows {
+  std::string leader;
+  double ratio = 1., offset = 0.;  ///< [rad, m]
+  language::Position place;
+};
 
 struct UrdfJoint {
   std::string name;
@@ -44,6 +66,18 @@ struct UrdfJoint {
   double damping = 0., friction = 0.;
   std::optional<double> effort_limit;
   double rotor_inertia = 0.;  ///< at the joint [kg m^2, kg]
+  double stiffness = 0., rest_angle = 0.;
+  std::optional<double> angle;  ///< at the start
+  double rate = 0.;
+  std::optional<UrdfServo> servo;
+  std::optional<UrdfFollows> follows;
+  double fixed_at = 0.;  ///< of one that is fixed where the file has it moving [rad, m]
+};
+
+/// Where a free base starts, in the world.
+struct UrdfStart {
+  Pose pose;
+  Vector3d velocity, angular_velocity;
 };
 
 struct UrdfRobot {
@@ -51,7 +85,9 @@ struct UrdfRobot {
   language::Position place;
   std::vector<UrdfLink> links;
   std::vector<UrdfJoint> joints;
+  std::optional<UrdfStart> start;
   std::map<std::string, std::size_t> left_out;  ///< what was not read, and how often
+  std::vector<std::string> repaired;            ///< inertias, link by link, and by how much
 };
 
 enum class UrdfShapes { collision, visual };
@@ -61,17 +97,24 @@ struct UrdfGeometry {
   UrdfShapes shapes = UrdfShapes::collision;
   UrdfMeshes meshes = UrdfMeshes::skip;
 };
-/// What becomes of a joint that follows another (<mimic>): an error, a joint that moves by itself,
-/// or one that is fixed at its offset.
-enum class UrdfMimic { refused, ignored, fixed };
+/// What becomes of a joint that follows another (<mimic>): it does, it moves by itself, or it is fixed
+/// at its offset.
+enum class UrdfMimic { couple, ignore, fixed };
+/// What becomes of an inertia that no mass has: an error, or the nearest that some mass has.
+enum class UrdfInertia { file, repair };
+
+struct UrdfChoices {
+  UrdfGeometry geometry;
+  UrdfMimic mimic = UrdfMimic::couple;
+  UrdfInertia inertia = UrdfInertia::file;
+};
 /// Of a hull with more vertices so many are taken, spread over it (hull.h).
 inline constexpr std::size_t most_hull_points = 64;
 
-/// The file's robot; `geometry` says what of it counts, `files` where meshes are looked up. Nothing
+/// The file's robot; `choices` say what of it counts, `files` where meshes are looked up. Nothing
 /// after an error. Cost: linear, and n log n in the vertices of each mesh, which are read once.
-std::optional<UrdfRobot> read_urdf(const language::SourceFile& file, const UrdfGeometry& geometry,
-                                   UrdfMimic mimic, language::FileStore& files,
-                                   language::Report& report);
+std::optional<UrdfRobot> read_urdf(const language::SourceFile& file, const UrdfChoices& choices,
+                                   language::FileStore& files, language::Report& report);
 
 /// Links that are fixed together, as one body in its own frame.
 struct UrdfBody {
@@ -81,9 +124,8 @@ struct UrdfBody {
   MassSpec mass;                      ///< body's frame
   bool has_inertial = false;          ///< some link of it does
   language::Position inertial_place;  ///< of the first that does
-  std::vector<ShapeSpec> shapes;      ///< body's frame
-  std::vector<language::Position> shape_places;
-  std::vector<Vector3d> points;  ///< body's frame
+  std::vector<UrdfShape> shapes;      ///< body's frame
+  std::vector<Vector3d> points;       ///< body's frame
   std::vector<language::Position> point_places;
 };
 
@@ -104,6 +146,9 @@ struct UrdfTree {
   std::vector<UrdfChain> chains;
 };
 
+/// The least rotation that takes z to the unit vector `axis`.
+Quaterniond from_z_to(const Vector3d& axis);
+
 /// Nothing after an error: a second root, a loop. Cost: n log n in the
 /// links.
 std::optional<UrdfTree> assemble_urdf(const UrdfRobot& robot, language::Report& report);
@@ -120,7 +165,7 @@ struct UrdfHold {
   double friction_speed = 0.;  ///< [rad/s; m/s]
 };
 
-/// So that every joint gives way by less than `sag` [rad] under the weight that it may carry: that
+/// So that every joint deflects by less than `sag` [rad] under the weight that it may carry: that
 /// of the bodies beyond it or, of a mobile robot's legs, the whole robot's. A leg reaches at least
 /// half as far below the base as anything of the robot, all joints at 0. O(bodies depth).
 std::map<const UrdfJoint*, UrdfHold> hold_joints(const UrdfTree& tree, bool mobile, double sag);

@@ -6,8 +6,8 @@
 #include <optional>
 #include <pugixml.hpp>
 
-#include "output/child.h"
-#include "output/file.h"
+#include "output/files/child.h"
+#include "output/files/file.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -103,11 +103,11 @@ Expansion expand(const SourceFile& file, const std::vector<std::string>& words) 
     if (ran->status != 0)
       return {{},
               fmt::format("xacro ended with status {}: {}", ran->status, last_words(ran->errors))};
-    expansion.source = {fmt::format("<{} as xacro expands it>", file.path), ran->output, {}};
+    expansion.source =
+        language::source_file(fmt::format("<{} as xacro expands it>", file.path), ran->output);
   } catch (const output::FileError& refused) {
     return {{}, refused.what()};
   }
-  language::index_lines(expansion.source);
   return expansion;
 }
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "language/files.h"
 #include "language/report.h"
+#include "language/syntax/files.h"
 #include "language/tree/foreign.h"
 
 namespace hookpoint::simulation {
@@ -22,7 +22,7 @@ struct ExpandedUrdf {
 /// NAME:=VALUE
 /// ...` makes of it, which `files` keeps. Given are those of `arguments` that the file declares as
 /// an xacro:arg and that are none of `own`. No shell sees them; the program is stopped after 60 s
-/// and beyond 64 MB. Once a store, however often it is asked.
+/// and beyond 64 MB. Once a store, however often it is called.
 ExpandedUrdf expand_xacro(const language::SourceFile& file,
                           const language::ForeignArguments& arguments,
                           std::span<const char* const> own, language::FileStore& files,

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <vector>
 
 namespace hookpoint::simulation {
 namespace {
@@ -18,7 +18,7 @@ constexpr double largest_number = 1e12;  // squares and products of such numbers
 
 }  // namespace
 
-pugi::xml_node UrdfXml::open(const char* name) {
+pugi::xml_node UrdfXml::open(std::initializer_list<std::string_view> names, const char* format) {
   const std::string& text = file_.text;
   const Position start{&file_, 0, 1};
   if (text.size() > largest_file) {
@@ -33,8 +33,9 @@ pugi::xml_node UrdfXml::open(const char* name) {
     return {};
   }
   const pugi::xml_node root = document_.document_element();
-  if (std::string_view(root.name()) == name) return root;
-  fail(root ? place(root) : start, fmt::format("this is no URDF: expected <{}>", name));
+  if (std::ranges::count(names, std::string_view(root.name())) > 0) return root;
+  fail(root ? place(root) : start,
+       fmt::format("this is no {}: expected <{}>", format, *names.begin()));
   return {};
 }
 
@@ -82,11 +83,9 @@ std::optional<double> UrdfXml::bound(const pugi::xml_node& node, const char* att
   return value > 0. ? std::optional(value) : std::nullopt;
 }
 
-Vector3d UrdfXml::vector(const pugi::xml_node& node, const char* attribute,
-                         const Vector3d& otherwise) {
-  const pugi::xml_attribute found = node.attribute(attribute);
-  if (!found) return otherwise;
-  std::string_view text = found.value();
+std::vector<double> UrdfXml::numbers(const pugi::xml_node& node, const char* attribute,
+                                     std::size_t most) {
+  std::string_view text = node.attribute(attribute).value();
   std::vector<double> numbers;
   const Position at = place(node, attribute);
   for (std::size_t start = text.find_first_not_of(blanks); start != std::string_view::npos;
@@ -94,15 +93,26 @@ Vector3d UrdfXml::vector(const pugi::xml_node& node, const char* attribute,
     text.remove_prefix(start);
     const std::string_view word = text.substr(0, text.find_first_of(blanks));
     const std::optional<double> value = parse(word, at);
-    if (!value) return otherwise;
-    if (numbers.size() < 4) numbers.push_back(*value);
+    if (!value) return {};
+    if (numbers.size() == most) {
+      fail(at, fmt::format("{} takes {} number{}", attribute, most, most == 1 ? "" : "s at most"));
+      return {};
+    }
+    numbers.push_back(*value);
     text.remove_prefix(word.size());
   }
-  if (numbers.size() != 3) {
-    fail(at, fmt::format("{} takes three numbers: \"x y z\"", attribute));
-    return otherwise;
-  }
-  return {numbers[0], numbers[1], numbers[2]};
+  return numbers;
+}
+
+Vector3d UrdfXml::vector(const pugi::xml_node& node, const char* attribute,
+                         const Vector3d& otherwise) {
+  if (!node.attribute(attribute)) return otherwise;
+  const std::size_t before = errors_;
+  constexpr std::size_t enough = 1000;  // to count them
+  const std::vector<double> read = numbers(node, attribute, enough);
+  if (errors_ == before && read.size() != 3)
+    fail(place(node, attribute), fmt::format("{} takes three numbers: \"x y z\"", attribute));
+  return errors_ == before ? Vector3d{read[0], read[1], read[2]} : otherwise;
 }
 
 std::optional<double> UrdfXml::parse(std::string_view text, const Position& at) {

@@ -1,10 +1,12 @@
-// What a URDF file's elements and attributes say, every mistake at its place.
+// What the elements and attributes of a robot's file, URDF or MJCF, say, every mistake at its place.
 #pragma once
 
+#include <initializer_list>
 #include <optional>
 #include <pugixml.hpp>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "language/report.h"
 #include "language/source.h"
@@ -17,8 +19,9 @@ class UrdfXml {
   UrdfXml(const language::SourceFile& file, language::Report& report)
       : file_(file), report_(report) {}
 
-  /// The document's element, of this name; none after an error.
-  pugi::xml_node open(const char* name);
+  /// The document's element, which has one of these names; none after an error. `format`: what such
+  /// a file is.
+  pugi::xml_node open(std::initializer_list<std::string_view> names, const char* format);
   /// The only child of that name, or none; a second is an error.
   pugi::xml_node only(const pugi::xml_node& parent, const char* name);
   /// The attribute `name`, which must be there.
@@ -34,20 +37,25 @@ class UrdfXml {
   /// Three numbers, `otherwise` where they are not given or after an error.
   Vector3d vector(const pugi::xml_node& node, const char* attribute, const Vector3d& otherwise);
 
+  /// The numbers of an attribute, none where it is not given or after an error; more than `most` are
+  /// an error.
+  std::vector<double> numbers(const pugi::xml_node& node, const char* attribute, std::size_t most);
+
   /// Of an element's name; of its attribute, if it is given.
   language::Position place(const pugi::xml_node& node) const;
   language::Position place(const pugi::xml_node& node, std::string_view attribute) const;
   /// False, for the caller to return.
   bool fail(const language::Position& at, std::string message) {
     report_.error(at, std::move(message));
-    good_ = false;
+    ++errors_;
     return false;
   }
   void note(const language::Position& at, std::string message) {
     report_.note(at, std::move(message));
   }
   /// No error so far.
-  bool good() const { return good_; }
+  bool good() const { return errors_ == 0; }
+  std::size_t errors() const { return errors_; }
   /// So many errors that nobody reads more.
   bool full() const { return report_.full(); }
 
@@ -57,7 +65,7 @@ class UrdfXml {
   const language::SourceFile& file_;
   language::Report& report_;
   pugi::xml_document document_;
-  bool good_ = true;
+  std::size_t errors_ = 0;
 };
 
 }  // namespace hookpoint::simulation

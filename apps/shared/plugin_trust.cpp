@@ -1,0 +1,44 @@
+#include "apps/shared/plugin_trust.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <sstream>
+
+namespace hookpoint::application {
+
+PluginTrust::PluginTrust(bool all, const std::vector<std::filesystem::path>& folders) : all_(all) {
+  for (const std::filesystem::path& folder : folders) {
+    std::error_code error;
+    std::filesystem::path real = std::filesystem::canonical(folder, error);
+    if (!error) folders_.push_back(std::move(real));
+  }
+}
+
+std::string PluginTrust::problem(const std::filesystem::path& library) const {
+  std::error_code error;
+  const std::filesystem::path real = std::filesystem::canonical(library, error);
+  if (error) return "cannot be read: " + error.message();
+  const bool trusted = std::ranges::any_of(folders_, [&real](const std::filesystem::path& folder) {
+    // Part by part: /opt/plugins-of-others does not lie in /opt/plugins.
+    return std::mismatch(folder.begin(), folder.end(), real.begin(), real.end()).first ==
+           folder.end();
+  });
+  if (all_ || trusted) return "";
+  return "is refused, since it would run with all of your rights: allow it with --allow-plugins, "
+         "or "
+         "put its folder `" +
+         real.parent_path().string() + "` into HOOKPOINT_TRUSTED_PLUGINS";
+}
+
+std::vector<std::filesystem::path> folders_of(const char* variable) {
+  std::vector<std::filesystem::path> folders;
+  if (const char* listed = std::getenv(variable)) {
+    std::stringstream list(listed);
+    for (std::string folder; std::getline(list, folder, ':');) {
+      if (!folder.empty()) folders.emplace_back(folder);
+    }
+  }
+  return folders;
+}
+
+}  // namespace hookpoint::application

@@ -1,0 +1,34 @@
+// Arguments of the commands that run tasks: study and tune.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/shared/settings.h"
+#include "studies/cluster/slurm_script.h"
+
+namespace hookpoint::application {
+
+struct TaskArguments {
+  std::filesystem::path file;
+  std::optional<std::filesystem::path> out;
+  int jobs = 0;  ///< 0: one a core
+  bool quick = false;
+  bool resume = false;
+  std::vector<std::string> only;  ///< subjects
+  bool allow_plugins = false;
+  Settings settings{};   ///< of the file and of the scenes that it runs
+  bool slurm = false;    ///< the runs are made by a cluster
+  bool dry_run = false;  ///< only prints what it would be sent
+  studies::SlurmSettings slurm_settings{};
+
+  /// `jobs`, or how many cores there are.
+  int threads() const;
+};
+
+/// "hookpoint study FILE ..." as it was called.
+std::string rerun_command(const std::string& command, const TaskArguments& arguments);
+
+}  // namespace hookpoint::application

@@ -1,0 +1,84 @@
+#include "contact/geometry/edge_on_ridge.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "contact/geometry/folds.h"
+
+namespace hookpoint::contact {
+namespace {
+
+/// 0 at the end of an edge, 1 from a quarter of its length on.
+double from_end(double part) {
+  const double rest = std::max(0., 1. - 4. * part);
+  return 1. - rest * rest;
+}
+
+double square(double a) { return a * a; }
+
+}  // namespace
+
+std::optional<EdgeContact> edge_on_ridge(const Ridge& ridge, const BodyEdge& edge, double reach,
+                                         double most_depth) {
+  const Vector3d way = edge.to - edge.from;
+  const double length = norm(way);
+  if (length == 0.) return std::nullopt;
+  const Vector3d e = (1. / length) * way;
+  const double cosine = dot(e, ridge.along);
+  const double sine_2 = 1. - cosine * cosine;
+  constexpr double parallel = 1e-6;
+  if (sine_2 < parallel) return std::nullopt;
+
+  // The places of the two lines that are nearest to each other.
+  const Vector3d between_lines = ridge.point - edge.from;
+  const double of_edge = dot(between_lines, e), of_ridge = dot(between_lines, ridge.along);
+  const double s = (of_edge - cosine * of_ridge) / sine_2;
+  const double t = (cosine * of_edge - of_ridge) / sine_2;
+  if (s < -edge_width || s > length + edge_width || t < ridge.from - edge_width ||
+      t > ridge.to + edge_width)
+    return std::nullopt;
+
+  Vector3d normal = (1. / std::sqrt(sine_2)) * cross(e, ridge.along);
+  if (dot(normal, ridge.normals[0] + ridge.normals[1]) < 0.) normal = -normal;
+  EdgeContact contact;
+  const Vector3d on_edge = edge.from + s * e;
+  const Vector3d on_ridge = ridge.point + t * ridge.along;
+  contact.depth = edge.radius - dot(on_edge - on_ridge, normal);
+  if (contact.depth <= -reach || contact.depth > most_depth) return std::nullopt;
+
+  constexpr double nearly_parallel = 0.01;  // sin^2
+  contact.weight = std::min(1., sine_2 / nearly_parallel) * between(normal, ridge.outwards);
+  if (edge.radius == 0.) contact.weight *= between(-normal, edge.outwards);
+  if (contact.weight <= 0.) return std::nullopt;
+  contact.place = on_edge - edge.radius * normal;
+  contact.normal = normal;
+  contact.along = std::clamp(s / length, 0., 1.);
+  const auto end_within = [](double at, double from, double to) {
+    return at <= from + edge_width ? 0 : at >= to - edge_width ? 1 : -1;
+  };
+  contact.at_end = end_within(s, 0., length);
+  contact.at_ridge_end = end_within(t, ridge.from, ridge.to);
+
+  if (edge.radius > 0.) return contact;
+  const std::array<double, 2> cosines{dot(normal, ridge.normals[0]), dot(normal, ridge.normals[1])};
+  const Vector3d across = tangential(ridge.outwards[0] - ridge.outwards[1], normal);
+  for (std::size_t end = 0; end < 2; ++end) {
+    const Vector3d& place = end == 0 ? edge.from : edge.to;
+    const std::size_t over = dot(place - ridge.point, across) > 0. ? 1 : 0;
+    contact.end_weights[end] =
+        std::max(0., square(std::max(0., cosines[1 - over])) - square(std::max(0., cosines[over])));
+  }
+  return contact;
+}
+
+double end_weighted(const EdgeContact& contact, const std::array<double, 2>& shares) {
+  const std::array<double, 2> parts{contact.along, 1. - contact.along};
+  double weight = contact.weight;
+  for (std::size_t end = 0; end < 2; ++end) {
+    const double near = from_end(parts[end]);
+    weight *= near + (1. - near) * shares[end] * contact.end_weights[end];
+  }
+  return weight;
+}
+
+}  // namespace hookpoint::contact

@@ -1,0 +1,115 @@
+#include <set>
+
+#include "language/document/document.h"
+#include "language/document/plugin_search.h"
+#include "language/syntax/files.h"
+#include "language/tree/builder.h"
+#include "language/tree/checker.h"
+#include "language/tree/prepared.h"
+
+namespace hookpoint::language {
+
+struct Library::Implementation {
+  Implementation(const Schema& schema, std::vector<std::filesystem::path> search_path)
+      : prepared(schema), files(schema, std::move(search_path)) {}
+  PreparedSchema prepared;
+  FileStore files;
+};
+
+Library::Library(const Schema& schema, std::vector<std::filesystem::path> search_path)
+    : implementation_(std::make_unique<Implementation>(schema, std::move(search_path))) {}
+
+Library::~Library() = default;
+
+void Library::give(const std::filesystem::path& path, std::string text) {
+  implementation_->files.give(path, std::move(text));
+}
+
+std::unique_ptr<Object> Library::evaluate(const std::filesystem::path& file,
+                                          const EvaluateOptions& options,
+                                          Diagnostics& diagnostics) {
+  const ParsedFile& parsed = implementation_->files.load(file);
+  // An override by a lone name that is a Param gives the Param its value.
+  EvaluateOptions split;
+  split.parameters = options.parameters;
+  for (const Override& setting : options.overrides) {
+    if (find_param(parsed, setting.trail) != nullptr) {
+      split.parameters[setting.trail] = setting.value;
+    } else {
+      split.overrides.push_back(setting);
+    }
+  }
+  Report report;
+  report.order_file(parsed.source);
+  Builder builder(implementation_->prepared, implementation_->files, report);
+  std::unique_ptr<Object> root = builder.build(parsed, split);
+  if (options.amend) options.amend(*root);
+  Checker checker(implementation_->prepared, implementation_->files, builder.left_out(),
+                  builder.hints(), report);
+  for (const Override& setting : split.overrides)
+    checker.apply(*root, setting, param_names(parsed));
+  checker.check(*root);
+  report.deliver(diagnostics);
+  return report.has_errors() ? nullptr : std::move(root);
+}
+
+bool Library::load_plugins(const std::filesystem::path& file, const PluginLoader& load,
+                           Diagnostics& diagnostics) {
+  PluginSearch search(implementation_->files, load);
+  search.visit(implementation_->files.load(file));
+  return search.deliver(diagnostics);
+}
+
+std::vector<ParameterDeclaration> Library::parameters(const std::filesystem::path& file,
+                                                      Diagnostics& diagnostics) {
+  const ParsedFile& parsed = implementation_->files.load(file);
+  parsed.report.deliver(diagnostics);
+  const std::string& text = parsed.source.text;
+  std::vector<ParameterDeclaration> declarations;
+  for (const std::string& name : param_names(parsed)) {
+    const Item& item = *find_param(parsed, name);
+    ParameterDeclaration& declaration = declarations.emplace_back();
+    declaration.name = name;
+    declaration.position = {&parsed.source, item.name.offset, item.name.length};
+    if (item.value.empty()) continue;
+    const Span first = parsed.syntax.expressions[item.value.begin].span;
+    const Span last = parsed.syntax.expressions[item.value.end - 1].span;
+    declaration.default_text = text.substr(first.offset, last.offset + last.length - first.offset);
+  }
+  return declarations;
+}
+
+std::filesystem::path Library::find(const std::filesystem::path& path,
+                                    const std::filesystem::path& from) const {
+  return implementation_->files.find(path, from);
+}
+
+const std::vector<std::filesystem::path>& Library::search_path() const {
+  return implementation_->files.search_path();
+}
+
+namespace {
+
+void collect_sources(const Object& object, std::set<const SourceFile*>& sources) {
+  sources.insert(object.position.file);
+  for (const Field& field : object.fields) sources.insert(field.position.file);
+  for (const Wire& wire : object.wires) sources.insert(wire.position.file);
+  for (const auto& child : object.children) collect_sources(*child, sources);
+}
+
+}  // namespace
+
+std::vector<std::string> sources_of(const Object& root) {
+  std::set<const SourceFile*> sources;
+  collect_sources(root, sources);
+  std::set<std::string> paths;
+  std::error_code error;
+  for (const SourceFile* source : sources) {
+    // What was set on the command line has no file.
+    if (source == nullptr || !std::filesystem::is_regular_file(source->path, error)) continue;
+    paths.insert(std::filesystem::absolute(source->path).lexically_normal().string());
+  }
+  return {paths.begin(), paths.end()};
+}
+
+}  // namespace hookpoint::language

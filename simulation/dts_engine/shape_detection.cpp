@@ -1,0 +1,617 @@
+#include "simulation/dts_engine/shape_detection.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "contact/geometry/folds.h"
+#include "contact/geometry/rim_on_ridge.h"
+#include "simulation/experiment/robot_tree.h"
+
+namespace hookpoint::simulation {
+namespace {
+
+/// Numbers of features of a kind begin here, so that keys of different kinds differ.
+constexpr std::int64_t kind_size = std::int64_t{1} << 40;
+enum Kind : std::int64_t { ball_kind, rim_kind, corner_kind, edge_kind, axis_kind, round_kind };
+constexpr std::int64_t of_a_ridge = kind_size / 2;  // of key.other, where it is a ridge's
+constexpr std::int64_t part_size = std::int64_t{1} << 28;
+std::int64_t numbered(Kind kind, std::size_t part, std::int64_t number = 0) {
+  return kind * kind_size + static_cast<std::int64_t>(part) * part_size + number;
+}
+
+/// The part that a number was made of.
+std::size_t part_of(std::int64_t number) {
+  return static_cast<std::size_t>(number % kind_size / part_size);
+}
+
+bool overlap(const contact::Region& a, const contact::Region& b) {
+  return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y &&
+         a.low.z <= b.high.z && b.low.z <= a.high.z;
+}
+
+/// Of a box along the axes of one frame, the box along the axes of another that holds it. `R` and `p`:
+/// from the first to the second.
+contact::Region turned(const contact::Region& box, const Matrix3d& R, const Vector3d& p) {
+  const Vector3d center = p + R * (0.5 * (box.low + box.high));
+  const Vector3d h = 0.5 * (box.high - box.low);
+  const Vector3d half{std::abs(R.xx) * h.x + std::abs(R.xy) * h.y + std::abs(R.xz) * h.z,
+                      std::abs(R.yx) * h.x + std::abs(R.yy) * h.y + std::abs(R.yz) * h.z,
+                      std::abs(R.zx) * h.x + std::abs(R.zy) * h.y + std::abs(R.zz) * h.z};
+  return {center - half, center + half};
+}
+
+/// Whether a point of a rim that is deepest under a face lies under it, and not under one beyond: past
+/// a convex edge the ridge and the face beyond take over, past a concave one both faces press where it
+/// is inside both.
+bool is_under(const contact::Surface& surface, const contact::Face& face, const Vector3d& point) {
+  constexpr double blunt = 0.7;  // cosine between the normals
+  return std::ranges::all_of(face.all_edges(), [&](const contact::FaceEdge& edge) {
+    if (edge.beyond < 0) return true;
+    const contact::Face beyond = surface.face(edge.beyond);
+    const bool past = dot(point - edge.point, edge.outward) > contact::edge_width;
+    if (edge.fold == contact::Fold::concave) return !past || beyond.height(point) < 0.;
+    const bool sharp =
+        edge.fold == contact::Fold::convex && dot(face.normal, beyond.normal) < blunt;
+    return !past && (!sharp || beyond.height(point) <= face.height(point));
+  });
+}
+
+/// The places of one of a rim's points under several faces.
+struct RimOnFaces {
+  std::array<contact::Obstruction, contact::most_obstructions> faces;
+  std::array<Vector3d, contact::most_obstructions> points;
+  std::array<std::int64_t, contact::most_obstructions> ids{};
+  std::size_t count = 0;
+
+  void add(const Vector3d& point, const contact::Face& face, double depth) {
+    if (count == faces.size()) return;
+    faces[count] = {face.normal, depth, 1.};
+    ids[count] = face.id;
+    points[count++] = point;
+  }
+  void share() {
+    const auto all = std::span(faces).first(count);
+    const auto deep = [](const contact::Obstruction& face) { return face.depth > 0.; };
+    if (count > 1 && std::ranges::all_of(all, deep)) contact::share_out(all);
+  }
+};
+
+/// How far a place is to be lifted to be outside of a surface on whose border it lies [m]; zero of any
+/// other place.
+Vector3d lift_off(const contact::Surface& surface, const Vector3d& place) {
+  constexpr double over = 1.1 * contact::edge_width;  // so wide is the border
+  if (!surface.contains(place)) return {};
+  const contact::Face face = surface.nearest_face(place);
+  const double height = face.height(place);
+  return height < -contact::edge_width ? Vector3d{} : (over - height) * face.normal;
+}
+
+}  // namespace
+
+ObjectMotion motion_of(const SurfaceMotion& surface, double elapsed) {
+  ObjectMotion motion;
+  motion.p_WB = surface.position + elapsed * surface.velocity;
+  motion.R_WB =
+      rotation_matrix(exponential(elapsed * surface.angular_velocity) * surface.orientation);
+  motion.v_WB = surface.velocity;
+  motion.w_WB = surface.angular_velocity;
+  motion.belt = surface.belt_velocity;
+  return motion;
+}
+
+bool ShapeContact::is_tracked() const { return key.feature < kind_size; }
+
+bool ShapeContact::fades() const {
+  const std::int64_t kind = key.feature / kind_size;
+  return kind == edge_kind || kind == axis_kind ||
+         (kind == rim_kind && key.other % kind_size >= of_a_ridge);
+}
+
+Vector3d belt_velocity(const ShapeContact& contact, std::span<const ObjectMotion> motions) {
+  const Vector3d belt = motions[static_cast<std::size_t>(contact.key.a)].belt -
+                        motions[static_cast<std::size_t>(contact.key.b)].belt;
+  return tangential(belt, contact.normal);
+}
+
+const contact::MaterialConstants<double>& constants_of(const ContactMaterials& materials,
+                                                       const ShapeContact& contact) {
+  return contact.key.a < contact.key.b ? materials.between(contact.material_a, contact.material_b)
+                                       : materials.between(contact.material_b, contact.material_a);
+}
+
+std::size_t slots_for(const std::vector<ShapeObject>& objects) {
+  constexpr std::size_t least = 32;
+  std::size_t count = least;
+  for (const ShapeObject& object : objects)
+    if (object.movable) count += object.place_count();
+  return count;
+}
+
+ShapeDetection::ShapeDetection(const Experiment& experiment,
+                               const std::vector<ShapeObject>& objects,
+                               const contact::Terrain* ground, double reach, bool self)
+    : experiment_(experiment),
+      objects_(objects),
+      ground_(ground),
+      reach_(reach),
+      self_(self),
+      carriers_(objects.size(), objects.size()),
+      boxes_(objects.size()) {
+  std::size_t first = 0, most_edges = 0;
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    const ShapeObject& object = objects[i];
+    std::size_t edges = 0;
+    for (const PolyhedronFeature& polyhedron : object.polyhedra)
+      edges += polyhedron.solid->all_ridges().size();
+    most_edges = std::max(most_edges, edges);
+    if (object.kind == ShapeObject::Kind::body) {
+      if (object.body == 0) first = i;
+      if (object.body > 0)
+        carriers_[i] = first + carriers_of(experiment.robots[object.index])[object.body];
+    }
+    if (object.kind != ShapeObject::Kind::terrain && !object.is_empty()) order_.push_back(i);
+  }
+  edges_.reserve(most_edges);
+}
+
+bool ShapeDetection::may_touch(std::size_t i, std::size_t j) const {
+  const ShapeObject &a = objects_[i], &b = objects_[j];
+  if (!a.movable && !b.movable) return false;
+  if (a.kind != ShapeObject::Kind::body || b.kind != ShapeObject::Kind::body) return true;
+  if (a.index != b.index) return true;
+  return (self_ || experiment_.robots[a.index].self_contact) && carriers_[i] != j &&
+         carriers_[j] != i;
+}
+
+contact::Region ShapeDetection::box_in(std::size_t object, const ObjectMotion& frame) const {
+  const ObjectMotion& own = motions_[object];
+  return turned(objects_[object].bounds, transpose(frame.R_WB) * own.R_WB,
+                frame.to_object(own.p_WB));
+}
+
+void ShapeDetection::detect(std::span<const ObjectMotion> motions, const DetectionMemory& memory,
+                            std::vector<ShapeContact>& contacts) {
+  motions_ = motions;
+  memory_ = &memory;
+  contacts_ = &contacts;
+  contacts.clear();
+  left_out_ = false;
+  const Vector3d reach{reach_, reach_, reach_};
+  for (const std::size_t i : order_) {
+    boxes_[i] = turned(objects_[i].bounds, motions[i].R_WB, motions[i].p_WB);
+    boxes_[i] = {boxes_[i].low - reach, boxes_[i].high + reach};
+    if (!objects_[0].ground || !may_touch(0, i)) continue;
+    if (!objects_[0].ground->is_clear_of(near_box(i, motions[0]))) pair(i, 0);
+  }
+  // Broad phase: in the order of their lower ends along x only the next few can overlap. The order of
+  // a step before is nearly right, so that insertion takes O(n).
+  for (std::size_t k = 1; k < order_.size(); ++k) {
+    const std::size_t object = order_[k];
+    std::size_t to = k;
+    const auto before = [&](std::size_t a, std::size_t b) {
+      return boxes_[a].low.x < boxes_[b].low.x || (boxes_[a].low.x == boxes_[b].low.x && a < b);
+    };
+    for (; to > 0 && before(object, order_[to - 1]); --to) order_[to] = order_[to - 1];
+    order_[to] = object;
+  }
+  for (std::size_t k = 0; k < order_.size(); ++k) {
+    for (std::size_t l = k + 1; l < order_.size(); ++l) {
+      const std::size_t i = std::min(order_[k], order_[l]), j = std::max(order_[k], order_[l]);
+      if (boxes_[order_[l]].low.x > boxes_[order_[k]].high.x) break;
+      if (may_touch(i, j) && overlap(boxes_[i], boxes_[j])) pair(i, j);
+    }
+  }
+  std::ranges::sort(contacts, [](const ShapeContact& x, const ShapeContact& y) {
+    return std::pair(x.key, x.order) < std::pair(y.key, y.order);
+  });
+}
+
+void ShapeDetection::pair(std::size_t i, std::size_t j) {
+  for (const auto& [a, b] : {std::pair{i, j}, std::pair{j, i}}) {
+    balls_on(a, b);
+    rims_on(a, b);
+    corners_on(a, b);
+  }
+  edges_on(i, j);
+}
+
+void ShapeDetection::add(const ShapeContact& contact) {
+  if (contacts_->size() < contacts_->capacity()) {
+    contacts_->push_back(contact);
+    contacts_->back().order = contacts_->size();
+    return;
+  }
+  // The deepest carry.
+  left_out_ = true;
+  const auto shallowest = std::ranges::min_element(*contacts_, {}, &ShapeContact::depth);
+  if (shallowest->depth >= contact.depth) return;
+  const std::size_t order = shallowest->order;
+  *shallowest = contact;
+  shallowest->order = order;
+  contacts_->back().radius = radius_of(contact.key);
+}
+
+double ShapeDetection::radius_of(const ContactKey& key) const {
+  const ShapeObject& a = objects_[static_cast<std::size_t>(key.a)];
+  const ShapeObject& b = objects_[static_cast<std::size_t>(key.b)];
+  const std::size_t part = part_of(key.feature);
+  double radius = 0.;
+  switch (key.feature / kind_size) {
+    case ball_kind:
+      radius = a.balls[static_cast<std::size_t>(key.feature)].radius;
+      break;
+    case rim_kind:
+      radius = a.rims[part].rim.radius;
+      break;
+    case axis_kind:
+      radius = a.axes[part].radius;
+      break;
+    default:
+      break;
+  }
+  if (key.other / kind_size == round_kind)
+    return std::max(radius, b.rounds[part_of(key.other)].solid.radius);
+  return radius;
+}
+
+int ShapeDetection::material_of(std::size_t object, const Vector3d& place, int stated) const {
+  if (stated != no_material) return stated;
+  const ShapeObject& of = objects_[object];
+  if (of.ground && !ground_->description().patches.empty())
+    return ground_->query(motions_[object].to_object(place)).material;
+  return of.ground_material;
+}
+
+void ShapeDetection::ball_on_surface(const contact::Surface& surface, std::size_t a, std::size_t b,
+                                     const BallFeature& ball, std::int64_t feature,
+                                     std::int64_t other, int material_b) {
+  const ObjectMotion& frame = motions_[b];
+  const Vector3d center = motions_[a].to_world(ball.center);
+  const ContactKey key{static_cast<std::int64_t>(a), static_cast<std::int64_t>(b), feature, other};
+  const Vector3d before = memory_->before(b).to_object(memory_->before(a).to_world(ball.center));
+  Vector3d place_in_b = frame.to_object(center), lift;
+  if (memory_->stays_outside()) {
+    lift = lift_off(surface, place_in_b);
+    place_in_b += lift;
+  }
+  contact::Holding held = memory_->holding(key);
+  // A corner that comes in over an edge takes over what the edge held, not what it came through.
+  if (held.count == 0 && ball.radius == 0. && surface.contains(place_in_b)) {
+    if (const auto normal = memory_->normal_at(a, b, memory_->before(b).to_world(before)))
+      held = {{contact::face_along(surface, place_in_b, transpose_times(frame.R_WB, *normal))}, 1};
+  }
+  const contact::BallContacts found =
+      contact::ball_on_surface(surface, place_in_b, ball.radius, before, held, reach_);
+  for (const contact::SurfaceContact& at : found.all()) {
+    const Vector3d normal = frame.R_WB * at.normal;
+    const Vector3d place = center - ball.radius * normal;
+    const double depth = at.depth + dot(lift, at.normal);
+    add({key, place, normal, depth, at.part, ball.material, material_of(b, place, material_b),
+         found.holding});
+  }
+}
+
+void ShapeDetection::balls_on(std::size_t a, std::size_t b) {
+  const ShapeObject &own = objects_[a], &other = objects_[b];
+  const auto wide = [](const BallFeature& ball) { return ball.radius > 0.; };
+  for (std::size_t k = 0; k < own.balls.size(); ++k) {
+    const BallFeature& ball = own.balls[k];
+    const std::int64_t feature = numbered(ball_kind, 0, static_cast<std::int64_t>(k));
+    if (other.ground && (!ball.is_rim_sample || other.ground->is_rough()))
+      ball_on_surface(*other.ground, a, b, ball, feature, 0, no_material);
+    if (ball.is_rim_sample) continue;
+    for (std::size_t p = 0; p < other.polyhedra.size(); ++p)
+      ball_on_surface(*other.polyhedra[p].solid, a, b, ball, feature, numbered(corner_kind, p),
+                      other.polyhedra[p].material);
+    for (std::size_t p = 0; p < other.rounds.size(); ++p) {
+      const RoundFeature& round = other.rounds[p];
+      const Vector3d center = motions_[a].to_world(ball.center);
+      const auto at =
+          contact::ball_on_round(round.solid, motions_[b].to_object(center), ball.radius, reach_);
+      if (!at) continue;
+      // Two balls, or ends of capsules, meet once; and a ball meets a polyhedron's corner itself.
+      const bool as_ball = !round.solid.flat_ends && !at->on_side;
+      if (as_ball && (wide(ball) ? a > b : ball.is_corner)) continue;
+      const Vector3d normal = motions_[b].R_WB * at->normal;
+      add({{static_cast<std::int64_t>(a), static_cast<std::int64_t>(b), feature,
+            numbered(round_kind, p)},
+           center - ball.radius * normal,
+           normal,
+           at->depth,
+           1.,
+           ball.material,
+           material_of(b, center, round.material),
+           {}});
+    }
+  }
+}
+
+// Corners of the ground, against the polyhedra and the round sides of a body; the corners of bodies
+// are among their balls.
+void ShapeDetection::corners_on(std::size_t a, std::size_t b) {
+  const ShapeObject &own = objects_[a], &other = objects_[b];
+  if (!own.ground || (other.polyhedra.empty() && other.rounds.empty())) return;
+  own.ground->corners(near_box(b, motions_[a]), [&](const contact::Corner& corner) {
+    const BallFeature point{corner.position, 0., corner.material};
+    const std::int64_t feature = numbered(corner_kind, 0, corner.id);
+    for (std::size_t p = 0; p < other.polyhedra.size(); ++p)
+      ball_on_surface(*other.polyhedra[p].solid, a, b, point, feature, numbered(corner_kind, p),
+                      other.polyhedra[p].material);
+    for (std::size_t p = 0; p < other.rounds.size(); ++p) {
+      const RoundFeature& round = other.rounds[p];
+      const Vector3d place = motions_[a].to_world(corner.position);
+      const auto at = contact::ball_on_round(round.solid, motions_[b].to_object(place), 0., reach_);
+      // The ball of a capsule's end meets corners as a ball.
+      if (!at || !at->on_side) continue;
+      add({{static_cast<std::int64_t>(a), static_cast<std::int64_t>(b), feature,
+            numbered(round_kind, p)},
+           place,
+           motions_[b].R_WB * at->normal,
+           at->depth,
+           1.,
+           corner.material,
+           round.material,
+           {}});
+    }
+  });
+}
+
+void ShapeDetection::rim_on_surface(const contact::Surface& surface, std::size_t a, std::size_t b,
+                                    const RimFeature& feature_of_a, std::int64_t feature,
+                                    std::int64_t other, int material_b) {
+  const ObjectMotion& frame = motions_[b];
+  const auto to_frame = [&](const Vector3d& direction) {
+    return transpose_times(frame.R_WB, motions_[a].R_WB * direction);
+  };
+  const auto place_in_frame = [&](const Vector3d& p) {
+    return frame.to_object(motions_[a].to_world(p));
+  };
+  const contact::Rim rim{place_in_frame(feature_of_a.rim.center), to_frame(feature_of_a.rim.axis),
+                         feature_of_a.rim.radius, to_frame(feature_of_a.rim.reference)};
+  const Vector3d middle = place_in_frame(feature_of_a.middle);
+  const auto touch = [&](const Vector3d& point, const Vector3d& normal, double depth, double weight,
+                         std::size_t number, std::int64_t of_b) {
+    const Vector3d place = frame.to_world(point);
+    add({{static_cast<std::int64_t>(a), static_cast<std::int64_t>(b),
+          feature + static_cast<std::int64_t>(number), of_b},
+         place,
+         frame.R_WB * normal,
+         depth,
+         weight,
+         feature_of_a.material,
+         material_of(b, place, material_b),
+         {}});
+  };
+  // Faces: the point that is deepest under each, where that is the face over it.
+  std::array<RimOnFaces, contact::rim_points> on_faces;
+  surface.faces(
+      contact::region_about(rim.center, rim.radius + reach_), [&](const contact::Face& face) {
+        if (face.height(middle) <= 0.) return;  // the shape comes from the other side
+        const auto points = contact::deepest_points(rim, face.normal, -face.height(rim.center));
+        for (std::size_t i = 0; i < points.size(); ++i) {
+          const double depth = -face.height(points[i]);
+          if (depth <= -reach_) continue;
+          const bool over = is_under(surface, face, points[i]);
+          if (over) on_faces[i].add(points[i], face, depth);
+        }
+      });
+  for (std::size_t i = 0; i < on_faces.size(); ++i) {
+    on_faces[i].share();
+    for (std::size_t k = 0; k < on_faces[i].count; ++k) {
+      const contact::Obstruction& at = on_faces[i].faces[k];
+      if (at.part > 0.)
+        touch(on_faces[i].points[k], at.normal, at.depth, at.part, i, other + on_faces[i].ids[k]);
+    }
+  }
+  const Vector3d end = dot(rim.center - middle, rim.axis) > 0. ? rim.axis : -rim.axis;
+  surface.ridges(
+      contact::region_about(rim.center, rim.radius + reach_), [&](const contact::Ridge& ridge) {
+        const contact::RimCrossings found = contact::rim_on_ridge(ridge, rim, reach_);
+        for (std::size_t i = 0; i < found.count; ++i) {
+          const contact::RimCrossing& at = found.crossings[i];
+          if (at.depth > rim.radius) continue;
+          // Between the side and the end of the shape that meet in the rim.
+          const double weight = contact::between(at.normal, ridge.outwards) *
+                                contact::between(-at.normal, {at.radial, end});
+          if (weight > 0.)
+            touch(at.place, at.normal, at.depth, weight, i, other + of_a_ridge + ridge.id);
+        }
+      });
+}
+
+void ShapeDetection::rims_on(std::size_t a, std::size_t b) {
+  const ShapeObject &own = objects_[a], &other = objects_[b];
+  for (std::size_t k = 0; k < own.rims.size(); ++k) {
+    const std::int64_t feature = numbered(rim_kind, k);
+    if (other.ground && !other.ground->is_rough())
+      rim_on_surface(*other.ground, a, b, own.rims[k], feature, 0, no_material);
+    for (std::size_t p = 0; p < other.polyhedra.size(); ++p)
+      rim_on_surface(*other.polyhedra[p].solid, a, b, own.rims[k], feature,
+                     numbered(corner_kind, p), other.polyhedra[p].material);
+  }
+}
+
+// Axes of a across the ridges of `surface`, a part of b.
+void ShapeDetection::axes_on_ridges(const contact::Surface& surface, std::size_t a, std::size_t b,
+                                    std::int64_t other, int material_b) {
+  const ObjectMotion& frame = motions_[b];
+  const ShapeObject& own = objects_[a];
+  if (own.axes.empty()) return;
+  surface.ridges(near_box(a, frame), [&](const contact::Ridge& ridge) {
+    for (std::size_t k = 0; k < own.axes.size(); ++k) {
+      const AxisFeature& axis = own.axes[k];
+      const contact::BodyEdge edge{frame.to_object(motions_[a].to_world(axis.from)),
+                                   frame.to_object(motions_[a].to_world(axis.to)),
+                                   axis.radius,
+                                   {},
+                                   {}};
+      const auto at = contact::edge_on_ridge(ridge, edge, reach_, 2. * axis.radius);
+      if (!at) continue;
+      const Vector3d place = frame.to_world(at->place);
+      add({{static_cast<std::int64_t>(a), static_cast<std::int64_t>(b), numbered(axis_kind, k),
+            other + ridge.id},
+           place,
+           frame.R_WB * at->normal,
+           at->depth,
+           at->weight,
+           axis.material,
+           material_of(b, place, material_b),
+           {}});
+    }
+  });
+}
+
+contact::BodyEdge ShapeDetection::edge_of(const PolyhedronFeature& polyhedron, std::size_t ridge,
+                                          std::size_t a, const ObjectMotion& frame) const {
+  const auto place = [&](const Vector3d& p) { return frame.to_object(motions_[a].to_world(p)); };
+  const auto turned = [&](const std::array<Vector3d, 2>& directions) {
+    return std::array{transpose_times(frame.R_WB, motions_[a].R_WB * directions[0]),
+                      transpose_times(frame.R_WB, motions_[a].R_WB * directions[1])};
+  };
+  const contact::Polyhedron& solid = *polyhedron.solid;
+  const auto [from, to] = solid.ends(ridge);
+  const contact::Ridge& own = solid.all_ridges()[ridge];
+  return {place(solid.vertices()[from]), place(solid.vertices()[to]), 0., turned(own.normals),
+          turned(own.outwards)};
+}
+
+// The edges of a's polyhedra, one polyhedron after the other, in the axes of `frame`.
+void ShapeDetection::find_edges(std::size_t a, const ObjectMotion& frame) {
+  for (const PolyhedronFeature& polyhedron : objects_[a].polyhedra)
+    for (std::size_t k = 0; k < polyhedron.solid->all_ridges().size(); ++k)
+      edges_.push_back(edge_of(polyhedron, k, a, frame));
+}
+
+contact::Region ShapeDetection::near_box(std::size_t object, const ObjectMotion& frame) const {
+  const contact::Region box = box_in(object, frame);
+  const Vector3d reach{reach_, reach_, reach_};
+  return {box.low - reach, box.high + reach};
+}
+
+// Whether a corner at the crossing is inside the other solid, and touches there itself.
+bool ShapeDetection::is_corners(const contact::EdgeContact& at, const contact::Surface& surface,
+                                const contact::Ridge& ridge, const contact::Polyhedron& solid,
+                                std::size_t edge, std::size_t a, const ObjectMotion& frame) const {
+  const auto end = [](const std::array<std::size_t, 2>& ends, int which) {
+    return ends[static_cast<std::size_t>(which)];
+  };
+  if (at.at_end >= 0) {
+    const Vector3d& corner = solid.vertices()[end(solid.ends(edge), at.at_end)];
+    if (surface.contains(frame.to_object(motions_[a].to_world(corner)))) return true;
+  }
+  if (at.at_ridge_end < 0) return false;
+  const Vector3d corner =
+      ridge.point + (at.at_ridge_end == 0 ? ridge.from : ridge.to) * ridge.along;
+  return solid.contains(motions_[a].to_object(frame.to_world(corner)));
+}
+
+// Edges of a's polyhedra across the ridges of `surface`, a part of b.
+void ShapeDetection::edges_on_ridges(const contact::Surface& surface, double half_thickness,
+                                     std::size_t a, std::size_t b, std::int64_t other,
+                                     int material_b) {
+  const ObjectMotion& frame = motions_[b];
+  const ShapeObject& own = objects_[a];
+  if (own.polyhedra.empty()) return;
+  constexpr std::size_t most = 8;  // edges of one polyhedron that a straight line crosses
+  struct Crossing {
+    contact::EdgeContact contact;
+    std::size_t edge = 0;
+  };
+  edges_.clear();
+  surface.ridges(near_box(a, frame), [&](const contact::Ridge& ridge) {
+    if (edges_.empty()) find_edges(a, frame);
+    std::size_t first = 0;
+    for (std::size_t p = 0; p < own.polyhedra.size(); ++p) {
+      const PolyhedronFeature& polyhedron = own.polyhedra[p];
+      const contact::Polyhedron& solid = *polyhedron.solid;
+      const auto edges = std::span(edges_).subspan(first, solid.all_ridges().size());
+      first += edges.size();
+      std::array<Crossing, most> found;
+      std::size_t count = 0;
+      for (std::size_t k = 0; k < edges.size() && count < most; ++k) {
+        const auto at = contact::edge_on_ridge(ridge, edges[k], reach_,
+                                               std::min(polyhedron.half_thickness, half_thickness));
+        if (at && !is_corners(*at, surface, ridge, solid, k, a, frame)) found[count++] = {*at, k};
+      }
+      // What a crossing has to share with another that comes near the same end of both edges.
+      const auto share = [&](const Crossing& crossing, std::size_t end) {
+        const auto part = [](const Crossing& of, std::size_t at) {
+          return at == 0 ? of.contact.along : 1. - of.contact.along;
+        };
+        for (const Crossing& other_crossing : std::span(found).first(count)) {
+          if (other_crossing.edge == crossing.edge) continue;
+          for (const std::size_t other_end : {0, 1}) {
+            if (solid.ends(other_crossing.edge)[other_end] != solid.ends(crossing.edge)[end])
+              continue;
+            const double here = part(crossing, end), there = part(other_crossing, other_end);
+            const double sum = here + there - here * there;
+            return sum > 0. ? there / sum : 0.5;
+          }
+        }
+        return 1.;
+      };
+      for (const Crossing& crossing : std::span(found).first(count)) {
+        const double weight =
+            contact::end_weighted(crossing.contact, {share(crossing, 0), share(crossing, 1)});
+        if (weight <= 0.) continue;
+        const Vector3d place = frame.to_world(crossing.contact.place);
+        add({{static_cast<std::int64_t>(a), static_cast<std::int64_t>(b),
+              numbered(edge_kind, p, static_cast<std::int64_t>(crossing.edge)), other + ridge.id},
+             place,
+             frame.R_WB * crossing.contact.normal,
+             crossing.contact.depth,
+             weight,
+             polyhedron.material,
+             material_of(b, place, material_b),
+             {}});
+      }
+    }
+  });
+}
+
+void ShapeDetection::axes_on_axes(std::size_t a, std::size_t b) {
+  const ShapeObject &own = objects_[a], &other = objects_[b];
+  const ObjectMotion& frame = motions_[b];
+  for (std::size_t k = 0; k < own.axes.size(); ++k) {
+    const AxisFeature& first = own.axes[k];
+    const contact::RoundSolid solid{frame.to_object(motions_[a].to_world(first.from)),
+                                    frame.to_object(motions_[a].to_world(first.to)), first.radius};
+    for (std::size_t l = 0; l < other.axes.size(); ++l) {
+      const AxisFeature& second = other.axes[l];
+      const auto at = contact::crossed_axes(solid, {second.from, second.to, second.radius}, reach_);
+      if (!at) continue;
+      const Vector3d place = frame.to_world(at->place);
+      add({{static_cast<std::int64_t>(a), static_cast<std::int64_t>(b), numbered(axis_kind, k),
+            numbered(axis_kind, l)},
+           place,
+           frame.R_WB * at->contact.normal,
+           at->contact.depth,
+           1.,
+           first.material,
+           material_of(b, place, second.material),
+           {}});
+    }
+  }
+}
+
+void ShapeDetection::edges_on(std::size_t a, std::size_t b) {
+  const ShapeObject &own = objects_[a], &other = objects_[b];
+  constexpr double solid_ground = std::numeric_limits<double>::infinity();
+  if (other.ground) {
+    axes_on_ridges(*other.ground, a, b, 0, no_material);
+    edges_on_ridges(*other.ground, solid_ground, a, b, 0, no_material);
+  }
+  for (std::size_t p = 0; p < other.polyhedra.size(); ++p) {
+    const PolyhedronFeature& polyhedron = other.polyhedra[p];
+    axes_on_ridges(*polyhedron.solid, a, b, numbered(edge_kind, p), polyhedron.material);
+    edges_on_ridges(*polyhedron.solid, polyhedron.half_thickness, a, b, numbered(edge_kind, p),
+                    polyhedron.material);
+  }
+  for (std::size_t p = 0; p < own.polyhedra.size(); ++p)
+    axes_on_ridges(*own.polyhedra[p].solid, b, a, numbered(edge_kind, p),
+                   own.polyhedra[p].material);
+  axes_on_axes(a, b);
+}
+
+}  // namespace hookpoint::simulation

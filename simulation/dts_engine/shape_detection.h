@@ -1,0 +1,152 @@
+// Where shapes touch: the narrow phase of `touch = shapes`, feature against feature
+// (contact/geometry/), behind a broad phase that sweeps over the objects' boxes.
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "contact/geometry/ball_on_surface.h"
+#include "contact/geometry/edge_on_ridge.h"
+#include "dts/workspace.h"
+#include "simulation/dts_engine/shape_object.h"
+#include "simulation/engine_interface/engine.h"
+#include "simulation/experiment/contact_materials.h"
+
+namespace hookpoint::simulation {
+
+/// How an object moves, world axes.
+struct ObjectMotion : dts::BodyMotion<double> {
+  Vector3d belt;  ///< velocity of its material over its surface, beside that [m/s]
+
+  Vector3d to_world(const Vector3d& p_O) const { return p_WB + R_WB * p_O; }
+  Vector3d to_object(const Vector3d& p_W) const { return transpose_times(R_WB, p_W - p_WB); }
+  Vector3d velocity_at(const Vector3d& p_W) const { return v_WB + cross(w_WB, p_W - p_WB); }
+};
+
+/// Of the terrain or an obstacle, `elapsed` [s] after the step's start.
+ObjectMotion motion_of(const SurfaceMotion& surface, double elapsed);
+
+/// Which feature of which object touches which of which other.
+struct ContactKey {
+  std::int64_t a = 0, b = 0;  ///< objects
+  std::int64_t feature = 0;   ///< of a
+  std::int64_t other = 0;     ///< of b
+  auto operator<=>(const ContactKey&) const = default;
+};
+
+/// A place where objects a and b touch, world axes. Several may have one key: a ball in a groove.
+struct ShapeContact {
+  /// Whether it is of a ball, or a point, on a surface: only these are known to have come in through
+  /// it. Others begin at depth 0, or where another contact ends.
+  bool is_tracked() const;
+  /// Whether the weight fades with the pose, as of an edge on a ridge. It then never grows while the
+  /// contact lasts, which would make energy from nothing.
+  bool fades() const;
+  ContactKey key;
+  Vector3d place;      ///< on a's surface [m]
+  Vector3d normal;     ///< unit, out of b
+  double depth = 0.;   ///< > 0 where they overlap [m]
+  double weight = 1.;  ///< of the law's force
+  int material_a = no_material, material_b = no_material;
+  contact::Holding holding{};  ///< of the key's ball inside b
+  /// The law counts the depth from here: the least at which it has been since it began inside [m].
+  double begun_at = 0.;
+  std::size_t order = 0;  ///< in which it was found
+  double radius = 0.;     ///< of the ball, rim or round side that touches; 0 of none [m]
+};
+
+/// Velocity that belts give a's material over b's, beside the objects' motion [m/s].
+Vector3d belt_velocity(const ShapeContact& contact, std::span<const ObjectMotion> motions);
+
+/// The constants of a contact, from the materials of its two sides: the later object is the foot.
+const contact::MaterialConstants<double>& constants_of(const ContactMaterials& materials,
+                                                       const ShapeContact& contact);
+
+/// What detection remembers of the accepted state before: where the objects stood, and which faces
+/// hold the balls that are inside.
+class DetectionMemory {
+ public:
+  virtual ~DetectionMemory() = default;
+  virtual const ObjectMotion& before(std::size_t object) const = 0;
+  /// Whether nothing comes inside but by rounding, so that what lies on a surface is seen from outside.
+  virtual bool stays_outside() const { return false; }
+  virtual contact::Holding holding(const ContactKey& key) const = 0;
+  /// Normal out of b of a committed contact at `place`, which a's material carries to where it is now;
+  /// none without one. World axes.
+  virtual std::optional<Vector3d> normal_at(std::size_t a, std::size_t b,
+                                            const Vector3d& place) const = 0;
+};
+
+/// Room for the places where objects touch at once.
+std::size_t slots_for(const std::vector<ShapeObject>& objects);
+
+class ShapeDetection {
+ public:
+  /// All that is referred to outlives it. `reach` [m]: how far above a surface a law acts. `self`:
+  /// bodies of one robot touch each other, whatever its self_contact says.
+  ShapeDetection(const Experiment& experiment, const std::vector<ShapeObject>& objects,
+                 const contact::Terrain* ground, double reach, bool self = false);
+
+  /// The contacts of objects that move as `motions` say, sorted by key; of more than `contacts` has
+  /// room for, the deepest. O(n log n + pairs of objects whose boxes meet). Allocates nothing.
+  void detect(std::span<const ObjectMotion> motions, const DetectionMemory& memory,
+              std::vector<ShapeContact>& contacts);
+
+  /// Whether two objects touch where they meet, in either order.
+  bool may_touch(std::size_t i, std::size_t j) const;
+  /// Whether the last detection found more contacts than there was room for.
+  bool left_out() const { return left_out_; }
+
+ private:
+  void pair(std::size_t i, std::size_t j);
+  /// Features of a against what b is.
+  void balls_on(std::size_t a, std::size_t b);
+  void rims_on(std::size_t a, std::size_t b);
+  void corners_on(std::size_t a, std::size_t b);
+  void edges_on(std::size_t a, std::size_t b);
+  void ball_on_surface(const contact::Surface& surface, std::size_t a, std::size_t b,
+                       const BallFeature& ball, std::int64_t feature, std::int64_t other,
+                       int material_b);
+  void rim_on_surface(const contact::Surface& surface, std::size_t a, std::size_t b,
+                      const RimFeature& rim, std::int64_t feature, std::int64_t other,
+                      int material_b);
+  void axes_on_ridges(const contact::Surface& surface, std::size_t a, std::size_t b,
+                      std::int64_t other, int material_b);
+  void edges_on_ridges(const contact::Surface& surface, double half_thickness, std::size_t a,
+                       std::size_t b, std::int64_t other, int material_b);
+  bool is_corners(const contact::EdgeContact& at, const contact::Surface& surface,
+                  const contact::Ridge& ridge, const contact::Polyhedron& solid, std::size_t edge,
+                  std::size_t a, const ObjectMotion& frame) const;
+  void axes_on_axes(std::size_t a, std::size_t b);
+  void find_edges(std::size_t a, const ObjectMotion& frame);
+  contact::BodyEdge edge_of(const PolyhedronFeature& polyhedron, std::size_t ridge, std::size_t a,
+                            const ObjectMotion& frame) const;
+  void add(const ShapeContact& contact);
+  /// Radius of the round feature of a contact; 0 of none [m].
+  double radius_of(const ContactKey& key) const;
+  int material_of(std::size_t object, const Vector3d& place, int stated) const;
+  /// Box of an object in the frame of another.
+  contact::Region box_in(std::size_t object, const ObjectMotion& frame) const;
+  /// The same, with what is within reach of it.
+  contact::Region near_box(std::size_t object, const ObjectMotion& frame) const;
+
+  const Experiment& experiment_;
+  const std::vector<ShapeObject>& objects_;
+  const contact::Terrain* ground_;
+  double reach_;
+  bool self_;
+  std::vector<std::size_t>
+      carriers_;  ///< of each object that is a body: the object that carries it
+  std::vector<contact::Region> boxes_;
+  std::vector<std::size_t> order_;        ///< of the sweep
+  std::vector<contact::BodyEdge> edges_;  ///< of the object whose edges are looked at
+  // Of the detection that is under way.
+  std::span<const ObjectMotion> motions_;
+  const DetectionMemory* memory_ = nullptr;
+  std::vector<ShapeContact>* contacts_ = nullptr;
+  bool left_out_ = false;
+};
+
+}  // namespace hookpoint::simulation

@@ -1,0 +1,85 @@
+// The robots of an MJCF as objects of the language, with the arguments of its Include.
+#include "simulation/scene/mjcf/mjcf.h"
+
+#include <array>
+
+#include "simulation/scene/urdf/robot_include.h"
+
+namespace hookpoint::simulation {
+namespace {
+
+using language::ForeignArguments;
+using language::ForeignObject;
+
+/// Arguments with a meaning of their own.
+constexpr std::array mjcf_arguments{"name",  "base", "shapes",  "meshes", "keyframe",     "contact",
+                                    "mimic", "lock", "inertia", "hold",   "rotor_inertia"};
+
+ForeignObject material_object(const std::string& name, const MjcfMaterial& material) {
+  ForeignObject object{"Material", name, material.place, {}, {}};
+  for (const char* field : {"static_friction", "kinetic_friction"})
+    object.fields.push_back(numbers(field, {material.friction}, material.place));
+  return object;
+}
+
+class MjcfInclude : private RobotInclude {
+ public:
+  MjcfInclude(const ForeignArguments& arguments, language::FileStore& files,
+              language::Report& report)
+      : RobotInclude(arguments, mjcf_arguments, files, report) {}
+
+  std::vector<ForeignObject> run(const language::SourceFile& file) {
+    const std::string shapes = word_argument("shapes", {"collision", "inertia"});
+    auto scene = read_mjcf(file, choices(), files_, report_);
+    if (!scene) return {};
+    check_arguments(scene->robots);
+    lock_joints(scene->robots);
+    tell_left_out(scene->robots.front());
+    const std::string name = robot_name(scene->name);
+    std::vector<ForeignObject> objects;
+    for (const MjcfMaterial& material : scene->materials)
+      objects.push_back(material_object(name + "_" + material.name, material));
+    for (UrdfRobot& robot : scene->robots) {
+      for (UrdfLink& link : robot.links) {
+        for (UrdfShape& shape : link.shapes) {
+          if (!shape.material.empty()) shape.material = name + "_" + shape.material;
+        }
+      }
+      const bool is_first = &robot == &scene->robots.front();
+      for (ForeignObject& object :
+           robot_objects(robot, is_first ? name : name + "_" + identifier(robot.name),
+                         shapes == "inertia", is_first))
+        objects.push_back(std::move(object));
+    }
+    return objects;
+  }
+
+ private:
+  MjcfChoices choices() {
+    MjcfChoices chosen;
+    const std::string meshes = word_argument("meshes", {"skip", "box", "hull"});
+    if (meshes == "box") chosen.meshes = UrdfMeshes::box;
+    if (meshes == "hull") chosen.meshes = UrdfMeshes::hull;
+    chosen.mimic = mimic_argument();
+    chosen.inertia = inertia_argument();
+    chosen.friction = word_argument("contact", {"friction", "ground"}) != "ground";
+    if (is_given("keyframe")) {
+      const language::ForeignField& given = arguments_.at("keyframe");
+      chosen.keyframe = given.values[0].text;
+      chosen.keyframe_place = given.position;
+      if (chosen.keyframe.empty())
+        report_.error(given.position, "the argument `keyframe` is the name of a <key>");
+    }
+    return chosen;
+  }
+};
+
+}  // namespace
+
+std::vector<ForeignObject> include_mjcf(const language::SourceFile& file,
+                                        const ForeignArguments& arguments,
+                                        language::FileStore& files, language::Report& report) {
+  return MjcfInclude(arguments, files, report).run(file);
+}
+
+}  // namespace hookpoint::simulation

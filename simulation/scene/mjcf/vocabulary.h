@@ -1,0 +1,23 @@
+// The elements and attributes of MJCF that matter to a robot, as MuJoCo 3.14 knows them.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "simulation/scene/mjcf/document.h"
+
+namespace hookpoint::simulation {
+
+/// Whether `tag` is an element that drives a joint. In a default class they are one and the same: each
+/// sets what all are.
+bool is_mjcf_actuator(std::string_view tag);
+
+/// An error at each attribute that MuJoCo does not know of this element. Elements that nothing here
+/// reads are not looked into.
+void check_mjcf_attributes(const MjcfElement& element);
+
+/// Those of its attributes that bear on motion and are not read.
+std::vector<std::string> unread_mjcf_attributes(const MjcfElement& element);
+
+}  // namespace hookpoint::simulation

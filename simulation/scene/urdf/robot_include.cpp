@@ -1,0 +1,502 @@
+#include "simulation/scene/urdf/robot_include.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+
+#include "language/names.h"
+#include "simulation/scene/urdf/inertia_repair.h"
+#include "simulation/scene/urdf/joint_rules.h"
+#include "simulation/wiring/port_search.h"
+
+namespace hookpoint::simulation {
+namespace {
+
+using language::ForeignField;
+using language::ForeignObject;
+using language::Position;
+using language::Value;
+using language::ValueKind;
+
+/// Arguments that are fields of the base.
+constexpr std::array base_fields{"location", "orientation", "velocity", "angular_velocity",
+                                 "rest_on",  "at",          "yaw",      "settled"};
+/// What follows the name of a joint in the argument that gives its rotor's inertia.
+constexpr const char* rotor_argument = "_rotor_inertia";
+
+/// A chain is called as its first joint; the base has its name already.
+std::string chain_name(const UrdfJoint& hip) {
+  const std::string name = identifier(hip.name);
+  return name == "base" ? "base_" : name;
+}
+
+ForeignField word(const char* name, const std::string& text, const Position& place) {
+  Value value;
+  value.kind = ValueKind::word;
+  value.text = text;
+  value.position = place;
+  return {name, {value}, place};
+}
+
+/// Position and orientation, unless they are the identity, to the fields of those names.
+void add_pose(const Pose& X, const char* position, const char* orientation, const Position& place,
+              ForeignObject& object) {
+  const auto& [p, q] = X;
+  if (p != Vector3d{}) object.fields.push_back(numbers(position, {p.x, p.y, p.z}, place));
+  if (q != Quaterniond{})
+    object.fields.push_back(numbers(orientation, {q.w, q.x, q.y, q.z}, place));
+}
+
+ForeignObject shape_object(const UrdfShape& of) {
+  const ShapeSpec& shape = of.spec;
+  const Position& place = of.place;
+  ForeignObject object{"", "", place, {}, {}};
+  if (const auto* box = std::get_if<Box>(&shape.geometry)) {
+    object.type = "Shape.Box";
+    const Vector3d& size = box->dimensions;
+    object.fields = {numbers("dimensions", {size.x, size.y, size.z}, place)};
+  } else if (const auto* cylinder = std::get_if<Cylinder>(&shape.geometry)) {
+    object.type = "Shape.Cylinder";
+    object.fields = {numbers("radius", {cylinder->radius}, place),
+                     numbers("length", {cylinder->length}, place)};
+  } else if (const auto* capsule = std::get_if<Capsule>(&shape.geometry)) {
+    object.type = "Shape.Capsule";
+    object.fields = {numbers("radius", {capsule->radius}, place),
+                     numbers("length", {capsule->length}, place)};
+  } else {
+    object.type = "Shape.Sphere";
+    object.fields = {numbers("radius", {std::get<Sphere>(shape.geometry).radius}, place)};
+  }
+  add_pose({shape.location, shape.orientation}, "location", "orientation", place, object);
+  if (!of.touches) {
+    Value no;
+    no.kind = ValueKind::boolean;
+    no.position = place;
+    object.fields.push_back({"contact", {no}, place});
+  }
+  if (!of.material.empty()) object.fields.push_back(word("material", of.material, place));
+  return object;
+}
+
+/// What a body weighs and how it looks to the ground.
+void add_body(const UrdfBody& body, ForeignObject& object) {
+  const auto& [mass, c, I] = body.mass;
+  if (body.has_inertial) {
+    const Position& place = body.inertial_place;
+    object.fields.push_back(numbers("mass", {mass}, place));
+    object.fields.push_back(numbers("center_of_mass", {c.x, c.y, c.z}, place));
+    object.fields.push_back(numbers("inertia", {I.xx, I.yy, I.zz, I.xy, I.xz, I.yz}, place));
+  }
+  for (const UrdfShape& shape : body.shapes) object.children.push_back(shape_object(shape));
+  for (std::size_t i = 0; i < body.points.size(); ++i) {
+    const Vector3d& p = body.points[i];
+    const Position& place = body.point_places[i];
+    object.children.push_back(
+        {"ContactPoint", "", place, {numbers("location", {p.x, p.y, p.z}, place)}, {}});
+  }
+}
+
+/// The controller `servo` of a joint, in the link that it drives.
+ForeignObject servo_object(const UrdfJoint& joint, const std::string& link,
+                           const ForeignField& angle) {
+  const UrdfServo& servo = *joint.servo;
+  const bool slides = joint.type == UrdfJointType::prismatic;
+  const Position& place = servo.place;
+  ForeignObject object{"Controller.PD", "servo", place, {}, {}};
+  const auto add = [&](const char* name, double value, const language::Dimension& unit) {
+    object.fields.push_back(numbers(name, {value}, place));
+    object.fields.back().values[0].quantity.dimension = unit;
+  };
+  const int length = slides ? 1 : 0, time = servo.of_rate ? -1 : 0;
+  const language::Dimension measured{0, length, time, 1 - length};
+  // Of N or N m per error, and per error a second.
+  const language::Dimension gain{1, 2 - 2 * length, -2 - time, length - 1};
+  const language::Dimension damping{1, gain.length, gain.time + 1, gain.angle};
+  if (servo.goal || servo.of_rate) {
+    add("goal", servo.goal.value_or(0.), measured);
+  } else {
+    object.fields.push_back({"goal", angle.values, place});
+    object.fields.back().values[0].quantity.dimension = measured;
+  }
+  add("pconstant", servo.gain, gain);
+  add("dconstant", servo.damping, damping);
+  object.wires = {{link + (servo.of_rate ? ".rate" : ".angle"), "current"},
+                  {"output", link + ".torque"}};
+  if (!servo.of_rate) object.wires.push_back({link + ".rate", "rate_in"});
+  return object;
+}
+
+}  // namespace
+
+ForeignField numbers(const char* name, const std::vector<double>& of, const Position& place) {
+  ForeignField field{name, {}, place};
+  for (const double x : of) {
+    Value& value = field.values.emplace_back();
+    value.quantity.value = x;
+    value.position = place;
+  }
+  return field;
+}
+
+std::string identifier(std::string text) {
+  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
+  const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  std::ranges::replace_if(
+      text, [&](char c) { return !digit(c) && !letter(c); }, '_');
+  if (text.empty() || digit(text[0])) text.insert(0, "_");
+  return text;
+}
+
+std::vector<ForeignObject> RobotInclude::robot_objects(UrdfRobot& robot, const std::string& name,
+                                                       bool box_shapes, bool placed) {
+  take_rotors(robot);
+  settle_followers(robot, report_);
+  auto tree = assemble_urdf(robot, report_);
+  if (!tree) return {};
+  repair_base(*tree, robot);
+  tell_repaired(robot);
+  if (box_shapes) take_inertia_boxes(*tree);
+  ForeignObject object{"Robot", name, robot.place, {}, {}};
+  object.children.push_back(base_object(robot, *tree, placed));
+  const bool mobile = object.children.front().type == "Base.mobile";
+  for (const UrdfChain& chain : tree->chains) find_trails(robot, chain, name);
+  for (const UrdfJoint& joint : robot.joints) starts_[joint.name] = start_argument(joint);
+  const double sag = hold_argument();
+  if (sag > 0.) holds_ = hold_joints(*tree, mobile, sag);
+  for (const UrdfChain& chain : tree->chains) object.children.push_back(chain_object(robot, chain));
+  return {std::move(object)};
+}
+
+void RobotInclude::find_trails(const UrdfRobot& robot, const UrdfChain& chain,
+                               const std::string& above) {
+  const std::string trail = above + "." + chain_name(*chain.bodies.front().joint);
+  for (const UrdfBody& body : chain.bodies)
+    trails_[body.joint->name] = trail + "." + identifier(robot.links[body.link].name);
+  for (const UrdfChain& carried : chain.carried)
+    find_trails(robot, carried, trails_[chain.bodies.back().joint->name]);
+}
+
+/// Where a joint starts [rad, m].
+double RobotInclude::start_argument(const UrdfJoint& joint) {
+  const auto given = arguments_.find(identifier(joint.name));
+  const bool is_number = given != arguments_.end() && given->second.values.size() == 1 &&
+                         given->second.values[0].kind == ValueKind::number;
+  return is_number ? given->second.values[0].quantity.value : start_of(joint);
+}
+
+void RobotInclude::lock_joints(std::span<UrdfRobot> robots) {
+  const auto given = arguments_.find("lock");
+  if (given == arguments_.end()) return;
+  for (const Value& pattern : given->second.values) {
+    if (pattern.kind != ValueKind::word && pattern.kind != ValueKind::text) {
+      report_.error(given->second.position,
+                    "the argument `lock` is names of joints, or patterns of them: lock = "
+                    "\"*finger*\", \"*wrist*\"");
+      return;
+    }
+    std::size_t fitting = 0;
+    std::vector<std::string> names;
+    for (UrdfRobot& robot : robots) {
+      for (UrdfJoint& joint : robot.joints) {
+        names.push_back(joint.name);
+        if (!glob_fits(pattern.text, joint.name) &&
+            !glob_fits(pattern.text, identifier(joint.name)))
+          continue;
+        ++fitting;
+        if (joint.type == UrdfJointType::fixed || joint.type == UrdfJointType::floating) continue;
+        fix_joint(start_argument(joint), joint);
+        ++robots.front().left_out["joint that `lock` fixes"];
+      }
+    }
+    if (fitting > 0) continue;
+    const std::string nearest = language::nearest_name(pattern.text, names);
+    report_.error(given->second.position,
+                  fmt::format("no joint fits `{}`{}", pattern.text,
+                              nearest.empty() ? "" : "; did you mean `" + nearest + "`?"));
+  }
+}
+
+/// What the arguments say of rotors goes before what the file says.
+void RobotInclude::take_rotors(UrdfRobot& robot) {
+  const auto give = [&](const std::string& argument, UrdfJoint& joint) {
+    const auto given = arguments_.find(argument);
+    if (given == arguments_.end() || given->second.values.empty()) return;
+    const Value& value = given->second.values[0];
+    joint.rotor_place = given->second.position;
+    const std::string unit = joint.type == UrdfJointType::prismatic ? "a mass, in kg" : "in kg.m^2";
+    const language::Dimension wanted = joint.type == UrdfJointType::prismatic
+                                           ? language::Dimension{1, 0, 0, 0}
+                                           : language::Dimension{1, 2, 0, 0};
+    const bool plain =
+        given->second.values.size() == 1 && value.kind == ValueKind::number &&
+        (value.quantity.dimension.dimensionless() || value.quantity.dimension == wanted);
+    if (plain && value.quantity.value >= 0.) {
+      joint.rotor_inertia = value.quantity.value;
+      return;
+    }
+    report_.error(given->second.position,
+                  fmt::format("the argument `{}` is {} and not negative", argument, unit));
+  };
+  for (UrdfJoint& joint : robot.joints) {
+    if (joint.type == UrdfJointType::fixed || joint.type == UrdfJointType::floating) continue;
+    if (joint.type != UrdfJointType::prismatic) give("rotor_inertia", joint);
+    give(identifier(joint.name) + rotor_argument, joint);
+  }
+}
+
+ForeignObject RobotInclude::base_object(const UrdfRobot& robot, const UrdfTree& tree, bool placed) {
+  const UrdfBody& body = tree.base;
+  const UrdfLink& link = robot.links[body.link];
+  std::string kind = placed ? word_argument("base", {"mobile", "fixed"}) : "";
+  // A root that is the world itself, as other readers take it, or that nothing could move.
+  const bool is_world = link.name == "world" && !tree.floats;
+  if (kind.empty() && !is_world && !tree.floats && !body.has_inertial)
+    report_.remark(link.place,
+                   fmt::format("link `{}`, the base, has no <inertial>: it is fixed", link.name));
+  if (kind.empty()) kind = is_world || (!body.has_inertial && !tree.floats) ? "fixed" : "mobile";
+  ForeignObject object{"Base." + kind, "", link.place, {}, {}};
+  if (kind == "mobile") require_mass(link, body);
+  for (const char* name : base_fields) {
+    if (placed && is_given(name)) object.fields.push_back(arguments_.at(name));
+  }
+  if (robot.start && kind == "mobile") add_start(*robot.start, placed, object);
+  add_body(body, object);
+  return object;
+}
+
+/// What no argument says otherwise.
+void RobotInclude::add_start(const UrdfStart& start, bool placed, ForeignObject& base) {
+  const auto add = [&](const char* name, const std::vector<double>& values) {
+    if (!placed || !is_given(name)) base.fields.push_back(numbers(name, values, base.position));
+  };
+  const auto& [p, q] = start.pose;
+  if (!placed || !is_given("rest_on")) {
+    add("location", {p.x, p.y, p.z});
+    add("orientation", {q.w, q.x, q.y, q.z});
+  }
+  const Vector3d &v = start.velocity, &w = start.angular_velocity;
+  if (v != Vector3d{}) add("velocity", {v.x, v.y, v.z});
+  if (w != Vector3d{}) add("angular_velocity", {w.x, w.y, w.z});
+}
+
+ForeignObject RobotInclude::chain_object(const UrdfRobot& robot, const UrdfChain& of) {
+  const std::vector<UrdfBody>& bodies = of.bodies;
+  const UrdfJoint& hip = *bodies.front().joint;
+  ForeignObject chain{"Chain", chain_name(hip), hip.place, {}, {}};
+  add_pose(bodies.front().joint_pose, "hip_distance", "hip_orientation", hip.place, chain);
+  for (const UrdfBody& body : bodies) {
+    const UrdfJoint& joint = *body.joint;
+    const UrdfLink& link = robot.links[body.link];
+    ForeignObject object{"Link", identifier(link.name), joint.place, {}, {}};
+    if (joint.type == UrdfJointType::prismatic)
+      object.fields.push_back(word("joint", "prismatic", joint.place));
+    if (&body != &bodies.front())
+      add_pose(body.joint_pose, "joint_location", "joint_orientation", joint.place, object);
+    const auto held = holds_.find(&joint);
+    add_joint(joint, held == holds_.end() ? UrdfHold{} : held->second, object);
+    add_body(body, object);
+    chain.children.push_back(std::move(object));
+  }
+  for (const UrdfChain& carried : of.carried)
+    chain.children.back().children.push_back(chain_object(robot, carried));
+  return chain;
+}
+
+void RobotInclude::add_joint(const UrdfJoint& joint, const UrdfHold& held, ForeignObject& object) {
+  const auto add = [&](const char* field, double value, const Position& place) {
+    object.fields.push_back(numbers(field, {value}, place));
+  };
+  if (joint.lower_limit) add("lower_limit", *joint.lower_limit, joint.limit_place);
+  if (joint.upper_limit) add("upper_limit", *joint.upper_limit, joint.limit_place);
+  const double damping = joint.damping + held.damping;
+  const bool has_own = joint.damping != 0.;
+  if (damping != 0.) add("damping", damping, has_own ? joint.damping_place : joint.place);
+  if (joint.friction != 0.) add("friction", joint.friction, joint.friction_place);
+  if (joint.effort_limit) add("effort_limit", *joint.effort_limit, joint.effort_place);
+  if (joint.rotor_inertia != 0.) add("rotor_inertia", joint.rotor_inertia, joint.rotor_place);
+  if (joint.stiffness != 0. && held.stiffness == 0.) {
+    add("stiffness", joint.stiffness, joint.place);
+    add("rest_angle", joint.rest_angle, joint.place);
+  }
+  if (held.stiffness != 0.) {
+    add("stiffness", held.stiffness, joint.place);
+    add("limit_stiffness", held.limit_stiffness, joint.place);
+    add("limit_damping", held.limit_damping, joint.place);
+    if (joint.friction != 0.) add("friction_speed", held.friction_speed, joint.friction_place);
+  }
+  if (joint.follows) {
+    add_coupling(joint, held.stiffness != 0., object);
+  } else {
+    if (joint.rate != 0.) add("rate", joint.rate, joint.place);
+    add_angle(joint, held.stiffness != 0., object);
+  }
+  if (held.stiffness != 0. || !joint.servo) return;
+  const auto given = std::ranges::find(object.fields, "angle", &ForeignField::name);
+  const ForeignField angle =
+      given == object.fields.end() ? numbers("angle", {0.}, joint.place) : *given;
+  object.children.push_back(servo_object(joint, object.name, angle));
+}
+
+void RobotInclude::add_coupling(const UrdfJoint& joint, bool held, ForeignObject& object) {
+  const auto& [leader, ratio, offset, place] = *joint.follows;
+  object.fields.push_back(word("mimic", trails_[leader], place));
+  object.fields.push_back(numbers("mimic_ratio", {ratio}, place));
+  if (offset != 0.) object.fields.push_back(numbers("mimic_offset", {offset}, place));
+  if (held)
+    object.fields.push_back(numbers("rest_angle", {ratio * starts_[leader] + offset}, place));
+  const auto given = arguments_.find(identifier(joint.name));
+  if (given != arguments_.end())
+    report_.error(
+        given->second.position,
+        fmt::format("joint `{}` follows `{}`, which decides where it starts", joint.name, leader));
+}
+
+/// Where a joint starts, and where its spring is slack.
+void RobotInclude::add_angle(const UrdfJoint& joint, bool held, ForeignObject& object) {
+  const auto add = [&](const std::vector<Value>& values, const Position& place) {
+    object.fields.push_back({"angle", values, place});
+    if (held) object.fields.push_back({"rest_angle", values, place});
+  };
+  const auto given = arguments_.find(identifier(joint.name));
+  if (given != arguments_.end()) {
+    if (!given->second.values.empty()) add(given->second.values, given->second.position);
+    return;
+  }
+  // Where that is out of reach, as near to it as the joint goes.
+  const double at = joint.angle.value_or(0.), nearest = start_of(joint);
+  if (nearest != 0.) add(numbers("", {nearest}, joint.limit_place).values, joint.limit_place);
+  if (nearest == at) return;
+  report_.remark(joint.limit_place,
+                 fmt::format("joint `{}` starts at its limit, {:g}: {:g} is beyond it (the "
+                             "argument `{}` says where else)",
+                             joint.name, nearest, at, identifier(joint.name)));
+}
+
+UrdfMimic RobotInclude::mimic_argument() {
+  const std::string word = word_argument("mimic", {"couple", "ignore", "fixed"});
+  if (word == "ignore") return UrdfMimic::ignore;
+  return word == "fixed" ? UrdfMimic::fixed : UrdfMimic::couple;
+}
+
+UrdfInertia RobotInclude::inertia_argument() {
+  const bool repair = word_argument("inertia", {"file", "repair"}) == "repair";
+  return repair ? UrdfInertia::repair : UrdfInertia::file;
+}
+
+/// A base without mass may have one of its own: little beside that of the robot.
+void RobotInclude::repair_base(UrdfTree& tree, UrdfRobot& robot) {
+  UrdfBody& body = tree.base;
+  const bool moves = tree.floats || word_argument("base", {"mobile", "fixed"}) == "mobile";
+  if (body.has_inertial || !moves || inertia_argument() != UrdfInertia::repair) return;
+  constexpr double share = 1e-3;
+  double whole = 0.;
+  for (const UrdfLink& link : robot.links) whole += link.mass.mass;
+  body.has_inertial = true;
+  body.inertial_place = robot.links[body.link].place;
+  const double moment = compact_inertia(share * whole);
+  body.mass = {share * whole, {}, {moment, moment, moment, 0., 0., 0.}};
+  robot.repaired.push_back(
+      fmt::format("`{}`, the base (without mass: a thousandth of the robot's, "
+                  "{:.3g} kg, as a ball of water)",
+                  robot.links[body.link].name, body.mass.mass));
+}
+
+void RobotInclude::tell_repaired(const UrdfRobot& robot) {
+  if (robot.repaired.empty()) return;
+  report_.remark(robot.place,
+                 fmt::format("inertias repaired: {}", fmt::join(robot.repaired, ", ")));
+}
+
+void RobotInclude::tell_left_out(const UrdfRobot& robot) {
+  if (robot.left_out.empty()) return;
+  std::string list;
+  for (const auto& [what, times] : robot.left_out)
+    list += fmt::format("{}{} ({})", list.empty() ? "" : ", ", what, times);
+  report_.remark(robot.place, "left out: " + list);
+}
+
+void RobotInclude::require_mass(const UrdfLink& link, const UrdfBody& body) {
+  if (body.has_inertial) return;
+  report_.error(link.place, fmt::format("link `{}` moves but has no <inertial>: give it, a link "
+                                        "that is fixed to it or one further out a mass and an "
+                                        "inertia; the argument inertia = repair gives it a "
+                                        "thousandth of the robot's mass",
+                                        link.name));
+}
+
+std::string RobotInclude::robot_name(const std::string& of_file) {
+  const auto given = arguments_.find("name");
+  if (given == arguments_.end() || given->second.values.empty())
+    return of_file.empty() ? "robot" : identifier(of_file);
+  const Value& value = given->second.values[0];
+  if (given->second.values.size() == 1 && value.text == identifier(value.text)) return value.text;
+  report_.error(given->second.position, "the argument `name` takes a name");
+  return "robot";
+}
+
+std::string RobotInclude::word_argument(const std::string& name,
+                                        const std::vector<std::string>& choices) {
+  const auto given = arguments_.find(name);
+  if (given == arguments_.end() || given->second.values.empty()) return "";
+  const Value& value = given->second.values[0];
+  const bool one = given->second.values.size() == 1 && value.kind == ValueKind::word;
+  if (one && std::ranges::count(choices, value.text) > 0) return value.text;
+  std::string list = choices[0];
+  for (std::size_t i = 1; i < choices.size(); ++i)
+    list += (i + 1 < choices.size() ? ", " : " or ") + choices[i];
+  report_.error(given->second.position, fmt::format("the argument `{}` is {}", name, list));
+  return "";
+}
+
+/// The angle [rad] of the argument `hold`; 0 if it is not given or after an error.
+double RobotInclude::hold_argument() {
+  const auto given = arguments_.find("hold");
+  if (given == arguments_.end() || given->second.values.empty()) return 0.;
+  const Value& value = given->second.values[0];
+  constexpr double least = 1e-6, most = 1.;
+  constexpr language::Dimension angle{0, 0, 0, 1};
+  const bool plain =
+      given->second.values.size() == 1 && value.kind == ValueKind::number &&
+      (value.quantity.dimension.dimensionless() || value.quantity.dimension == angle);
+  if (plain && value.quantity.value >= least && value.quantity.value <= most)
+    return value.quantity.value;
+  report_.error(given->second.position,
+                "the argument `hold` is the angle by which a joint may deflect under the "
+                "robot's weight, from 1e-6 to 1 rad");
+  return 0.;
+}
+
+bool RobotInclude::is_given(const std::string& name) const {
+  const auto given = arguments_.find(name);
+  return given != arguments_.end() && !given->second.values.empty();
+}
+
+void RobotInclude::check_arguments(std::span<const UrdfRobot> robots,
+                                   const std::vector<std::string>& further) {
+  std::vector<std::string> known(own_arguments_.begin(), own_arguments_.end());
+  known.insert(known.end(), base_fields.begin(), base_fields.end());
+  for (const UrdfRobot& robot : robots) {
+    for (const UrdfJoint& joint : robot.joints) {
+      if (joint.type == UrdfJointType::fixed) continue;
+      known.push_back(identifier(joint.name));
+      known.push_back(known.back() + rotor_argument);
+    }
+  }
+  known.insert(known.end(), further.begin(), further.end());
+  for (const auto& [name, given] : arguments_) {
+    if (std::ranges::count(known, name) > 0) continue;
+    const std::string nearest = language::nearest_name(name, known);
+    report_.error(
+        given.position,
+        fmt::format("the robot takes no argument `{}`; {}", name,
+                    nearest.empty()
+                        ? fmt::format("it takes {}, fields of its base, and the names of its "
+                                      "moving joints",
+                                      fmt::join(own_arguments_, ", "))
+                        : "did you mean `" + nearest + "`?"));
+  }
+}
+
+}  // namespace hookpoint::simulation

@@ -1,0 +1,62 @@
+// Engines by name, as the command hands them in: this folder includes none.
+#pragma once
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "simulation/engine_interface/engine.h"
+#include "simulation/experiment/closed_form.h"
+
+namespace hookpoint::studies {
+
+struct EngineEntry {
+  simulation::EngineDescription description;
+  simulation::EngineFactory make = nullptr;
+  /// Velocity of the origin of one body that rests on a plane within Coulomb's cone. Null for our
+  /// own engine, whose laws have theirs.
+  simulation::ClosedForm<simulation::CreepVelocity> (*creep)(const simulation::Experiment&) =
+      nullptr;
+  /// Depth per newton of a contact at rest [m/N]. Null for our engine, whose laws say it.
+  simulation::ClosedForm<double> (*softness)(const simulation::Experiment&) = nullptr;
+  /// Settings at which it has one coefficient of friction, the kinetic one.
+  std::vector<std::string> one_friction = {};
+  bool has_one_friction(const simulation::Experiment& experiment) const {
+    return std::ranges::count(one_friction, experiment.settings) > 0;
+  }
+};
+
+/// The engines of a program, in the order of their names.
+class EngineTable {
+ public:
+  void add(std::string name, EngineEntry entry) {
+    entries_.insert_or_assign(std::move(name), std::move(entry));
+  }
+  /// Null where the program has none of that name.
+  const EngineEntry* find(const std::string& name) const {
+    const auto found = entries_.find(name);
+    return found == entries_.end() ? nullptr : &found->second;
+  }
+  /// One that the program has.
+  const EngineEntry& at(const std::string& name) const { return entries_.at(name); }
+  /// Whether the machine has it, so that it can run.
+  bool available(const std::string& name) const {
+    const EngineEntry* entry = find(name);
+    return entry != nullptr && entry->description.found;
+  }
+  /// What is known of it; of one that the program has not, its name alone.
+  simulation::EngineDescription describe(const std::string& name) const {
+    const EngineEntry* entry = find(name);
+    return entry != nullptr ? entry->description
+                            : simulation::EngineDescription{name, {}, {}, false, {}};
+  }
+  auto begin() const { return entries_.begin(); }
+  auto end() const { return entries_.end(); }
+
+ private:
+  std::map<std::string, EngineEntry> entries_;
+};
+
+}  // namespace hookpoint::studies

@@ -1,0 +1,435 @@
+// Robots read from MJCF: poses of their bodies, masses and free accelerations against MuJoCo's own
+// compiled model of the same text; what is refused, in which words and where.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <pugixml.hpp>
+#include <random>
+#include <regex>
+#include <sstream>
+
+#include "dts/configuration.h"
+#include "dts/forward_dynamics.h"
+#include "simulation/dts_engine/robot_description.h"
+#include "simulation/experiment/robot_tree.h"
+#include "tests/support/command.h"
+#include "tests/support/load_text.h"
+#include "tests/support/mjcf_robot.h"
+#include "tests/support/text.h"
+#ifdef HOOKPOINT_HAS_MUJOCO
+#include <mujoco/mujoco.h>
+#endif
+
+namespace hookpoint::tests {
+namespace {
+
+/// The World around an Include of robot.xml, which is `text`.
+Loaded load_mjcf(const std::string& text, const std::string& arguments = "") {
+  const testing::Workplace place;
+  place.file("robot.xml", text);
+  return load_file(
+      place.file("scene.hook", "World w { Include \"robot.xml\" (name = r" + arguments + "); }"));
+}
+
+std::string mujoco(const std::string& inside) { return "<mujoco>\n" + inside + "</mujoco>"; }
+std::string world(const std::string& inside, const std::string& after = "") {
+  return mujoco("<worldbody>\n" + inside + "</worldbody>\n" + after);
+}
+const std::string ball = "<geom size=\"0.1\"/>";
+
+std::filesystem::path makers_folder() {
+  const std::filesystem::path source = HOOKPOINT_SOURCE_DIR;
+  for (const char* way : {"../shared/data/mjcf", "../../shared/data/mjcf"}) {
+    if (std::filesystem::exists(source / way)) return source / way;
+  }
+  return {};
+}
+
+#ifdef HOOKPOINT_HAS_MUJOCO
+
+/// MuJoCo's own reading of a text.
+class Compiled {
+ public:
+  explicit Compiled(const std::string& text) {
+    const testing::Workplace place;
+    char problem[1000] = "";
+    model = mj_loadXML(place.file("robot.xml", text).c_str(), nullptr, problem, sizeof problem);
+    EXPECT_NE(model, nullptr) << problem << text;
+    if (model == nullptr) return;
+    data = mj_makeData(model);
+    // What acts on bodies that nothing drives and nothing brakes.
+    model->opt.disableflags |=
+        mjDSBL_CONSTRAINT | mjDSBL_PASSIVE | mjDSBL_ACTUATION | mjDSBL_CONTACT;
+  }
+  ~Compiled() {
+    mj_deleteData(data);
+    mj_deleteModel(model);
+  }
+  Compiled(const Compiled&) = delete;
+  Compiled& operator=(const Compiled&) = delete;
+
+  int joint(const std::string& name) const { return mj_name2id(model, mjOBJ_JOINT, name.c_str()); }
+  int body(const std::string& name) const { return mj_name2id(model, mjOBJ_BODY, name.c_str()); }
+
+  mjModel* model = nullptr;
+  mjData* data = nullptr;
+};
+
+/// One of ours and the same of MuJoCo's, in one state.
+struct Worst {
+  double position = 0., mass = 0., acceleration = 0.;
+  int joints = 0;
+};
+
+/// The robot of `spec` in random states; of a file with one free base at most.
+Worst compare(const simulation::RobotSpec& spec, const Compiled& truth, unsigned seed) {
+  Worst worst;
+  const mjModel& m = *truth.model;
+  mjData& d = *truth.data;
+  std::mt19937 random(seed);
+  const auto uniform = [&] { return double(random()) / double(std::mt19937::max()) * 2. - 1.; };
+  const dts::Model<double> model(simulation::describe_robot(spec));
+  dts::Workspace<double> workspace(model);
+  double mass = spec.base.mass.mass;
+  std::vector<const simulation::LinkSpec*> links;
+  simulation::for_each_link(spec, [&](const simulation::TreeLink& at) {
+    links.push_back(&at.link);
+    mass += at.link.body.mass.mass;
+  });
+  worst.joints = int(links.size());
+  const auto* const free = std::find(m.jnt_type, m.jnt_type + m.njnt, int(mjJNT_FREE));
+  const std::size_t base_rates = spec.mobile ? 6 : 0;
+  const int base = spec.mobile ? m.jnt_bodyid[free - m.jnt_type] : 0;
+  const int base_q = spec.mobile ? m.jnt_qposadr[free - m.jnt_type] : 0;
+  const int base_v = spec.mobile ? m.jnt_dofadr[free - m.jnt_type] : 0;
+  // A maker's default class may give a free joint an armature, which ours does not have.
+  if (spec.mobile) std::fill_n(m.dof_armature + base_v, 6, 0.);
+  if (spec.mobile) worst.mass = std::abs(mass - m.body_subtreemass[base]);
+  // Joints by the order of MuJoCo; ours are called by the bodies that they carry.
+  std::vector<int> joint_of_link;
+  std::map<int, int> joints_left;  // of a body, that ours without mass have taken
+  for (const simulation::LinkSpec* link : links) {
+    const int body = truth.body(link->body.name);
+    if (body >= 0) {
+      joint_of_link.push_back(m.body_jntadr[body] + m.body_jntnum[body] - 1);
+      continue;
+    }
+    // BODY_JOINT: one of the joints ahead of the body's last.
+    int found = -1;
+    for (int j = 0; j < m.njnt; ++j) {
+      const std::string name = mj_id2name(&m, mjOBJ_JOINT, j);
+      if (link->body.name.ends_with("_" + name)) found = j;
+    }
+    joint_of_link.push_back(found);
+  }
+  for (int round = 0; round < 4; ++round) {
+    dts::State<double> state;
+    state.base_position = {uniform(), uniform(), uniform()};
+    Quaterniond turn{uniform(), uniform(), uniform(), uniform()};
+    turn = normalized(turn);
+    if (!spec.mobile) state.base_position = {}, turn = {};
+    state.base_orientation = turn;
+    const double pose[] = {state.base_position.x,
+                           state.base_position.y,
+                           state.base_position.z,
+                           turn.w,
+                           turn.x,
+                           turn.y,
+                           turn.z};
+    if (spec.mobile) std::copy_n(pose, 7, d.qpos + base_q);
+    std::fill_n(d.qvel, m.nv, 0.);
+    state.joint_positions.clear();
+    for (const int j : joint_of_link) {
+      const double q = uniform();
+      state.joint_positions.push_back(q);
+      d.qpos[m.jnt_qposadr[j]] = q;
+    }
+    state.joint_rates.assign(links.size(), 0.);
+    std::ranges::copy(std::array{1.5, -2., 9.}, truth.model->opt.gravity);
+    mj_forward(&m, &d);
+    const std::vector<double> none(links.size(), 0.);
+    dts::forward_dynamics(model, state, {m.opt.gravity[0], m.opt.gravity[1], m.opt.gravity[2]},
+                          none, workspace);
+    std::vector<double> found(dts::velocity_count(model));
+    dts::get_acceleration(model, workspace, std::span<double>(found));
+    // Ours: angular (world axes), linear, joints. MuJoCo's: linear, angular (body axes), joints.
+    double size = 1.;
+    for (int i = 0; i < m.nv; ++i) size = std::max(size, std::abs(d.qacc[i]));
+    const auto differ = [&](double a, double b) {
+      worst.acceleration = std::max(worst.acceleration, std::abs(a - b) / size);
+    };
+    if (spec.mobile) {
+      const double* a = d.qacc + base_v;
+      const Vector3d angular = rotate(turn, Vector3d{a[3], a[4], a[5]});
+      differ(found[0], angular.x);
+      differ(found[1], angular.y);
+      differ(found[2], angular.z);
+      for (std::size_t i = 0; i < 3; ++i) differ(found[3 + i], a[i]);
+    }
+    for (std::size_t i = 0; i < links.size(); ++i)
+      differ(found[base_rates + i], d.qacc[m.jnt_dofadr[joint_of_link[i]]]);
+    // A body's centre of mass is that of what is welded to it: as ours has them together.
+    for (std::size_t i = 0; i < links.size(); ++i) {
+      const int body = truth.body(links[i]->body.name);
+      if (body < 0) continue;
+      double whole = 0.;
+      Vector3d moment;
+      for (int b = body; b < m.nbody; ++b) {
+        if (m.body_weldid[b] != m.body_weldid[body]) continue;
+        whole += m.body_mass[b];
+        moment += m.body_mass[b] * Vector3d{d.xipos[3 * b], d.xipos[3 * b + 1], d.xipos[3 * b + 2]};
+      }
+      const simulation::MassSpec& ours = links[i]->body.mass;
+      worst.mass = std::max(worst.mass, std::abs(whole - ours.mass));
+      const dts::BodyMotion<double>& here = workspace.bodies[i + 1];
+      const Vector3d center = here.p_WB + here.R_WB * ours.center_of_mass;
+      worst.position = std::max(worst.position, norm(center - (1. / whole) * moment));
+    }
+  }
+  return worst;
+}
+
+TEST(Mjcf, AgreesWithTheCompiledModelOfDrawnRobots) {
+  RandomMjcf random(11);
+  for (int i = 0; i < 60; ++i) {
+    const std::string text = random.robot(2 + i % 8);
+    const Loaded loaded = load_mjcf(text);
+    ASSERT_TRUE(loaded.experiment) << loaded.diagnostics << text;
+    ASSERT_EQ(loaded.experiment->robots.size(), 1u);
+    const Compiled truth(text);
+    ASSERT_NE(truth.model, nullptr);
+    const Worst worst = compare(loaded.experiment->robots[0], truth, unsigned(i));
+    EXPECT_LE(worst.position, 1e-12) << text;
+    EXPECT_LE(worst.mass, 1e-12) << text;
+    EXPECT_LE(worst.acceleration, 1e-9) << text;
+  }
+}
+
+/// A maker's file as MuJoCo 2.2.2 takes it: without meshes, which are not there, and without what
+/// came later and moves nothing; what it includes stands in it.
+void simplify(pugi::xml_node node, const std::filesystem::path& folder) {
+  for (pugi::xml_node child = node.first_child(); child;) {
+    const pugi::xml_node next = child.next_sibling();
+    const std::string tag = child.name();
+    if (tag == "include") {
+      pugi::xml_document other;
+      other.load_file((folder / child.attribute("file").value()).c_str());
+      for (const pugi::xml_node& inside : other.document_element().children())
+        node.insert_copy_before(inside, child);
+      node.remove_child(child);
+      return simplify(node, folder);
+    }
+    const bool aside = tag == "sensor" || tag == "actuator" || tag == "keyframe" ||
+                       tag == "option" || tag == "visual" || tag == "asset" || tag == "camera" ||
+                       tag == "position" || tag == "motor" || tag == "mesh" || tag == "material" ||
+                       tag == "statistic" || tag == "light" || tag == "site";
+    const bool mesh = tag == "geom" && (child.attribute("mesh") ||
+                                        std::string(child.attribute("class").value()) == "visual" ||
+                                        std::string(child.attribute("type").value()) == "mesh");
+    child.remove_attribute("material");
+    child.remove_attribute("actuatorfrcrange");
+    child.remove_attribute("actuatorfrclimited");
+    if (aside || (mesh && std::string(node.name()) != "default")) {
+      node.remove_child(child);
+    } else {
+      if (mesh) child.remove_attribute("type");
+      simplify(child, folder);
+    }
+    child = next;
+  }
+}
+
+TEST(Mjcf, AgreesWithTheCompiledModelOfMakersRobots) {
+  const std::filesystem::path folder = makers_folder();
+  if (folder.empty()) GTEST_SKIP() << "no ../shared/data/mjcf";
+  std::size_t count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::string name = entry.path().stem().string();
+    if (entry.path().extension() != ".xml" || name == "sensor_feet") continue;
+    const testing::Workplace place;
+    const Loaded loaded = load_file(place.file(
+        "scene.hook", "World w { Include \"" + entry.path().string() + "\" (name = r); }"));
+    ASSERT_TRUE(loaded.experiment) << name << loaded.diagnostics;
+    pugi::xml_document document;
+    ASSERT_TRUE(document.load_file(entry.path().c_str()));
+    simplify(document.document_element(), folder);
+    document.document_element().prepend_child("compiler").append_attribute("autolimits") = "true";
+    std::ostringstream text;
+    document.save(text);
+    const Compiled truth(text.str());
+    ASSERT_NE(truth.model, nullptr) << name;
+    int joints = 0;
+    for (const simulation::RobotSpec& robot : loaded.experiment->robots) {
+      const Worst worst = compare(robot, truth, 3);
+      joints += worst.joints + (robot.mobile ? 1 : 0);
+      std::cout << name << ' ' << robot.name << ": " << worst.joints << " joints, position "
+                << worst.position << " m, mass " << worst.mass << " kg, acceleration "
+                << worst.acceleration << '\n';
+      EXPECT_LE(worst.position, 1e-9) << name;
+      EXPECT_LE(worst.mass, 1e-9) << name;
+      EXPECT_LE(worst.acceleration, 1e-9) << name;
+    }
+    EXPECT_EQ(joints, truth.model->njnt) << name;
+    ++count;
+  }
+  EXPECT_GE(count, 14u);
+}
+
+#endif
+
+TEST(Mjcf, AServoHasAGoalAndAMotorALimit) {
+  const std::string body = "<body name=\"b\" pos=\"0 0 1\"><freejoint/>" + ball +
+                           "<body name=\"l\"><joint name=\"q\" "
+                           "armature=\"0.02\" frictionloss=\"0.3\" damping=\"0.4\"/>" +
+                           ball + "</body></body>\n";
+  const Loaded motor = load_mjcf(
+      world(body, "<actuator><motor joint=\"q\" gear=\"3\" ctrlrange=\"-2 1\"/></actuator>"));
+  ASSERT_TRUE(motor.experiment) << motor.diagnostics;
+  const simulation::LinkSpec& link = motor.experiment->robots.at(0).chains.at(0).links.at(0);
+  EXPECT_EQ(link.effort_limit, 6.);
+  EXPECT_EQ(link.rotor_inertia, 0.02);
+  EXPECT_EQ(link.friction, 0.3);
+  EXPECT_EQ(link.damping, 0.4);
+  const std::string key =
+      "<keyframe><key name=\"home\" qpos=\"0 0 2 1 0 0 0 0.5\" ctrl=\"0.9\"/></keyframe>";
+  const Loaded servo =
+      load_mjcf(world(body,
+                      "<actuator><position joint=\"q\" gear=\"3\" kp=\"10\" kv=\"2\" "
+                      "forcerange=\"-5 5\"/></actuator>" +
+                          key),
+                ", keyframe = home");
+  ASSERT_TRUE(servo.experiment) << servo.diagnostics;
+  const simulation::RobotSpec& read = servo.experiment->robots.at(0);
+  EXPECT_EQ(read.location, (Vector3d{0., 0., 2.}));
+  EXPECT_EQ(read.chains.at(0).links.at(0).angle, 0.5);
+  EXPECT_EQ(read.chains.at(0).links.at(0).effort_limit, 15.);
+  // torque = gear (kp (ctrl - gear q) - kv gear dq/dt)
+  const testing::Workplace place;
+  place.file("robot.xml", world(body,
+                                "<actuator><position joint=\"q\" gear=\"3\" kp=\"10\" "
+                                "kv=\"2\"/></actuator>" +
+                                    key));
+  place.file("scene.hook", "World w { Include \"robot.xml\" (name = r, keyframe = home); }");
+  const std::string printed = place.hookpoint("print scene.hook").out;
+  EXPECT_NE(printed.find("pconstant = 90"), std::string::npos) << printed;
+  EXPECT_NE(printed.find("dconstant = 18"), std::string::npos) << printed;
+  EXPECT_NE(printed.find("goal = 0.3 rad"), std::string::npos) << printed;
+}
+
+TEST(Mjcf, GeomsThatTouchNothingAreShapesWithoutContact) {
+  const Loaded loaded = load_mjcf(world(
+      "<body><freejoint/><geom type=\"capsule\" size=\"0.1 0.2\"/><geom size=\"0.3\" contype=\"0\" "
+      "conaffinity=\"0\" friction=\"0.2\"/><geom size=\"0.4\" contype=\"0\" friction=\"0.2\"/>"
+      "</body>"));
+  ASSERT_TRUE(loaded.experiment) << loaded.diagnostics;
+  const simulation::BodySpec& base = loaded.experiment->robots.at(0).base;
+  ASSERT_EQ(base.shapes.size(), 2u);
+  ASSERT_EQ(base.shapes_without_contact.size(), 1u);
+  EXPECT_EQ(std::get<simulation::Sphere>(base.shapes_without_contact[0].geometry).radius, 0.3);
+  const auto& capsule = std::get<simulation::Capsule>(base.shapes[0].geometry);
+  EXPECT_EQ(capsule.radius, 0.1);
+  EXPECT_EQ(capsule.length, 0.4);
+  EXPECT_EQ(base.shapes[0].material, simulation::no_material);
+  ASSERT_NE(base.shapes[1].material, simulation::no_material);
+}
+
+TEST(Mjcf, IncludesStandInTheirPlace) {
+  const testing::Workplace place;
+  place.file("legs.xml",
+             "<mujocoinclude><body name=\"b\"><freejoint/>" + ball + "</body></mujocoinclude>");
+  place.file("classes.xml", mujoco("<default><geom density=\"5\"/></default>"));
+  place.file("robot.xml", mujoco("<include file=\"classes.xml\"/><worldbody><include "
+                                 "file=\"legs.xml\"/></worldbody>"));
+  const Loaded loaded =
+      load_file(place.file("scene.hook", "World w { Include \"robot.xml\" (name = r); }"));
+  ASSERT_TRUE(loaded.experiment) << loaded.diagnostics;
+  EXPECT_NEAR(loaded.experiment->robots.at(0).base.mass.mass, 5. * 4. / 3. * M_PI * 1e-3, 1e-15);
+}
+
+struct Wrong {
+  const char* name;
+  std::string text, message;
+};
+class WrongMjcf : public ::testing::TestWithParam<Wrong> {};
+
+TEST_P(WrongMjcf, IsAnErrorAtItsPlace) {
+  const Loaded loaded = load_mjcf(GetParam().text);
+  EXPECT_FALSE(loaded.experiment);
+  EXPECT_NE(loaded.diagnostics.find(GetParam().message), std::string::npos) << loaded.diagnostics;
+}
+
+std::string deep_bodies() {
+  std::string text = "<body><freejoint/>" + ball;
+  std::string end = "</body>";
+  for (int i = 0; i < 3000; ++i) {
+    text += "<body>" + ball;
+    end += "</body>";
+  }
+  return world(text + end);
+}
+
+const Wrong wrongs[] = {
+    {"ball", world("<body>\n<joint type=\"ball\"/>" + ball + "</body>"),
+     "error 4:8 a ball joint is not read: write three hinges"},
+    {"unknown_attribute", world("<body><freejoint/>\n<geom sizes=\"1\" size=\"1\"/></body>"),
+     "error 4:7 <geom> has no attribute `sizes`; did you mean `size`?"},
+    {"unknown_section", mujoco("<worldbodies/>"), "error 2:2 <mujoco> has no <worldbodies>"},
+    {"unknown_element",
+     world("<body><freejoint/>" + ball +
+           "\n<composite count=\"1000000000\"/>"
+           "</body>"),
+     "error 4:2 <composite> of a body is not read"},
+    {"unknown_class", world("<body><freejoint/>\n<geom class=\"none\" size=\"1\"/></body>"),
+     "error 4:7 there is no default class `none`"},
+    {"no_size", world("<body><freejoint/>\n<geom type=\"box\" size=\"1 1\"/></body>"),
+     "error 4:18 size of a box has 3 numbers greater than 0"},
+    {"no_mass",
+     world("<body name=\"b\"><freejoint/>" + ball +
+           "<body>\n<joint name=\"q\"/></body>"
+           "</body>"),
+     "error 4:2 joint `q` moves a body without mass"},
+    {"mesh_mass", world("<body><freejoint/>\n<geom type=\"mesh\" mesh=\"m\"/></body>"),
+     "error 4:2 body `body_1` has the mass of its geoms, and that of a mesh is not computed"},
+    {"range", world("<body>\n<joint range=\"2 1\"/>" + ball + "</body>"),
+     "error 4:8 2 is not below 1"},
+    {"number", world("<body><freejoint/>\n<geom size=\"wide\"/></body>"),
+     "error 4:7 `wide` is no number"},
+    {"too_many_numbers", world("<body pos=\"1 2 3 4\"><freejoint/>" + ball + "</body>"),
+     "error 3:7 pos takes 3 numbers at most"},
+    {"includes_itself", mujoco("<include file=\"robot.xml\"/>"),
+     "error 2:10 `robot.xml` is included a second time, or includes itself"},
+    {"no_file", mujoco("<include file=\"none.xml\"/>"), "error 2:10 there is no file `none.xml`"},
+    {"inner_free",
+     world("<body>" + ball + "<joint/><body>\n<freejoint/>" + ball + "</body></body>"),
+     "error 4:2 a free joint is the only one of a body of the world"},
+    {"second_body",
+     world("<body name=\"b\"><freejoint/>" + ball + "<body name=\"b\">" + ball + "</body></body>"),
+     "a second body `b`"},
+    {"deep", deep_bodies(), "bodies hang on each other 501 deep: 500 are the most"},
+    {"entities",
+     "<!DOCTYPE m [<!ENTITY a \"aaaaaaaaaa\"><!ENTITY b \"&a;&a;&a;&a;\">]>\n" +
+         world("<body><freejoint/>\n<geom size=\"&b;\"/></body>"),
+     "`&b;` is no number"},
+    {"actuator_of_nothing",
+     world("<body><freejoint/>" + ball + "</body>", "<actuator>\n<motor joint=\"q\"/></actuator>"),
+     "there is no joint `q`"},
+    {"nothing_moves", world(ball), "error 1:2 the file has no <body> that moves"},
+};
+INSTANTIATE_TEST_SUITE_P(Files, WrongMjcf, ::testing::ValuesIn(wrongs),
+                         [](const auto& of) { return of.param.name; });
+
+TEST(Mjcf, AKeyframeThatIsNotThereIsNamed) {
+  const Loaded loaded = load_mjcf(
+      world("<body><freejoint/>" + ball + "</body>", "<keyframe><key name=\"home\"/></keyframe>"),
+      ", keyframe = homes");
+  EXPECT_FALSE(loaded.experiment);
+  EXPECT_NE(loaded.diagnostics.find("the file has no <key> `homes`; it has home"),
+            std::string::npos)
+      << loaded.diagnostics;
+}
+
+}  // namespace
+}  // namespace hookpoint::tests

@@ -1,0 +1,325 @@
+// What a file is warned of though it runs, and a step that is chosen for it.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "contact/force_law.h"
+#include "language/document/document.h"
+#include "simulation/analysis/stability.h"
+#include "simulation/analysis/step_warning.h"
+#include "tests/support/load_text.h"
+
+namespace hookpoint {
+namespace {
+
+std::string world(const std::string& fields, const std::string& base = "") {
+  return "World w { " + fields + " Robot b { Base.mobile { " +
+         (base.empty() ? "rest_on = f; Shape.Box { dimensions = 0.1, 0.1, 0.1; mass = 1; }"
+                       : base) +
+         " } } }";
+}
+
+TEST(Warnings, TellOfALawWhoseOwnConstantsNoMaterialStates) {
+  const std::string ground =
+      "Material clay { normal_stiffness = 1e5; } Terrain.Flat f { material = "
+      "clay; } ";
+  const Loaded silent = load_text(world("contact = hookpoint; " + ground));
+  EXPECT_EQ(silent.diagnostics, "");
+  const Loaded told = load_text(world("contact = hunt_crossley; " + ground));
+  ASSERT_TRUE(told.experiment);
+  EXPECT_NE(told.diagnostics.find("warning 1:36"), std::string::npos) << told.diagnostics;
+  for (const char* part :
+       {"hunt_crossley", "clay", "exponent (1.5)", "hysteresis_damping (0.5 s/m)", "N/m^exponent"})
+    EXPECT_NE(told.diagnostics.find(part), std::string::npos) << part << told.diagnostics;
+  for (const char* law : {"impulse", "exponential", "elastoplastic", "nominal"})
+    EXPECT_NE(load_text(world(std::string("contact = ") + law + "; " + ground))
+                  .diagnostics.find("constants of its own"),
+              std::string::npos)
+        << law;
+  EXPECT_EQ(
+      load_text(world("contact = impulse; Material clay { restitution = 0.3; } Terrain.Flat f "
+                      "{ material = clay; } "))
+          .diagnostics,
+      "");
+  EXPECT_NE(load_text(world("contact = impulse; Terrain.Flat f { } "))
+                .diagnostics.find("the ground has no Material"),
+            std::string::npos);
+}
+
+constexpr const char* overlapping = "overlap or touch";
+
+/// A body that floats above its ground, with these shapes.
+std::string shaped(const std::string& shapes) {
+  return world("Terrain.Flat f { }", "location = 0, 0, 1; " + shapes);
+}
+
+language::EvaluateOptions set(std::vector<language::Override> overrides) {
+  language::EvaluateOptions options;
+  options.overrides = std::move(overrides);
+  return options;
+}
+
+std::string on_clay(const std::string& law, const std::string& constants) {
+  return load_text(world("contact = " + law + "; Material clay { " + constants +
+                         " } Terrain.Flat f { material = clay; } "))
+      .diagnostics;
+}
+
+TEST(Warnings, TellOfConstantsThatTheLawDoesNotRead) {
+  const std::string told = on_clay("hookpoint", "restitution = 0.8; normal_stiffness = 1e5;");
+  EXPECT_NE(told.find("`restitution` is not read by contact law hookpoint"), std::string::npos)
+      << told;
+  EXPECT_NE(told.find("laws that read it: impulse, impulse_reversal"), std::string::npos) << told;
+  EXPECT_EQ(told.find("normal_stiffness"), std::string::npos) << told;
+  EXPECT_EQ(on_clay("hookpoint", "normal_stiffness = 1e5; static_friction = 0.5;"), "");
+  // Two at once, in one warning.
+  const std::string both = on_clay("hookpoint", "hysteresis_damping = 0.4 s/m; exponent = 1.2;");
+  EXPECT_NE(both.find("`exponent`, `hysteresis_damping` are not read"), std::string::npos) << both;
+  EXPECT_NE(both.find("laws that read them: hunt_crossley"), std::string::npos) << both;
+  // A coefficient of friction stands in for the other, unless both are given and differ.
+  EXPECT_EQ(on_clay("impulse", "restitution = 0.3; static_friction = 0.5;"), "");
+  EXPECT_NE(on_clay("impulse", "restitution = 0.3; static_friction = 0.5; kinetic_friction = 0.4;")
+                .find("`static_friction` is not read"),
+            std::string::npos);
+}
+
+TEST(Warnings, AreSilentOfConstantsForOtherLaws) {
+  // Written for several laws: no one of them reads all that this one does not.
+  EXPECT_EQ(on_clay("hookpoint", "restitution = 0.8; exponent = 1.2; stribeck_speed = 0.1;"), "");
+  // Nothing lies on the other Material.
+  EXPECT_EQ(load_text(world("Material ice { restitution = 0.8; } Material clay { normal_stiffness "
+                            "= 1e5; } Terrain.Flat f { material = clay; } "))
+                .diagnostics,
+            "");
+  // The law is chosen outside, as in a comparison; or the constant too.
+  const std::string file =
+      world("Material clay { normal_stiffness = 1e5; } Terrain.Flat f { material = clay; } ");
+  EXPECT_EQ(load_text(file, set({{"w.contact", "impulse"}})).diagnostics.find("not read"),
+            std::string::npos);
+  EXPECT_NE(load_text(file, set({{"w.contact", "lugre"}, {"w.clay.restitution", "0.8"}}))
+                .diagnostics.find("`restitution` is not read by contact law lugre"),
+            std::string::npos);
+}
+
+TEST(Warnings, TellOfBodiesThatRestOnPutsBelowTheGround) {
+  const auto arm = [](double reach) {
+    return "World w { Terrain.Flat f; Robot b { Base.mobile { rest_on = f; mass = 1; inertia = "
+           "1,1,1,0,0,0; } Chain arm { Link hand { mass = 1; inertia = 1,1,1,0,0,0; ContactPoint { "
+           "location = 0, 0, " +
+           std::to_string(reach) + "; } } } } }";
+  };
+  const Loaded hanging = load_text(arm(0.5));
+  ASSERT_TRUE(hanging.experiment);
+  EXPECT_NE(hanging.diagnostics.find("2 of its 2 bodies lie below the ground"), std::string::npos)
+      << hanging.diagnostics;
+  EXPECT_NE(hanging.diagnostics.find("by 0.5 m"), std::string::npos) << hanging.diagnostics;
+  EXPECT_EQ(load_text(arm(-0.5)).diagnostics, "");
+}
+
+TEST(Warnings, TellOfShapesOfOneBodyThatMeet) {
+  const auto halves = [](double gap) {
+    return shaped("Shape.Box left { location = " + std::to_string(-0.05 - gap) +
+                  ", 0, 0; dimensions = 0.1, 0.1, 0.1; mass = 1; } Shape.Box { location = 0.05, 0, "
+                  "0; dimensions = 0.1, 0.1, 0.1; mass = 1; }");
+  };
+  const Loaded touching = load_text(halves(0.));
+  ASSERT_TRUE(touching.experiment);
+  EXPECT_NE(touching.diagnostics.find(overlapping), std::string::npos) << touching.diagnostics;
+  for (const char* part :
+       {"Shape.Box `left` and Shape.Box in line 1 of w.b.base", "`contact = false`", "note 1:"})
+    EXPECT_NE(touching.diagnostics.find(part), std::string::npos) << part << touching.diagnostics;
+  EXPECT_NE(load_text(halves(-0.02)).diagnostics.find(overlapping), std::string::npos);
+  EXPECT_EQ(load_text(halves(0.02)).diagnostics, "");
+  const std::string cube = "Shape.Cube { dimensions = 0.1, 0.1, 0.1; mass = 1; } ";
+  EXPECT_NE(load_text(shaped(cube + cube)).diagnostics.find(overlapping), std::string::npos);
+}
+
+TEST(Warnings, AreNotOfShapesThatBearInsteadOfWhatTheyContain) {
+  // A ball at the end of a leg, one that is wider than its leg, and a motor inside its housing.
+  const std::string leg = "Shape.Cylinder { radius = 0.02; length = 0.3; mass = 1; } ";
+  for (const std::string& shapes :
+       {leg + "Shape.Sphere { location = 0, 0, -0.15; radius = 0.02; mass = 0.1; }",
+        leg + "Shape.Sphere { location = 0, 0, -0.14; radius = 0.05; mass = 0.1; }",
+        std::string("Shape.Cube { dimensions = 0.2, 0.2, 0.2; mass = 1; } Shape.Cylinder { radius "
+                    "= 0.05; length = 0.1; mass = 1; }")})
+    EXPECT_EQ(load_text(shaped(shapes)).diagnostics, "") << shapes;
+}
+
+TEST(Warnings, AreOneOfAllBodiesWhoseShapesMeetAndNoneOfThoseWithoutContact) {
+  const auto table = [](const std::string& top) {
+    return shaped("Shape.Box top { dimensions = 0.8, 0.4, 0.04; mass = 4; " + top +
+                  "} For i in 0..3 { Shape.Box leg[i] { dimensions = 0.04, 0.04, 0.4; location = "
+                  "0.3*(i < 2 ? 1 : -1), 0.1*(i == 1 || i == 2 ? 1 : -1), -0.21; mass = 0.5; } }");
+  };
+  const Loaded all = load_text(table(""));
+  ASSERT_TRUE(all.experiment) << all.diagnostics;
+  EXPECT_NE(all.diagnostics.find("Shape.Box `top` and Shape.Box `leg[0]`"), std::string::npos)
+      << all.diagnostics;
+  EXPECT_EQ(all.diagnostics.find(overlapping), all.diagnostics.rfind(overlapping));
+  const Loaded some = load_text(table("contact = false; "));
+  ASSERT_TRUE(some.experiment) << some.diagnostics;
+  EXPECT_EQ(some.diagnostics, "");
+  const simulation::BodySpec &whole = all.experiment->robots[0].base,
+                             &legs = some.experiment->robots[0].base;
+  EXPECT_EQ(whole.boundary_points.size(), 40U);
+  EXPECT_EQ(legs.boundary_points.size(), 32U);
+  EXPECT_EQ(legs.shapes.size(), 4U);
+  EXPECT_EQ(legs.shapes_without_contact.size(), 1U);
+  EXPECT_EQ(legs.mass.mass, whole.mass.mass);
+  EXPECT_EQ(legs.mass.center_of_mass, whole.mass.center_of_mass);
+  EXPECT_EQ(legs.mass.inertia.xx, whole.mass.inertia.xx);
+  const std::string half =
+      "Shape.Cube { dimensions = 1, 1, 1; mass = 1; } Shape.Cube { location = 1, 0, 0; dimensions "
+      "= 1, 1, 1; mass = 1; } ";
+  const Loaded two = load_text(
+      "World w { Terrain.Flat f { } For i in 0..1 { Robot b[i] { Base.mobile { location "
+      "= 0, 3*i, 1; " +
+      half + "} } } }");
+  EXPECT_NE(two.diagnostics.find(", and shapes of another body:"), std::string::npos)
+      << two.diagnostics;
+  EXPECT_EQ(two.diagnostics.find(overlapping), two.diagnostics.rfind(overlapping));
+}
+
+// A scene that is shipped states what any law reads, so that a study of laws warns of nothing.
+TEST(Warnings, AreNotOfScenesThatAreShipped) {
+  const std::filesystem::path configs = std::filesystem::path(HOOKPOINT_SOURCE_DIR) / "configs";
+  int scenes = 0;
+  for (const auto& file : std::filesystem::directory_iterator(configs / "scenes")) {
+    language::Library library(experiment_schema(), {configs});
+    language::Diagnostics untold;
+    const auto root = library.evaluate(file.path(), {}, untold);
+    ASSERT_TRUE(root) << file.path();
+    const std::string world = root->children_of("World").front()->trail();
+    for (const contact::LawDescription& law : contact::law_table()) {
+      const Loaded loaded =
+          load_file(file.path(), {{}, {{world + ".contact", std::string(law.name)}}});
+      if (!loaded.experiment) continue;
+      ++scenes;
+      EXPECT_EQ(loaded.diagnostics.find("constants of its own"), std::string::npos)
+          << file.path() << " " << law.name << ": " << loaded.diagnostics;
+    }
+  }
+  EXPECT_GT(scenes, 300);
+}
+
+TEST(AutomaticStep, IsARoundPartOfTheBoundThatDividesTheRates) {
+  const Loaded plain = load_text(world("deltat = auto; Terrain.Flat f { }"));
+  ASSERT_TRUE(plain.experiment) << plain.diagnostics;
+  const double bound = simulation::stability_bound(*plain.experiment).step;
+  EXPECT_DOUBLE_EQ(*plain.experiment->chosen_from, bound);
+  EXPECT_LE(plain.experiment->deltat, 0.5 * bound);
+  EXPECT_GT(plain.experiment->deltat, 0.5 * bound / 2.51);
+  // 0.3 ms is no multiple of 0.2 ms.
+  const Loaded recorded = load_text(
+      world("deltat = auto; Record r { rate = (10000 / 3) * 1 Hz; trails = w.b.base.location; } "
+            "Terrain.Flat f { }"));
+  ASSERT_TRUE(recorded.experiment) << recorded.diagnostics;
+  EXPECT_DOUBLE_EQ(recorded.experiment->deltat, 1e-4);
+}
+
+/// A ball of 1 kg without friction or damping, k = `stiffness` N/m: it bounces on one spring, for
+/// which semi-implicit Euler bears 2/sqrt(k/m), 2/sqrt(k) s.
+std::string ball(const std::string& fields, double stiffness) {
+  return "World w { " + fields +
+         " Material m { static_friction = 0; kinetic_friction = 0; normal_damping = 0; "
+         "normal_stiffness = " +
+         std::to_string(stiffness) +
+         "; } Terrain.Flat f { material = m; } Robot b { Base.mobile { rest_on = f; Shape.Sphere { "
+         "radius = 0.1; mass = 1; } } } }";
+}
+
+TEST(AutomaticStep, IsTheDefaultHalfTheBoundAndAtMostOneMillisecond) {
+  const Loaded stiff = load_text(ball("", 3e6));  // 1.1547 ms
+  ASSERT_TRUE(stiff.experiment) << stiff.diagnostics;
+  EXPECT_NEAR(stiff.experiment->chosen_from.value_or(0.), 2. / std::sqrt(3e6), 1e-9);
+  EXPECT_DOUBLE_EQ(stiff.experiment->deltat, 5e-4);
+  const Loaded soft = load_text(ball("", 1e3));  // 63 ms
+  ASSERT_TRUE(soft.experiment) << soft.diagnostics;
+  EXPECT_DOUBLE_EQ(soft.experiment->deltat, 1e-3);
+  const Loaded written = load_text(ball("deltat = 3 ms;", 3e6));
+  ASSERT_TRUE(written.experiment) << written.diagnostics;
+  EXPECT_DOUBLE_EQ(written.experiment->deltat, 3e-3);
+  EXPECT_FALSE(written.experiment->chosen_from);
+}
+
+// Whoever computes it, a file has one step, and none that loaded with 1 ms is refused.
+TEST(AutomaticStep, IsThatOfEngineDtsForAllAndOneMillisecondWhereThereIsNoBound) {
+  const Loaded peer = load_text(ball("engine = ode;", 3e6));
+  ASSERT_TRUE(peer.experiment) << peer.diagnostics;
+  EXPECT_DOUBLE_EQ(peer.experiment->deltat, 5e-4);
+  EXPECT_FALSE(simulation::step_warning(*peer.experiment));
+  for (const char* fields : {"contact = impulse;", "integrator = cvode_bdf;",
+                             "engine = ode; "
+                             "contact = impulse;"}) {
+    const Loaded loaded = load_text(ball(fields, 3e6));
+    ASSERT_TRUE(loaded.experiment) << loaded.diagnostics;
+    EXPECT_DOUBLE_EQ(loaded.experiment->deltat, 1e-3) << fields;
+    EXPECT_TRUE(std::isinf(*loaded.experiment->chosen_from)) << fields;
+  }
+  const Loaded free = load_text(
+      "World w { Robot b { Base.mobile { mass = 1; inertia = 1,1,1,0,0,0; "
+      "} } }");
+  ASSERT_TRUE(free.experiment) << free.diagnostics;
+  EXPECT_DOUBLE_EQ(free.experiment->deltat, 1e-3);
+}
+
+TEST(AutomaticStep, LetsAControllerAndARecordHaveTheirRates) {
+  // 1 ms would be too long for 4 kHz, and a delay of 0.3 ms no delay.
+  const Loaded loaded =
+      load_text(ball("Record r { rate = 4 kHz; trails = w.b.base.location; }", 1e3) +
+                " Gain one { Wire FROM two.output TO input { delay = 0.3 ms; } } Gain two { Wire "
+                "FROM one.output TO input { delay = 0.3 ms; } }");
+  ASSERT_TRUE(loaded.experiment) << loaded.diagnostics;
+  EXPECT_DOUBLE_EQ(loaded.experiment->deltat, 5e-5);  // 0.25 ms is no multiple of 0.2 or 0.1 ms
+}
+
+// Undamped, explicit Euler is unstable with every step: what ran with 1 ms still does, warned of.
+TEST(AutomaticStep, IsOneMillisecondWhereNoStepIsStable) {
+  const Loaded loaded = load_text(ball("integrator = explicit_euler;", 1e3));
+  ASSERT_TRUE(loaded.experiment) << loaded.diagnostics;
+  EXPECT_DOUBLE_EQ(loaded.experiment->deltat, 1e-3);
+  EXPECT_EQ(*loaded.experiment->chosen_from, 0.);
+  const auto warning = simulation::step_warning(*loaded.experiment);
+  ASSERT_TRUE(warning);
+  EXPECT_EQ(*warning,
+            "no step of explicit_euler is stable under the law hookpoint: what springs back gains "
+            "energy; give what vibrates some damping, or choose another integrator");
+}
+
+TEST(StepWarning, SaysHowLargeTheStepMayBeAndWhatToDo) {
+  const Loaded loaded = load_text(ball("deltat = 2 ms;", 3e6));
+  ASSERT_TRUE(loaded.experiment) << loaded.diagnostics;
+  const auto warning = simulation::step_warning(*loaded.experiment);
+  ASSERT_TRUE(warning);
+  EXPECT_EQ(
+      *warning,
+      "deltat 0.002 s is above the largest stable step 0.001155 s of semi_implicit_euler "
+      "under the law hookpoint: what springs back gains energy; make the step smaller (deltat "
+      "= auto) or the ground softer, or choose another integrator");
+  EXPECT_FALSE(simulation::step_warning(*load_text(ball("deltat = 1 ms;", 3e6)).experiment));
+}
+
+// A default too: without it the printed file would choose again.
+TEST(AutomaticStep, IsWrittenIntoWhatIsPrinted) {
+  for (const char* field : {"deltat = auto; ", ""}) {
+    const std::filesystem::path file = std::filesystem::path(::testing::TempDir()) / "auto.hook";
+    std::ofstream(file) << world(std::string(field) + "Terrain.Flat f { }");
+    language::Library library(experiment_schema(), {});
+    language::Diagnostics diagnostics;
+    const auto root = library.evaluate(file, {}, diagnostics);
+    ASSERT_TRUE(root);
+    EXPECT_EQ(language::print(*root).find("deltat = auto;") != std::string::npos, field[0] != 0);
+    const auto experiment = simulation::load_experiment(*root, diagnostics);
+    ASSERT_TRUE(experiment);
+    simulation::write_chosen_step(*experiment, *root);
+    const std::string printed = language::print(*root);
+    const Loaded again = load_text(printed);
+    ASSERT_TRUE(again.experiment) << again.diagnostics;
+    EXPECT_EQ(again.experiment->deltat, experiment->deltat);
+    EXPECT_FALSE(again.experiment->chosen_from);
+    EXPECT_EQ(printed.find("deltat"), printed.rfind("deltat"));
+  }
+}
+
+}  // namespace
+}  // namespace hookpoint
