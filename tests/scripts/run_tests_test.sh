@@ -17,7 +17,7 @@ gtest() {
       result=completed inside="/>"
       case "$case" in
         *=skipped) result=skipped inside=$'>\n<skipped message="/a/file.cpp:3&#x0A;no &apos;DART&apos; here"><![CDATA[...]]></skipped>\n</testcase>' ;;
-        *=failed) inside=$'>\n<failure message="wrong" type=""><![CDATA[wrong]]></failure>\n</testcase>' ;;
+        *=failed) inside=$'>\n<failure message="'"$root"'/a.cpp:3&#x0A;a &lt; b&#x0A;  Actual: 1" type=""><![CDATA[wrong]]></failure>\n</testcase>' ;;
       esac
       echo "<testcase name=\"${case%=*}\" file=\"/a/file.cpp\" line=\"3\" status=\"run\" result=\"$result\" time=\"0.\" classname=\"Suite\" $inside"
     done
@@ -54,12 +54,19 @@ begin
 gtest all_well 0 One
 gtest fails_one 1 Two Three=failed
 plain bad false
-plain crashes 'kill -SEGV $$'
+plain crashes 'echo "[ RUN      ] Suite.First"; echo "[       OK ] Suite.First (0 ms)"; echo "[ RUN      ] Suite.Second"; kill -SEGV $$'
+plain tells 'for i in 1 2 3 4 5 6 7; do echo line $i; done; echo "AssertionError: 1 is not 2"; false'
 status=0
 run || status=$?
 expect "failures: status" "$([ $status -ne 0 ] && echo not 0)" "not 0"
-expect "failures: count" "$(last)" "2 passed, 3 failed, 0 skipped"
-expect "failures: names" "$(grep '^failed' <<<"$said" | sort | cut -d: -f2,3 | tr '\n' ';')" " bad: Failed; crashes: Exception; fails_one: Suite.Three;"
+expect "failures: count" "$(last)" "2 passed, 4 failed, 0 skipped"
+expect "failures: names" "$(grep '^failed' <<<"$said" | sort | cut -d: -f2,3 | tr '\n' ';')" " bad: Failed; crashes: Exception; fails_one: Suite.Three; tells: Failed;"
+# after NAME: what the list of failures says of it.
+after() { awk -v begin="failed: $1" 'index($0, begin) == 1 { on = 1; next } !/^  / { on = 0 } on' <<<"$said" | tr '\n' ';'; }
+expect "failures: message of a case, from the project's root" "$(after fails_one)" "  a.cpp:3;  a < b;    Actual: 1;"
+expect "failures: the case that ran" "$(after crashes)" "  while running: Suite.Second;"
+expect "failures: what a program says of errors" "$(after tells)" "  AssertionError: 1 is not 2;"
+expect "failures: how to repeat them" "$(grep '^repeat' <<<"$said")" "repeat: ./test --preset folder -R '^(bad|crashes|fails_one|tells)\$'"
 
 begin
 gtest dies_late 139 One Two
