@@ -64,7 +64,7 @@ struct FollowedFoot {
   std::size_t chain = 0;  ///< among the robot's
   std::size_t body = 0;   ///< of its link in WorldState::bodies
   const simulation::BodySpec* spec = nullptr;
-  contact::BallFrame frame{};  ///< how its deepest point stood at the last observation
+  contact::BallFrame frame{};      ///< how its deepest point stood at the last observation
   simulation::BodyState before{};  ///< at the last observation
 };
 
@@ -86,13 +86,13 @@ class Observer {
   void observe_point(const Vector3d& p_WP, const Quaterniond& R_WB, double radius);
 
   const RunContext& context_;
-  std::vector<PointObservation> points_;  // reserved for all points; no room when nobody asks
+  std::vector<PointObservation> points_;   // reserved for all points; no room when nobody asks
   std::vector<std::size_t> first_points_;  // of each of the robot's bodies, where there is room
-  std::vector<RolledBall> balls_;         // one a point, once they were seen
-  std::vector<FollowedFoot> followed_;    // one a foot that is needed
-  std::vector<FootObservation> feet_;     // of these, once they were seen
-  std::optional<TouchingShapes> shapes_;  // where they matter
-  double shown_ = 0.;                     // time of the last observation [s]
+  std::vector<RolledBall> balls_;          // one a point, once they were seen
+  std::vector<FollowedFoot> followed_;     // one a foot that is needed
+  std::vector<FootObservation> feet_;      // of these, once they were seen
+  std::optional<TouchingShapes> shapes_;   // where they matter
+  double shown_ = 0.;                      // time of the last observation [s]
 };
 
 }  // namespace hookpoint::studies

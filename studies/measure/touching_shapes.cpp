@@ -21,8 +21,8 @@ TouchingShapes::TouchingShapes(const RunContext& context)
   }
 }
 
-std::span<const TouchingShapes::Place> TouchingShapes::look(
-    const simulation::WorldState& world, const simulation::WorldInputs& inputs) {
+std::span<const TouchingShapes::Place> TouchingShapes::look(const simulation::WorldState& world,
+                                                            const simulation::WorldInputs& inputs) {
   const auto body_of = [&](const ShapeObject& object) {
     return first_bodies_[object.index] + object.body;
   };

@@ -106,8 +106,7 @@ INSTANTIATE_TEST_SUITE_P(Rubble, Climbing,
                                            Climb{"rubble_hound.hook", 15., 2.9, 0.25, "mujoco"},
                                            Climb{"rubble_hexapod.hook", 26., 2.9, 0.08, "dts"},
                                            Climb{"rubble_hexapod.hook", 26., 2.9, 0.08, "bullet"},
-                                           Climb{"rubble_hexapod.hook", 26., 2.9, 0.08,
-                                                 "mujoco"}));
+                                           Climb{"rubble_hexapod.hook", 26., 2.9, 0.08, "mujoco"}));
 
 }  // namespace
 }  // namespace hookpoint::testing

@@ -67,8 +67,7 @@ TEST_F(Stair, ABallBeforeARiserTouchesTheRiser) {
 
 TEST_F(Stair, ABallOverANosingIsAsFarAsItsEdge) {
   const double away = radius - 0.002;
-  const FootObservation& foot =
-      look({0.5 - 0.6 * away, 0., 0.1 + 0.8 * away});
+  const FootObservation& foot = look({0.5 - 0.6 * away, 0., 0.1 + 0.8 * away});
   EXPECT_NEAR(foot.depth, 0.002, 1e-12);
   EXPECT_NEAR(norm(foot.normal - Vector3d{-0.6, 0., 0.8}), 0., 1e-12);
 }
