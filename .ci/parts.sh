@@ -132,10 +132,6 @@ summary() {
 # run_parts [ctest arguments of the sanitizers' part]: all parts that are wanted, in order.
 run_parts() {
   bash scripts/setup checks || true
-  # Object files of a compiler command that ran before on this machine are taken from the compiler cache.
-  if command -v ccache >/dev/null; then
-    export CMAKE_CXX_COMPILER_LAUNCHER=ccache CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1 CCACHE_SLOPPINESS=pch_defines,time_macros
-  fi
   part_with clang-format format 'scripts/check_format --fix' bash scripts/check_format
   # All tests as released.
   part release ./test bash ./test

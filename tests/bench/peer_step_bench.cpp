@@ -7,6 +7,7 @@
 
 #include "reference/engines.h"
 #include "simulation/dts_engine/dts_engine.h"
+#include "tests/support/folders.h"
 #include "tests/support/load_text.h"
 
 namespace hookpoint {
@@ -14,7 +15,7 @@ namespace {
 
 simulation::Experiment standing_hexapod() {
   const auto file =
-      std::filesystem::path(HOOKPOINT_SOURCE_DIR) / "configs/scenes/standing_hexapod.hook";
+      std::filesystem::path(testing::source_folder()) / "configs/scenes/standing_hexapod.hook";
   simulation::Experiment experiment = load_file(file).experiment.value();
   experiment.deltat = 1e-3;
   return experiment;

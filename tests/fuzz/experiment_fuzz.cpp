@@ -18,6 +18,7 @@
 #include "simulation/scene/schema.h"
 #include "studies/blocks/schema.h"
 #include "tests/fuzz/fuzz.h"
+#include "tests/support/folders.h"
 
 namespace hookpoint {
 namespace {
@@ -54,7 +55,8 @@ class Texts {
 
  private:
   fuzz::Folder folder_;
-  std::vector<std::filesystem::path> path_{std::filesystem::path(HOOKPOINT_SOURCE_DIR) / "configs"};
+  std::vector<std::filesystem::path> path_{std::filesystem::path(testing::source_folder()) /
+                                           "configs"};
   std::unique_ptr<language::Library> library_;
   std::size_t count_ = 0, inputs_ = 0;
 };

@@ -6,6 +6,7 @@
 
 #include "reference/engines.h"
 #include "reference/mujoco/engine.h"
+#include "tests/support/folders.h"
 #include "tests/support/reference_scenes.h"
 #include "tests/support/run_text.h"
 
@@ -216,8 +217,8 @@ TEST_F(Mujoco, PassesOnWhatItsCompilerRefuses) {
 }
 
 Loaded hexapod(const std::string& scene, const std::string& settings) {
-  Loaded loaded =
-      load_file(std::filesystem::path(HOOKPOINT_SOURCE_DIR) / "configs/scenes" / (scene + ".hook"));
+  Loaded loaded = load_file(std::filesystem::path(testing::source_folder()) / "configs/scenes" /
+                            (scene + ".hook"));
   if (loaded.experiment) loaded.experiment->settings = settings;
   return loaded;
 }

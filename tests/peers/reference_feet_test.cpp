@@ -9,6 +9,7 @@
 #include "reference/ode/engine.h"
 #include "reference/touching_points.h"
 #include "simulation/dts_engine/dts_engine.h"
+#include "tests/support/folders.h"
 #include "tests/support/reference_scenes.h"
 #include "tests/support/run_text.h"
 
@@ -21,7 +22,7 @@ constexpr double hexapod_weight = (2. + 6. * (0.1 + 0.15 + 0.12)) * 9.81;  // 41
 /// A scene of configs/, for one engine.
 simulation::Experiment scene(const std::string& name, const reference::Peer& peer,
                              const std::string& settings = "default") {
-  const auto file = std::filesystem::path(HOOKPOINT_SOURCE_DIR) / "configs/scenes" / name;
+  const auto file = std::filesystem::path(testing::source_folder()) / "configs/scenes" / name;
   const Loaded loaded = load_file(file);
   if (!loaded.experiment) throw std::runtime_error(loaded.diagnostics);
   simulation::Experiment experiment = *loaded.experiment;

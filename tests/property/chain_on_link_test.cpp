@@ -8,6 +8,7 @@
 #include "simulation/analysis/dynamics_report.h"
 #include "simulation/analysis/stability.h"
 #include "simulation/dts_engine/dts_engine.h"
+#include "tests/support/folders.h"
 #include "tests/support/load_text.h"
 #include "tests/support/printed_run.h"
 #include "tests/support/run_text.h"
@@ -18,7 +19,8 @@ namespace {
 using simulation::Experiment;
 
 Experiment scene(const char* file) {
-  const Loaded loaded = load_file(std::filesystem::path(HOOKPOINT_SOURCE_DIR) / "configs" / file);
+  const Loaded loaded =
+      load_file(std::filesystem::path(testing::source_folder()) / "configs" / file);
   EXPECT_TRUE(loaded.experiment) << loaded.diagnostics;
   return *loaded.experiment;
 }

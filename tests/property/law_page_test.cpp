@@ -8,6 +8,7 @@
 #include "contact/force_law.h"
 #include "contact/laws/limited_damper.h"
 #include "tests/support/contact_law_suite.h"
+#include "tests/support/folders.h"
 #include "tests/support/point_mass.h"
 
 namespace hookpoint::contact {
@@ -37,7 +38,7 @@ TEST(LawOfThePage, CreepsDownASlopeAsThePageSays) {
 }
 
 std::string text_of(const std::string& path) {
-  std::ifstream file(HOOKPOINT_SOURCE_DIR "/" + path);
+  std::ifstream file(testing::source_folder() + "/" + path);
   return {std::istreambuf_iterator<char>(file), {}};
 }
 

@@ -16,6 +16,7 @@
 #include "simulation/dts_engine/robot_description.h"
 #include "simulation/experiment/robot_tree.h"
 #include "tests/support/command.h"
+#include "tests/support/folders.h"
 #include "tests/support/load_text.h"
 #include "tests/support/mjcf_robot.h"
 #include "tests/support/text.h"
@@ -41,7 +42,7 @@ std::string world(const std::string& inside, const std::string& after = "") {
 const std::string ball = "<geom size=\"0.1\"/>";
 
 std::filesystem::path makers_folder() {
-  const std::filesystem::path source = HOOKPOINT_SOURCE_DIR;
+  const std::filesystem::path source = testing::source_folder();
   for (const char* way : {"../shared/data/mjcf", "../../shared/data/mjcf"}) {
     if (std::filesystem::exists(source / way)) return source / way;
   }

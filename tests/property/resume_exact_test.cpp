@@ -12,6 +12,7 @@
 #include "simulation/dts_engine/dts_engine.h"
 #include "simulation/run/world.h"
 #include "tests/support/command.h"
+#include "tests/support/folders.h"
 #include "tests/support/load_text.h"
 
 namespace hookpoint {
@@ -183,7 +184,7 @@ TEST(ResumedSlide, GoesOnSliding) {
 }
 
 TEST(ResumedLegs, AreExactUnderEveryLaw) {
-  const std::filesystem::path configs = HOOKPOINT_SOURCE_DIR "/configs";
+  const std::filesystem::path configs = testing::source_folder() + "/configs";
   for (const contact::LawDescription& law : contact::law_table()) {
     SCOPED_TRACE(law.name);
     const Loaded result = load_file(configs / "scenes/standing_hexapod.hook",

@@ -15,6 +15,7 @@
 #include "simulation/scene/urdf/mesh.h"
 #include "simulation/scene/urdf/mesh_path.h"
 #include "simulation/scene/urdf/urdf.h"
+#include "tests/support/folders.h"
 #include "tests/support/urdf_text.h"
 
 namespace hookpoint::tests {
@@ -311,7 +312,7 @@ TEST(UrdfMesh, WhatCannotBeReadIsRefusedAtItsName) {
   for (const char* meshes : {"box", "hull"}) {
     EXPECT_EQ(error("<mesh filename=\"leg.stl\"/>", meshes),
               "error 2:7 there is no mesh `leg.stl`: looked for " + folder + "/leg.stl, " +
-                  HOOKPOINT_SOURCE_DIR
+                  testing::source_folder() +
                   "/configs/leg.stl (HOOKPOINT_PATH names further folders; "
                   "meshes = skip does without)");
   }

@@ -14,6 +14,7 @@
 #include "simulation/dts_engine/robot_description.h"
 #include "simulation/experiment/robot_tree.h"
 #include "tests/support/command.h"
+#include "tests/support/folders.h"
 #include "tests/support/printed_run.h"
 #include "tests/support/run_text.h"
 #include "tests/support/text.h"
@@ -337,7 +338,7 @@ TEST(Urdf, HoldGivesEachJointASpringAndDamperByItsWeight) {
 /// Of a real maker's twelve robots, which stand beside the repository where they are at hand: those
 /// whose links branch at the base only.
 TEST(Urdf, AMakersRobotsLoad) {
-  const std::filesystem::path source = HOOKPOINT_SOURCE_DIR;
+  const std::filesystem::path source = testing::source_folder();
   std::filesystem::path folder = source / "../shared/data/urdf";
   if (!std::filesystem::exists(folder))
     folder = source / "../../shared/data/urdf";  // checked out one folder deeper
@@ -513,7 +514,7 @@ TEST(Urdf, BranchingsAfterOneAnotherAreBounded) {
 }
 
 std::string quadruped() {
-  return testing::read_file(HOOKPOINT_SOURCE_DIR "/configs/robots/quadruped.urdf");
+  return testing::read_file(testing::source_folder() + "/configs/robots/quadruped.urdf");
 }
 
 TEST(Urdf, HostileFilesAreRefusedOrRead) {

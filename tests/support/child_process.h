@@ -14,6 +14,7 @@
 #include <thread>
 #include <vector>
 
+#include "tests/support/folders.h"
 #include "tests/support/text.h"
 
 namespace hookpoint::testing {
@@ -25,7 +26,7 @@ class ChildProcess {
   ChildProcess(const std::filesystem::path& folder, std::vector<std::string> words,
                const std::vector<int>& ignored = {})
       : folder_(folder) {
-    words.insert(words.begin(), HOOKPOINT_BINARY_DIR "/hookpoint");
+    words.insert(words.begin(), testing::build_folder() + "/hookpoint");
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <string>
 
+#include "tests/support/folders.h"
 #include "tests/support/text.h"
 
 namespace hookpoint::testing {
@@ -50,9 +51,8 @@ class Workplace {
   }
   /// `hookpoint ARGUMENTS` with this folder as the working directory.
   CommandResult hookpoint(const std::string& arguments) const {
-    const std::string command = "cd '" + folder_.string() +
-                                "' && '" HOOKPOINT_BINARY_DIR "/hookpoint' " + arguments +
-                                " >.out 2>.err";
+    const std::string command = "cd '" + folder_.string() + "' && '" + testing::build_folder() +
+                                "/hookpoint' " + arguments + " >.out 2>.err";
     const int raw = std::system(command.c_str());
     return {WIFEXITED(raw) ? WEXITSTATUS(raw) : 128 + WTERMSIG(raw), read(".out"), read(".err")};
   }
@@ -62,7 +62,7 @@ class Workplace {
 };
 
 inline std::string config(const std::string& name) {
-  return "'" HOOKPOINT_SOURCE_DIR "/configs/" + name + "'";
+  return "'" + testing::source_folder() + "/configs/" + name + "'";
 }
 
 }  // namespace hookpoint::testing

@@ -16,6 +16,7 @@
 #include "simulation/scene/load.h"
 #include "simulation/scene/schema.h"
 #include "studies/blocks/schema.h"
+#include "tests/support/folders.h"
 
 namespace hookpoint {
 
@@ -38,7 +39,7 @@ struct Loaded {
 
 inline Loaded load_file(const std::filesystem::path& file,
                         const language::EvaluateOptions& options = {}) {
-  const std::filesystem::path configs = std::filesystem::path(HOOKPOINT_SOURCE_DIR) / "configs";
+  const std::filesystem::path configs = std::filesystem::path(testing::source_folder()) / "configs";
   language::Library library(experiment_schema(), {configs});
   language::Diagnostics diagnostics;
   Loaded loaded;

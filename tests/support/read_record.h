@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "output/records/recorder.h"
+#include "tests/support/folders.h"
 
 namespace hookpoint::testing {
 
@@ -80,7 +81,8 @@ inline Reading run_reader(const std::string& command, bool with_complaints = fal
   return reading;
 }
 
-inline const std::string reader_folder = HOOKPOINT_SOURCE_DIR "/tests/support/record_readers/";
+inline const std::string reader_folder =
+    testing::source_folder() + "/tests/support/record_readers/";
 
 inline bool runs(const std::string& command) { return run_reader(command).status == 0; }
 
@@ -118,7 +120,7 @@ inline const Reader& mcap_reader() {
   static const Reader reader = [] {
     for (const char* program : {"node", "npm"})
       if (!runs(std::string(program) + " --version")) return Reader{"", missing(program), ""};
-    const std::filesystem::path folder = HOOKPOINT_BINARY_DIR "/mcap_reader";
+    const std::filesystem::path folder = testing::build_folder() + "/mcap_reader";
     std::filesystem::create_directories(folder);
     for (const char* file :
          {"package.json", "package-lock.json", "open.mjs", "read.mjs", "read_scene.mjs"})

@@ -13,6 +13,7 @@
 
 #include "simulation/dts_engine/dts_engine.h"
 #include "simulation/run/world.h"
+#include "tests/support/folders.h"
 #include "tests/support/load_text.h"
 
 namespace hookpoint {
@@ -45,7 +46,7 @@ class Shown {
 
  private:
   static std::filesystem::path configs() {
-    return std::filesystem::path(HOOKPOINT_SOURCE_DIR) / "configs";
+    return std::filesystem::path(testing::source_folder()) / "configs";
   }
 
   language::Library library_;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tests/support/command.h"
+#include "tests/support/folders.h"
 #include "tests/support/run_text.h"
 
 namespace hookpoint {
@@ -146,7 +147,7 @@ TEST(Arm3, SettlesWhereItsControllersBearItsWeight) {
 }
 
 TEST(Figure7, AMovedSliderMovesTheGoal) {
-  Running run(load_file(std::filesystem::path(HOOKPOINT_SOURCE_DIR) /
+  Running run(load_file(std::filesystem::path(testing::source_folder()) /
                         "configs/paper/fig7_two_joint_arm.hook"));
   const simulation::Port slider = run.port("controllers.goal_angle.value");
   EXPECT_EQ(run["pd1.goal"], 0.);

@@ -7,6 +7,7 @@
 
 #include "simulation/analysis/stability.h"
 #include "tests/support/command.h"
+#include "tests/support/folders.h"
 #include "tests/support/linear_form.h"
 #include "tests/support/run_text.h"
 
@@ -85,7 +86,7 @@ TEST(LeadCompensatorOfThePage, BearsTheStepThatItsLinearFormGives) {
 // The program, which does not know the class, takes its linear form from the plugin.
 TEST(LeadCompensatorOfThePage, AsAPluginIsBoundAlike) {
   const testing::Workplace place;
-  std::filesystem::copy_file(HOOKPOINT_BINARY_DIR "/tests/libplugin_of_page.so",
+  std::filesystem::copy_file(testing::build_folder() + "/tests/libplugin_of_page.so",
                              place.folder() / "libmine.so");
   const std::string text = held_arm("rk4", 1e-3, "");
   place.file("arm.hook", "Plugin \"libmine.so\";\n" + text);

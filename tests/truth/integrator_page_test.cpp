@@ -8,6 +8,7 @@
 #include <string>
 
 #include "integrators/velocity_verlet.h"
+#include "tests/support/folders.h"
 #include "tests/support/integrator_order.h"
 #include "tests/support/stepper_contract.h"
 
@@ -29,7 +30,7 @@ TEST(VelocityVerletOfThePage, BearsTheStepsOfItsClosedForms) {
 
 std::string read(const std::string& file) {
   std::ostringstream text;
-  text << std::ifstream(HOOKPOINT_SOURCE_DIR "/" + file).rdbuf();
+  text << std::ifstream(testing::source_folder() + "/" + file).rdbuf();
   return text.str();
 }
 

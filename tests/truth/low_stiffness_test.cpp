@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tests/support/command.h"
+#include "tests/support/folders.h"
 
 namespace hookpoint::testing {
 namespace {
@@ -47,7 +48,7 @@ double largest(const std::string& results, const std::string& metric,
 
 TEST(LowStiffness, ThePageIsThatOfItsSummaryAndOfItsPrediction) {
   const Workplace work;
-  const std::string command = "'" HOOKPOINT_SOURCE_DIR
+  const std::string command = "'" + testing::source_folder() +
                               "/docs/papers/low_stiffness/make.py' --check >'" +
                               (work.folder() / "out").string() + "' 2>&1";
   EXPECT_EQ(std::system(command.c_str()), 0) << work.read("out");

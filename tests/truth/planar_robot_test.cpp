@@ -8,6 +8,7 @@
 #include "reference/engines.h"
 #include "simulation/analysis/controller_terms.h"
 #include "simulation/analysis/stability.h"
+#include "tests/support/folders.h"
 #include "tests/support/run_text.h"
 #include "tests/support/text.h"
 
@@ -83,7 +84,8 @@ TEST(PlanarRobot, MovesAsInSpaceWhereNothingPushesItOutOfItsPlane) {
 
 // Two steps of the compass walker: what it does in space is plane.
 TEST(PlanarRobot, WalksAsInSpace) {
-  std::string text = testing::read_file(HOOKPOINT_SOURCE_DIR "/configs/scenes/compass_walker.hook");
+  std::string text =
+      testing::read_file(testing::source_folder() + "/configs/scenes/compass_walker.hook");
   Running free(text);
   text.replace(text.find("Base.mobile"), 11, "Base.planar");
   Running planar(text);

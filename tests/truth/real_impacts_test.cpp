@@ -9,6 +9,7 @@
 
 #include "studies/calibrate/calibration.h"
 #include "tests/support/command.h"
+#include "tests/support/folders.h"
 #include "tests/support/planned.h"
 
 namespace hookpoint::studies {
@@ -28,12 +29,13 @@ bool has_numpy() { return python("-c 'import numpy'").empty(); }
 
 TEST(RealImpacts, ThePageIsThatOfItsSummaries) {
   if (!has_numpy()) GTEST_SKIP() << "python3-numpy is not installed";
-  EXPECT_EQ(python("'" HOOKPOINT_SOURCE_DIR "/docs/papers/real_impacts/make.py' --check"), "");
+  EXPECT_EQ(python("'" + testing::source_folder() + "/docs/papers/real_impacts/make.py' --check"),
+            "");
 }
 
 TEST(RealImpacts, FrameAndCubeAreFoundInThrowsThatAreMadeOfThem) {
   if (!has_numpy()) GTEST_SKIP() << "python3-numpy is not installed";
-  EXPECT_EQ(python("'" HOOKPOINT_SOURCE_DIR "/tests/python/real_impacts_test.py'"), "");
+  EXPECT_EQ(python("'" + testing::source_folder() + "/tests/python/real_impacts_test.py'"), "");
 }
 
 /// Somewhat more than they come out with; with a friction of 0.3 and no rebound it is 0.3 and more.
@@ -48,7 +50,7 @@ TEST(RealImpacts, TwentyThrowsUnderConstantsThatAreGiven) {
       EXPECT_NE(diagnostic.severity, language::Severity::error) << diagnostic.message;
   });
   const auto plans = planned_calibrations(
-      application, HOOKPOINT_SOURCE_DIR "/configs/tunings/acrylic_on_wood_given.hook");
+      application, testing::source_folder() + "/configs/tunings/acrylic_on_wood_given.hook");
   ASSERT_FALSE(plans.empty());
   CalibrationOptions options;
   options.run.jobs = 2;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "tests/support/folders.h"
 #include "tests/support/run_text.h"
 
 namespace hookpoint {
@@ -18,7 +19,7 @@ struct Robot {
 
 void expect_standing(const Robot& robot) {
   Running run(
-      load_file(std::filesystem::path(HOOKPOINT_SOURCE_DIR) / "configs/scenes" / robot.scene));
+      load_file(std::filesystem::path(testing::source_folder()) / "configs/scenes" / robot.scene));
   const std::string name = robot.name;
   const double height = run[name + ".position.z"];
   run.step(24000);  // 6 s

@@ -12,6 +12,7 @@
 
 #include "output/files/csv.h"
 #include "tests/support/command.h"
+#include "tests/support/folders.h"
 #include "tests/support/page_blocks.h"
 #include "text/number.h"
 
@@ -382,7 +383,7 @@ TEST_F(StudyCases, WithoutTracesNeedADuration) {
 TEST(StudyCasesOfThePage, AreMeasuredAsItSays) {
   const Workplace work;
   const std::string page =
-      testing::read_file(std::filesystem::path(HOOKPOINT_SOURCE_DIR) / "docs/studies.md");
+      testing::read_file(std::filesystem::path(testing::source_folder()) / "docs/studies.md");
   for (const testing::PageBlock& block : testing::blocks_of(page))
     if (!block.name.empty()) work.file(block.name, block.text);
   const auto run = work.hookpoint("study throws.hook --out here");

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "tests/support/command.h"
+#include "tests/support/folders.h"
 #include "tests/support/page_blocks.h"
 #include "tests/support/text.h"
 
@@ -161,8 +162,7 @@ Study stretched {
 // The example of the manual.
 TEST(StudyMeasure, ThePageRuns) {
   const Workplace work;
-  const std::string page =
-      testing::read_file(std::string(HOOKPOINT_SOURCE_DIR) + "/docs/studies.md");
+  const std::string page = testing::read_file(testing::source_folder() + "/docs/studies.md");
   const auto blocks = testing::blocks_of(page);
   const auto block = std::ranges::find_if(
       blocks, [](const auto& one) { return one.text.starts_with("Study drop"); });

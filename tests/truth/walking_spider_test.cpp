@@ -6,13 +6,14 @@
 #include <filesystem>
 #include <numbers>
 
+#include "tests/support/folders.h"
 #include "tests/support/run_text.h"
 
 namespace hookpoint {
 namespace {
 
 TEST(WalkingSpider, KeepsSpeedDutyFactorAndPhasesOfItsTable) {
-  Running run(load_file(std::filesystem::path(HOOKPOINT_SOURCE_DIR) /
+  Running run(load_file(std::filesystem::path(testing::source_folder()) /
                         "configs/scenes/walking_spider.hook"));
   constexpr int legs = 8, steps = 16000;  // ten periods of 0.8 s at 0.5 ms
   constexpr double period = 0.8, duty = 0.6, dt = 0.5e-3;

@@ -6,6 +6,7 @@
 
 #include "control/registry.h"
 #include "simulation/analysis/stability.h"
+#include "tests/support/folders.h"
 #include "tests/support/run_text.h"
 
 namespace hookpoint {
@@ -242,7 +243,7 @@ TEST(WiredPd, OscillationsGrowFromTheBoundOn) {
 TEST(WiredPd, ABipedTremblesFromTheBoundOn) {
   const auto biped = [](double dt) {
     return load_file(
-        std::filesystem::path(HOOKPOINT_SOURCE_DIR) / "configs/scenes/standing_biped.hook",
+        std::filesystem::path(testing::source_folder()) / "configs/scenes/standing_biped.hook",
         {{}, {{"world.deltat", fmt::format("{}", dt)}, {"world.biped.leg[1].foot.rate", "0.1"}}});
   };
   const simulation::StabilityBound bound = simulation::stability_bound(*biped(1e-4).experiment);
@@ -306,7 +307,7 @@ TEST(WiredPd, APendulumRestsWhereTheDriveBearsItsWeight) {
 TEST(WiredPd, TheArmOfFigure7SettlesAtItsGoals) {
   const double kp1 = 6000., kp2 = 3000., goal1 = 0.5, goal2 = -0.4;
   const Loaded loaded = load_file(
-      std::filesystem::path(HOOKPOINT_SOURCE_DIR) / "configs/paper/fig7_two_joint_arm.hook",
+      std::filesystem::path(testing::source_folder()) / "configs/paper/fig7_two_joint_arm.hook",
       {{},
        {{"pd1.goal", "0.5"},
         {"pd1.pconstant", "6000"},

@@ -4,6 +4,7 @@
 #include "output/files/csv.h"
 #include "tests/support/child_process.h"
 #include "tests/support/command.h"
+#include "tests/support/folders.h"
 
 namespace hookpoint {
 namespace {
@@ -38,12 +39,12 @@ TEST(CalibrateCommand, TheExampleFindsTheTruthOfItsDrop) {
 
 TEST(CalibrateCommand, TheExamplesDataAreWhatTheirScriptMakes) {
   const Workplace place;
-  ASSERT_EQ(std::system(("'" HOOKPOINT_SOURCE_DIR "/configs/data/make_drop.py' > '" +
+  ASSERT_EQ(std::system(("'" + testing::source_folder() + "/configs/data/make_drop.py' > '" +
                          (place.folder() / "drop.csv").string() + "'")
                             .c_str()),
             0);
   EXPECT_EQ(place.read("drop.csv"),
-            testing::read_file(HOOKPOINT_SOURCE_DIR "/configs/data/drop.csv"));
+            testing::read_file(testing::source_folder() + "/configs/data/drop.csv"));
 }
 
 // In free flight no constant of the ground changes the height: the fit judged nothing.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/command.h"
+#include "tests/support/folders.h"
 #include "tests/support/text.h"
 
 namespace hookpoint {
@@ -202,7 +203,7 @@ TEST(CommandLine, HelpAndListsSucceed) {
 TEST(CommandLine, TheManualsReferencePageIsCurrent) {
   const Workplace work;
   EXPECT_EQ(work.hookpoint("describe --markdown").out,
-            testing::read_file(HOOKPOINT_SOURCE_DIR "/docs/reference_language.md"));
+            testing::read_file(testing::source_folder() + "/docs/reference_language.md"));
 }
 
 TEST(CommandLine, FmtIsIdempotent) {

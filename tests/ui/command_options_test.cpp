@@ -12,6 +12,7 @@
 #include "integrators/stepper.h"
 #include "studies/measure/metric.h"
 #include "tests/support/command.h"
+#include "tests/support/folders.h"
 #include "tests/support/message_rules.h"
 #include "tests/support/text.h"
 
@@ -481,7 +482,7 @@ TEST(Manual, PageCompletionAndDocumentationHaveEveryOptionOfHelp) {
   for (std::size_t at = page.find("\\-"); at != std::string::npos; at = page.find("\\-", at))
     page.erase(at, 1);
   const std::string completion = work.hookpoint("describe --completion bash").out;
-  const std::string manual = testing::read_file(HOOKPOINT_SOURCE_DIR "/docs/command_line.md");
+  const std::string manual = testing::read_file(testing::source_folder() + "/docs/command_line.md");
   const std::vector<std::string> names = commands(work.hookpoint("--help").out);
   EXPECT_GT(names.size(), 12U);
   for (const std::string& command : names) {
@@ -500,9 +501,9 @@ TEST(Manual, PageCompletionAndDocumentationHaveEveryOptionOfHelp) {
 
 TEST(Manual, FilesOfTheBuildAreThoseThatTheProgramPrints) {
   const Workplace work;
-  EXPECT_EQ(testing::read_file(HOOKPOINT_BINARY_DIR "/hookpoint.1"),
+  EXPECT_EQ(testing::read_file(testing::build_folder() + "/hookpoint.1"),
             work.hookpoint("describe --man").out);
-  EXPECT_EQ(testing::read_file(HOOKPOINT_BINARY_DIR "/hookpoint.bash"),
+  EXPECT_EQ(testing::read_file(testing::build_folder() + "/hookpoint.bash"),
             work.hookpoint("describe --completion bash").out);
 }
 
@@ -510,10 +511,10 @@ TEST(Manual, BashCompletesCommandsOptionsAndTheirWords) {
   const Workplace work;
   work.file("mine.hook", "");
   const auto completed = [&](const std::string& words, int at) {
-    const std::string script =
-        "cd '" + work.folder().string() +
-        "' && bash -c 'source " HOOKPOINT_BINARY_DIR "/hookpoint.bash; COMP_WORDS=(" + words +
-        "); COMP_CWORD=" + std::to_string(at) + "; _hookpoint; echo \"${COMPREPLY[*]}\"' > .out";
+    const std::string script = "cd '" + work.folder().string() + "' && bash -c 'source " +
+                               testing::build_folder() + "/hookpoint.bash; COMP_WORDS=(" + words +
+                               "); COMP_CWORD=" + std::to_string(at) +
+                               "; _hookpoint; echo \"${COMPREPLY[*]}\"' > .out";
     EXPECT_EQ(std::system(script.c_str()), 0);
     return work.read(".out");
   };

@@ -6,6 +6,7 @@
 
 #include "reference/engines.h"
 #include "tests/support/command.h"
+#include "tests/support/folders.h"
 
 namespace hookpoint {
 namespace {
@@ -16,22 +17,22 @@ TEST(DocumentedTables, TheCreepOfEveryPeerIsThatOfItsStudy) {
   const testing::Workplace work;
   const std::string results = "'" + (work.folder() / "results").string() + "'";
   const std::string output = " >'" + (work.folder() / "out").string() + "' 2>&1";
-  const std::string program = "'" HOOKPOINT_BINARY_DIR "/hookpoint'";
-  const std::string run =
-      program + " study '" HOOKPOINT_SOURCE_DIR "/configs/studies/peer_creep.hook' --out " +
-      results + output;
+  const std::string program = "'" + testing::build_folder() + "/hookpoint'";
+  const std::string run = program + " study '" + testing::source_folder() +
+                          "/configs/studies/peer_creep.hook' --out " + results + output;
   ASSERT_EQ(std::system(run.c_str()), 0) << work.read("out");
   for (const std::string table : {"peer_creep", "readme_creep"}) {
-    const std::string check = "'" HOOKPOINT_SOURCE_DIR "/docs/make/documented_tables' --check " +
-                              table + " " + results + output;
+    const std::string check = "'" + testing::source_folder() +
+                              "/docs/make/documented_tables' --check " + table + " " + results +
+                              output;
     EXPECT_EQ(std::system(check.c_str()), 0) << table << "\n" << work.read("out");
   }
 }
 
 TEST(DocumentedTables, TheWalksOnSevenGroundsAreThoseOfTheirStudy) {
   const testing::Workplace work;
-  const std::string command = "HOOKPOINT='" HOOKPOINT_BINARY_DIR
-                              "/hookpoint' '" HOOKPOINT_SOURCE_DIR
+  const std::string command = "HOOKPOINT='" + testing::build_folder() + "/hookpoint' '" +
+                              testing::source_folder() +
                               "/docs/make/documented_tables' --check terrains >'" +
                               (work.folder() / "out").string() + "' 2>&1";
   EXPECT_EQ(std::system(command.c_str()), 0) << work.read("out");
@@ -39,7 +40,8 @@ TEST(DocumentedTables, TheWalksOnSevenGroundsAreThoseOfTheirStudy) {
 
 TEST(DocumentedTables, TheTunedGroundsAreThoseOfTheirMaterials) {
   const testing::Workplace work;
-  const std::string command = "'" HOOKPOINT_SOURCE_DIR "/docs/papers/terrains/make.py' --check >'" +
+  const std::string command = "'" + testing::source_folder() +
+                              "/docs/papers/terrains/make.py' --check >'" +
                               (work.folder() / "out").string() + "' 2>&1";
   EXPECT_EQ(std::system(command.c_str()), 0) << work.read("out");
 }

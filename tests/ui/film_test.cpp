@@ -7,6 +7,7 @@
 #include "tests/support/child_process.h"
 #include "tests/support/chromium.h"
 #include "tests/support/command.h"
+#include "tests/support/folders.h"
 #include "tests/support/pendulum_movie.h"
 
 namespace hookpoint {
@@ -124,8 +125,8 @@ TEST_F(FilmCommand, WithoutABrowserThePackageIsNamed) {
   unsetenv("HOOKPOINT_BROWSER");
   EXPECT_EQ(result.status, 3) << result.err;
   EXPECT_NE(result.err.find("HOOKPOINT_BROWSER"), std::string::npos);
-  const std::string command = "cd '" + place.folder().string() +
-                              "' && PATH=/nowhere '" HOOKPOINT_BINARY_DIR
+  const std::string command = "cd '" + place.folder().string() + "' && PATH=/nowhere '" +
+                              testing::build_folder() +
                               "/hookpoint' replay m.h5 --film f.webm 2>.err";
   const int raw = std::system(command.c_str());
   EXPECT_EQ(WEXITSTATUS(raw), 3);

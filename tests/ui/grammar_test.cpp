@@ -8,6 +8,7 @@
 #include "language/syntax/syntax.h"
 #include "language/syntax/token.h"
 #include "tests/support/command.h"
+#include "tests/support/folders.h"
 
 namespace hookpoint {
 namespace {
@@ -15,7 +16,7 @@ namespace {
 using namespace language;
 using testing::Workplace;
 
-const std::filesystem::path source = HOOKPOINT_SOURCE_DIR;
+const std::filesystem::path source = testing::source_folder();
 
 TEST(Grammar, IsThatOfThisProgram) {
   const Workplace work;

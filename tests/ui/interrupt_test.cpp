@@ -5,6 +5,7 @@
 
 #include "tests/support/child_process.h"
 #include "tests/support/command.h"
+#include "tests/support/folders.h"
 #include "tests/support/record_scene.h"
 
 namespace hookpoint {
@@ -43,7 +44,7 @@ bool is_larger(const fs::path& file, std::uintmax_t size) {
 
 /// Puts the plugin of Test.Stalls, whose step does not end, beside the files.
 void put_stalling_plugin(const Workplace& place) {
-  fs::copy_file(fs::path(HOOKPOINT_BINARY_DIR) / "tests/plugins/libplugin_stalls.so",
+  fs::copy_file(fs::path(testing::build_folder()) / "tests/plugins/libplugin_stalls.so",
                 place.folder() / "libstalls.so");
 }
 

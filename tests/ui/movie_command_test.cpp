@@ -9,6 +9,7 @@
 #include "control/data/table.h"
 #include "tests/support/child_process.h"
 #include "tests/support/command.h"
+#include "tests/support/folders.h"
 #include "tests/support/read_record.h"
 
 namespace hookpoint {
@@ -89,8 +90,7 @@ class MovieCommand : public ::testing::Test {
   /// Runs the scene, for far too long, until `file` has that many bytes.
   void kill_when_larger(const std::string& file, int bytes) {
     const std::string script =
-        "cd '" + place.folder().string() +
-        "'; '" HOOKPOINT_BINARY_DIR
+        "cd '" + place.folder().string() + "'; '" + testing::build_folder() +
         "/hookpoint' run scene.hook --for 5000s --out run >.out 2>.err & pid=$!; cd '" +
         place.folder().string() + "'; while [ $(stat -c %s " + file +
         " 2>/dev/null || echo 0) -lt " + std::to_string(bytes) +

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tests/support/command.h"
+#include "tests/support/folders.h"
 
 namespace hookpoint {
 namespace {
@@ -14,7 +15,7 @@ using testing::CommandResult;
 using testing::Workplace;
 namespace fs = std::filesystem;
 
-const fs::path built = fs::path(HOOKPOINT_BINARY_DIR) / "tests/plugins";
+const fs::path built = fs::path(testing::build_folder()) / "tests/plugins";
 
 /// A ball in free fall and a class of the plugin `good` that doubles its height.
 constexpr const char* doubled_height = R"(Plugin "libmine.so";
@@ -309,8 +310,8 @@ TEST_F(PluginCommand, WhatIsNoLibraryIsTold) {
   place.file("run.hook", doubled_height);
   const auto err = [&] { return place.hookpoint("check run.hook --allow-plugins").err; };
   const std::string none = "the plugin `libmine.so` is no shared library";
-  EXPECT_EQ(err(),
-            said("there is no file `libmine.so`; looked in ., " HOOKPOINT_SOURCE_DIR "/configs"));
+  EXPECT_EQ(err(), said("there is no file `libmine.so`; looked in ., " + testing::source_folder() +
+                        "/configs"));
   for (const std::string& text : {std::string(), std::string("a text"),
                                   std::string("\x7f"
                                               "ELF")}) {

@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "tests/support/command.h"
+#include "tests/support/folders.h"
 #include "tests/support/text.h"
 
 namespace hookpoint {
@@ -14,7 +15,7 @@ namespace {
 using testing::Workplace;
 namespace fs = std::filesystem;
 
-const fs::path source = HOOKPOINT_SOURCE_DIR;
+const fs::path source = testing::source_folder();
 
 /// All ```sh blocks of a page, one after the other.
 std::string commands(const std::string& page) {
@@ -44,7 +45,7 @@ std::string readme() {
   const std::string build = "build/release";
   const std::size_t at = script.find(build);
   EXPECT_NE(at, std::string::npos);
-  return script.replace(at, build.size(), "'" HOOKPOINT_BINARY_DIR "'");
+  return script.replace(at, build.size(), "'" + testing::build_folder() + "'");
 }
 
 /// angle(t) = goal + (angle(0) - goal)(1 + w t) exp(-w t), the critically damped joint of arm.hook.

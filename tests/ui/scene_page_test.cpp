@@ -6,14 +6,15 @@
 
 #include "contact/force_law.h"
 #include "tests/support/command.h"
+#include "tests/support/folders.h"
 #include "tests/support/page_blocks.h"
 
 namespace hookpoint {
 namespace {
 
 std::string scene_of_page() {
-  const std::string page =
-      testing::read_file(std::filesystem::path(HOOKPOINT_SOURCE_DIR) / "docs/adding_a_scene.md");
+  const std::string page = testing::read_file(std::filesystem::path(testing::source_folder()) /
+                                              "docs/adding_a_scene.md");
   const auto blocks = testing::blocks_of(page);
   const auto found = std::ranges::find(blocks, "hook", &testing::PageBlock::language);
   return found == blocks.end() ? "" : found->text;

@@ -6,6 +6,7 @@
 #include <csignal>
 
 #include "tests/support/command.h"
+#include "tests/support/folders.h"
 
 namespace hookpoint::testing {
 namespace {
@@ -20,7 +21,7 @@ constexpr const char* world =
 
 /// What a script for bash, in which $H is the program, ends with and says.
 CommandResult script(const Workplace& place, const std::string& text) {
-  place.file("script.sh", "H='" HOOKPOINT_BINARY_DIR "/hookpoint'\n" + text);
+  place.file("script.sh", "H='" + testing::build_folder() + "/hookpoint'\n" + text);
   const std::string folder = place.folder().string();
   const int raw =
       std::system(("cd '" + folder + "' && bash script.sh >.out 2>.err </dev/null").c_str());
@@ -75,7 +76,7 @@ TEST(StandardOutput, WhoseReaderGoesAwayEndsQuietlyAndKeepsTheFiles) {
 /// Runs the script without root's right to write everywhere.
 CommandResult unprivileged(const Workplace& place, const std::string& text) {
   std::filesystem::permissions(place.folder(), std::filesystem::perms::all);
-  place.file("inner.sh", "H='" HOOKPOINT_BINARY_DIR "/hookpoint'\n" + text);
+  place.file("inner.sh", "H='" + testing::build_folder() + "/hookpoint'\n" + text);
   const std::string drop =
       geteuid() == 0 ? "setpriv --reuid=65534 --regid=65534 --clear-groups " : "";
   return script(place, drop + "bash inner.sh\n");

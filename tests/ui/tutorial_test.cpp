@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tests/support/command.h"
+#include "tests/support/folders.h"
 #include "tests/support/page_blocks.h"
 
 namespace hookpoint {
@@ -16,7 +17,7 @@ using testing::blocks_of;
 using testing::Workplace;
 namespace fs = std::filesystem;
 
-const fs::path source = HOOKPOINT_SOURCE_DIR;
+const fs::path source = testing::source_folder();
 
 /// `hookpoint view`, which goes on until somebody ends it, is ended once its page can be opened.
 constexpr const char* watched_briefly = R"(hookpoint() {
@@ -39,7 +40,7 @@ std::string script_of(const std::vector<testing::PageBlock>& blocks) {
                   : "cat >'" + block.name + "' <<'END OF BLOCK'\n" + block.text + "END OF BLOCK\n";
   }
   const std::string build = "build/release";
-  return script.replace(script.find(build), build.size(), "'" HOOKPOINT_BINARY_DIR "'");
+  return script.replace(script.find(build), build.size(), "'" + testing::build_folder() + "'");
 }
 
 /// Column `index` of a CSV file with a line of titles.

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "tests/support/command.h"
+#include "tests/support/folders.h"
 
 namespace hookpoint {
 namespace {
@@ -14,9 +15,9 @@ using testing::Workplace;
 
 /// `hookpoint ARGUMENTS` with at most so much address space [kB].
 CommandResult limited(const Workplace& place, int kilobytes, const std::string& arguments) {
-  const std::string command =
-      "ulimit -v " + std::to_string(kilobytes) + "; cd '" + place.folder().string() +
-      "' && '" HOOKPOINT_BINARY_DIR "/hookpoint' " + arguments + " >.out 2>.err";
+  const std::string command = "ulimit -v " + std::to_string(kilobytes) + "; cd '" +
+                              place.folder().string() + "' && '" + testing::build_folder() +
+                              "/hookpoint' " + arguments + " >.out 2>.err";
   const int raw = std::system(command.c_str());
   return {WIFEXITED(raw) ? WEXITSTATUS(raw) : 128 + WTERMSIG(raw), place.read(".out"),
           place.read(".err")};

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "apps/view/widgets/ghosts.h"
+#include "tests/support/folders.h"
 #include "tests/support/shown_text.h"
 
 namespace hookpoint {
@@ -10,7 +11,7 @@ namespace {
 using Settings = std::vector<std::string>;
 
 TEST(Ghosts, AreWhatTheFileNames) {
-  Shown shown(std::filesystem::path(HOOKPOINT_SOURCE_DIR) /
+  Shown shown(std::filesystem::path(testing::source_folder()) /
               "configs/views/creep_side_by_side.hook");
   const auto ghosts = view::load_ghosts(shown.root());
   ASSERT_EQ(ghosts.size(), 4u);

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "apps/view/widgets/panel.h"
+#include "tests/support/folders.h"
 #include "tests/support/page_blocks.h"
 #include "tests/support/run_text.h"
 #include "tests/support/shown_text.h"
@@ -49,7 +50,7 @@ const view::Valuator& valuator(const Widget& widget) {
 class Figure7Panel : public ::testing::Test {
  protected:
   Figure7Panel()
-      : shown_(std::filesystem::path(HOOKPOINT_SOURCE_DIR) /
+      : shown_(std::filesystem::path(testing::source_folder()) /
                "configs/paper/fig7_two_joint_arm.hook"),
         panel_(panel_of(shown_)) {}
   const Widget& slider(std::size_t i) const { return *all_of(panel_, "Valuator.Slider").at(i); }
@@ -87,7 +88,7 @@ TEST_F(Figure7Panel, HasTheRangesOfTheFile) {
 TEST(ArmsOfThePaper, AreTouchedAnywhereAndContinue) {
   for (const char* file : {"fig7_two_joint_arm.hook", "fig1b.hook"}) {
     const std::filesystem::path path =
-        std::filesystem::path(HOOKPOINT_SOURCE_DIR) / "configs/paper" / file;
+        std::filesystem::path(testing::source_folder()) / "configs/paper" / file;
     Shown shown(path);
     const Panel panel = panel_of(shown);
     std::vector<view::Valuator> goals, constants;
@@ -285,7 +286,7 @@ Text d { text = "{1}"; values = w.time; }
 // The file of docs/view.md as it stands there.
 TEST(Panel, ReadsThePageOfTheManual) {
   const auto blocks = testing::blocks_of(
-      testing::read_file(std::filesystem::path(HOOKPOINT_SOURCE_DIR) / "docs/view.md"));
+      testing::read_file(std::filesystem::path(testing::source_folder()) / "docs/view.md"));
   const auto block = std::ranges::find(blocks, "hook", &testing::PageBlock::language);
   ASSERT_NE(block, blocks.end());
   ShownText shown(block->text);
@@ -305,7 +306,7 @@ TEST(Panel, ReadsThePageOfTheManual) {
 }
 
 TEST(Panel, PrintsFigure7AsItWas) {
-  Shown shown(std::filesystem::path(HOOKPOINT_SOURCE_DIR) /
+  Shown shown(std::filesystem::path(testing::source_folder()) /
               "configs/paper/fig7_two_joint_arm.hook");
   ShownText printed(language::print(shown.root()));
   EXPECT_EQ(widgets_of(panel_of(*printed)), widgets_of(panel_of(shown)));

@@ -6,6 +6,7 @@
 
 #include "apps/view/widgets/scene.h"
 #include "contact/terrain/terrain.h"
+#include "tests/support/folders.h"
 #include "tests/support/load_text.h"
 #include "text/json.h"
 #include "text/json_reader.h"
@@ -23,7 +24,7 @@ simulation::Experiment experiment_of(const std::string& text) {
 }
 
 simulation::Experiment config(const std::string& name) {
-  Loaded loaded = load_file(std::filesystem::path(HOOKPOINT_SOURCE_DIR) / "configs" / name);
+  Loaded loaded = load_file(std::filesystem::path(testing::source_folder()) / "configs" / name);
   EXPECT_TRUE(loaded.experiment) << loaded.diagnostics;
   return std::move(loaded.experiment).value();
 }

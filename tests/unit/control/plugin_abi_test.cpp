@@ -10,13 +10,14 @@
 #include <sstream>
 #include <string>
 
+#include "tests/support/folders.h"
 #include "tests/support/text.h"
 
 namespace hookpoint::control {
 namespace {
 
 std::string read(const std::string& file) {
-  return testing::read_file(HOOKPOINT_SOURCE_DIR "/" + file);
+  return testing::read_file(testing::source_folder() + "/" + file);
 }
 
 /// The headers that the package installs, as cmake/hookpoint_install.cmake lists them.

@@ -7,13 +7,14 @@
 
 #include "control/plugin/elf_constant.h"
 #include "control/plugin/plugin.h"
+#include "tests/support/folders.h"
 #include "tests/support/text.h"
 
 namespace hookpoint::control {
 namespace {
 
 std::string good_library() {
-  return testing::read_file(HOOKPOINT_BINARY_DIR "/tests/plugins/libplugin_good.so");
+  return testing::read_file(testing::build_folder() + "/tests/plugins/libplugin_good.so");
 }
 
 PluginAbi abi_in(const std::string& library) {

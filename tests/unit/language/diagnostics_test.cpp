@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "language/names.h"
+#include "tests/support/folders.h"
 #include "tests/support/language_files.h"
 #include "tests/support/message_rules.h"
 
@@ -12,7 +13,7 @@ namespace hookpoint::language::testing {
 namespace {
 
 std::filesystem::path diagnostics_folder() {
-  return std::filesystem::path(HOOKPOINT_SOURCE_DIR) / "tests/unit/diagnostics";
+  return std::filesystem::path(testing::source_folder()) / "tests/unit/diagnostics";
 }
 
 std::vector<std::string> wrong_files() {
@@ -33,7 +34,7 @@ TEST_P(WrongFile, GivesTheExpectedText) {
   EXPECT_EQ(result.root, nullptr);
   // The project's configs are found from here upward, wherever it stands.
   std::string errors = result.errors();
-  const std::string project = std::string(HOOKPOINT_SOURCE_DIR) + "/";
+  const std::string project = testing::source_folder() + "/";
   for (std::size_t at; (at = errors.find(project)) != std::string::npos;)
     errors.erase(at, project.size());
   EXPECT_EQ(errors, read_file(GetParam() + ".expected"));

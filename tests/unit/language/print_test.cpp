@@ -10,6 +10,7 @@
 #include <iterator>
 #include <random>
 
+#include "tests/support/folders.h"
 #include "tests/support/language_files.h"
 
 namespace hookpoint::language::testing {
@@ -174,7 +175,7 @@ TEST(LanguageFormat, AStatementThatIsTooLongForALineKeepsItsLines) {
 
 /// But for the paper's own text, which stands as printed.
 TEST(LanguageFormat, EveryConfigIsLaidOut) {
-  const std::filesystem::path configs = std::filesystem::path(HOOKPOINT_SOURCE_DIR) / "configs";
+  const std::filesystem::path configs = std::filesystem::path(testing::source_folder()) / "configs";
   int count = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(configs)) {
     if (entry.path().extension() != ".hook" || entry.path().parent_path().filename() == "paper")

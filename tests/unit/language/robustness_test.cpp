@@ -5,13 +5,14 @@
 #include <functional>
 #include <random>
 
+#include "tests/support/folders.h"
 #include "tests/support/language_files.h"
 
 namespace hookpoint::language::testing {
 namespace {
 
 std::string figure_7() {
-  return read_file(std::filesystem::path(HOOKPOINT_SOURCE_DIR) /
+  return read_file(std::filesystem::path(testing::source_folder()) /
                    "configs/paper/fig7_two_joint_arm.hook");
 }
 

@@ -7,6 +7,8 @@
 #include <regex>
 #include <string>
 
+#include "tests/support/folders.h"
+
 namespace {
 
 /// `block.number("tolerance")`; of a member function without a field's name nothing.
@@ -26,7 +28,7 @@ TEST(FieldNames, AReadByNameIsRecognised) {
 
 TEST(FieldNames, NoLineOfStudiesReadsAFieldByItsName) {
   int files = 0;
-  const std::filesystem::path root = HOOKPOINT_SOURCE_DIR;
+  const std::filesystem::path root = hookpoint::testing::source_folder();
   for (const auto& entry : std::filesystem::recursive_directory_iterator(root / "studies")) {
     const std::string extension = entry.path().extension();
     if (extension != ".h" && extension != ".cpp") continue;

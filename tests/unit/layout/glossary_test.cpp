@@ -8,13 +8,14 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/folders.h"
 #include "tests/support/text.h"
 
 namespace hookpoint {
 namespace {
 
 namespace fs = std::filesystem;
-const fs::path source = HOOKPOINT_SOURCE_DIR;
+const fs::path source = testing::source_folder();
 
 /// Patterns of the third column of docs/style.md's glossary, joined to one.
 std::string patterns_of_glossary() {

@@ -13,6 +13,8 @@
 #include <string_view>
 #include <vector>
 
+#include "tests/support/folders.h"
+
 namespace {
 
 using Names = std::set<std::string>;
@@ -118,7 +120,7 @@ using Visit = std::function<void(const std::string& file, const std::string& tex
 
 /// Calls `visit` for every line of the folder's sources; paths from the project's root.
 void for_each_line(const std::string& folder, const Visit& visit) {
-  const std::filesystem::path root = HOOKPOINT_SOURCE_DIR;
+  const std::filesystem::path root = hookpoint::testing::source_folder();
   if (!std::filesystem::exists(root / folder)) return;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(root / folder)) {
     const std::string extension = entry.path().extension();

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "language/schema/absent.h"
+#include "tests/support/folders.h"
 #include "tests/support/load_text.h"
 #include "tests/support/message_rules.h"
 #include "tests/support/text.h"
@@ -19,7 +20,7 @@ std::vector<language::Absent> everything_absent() {
 }
 
 TEST(LimitsPage, NamesSomethingOfEachRow) {
-  const std::string page = testing::read_file(HOOKPOINT_SOURCE_DIR "/docs/limits.md");
+  const std::string page = testing::read_file(testing::source_folder() + "/docs/limits.md");
   const std::vector<language::Absent> all = everything_absent();
   ASSERT_FALSE(all.empty());
   for (const language::Absent& absent : all) {

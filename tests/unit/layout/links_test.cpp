@@ -5,6 +5,7 @@
 #include <regex>
 #include <string>
 
+#include "tests/support/folders.h"
 #include "tests/support/text.h"
 
 namespace hookpoint {
@@ -20,7 +21,7 @@ bool is_of_the_project(const fs::path& folder) {
 TEST(Links, LeadToFilesThatExist) {
   const std::regex link(R"(\]\(([^)\s#]+)[^)\s]*\))");
   int links = 0;
-  for (auto entry = fs::recursive_directory_iterator(HOOKPOINT_SOURCE_DIR);
+  for (auto entry = fs::recursive_directory_iterator(testing::source_folder());
        entry != fs::recursive_directory_iterator(); ++entry) {
     if (entry->is_directory()) {
       if (!is_of_the_project(entry->path())) entry.disable_recursion_pending();
@@ -33,7 +34,7 @@ TEST(Links, LeadToFilesThatExist) {
       if (target.find("://") != std::string::npos || target.rfind("mailto:", 0) == 0) continue;
       ++links;
       EXPECT_TRUE(fs::exists(entry->path().parent_path() / target))
-          << entry->path().lexically_relative(HOOKPOINT_SOURCE_DIR) << " links to " << target;
+          << entry->path().lexically_relative(testing::source_folder()) << " links to " << target;
     }
   }
   EXPECT_GT(links, 200);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/folders.h"
 #include "tests/support/page_blocks.h"
 #include "tests/support/text.h"
 
@@ -15,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path source = HOOKPOINT_SOURCE_DIR;
+const fs::path source = testing::source_folder();
 
 /// What a diff finds in a file, in one piece.
 struct Hunk {

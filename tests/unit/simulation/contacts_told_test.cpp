@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "reference/engines.h"
+#include "tests/support/folders.h"
 #include "tests/support/shown_text.h"
 
 namespace hookpoint {
@@ -44,7 +45,8 @@ std::string block(double slope, double mu, const std::string& more = "") {
 }
 
 TEST(ContactsTold, CarryAStandingHexapod) {
-  Shown shown(std::filesystem::path(HOOKPOINT_SOURCE_DIR) / "configs/scenes/standing_hexapod.hook");
+  Shown shown(std::filesystem::path(testing::source_folder()) /
+              "configs/scenes/standing_hexapod.hook");
   run(shown.world(), 4.);
   const auto contacts = contacts_of(shown.world());
   EXPECT_EQ(contacts.size(), 6u);

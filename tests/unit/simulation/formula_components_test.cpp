@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "tests/support/folders.h"
 #include "tests/support/page_blocks.h"
 #include "tests/support/run_text.h"
 
@@ -111,7 +112,7 @@ TEST(StateMachine, StaysAsLongAsItsGuardsSay) {
 }
 
 TEST(StateMachine, OfTheManualDoesTheWorkThatItSays) {
-  std::ifstream file(std::filesystem::path(HOOKPOINT_SOURCE_DIR) / "docs/controllers.md");
+  std::ifstream file(std::filesystem::path(testing::source_folder()) / "docs/controllers.md");
   const std::string page{std::istreambuf_iterator<char>(file), {}};
   std::string text;
   for (const testing::PageBlock& block : testing::blocks_of(page)) {

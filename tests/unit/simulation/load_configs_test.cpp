@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "tests/support/folders.h"
 #include "tests/support/load_text.h"
 #include "tests/support/text.h"
 
@@ -12,7 +13,7 @@ namespace {
 std::vector<std::filesystem::path> config_files() {
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(
-           std::filesystem::path(HOOKPOINT_SOURCE_DIR) / "configs")) {
+           std::filesystem::path(testing::source_folder()) / "configs")) {
     // Studies have classes of their own, which their own tests know.
     const auto folder = entry.path().parent_path().filename();
     const bool study = folder == "studies" || folder == "tunings";
@@ -26,7 +27,7 @@ std::vector<std::filesystem::path> config_files() {
 bool is_included(const std::filesystem::path& module) {
   std::vector<std::filesystem::path> files = config_files();
   for (const auto& entry : std::filesystem::directory_iterator(
-           std::filesystem::path(HOOKPOINT_SOURCE_DIR) / "tests" / "truth")) {
+           std::filesystem::path(testing::source_folder()) / "tests" / "truth")) {
     files.push_back(entry.path());
   }
   const std::string name = module.parent_path().filename() / module.filename();

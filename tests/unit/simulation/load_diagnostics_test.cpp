@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "tests/support/folders.h"
 #include "tests/support/language_files.h"
 #include "tests/support/load_text.h"
 #include "tests/support/message_rules.h"
@@ -14,7 +15,7 @@ namespace hookpoint {
 namespace {
 
 std::filesystem::path folder() {
-  return std::filesystem::path(HOOKPOINT_SOURCE_DIR) / "tests/unit/diagnostics_full";
+  return std::filesystem::path(testing::source_folder()) / "tests/unit/diagnostics_full";
 }
 
 std::vector<std::string> wrong_files() {

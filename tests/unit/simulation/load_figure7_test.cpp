@@ -5,6 +5,7 @@
 
 #include "simulation/experiment/names.h"
 #include "simulation/run/loop.h"
+#include "tests/support/folders.h"
 #include "tests/support/load_text.h"
 #include "tests/support/run_text.h"
 
@@ -16,7 +17,7 @@ using namespace simulation;
 class Figure7 : public ::testing::Test {
  protected:
   void SetUp() override {
-    loaded_ = load_file(std::filesystem::path(HOOKPOINT_SOURCE_DIR) /
+    loaded_ = load_file(std::filesystem::path(testing::source_folder()) /
                         "configs/paper/fig7_two_joint_arm.hook");
     ASSERT_TRUE(loaded_.experiment) << loaded_.diagnostics;
   }

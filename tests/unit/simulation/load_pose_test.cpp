@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "simulation/experiment/kinematics.h"
+#include "tests/support/folders.h"
 #include "tests/support/load_text.h"
 
 namespace hookpoint {
@@ -16,7 +17,7 @@ constexpr double degree = std::numbers::pi / 180.;
 
 Experiment scene(const std::string& file, const language::EvaluateOptions& options = {}) {
   const Loaded loaded =
-      load_file(std::filesystem::path(HOOKPOINT_SOURCE_DIR) / "configs" / file, options);
+      load_file(std::filesystem::path(testing::source_folder()) / "configs" / file, options);
   EXPECT_TRUE(loaded.experiment) << loaded.diagnostics;
   return loaded.experiment.value_or(Experiment{});
 }

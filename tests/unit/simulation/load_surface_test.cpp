@@ -6,6 +6,7 @@
 
 #include "simulation/experiment/kinematics.h"
 #include "simulation/scene/terrain/surface.h"
+#include "tests/support/folders.h"
 #include "tests/support/load_text.h"
 #include "tests/support/png_file.h"
 
@@ -116,7 +117,7 @@ TEST_F(LoadImage, IsRefusedAtItsName) {
 
 TEST(LoadSurface, ATextFileHasNoBlackAndWhite) {
   const std::string bumps =
-      (std::filesystem::path(HOOKPOINT_SOURCE_DIR) / "configs/terrains/bumps.txt").string();
+      (std::filesystem::path(testing::source_folder()) / "configs/terrains/bumps.txt").string();
   EXPECT_EQ(refusal("Terrain.Grid g { file = \"" + bumps + "\"; \nhigh = 1; }"),
             "error 3:8 `high` goes with a PNG; a text file has its heights in metres\n");
 }

@@ -7,6 +7,7 @@
 #include "language/document/document.h"
 #include "simulation/analysis/stability.h"
 #include "simulation/analysis/step_warning.h"
+#include "tests/support/folders.h"
 #include "tests/support/load_text.h"
 
 namespace hookpoint {
@@ -182,7 +183,7 @@ TEST(Warnings, AreOneOfAllBodiesWhoseShapesMeetAndNoneOfThoseWithoutContact) {
 
 // A scene that is shipped states what any law reads, so that a study of laws warns of nothing.
 TEST(Warnings, AreNotOfScenesThatAreShipped) {
-  const std::filesystem::path configs = std::filesystem::path(HOOKPOINT_SOURCE_DIR) / "configs";
+  const std::filesystem::path configs = std::filesystem::path(testing::source_folder()) / "configs";
   int scenes = 0;
   for (const auto& file : std::filesystem::directory_iterator(configs / "scenes")) {
     language::Library library(experiment_schema(), {configs});

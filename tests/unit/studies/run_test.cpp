@@ -11,6 +11,7 @@
 #include "studies/results/pivot.h"
 #include "studies/run/results_csv.h"
 #include "studies/run/verdict.h"
+#include "tests/support/folders.h"
 #include "tests/support/page_blocks.h"
 #include "tests/support/study_runner.h"
 
@@ -459,7 +460,7 @@ TEST_F(WordStudies, AWordThatTheSceneCannotTakeHasItsPlaceInTheStudy) {
 
 TEST_F(WordStudies, ThePagesExampleIsPlannedAsItSays) {
   const std::filesystem::path page =
-      std::filesystem::path(HOOKPOINT_SOURCE_DIR) / "docs/studies.md";
+      std::filesystem::path(testing::source_folder()) / "docs/studies.md";
   std::string example;
   for (const testing::PageBlock& block : testing::blocks_of(read(page))) {
     if (block.name == "soils.hook") example = block.text;
