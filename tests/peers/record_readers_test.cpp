@@ -1,6 +1,7 @@
 // Every format, read back by a program that knows nothing of ours: h5py, Octave, @mcap/core,
 // Python's csv, and for Wolfram text a parser of its syntax. Values to the last bit, units, types,
 // ranges.
+// ctest: long
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // A chain on the last link of another is the same robot as one long chain: whatever asks a robot
 // anything gives the same answer for both, and a robot written so in the language is that robot.
+// ctest: released
 #include <gtest/gtest.h>
 
 #include <algorithm>

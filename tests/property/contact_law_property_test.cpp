@@ -1,4 +1,5 @@
 // The shared suite of tests/support/contact_law_suite.h on every law of the table, and the table.
+// ctest: alone
 #include <gtest/gtest.h>
 
 #include "contact/force_law.h"

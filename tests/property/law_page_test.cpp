@@ -1,5 +1,6 @@
 // docs/adding_a_law.md: the law that it adds is compiled from the page, and held to what every law
 // must hold and to the page's own claims; its edit of the list of laws fits the list.
+// ctest: alone
 #include <gtest/gtest.h>
 
 #include <fstream>

@@ -1,5 +1,6 @@
 // Robots read from MJCF: poses of their bodies, masses and free accelerations against MuJoCo's own
 // compiled model of the same text; what is refused, in which words and where.
+// ctest: alone
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // A program of several tests' files runs those of the file that it is called by: dts_dense_test
 // those of dts_dense_test.cpp or of dts/dense_test.cpp. Called by a name that is none of its
 // files', it runs them all. Tests in a header belong to no file: a program of such is not called by
-// a file's name (HOOKPOINT_TESTS_ALONE in tests/CMakeLists.txt).
+// a file's name (it says `// ctest: alone`).
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -43,10 +43,9 @@ int main(int count, char** arguments) {
   }
   if (!own.empty() && several) {
     if (!in_a_header.empty()) {
-      std::fprintf(
-          stderr,
-          "%s has tests of its own: add the tests that include it to HOOKPOINT_TESTS_ALONE\n",
-          in_a_header.c_str());
+      std::fprintf(stderr,
+                   "%s has tests of its own: a test that includes it says `// ctest: alone`\n",
+                   in_a_header.c_str());
       return 2;
     }
     // What follows the first `-` of a filter is left out.

@@ -1,5 +1,6 @@
 // The controller of docs/adding_a_component.md, compiled as it stands there: built in, where its
 // linear form is that of its updates and sets the step that it bears, and as a plugin.
+// ctest: alone
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

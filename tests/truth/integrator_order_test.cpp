@@ -1,5 +1,6 @@
 // Order of convergence and stability of every fixed-step integrator of the table
 // (tests/support/integrator_order.h); textbook limits of their stability.
+// ctest: alone
 #include "tests/support/integrator_order.h"
 
 #include <gtest/gtest.h>

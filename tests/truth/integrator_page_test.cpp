@@ -1,6 +1,7 @@
 // The integrator of docs/adding_an_integrator.md, compiled as it stands there: it keeps the
 // contract of a stepper, has the order that it states, and bears the step that is found from its
 // steps.
+// ctest: alone
 #include <gtest/gtest.h>
 
 #include <fstream>

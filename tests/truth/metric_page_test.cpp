@@ -1,5 +1,6 @@
 // docs/adding_a_metric.md: the metric that it adds is compiled from the page, and measures and
 // predicts what the page says: cos(slope) of a block at rest, 2 of one that undamped springs catch.
+// ctest: alone
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,5 +1,6 @@
 // The largest stable step of linear dynamics with several modes: what an integrator says of its
 // stability in closed form against what is found from its steps, and that against a run.
+// ctest: alone
 #include "simulation/analysis/stable_step.h"
 
 #include <gtest/gtest.h>

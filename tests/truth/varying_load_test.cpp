@@ -1,6 +1,7 @@
 // A mass that is pushed to and fro under a load that varies, so that its slip reverses all the
 // time, against the laws' own differential equations, written down here and integrated finely. The
 // damper of the bristle goes from none to one that a step resolves.
+// ctest: long
 #include <gtest/gtest.h>
 
 #include <cmath>

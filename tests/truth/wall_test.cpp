@@ -1,4 +1,5 @@
 // The Wall of scenes with a known truth, and maps of parameters, as a user runs them.
+// ctest: long
 #include <gtest/gtest.h>
 
 #include <algorithm>

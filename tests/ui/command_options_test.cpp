@@ -1,4 +1,5 @@
 // Options that make the command short to write, and what it says of itself.
+// ctest: long
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 

@@ -1,4 +1,5 @@
 // What stands on many runs: `compare` of two folders, the page of a `Matrix`.
+// ctest: long, released
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 

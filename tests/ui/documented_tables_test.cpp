@@ -1,4 +1,5 @@
 // Tables of the manual that are made of results are those of this program.
+// ctest: long, released
 #include <gtest/gtest.h>
 
 #include <cstdlib>

@@ -1,4 +1,5 @@
 // A study that is killed, at whatever moment, and gone on with: the same bytes as one that was not.
+// ctest: long, released
 #include <gtest/gtest.h>
 
 #include <chrono>

@@ -1,5 +1,6 @@
 // Movies as a user meets them: a run again at any moment, a run that goes on, and what is said of
 // files that are none. Records of killed runs.
+// ctest: long, released
 #include <gtest/gtest.h>
 
 #include <cmath>

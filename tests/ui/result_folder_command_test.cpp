@@ -1,5 +1,6 @@
 // A folder of results as a user meets it: used again, used twice at once, edited, on a full disk,
 // and compared.
+// ctest: long, released
 #include <gtest/gtest.h>
 
 #include "output/files/hash.h"

@@ -1,5 +1,6 @@
 // A study of real engines in several threads leaves the bytes that one thread leaves. The preset
 // `tsan` watches the threads meanwhile (a race ends the program with its own exit status).
+// ctest: threads
 #include <gtest/gtest.h>
 
 #include "tests/support/command.h"

@@ -1,5 +1,6 @@
 // The window's server, spoken to by plain sockets: what is expected stands in RFC 9112 and RFC
 // 6455.
+// ctest: threads
 #include <arpa/inet.h>
 #include <fcntl.h>
 #include <gtest/gtest.h>

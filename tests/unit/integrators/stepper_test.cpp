@@ -1,4 +1,5 @@
 // What a caller of an integrator relies on, for every row of the table, and the table of names.
+// ctest: alone
 #include "integrators/stepper.h"
 
 #include <gtest/gtest.h>

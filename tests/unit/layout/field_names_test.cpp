@@ -1,5 +1,6 @@
 // A block of the language names each of its fields once, where it declares it (language/tree/
 // fields.h): no other line of studies/ reads a field by its name.
+// ctest: released
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -1,4 +1,5 @@
 // Words that docs/style.md replaces by the field's are in no header, no message and no page.
+// ctest: released
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -1,5 +1,6 @@
 // The layout is the architecture: no folder includes one that it must not see (ARCHITECTURE: four
 // floors, no arrow up), and inside a folder arrows between its rooms run one way.
+// ctest: released
 #include <gtest/gtest.h>
 
 #include <algorithm>

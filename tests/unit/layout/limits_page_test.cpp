@@ -1,4 +1,5 @@
 // docs/limits.md speaks of everything that the language says it has not.
+// ctest: released
 #include <gtest/gtest.h>
 
 #include <sstream>

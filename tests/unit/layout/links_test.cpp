@@ -1,4 +1,5 @@
 // Every link of a page to a file of the project leads somewhere.
+// ctest: released
 #include <gtest/gtest.h>
 
 #include <filesystem>

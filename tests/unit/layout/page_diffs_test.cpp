@@ -1,5 +1,6 @@
 // The diffs of the pages that tell how to extend hookpoint: what each changes is there, as it
 // stands in the page.
+// ctest: released
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // Calibrations from their files: what a Calibrate says, which constants a subject has, cases and
 // folds, and the same answer however it is run.
+// ctest: released
 #include <gtest/gtest.h>
 
 #include <algorithm>

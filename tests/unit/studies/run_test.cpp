@@ -1,5 +1,6 @@
 // The runner with an engine of the test's own, whose motion is known: order of rows, bytes of
 // results.csv, independence of the number of threads, resuming, failing rows.
+// ctest: threads
 #include <gtest/gtest.h>
 
 #include <algorithm>
