@@ -50,6 +50,7 @@ part() {
   passed=$((passed + said[0])) failed=$((failed + said[2])) skipped=$((skipped + said[4]))
   if [ "$status" -eq 77 ]; then sum+=", $(tail -n 1 "$log")"; fi
   printf '%s: %s (%d min %02d s)\n' "$name" "$sum" $(((SECONDS - begun) / 60)) $(((SECONDS - begun) % 60)) >>"$folder/parts"
+  sed -n "s/^flaky: /flaky: $name: /p" "$log" >>"$folder/parts"
   if [ "${said[2]}" -ne 0 ] || { [ "$status" -ne 0 ] && [ "$status" -ne 77 ]; }; then
     explain "$name" "$repeat" "$log" >"$folder/failed/$(printf %02d $((++reports)))_$name" || true
   fi

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 /// "hkpt", in the file's header: whose it is. The version counts changes of the tables.
 constexpr int application_id = 0x686b7074;
 constexpr int table_version = 1;
-constexpr int wait_for_lock = 2000;  ///< [ms]
+constexpr int wait_for_lock = 20'000;  ///< [ms]; a slow disk keeps others waiting for seconds
 /// A run has a number for each metric and a thousand numbers for each curve; both are far less.
 constexpr int most_row_bytes = 16 << 20;
 /// A statement finds or writes one row by its key: some hundred operations of the library.

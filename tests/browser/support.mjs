@@ -180,10 +180,25 @@ Window {
 `;
 
 /// Resolves once `holds` resolves to true.
-export async function eventually(what, holds, milliseconds = 20_000) {
+export async function eventually(what, holds, milliseconds = 120_000) {
   for (const end = Date.now() + milliseconds; Date.now() < end; ) {
     if (await holds()) return;
     await new Promise((resolve) => setTimeout(resolve, 50));
   }
   assert.fail(`never: ${what}`);
 }
+
+/// The value of `reading` once two readings a while apart are alike: the page shows what the program said last.
+export async function unchanging(page, reading) {
+  let last = await reading();
+  await eventually("it stays as it is", async () => {
+    const before = last;
+    await page.waitForTimeout(300);
+    last = await reading();
+    return JSON.stringify(before) === JSON.stringify(last);
+  });
+  return last;
+}
+
+/// The time at which a paused run stands [s].
+export const standing = (page) => unchanging(page, () => time(page));

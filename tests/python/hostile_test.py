@@ -27,7 +27,7 @@ def run_python(program, limit=None):
     command = [sys.executable, "-c", textwrap.dedent(program)]
     if limit:
         command = ["/bin/sh", "-c", f"ulimit -v {limit // 1024}; exec \"$0\" \"$@\"", *command]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=100, env={**os.environ, "SCENE": FALLING})
+    done = subprocess.run(command, capture_output=True, text=True, timeout=300, env={**os.environ, "SCENE": FALLING})
     return done.returncode, done.stdout, done.stderr
 
 

@@ -1,4 +1,5 @@
 """import hookpoint: closed forms, the command's own bytes, and what is refused."""
+import contextlib
 import csv
 import gc
 import json
@@ -6,6 +7,7 @@ import os
 import pathlib
 import re
 import signal
+import sqlite3
 import subprocess
 import sys
 import tempfile
@@ -665,15 +667,14 @@ class Study(unittest.TestCase):
             store = pathlib.Path(folder) / "store"
 
             def interrupt_after_the_first_row():
-                # The store's log has a run once it is longer than its own head and its tables. A closed
-                # connection removes the log between the listing and the look at its size.
-                def size_of(log):
+                def has_a_run(file):
                     try:
-                        return log.stat().st_size
-                    except FileNotFoundError:
-                        return 0
+                        with contextlib.closing(sqlite3.connect(f"{file.as_uri()}?mode=ro", uri=True)) as database:
+                            return database.execute("SELECT count(*) FROM run").fetchone()[0] > 0
+                    except sqlite3.Error:  # it is being made
+                        return False
 
-                while not any(size_of(log) > 100_000 for log in store.glob("*-wal")):
+                while not any(has_a_run(file) for file in store.glob("*") if not file.name.endswith(("-wal", "-shm"))):
                     time.sleep(0.001)
                 os.kill(os.getpid(), signal.SIGINT)
 

@@ -77,6 +77,26 @@ run || status=$?
 expect "a program that dies after its cases" "$(last)" "2 passed, 2 failed, 0 skipped"
 
 begin
+plain twice "[ -e '$work/tried' ] || { touch '$work/tried'; false; }"
+plain never false
+plain other true
+echo 'set_tests_properties(twice never PROPERTIES LABELS clock)' >>"$folder/CTestTestfile.cmake"
+status=0
+run || status=$?
+expect "the clock's tests: one that passes again is flaky" "$(grep '^flaky' <<<"$said")" "flaky: twice"
+expect "the clock's tests: one that never passes has failed" "$(last)" "2 passed, 1 failed, 0 skipped"
+expect "the clock's tests: it was tried three times" "$(grep -c 'Test #2: never .*Failed' <<<"$said")" 3
+
+begin
+plain one true
+plain two true
+plain three true
+echo 'set_tests_properties(one PROPERTIES LABELS full)' >>"$folder/CTestTestfile.cmake"
+echo 'set_tests_properties(two PROPERTIES LABELS "clock;full")' >>"$folder/CTestTestfile.cmake"
+said=$(bash "$root/scripts/run_tests" "$folder" -LE full 2>&1)
+expect "a label that is left out, whatever others there are" "$(last)" "1 passed, 0 failed, 0 skipped"
+
+begin
 plain apart 'echo skipped here'
 echo 'set_tests_properties(apart PROPERTIES SKIP_REGULAR_EXPRESSION "skipped")' >>"$folder/CTestTestfile.cmake"
 run || expect "a skipped program" "$said" "status 0"

@@ -144,7 +144,7 @@ class SlurmCluster {
   }
   template <class Reached>
   static bool wait_for(const Reached& reached) {
-    for (int i = 0; i < 600; ++i) {
+    for (int i = 0; i < 3000; ++i) {
       if (reached()) return true;
       std::this_thread::sleep_for(std::chrono::milliseconds(100));
     }

@@ -1,4 +1,5 @@
 // A movie as a film, made by a Chromium without a display and read back without what made it.
+// ctest: clock
 #include <gtest/gtest.h>
 
 #include <csignal>
@@ -82,10 +83,15 @@ std::string seen_by_video(const Workplace& place, const std::string& file) {
       "--disable-background-networking --virtual-time-budget=10000 --user-data-dir='" +
       folder + "/profile' --dump-dom 'file://" + folder + "/see.html' >'" + folder +
       "/seen' 2>/dev/null";
-  if (std::system(command.c_str()) != 0) return "chromium failed";
-  const std::string page = place.read("seen");
-  const std::size_t begin = page.find("<body>") + 6;
-  return page.substr(begin, page.find('<', begin) - begin);
+  // On a busy machine the page's time can run out before the film is read: it says nothing then.
+  std::string seen = "nothing";
+  for (int i = 0; i < 3 && seen == "nothing"; ++i) {
+    if (std::system(command.c_str()) != 0) return "chromium failed";
+    const std::string page = place.read("seen");
+    const std::size_t begin = page.find("<body>") + 6;
+    seen = page.substr(begin, page.find('<', begin) - begin);
+  }
+  return seen;
 }
 
 TEST_F(FilmCommand, VideosLastAsLongAsTheirPictures) {

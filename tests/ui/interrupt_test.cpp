@@ -1,4 +1,5 @@
 // The interrupt key at known moments: what is kept, what is said, and the exit status.
+// ctest: clock
 #include <gtest/gtest.h>
 
 #include <algorithm>

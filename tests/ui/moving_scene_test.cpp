@@ -1,5 +1,6 @@
 // Obstacles and ground that move, in the window: live and from a movie they are where their
 // velocities have taken them, and a run that is watched leaves the bytes of one that is not.
+// ctest: clock
 #include <gtest/gtest.h>
 
 #include <cmath>

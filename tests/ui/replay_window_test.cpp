@@ -1,5 +1,6 @@
 // A movie in the window, seen by a client that is no browser: its moments and its plots are those
 // of the run that wrote it.
+// ctest: clock
 #include <gtest/gtest.h>
 
 #include <chrono>

@@ -1,6 +1,6 @@
 // Studies whose runs a cluster makes: a real Slurm of one node that comes and goes with the test,
 // and the same bytes as on one machine, whatever dies meanwhile.
-// ctest: full
+// ctest: full, clock
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // study --view: the page is told every row as it finishes, the results are the same bytes as
 // without, and the program stays until it is told to go.
-// ctest: long
+// ctest: long, clock
 #include <gtest/gtest.h>
 
 #include <cstdlib>

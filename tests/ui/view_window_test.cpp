@@ -1,5 +1,6 @@
 // A live run in the window, seen by a client that is no browser: what is asked is carried out in
 // its order, whatever the run is doing, and what was done repeats.
+// ctest: clock
 #include <gtest/gtest.h>
 
 #include <cmath>

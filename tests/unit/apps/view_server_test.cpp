@@ -1,6 +1,6 @@
 // The window's server, spoken to by plain sockets: what is expected stands in RFC 9112 and RFC
 // 6455.
-// ctest: threads
+// ctest: threads, clock
 #include <arpa/inet.h>
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -37,6 +37,9 @@ ServerOptions options() {
   return given;
 }
 
+/// For what comes at once unless it never does: a busy machine under a sanitizer is slow.
+constexpr auto patience = 120s;
+
 double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
@@ -58,6 +61,7 @@ class Socket {
   Socket(Socket&& other) noexcept
       : file_(std::exchange(other.file_, -1)),
         connected_(other.connected_),
+        ended_(other.ended_),
         read_(std::move(other.read_)) {}
   Socket& operator=(Socket&&) = delete;
 
@@ -73,13 +77,15 @@ class Socket {
     return true;
   }
 
-  /// More bytes; false at the end, or after ten seconds without any.
+  /// More bytes; false at the end, or after `patience` without any.
   bool read_more() {
     pollfd ready{file_, POLLIN, 0};
-    if (poll(&ready, 1, 10'000) != 1) return false;
+    if (poll(&ready, 1, static_cast<int>(std::chrono::milliseconds(patience).count())) != 1)
+      return false;
     char buffer[65536];
     const ssize_t count = recv(file_, buffer, sizeof buffer, 0);
-    if (count <= 0) return false;
+    ended_ = count <= 0;
+    if (ended_) return false;
     read_.append(buffer, static_cast<std::size_t>(count));
     return true;
   }
@@ -102,12 +108,11 @@ class Socket {
     }
     return read(read_.size());
   }
-  /// Whether the other end closes within ten seconds; what it still says is not looked at.
+  /// Whether the other end closes; what it still says is not looked at.
   bool is_closed() {
-    const auto begin = Clock::now();
     while (read_more()) {
     }
-    return seconds_since(begin) < 9.;
+    return ended_;
   }
   /// A vanished machine's: the connection ends without a goodbye.
   void reset() {
@@ -119,6 +124,7 @@ class Socket {
  private:
   int file_;
   bool connected_ = false;
+  bool ended_ = false;  ///< the other end has closed
   std::string read_;
 };
 
@@ -211,10 +217,10 @@ class Client {
   std::string answer;  ///< to the handshake
 };
 
-/// The next `count` events, or those of ten seconds.
+/// The next `count` events, or fewer where they do not come.
 std::vector<Server::Event> events(Server& server, std::size_t count) {
   std::vector<Server::Event> all;
-  const auto end = Clock::now() + 10s;
+  const auto end = Clock::now() + patience;
   while (all.size() < count && Clock::now() < end) {
     server.wait(end);
     for (Server::Event& event : server.take_events()) all.push_back(std::move(event));
@@ -482,7 +488,7 @@ TEST(ViewServer, NobodyWaitsForAClientThatNeverReads) {
     publishing += seconds_since(begin);
   }
   // To wait for the other, once, would take until it is given up.
-  EXPECT_LT(publishing, 5.);
+  EXPECT_LT(publishing, 30.);
   expect_growth_below(64., before);
   server.publish(std::make_shared<const std::string>("newest"));
   std::size_t frames = 1;
@@ -546,12 +552,12 @@ TEST(ViewServer, WaitsForAnEventAWakeOrATime) {
   EXPECT_FALSE(server.wait(begin + 50ms));
   EXPECT_GE(seconds_since(begin), 0.05);
   std::thread waking([&] { server.wake(); });
-  EXPECT_TRUE(server.wait(Clock::now() + 10s));
+  EXPECT_TRUE(server.wait(Clock::now() + patience));
   waking.join();
   EXPECT_FALSE(server.wait(Clock::now()));
   const Client client(server);
-  EXPECT_TRUE(server.wait(Clock::now() + 10s));
-  EXPECT_TRUE(server.wait(Clock::now() + 10s));  // until it is taken
+  EXPECT_TRUE(server.wait(Clock::now() + patience));
+  EXPECT_TRUE(server.wait(Clock::now() + patience));  // until it is taken
 }
 
 TEST(ViewServer, ServesManyAndSurvivesThoseThatVanish) {
@@ -593,21 +599,21 @@ TEST(ViewServer, HalfARequestIsNotWaitedForForever) {
   Socket socket(server.port());
   const auto begin = Clock::now();
   socket.write("GET / HTTP/1.1\r\n");
-  for (int i = 0; i < 40 && socket.write("X: y\r\n"); ++i) std::this_thread::sleep_for(50ms);
+  // However long lines come, one by one.
+  while (seconds_since(begin) < 60. && socket.write("X: y\r\n")) std::this_thread::sleep_for(50ms);
   EXPECT_TRUE(socket.is_closed());
   EXPECT_GE(seconds_since(begin), 0.2);
-  EXPECT_LT(seconds_since(begin), 1.5);
+  EXPECT_LT(seconds_since(begin), 60.);
 }
 
 TEST(ViewServer, AClientThatAnswersNoPingHasVanished) {
   ServerOptions given = options();
-  given.ping_interval = 200ms;
+  given.ping_interval = 2s;  // a busy machine answers within it
   Server server(given, page);
   Client silent(server);
   Client answering(server);
   events(server, 2);
-  const auto begin = Clock::now();
-  while (seconds_since(begin) < 1.5) {
+  for (int i = 0; i < 3; ++i) {
     EXPECT_EQ(answering.next(), (Frame{ping, ""}));
     answering.socket.write(frame(pong, ""));
   }
@@ -632,7 +638,7 @@ TEST(ViewServer, EndsAtOnceAndSaysGoodbyeBehindWhatWasSent) {
   });
   const auto begin = Clock::now();
   server.reset();
-  EXPECT_LT(seconds_since(begin), 1.);
+  EXPECT_LT(seconds_since(begin), 20.);  // `answer_time` is 60 s
   reading.join();
 }
 

@@ -1,4 +1,5 @@
 // Programs that are started: words stay words, and what they say and how they end comes back.
+// ctest: clock
 #include "output/files/child.h"
 
 #include <gtest/gtest.h>

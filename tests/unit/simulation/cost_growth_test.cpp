@@ -1,7 +1,7 @@
 // How processor time grows with the size of an experiment, over a fourfold size: linear work grows
 // four times, quadratic sixteen, cubic sixty-four. The least of several runs counts, and the limits
 // are wide, so that a busy machine passes.
-// ctest: full
+// ctest: full, clock
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
