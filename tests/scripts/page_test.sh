@@ -30,7 +30,7 @@ expect "status of the committed page" "$status" 0
 
 # A source that was changed and not built. The lock holds no address of a registry.
 mkdir -p "$work/clone/scripts" "$work/clone/apps/view"
-cp "$page" "$work/clone/scripts/"
+cp "$page" "$root/scripts/npm_packages" "$work/clone/scripts/"
 (cd "$root/apps/view" && tar -c --exclude=node_modules page) | tar -x -C "$work/clone/apps/view"
 cp -r "$root/apps/view/page/node_modules" "$work/clone/apps/view/page/"
 echo 'body { margin: 1px; }' >>"$work/clone/apps/view/page/page.css"

@@ -13,6 +13,7 @@ S
 stand_in apt-get <<'S'
 echo "${DEBIAN_FRONTEND:-asks} $*" >>"$WORK/calls"
 [[ " $* " == *" install "* ]] || exit 0
+if [ "$(cat "$WORK/failures" 2>/dev/null)" = x ]; then rm "$WORK/failures"; exit 100; fi
 for name in "$@"; do
   case "$name" in -*|install|DPkg*) continue ;; esac
   if [ -s "$WORK/mirror" ] && ! grep -qxF "$name" "$WORK/mirror"; then echo "E: no $name"; exit 100; fi
@@ -20,6 +21,7 @@ done
 for name in "$@"; do case "$name" in -*|install|DPkg*) ;; *) echo "$name" >>"$WORK/has" ;; esac; done
 S
 stand_in apt-cache <<<'exit 0'
+stand_in sleep <<<'exit 0'
 stand_in id <<<'echo "${USER_ID:-0}"'
 stand_in npm <<<'exit 0'
 # run MODE: its status, with what it said in $said; only stand-ins and the tools of a bare machine are on PATH.
@@ -38,6 +40,10 @@ run run || expect "setup run" "$said" "status 0"
 for package in g++ libode-dev libxxhash-dev libsqlite3-dev; do expect "run needs $package" "$(installed $package)" 1; done
 for package in libgtest-dev libdart-dev libsimbody-dev libmujoco-dev octave pybind11-dev; do expect "run needs no $package" "$(installed $package)" 0; done
 expect "apt-get asks nothing" "$(grep -c '^asks' "$work/calls" || true)" 0
+bare
+echo x >"$work/failures"
+run run || expect "setup run where a mirror fails once" "$said" "status 0"
+expect "it is tried again" "$(installed g++)" 1
 : >"$work/calls"
 run run || expect "setup run again" "$said" "status 0"
 expect "a second run installs nothing" "$(cat "$work/calls")$said" ""

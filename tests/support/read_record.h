@@ -4,6 +4,8 @@
 //   variable name   about key "json string"
 #pragma once
 
+#include <sys/wait.h>
+
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -104,22 +106,10 @@ struct Reader {
   std::string out_of_reach;
 };
 
-/// npm's code for a registry that is not reached (no network, or a closed proxy), "" for another
-/// failure.
-inline std::string network_problem(const std::string& complaints) {
-  for (const char* code : {"ENOTFOUND", "EAI_AGAIN", "ECONNREFUSED", "ECONNRESET", "ECONNABORTED",
-                           "ENETUNREACH", "EHOSTUNREACH", "ETIMEDOUT", "ERR_SOCKET_TIMEOUT",
-                           "ENOTCACHED", "SELF_SIGNED_CERT_IN_CHAIN", "UNABLE_TO_GET_ISSUER_CERT"})
-    if (complaints.find(code) != std::string::npos) return code;
-  return "";
-}
-
 /// node with @mcap/core and @foxglove/schemas, which npm fetches once, beside the build. Looked for
 /// once a program.
 inline const Reader& mcap_reader() {
   static const Reader reader = [] {
-    for (const char* program : {"node", "npm"})
-      if (!runs(std::string(program) + " --version")) return Reader{"", missing(program), ""};
     const std::filesystem::path folder = testing::build_folder() + "/mcap_reader";
     std::filesystem::create_directories(folder);
     for (const char* file :
@@ -127,20 +117,14 @@ inline const Reader& mcap_reader() {
       std::filesystem::copy_file(reader_folder + "mcap/" + file, folder / file,
                                  std::filesystem::copy_options::overwrite_existing);
     Reader found{"node '" + folder.string() + "/read.mjs' ", "", ""};
-    if (std::filesystem::exists(folder / "node_modules/@mcap/core") &&
-        std::filesystem::exists(folder / "node_modules/@foxglove/schemas"))
-      return found;
-    const Reading npm = run_reader("cd '" + folder.string() +
-                                       "' && npm ci --prefer-offline --no-audit --no-fund "
-                                       "--fetch-retries=1 --fetch-retry-mintimeout=1000",
-                                   true);
-    if (npm.status == 0) return found;
-    const std::string problem = network_problem(npm.output);
-    if (problem.empty())
-      found.missing = "@mcap/core and @foxglove/schemas, which npm did not bring: " + npm.output;
-    else
-      found.out_of_reach =
-          "@mcap/core and @foxglove/schemas, for which npm reaches no registry (" + problem + ")";
+    const Reading packages = run_reader(
+        "'" + testing::source_folder() + "/scripts/npm_packages' '" + folder.string() + "'", true);
+    if (packages.status == 0) return found;
+    const std::string problem = "@mcap/core and @foxglove/schemas: " + packages.output;
+    const bool is_out_of_reach =
+        WIFEXITED(packages.status) && WEXITSTATUS(packages.status) == 3 &&
+        packages.output.find("npm reaches no registry") != std::string::npos;
+    (is_out_of_reach ? found.out_of_reach : found.missing) = problem;
     return found;
   }();
   return reader;
