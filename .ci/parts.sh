@@ -141,8 +141,6 @@ run_parts() {
     summary "what follows needs the release build"
     return
   fi
-  # The release build's optimiser sees more than the presets that make warnings errors.
-  part warnings 'scripts/build --tests release' bash -c '[ -s build/release/build.log ] && ! grep -F -A 3 "warning:" build/release/build.log'
   # Tests of parts and of the command with assertions, under the address and undefined-behaviour sanitizers.
   part sanitizers "./test --preset ci $*" bash ./test --preset ci "$@"
   part_with run-clang-tidy tidy 'scripts/tidy FILE' bash scripts/tidy

@@ -1,6 +1,11 @@
 # The options of every target of ours: the warnings, and the instruction set, chosen once, here. Warnings are errors in the presets dev
-# and ci (CMAKE_COMPILE_WARNING_AS_ERROR).
-#
+# and ci, and wherever the compiler is the one that continuous integration compiles everything with: another's new warning stops nobody who
+# wants to run the program.
+if(NOT DEFINED CMAKE_COMPILE_WARNING_AS_ERROR AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13
+    AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 12)
+  set(CMAKE_COMPILE_WARNING_AS_ERROR ON)
+endif()
+
 # HOOKPOINT_ISA: `x86-64-v3` compiles for x86-64-v3 (AVX2, FMA); `portable` for the compiler's baseline. The default looks at
 # the building machine; a binary for other machines is built with -DHOOKPOINT_ISA=portable (docs/performance.md).
 if(NOT DEFINED HOOKPOINT_ISA)
