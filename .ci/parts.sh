@@ -130,12 +130,12 @@ summary() {
   [ "$failed" -eq 0 ] && [ "$passed" -gt 0 ]
 }
 
-# run_parts [ctest arguments of the sanitizers' part]: all parts that are wanted, in order.
+# run_parts [ctest arguments]: all parts that are wanted, in order.
 run_parts() {
   bash scripts/setup checks || true
   part_with clang-format format 'scripts/check_format --fix' bash scripts/check_format
   # All tests as released.
-  part release ./test bash ./test
+  part release "./test $*" bash ./test "$@"
   # Status 3: a package cannot be had, the configuration or the compiler failed.
   if [ "$status" -eq 3 ]; then
     summary "what follows needs the release build"

@@ -437,7 +437,9 @@ class Generator : DrawnText {
 }  // namespace
 
 GeneratedExperiment generate_experiment(const language::Schema& schema, std::uint64_t seed) {
-  return Generator(schema, seed).world();
+  GeneratedExperiment drawn = Generator(schema, seed).world();
+  drawn.dynamics = seed % 3 == 0;
+  return drawn;
 }
 
 }  // namespace hookpoint::fuzz

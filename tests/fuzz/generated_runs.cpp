@@ -1,5 +1,10 @@
 // Runs experiments drawn at random (generated_experiment.h), each in a process of its own:
-//   fuzz_generated [--kind experiments|studies] [--first SEED] [--count N] [--print SEED]
+//   fuzz_generated [--kind experiments|studies] [--first SEED] [--count N]
+//   fuzz_generated [--kind experiments|studies] --print SEED
+//   fuzz_generated [--kind experiments|studies] [--first SEED] [--count N] --write FOLDER
+//   fuzz_generated --replay FOLDER
+// What was drawn depends on the schema: one more field, and every seed draws something else. `--write`
+// keeps what is drawn today, each experiment in a folder of its own, and `--replay` runs what was kept.
 // A finding is one that ends by a signal, needs more than its processor time, ends with a status
 // that the manual does not know, says what only a programmer understands, or ends well with a
 // number that is none, an empty file, or one that was not completed.
@@ -17,6 +22,7 @@
 #include <fstream>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "apps/cli/commands.h"
 #include "apps/cli/exit_status.h"
@@ -50,8 +56,7 @@ bool has_non_finite(std::string text) {
 }
 
 /// What the commands do with the drawn file. Does not return.
-[[noreturn]] void run_alone(const std::filesystem::path& folder, const GeneratedExperiment& drawn,
-                            bool dynamics) {
+[[noreturn]] void run_alone(const std::filesystem::path& folder, const GeneratedExperiment& drawn) {
   const rlimit limit{processor_seconds, processor_seconds};
   setrlimit(RLIMIT_CPU, &limit);
   const rlimit no_core{0, 0};
@@ -68,7 +73,7 @@ bool has_non_finite(std::string text) {
       arguments.out = out;
       arguments.record = drawn.trails;
       status = cli::run(arguments);
-      const int of_dynamics = dynamics ? cli::dynamics(file, {}, true, false) : cli::fine;
+      const int of_dynamics = drawn.dynamics ? cli::dynamics(file, {}, true, false) : cli::fine;
       if (status == cli::fine) status = of_dynamics;
     } else {
       application::TaskArguments arguments;
@@ -137,24 +142,62 @@ struct Tally {
 
 using Generate = GeneratedExperiment (*)(const language::Schema&, std::uint64_t);
 
-void run_one(const language::Schema& schema, Generate generate, std::uint64_t seed,
-             const Folder& home, Tally& tally) {
-  const GeneratedExperiment drawn = generate(schema, seed);
-  const std::filesystem::path folder = home.path() / std::to_string(seed);
+void write_into(const std::filesystem::path& folder, const GeneratedExperiment& drawn) {
   std::filesystem::create_directories(folder);
   std::ofstream(folder / "drawn.hook") << drawn.text;
   for (const GeneratedFile& file : drawn.files)
     std::ofstream(folder / file.name, std::ios::binary) << file.content;
+}
+
+constexpr const char* command_file = "command";
+constexpr std::array command_names{"run", "study", "tune"};
+
+/// What runs it stands in a file of its own: the command's name, `dynamics`, `record PORT`.
+void keep(const std::filesystem::path& folder, const GeneratedExperiment& drawn) {
+  write_into(folder, drawn);
+  std::ofstream command(folder / command_file);
+  command << command_names.at(static_cast<std::size_t>(drawn.command)) << '\n';
+  if (drawn.dynamics) command << "dynamics\n";
+  for (const std::string& trail : drawn.trails) command << "record " << trail << '\n';
+}
+
+GeneratedExperiment kept(const std::filesystem::path& folder) {
+  GeneratedExperiment result;
+  std::ifstream command(folder / command_file);
+  for (std::string line; std::getline(command, line);) {
+    const auto name = std::ranges::find(command_names, line);
+    if (name != command_names.end())
+      result.command = static_cast<GeneratedCommand>(name - command_names.begin());
+    else if (line == "dynamics")
+      result.dynamics = true;
+    else
+      result.trails.push_back(line.substr(line.find(' ') + 1));
+  }
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (name == "drawn.hook")
+      result.text = testing::read_file(entry.path());
+    else if (name != command_file)
+      result.files.push_back({name, testing::read_file(entry.path())});
+  }
+  return result;
+}
+
+/// `name`: of the experiment, for a finding.
+void run_one(const GeneratedExperiment& drawn, const std::string& name, const Folder& home,
+             Tally& tally) {
+  const std::filesystem::path folder = home.path() / name;
+  write_into(folder, drawn);
   std::fflush(nullptr);
   const pid_t child = fork();
-  if (child == 0) run_alone(folder, drawn, seed % 3 == 0);
+  if (child == 0) run_alone(folder, drawn);
   int status = 0;
   waitpid(child, &status, 0);
   if (WIFEXITED(status)) ++tally.ended[WEXITSTATUS(status)];
   const std::string wrong = finding(status, folder);
   if (!wrong.empty()) {
     ++tally.findings;
-    std::printf("seed %llu: %s\n", static_cast<unsigned long long>(seed), wrong.c_str());
+    std::printf("FAILED: %s: %s\n", name.c_str(), wrong.c_str());
     std::printf("%.1500s\n", testing::read_file(folder / "stderr").c_str());
     std::fflush(stdout);
   }
@@ -182,29 +225,51 @@ int main(int count, char** words) {
   simulation::add_experiment_classes(schema, reference::peer_choices());
   studies::add_study_classes(schema);
   fuzz::Generate generate = fuzz::generate_experiment;
+  std::filesystem::path write, replay;
   for (int i = 1; i + 1 < count; i += 2) {
     const std::string option = words[i];
     if (option == "--kind") {
       if (words[i + 1] == std::string("studies")) generate = fuzz::generate_study;
-      continue;
-    }
-    if (option == "--print") {
+    } else if (option == "--print") {
       fuzz::print(generate(schema, fuzz::whole_number(words[i + 1])));
       return 0;
+    } else if (option == "--write") {
+      write = words[i + 1];
+    } else if (option == "--replay") {
+      replay = words[i + 1];
+    } else {
+      (option == "--first" ? first : wanted) = fuzz::whole_number(words[i + 1]);
     }
-    (option == "--first" ? first : wanted) = fuzz::whole_number(words[i + 1]);
+  }
+  const auto name_of = [&](std::uint64_t seed) {
+    return (generate == fuzz::generate_study ? "study_" : "experiment_") + std::to_string(seed);
+  };
+  if (!write.empty()) {
+    for (std::uint64_t seed = first; seed < first + wanted; ++seed)
+      fuzz::keep(write / name_of(seed), generate(schema, seed));
+    return 0;
   }
   const fuzz::Folder home;
   fuzz::Tally tally;
-  for (std::uint64_t seed = first; seed < first + wanted; ++seed)
-    fuzz::run_one(schema, generate, seed, home, tally);
+  if (!replay.empty()) {
+    std::vector<std::filesystem::path> folders;
+    for (const auto& entry : std::filesystem::directory_iterator(replay))
+      folders.push_back(entry.path());
+    std::ranges::sort(folders);
+    for (const auto& folder : folders)
+      fuzz::run_one(fuzz::kept(folder), folder.filename().string(), home, tally);
+    wanted = folders.size();
+  } else {
+    for (std::uint64_t seed = first; seed < first + wanted; ++seed)
+      fuzz::run_one(generate(schema, seed), name_of(seed), home, tally);
+  }
   std::printf(
-      "%llu experiments from seed %llu: %zu ran, %zu stopped with a message, %zu refused, %zu "
-      "lacked an engine, %zu findings\n",
-      static_cast<unsigned long long>(wanted), static_cast<unsigned long long>(first),
-      tally.ended[0], tally.ended[1], tally.ended[2], tally.ended[3], tally.findings);
+      "%llu experiments: %zu ran, %zu stopped with a message, %zu refused, %zu lacked an engine, "
+      "%zu findings\n",
+      static_cast<unsigned long long>(wanted), tally.ended[0], tally.ended[1], tally.ended[2],
+      tally.ended[3], tally.findings);
   // Files of which most are refused test the checker alone.
-  const bool enough = 4 * (tally.ended[0] + tally.ended[1]) >= wanted;
-  if (!enough) std::printf("too few ran\n");
+  const bool enough = wanted > 0 && 4 * (tally.ended[0] + tally.ended[1]) >= wanted;
+  if (!enough) std::printf("FAILED: too few ran\n");
   return tally.findings == 0 && enough ? 0 : 1;
 }

@@ -36,6 +36,6 @@ cp -r "$root/apps/view/page/node_modules" "$work/clone/apps/view/page/"
 echo 'body { margin: 1px; }' >>"$work/clone/apps/view/page/page.css"
 status=0; run "$work/clone/scripts/page" --check || status=$?
 expect "status where the page is older than its sources" "$status" 1
-expect "it says what to do" "$(grep -c 'run scripts/page and commit it' <<<"$said")" 1
+expect "it says what to do" "$(grep -c 'run scripts/renew page' <<<"$said")" 1
 expect "addresses in package-lock.json" "$(grep -c '"resolved"' "$root/apps/view/page/package-lock.json" || true)" 0
 finish

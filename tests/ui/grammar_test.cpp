@@ -8,6 +8,7 @@
 #include "language/syntax/syntax.h"
 #include "language/syntax/token.h"
 #include "tests/support/command.h"
+#include "tests/support/derived_file.h"
 #include "tests/support/folders.h"
 
 namespace hookpoint {
@@ -22,9 +23,10 @@ TEST(Grammar, IsThatOfThisProgram) {
   const Workplace work;
   const auto described = work.hookpoint("describe --textmate");
   EXPECT_EQ(described.status, 0) << described.err;
-  EXPECT_EQ(described.out,
-            work.read(source / "language/editors/vscode/syntaxes/hook.tmLanguage.json"))
-      << "hookpoint describe --textmate > language/editors/vscode/syntaxes/hook.tmLanguage.json";
+  EXPECT_EQ(
+      testing::stale("grammar", source / "language/editors/vscode/syntaxes/hook.tmLanguage.json",
+                     described.out),
+      "");
 }
 
 /// The class of each token of a file, by what the parser made of it.

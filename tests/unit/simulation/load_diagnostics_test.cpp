@@ -1,11 +1,10 @@
 // Every wrong experiment of tests/unit/diagnostics_full, read with the whole schema as `hookpoint
-// check` does, gives exactly the text in its .expected, and nothing else. With
-// HOOKPOINT_WRITE_EXPECTED set, the texts are written instead: to be read before they are kept.
+// check` does, gives exactly the text in its .expected, and nothing else.
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 
+#include "tests/support/derived_file.h"
 #include "tests/support/folders.h"
 #include "tests/support/language_files.h"
 #include "tests/support/load_text.h"
@@ -49,9 +48,8 @@ class WrongExperimentFile : public ::testing::TestWithParam<std::string> {};
 TEST_P(WrongExperimentFile, GivesTheExpectedText) {
   const std::string said = diagnostics_of(GetParam() + ".hook");
   const std::filesystem::path expected = folder() / (GetParam() + ".expected");
-  if (std::getenv("HOOKPOINT_WRITE_EXPECTED") != nullptr) std::ofstream(expected) << said;
   EXPECT_NE(said, "");
-  EXPECT_EQ(said, testing::read_file(expected));
+  EXPECT_EQ(testing::stale("diagnostics", expected, said), "");
   EXPECT_EQ(testing::broken_rule(said), "");
 }
 
