@@ -89,6 +89,15 @@ Vector3d lift_off(const contact::Surface& surface, const Vector3d& place) {
 
 }  // namespace
 
+ObjectMotion motion_of(const BodyState& body) {
+  ObjectMotion motion;
+  motion.p_WB = body.position;
+  motion.R_WB = rotation_matrix(body.orientation);
+  motion.v_WB = body.velocity;
+  motion.w_WB = body.angular_velocity;
+  return motion;
+}
+
 ObjectMotion motion_of(const SurfaceMotion& surface, double elapsed) {
   ObjectMotion motion;
   motion.p_WB = surface.position + elapsed * surface.velocity;

@@ -25,6 +25,9 @@ struct ObjectMotion : dts::BodyMotion<double> {
   Vector3d velocity_at(const Vector3d& p_W) const { return v_WB + cross(w_WB, p_W - p_WB); }
 };
 
+/// Of a robot's body.
+ObjectMotion motion_of(const BodyState& body);
+
 /// Of the terrain or an obstacle, `elapsed` [s] after the step's start.
 ObjectMotion motion_of(const SurfaceMotion& surface, double elapsed);
 

@@ -42,11 +42,7 @@ void OverlapWatch::look() {
   const bool start = !std::exchange(started_, true);
   const WorldState& state = world_.state();
   const auto motion = [&](const ShapeObject& object) {
-    const BodyState& body = state.bodies[first_bodies_[object.index] + object.body];
-    dts::BodyMotion<double> at{};
-    at.p_WB = body.position;
-    at.R_WB = rotation_matrix(body.orientation);
-    return at;
+    return motion_of(state.bodies[first_bodies_[object.index] + object.body]);
   };
   for (const ShapeContact& contact : detection_->detect(world_.inputs(), motion)) {
     if (contact.depth < least_overlap) continue;

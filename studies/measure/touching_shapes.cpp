@@ -27,9 +27,7 @@ std::span<const TouchingShapes::Place> TouchingShapes::look(const simulation::Wo
     return first_bodies_[object.index] + object.body;
   };
   const auto motion = [&](const ShapeObject& object) {
-    const simulation::BodyState& body = world.bodies[body_of(object)];
-    return dts::BodyMotion<double>{rotation_matrix(body.orientation), body.position, body.velocity,
-                                   body.angular_velocity};
+    return simulation::motion_of(world.bodies[body_of(object)]);
   };
   const auto is_ours = [&](const ShapeObject& object) {
     return object.kind == ShapeObject::Kind::body &&
