@@ -11,6 +11,7 @@ mkdir -p "$folder/failed"
 passed=0 failed=0 skipped=0
 status=0  # of the last part that ran
 reports=0 # files in failed/
+tidied=() # what tidy reads; all where it is empty
 lines=60 # of the summary
 : >"$folder/parts"
 
@@ -130,23 +131,25 @@ summary() {
   [ "$failed" -eq 0 ] && [ "$passed" -gt 0 ]
 }
 
-# run_parts [ctest arguments]: all parts that are wanted, in order.
+# run_parts change|everything: all parts that are wanted, in order. Of a change each test runs once: tests of parts under the sanitizers, the
+# others as released, without those that have the label `full`.
 run_parts() {
+  local released= checked= arguments=()
+  if [ "$1" = change ]; then released=released checked=checked arguments=(-LE full); fi
   bash scripts/setup checks || true
   part_with clang-format format 'scripts/check_format --fix' bash scripts/check_format
-  # All tests as released.
-  part release "./test $*" bash ./test "$@"
+  part release "./test${arguments[*]:+ ${arguments[*]}}" env HOOKPOINT_TESTS_SHARE="$released" bash ./test "${arguments[@]}"
   # Status 3: a package cannot be had, the configuration or the compiler failed.
   if [ "$status" -eq 3 ]; then
     summary "what follows needs the release build"
     return
   fi
-  # Tests of parts and of the command with assertions, under the address and undefined-behaviour sanitizers.
-  part sanitizers "./test --preset ci $*" bash ./test --preset ci "$@"
-  part_with run-clang-tidy tidy 'scripts/tidy FILE' bash scripts/tidy
+  # With assertions, under the address and undefined-behaviour sanitizers.
+  part sanitizers "./test --preset ci${arguments[*]:+ ${arguments[*]}}" env HOOKPOINT_TESTS_SHARE="$checked" bash ./test --preset ci "${arguments[@]}"
+  part_with run-clang-tidy tidy 'scripts/tidy FILE' bash scripts/tidy "${tidied[@]}"
   # What a user sees first, where nothing is installed.
   part_with mmdebstrap clean_room '.ci/full clean_room' bash scripts/clean_room './run --help' './run study configs/studies/creep.hook --quick'
-  # The study runner and the window's server under the thread sanitizer.
+  # What runs in several threads, under the thread sanitizer.
   part threads './test --preset tsan' bash ./test --preset tsan
   summary
 }

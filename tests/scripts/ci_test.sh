@@ -4,7 +4,15 @@ set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/support.sh"
 project="$work/project"
 mkdir -p "$project/.ci" "$project/scripts"
-cp "$root"/.ci/* "$project/.ci/"
+cp "$root"/.ci/{run,full,quick,parts.sh} "$project/.ci/"
+export GIT_AUTHOR_NAME=a GIT_AUTHOR_EMAIL=a@b GIT_COMMITTER_NAME=a GIT_COMMITTER_EMAIL=a@b GIT_CONFIG_GLOBAL=/dev/null
+git init -q "$project"
+# commit: all that is there.
+commit() {
+  git -C "$project" add -A
+  git -C "$project" commit -q --allow-empty -m change
+}
+commit
 
 # says FILE STATUS TEXT: a command of the project that prints a text and ends so.
 says() {
@@ -36,12 +44,29 @@ run() {
 says_line() { expect "$1" "$(sed -E 's/ \([0-9]+ min [0-9]+ s\)//' <<<"$said" | grep -Fx -- "$2")" "$2"; }
 
 begin
+commit
 run run
 expect "all well: status" "$status" 0
 expect "all well: last line" "$(tail -n 1 <<<"$said")" "21 passed, 0 failed, 0 skipped"
 says_line "all well: a part" "release: 10 passed, 0 failed, 0 skipped"
 run full
 expect "all well, everything: last line" "$(tail -n 1 <<<"$said")" "33 passed, 0 failed, 0 skipped"
+expect "a whole run is written down" "$(sed -n 's/^commit: //p' "$project/.ci/last_full.md")" "$(git -C "$project" rev-parse HEAD)"
+
+# What changed since then decides which of its parts are added.
+commit
+run run
+expect "no change: parts" "$(grep -cE '^(tidy|clean_room)' <<<"$said" || true)" 0
+mkdir "$project/studies"
+echo 'int a;' >"$project/studies/a.cpp"
+commit
+run run
+expect "a changed source: it is read by clang-tidy" "$(grep -c '^tidy: 1 passed' <<<"$said")" 1
+expect "a changed source: no bare machine" "$(grep -c '^clean_room' <<<"$said" || true)" 0
+echo '#include <zlib.h>' >>"$project/studies/a.cpp"
+commit
+run run
+expect "a new header: a bare machine" "$(grep -c '^clean_room: 1 passed' <<<"$said")" 1
 
 begin
 says test 1 "failed: a_test: Suite.Case
@@ -63,7 +88,7 @@ $project/studies/a.cpp:7:3: error: 'x' was not declared in this scope
 build (release): failed (log: build/release/build.log)"
 run run
 says_line "a compile error: shown" "  studies/a.cpp:7:3: error: 'x' was not declared in this scope"
-says_line "a compile error: repeated" "repeat: ./test"
+says_line "a compile error: repeated" "repeat: ./test -LE full"
 says_line "a compile error: ends the run" "ended early: what follows needs the release build"
 expect "a compile error: no later part" "$(grep -c '^sanitizers' <<<"$said")" 0
 expect "a compile error: status" "$status" 1
