@@ -15,8 +15,11 @@ namespace hookpoint::simulation {
 namespace {
 
 /// What a module may hold at its top, to be created elsewhere, and where.
-constexpr std::array<std::pair<const char*, const char*>, 4> homes{
-    {{"Robot", "World"}, {"Terrain.", "World"}, {"Chain", "Robot or a Link"}, {"Link", "Chain"}}};
+constexpr std::array<std::pair<const char*, const char*>, 5> homes{{{"Robot", "World"},
+                                                                    {"Terrain.", "World"},
+                                                                    {"Obstacle.", "World"},
+                                                                    {"Chain", "Robot or a Link"},
+                                                                    {"Link", "Chain"}}};
 
 /// How the Robot or the ground of a file without a World is run: by a file that includes it.
 std::string how_to_run(const language::Object& module) {

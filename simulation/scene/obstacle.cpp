@@ -47,6 +47,7 @@ language::ClassSchema obstacle_class(const std::string& kind, const char* what,
   obstacle.name = "Obstacle." + kind;
   obstacle.doc = fmt::format("{} that robots touch under touch = shapes", what);
   obstacle.naming = language::Naming::required;
+  obstacle.top_level = true;
   obstacle.fields = std::move(own);
   append(obstacle.fields, schemas(placed_obstacle_fields()));
   append(obstacle.fields,

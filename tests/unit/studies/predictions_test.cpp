@@ -244,8 +244,9 @@ Experiment late_joints(double period, double samples) {
   pd.type = "Controller.JointPD";
   pd.rate = 1. / period;
   for (std::size_t joint = 0; joint < 3; ++joint) {
-    pd.values.emplace_back(joint, 10.);     // pconstant, the first of the class's parameters
-    pd.values.emplace_back(3 + joint, 0.);  // dconstant
+    // The class's parameters: legs, pconstant, dconstant.
+    pd.values.emplace_back(1 + joint, 10.);
+    pd.values.emplace_back(4 + joint, 0.);
   }
   experiment.components.push_back(pd);
   experiment.wires.push_back({"leg.coxa.angle", "pd.angle[0]", {}, samples * period, 0.});
@@ -283,7 +284,7 @@ TEST(JointLoopPrediction, IsTheLimitOfDelayedIntegration) {
 
 TEST(JointLoopPrediction, SaysNothingOfOtherLoops) {
   Experiment damped = late_joints(0.01, 2.);
-  damped.components[0].values.emplace_back(3, 0.1);
+  damped.components[0].values.emplace_back(4, 0.1);
   EXPECT_FALSE(prediction(damped, "fell"));
   Experiment light = late_joints(0.01, 2.);
   light.robots[0].chains[0].links[1].damping = 0.;
