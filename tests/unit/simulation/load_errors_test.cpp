@@ -38,6 +38,10 @@ const Case cases[] = {
      "error 2:1 a second World; a file to run holds exactly one\nnote 1:1 the first is here\n"},
     {"stray_robot", "World w { }\n" + block,
      "error 2:1 Robot stands at the top of the file to run; move it into the World\n"},
+    {"stray_obstacle", "World w { }\nObstacle.Sphere o { radius = 1; }",
+     "error 2:1 Obstacle.Sphere stands at the top of the file to run; move it into the World\n"},
+    {"obstacle_without_world", "Obstacle.Sphere o { radius = 1; }",
+     "error 1:1 there is no World in this file; a run needs one: World NAME { ... }\n"},
     {"gravity_of_two", "World w {\n  gravity = 0,9.81;\n}",
      "error 2:13 gravity has two components; give one number g for 0,0,-g, or the three of the "
      "vector\n"},
