@@ -22,9 +22,9 @@ enum class GeneratedCommand { run, study, tune };
 struct GeneratedExperiment {
   GeneratedCommand command = GeneratedCommand::run;
   std::string text;                  ///< of a .hook file: one World, `w`, or what is run of a scene
-  bool dynamics = false;             ///< of a World: `hookpoint dynamics` too
   std::vector<std::string> trails;   ///< scalar ports of a World, to be recorded
   std::vector<GeneratedFile> files;  ///< that it names
+  bool dynamics = false;             ///< of a World: `hookpoint dynamics` too
 };
 
 /// The experiment of `seed`. Of three files one has no degenerate value, one a few, one many.

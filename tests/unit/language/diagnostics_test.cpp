@@ -14,7 +14,7 @@ namespace hookpoint::language::testing {
 namespace {
 
 std::filesystem::path diagnostics_folder() {
-  return std::filesystem::path(testing::source_folder()) / "tests/unit/diagnostics";
+  return std::filesystem::path(hookpoint::testing::source_folder()) / "tests/unit/diagnostics";
 }
 
 std::vector<std::string> wrong_files() {
@@ -35,7 +35,7 @@ TEST_P(WrongFile, GivesTheExpectedText) {
   EXPECT_EQ(result.root, nullptr);
   // The project's configs are found from here upward, wherever it stands.
   std::string errors = result.errors();
-  const std::string project = testing::source_folder() + "/";
+  const std::string project = hookpoint::testing::source_folder() + "/";
   for (std::size_t at; (at = errors.find(project)) != std::string::npos;)
     errors.erase(at, project.size());
   EXPECT_EQ(hookpoint::testing::stale("diagnostics", GetParam() + ".expected", errors), "");

@@ -414,7 +414,7 @@ TEST(LanguageUnit, OfAValueIsTheOneThatItsFirstNumberIsWrittenIn) {
 }
 
 TEST(LanguagePaper, Figure7ParsesAndChecksWhole) {
-  Evaluated result = evaluate_file(std::filesystem::path(testing::source_folder()) /
+  Evaluated result = evaluate_file(std::filesystem::path(hookpoint::testing::source_folder()) /
                                    "configs/paper/fig7_two_joint_arm.hook");
   ASSERT_TRUE(result.root) << result.errors();
   EXPECT_EQ(result.at("SimpleWorld").numbers("gravity"), std::vector<double>{9.81});

@@ -175,7 +175,8 @@ TEST(LanguageFormat, AStatementThatIsTooLongForALineKeepsItsLines) {
 
 /// But for the paper's own text, which stands as printed.
 TEST(LanguageFormat, EveryConfigIsLaidOut) {
-  const std::filesystem::path configs = std::filesystem::path(testing::source_folder()) / "configs";
+  const std::filesystem::path configs =
+      std::filesystem::path(hookpoint::testing::source_folder()) / "configs";
   int count = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(configs)) {
     if (entry.path().extension() != ".hook" || entry.path().parent_path().filename() == "paper")

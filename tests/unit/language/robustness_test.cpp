@@ -12,7 +12,7 @@ namespace hookpoint::language::testing {
 namespace {
 
 std::string figure_7() {
-  return read_file(std::filesystem::path(testing::source_folder()) /
+  return read_file(std::filesystem::path(hookpoint::testing::source_folder()) /
                    "configs/paper/fig7_two_joint_arm.hook");
 }
 
