@@ -12,6 +12,7 @@ passed=0 failed=0 skipped=0
 status=0  # of the last part that ran
 reports=0 # files in failed/
 tidied=() # what tidy reads; all where it is empty
+touched=() # tests with the label `full` that the change needs
 lines=60 # of the summary
 : >"$folder/parts"
 
@@ -135,7 +136,11 @@ summary() {
 # others as released, without those that have the label `full`.
 run_parts() {
   local released= checked= arguments=()
-  if [ "$1" = change ]; then released=released checked=checked arguments=(-LE full); fi
+  if [ "$1" = change ]; then
+    released=released checked=checked arguments=(-LE full)
+  else
+    export HOOKPOINT_KILLS=50
+  fi
   bash scripts/setup checks || true
   part_with clang-format format 'scripts/check_format --fix' bash scripts/check_format
   part release "./test${arguments[*]:+ ${arguments[*]}}" env HOOKPOINT_TESTS_SHARE="$released" bash ./test "${arguments[@]}"
@@ -144,12 +149,18 @@ run_parts() {
     summary "what follows needs the release build"
     return
   fi
+  local pattern
+  pattern="^($(local IFS='|'; echo "${touched[*]}"))\$"
+  part touched "./test -R '$pattern'" bash scripts/run_tests build/release -R "$pattern"
   # With assertions, under the address and undefined-behaviour sanitizers.
   part sanitizers "./test --preset ci${arguments[*]:+ ${arguments[*]}}" env HOOKPOINT_TESTS_SHARE="$checked" bash ./test --preset ci "${arguments[@]}"
   part_with run-clang-tidy tidy 'scripts/tidy FILE' bash scripts/tidy "${tidied[@]}"
   # What a user sees first, where nothing is installed.
-  part_with mmdebstrap clean_room '.ci/full clean_room' bash scripts/clean_room './run --help' './run study configs/studies/creep.hook --quick'
+  local bare=('./run --help' './run study configs/studies/creep.hook --quick')
+  part_with mmdebstrap clean_room '.ci/full clean_room' bash scripts/clean_room "${bare[@]}"
+  part_with mmdebstrap clean_room_trixie '.ci/full clean_room_trixie' bash scripts/clean_room --suite trixie "${bare[@]}"
   # What runs in several threads, under the thread sanitizer.
   part threads './test --preset tsan' bash ./test --preset tsan
+  part skips 'less build/ci/skips.log' bash .ci/unexpected_skips
   summary
 }

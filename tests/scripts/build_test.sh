@@ -20,7 +20,7 @@ touch build/release/build.ninja
 S
 stand_in ninja <<'S'
 [ ! -e "$WORK/compiles" ] || echo "[1/2] Building CXX object a.o"
-[ ! -e "$WORK/ninja_fails" ] || { echo "a.cpp:1: error: no"; exit 1; }
+[ ! -e "$WORK/ninja_fails" ] || { cat "$WORK/ninja_fails"; exit 1; }
 [ -e "$WORK/compiles" ] || echo "ninja: no work to do."
 S
 build() {
@@ -71,11 +71,15 @@ expect "presets that changed are seen" "$(grep -c -- '--fresh' <<<"$configured")
 build release hookpoint
 expect "once" "$said$configured" ""
 
-touch "$work/ninja_fails"
+echo "a.cpp:1: error: no" >"$work/ninja_fails"
 status=0
 build release hookpoint || status=$?
 expect "a build that fails: status" "$status" 3
 expect "a build that fails: the error" "$(head -n 1 <<<"$said")" "a.cpp:1: error: no"
+printf 'studies/Unity/unity_0.cxx.o\na.cpp:1: error: redefinition of tell\n' >"$work/ninja_fails"
+status=0
+build release hookpoint || status=$?
+expect "a clash of names in files that are read as one: what to do" "$(grep -c 'rename one of the two' <<<"$said")" 1
 rm "$work/ninja_fails"
 echo "$with_tests" >"$work/has"
 touch "$work/cmake_fails"

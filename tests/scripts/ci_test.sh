@@ -4,7 +4,7 @@ set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/support.sh"
 project="$work/project"
 mkdir -p "$project/.ci" "$project/scripts"
-cp "$root"/.ci/{run,full,quick,parts.sh} "$project/.ci/"
+cp "$root"/.ci/{run,full,quick,parts.sh,unexpected_skips,expected_skips} "$project/.ci/"
 export GIT_AUTHOR_NAME=a GIT_AUTHOR_EMAIL=a@b GIT_COMMITTER_NAME=a GIT_COMMITTER_EMAIL=a@b GIT_CONFIG_GLOBAL=/dev/null
 git init -q "$project"
 # commit: all that is there.
@@ -50,7 +50,7 @@ expect "all well: status" "$status" 0
 expect "all well: last line" "$(tail -n 1 <<<"$said")" "21 passed, 0 failed, 0 skipped"
 says_line "all well: a part" "release: 10 passed, 0 failed, 0 skipped"
 run full
-expect "all well, everything: last line" "$(tail -n 1 <<<"$said")" "33 passed, 0 failed, 0 skipped"
+expect "all well, everything: last line" "$(tail -n 1 <<<"$said")" "35 passed, 0 failed, 0 skipped"
 expect "a whole run is written down" "$(sed -n 's/^commit: //p' "$project/.ci/last_full.md")" "$(git -C "$project" rev-parse HEAD)"
 
 # What changed since then decides which of its parts are added.
@@ -112,6 +112,14 @@ run run release
 says_line "a hang: what was running" "failed: release: b_test: was running"
 says_line "a hang: the watchdog" "failed: release: stopped by the watchdog, 3 s after the beginning"
 expect "a hang: status" "$status" 1
+
+begin
+says test 0 "skipped: a_test: Suite.Case: it is raining
+skipped: b_test: Suite.Case: engine dart is not found
+9 passed, 0 failed, 2 skipped"
+run full
+says_line "everything: an unexpected skip fails" "failed: skips: skipped: a_test: Suite.Case: it is raining"
+expect "everything: an expected skip does not" "$(grep -c b_test <<<"$said" || true)" 0
 
 begin
 says scripts/clean_room 77 "clean_room: no bare root can be made here: mmdebstrap failed"

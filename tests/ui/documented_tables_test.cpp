@@ -1,5 +1,5 @@
 // Tables of the manual that are made of results are those of this program.
-// ctest: long, released
+// ctest: long, released, full
 #include <gtest/gtest.h>
 
 #include <cstdlib>

@@ -13,9 +13,22 @@ namespace {
 using testing::CommandResult;
 using testing::Workplace;
 
-/// `hookpoint ARGUMENTS` with at most so much address space [kB].
-CommandResult limited(const Workplace& place, int kilobytes, const std::string& arguments) {
-  const std::string command = "ulimit -v " + std::to_string(kilobytes) + "; cd '" +
+/// The least address space in which the program starts [MB]: each library that it is linked with takes
+/// some.
+int start_megabytes() {
+  for (int megabytes = 100; megabytes < 10'000; megabytes += 100) {
+    const std::string command = "ulimit -v " + std::to_string(1000 * megabytes) + "; '" +
+                                testing::build_folder() + "/hookpoint' --version >/dev/null 2>&1";
+    if (std::system(command.c_str()) == 0) return megabytes;
+  }
+  ADD_FAILURE() << "the program does not start";
+  return 0;
+}
+
+/// `hookpoint ARGUMENTS` with at most so much address space more than it starts with [MB].
+CommandResult limited(const Workplace& place, int megabytes, const std::string& arguments) {
+  const std::string command = "ulimit -v " +
+                              std::to_string(1000 * (start_megabytes() + megabytes)) + "; cd '" +
                               place.folder().string() + "' && '" + testing::build_folder() +
                               "/hookpoint' " + arguments + " >.out 2>.err";
   const int raw = std::system(command.c_str());
@@ -43,7 +56,7 @@ TEST(WorkBounds, GroundThatALibraryCannotHoldIsWrongInput) {
 TEST(WorkBounds, TooLittleMemoryIsStatusThreeInWords) {
   const Workplace place;
   const std::string file = place.file("fine.hook", on_rough_ground("ode", "0.0072"));
-  const CommandResult result = limited(place, 900000, "run '" + file + "' --out out");
+  const CommandResult result = limited(place, 700, "run '" + file + "' --out out");
   EXPECT_EQ(result.status, 3) << result.err;
   EXPECT_NE(result.err.find("not enough memory"), std::string::npos) << result.err;
   EXPECT_EQ(result.err.find("bad_alloc"), std::string::npos) << result.err;
@@ -59,7 +72,7 @@ TEST(WorkBounds, ManyPointsUnderAnImplicitIntegratorStopWithAdvice) {
                  "{ Base.mobile { location = 0, 0, 0.05; mass = 1; inertia = 1,1,1,0,0,0; For i in "
                  "1..70 { For "
                  "j in 1..70 { ContactPoint { location = i*1 cm, j*1 cm, -0.051; } } } } } }");
-  const CommandResult result = limited(place, 1500000, "run '" + file + "' --out out");
+  const CommandResult result = limited(place, 1300, "run '" + file + "' --out out");
   EXPECT_EQ(result.status, 2) << result.err;
   EXPECT_NE(result.err.find("fewer boundary_points"), std::string::npos) << result.err;
 }
