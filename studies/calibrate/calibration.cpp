@@ -8,7 +8,7 @@
 
 #include "studies/calibrate/calibration_method.h"
 #include "studies/calibrate/outputs.h"
-#include "studies/tune/step_warnings.h"
+#include "studies/search/step_warnings.h"
 #include "text/number.h"
 
 namespace hookpoint::studies {

@@ -17,7 +17,7 @@
 #include "studies/blocks/vary.h"
 #include "studies/calibrate/subject_name.h"
 #include "studies/results/selection.h"
-#include "studies/tune/step_warnings.h"
+#include "studies/search/step_warnings.h"
 
 namespace hookpoint::studies {
 namespace {

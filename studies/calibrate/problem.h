@@ -16,8 +16,8 @@
 #include "studies/measure/engine_table.h"
 #include "studies/measurements/trace_plan.h"
 #include "studies/plan/plan.h"
-#include "studies/search/varied_scene.h"
-#include "studies/tune/problem.h"
+#include "studies/search/optimiser.h"
+#include "studies/search/varied_constant.h"
 
 namespace hookpoint::studies {
 

@@ -9,7 +9,7 @@
 #include "output/files/hash.h"
 #include "studies/calibrate/resampling.h"
 #include "studies/measure/workers.h"
-#include "studies/tune/guess.h"
+#include "studies/search/analytic_guess.h"
 #include "text/number.h"
 
 namespace hookpoint::studies {
@@ -76,8 +76,8 @@ UnitPoint SubjectFit::own_or_middle() const {
 
 std::vector<UnitPoint> SubjectFit::first_guesses() const {
   std::vector<UnitPoint> first;
-  TunePlan guessed;
-  guessed.scene = subject.scene;
+  std::vector<VariedConstant> varied;
+  std::vector<std::optional<double>> own;
   bool known = true;
   std::vector<std::size_t> of_scene;
   for (std::size_t i = 0; i < subject.constants.size(); ++i) {
@@ -85,15 +85,15 @@ std::vector<UnitPoint> SubjectFit::first_guesses() const {
     known = known && plan.own[constant];
     if (plan.offset_of(constant) != nullptr) continue;
     of_scene.push_back(i);
-    guessed.varied.push_back(plan.varied[constant]);
-    guessed.own.push_back(plan.own[constant]);
+    varied.push_back(plan.varied[constant]);
+    own.push_back(plan.own[constant]);
   }
   if (known) first.push_back(own_or_middle());
   std::string ignored;
-  if (const auto guess = analytic_guess(guessed, ignored)) {
+  if (const auto guess = analytic_guess({*subject.scene, varied, own}, ignored)) {
     UnitPoint& point = first.emplace_back(own_or_middle());
     for (std::size_t i = 0; i < guess->values.size(); ++i)
-      point[of_scene[i]] = guessed.varied[i].share_of(guess->values[i]);
+      point[of_scene[i]] = varied[i].share_of(guess->values[i]);
   }
   return first;
 }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 
 #include "language/names.h"
@@ -15,9 +14,8 @@
 #include "studies/blocks/fix.h"
 #include "studies/blocks/measure.h"
 #include "studies/blocks/tune.h"
-#include "studies/blocks/vary.h"
 #include "studies/results/selection.h"
-#include "studies/tune/step_warnings.h"
+#include "studies/search/step_warnings.h"
 #include "text/number.h"
 
 namespace hookpoint::studies {
@@ -25,14 +23,6 @@ namespace {
 
 using language::Diagnostics;
 using language::Object;
-
-double to_six_digits(double value) {
-  char digits[32];
-  const auto written =
-      std::to_chars(digits, digits + sizeof digits, value, std::chars_format::scientific, 5);
-  std::from_chars(digits, written.ptr, value);
-  return value;
-}
 
 /// Turns the blocks of a Tune into the parts of its plan.
 class TuneBuilder {
@@ -338,42 +328,6 @@ std::optional<TunePlan> make_tune_plan(const Object& root, const Object& tune,
 
 }  // namespace
 
-std::optional<VariedConstant> varied_constant(const Object& block, const VariedScene& scene,
-                                              Diagnostics& diagnostics) {
-  const auto place = scene.place_of(block.name);
-  if (!place) {
-    diagnostics.error(block.position,
-                      fmt::format("neither the terrain nor the scene has a Param `{}`, nor "
-                                  "their Material or World a number of that name{}",
-                                  block.name, language::did_you_mean(block.name, scene.names())));
-    return std::nullopt;
-  }
-  VariedConstant constant = varied_range(block, diagnostics);
-  constant.place = *place;
-  return constant;
-}
-
-VariedConstant varied_range(const Object& block, Diagnostics& diagnostics) {
-  VaryRange range = load_vary(block, diagnostics);
-  return {block.name, ConstantPlace::parameter, std::move(range.unit), range.from,
-          range.to,   range.logarithmic};
-}
-
-double VariedConstant::at(double share) const {
-  return to_six_digits(logarithmic ? from * std::pow(to / from, share)
-                                   : from + share * (to - from));
-}
-
-double VariedConstant::share_of(double value) const {
-  if (!(value > from)) return 0.;
-  if (!(value < to)) return 1.;
-  return logarithmic ? std::log(value / from) / std::log(to / from) : (value - from) / (to - from);
-}
-
-ConstantSetting VariedConstant::setting(double value) const {
-  return {place, name, unit.with_unit(value)};
-}
-
 double RequirementPlan::missed_by(double value) const {
   double missed = 0.;
   const auto add = [&](double distance, double bound) {
@@ -404,9 +358,7 @@ std::string TunePlan::label_of(const ObjectivePlan& objective) const {
 }
 
 std::vector<ConstantSetting> TunePlan::settings(const std::vector<double>& values) const {
-  std::vector<ConstantSetting> all;
-  for (std::size_t i = 0; i < values.size(); ++i) all.push_back(varied[i].setting(values[i]));
-  return all;
+  return settings_of(varied, values);
 }
 
 std::optional<std::vector<TunePlan>> make_tune_plans(const Object& root, const Object& tune,

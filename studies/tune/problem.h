@@ -15,33 +15,9 @@
 #include "studies/plan/plan.h"
 #include "studies/run/execute.h"
 #include "studies/search/optimiser.h"
-#include "studies/search/varied_scene.h"
+#include "studies/search/varied_constant.h"
 
 namespace hookpoint::studies {
-
-/// A Vary block. Values are in the unit that its author wrote, to six digits: what stands in a
-/// file is what was run.
-struct VariedConstant {
-  std::string name;
-  ConstantPlace place = ConstantPlace::parameter;
-  WrittenUnit unit;
-  double from = 0., to = 1.;
-  bool logarithmic = false;
-
-  /// The value at a share 0..1 of the range.
-  double at(double share) const;
-  /// The share of the range at which a value lies, 0 below and 1 above it.
-  double share_of(double value) const;
-  ConstantSetting setting(double value) const;
-};
-
-/// Of a Vary block; errors go to `diagnostics`, nothing where the scene has no such constant.
-std::optional<VariedConstant> varied_constant(const language::Object& block,
-                                              const VariedScene& scene,
-                                              language::Diagnostics& diagnostics);
-
-/// The range of a Vary block, whatever it is of; errors go to `diagnostics`.
-VariedConstant varied_range(const language::Object& block, language::Diagnostics& diagnostics);
 
 /// An Objective block. What is minimised or maximised is the metric or, where there is a target,
 /// minimised the distance of the metric from it in each run, in the metric's unit.

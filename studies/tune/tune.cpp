@@ -4,9 +4,9 @@
 #include <chrono>
 #include <utility>
 
-#include "studies/tune/guess.h"
+#include "studies/search/analytic_guess.h"
+#include "studies/search/step_warnings.h"
 #include "studies/tune/outputs.h"
-#include "studies/tune/step_warnings.h"
 #include "text/number.h"
 
 namespace hookpoint::studies {
@@ -24,7 +24,7 @@ class Tuning {
         engines_(engines),
         options_(options),
         stop_(stop),
-        guess_(analytic_guess(plan, result_.analytic_words)),
+        guess_(analytic_guess({*plan.scene, plan.varied, plan.own}, result_.analytic_words)),
         runs_(plan.runs.name, options.run, folder, total_runs(), stop),
         candidates_(plan, engines, runs_, stop) {
     if (guess_) result_.analytic_words = guess_->words;

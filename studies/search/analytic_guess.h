@@ -1,14 +1,22 @@
-// The first guess of a tuning: what `advise` derives from weight, penetration and rebound, in terms
+// The first guess of a search: what `advise` derives from weight, penetration and rebound, in terms
 // of the constants that are varied.
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "studies/tune/problem.h"
+#include "studies/search/varied_constant.h"
 
 namespace hookpoint::studies {
+
+/// A scene and the constants of it that are searched.
+struct SearchedScene {
+  const VariedScene& scene;
+  std::span<const VariedConstant> varied;
+  std::span<const std::optional<double>> own;  ///< values of the files themselves, one a constant
+};
 
 struct AnalyticGuess {
   std::vector<double> values;  ///< one a constant, in its unit, within its range
@@ -21,6 +29,6 @@ struct AnalyticGuess {
 /// advised ones. A constant that advice does not speak of keeps its own value. Under a peer or an
 /// impulse law advice is for the law `hookpoint`. Nothing, with the reason in `why`, where there is
 /// none to be had.
-std::optional<AnalyticGuess> analytic_guess(const TunePlan& plan, std::string& why);
+std::optional<AnalyticGuess> analytic_guess(const SearchedScene& searched, std::string& why);
 
 }  // namespace hookpoint::studies

@@ -1,4 +1,4 @@
-#include "studies/tune/guess.h"
+#include "studies/search/analytic_guess.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,10 +12,10 @@ namespace {
 
 using Advised = std::vector<simulation::ConstantAdvice>;
 
-/// What is advised for the plan's material under the first robot that stands on it.
-std::optional<Advised> advised_constants(const TunePlan& plan, std::string& why) {
+/// What is advised for the scene's material under the first robot that stands on it.
+std::optional<Advised> advised_constants(const VariedScene& scene, std::string& why) {
   language::Diagnostics unreported;
-  auto own = plan.scene->load({}, 1, unreported);
+  auto own = scene.load({}, 1, unreported);
   if (!own) return std::nullopt;
   simulation::Experiment& experiment = own->experiment;
   if (experiment.engine != "dts" || !contact::find_force_law(experiment.contact)) {
@@ -24,8 +24,8 @@ std::optional<Advised> advised_constants(const TunePlan& plan, std::string& why)
   }
   try {
     for (simulation::GroundAdvice& ground : simulation::advise(experiment, {}).grounds)
-      if (ground.material == plan.scene->material()) return std::move(ground.constants);
-    why = "no robot stands on " + plan.scene->material();
+      if (ground.material == scene.material()) return std::move(ground.constants);
+    why = "no robot stands on " + scene.material();
   } catch (const simulation::ExperimentError& error) {
     why = error.what();
   }
@@ -40,8 +40,9 @@ const simulation::ConstantAdvice* advice_on(const Advised& advised, const std::s
 /// Looks for the values of Params with which the Material comes nearest to the advice.
 class NearestParameters {
  public:
-  NearestParameters(const TunePlan& plan, const Advised& advised, std::vector<double> start)
-      : plan_(plan), advised_(advised), values_(std::move(start)) {}
+  NearestParameters(const SearchedScene& searched, const Advised& advised,
+                    std::vector<double> start)
+      : searched_(searched), advised_(advised), values_(std::move(start)) {}
 
   /// One Param after the other, each on finer and finer grids, and all once more.
   std::vector<double> find(const std::vector<std::size_t>& parameters) {
@@ -53,7 +54,7 @@ class NearestParameters {
  private:
   void refine(std::size_t parameter) {
     constexpr int cells = 20, zooms = 4;
-    const VariedConstant& constant = plan_.varied[parameter];
+    const VariedConstant& constant = searched_.varied[parameter];
     double least = 0., greatest = 1., best = constant.share_of(values_[parameter]);
     double nearest = distance_with(parameter, values_[parameter]);
     for (int zoom = 0; zoom < zooms; ++zoom) {
@@ -75,9 +76,9 @@ class NearestParameters {
     std::vector<double> values = values_;
     values[parameter] = value;
     language::Diagnostics unreported;
-    const auto tree = plan_.scene->compose(plan_.settings(values), 1, unreported);
+    const auto tree = searched_.scene.compose(settings_of(searched_.varied, values), 1, unreported);
     if (tree == nullptr) return std::numeric_limits<double>::infinity();
-    const language::Object& material = plan_.scene->material_of(*tree);
+    const language::Object& material = searched_.scene.material_of(*tree);
     double sum = 0.;
     for (const simulation::ConstantAdvice& constant : advised_) {
       const language::Field* field = material.find(constant.name);
@@ -90,21 +91,21 @@ class NearestParameters {
     return sum;
   }
 
-  const TunePlan& plan_;
+  const SearchedScene& searched_;
   const Advised& advised_;
   std::vector<double> values_;
 };
 
 }  // namespace
 
-std::optional<AnalyticGuess> analytic_guess(const TunePlan& plan, std::string& why) {
-  const auto advised = advised_constants(plan, why);
+std::optional<AnalyticGuess> analytic_guess(const SearchedScene& searched, std::string& why) {
+  const auto advised = advised_constants(searched.scene, why);
   if (!advised) return std::nullopt;
   AnalyticGuess guess;
   std::vector<std::size_t> parameters;
-  for (std::size_t i = 0; i < plan.varied.size(); ++i) {
-    const VariedConstant& constant = plan.varied[i];
-    double value = plan.own[i].value_or(constant.at(0.5));
+  for (std::size_t i = 0; i < searched.varied.size(); ++i) {
+    const VariedConstant& constant = searched.varied[i];
+    double value = searched.own[i].value_or(constant.at(0.5));
     const simulation::ConstantAdvice* advice = advice_on(*advised, constant.name);
     if (advice != nullptr) value = constant.unit.from_si(advice->advised);
     // Rounded, and no farther than the range goes.
@@ -112,11 +113,11 @@ std::optional<AnalyticGuess> analytic_guess(const TunePlan& plan, std::string& w
     const bool field = constant.place == ConstantPlace::material_field;
     if (!field && constant.place != ConstantPlace::world_field) parameters.push_back(i);
   }
-  guess.values = NearestParameters(plan, *advised, std::move(guess.values)).find(parameters);
+  guess.values = NearestParameters(searched, *advised, std::move(guess.values)).find(parameters);
   std::string names;
   for (const simulation::ConstantAdvice& constant : *advised)
     names += (names.empty() ? "" : ", ") + constant.name;
-  guess.words = "advice on " + plan.scene->material() + " (" + names + ")";
+  guess.words = "advice on " + searched.scene.material() + " (" + names + ")";
   return guess;
 }
 

@@ -1,4 +1,4 @@
-#include "studies/tune/step_warnings.h"
+#include "studies/search/step_warnings.h"
 
 #include "simulation/analysis/step_warning.h"
 

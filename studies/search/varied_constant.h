@@ -1,0 +1,45 @@
+// A constant of a scene that a search varies, from its Vary block.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "studies/blocks/written_values.h"
+#include "studies/search/varied_scene.h"
+
+namespace hookpoint::studies {
+
+/// A Vary block. Values are in the unit that its author wrote, to six digits: what stands in a
+/// file is what was run.
+struct VariedConstant {
+  std::string name;
+  ConstantPlace place = ConstantPlace::parameter;
+  WrittenUnit unit;
+  double from = 0., to = 1.;
+  bool logarithmic = false;
+
+  /// The value at a share 0..1 of the range.
+  double at(double share) const;
+  /// The share of the range at which a value lies, 0 below and 1 above it.
+  double share_of(double value) const;
+  ConstantSetting setting(double value) const;
+};
+
+/// Of a Vary block; errors go to `diagnostics`, nothing where the scene has no such constant.
+std::optional<VariedConstant> varied_constant(const language::Object& block,
+                                              const VariedScene& scene,
+                                              language::Diagnostics& diagnostics);
+
+/// The range of a Vary block, whatever it is of; errors go to `diagnostics`.
+VariedConstant varied_range(const language::Object& block, language::Diagnostics& diagnostics);
+
+/// `value` with six significant digits.
+double to_six_digits(double value);
+
+/// What these values set in the scene, one a constant; of no values nothing.
+std::vector<ConstantSetting> settings_of(std::span<const VariedConstant> constants,
+                                         std::span<const double> values);
+
+}  // namespace hookpoint::studies
