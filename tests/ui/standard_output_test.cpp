@@ -73,10 +73,13 @@ TEST(StandardOutput, WhoseReaderGoesAwayEndsQuietlyAndKeepsTheFiles) {
   EXPECT_TRUE(std::filesystem::exists(place.folder() / "run/trace.csv"));
 }
 
-/// Runs the script without root's right to write everywhere.
+/// Runs the script without root's right to write everywhere, with a program of its own: the build may
+/// stand in a folder that only root enters.
 CommandResult unprivileged(const Workplace& place, const std::string& text) {
   std::filesystem::permissions(place.folder(), std::filesystem::perms::all);
-  place.file("inner.sh", "H='" + testing::build_folder() + "/hookpoint'\n" + text);
+  std::filesystem::copy_file(testing::build_folder() + "/hookpoint", place.folder() / "hookpoint",
+                             std::filesystem::copy_options::skip_existing);
+  place.file("inner.sh", "H=./hookpoint\n" + text);
   const std::string drop =
       geteuid() == 0 ? "setpriv --reuid=65534 --regid=65534 --clear-groups " : "";
   return script(place, drop + "bash inner.sh\n");
