@@ -135,15 +135,15 @@ summary() {
 # run_parts change|everything: all parts that are wanted, in order. Of a change each test runs once: tests of parts under the sanitizers, the
 # others as released, without those that have the label `full`.
 run_parts() {
-  local released= checked= arguments=()
+  local released=() checked=() arguments=()
   if [ "$1" = change ]; then
-    released=released checked=checked arguments=(-LE full)
+    released=(--share released) checked=(--share checked) arguments=(-LE full)
   else
     export HOOKPOINT_KILLS=50
   fi
   bash scripts/setup checks || true
   part_with clang-format format 'scripts/check_format --fix' bash scripts/check_format
-  part release "./test${arguments[*]:+ ${arguments[*]}}" env HOOKPOINT_TESTS_SHARE="$released" bash ./test "${arguments[@]}"
+  part release "./test${arguments[*]:+ ${arguments[*]}}" bash ./test "${released[@]}" "${arguments[@]}"
   # Status 3: a package cannot be had, the configuration or the compiler failed.
   if [ "$status" -eq 3 ]; then
     summary "what follows needs the release build"
@@ -153,7 +153,7 @@ run_parts() {
   pattern="^($(local IFS='|'; echo "${touched[*]}"))\$"
   part touched "./test -R '$pattern'" bash scripts/run_tests build/release -R "$pattern"
   # With assertions, under the address and undefined-behaviour sanitizers.
-  part sanitizers "./test --preset ci${arguments[*]:+ ${arguments[*]}}" env HOOKPOINT_TESTS_SHARE="$checked" bash ./test --preset ci "${arguments[@]}"
+  part sanitizers "./test --preset ci${arguments[*]:+ ${arguments[*]}}" bash ./test --preset ci "${checked[@]}" "${arguments[@]}"
   part_with run-clang-tidy tidy 'scripts/tidy FILE' bash scripts/tidy "${tidied[@]}"
   # What a user sees first, where nothing is installed.
   local bare=('./run --help' './run study configs/studies/creep.hook --quick')
