@@ -86,9 +86,7 @@ class MeasureLoader {
       if (const auto unit = given_unit(own ? own->dimension : Dimension{}))
         shown = {*block_.unit, unit->numerator / unit->denominator};
     }
-    so_far_.metrics.push_back(metric);
-    so_far_.units.push_back(std::move(shown));
-    so_far_.metric_sweeps.push_back(sweep);
+    so_far_.metrics.push_back({metric, std::move(shown), sweep});
   }
 
  private:
@@ -332,9 +330,7 @@ void add_user_metric(UserMetric metric, StudyParts& so_far) {
   metric.index = so_far.user_metrics.size();
   auto kept_metric = std::make_shared<UserMetric>(std::move(metric));
   complete(*kept_metric);
-  so_far.metrics.push_back(&kept_metric->definition);
-  so_far.units.push_back({kept_metric->unit});
-  so_far.metric_sweeps.push_back(-1);
+  so_far.metrics.push_back({&kept_metric->definition, {kept_metric->unit}});
   so_far.user_metrics.push_back(std::move(kept_metric));
 }
 

@@ -32,14 +32,21 @@ std::vector<std::string> StudyParts::subject_names() const {
   return names;
 }
 
+std::vector<const MetricDefinition*> StudyParts::metric_definitions() const {
+  std::vector<const MetricDefinition*> definitions;
+  for (const MeasuredMetric& metric : metrics) definitions.push_back(metric.definition);
+  return definitions;
+}
+
 std::vector<std::string> StudyParts::metric_names() const {
   std::vector<std::string> names;
-  for (const MetricDefinition* metric : metrics) names.emplace_back(metric->name);
+  for (const MeasuredMetric& metric : metrics) names.emplace_back(metric.definition->name);
   return names;
 }
 
 std::ptrdiff_t StudyParts::metric_index(std::string_view metric) const {
-  const auto found = std::ranges::find(metrics, metric, &MetricDefinition::name);
+  const auto found = std::ranges::find(
+      metrics, metric, [](const MeasuredMetric& measured) { return measured.definition->name; });
   return found == metrics.end() ? -1 : found - metrics.begin();
 }
 
@@ -80,7 +87,7 @@ std::vector<std::string> metric_names() {
 std::string metric_unit(const Placed<std::string>& metric, const StudyParts& so_far,
                         language::Diagnostics& diagnostics) {
   const std::ptrdiff_t index = so_far.metric_index(*metric);
-  if (index >= 0) return so_far.units[static_cast<std::size_t>(index)].text;
+  if (index >= 0) return so_far.metrics[static_cast<std::size_t>(index)].unit.text;
   std::vector<std::string> known = metric_names();
   append(known, so_far.metric_names());
   report_unknown(metric.position(), "Measure of this study", *metric, known, diagnostics);

@@ -32,6 +32,13 @@ struct ShownUnit {
   double scale = 1.;  ///< of a run's value by it
 };
 
+/// A metric that the study measures, and how it shows it.
+struct MeasuredMetric {
+  const MetricDefinition* definition = nullptr;
+  ShownUnit unit = {};  ///< that of its values in tables and Truths
+  int sweep = -1;       ///< index of the sweep that it is over; -1 for none
+};
+
 struct StudyParts {
   std::string name, title, question, file;
   std::string body;    ///< trail of the body measured; "": the scene's first
@@ -47,10 +54,8 @@ struct StudyParts {
   std::vector<std::string> scene_parameters;          ///< Params of the scene's file
   std::vector<MeasuredCurves> curves;                 ///< of its Cases
   std::vector<std::filesystem::path> measured_files;  ///< tables of these
-  std::vector<const MetricDefinition*> metrics;
+  std::vector<MeasuredMetric> metrics;
   std::vector<std::shared_ptr<const UserMetric>> user_metrics;  ///< of those
-  std::vector<ShownUnit> units;    ///< one a metric: that of its values in tables and Truths
-  std::vector<int> metric_sweeps;  ///< one a metric: index of the sweep that it is over, else -1
   std::vector<TruthPlan> truths;
   std::vector<PlotPlan> plots;
   std::vector<TableSpec> tables;
@@ -62,8 +67,9 @@ struct StudyParts {
   std::vector<std::string> sweep_names() const;
   int sweep_index(std::string_view sweep) const;  ///< -1 for none
   std::vector<std::string> subject_names() const;
-  std::vector<std::string> metric_names() const;               ///< of those that are measured
-  std::ptrdiff_t metric_index(std::string_view metric) const;  ///< of those; -1 for none
+  std::vector<const MetricDefinition*> metric_definitions() const;  ///< of those that are measured
+  std::vector<std::string> metric_names() const;                    ///< of those
+  std::ptrdiff_t metric_index(std::string_view metric) const;       ///< of those; -1 for none
   /// Whether a Sweep or a table of cases sets the Param.
   bool is_varied(const std::string& parameter) const;
   /// The sweep of `seeds`; -1 without.

@@ -79,8 +79,8 @@ std::string number_text(const Placed<double>& number, const std::string& unit) {
 
 /// "creep_speed equals predicted within 1 %, mu = 0.8 (ours)"
 std::string truth_words(const TruthBlock& block, const TruthPlan& truth, const StudyParts& so_far) {
-  const std::string& unit = so_far.units[truth.metric].text;
-  std::string words(so_far.metrics[truth.metric]->name);
+  const std::string& unit = so_far.metrics[truth.metric].unit.text;
+  std::string words(so_far.metrics[truth.metric].definition->name);
   if (truth.predicted) words += " equals predicted";
   if (truth.value) words += " equals " + number_text(block.value, unit);
   if (truth.same_over >= 0)
@@ -122,8 +122,8 @@ std::optional<TruthPlan> load_truth(const Object& object, const StudyParts& so_f
   TruthPlan truth;
   truth.metric = static_cast<std::size_t>(found);
   const auto in_unit_of_metric = [&](const Placed<double>& number) {
-    return number ? std::optional(
-                        number_in(*number.field, so_far.units[truth.metric].text, diagnostics))
+    return number ? std::optional(number_in(*number.field, so_far.metrics[truth.metric].unit.text,
+                                            diagnostics))
                   : std::nullopt;
   };
   truth.value = in_unit_of_metric(block.value);

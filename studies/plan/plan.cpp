@@ -41,7 +41,7 @@ bool StudyPlan::records(const PlotPlan& plot, const RowPlan& row) const {
 
 bool StudyPlan::measures(MetricScope scope) const {
   return std::ranges::any_of(
-      metrics, [&](const MetricDefinition* metric) { return metric->scope == scope; });
+      metrics, [&](const MeasuredMetric& metric) { return metric.definition->scope == scope; });
 }
 
 std::vector<std::vector<std::size_t>> StudyPlan::groups_along(int sweep) const {

@@ -10,7 +10,7 @@ namespace {
 /// Gives every row the spread over the runs of its group (those that differ from it in the swept
 /// value alone); nothing where one of these has no value.
 void measure_over_sweep(const StudyPlan& plan, std::size_t metric, StudyResult& result) {
-  for (const std::vector<std::size_t>& group : plan.groups_along(plan.metric_sweeps[metric])) {
+  for (const std::vector<std::size_t>& group : plan.groups_along(plan.metrics[metric].sweep)) {
     std::vector<double> parts;
     bool whole = true;
     for (const std::size_t row : group) {
@@ -68,7 +68,7 @@ void measure_between_subjects(const StudyPlan& plan, std::size_t metric, const S
     for (const std::size_t row : group) {
       auto median = median_distance(matrix, static_cast<std::size_t>(plan.rows[row].subject),
                                     plan.subjects.size());
-      if (median) *median /= plan.units[metric].scale;
+      if (median) *median /= plan.metrics[metric].unit.scale;
       result.rows[row].metrics[metric].measured = median;
     }
     result.peer_distances.push_back(std::move(matrix));
@@ -93,8 +93,9 @@ std::optional<double> spread(std::span<const double> values) {
 
 void measure_groups(const StudyPlan& plan, const StudyRows& kept, StudyResult& result) {
   for (std::size_t metric = 0; metric < plan.metrics.size(); ++metric) {
-    if (plan.metrics[metric]->scope == MetricScope::sweep) measure_over_sweep(plan, metric, result);
-    if (plan.metrics[metric]->scope == MetricScope::subjects)
+    if (plan.metrics[metric].definition->scope == MetricScope::sweep)
+      measure_over_sweep(plan, metric, result);
+    if (plan.metrics[metric].definition->scope == MetricScope::subjects)
       measure_between_subjects(plan, metric, kept, result);
   }
 }

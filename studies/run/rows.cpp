@@ -22,7 +22,7 @@ Measurement measurement_of(const StudyPlan& plan, const RowPlan& row) {
   Measurement measurement{plan.settle, row.duration, {}, {}, plan.measures(MetricScope::subjects)};
   measurement.body = plan.body;
   measurement.may_end = plan.may_end;
-  for (const MetricDefinition* metric : plan.metrics) {
+  for (const MetricDefinition* metric : plan.metric_definitions()) {
     const bool missing = metric->user != nullptr && !row.forms[metric->user->index].missing.empty();
     if (!metric->timing() && !missing) measurement.metrics.push_back(metric);
     if (metric->user != nullptr && !missing && !metric->user->trace.empty())

@@ -18,8 +18,9 @@ namespace {
 /// are not timed again. False when stopped.
 bool run_timing(const StudyPlan& plan, const EngineTable& engines, const StudyRows& rows,
                 const std::atomic<bool>& stop, CachedRuns& runs) {
+  const std::vector<const MetricDefinition*> metrics = plan.metric_definitions();
   const auto complete = [&](const RunRecord& record) {
-    return std::ranges::all_of(plan.metrics, [&](const MetricDefinition* metric) {
+    return std::ranges::all_of(metrics, [&](const MetricDefinition* metric) {
       return !metric->timing() || record.values.contains(std::string(metric->name));
     });
   };
@@ -29,7 +30,7 @@ bool run_timing(const StudyPlan& plan, const EngineTable& engines, const StudyRo
     const bool there = record.status != "ok" || complete(record);
     if (!there)
       runs.store()->save_timing(rows.timing_identity(i),
-                                execute_timing(plan.metrics, plan.experiment_of(plan.rows[i]),
+                                execute_timing(metrics, plan.experiment_of(plan.rows[i]),
                                                engines.at(plan.rows[i].engine)));
     runs.advance(there);
   }

@@ -24,7 +24,7 @@ bool near(double measured, double expected, const TruthPlan& truth) {
 
 /// What a definition of the user's own says of the row; null of another metric.
 const RowForm* form_of(const StudyPlan& plan, std::size_t metric, std::size_t row) {
-  const UserMetric* user = plan.metrics[metric]->user;
+  const UserMetric* user = plan.metrics[metric].definition->user;
   return user == nullptr ? nullptr : &plan.rows[row].forms[user->index];
 }
 
@@ -71,7 +71,7 @@ Judgement judge(const StudyPlan& plan, const RunResult& run, std::size_t row,
   const MetricValue& metric = run.metrics[truth.metric];
   if (truth.predicted && !metric.predicted)
     return not_judged("no closed form" + (metric.no_form.empty() ? "" : ": " + metric.no_form));
-  if (!metric.measured && plan.metrics[truth.metric]->scope == MetricScope::subjects)
+  if (!metric.measured && plan.metrics[truth.metric].definition->scope == MetricScope::subjects)
     if (std::string why = why_others_are_left_out(plan); !why.empty())
       return {Judgement::Kind::skipped, std::move(why)};
   if (!metric.measured) return Judgement::of(false);
@@ -143,8 +143,8 @@ std::optional<double> in_unit(const std::optional<double>& value, double scale) 
 /// The values of a metric of a row.
 MetricValue value_of(const StudyPlan& plan, std::size_t metric, std::size_t row,
                      RunRecord& record) {
-  KeptValue& kept = record.values[kept_name(*plan.metrics[metric])];
-  const double scale = plan.units[metric].scale;
+  KeptValue& kept = record.values[kept_name(*plan.metrics[metric].definition)];
+  const double scale = plan.metrics[metric].unit.scale;
   MetricValue value{in_unit(kept.measured, scale), in_unit(kept.predicted, scale), std::nullopt};
   value.no_form = std::move(kept.no_form);
   if (const RowForm* form = form_of(plan, metric, row)) {
@@ -254,9 +254,9 @@ StudyResult empty_table(const StudyPlan& plan) {
   for (const SubjectPlan& subject : plan.subjects) result.subjects.push_back(subject.info);
   result.compositions = plan.compositions;
   for (std::size_t i = 0; i < plan.metrics.size(); ++i) {
-    const MetricDefinition& metric = *plan.metrics[i];
+    const MetricDefinition& metric = *plan.metrics[i].definition;
     result.metrics.push_back(
-        {std::string(metric.name), plan.units[i].text, metric.timing(), metric.regime,
+        {std::string(metric.name), plan.metrics[i].unit.text, metric.timing(), metric.regime,
          metric.scope == MetricScope::subjects ? why_others_are_left_out(plan) : "",
          metric.user != nullptr ? metric.user->predicted != nullptr : metric.predict != nullptr});
   }
@@ -286,7 +286,7 @@ RunResult assemble_row(const StudyPlan& plan, const StudyRows& kept, std::size_t
   for (const TruthPlan& truth : plan.truths) {
     MetricValue& value = run.metrics[truth.metric];
     const bool alone = truth.same_over < 0 && plan.seed_sweep() < 0 &&
-                       plan.metrics[truth.metric]->scope == MetricScope::run;
+                       plan.metrics[truth.metric].definition->scope == MetricScope::run;
     if (!alone) continue;
     if (const Judgement judgement = judge(plan, run, row, truth); judgement.judged())
       add_verdict(value, judgement.kind == Judgement::Kind::holds);

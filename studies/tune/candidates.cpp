@@ -30,7 +30,7 @@ Candidate candidate_of(const TunePlan& plan, const Candidates::Wanted& wanted) {
 void add_run(const TunePlan& plan, const RunRecord& record, Candidate& candidate) {
   candidate.statuses.push_back(record.status);
   auto& measured = candidate.measured.emplace_back();
-  for (const MetricDefinition* metric : plan.runs.metrics)
+  for (const MetricDefinition* metric : plan.runs.metric_definitions())
     measured.push_back(record.values.at(kept_name(*metric)).measured);
 }
 

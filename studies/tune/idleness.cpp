@@ -32,8 +32,8 @@ Idleness idleness_of_requirement(const TunePlan& plan, const TuneResult& result,
     return values_of_seeds(candidate, required.metric).has_value();
   });
   if (judged) return {};
-  return {Idle::fault,
-          "no candidate has a value of " + std::string(plan.runs.metrics[required.metric]->name)};
+  return {Idle::fault, "no candidate has a value of " +
+                           std::string(plan.runs.metrics[required.metric].definition->name)};
 }
 
 }  // namespace
@@ -50,8 +50,8 @@ std::vector<IdleBlock> idle_blocks(const TunePlan& plan, const TuneResult& resul
     add("Objective", plan.name_of(objective), objective.may_be_empty,
         idleness_of_objective(plan, result, objective));
   for (const RequirementPlan& required : plan.requirements)
-    add("Require", std::string(plan.runs.metrics[required.metric]->name), required.may_be_empty,
-        idleness_of_requirement(plan, result, required));
+    add("Require", std::string(plan.runs.metrics[required.metric].definition->name),
+        required.may_be_empty, idleness_of_requirement(plan, result, required));
   return blocks;
 }
 

@@ -180,7 +180,7 @@ output::CsvTable evaluations_table(const TunePlan& plan, const TuneResult& resul
   table.header = {"evaluation", "stage", "generation"};
   add_constant_titles(table, plan);
   table.header.insert(table.header.end(), {"feasible", "violation"});
-  for (const MetricDefinition* metric : plan.runs.metrics)
+  for (const MetricDefinition* metric : plan.runs.metric_definitions())
     add_titles(table, std::string(metric->name), metric->unit, {"", "_error", "_seeds"});
   for (const ObjectivePlan& objective : plan.objectives)
     if (objective.target)

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 
-#include "language/names.h"
 #include "output/files/hash.h"
 #include "simulation/engine_interface/identity.h"
 #include "simulation/engine_interface/step_count.h"
@@ -24,151 +23,45 @@ namespace {
 using language::Diagnostics;
 using language::Object;
 
-/// Turns the blocks of a Tune into the parts of its plan.
-class TuneBuilder {
- public:
-  TuneBuilder(TunePlan& plan, Diagnostics& diagnostics) : plan_(plan), diagnostics_(diagnostics) {}
-
-  void add_constant(const Object& block) {
-    if (auto constant = varied_constant(block, *plan_.scene, diagnostics_))
-      plan_.varied.push_back(std::move(*constant));
+/// The run's engine and law publish what the metric is of.
+void check_ports(const Object& block, const MeasureBlock& measure, SceneNames& names,
+                 const simulation::Experiment& experiment, Diagnostics& diagnostics) {
+  if (measure.of == nullptr || diagnostics.has_errors()) return;
+  for (const std::string& name : measure.of->formula->names) {
+    std::string why;
+    const auto port = names.port(name, why, &experiment);
+    if (port && !port->missing.empty())
+      diagnostics.error(block.position,
+                        fmt::format("no run has `{}`: {}", block.name, port->missing));
   }
+}
 
-  /// Metrics of the user's own, of ports of the scene `own`.
-  void add_measures(const Object& tune, const LoadedScene& own) {
-    SceneNames names(*own.tree);
-    for (const Object* block : tune.children_of("Measure")) {
-      const MetricDefinition* known = find_metric(block->name);
-      if (known != nullptr && !is_of_one_run(*block, *known)) continue;
-      const MeasureBlock measure = measure_block(*block);
-      if (measure.predicted != nullptr)
-        error(measure.predicted->position,
-              "a Tune compares nothing with a closed form: leave `predicted` out");
-      load_measure(*block, &names, plan_.runs, diagnostics_);
-      check_ports(*block, measure, names, own.experiment);
-      check_from(measure);
-    }
+/// A run lasts until the Measure begins.
+void check_from(const MeasureBlock& block, const StudyPlan& runs, Diagnostics& diagnostics) {
+  if (!block.from || *block.from < runs.duration) return;
+  diagnostics.error(block.from.position(),
+                    fmt::format("a run ends at {} s{}: nothing would be measured from {} s on",
+                                text::rounded(runs.duration, 6),
+                                runs.quick ? " under --quick (`quick_duration`)" : "",
+                                text::rounded(*block.from, 6)));
+}
+
+/// Metrics of the user's own, of ports of the scene `own`.
+void add_measures(TunePlan& plan, const Object& tune, const LoadedScene& own,
+                  Diagnostics& diagnostics) {
+  SceneNames names(*own.tree);
+  for (const Object* block : tune.children_of("Measure")) {
+    const MetricDefinition* known = find_metric(block->name);
+    if (known != nullptr && !check_of_one_run(*block, *known, diagnostics)) continue;
+    const MeasureBlock measure = measure_block(*block);
+    if (measure.predicted != nullptr)
+      diagnostics.error(measure.predicted->position,
+                        "a Tune compares nothing with a closed form: leave `predicted` out");
+    load_measure(*block, &names, plan.runs, diagnostics);
+    check_ports(*block, measure, names, own.experiment, diagnostics);
+    check_from(measure, plan.runs, diagnostics);
   }
-
-  void add_objective(const Object& object) {
-    const auto metric = metric_of(object);
-    if (!metric) return;
-    const ObjectiveBlock block = objective_block(object);
-    ObjectivePlan objective{*metric, block.maximise, block.take};
-    objective.target = number(block.target, *metric);
-    if (block.minimise + block.maximise + objective.target.has_value() != 1)
-      error(object.position, "an Objective says one of `minimise;`, `maximise;` and `target = `");
-    if (objective.target) objective.target_text = written_text(block.target, *metric);
-    objective.may_be_empty = block.may_be_empty;
-    plan_.objectives.push_back(std::move(objective));
-  }
-
-  void add_requirement(const Object& object) {
-    const auto metric = metric_of(object);
-    if (!metric) return;
-    const RequireBlock block = require_block(object);
-    RequirementPlan require;
-    require.metric = *metric;
-    require.equals = number(block.equals, *metric);
-    require.above = number(block.above, *metric);
-    require.below = number(block.below, *metric);
-    require.within = number(block.within, *metric).value_or(0.);
-    if (!require.equals && !require.above && !require.below)
-      error(object.position, "a Require says `equals`, `above` or `below`");
-    require.words = object.name + " " + words_of(block, require);
-    require.may_be_empty = block.may_be_empty;
-    plan_.requirements.push_back(std::move(require));
-  }
-
- private:
-  void error(const language::Position& position, std::string message) {
-    diagnostics_.error(position, std::move(message));
-  }
-
-  bool is_of_one_run(const Object& block, const MetricDefinition& metric) {
-    if (metric.scope == MetricScope::run) return true;
-    error(block.position, fmt::format("`{}` is {}: a tuning takes metrics of one run", block.name,
-                                      metric.timing() ? "a time, which is never the same twice"
-                                                      : "of several runs together"));
-    return false;
-  }
-
-  /// The run's engine and law publish what the metric is of.
-  void check_ports(const Object& block, const MeasureBlock& measure, SceneNames& names,
-                   const simulation::Experiment& experiment) {
-    if (measure.of == nullptr || diagnostics_.has_errors()) return;
-    for (const std::string& name : measure.of->formula->names) {
-      std::string why;
-      const auto port = names.port(name, why, &experiment);
-      if (port && !port->missing.empty())
-        error(block.position, fmt::format("no run has `{}`: {}", block.name, port->missing));
-    }
-  }
-
-  /// A run lasts until the Measure begins.
-  void check_from(const MeasureBlock& block) {
-    if (!block.from || *block.from < plan_.runs.duration) return;
-    error(block.from.position(),
-          fmt::format("a run ends at {} s{}: nothing would be measured from {} s on",
-                      text::rounded(plan_.runs.duration, 6),
-                      plan_.runs.quick ? " under --quick (`quick_duration`)" : "",
-                      text::rounded(*block.from, 6)));
-  }
-
-  /// Its index among the metrics of a run.
-  std::optional<std::size_t> metric_of(const Object& block) {
-    auto& metrics = plan_.runs.metrics;
-    const auto found = std::ranges::find(metrics, block.name, &MetricDefinition::name);
-    if (found != metrics.end()) return static_cast<std::size_t>(found - metrics.begin());
-    const MetricDefinition* metric = find_metric(block.name);
-    if (metric == nullptr) {
-      std::vector<std::string> names;
-      for (const MetricDefinition* own : metrics) names.emplace_back(own->name);
-      for (const MetricDefinition& known : metric_table()) names.emplace_back(known.name);
-      error(block.position,
-            fmt::format("no metric is called `{}` (a Measure defines one of your own){}",
-                        block.name, language::did_you_mean(block.name, names)));
-      return std::nullopt;
-    }
-    if (!is_of_one_run(block, *metric)) return std::nullopt;
-    metrics.push_back(metric);
-    plan_.runs.metric_sweeps.push_back(-1);
-    return metrics.size() - 1;
-  }
-
-  /// What the field holds, in the metric's unit.
-  std::optional<double> number(const language::Placed<double>& field, std::size_t metric) {
-    if (!field) return std::nullopt;
-    return number_in(*field.field, plan_.runs.metrics[metric]->unit, diagnostics_);
-  }
-
-  /// The number in the unit that the file writes, else in the metric's.
-  std::string written_text(const language::Placed<double>& field, std::size_t metric) const {
-    WrittenUnit unit = written_unit(*field.field);
-    if (unit.text.empty()) {
-      unit.text = plan_.runs.metrics[metric]->unit;
-      unit.unit = language::parse_unit(unit.text).value_or(language::Unit{});
-    }
-    return text::rounded(unit.from_si(*field), 6) + (unit.text.empty() ? "" : " " + unit.text);
-  }
-
-  /// "is above 0.5 ms", in the units that the block writes.
-  std::string words_of(const RequireBlock& block, const RequirementPlan& require) const {
-    const auto value = [&](const language::Placed<double>& field) {
-      return written_text(field, require.metric);
-    };
-    std::vector<std::string> parts;
-    if (require.equals)
-      parts.push_back("equals " + value(block.equals) +
-                      (require.within > 0. ? " within " + value(block.within) : ""));
-    if (require.above) parts.push_back("is above " + value(block.above));
-    if (require.below) parts.push_back("is below " + value(block.below));
-    return language::join(parts, " and ");
-  }
-
-  TunePlan& plan_;
-  Diagnostics& diagnostics_;
-};
+}
 
 void set_times(TunePlan& plan, const TuneBlock& block, double scene_duration) {
   const RunTimes times = load_times(block, plan.runs.quick, scene_duration);
@@ -265,7 +158,7 @@ void set_hashes(TunePlan& plan, const LoadedScene& own, const EngineTable& engin
   output::Hash hash;
   hash.add(own.hash());
   hash.add(fmt::format("{} {}", runs.settle, runs.duration));
-  for (const MetricDefinition* metric : runs.metrics) hash.add(kept_name(*metric));
+  for (const MetricDefinition* metric : runs.metric_definitions()) hash.add(kept_name(*metric));
   for (const output::InputFile& input : simulation::hashed(inputs)) hash.add(input.hash);
   plan.runs_hash = simulation::run_hash(hash.text(), engines.describe(own.experiment.engine));
   runs.hash = output::Hash()
@@ -303,11 +196,16 @@ std::optional<TunePlan> make_tune_plan(const Object& root, const Object& tune,
   if (!own) return std::nullopt;
   warn_of_step(own->experiment, tune.position, "", diagnostics);
   set_times(plan, block, own->experiment.duration);
-  TuneBuilder builder(plan, diagnostics);
-  for (const Object* vary : tune.children_of("Vary")) builder.add_constant(*vary);
-  builder.add_measures(tune, *own);
-  for (const Object* objective : tune.children_of("Objective")) builder.add_objective(*objective);
-  for (const Object* require : tune.children_of("Require")) builder.add_requirement(*require);
+  for (const Object* vary : tune.children_of("Vary"))
+    if (auto constant = varied_constant(*vary, *plan.scene, diagnostics))
+      plan.varied.push_back(std::move(*constant));
+  add_measures(plan, tune, *own, diagnostics);
+  for (const Object* block : tune.children_of("Objective"))
+    if (auto objective = load_objective(*block, plan.runs, diagnostics))
+      plan.objectives.push_back(std::move(*objective));
+  for (const Object* block : tune.children_of("Require"))
+    if (auto requirement = load_requirement(*block, plan.runs, diagnostics))
+      plan.requirements.push_back(std::move(*requirement));
   set_search(plan, block);
   check_search(plan, tune, block, own->experiment.deltat, diagnostics);
   if (diagnostics.has_errors()) return std::nullopt;
@@ -328,27 +226,12 @@ std::optional<TunePlan> make_tune_plan(const Object& root, const Object& tune,
 
 }  // namespace
 
-double RequirementPlan::missed_by(double value) const {
-  double missed = 0.;
-  const auto add = [&](double distance, double bound) {
-    if (distance > 0.) missed += distance / (bound == 0. ? 1. : std::abs(bound));
-  };
-  if (equals) add(std::abs(value - *equals) - within, *equals);
-  // A bound itself does not do: `above` means greater.
-  const auto strictly = [&](double distance, double bound) {
-    add(distance == 0. ? 1e-9 * (bound == 0. ? 1. : std::abs(bound)) : distance, bound);
-  };
-  if (above) strictly(*above - value, *above);
-  if (below) strictly(value - *below, *below);
-  return missed;
-}
-
 std::string TunePlan::unit_of(const ObjectivePlan& objective) const {
-  return std::string(runs.metrics[objective.metric]->unit);
+  return std::string(runs.metrics[objective.metric].definition->unit);
 }
 
 std::string TunePlan::name_of(const ObjectivePlan& objective) const {
-  return std::string(runs.metrics[objective.metric]->name);
+  return std::string(runs.metrics[objective.metric].definition->name);
 }
 
 std::string TunePlan::label_of(const ObjectivePlan& objective) const {

@@ -2,7 +2,6 @@
 // searched.
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -11,41 +10,12 @@
 #include <vector>
 
 #include "studies/blocks/objective.h"
-#include "studies/blocks/written_values.h"
 #include "studies/plan/plan.h"
 #include "studies/run/execute.h"
 #include "studies/search/optimiser.h"
 #include "studies/search/varied_constant.h"
 
 namespace hookpoint::studies {
-
-/// An Objective block. What is minimised or maximised is the metric or, where there is a target,
-/// minimised the distance of the metric from it in each run, in the metric's unit.
-struct ObjectivePlan {
-  using Take = SeedsTake;
-  std::size_t metric = 0;  ///< index into TunePlan::runs.metrics
-  bool maximise = false;
-  Take take = Take::mean;
-  std::optional<double> target = {};  ///< in the metric's unit
-  std::string target_text = {};       ///< as its author wrote it: "3 mm"
-  bool may_be_empty = false;          ///< it may judge nothing
-
-  /// What the objective is for a run with this value of the metric.
-  double of_run(double value) const { return target ? std::abs(value - *target) : value; }
-};
-
-/// A Require block.
-struct RequirementPlan {
-  std::size_t metric = 0;
-  std::optional<double> equals, above, below;
-  double within = 0.;
-  std::string words;          ///< "stable_step is above 0.5 ms"
-  bool may_be_empty = false;  ///< it may judge nothing
-
-  /// How far a value is from what is required, as a part of the bound's magnitude (of 1 where that
-  /// is 0); 0 where it holds.
-  double missed_by(double value) const;
-};
 
 struct TunePlan {
   std::string name, title, question;
@@ -70,7 +40,9 @@ struct TunePlan {
   std::size_t runs_of_a_generation() const {
     return static_cast<std::size_t>(population) * static_cast<std::size_t>(seeds);
   }
-  Measurement measurement() const { return {runs.settle, runs.duration, runs.metrics, {}, false}; }
+  Measurement measurement() const {
+    return {runs.settle, runs.duration, runs.metric_definitions(), {}, false};
+  }
   /// What a candidate sets in the scene; of no values nothing.
   std::vector<ConstantSetting> settings(const std::vector<double>& values) const;
 };

@@ -130,7 +130,7 @@ std::string requirements_table(const TunePlan& plan, const TuneResult& result) {
   for (const TuneReference& reference : result.references) head.push_back(html(reference.name));
   HtmlTable table(head, 1);
   for (const RequirementPlan& required : plan.requirements) {
-    const std::string unit(plan.runs.metrics[required.metric]->unit);
+    const std::string unit(plan.runs.metrics[required.metric].definition->unit);
     const auto cell = [&](const Candidate& candidate) {
       const bool met = meets(candidate, required);
       return fmt::format("<span class=\"{}\">{} {}</span>", met ? "good" : "bad", met ? "✓" : "✗",

@@ -111,7 +111,7 @@ TEST_F(StudyMeasure, GoesToOtherProcessesWhole) {
   const auto& metrics = read.runs[0].measurement.metrics;
   ASSERT_EQ(metrics.size(), 3u);
   for (std::size_t i = 0; i < metrics.size(); ++i)
-    EXPECT_EQ(kept_name(*metrics[i]), kept_name(*plan->metrics[i]));
+    EXPECT_EQ(kept_name(*metrics[i]), kept_name(*plan->metrics[i].definition));
 }
 
 TEST_F(StudyMeasure, SaysWhatIsWrongWithADefinition) {

@@ -19,7 +19,7 @@ using Point = std::vector<double>;
 TunePlan plan_of(std::size_t objectives) {
   TunePlan plan;
   for (std::size_t i = 0; i < objectives; ++i) {
-    plan.runs.metrics.push_back(&metric_table()[i]);
+    plan.runs.metrics.push_back({&metric_table()[i]});
     plan.objectives.push_back({i, false, ObjectivePlan::Take::mean});
   }
   return plan;
