@@ -54,6 +54,7 @@ class LoadedFile {
   /// Throws hookpoint.FileError.
   explicit LoadedFile(const Source& source);
 
+  const Source& source() const { return source_; }
   const simulation::Experiment& experiment() const { return *experiment_; }
   /// The experiment after includes, loops, expressions and settings.
   const std::string& text() const { return text_; }

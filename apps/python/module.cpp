@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "apps/python/arguments.h"
+#include "apps/python/copying.h"
 #include "apps/python/errors.h"
 #include "apps/python/frames.h"
 #include "apps/python/gil.h"
@@ -39,7 +40,9 @@ py::dict run_world(PythonWorld& world, std::optional<double> duration, const py:
 }
 
 void add_world(py::module_& module) {
-  py::class_<PythonWorld>(module, "World", "An experiment that runs, from time 0 on.")
+  py::class_<PythonWorld> world(module, "World", "An experiment that runs, from time 0 on.");
+  add_copying(world);
+  world
       .def(
           "step",
           [](PythonWorld& world, std::int64_t count, const py::object& callback,
@@ -59,8 +62,6 @@ void add_world(py::module_& module) {
       .def("set_state", &PythonWorld::set_state, py::arg("state"),
            "Continues bit for bit from such bytes, of this experiment. Raises Error for any others "
            "and changes nothing then.")
-      .def("copy", &PythonWorld::copy,
-           "Another World of the same file that continues from here bit for bit as this one does.")
       .def(
           "view",
           [](const py::object& self, const std::string& trail) {
@@ -185,9 +186,12 @@ py::array_t<double> reset_batch(PythonBatch& batch, const py::object& mask, cons
 }
 
 void add_batch(py::module_& module) {
-  py::class_<PythonBatch>(module, "Batch",
-                          "Worlds of one file, stepped by threads, with arrays in and out. Each is "
-                          "bit for bit a World by itself, for any number of threads.")
+  py::class_<PythonBatch> batch(
+      module, "Batch",
+      "Worlds of one file, stepped by threads, with arrays in and out. Each is bit for bit a World "
+      "by itself, for any number of threads.");
+  add_copying(batch);
+  batch
       .def(py::init(&batch_of), py::arg("file"), py::arg("worlds"), py::kw_only(),
            py::arg("threads") = 0, py::arg("seeds") = py::none(),
            py::arg("observations") = py::list(), py::arg("actions") = py::list(),

@@ -454,6 +454,35 @@ void PythonBatch::set_state(std::size_t world, const py::bytes& state) {
   show_all(world);
 }
 
+py::list PythonBatch::states() {
+  py::list all;
+  for (std::size_t i = 0; i < size(); ++i) all.append(state(i));
+  return all;
+}
+
+BatchOptions PythonBatch::options() const {
+  BatchOptions options = options_;
+  options.threads = threads_;
+  for (const Member& member : worlds_) options.variants.push_back(member.kind->variant);
+  return options;
+}
+
+void PythonBatch::continue_from(const py::list& states, const py::dict& failures,
+                                const py::array_t<double>& actions) {
+  for (std::size_t i = 0; i < size(); ++i) {
+    set_state(i, states[i].cast<py::bytes>());
+    if (failures.contains(i)) worlds_[i].failure = failures[py::int_(i)].cast<std::string>();
+    show(i);
+  }
+  std::copy_n(actions.data(), actions.size(), memory_->written.data());
+}
+
+std::unique_ptr<PythonBatch> PythonBatch::copy() {
+  auto made = make_whole<PythonBatch>(file_, options());
+  made->continue_from(states(), failures(), actions_);
+  return made;
+}
+
 py::array_t<double> PythonBatch::time() const {
   py::array_t<double> times(signed_size(size()));
   for (std::size_t i = 0; i < size(); ++i)

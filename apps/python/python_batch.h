@@ -56,6 +56,16 @@ class PythonBatch : public MadeWhole {
   pybind11::bytes state(std::size_t world);
   void set_state(std::size_t world, const pybind11::bytes& state);
 
+  /// A Batch of its own whose worlds continue as these do.
+  std::unique_ptr<PythonBatch> copy();
+  /// What it was made with, each world as it is since its last reset.
+  BatchOptions options() const;
+  /// Takes over states, failures, {world: why}, and what the next step writes.
+  void continue_from(const pybind11::list& states, const pybind11::dict& failures,
+                     const pybind11::array_t<double>& actions);
+  /// Of all worlds, in order.
+  pybind11::list states();
+
   std::size_t size() const { return worlds_.size(); }
   int threads() const { return threads_; }
   const LoadedFile& file() const { return *file_; }

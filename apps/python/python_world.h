@@ -61,6 +61,7 @@ class PythonWorld : public MadeWhole {
   /// A tuple (trail, unit, writable) a port.
   pybind11::list ports();
 
+  const LoadedFile& file() const { return *file_; }
   double time() const { return world_->state().time; }
   std::int64_t steps() const { return world_->state().step; }
   const simulation::Experiment& experiment() const { return file_->experiment(); }

@@ -1,9 +1,12 @@
 """import hookpoint: closed forms, the command's own bytes, and what is refused."""
+import copy
 import csv
 import gc
 import json
+import multiprocessing
 import os
 import pathlib
+import pickle
 import re
 import signal
 import subprocess
@@ -48,6 +51,11 @@ STIFF = """World w {
   }
 }
 """
+
+
+def stepped_by_100(world):
+    world.step(100)
+    return world
 
 
 def read_csv(path):
@@ -342,15 +350,56 @@ class State(unittest.TestCase):
     def test_a_copy_goes_on_by_itself(self):
         world = hookpoint.load(WALK)
         world.step(500)
-        copy = world.copy()
+        branch = world.copy()
         world.step(200)
-        self.assertEqual((copy.steps, world.steps), (500, 700))
-        copy.step(200)
-        self.assertEqual(ports_of(copy), ports_of(world))
-        copy[FORWARD] = 0.
-        copy.step(400)
+        self.assertEqual((branch.steps, world.steps), (500, 700))
+        branch.step(200)
+        self.assertEqual(ports_of(branch), ports_of(world))
+        branch[FORWARD] = 0.
+        branch.step(400)
         world.step(400)
-        self.assertNotEqual(copy.state(), world.state())
+        self.assertNotEqual(branch.state(), world.state())
+
+    def test_python_copies_and_pickles_a_world(self):
+        folder = pathlib.Path.cwd()
+        world = hookpoint.load(os.path.relpath(WALK), set={"world.gait.forward": 0.07})
+        world[FORWARD] = 0.05
+        world.step(300)
+        pickled = pickle.dumps(world)
+        copies = [copy.copy(world), copy.deepcopy({"env": [world]})["env"][0]]
+        with tempfile.TemporaryDirectory() as elsewhere:
+            os.chdir(elsewhere)
+            try:
+                copies.append(pickle.loads(pickled))
+            finally:
+                os.chdir(folder)
+        world.step(400)
+        for other in copies:
+            self.assertEqual(other.steps, 300)
+            other.step(400)
+            self.assertEqual(other.state(), world.state())
+            self.assertEqual(ports_of(other), ports_of(world))
+        text = hookpoint.loads(FALLING, set={"height": 3})
+        self.assertEqual(pickle.loads(pickle.dumps(text))["ball.base.location.z"], 3.)
+        with self.assertRaisesRegex(hookpoint.Error, "cannot be saved"):
+            pickle.dumps(hookpoint.loads(FALLING, engine="ode"))
+
+    def test_worlds_go_through_a_pool_of_processes(self):
+        worlds = [hookpoint.loads(FALLING, set={"height": height}) for height in (1, 2, 3)]
+        with multiprocessing.get_context("fork").Pool(2) as pool:
+            stepped = pool.map(stepped_by_100, worlds)
+        for before, after in zip(worlds, stepped):
+            self.assertEqual((before.steps, after.steps), (0, 100))
+            self.assertAlmostEqual(before["ball.base.location.z"] - after["ball.base.location.z"],
+                                   10e-6 * 100 * 101 / 2, places=12)
+
+    def test_a_world_is_a_context(self):
+        with hookpoint.loads(FALLING) as world:
+            world.step(10)
+        self.assertEqual(world.steps, 10)
+        with self.assertRaises(ZeroDivisionError):
+            with hookpoint.Batch(FALLING, 2):
+                raise ZeroDivisionError
 
     def test_a_reset_world_is_as_it_was_loaded(self):
         trails = ["hexapod.base.location.x", "hexapod.base.contact.force.z", "hexapod.base.linear_acceleration.z"]
@@ -512,6 +561,26 @@ class Batch(unittest.TestCase):
         self.assertEqual(rows[2, 0], rows[1, 0])
         self.assertEqual(batch.reset()[1, 0], 1.)
         self.assertEqual(batch.state(1), hookpoint.loads(FALLING).state())
+
+    def test_python_copies_and_pickles_a_batch(self):
+        batch = hookpoint.Batch(WALK, 3, threads=2, observations=["hexapod.base.location"], actions=[FORWARD],
+                                set=[{FORWARD: 0.1}, {FORWARD: 0.05}, {}], seeds=[1, 2, 3])
+        batch.step(np.array([[0.1], [0.05], [0.]]), 50)
+        batch.actions[2] = 0.02
+        others = [batch.copy(), copy.copy(batch), copy.deepcopy(batch), pickle.loads(pickle.dumps(batch))]
+        observed, _ = batch.step(count=100)
+        for other in others:
+            self.assertEqual((other.threads, other.seeds.tolist(), other.action_trails), (2, [1, 2, 3], [FORWARD]))
+            np.testing.assert_array_equal(other.step(count=100)[0], observed)
+            for i in range(3):
+                self.assertEqual(other.state(i), batch.state(i))
+
+    def test_a_copied_batch_has_the_failures_too(self):
+        batch = hookpoint.Batch(STIFF, 2, observations=["wheel.axle.disc.angle"])
+        batch.step(count=1000)
+        for other in (batch.copy(), pickle.loads(pickle.dumps(batch))):
+            self.assertEqual(other.failures, batch.failures)
+            self.assertTrue(other.done.all())
 
     def test_a_world_is_done_by_its_port_by_its_end_or_by_a_failure(self):
         world = hookpoint.Batch(STIFF, 2, observations=["wheel.axle.disc.angle"])
