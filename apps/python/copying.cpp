@@ -29,8 +29,7 @@ py::tuple tuple_of(const BatchOptions& options) {
   py::list variants;
   for (const LoadedFile::Variant& variant : options.variants)
     variants.append(py::make_tuple(variant.settings, variant.seed));
-  return py::make_tuple(options.threads, variants, options.observed, options.written,
-                        options.done);
+  return py::make_tuple(options.threads, variants, options.observed, options.written, options.done);
 }
 
 BatchOptions options_of(const py::tuple& options) {
@@ -49,8 +48,9 @@ template <class Class>
 void add_protocols(py::class_<Class>& of) {
   of.def("copy", &Class::copy, "Another one, which continues from here bit for bit as this does.");
   of.def("__copy__", &Class::copy);
-  of.def("__deepcopy__", [](Class& self, const py::dict& /*memo*/) { return self.copy(); },
-         py::arg("memo"));
+  of.def(
+      "__deepcopy__", [](Class& self, const py::dict& /*memo*/) { return self.copy(); },
+      py::arg("memo"));
   // It holds nothing open: what a `with` ends is the block.
   of.def("__enter__", [](const py::object& self) { return self; });
   of.def("__exit__", [](const Class& /*self*/, const py::args& /*raised*/) {});
@@ -61,7 +61,9 @@ void add_protocols(py::class_<Class>& of) {
 void add_copying(py::class_<PythonWorld>& world) {
   add_protocols(world);
   world.def(py::pickle(
-      [](PythonWorld& self) { return py::make_tuple(tuple_of(self.file().source()), self.state()); },
+      [](PythonWorld& self) {
+        return py::make_tuple(tuple_of(self.file().source()), self.state());
+      },
       [](const py::tuple& pickled) {
         auto made = make_whole<PythonWorld>(loaded(pickled[0]));
         made->set_state(pickled[1]);
