@@ -9,9 +9,10 @@ namespace hookpoint::integrators {
 
 enum class Status {
   ok,
-  not_finite,  ///< an acceleration, position or velocity is infinite or not a number
-  no_step,     ///< an adaptive integrator finds no step that meets its tolerances
-  too_long,    ///< an adaptive integrator has spent the evaluations that one step may need
+  not_finite,     ///< an acceleration, position or velocity is infinite or not a number
+  turns_too_far,  ///< a body turns so far in a step that its bias forces cannot be found
+  no_step,        ///< an adaptive integrator finds no step that meets its tolerances
+  too_long,       ///< an adaptive integrator has spent the evaluations that one step may need
 };
 
 /// Which evaluation within a step this is. `first` is at the accepted state (t, q, v) that the step
@@ -31,6 +32,14 @@ class System {
   /// a = dv/dt at time `t` [s], position `q` and velocity `v`. Anything but `ok` ends the step.
   virtual Status accelerations(Stage stage, double t, std::span<const double> q,
                                std::span<const double> v, std::span<double> a) = 0;
+
+  /// Greatest angular velocity of a rigid body at the state evaluated last [rad/s]; 0 where the
+  /// bias forces c(q, v) of M v' + c = f (centrifugal, Coriolis, gyroscopic) do not depend on v.
+  virtual double fastest_turn() const { return 0.; }
+  /// a = M^-1 (f - c(q, v)) with the position q and the forces f of the evaluation before, and the
+  /// bias forces of the velocity `v`. `a` comes as that evaluation left it; states of first order in
+  /// it stay.
+  virtual void accelerations_with_bias_of(std::span<const double> /*v*/, std::span<double> /*a*/) {}
 
   /// From now on `accelerations` has the springs and dampers of joints as they are at the end of a
   /// step of `h` [s]: with those, -K_j q - C_j v, and all else in f it solves

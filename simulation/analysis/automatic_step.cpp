@@ -10,6 +10,7 @@
 
 #include "integrators/stepper.h"
 #include "simulation/analysis/stability.h"
+#include "simulation/experiment/robot_tree.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -29,6 +30,21 @@ std::vector<double> rates_of(const Experiment& experiment) {
   return rates;
 }
 
+/// At least the greatest angular velocity of a body at time 0: the base's and the rates of the
+/// joints that carry a body, added [rad/s].
+double fastest_turn(const Experiment& experiment) {
+  double fastest = 0.;
+  for (const RobotSpec& robot : experiment.robots) {
+    std::vector<double> turns{robot.mobile ? norm(robot.angular_velocity) : 0.};
+    for_each_link(robot, [&](const TreeLink& at) {
+      const bool turns_link = at.link.joint == JointKind::revolute;
+      turns.push_back(turns[at.parent] + (turns_link ? std::abs(at.link.rate) : 0.));
+    });
+    fastest = std::max(fastest, std::ranges::max(turns));
+  }
+  return fastest;
+}
+
 bool divides(double step, const std::vector<double>& rates) {
   return std::ranges::all_of(rates, [&](double rate) {
     const double steps = 1. / (rate * step);
@@ -46,10 +62,14 @@ double round_step(int n) {
   return step;
 }
 
+bool is_adaptive(const Experiment& experiment) {
+  const integrators::StepperDescription* stepper = integrators::find_stepper(experiment.integrator);
+  return stepper != nullptr && stepper->adaptive();
+}
+
 /// Largest stable step under engine dts [s].
 double bound_under_dts(const Experiment& experiment) {
-  const integrators::StepperDescription* stepper = integrators::find_stepper(experiment.integrator);
-  if (stepper != nullptr && stepper->adaptive()) return HUGE_VAL;
+  if (is_adaptive(experiment)) return HUGE_VAL;
   if (experiment.engine == Experiment{}.engine) return stability_bound(experiment).step;
   Experiment ours = experiment;
   ours.engine = Experiment{}.engine;
@@ -60,8 +80,9 @@ double bound_under_dts(const Experiment& experiment) {
 
 ChosenStep choose_step(const Experiment& experiment) {
   const double bound = bound_under_dts(experiment);
-  const double limit =
-      bound > 0. ? std::min(largest_automatic_step, safe_part * bound) : largest_automatic_step;
+  double limit = largest_automatic_step;
+  if (bound > 0.) limit = std::min(limit, safe_part * bound);
+  if (!is_adaptive(experiment)) limit = std::min(limit, largest_turn / fastest_turn(experiment));
   const std::vector<double> rates = rates_of(experiment);
   int largest = static_cast<int>(std::ceil(3. * std::log10(limit))) + 3;
   while (round_step(largest) > limit) --largest;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 
 #include "dts/configuration.h"
@@ -37,6 +38,7 @@ ArticulatedRobot::ArticulatedRobot(const Experiment& experiment, std::size_t ind
       state_(initial_state(experiment.robots[index])),
       workspace_(model_),
       joints_(experiment.robots[index]),
+      applied_torques_(model_.link_count()),
       joint_torques_(model_.link_count()),
       model_of_step_(model_),
       added_inertias_(model_.link_count()),
@@ -155,34 +157,52 @@ void ArticulatedRobot::find_torques(std::span<double> torques) const {
   joints_.torques(drives(), state_.joint_positions, state_.joint_rates, torques);
 }
 
-void ArticulatedRobot::solve(const dts::Model<double>& model) {
+void ArticulatedRobot::solve(ConstraintSet::Closing closing) {
+  const dts::Model<double>& model = joint_step_ == 0. ? model_ : model_of_step_;
+  const std::span<const double> a = workspace_.joint_accelerations;
+  std::ranges::copy(applied_torques_, joint_torques_.begin());
   dts::forward_dynamics<double>(model, inputs_->gravity, joint_torques_, workspace_);
-  if (!constraints_.constrains()) return;
-  // The open tree comes apart; with these forces it does not.
-  constraints_.find_forces(model, state_, workspace_);
-  std::ranges::copy(workspace_.external, open_external_.begin());
-  constraints_.add_forces(workspace_, joint_torques_);
-  dts::forward_dynamics<double>(model, inputs_->gravity, joint_torques_, workspace_);
-  std::ranges::copy(open_external_, workspace_.external.begin());
+  if (constraints_.constrains()) {
+    // The open tree comes apart; with these forces it does not.
+    constraints_.find_forces(model, state_, workspace_, closing);
+    std::ranges::copy(workspace_.external, open_external_.begin());
+    constraints_.add_forces(workspace_, joint_torques_);
+    dts::forward_dynamics<double>(model, inputs_->gravity, joint_torques_, workspace_);
+    std::ranges::copy(open_external_, workspace_.external.begin());
+  }
+  if (joint_step_ == 0.) return;
+  for (std::size_t i = 0; i < a.size(); ++i) joint_torques_[i] -= added_inertias_[i] * a[i];
 }
 
 void ArticulatedRobot::accelerate() {
   if (joint_step_ == 0.) {
-    find_torques(joint_torques_);
-    return solve(model_);
+    find_torques(applied_torques_);
+    return solve(ConstraintSet::Closing::at_this_moment);
   }
   const double h = joint_step_;
   const std::span<const double> q = state_.joint_positions, v = state_.joint_rates,
                                 a = workspace_.joint_accelerations;
   joints_.unbind_friction();
   do {
-    joints_.torques_at_end_of(h, drives(), q, v, joint_torques_, added_inertias_);
+    joints_.torques_at_end_of(h, drives(), q, v, applied_torques_, added_inertias_);
     for (std::size_t i = 0; i < added_inertias_.size(); ++i)
       model_of_step_.set_rotor_inertia(i + 1, joint_inertias_[i] + added_inertias_[i]);
-    solve(model_of_step_);
+    solve(ConstraintSet::Closing::at_this_moment);
   } while (joints_.bind_friction(h, q, v, a));
-  for (std::size_t i = 0; i < added_inertias_.size(); ++i)
-    joint_torques_[i] -= added_inertias_[i] * a[i];
+}
+
+double ArticulatedRobot::fastest_turn() const {
+  double squared = 0.;
+  for (const dts::BodyMotion<double>& body : workspace_.bodies)
+    squared = std::max(squared, dot(body.w_WB, body.w_WB));
+  return std::sqrt(squared);
+}
+
+void ArticulatedRobot::accelerate_with_bias_of(std::span<const double> v) {
+  dts::set_velocity<double>(model_, v.first(velocity_count()), state_);
+  update_kinematics();
+  if (constraints_.constrains()) constraints_.stop_opening(model_, state_, workspace_);
+  solve(ConstraintSet::Closing::over_a_step);
 }
 
 void ArticulatedRobot::meet_constraints() {

@@ -56,6 +56,11 @@ class ArticulatedRobot {
   /// v' from M v' + c = tau + J^T f of the forces applied so far, joint torques as the inputs have
   /// them now. O(links).
   void accelerate();
+  /// Greatest angular velocity of a body at the kinematics in the workspace [rad/s]. O(links).
+  double fastest_turn() const;
+  /// v' again, from the forces and joint torques of the accelerate() before and the bias forces of
+  /// the velocity `v`, which the robot has from now on: M v' + c(q, v) = tau + J^T f. O(links).
+  void accelerate_with_bias_of(std::span<const double> v);
   /// From now on accelerate() has what joints exert by themselves as it is at the end of a step of
   /// `h` [s] (integrators/system.h); 0: as it is now.
   void take_joints_at_end_of(double h) { joint_step_ = h; }
@@ -101,8 +106,8 @@ class ArticulatedRobot {
   }
 
  private:
-  /// v' of `model` from joint_torques_.
-  void solve(const dts::Model<double>& model);
+  /// v' from applied_torques_ under the forces in the workspace.
+  void solve(ConstraintSet::Closing closing);
   std::span<const double> drives() const {
     return std::span(inputs_->joint_torques).subspan(first_joint_, joint_torques_.size());
   }
@@ -118,6 +123,9 @@ class ArticulatedRobot {
   dts::State<double> state_;
   dts::Workspace<double> workspace_;
   JointSet joints_;
+  /// Of drives and what joints exert by themselves, before constraint forces and what an implicit
+  /// integrator takes at the end of its step [N m, N].
+  std::vector<double> applied_torques_;
   std::vector<double> joint_torques_;
   // Of an integrator that is implicit in the joints.
   double joint_step_ = 0.;              ///< [s]; 0: torques are those of the present state

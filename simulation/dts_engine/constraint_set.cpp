@@ -54,6 +54,7 @@ ConstraintSet::ConstraintSet(const Experiment& experiment, std::size_t index,
   change_.resize(dts::velocity_count(model));
   part_ = change_;
   accelerations_.resize(model.body_count());
+  still_joints_.resize(model.link_count());
   moved_.joint_positions.resize(model.link_count());
   moved_.joint_rates.resize(model.link_count());
 }
@@ -156,31 +157,55 @@ void ConstraintSet::fill_coupling_rows(const dts::Model<double>& model,
   }
 }
 
-void ConstraintSet::find_forces(const dts::Model<double>& model, const dts::State<double>& state,
-                                dts::Workspace<double>& workspace) {
+void ConstraintSet::fill_accelerations_apart(const dts::Model<double>& model,
+                                             const dts::State<double>& state,
+                                             const dts::Workspace<double>& workspace,
+                                             std::span<double> apart) {
   dts::body_accelerations<double>(model, state, workspace, accelerations_);
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    // J v' + J' v of the open tree.
-    Vector3d apart;
+    Vector3d a_apart;
     for (const std::size_t side : {0, 1}) {
       const dts::BodyMotion<double>& body = workspace.bodies[points_[i].bodies[side]];
       const dts::Motion<double>& a = accelerations_[points_[i].bodies[side]];
       const Vector3d r = body.R_WB * points_[i].p[side];
-      apart +=
+      a_apart +=
           signs[side] * (a.linear + cross(a.angular, r) + cross(body.w_WB, cross(body.w_WB, r)));
     }
-    b_[3 * i] = -apart.x;
-    b_[3 * i + 1] = -apart.y;
-    b_[3 * i + 2] = -apart.z;
+    apart[3 * i] = a_apart.x;
+    apart[3 * i + 1] = a_apart.y;
+    apart[3 * i + 2] = a_apart.z;
   }
-  const std::size_t first_row = 3 * points_.size();
   for (std::size_t c = 0; c < couplings_.size(); ++c)
-    b_[first_row + c] = -couplings_[c].apart(workspace.joint_accelerations);
+    apart[3 * points_.size() + c] = couplings_[c].apart(workspace.joint_accelerations);
+}
+
+void ConstraintSet::fill_bias_apart(const dts::Model<double>& model,
+                                    const dts::State<double>& state,
+                                    dts::Workspace<double>& workspace, std::span<double> apart) {
+  const auto unaccelerated = [&] {
+    std::swap(workspace.base_acceleration, still_base_.linear);
+    std::swap(workspace.base_angular_acceleration, still_base_.angular);
+    workspace.joint_accelerations.swap(still_joints_);
+  };
+  unaccelerated();
+  fill_accelerations_apart(model, state, workspace, apart);
+  unaccelerated();
+}
+
+void ConstraintSet::find_forces(const dts::Model<double>& model, const dts::State<double>& state,
+                                dts::Workspace<double>& workspace, Closing closing) {
+  fill_accelerations_apart(model, state, workspace, b_);
+  if (closing == Closing::over_a_step) {
+    fill_bias_apart(model, state, workspace, x_);
+    for (std::size_t i = 0; i < b_.size(); ++i) b_[i] -= 0.5 * x_[i];
+  }
+  for (double& b : b_) b = -b;
   factor(model, workspace);
   response_.solve(b_, x_);
   for (std::size_t i = 0; i < points_.size(); ++i)
     points_[i].force = {x_[3 * i], x_[3 * i + 1], x_[3 * i + 2]};
-  for (std::size_t c = 0; c < couplings_.size(); ++c) couplings_[c].torque = x_[first_row + c];
+  for (std::size_t c = 0; c < couplings_.size(); ++c)
+    couplings_[c].torque = x_[3 * points_.size() + c];
 }
 
 void ConstraintSet::add_forces(dts::Workspace<double>& workspace, std::span<double> torques) const {
@@ -212,24 +237,26 @@ void ConstraintSet::find_change(const dts::Model<double>& model,
       change_[k] -= x_[3 * points_.size() + c] * couplings_[c].column[k];
 }
 
+template <class OfPoint, class OfCoupling>
+double ConstraintSet::fill(const OfPoint& of_point, const OfCoupling& of_coupling) {
+  double greatest = 0.;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const Vector3d v = of_point(points_[i]);
+    b_[3 * i] = v.x;
+    b_[3 * i + 1] = v.y;
+    b_[3 * i + 2] = v.z;
+    greatest = std::max(greatest, norm(v));
+  }
+  for (std::size_t c = 0; c < couplings_.size(); ++c) {
+    const double apart = of_coupling(couplings_[c]);
+    b_[3 * points_.size() + c] = apart;
+    greatest = std::max(greatest, std::abs(apart));
+  }
+  return greatest;
+}
+
 double ConstraintSet::close(const dts::Model<double>& model, dts::State<double>& state,
                             dts::Workspace<double>& workspace, int rounds) {
-  const auto fill = [&](const auto& value, const auto& of_joints) {
-    double greatest = 0.;
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-      const Vector3d v = value(points_[i]);
-      b_[3 * i] = v.x;
-      b_[3 * i + 1] = v.y;
-      b_[3 * i + 2] = v.z;
-      greatest = std::max(greatest, norm(v));
-    }
-    for (std::size_t c = 0; c < couplings_.size(); ++c) {
-      const double apart = of_joints(couplings_[c]);
-      b_[3 * points_.size() + c] = apart;
-      greatest = std::max(greatest, std::abs(apart));
-    }
-    return greatest;
-  };
   const auto look = [&] {
     dts::forward_kinematics(model, state, workspace);
     dts::articulated_inertias(model, workspace);
@@ -254,6 +281,12 @@ double ConstraintSet::close(const dts::Model<double>& model, dts::State<double>&
     open = gaps();
   }
   watch_rank();
+  stop_opening(model, state, workspace);
+  return open;
+}
+
+void ConstraintSet::stop_opening(const dts::Model<double>& model, dts::State<double>& state,
+                                 dts::Workspace<double>& workspace) {
   fill([&](const Point& point) { return gap_rate(point, workspace); },
        [&](const Coupling& coupling) { return coupling.apart(state.joint_rates); });
   find_change(model, workspace);
@@ -261,7 +294,6 @@ double ConstraintSet::close(const dts::Model<double>& model, dts::State<double>&
   for (std::size_t k = 0; k < part_.size(); ++k) part_[k] += change_[k];
   dts::set_velocity<double>(model, part_, state);
   dts::forward_kinematics(model, state, workspace);
-  return open;
 }
 
 void ConstraintSet::publish(const dts::Workspace<double>& workspace,

@@ -35,10 +35,15 @@ class ConstraintSet {
 
   /// Adds what springs and dampers of compliant loops exert. After forward_kinematics.
   void add_spring_forces(dts::Workspace<double>& workspace) const;
+  /// What constraint forces are for: that accelerations keep the constraints met at this moment,
+  /// J v' = -J' v; or that a step which begins with J v = 0 ends with them met but for its third
+  /// order, J v' = -J' v/2: the path of constant acceleration, which half of it bends as much as the
+  /// constraints do (SHAKE: Ryckaert, Ciccotti & Berendsen 1977, J. Comput. Phys. 23).
+  enum class Closing { at_this_moment, over_a_step };
   /// Finds the constraint forces. After forward_dynamics of the open tree, whose accelerations are in
   /// the workspace.
   void find_forces(const dts::Model<double>& model, const dts::State<double>& state,
-                   dts::Workspace<double>& workspace);
+                   dts::Workspace<double>& workspace, Closing closing);
   /// Adds the constraint forces that were found last: those of loops on the bodies, those of coupled
   /// joints to `torques`, one a joint [N m, N].
   void add_forces(dts::Workspace<double>& workspace, std::span<double> torques) const;
@@ -49,6 +54,11 @@ class ConstraintSet {
   /// Newton's method.
   double close(const dts::Model<double>& model, dts::State<double>& state,
                dts::Workspace<double>& workspace, int rounds);
+
+  /// Changes the velocities to the nearest ones that keep the constraints met, and the kinematics
+  /// with them. After `close` or `find_forces` at the same positions.
+  void stop_opening(const dts::Model<double>& model, dts::State<double>& state,
+                    dts::Workspace<double>& workspace);
 
   /// What to tell the user of a singular linkage that the robot has come to; "" if none.
   const std::string& notice() const { return notice_; }
@@ -89,6 +99,15 @@ class ConstraintSet {
                             const dts::Workspace<double>& workspace) const;
   Vector3d gap(const Point& point, const dts::Workspace<double>& workspace) const;
   Vector3d gap_rate(const Point& point, const dts::Workspace<double>& workspace) const;
+  /// b_ := a vector a point and a number a coupling; the greatest of them.
+  template <class OfPoint, class OfCoupling>
+  double fill(const OfPoint& of_point, const OfCoupling& of_coupling);
+  /// J v' + J' v of the accelerations in the workspace.
+  void fill_accelerations_apart(const dts::Model<double>& model, const dts::State<double>& state,
+                                const dts::Workspace<double>& workspace, std::span<double> apart);
+  /// J' v.
+  void fill_bias_apart(const dts::Model<double>& model, const dts::State<double>& state,
+                       dts::Workspace<double>& workspace, std::span<double> apart);
   void factor(const dts::Model<double>& model, dts::Workspace<double>& workspace);
   /// The rows of coupled joints in J M^-1 J^T.
   void fill_coupling_rows(const dts::Model<double>& model, dts::Workspace<double>& workspace);
@@ -110,6 +129,8 @@ class ConstraintSet {
   std::vector<double> b_, x_;
   std::vector<double> change_, part_;  ///< of the generalised velocity
   std::vector<dts::Motion<double>> accelerations_;
+  dts::Motion<double> still_base_;    ///< no acceleration
+  std::vector<double> still_joints_;  ///< none either
   dts::State<double> moved_;
 };
 

@@ -177,6 +177,20 @@ Status RobotGroup::accelerations(Stage stage, double time, std::span<const doubl
   return integrators::all_finite(a) ? Status::ok : Status::not_finite;
 }
 
+double RobotGroup::fastest_turn() const {
+  double fastest = 0.;
+  for (const ArticulatedRobot& robot : robots_) fastest = std::max(fastest, robot.fastest_turn());
+  return fastest;
+}
+
+void RobotGroup::accelerations_with_bias_of(std::span<const double> v, std::span<double> a) {
+  for_each(robots_, [&](ArticulatedRobot& robot, std::size_t, std::size_t first_v) {
+    const std::size_t count = robot.velocity_count();
+    robot.accelerate_with_bias_of(v.subspan(first_v, count));
+    robot.write_accelerations(a.subspan(first_v, count));
+  });
+}
+
 void RobotGroup::take_joints_at_end_of(double h) {
   for (ArticulatedRobot& robot : robots_) robot.take_joints_at_end_of(h);
 }

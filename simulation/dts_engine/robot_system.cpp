@@ -113,6 +113,11 @@ Status RobotSystem::accelerations(Stage stage, double /*time*/, std::span<const 
   return integrators::all_finite(a) ? Status::ok : Status::not_finite;
 }
 
+void RobotSystem::accelerations_with_bias_of(std::span<const double> v, std::span<double> a) {
+  robot_.accelerate_with_bias_of(v);
+  robot_.write_accelerations(a);
+}
+
 void RobotSystem::tangent_rate(std::span<const double> u, std::span<const double> v,
                                std::span<double> du) const {
   robot_.tangent_rate(u, v, du);

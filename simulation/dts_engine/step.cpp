@@ -19,7 +19,7 @@ namespace hookpoint::simulation {
 namespace {
 
 StepStatus explain(integrators::Status status, const integrators::Stepper& stepper, double time,
-                   std::string body);
+                   const SteppedSystem& robot);
 
 }  // namespace
 
@@ -53,7 +53,7 @@ StepStatus step(SteppedSystem& robot, integrators::Stepper& stepper, double time
       stepper.step(robot, time, dt, robot.positions(), robot.velocities());
   if (status != integrators::Status::ok) {
     robot.undo();
-    return explain(status, stepper, time, robot.trail());
+    return explain(status, stepper, time, robot);
   }
 
   // x_i, x_i', f_i and h_i+ at t + dt: what is published, and what the next step commits.
@@ -81,7 +81,8 @@ std::string over_budget(const integrators::Spending& spent) {
 }
 
 StepStatus explain(integrators::Status status, const integrators::Stepper& stepper, double time,
-                   std::string body) {
+                   const SteppedSystem& robot) {
+  std::string body = robot.trail();
   if (status == integrators::Status::too_long) {
     const auto& adaptive = dynamic_cast<const integrators::AdaptiveStepper&>(stepper);
     return {StepStatus::Kind::solver_failed, time, std::move(body),
@@ -91,6 +92,18 @@ StepStatus explain(integrators::Status status, const integrators::Stepper& stepp
     return {StepStatus::Kind::solver_failed, time, std::move(body),
             "the integrator finds no step that meets its tolerances: raise relative_tolerance and "
             "absolute_tolerance, make the ground softer, or choose a fixed-step integrator"};
+  }
+  // Of what the ground or a drive throws about, the state before the step knows nothing yet.
+  const double turn = robot.deltat() * robot.fastest_turn();
+  constexpr double fast = 0.3;
+  if (status == integrators::Status::turns_too_far && turn > fast) {
+    return {
+        StepStatus::Kind::step_too_large, time, std::move(body),
+        fmt::format("it turns by {:.3g} rad in a step, too far for its gyroscopic, centrifugal and "
+                    "Coriolis forces to be found: make the step smaller, or choose rk4 or an "
+                    "adaptive integrator",
+                    turn),
+        true};
   }
   return {StepStatus::Kind::not_finite, time, std::move(body),
           "its accelerations are no longer finite: make the step smaller or the ground softer",
