@@ -3,10 +3,9 @@
 // where a has the forces f of the step's start and the bias forces (centrifugal, Coriolis,
 // gyroscopic) of the mean velocity,
 //   M(q0) a = f(q0, v0) - c(q0, (v0 + v1)/2).
-// c is quadratic in v, and v . c is half of what the change of M along v does to the energy: taken
-// at v0, a free body gains (z/dt)^2 dt of its energy a second, z = dt w at the angular velocity w of
-// its nutation; at the mean velocity it keeps I w.w and |I w|, and exp(dt w1) turns about w1, so that
-// the turn does not change them either (docs/decisions/0044-bias-forces-of-the-mean-velocity.md).
+// c is quadratic in v. Taken at v0 it adds the part z^2 of its energy a step to what nutates by the
+// angle z; at the mean velocity a free body keeps w . I w and |I w|, which exp(dt w1), a turn about
+// w1, does not change either (docs/decisions/0044-bias-forces-of-the-mean-velocity.md).
 // First order, but an undamped vibration keeps its amplitude up to dt = 2/w, at one evaluation of
 // forces a step: the default.
 #pragma once

@@ -48,7 +48,8 @@ StepStatus step(SteppedSystem& robot, integrators::Stepper& stepper, double time
   // (q, v) at t + dt from q' = v, v' = M^-1 (...), by the method of integrators/, which asks
   // RobotSystem::accelerations for v' as often as it wants and refuses what is not finite (3.5):
   //   X_WB, v_WB of every body, base to tips; external forces; f_i at each boundary point
-  //   (RobotSystem::evaluate_forces), then tau and the other passes of the recursion (Fig. 3).
+  //   (RobotSystem::evaluate_forces), then tau and the other passes of the recursion (Fig. 3); by the
+  //   default method once more for each round that brings c to the mean velocity, the f_i held.
   const integrators::Status status =
       stepper.step(robot, time, dt, robot.positions(), robot.velocities());
   if (status != integrators::Status::ok) {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <string_view>
+#include <unordered_set>
 #include <variant>
 
 #include "simulation/engine_interface/rotors.h"
@@ -34,15 +36,26 @@ double spring_energy(const JointProperties& joint, double position, double drive
          drive_torque(joint, drive) * position;
 }
 
+/// Whether the port of that trail is of one of the objects in `trails`.
+bool is_of(const std::string& port, const std::unordered_set<std::string_view>& trails) {
+  for (std::size_t dot = port.find('.'); dot != std::string::npos; dot = port.find('.', dot + 1))
+    if (trails.contains(std::string_view(port).substr(0, dot))) return true;
+  return false;
+}
+
 }  // namespace
 
 bool is_passive(const Experiment& experiment) {
   for (const ForceSpec& force : experiment.forces) {
     if (force.window || !(force.torque == Vector3d{})) return false;
   }
+  // What only listens drives nothing: what a component makes of it leaves by another wire.
+  std::unordered_set<std::string_view> components;
+  for (const ComponentSpec& component : experiment.components) components.insert(component.trail);
   return std::ranges::none_of(experiment.wires, [&](const WireSpec& wire) {
-    return (wire.to.starts_with(experiment.world + ".") && !moves_a_surface(experiment, wire)) ||
-           wire.to.starts_with("Simulator.pull.");
+    if (wire.to.starts_with("Simulator.pull.")) return true;
+    return wire.to.starts_with(experiment.world + ".") && !is_of(wire.to, components) &&
+           !moves_a_surface(experiment, wire);
   });
 }
 

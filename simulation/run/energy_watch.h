@@ -13,7 +13,8 @@
 namespace hookpoint::simulation {
 
 /// Whether nothing drives the experiment but ground and obstacles that move, whose work is counted: no
-/// wire ends at a joint, a Force or gravity, and no Force acts over a window or by a moment. What is
+/// wire ends at a joint, a Force or gravity, and no Force acts over a window or by a moment. A wire
+/// that ends at a component, wherever that stands, drives nothing by itself. What is
 /// constant has a potential: gravity, forces, torques of joints.
 bool is_passive(const Experiment& experiment);
 

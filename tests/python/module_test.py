@@ -384,6 +384,20 @@ class State(unittest.TestCase):
         with self.assertRaisesRegex(hookpoint.Error, "cannot be saved"):
             pickle.dumps(hookpoint.loads(FALLING, engine="ode"))
 
+    def test_what_was_pickled_of_a_file_is_refused_where_the_file_has_changed(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "falling.hook"
+            text = FALLING
+            file.write_text(text)
+            world, batch = hookpoint.load(file), hookpoint.Batch(file, 2)
+            world.step(10)
+            pickled = [pickle.dumps(world), pickle.dumps(batch)]
+            self.assertEqual([pickle.loads(one).time for one in pickled[:1]], [world.time])
+            file.write_text(text.replace("mass = 2", "mass = 3"))
+            for one in pickled:
+                with self.assertRaisesRegex(hookpoint.Error, "the state is of another experiment"):
+                    pickle.loads(one)
+
     def test_worlds_go_through_a_pool_of_processes(self):
         worlds = [hookpoint.loads(FALLING, set={"height": height}) for height in (1, 2, 3)]
         with multiprocessing.get_context("fork").Pool(2) as pool:
@@ -574,6 +588,12 @@ class Batch(unittest.TestCase):
             np.testing.assert_array_equal(other.step(count=100)[0], observed)
             for i in range(3):
                 self.assertEqual(other.state(i), batch.state(i))
+
+    def test_a_batch_of_an_engine_without_a_state_is_neither_copied_nor_pickled(self):
+        batch = hookpoint.Batch(FALLING, 2, engine="ode")
+        for take in (pickle.dumps, copy.copy, copy.deepcopy, lambda one: one.copy()):
+            with self.assertRaisesRegex(hookpoint.Error, "cannot be saved"):
+                take(batch)
 
     def test_a_copied_batch_has_the_failures_too(self):
         batch = hookpoint.Batch(STIFF, 2, observations=["wheel.axle.disc.angle"])

@@ -269,6 +269,34 @@ TEST(EnergyWatch, LeavesARestingBouncingOrDrivenWorldAlone) {
                                            .experiment));
 }
 
+// Sensors, sums, formulas and controllers that drive nothing do not silence it, wherever they stand.
+TEST(EnergyWatch, IsNotSilencedByWhatOnlyListens) {
+  const auto spinning = [](const std::string& inside, const std::string& outside) {
+    return finding(
+        "World orbit { gravity = 0; deltat = 1 ms; integrator = explicit_euler; Robot handle { "
+        "Base.mobile { angular_velocity = 10, 0.1, 0; mass = 1 kg; inertia = 3e-3, 5e-3, 7e-3, 0, 0, "
+        "0; } Chain c { Link wheel { rate = 20; stiffness = 0.3; mass = 0.1; inertia = 1e-3, 1e-3, "
+        "1e-3, 0, 0, 0; } } } " +
+            inside + " } " + outside,
+        5000);
+  };
+  ASSERT_TRUE(spinning("", "").starts_with(simulation::energy_finding));
+  const std::string sum = "Sum energy { Wire FROM orbit.handle.kinetic_energy TO in[0]; }";
+  for (const std::string& onlooker :
+       {std::string("Sensor.IMU imu { body = handle.base; }"), sum,
+        std::string(
+            "Expression e { formula = \"a * 2\"; Input a { Wire FROM handle.c.wheel.rate; } }"),
+        std::string(
+            "Controller.PD p { pconstant = 1; Wire FROM handle.c.wheel.angle TO current; }")})
+    EXPECT_TRUE(spinning(onlooker, "").starts_with(simulation::energy_finding)) << onlooker;
+  EXPECT_TRUE(spinning("", sum).starts_with(simulation::energy_finding));
+  EXPECT_EQ(
+      spinning("Controller.PD p { pconstant = 1; Wire FROM handle.c.wheel.angle TO current; Wire "
+               "TO handle.c.wheel.torque; }",
+               ""),
+      "");
+}
+
 // A lift raises what stands on it; its work is no energy from nothing. A box that a wall hits too fast
 // for its step is.
 TEST(EnergyWatch, CountsTheWorkOfGroundThatMoves) {
