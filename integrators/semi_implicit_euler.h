@@ -29,7 +29,7 @@ class SemiImplicitEuler : public Stepper {
     const Status status = evaluate(system, Stage::first, t, q, v, acceleration_);
     if (status != Status::ok) return status;
     system.weigh(dt);
-    advance(v, dt);
+    for (std::size_t i = 0; i < v.size(); ++i) next_v_[i] = v[i] + dt * acceleration_[i];
     if (!take_bias_of_mean_velocity(system, v, dt)) return Status::turns_too_far;
     for (std::size_t i = 0; i < v.size(); ++i) displacement_[i] = dt * next_v_[i];
     system.retract(q, displacement_, next_q_);
@@ -42,16 +42,12 @@ class SemiImplicitEuler : public Stepper {
   static constexpr MatrixBound bound{.stiffness = 0.25, .damping = 0.5};
 
  private:
-  void advance(std::span<const double> v, double dt) {
-    for (std::size_t i = 0; i < v.size(); ++i) next_v_[i] = v[i] + dt * acceleration_[i];
-  }
-
   /// Brings next_v_ to v1 = v0 + dt a by the fixed-point iteration that puts the mean of the v1 before
   /// into c. Returns whether it converges.
   bool take_bias_of_mean_velocity(System& system, std::span<const double> v, double dt) {
     double change = 0., speed = 0.;  // squared
-    int round = 0;
-    for (; round < rounds_for(dt * system.fastest_turn()); ++round) {
+    int iteration = 0;
+    for (; iteration < iterations_for(dt * system.greatest_angular_speed()); ++iteration) {
       for (std::size_t i = 0; i < v.size(); ++i) displacement_[i] = 0.5 * (v[i] + next_v_[i]);
       system.accelerations_with_bias_of(displacement_, acceleration_);
       change = speed = 0.;
@@ -64,23 +60,23 @@ class SemiImplicitEuler : public Stepper {
       if (!std::isfinite(speed)) return false;
       if (change <= rounding * rounding * speed) return true;
     }
-    return round < most_rounds || change <= tolerance * tolerance * speed;
+    return iteration < most_iterations || change <= tolerance * tolerance * speed;
   }
 
-  /// Of an oscillation by the angle z a step, a round contracts the error by z/2; 2 m - 1 rounds, or
-  /// none for m = 0, leave it 4 (z/2)^(2 m + 2) of its energy as gain or loss of the step. `turn`, the
+  /// Of an oscillation by the angle z a step, an iteration contracts the error by z/2; 2 m - 1 of
+  /// them, or none for m = 0, leave 4 (z/2)^(2 m + 2) of its energy as gain or loss of the step. `turn`, the
   /// angle of the fastest body a step [rad], is the most that z can be.
-  static int rounds_for(double turn) {
+  static int iterations_for(double turn) {
     int m = 0;
     for (double error = turn * turn; !(error <= energy_error); error *= 0.25 * turn * turn)
-      if (2 * ++m - 1 >= most_rounds) return most_rounds;
+      if (2 * ++m - 1 >= most_iterations) return most_iterations;
     return m == 0 ? 0 : 2 * m - 1;
   }
 
-  /// A relative one of 1e-3 in 1e5 steps. Below a turn of 1e-4 no round is made: a robot that stands.
+  /// A relative one of 1e-3 in 1e5 steps. Below a turn of 1e-4 there is no iteration: a robot that stands.
   static constexpr double energy_error = 1e-8;
   static constexpr double rounding = 1e-14, tolerance = 1e-6;
-  static constexpr int most_rounds = 99;
+  static constexpr int most_iterations = 99;
 
   std::vector<double> acceleration_, displacement_, next_q_, next_v_;
 };

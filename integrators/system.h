@@ -35,7 +35,7 @@ class System {
 
   /// Greatest angular velocity of a rigid body at the state evaluated last [rad/s]; 0 where the
   /// bias forces c(q, v) of M v' + c = f (centrifugal, Coriolis, gyroscopic) do not depend on v.
-  virtual double fastest_turn() const { return 0.; }
+  virtual double greatest_angular_speed() const { return 0.; }
   /// a = M^-1 (f - c(q, v)) with the position q and the forces f of the evaluation before, and the
   /// bias forces of the velocity `v`. `a` comes as that evaluation left it; states of first order in
   /// it stay.

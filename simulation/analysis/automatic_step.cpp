@@ -32,15 +32,15 @@ std::vector<double> rates_of(const Experiment& experiment) {
 
 /// At least the greatest angular velocity of a body at time 0: the base's and the rates of the
 /// joints that carry a body, added [rad/s].
-double fastest_turn(const Experiment& experiment) {
+double greatest_angular_speed(const Experiment& experiment) {
   double fastest = 0.;
   for (const RobotSpec& robot : experiment.robots) {
-    std::vector<double> turns{robot.mobile ? norm(robot.angular_velocity) : 0.};
+    std::vector<double> speeds{robot.mobile ? norm(robot.angular_velocity) : 0.};
     for_each_link(robot, [&](const TreeLink& at) {
       const bool turns_link = at.link.joint == JointKind::revolute;
-      turns.push_back(turns[at.parent] + (turns_link ? std::abs(at.link.rate) : 0.));
+      speeds.push_back(speeds[at.parent] + (turns_link ? std::abs(at.link.rate) : 0.));
     });
-    fastest = std::max(fastest, std::ranges::max(turns));
+    fastest = std::max(fastest, std::ranges::max(speeds));
   }
   return fastest;
 }
@@ -82,7 +82,8 @@ ChosenStep choose_step(const Experiment& experiment) {
   const double bound = bound_under_dts(experiment);
   double limit = largest_automatic_step;
   if (bound > 0.) limit = std::min(limit, safe_part * bound);
-  if (!is_adaptive(experiment)) limit = std::min(limit, largest_turn / fastest_turn(experiment));
+  if (!is_adaptive(experiment))
+    limit = std::min(limit, largest_turn / greatest_angular_speed(experiment));
   const std::vector<double> rates = rates_of(experiment);
   int largest = static_cast<int>(std::ceil(3. * std::log10(limit))) + 3;
   while (round_step(largest) > limit) --largest;

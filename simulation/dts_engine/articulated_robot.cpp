@@ -191,7 +191,7 @@ void ArticulatedRobot::accelerate() {
   } while (joints_.bind_friction(h, q, v, a));
 }
 
-double ArticulatedRobot::fastest_turn() const {
+double ArticulatedRobot::greatest_angular_speed() const {
   double squared = 0.;
   for (const dts::BodyMotion<double>& body : workspace_.bodies)
     squared = std::max(squared, dot(body.w_WB, body.w_WB));
@@ -201,7 +201,7 @@ double ArticulatedRobot::fastest_turn() const {
 void ArticulatedRobot::accelerate_with_bias_of(std::span<const double> v) {
   dts::set_velocity<double>(model_, v.first(velocity_count()), state_);
   update_kinematics();
-  if (constraints_.constrains()) constraints_.stop_opening(model_, state_, workspace_);
+  if (constraints_.constrains()) constraints_.project_velocities(model_, state_, workspace_);
   solve(ConstraintSet::Closing::over_a_step);
 }
 

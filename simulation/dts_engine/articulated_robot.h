@@ -57,7 +57,7 @@ class ArticulatedRobot {
   /// them now. O(links).
   void accelerate();
   /// Greatest angular velocity of a body at the kinematics in the workspace [rad/s]. O(links).
-  double fastest_turn() const;
+  double greatest_angular_speed() const;
   /// v' again, from the forces and joint torques of the accelerate() before and the bias forces of
   /// the velocity `v`, which the robot has from now on: M v' + c(q, v) = tau + J^T f. O(links).
   void accelerate_with_bias_of(std::span<const double> v);

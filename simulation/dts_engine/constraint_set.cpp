@@ -200,7 +200,7 @@ void ConstraintSet::find_forces(const dts::Model<double>& model, const dts::Stat
     for (std::size_t i = 0; i < b_.size(); ++i) b_[i] -= 0.5 * x_[i];
   }
   for (double& b : b_) b = -b;
-  factor(model, workspace);
+  if (closing == Closing::at_this_moment) factor(model, workspace);
   response_.solve(b_, x_);
   for (std::size_t i = 0; i < points_.size(); ++i)
     points_[i].force = {x_[3 * i], x_[3 * i + 1], x_[3 * i + 2]};
@@ -281,12 +281,12 @@ double ConstraintSet::close(const dts::Model<double>& model, dts::State<double>&
     open = gaps();
   }
   watch_rank();
-  stop_opening(model, state, workspace);
+  project_velocities(model, state, workspace);
   return open;
 }
 
-void ConstraintSet::stop_opening(const dts::Model<double>& model, dts::State<double>& state,
-                                 dts::Workspace<double>& workspace) {
+void ConstraintSet::project_velocities(const dts::Model<double>& model, dts::State<double>& state,
+                                       dts::Workspace<double>& workspace) {
   fill([&](const Point& point) { return gap_rate(point, workspace); },
        [&](const Coupling& coupling) { return coupling.apart(state.joint_rates); });
   find_change(model, workspace);

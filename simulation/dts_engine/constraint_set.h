@@ -41,7 +41,8 @@ class ConstraintSet {
   /// constraints do (SHAKE: Ryckaert, Ciccotti & Berendsen 1977, J. Comput. Phys. 23).
   enum class Closing { at_this_moment, over_a_step };
   /// Finds the constraint forces. After forward_dynamics of the open tree, whose accelerations are in
-  /// the workspace.
+  /// the workspace; over a step, after those of this moment at the same positions, whose factors of
+  /// J M^-1 J^T it takes.
   void find_forces(const dts::Model<double>& model, const dts::State<double>& state,
                    dts::Workspace<double>& workspace, Closing closing);
   /// Adds the constraint forces that were found last: those of loops on the bodies, those of coupled
@@ -57,8 +58,8 @@ class ConstraintSet {
 
   /// Changes the velocities to the nearest ones that keep the constraints met, and the kinematics
   /// with them. After `close` or `find_forces` at the same positions.
-  void stop_opening(const dts::Model<double>& model, dts::State<double>& state,
-                    dts::Workspace<double>& workspace);
+  void project_velocities(const dts::Model<double>& model, dts::State<double>& state,
+                          dts::Workspace<double>& workspace);
 
   /// What to tell the user of a singular linkage that the robot has come to; "" if none.
   const std::string& notice() const { return notice_; }

@@ -177,9 +177,10 @@ Status RobotGroup::accelerations(Stage stage, double time, std::span<const doubl
   return integrators::all_finite(a) ? Status::ok : Status::not_finite;
 }
 
-double RobotGroup::fastest_turn() const {
+double RobotGroup::greatest_angular_speed() const {
   double fastest = 0.;
-  for (const ArticulatedRobot& robot : robots_) fastest = std::max(fastest, robot.fastest_turn());
+  for (const ArticulatedRobot& robot : robots_)
+    fastest = std::max(fastest, robot.greatest_angular_speed());
   return fastest;
 }
 

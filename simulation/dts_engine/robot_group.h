@@ -52,7 +52,7 @@ class RobotGroup final : public SteppedSystem {
   integrators::Status accelerations(integrators::Stage stage, double time,
                                     std::span<const double> q, std::span<const double> v,
                                     std::span<double> a) override;
-  double fastest_turn() const override;
+  double greatest_angular_speed() const override;
   void accelerations_with_bias_of(std::span<const double> v, std::span<double> a) override;
   void take_joints_at_end_of(double h) override;
   void retract(std::span<const double> q0, std::span<const double> u,

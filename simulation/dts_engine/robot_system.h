@@ -68,7 +68,7 @@ class RobotSystem final : public SteppedSystem {
   integrators::Status accelerations(integrators::Stage stage, double time,
                                     std::span<const double> q, std::span<const double> v,
                                     std::span<double> a) override;
-  double fastest_turn() const override { return robot_.fastest_turn(); }
+  double greatest_angular_speed() const override { return robot_.greatest_angular_speed(); }
   void accelerations_with_bias_of(std::span<const double> v, std::span<double> a) override;
   void take_joints_at_end_of(double h) override { robot_.take_joints_at_end_of(h); }
   void retract(std::span<const double> q0, std::span<const double> u,

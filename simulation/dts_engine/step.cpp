@@ -49,7 +49,7 @@ StepStatus step(SteppedSystem& robot, integrators::Stepper& stepper, double time
   // RobotSystem::accelerations for v' as often as it wants and refuses what is not finite (3.5):
   //   X_WB, v_WB of every body, base to tips; external forces; f_i at each boundary point
   //   (RobotSystem::evaluate_forces), then tau and the other passes of the recursion (Fig. 3); by the
-  //   default method once more for each round that brings c to the mean velocity, the f_i held.
+  //   default method once more for each iteration that brings c to the mean velocity, the f_i held.
   const integrators::Status status =
       stepper.step(robot, time, dt, robot.positions(), robot.velocities());
   if (status != integrators::Status::ok) {
@@ -94,17 +94,13 @@ StepStatus explain(integrators::Status status, const integrators::Stepper& stepp
             "the integrator finds no step that meets its tolerances: raise relative_tolerance and "
             "absolute_tolerance, make the ground softer, or choose a fixed-step integrator"};
   }
-  // Of what the ground or a drive throws about, the state before the step knows nothing yet.
-  const double turn = robot.deltat() * robot.fastest_turn();
-  constexpr double fast = 0.3;
-  if (status == integrators::Status::turns_too_far && turn > fast) {
-    return {
-        StepStatus::Kind::step_too_large, time, std::move(body),
-        fmt::format("it turns by {:.3g} rad in a step, too far for its gyroscopic, centrifugal and "
-                    "Coriolis forces to be found: make the step smaller, or choose rk4 or an "
-                    "adaptive integrator",
-                    turn),
-        true};
+  if (status == integrators::Status::turns_too_far) {
+    return {StepStatus::Kind::step_too_large, time, std::move(body),
+            fmt::format("it turns too far in a step for its gyroscopic, centrifugal and Coriolis "
+                        "forces to be found (by {:.3g} rad at the step's start): make the step "
+                        "smaller, or choose rk4 or an adaptive integrator",
+                        robot.deltat() * robot.greatest_angular_speed()),
+            true};
   }
   return {StepStatus::Kind::not_finite, time, std::move(body),
           "its accelerations are no longer finite: make the step smaller or the ground softer",
