@@ -1,17 +1,10 @@
-// Physical dimensions: exponents of mass, length, time and angle. Angle is kept apart so that `mass
-// = 3 deg` is an error, though a radian is a pure number: a value without angle (5 N.m) fits a
-// field per angle (N.m/rad).
+// Dimensions of the language's values: those of text/dimension.h, which tables of numbers have too.
 #pragma once
 
-#include <string>
+#include "text/dimension.h"
 
 namespace hookpoint::language {
 
-struct Dimension {
-  int mass = 0, length = 0, time = 0, angle = 0;
-
-  bool operator==(const Dimension&) const = default;
-  bool dimensionless() const { return *this == Dimension{}; }
-};
+using text::Dimension;
 
 }  // namespace hookpoint::language

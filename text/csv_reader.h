@@ -1,5 +1,5 @@
-// Reader of comma-separated tables: those that the program writes, and those of other programs,
-// with semicolons or tabs, comment lines and decimal commas.
+// Reader of comma-separated values: text to records of fields. foreign_table.h makes tables of what
+// other programs write.
 #pragma once
 
 #include <cstddef>
@@ -19,10 +19,17 @@ struct Table {
   char separator = ',';
 };
 
+/// The fields between two line ends outside quotes.
+struct Record {
+  std::vector<std::string> fields;
+  std::size_t line = 0;  ///< on which it begins, from 1
+};
+
 /// What a text separates its fields by, and whether it was written by hand or by another program.
 struct Dialect {
-  char separator = ',';
-  /// Empty lines and lines that begin with # are no rows; blanks around a field are not part of it.
+  char separator = ',';  ///< ' ': any number of blanks and tabs
+  /// Empty lines and lines that begin with #, % or // are no records; blanks around a field are not
+  /// part of it.
   bool comments = false;
 };
 
@@ -44,13 +51,12 @@ struct Fault {
 /// off is read up to its last whole row.
 std::optional<Table> read(std::string_view text, const Dialect& dialect, Fault& fault);
 
-/// The table of a text from elsewhere: with or without a byte-order mark and a last line end, with
-/// comments, separated by semicolons, tabs or commas: the first of these with which the header has
-/// several fields and every row as many. Between semicolons or tabs a comma in a number is a
-/// decimal comma, unless another number of the table has a decimal point; fields then have a point.
-std::optional<Table> read_foreign(std::string_view text, Fault& fault);
+/// The same text record by record, whatever their numbers of fields; nothing with the fault where a
+/// quote is not closed.
+std::optional<std::vector<Record>> read_records(std::string_view text, const Dialect& dialect,
+                                                Fault& fault);
 
-/// "semicolons", "tabs", "commas".
+/// "semicolons", "tabs", "blanks", "commas".
 std::string_view separators(char separator);
 
 }  // namespace hookpoint::text

@@ -5,6 +5,8 @@
 #include <fstream>
 #include <span>
 
+#include "text/letters.h"
+
 namespace hookpoint::text {
 namespace {
 
@@ -227,11 +229,7 @@ bool content_shows(const Format& format, std::string_view content) {
 }
 
 std::string ending_of(const std::filesystem::path& name) {
-  std::string ending = name.extension().string();
-  std::ranges::transform(ending, ending.begin(), [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  });
-  return ending;
+  return lower_case(name.extension().string());
 }
 
 bool name_shows(const Format& format, const std::string& ending) {

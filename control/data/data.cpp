@@ -9,19 +9,22 @@ namespace {
 
 /// A time series from a file. Before its first sample and after its last it holds that sample's
 /// value.
-class Data final : public Component {
+class Data final : public Component, public ReadsTable {
  public:
-  Text file = Text{*this, "file", "CSV file, or MAT file by the ending .mat"}.path();
-  Text column{*this, "column", "name of the column or of the MAT variable"};
+  TableFields table{*this};
+  Text column{*this, "column", "title, name or number of the column, or name of the MAT variable"};
   Text interpolate =
       Text{*this, "interpolate", "between two samples", "linear"}.choices({"hold", "linear"});
   Output output{*this, "output", "?", "the series at the time of the simulation"};
 
   void start(double) override {
-    if (file.value().empty()) throw std::runtime_error("file is not given");
-    if (column.value().empty()) throw std::runtime_error("column is not given");
-    series_ = file.value().ends_with(".mat") ? read_mat_series(file.value(), column.value())
-                                             : read_csv_series(file.value(), column.value());
+    if (column.value().empty() && !table.file.value().empty())
+      throw std::runtime_error("column is not given");
+    Table read = table.read({column.value()}, report_);
+    time_ = std::move(read.time);
+    value_ = std::move(read.columns[0]);
+    if (read.units[0].has_unit)
+      report_.units.push_back({"output", 0, read.units[0].unit, read.units[0].scale.dimension});
     linear_ = interpolate.value() == "linear";
   }
 
@@ -31,17 +34,18 @@ class Data final : public Component {
   double held(const Tick& tick) const {
     // k dt may fall short of the decimal number in the file: a millionth of a period counts as
     // reached.
-    return series_.value[row_at(series_.time, tick.time + 1e-6 * tick.period)];
+    return value_[row_at(time_, tick.time - table.start + 1e-6 * tick.period)];
   }
   double interpolated(const Tick& tick) const {
-    const std::size_t row = row_at(series_.time, tick.time);
-    const std::vector<double>& t = series_.time;
-    const std::vector<double>& y = series_.value;
-    if (tick.time <= t.front() || row + 1 == t.size()) return y[row];
-    return y[row] + (y[row + 1] - y[row]) * (tick.time - t[row]) / (t[row + 1] - t[row]);
+    const double time = tick.time - table.start;
+    const std::size_t row = row_at(time_, time);
+    const std::vector<double>& t = time_;
+    const std::vector<double>& y = value_;
+    if (time <= t.front() || row + 1 == t.size()) return y[row];
+    return y[row] + (y[row + 1] - y[row]) * (time - t[row]) / (t[row + 1] - t[row]);
   }
 
-  Series series_;
+  std::vector<double> time_, value_;
   bool linear_ = true;
 };
 

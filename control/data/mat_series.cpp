@@ -86,6 +86,51 @@ std::vector<double> read_vector(const matvar_t* variable, mat_t& file, const std
   return values;
 }
 
+/// A text of MATLAB's characters; "" for anything else.
+std::string text_of(const matvar_t* variable) {
+  if (variable == nullptr || variable->class_type != MAT_C_CHAR || variable->data == nullptr)
+    return "";
+  const auto* characters = static_cast<const char*>(variable->data);
+  const bool narrow = variable->data_size == 1;
+  return narrow ? std::string(characters, variable->nbytes) : "";
+}
+
+/// A unit by its name. Throws where it is none.
+text::Unit unit_named(const std::string& name, const std::string& where) {
+  const auto unit = text::parse_unit(text::usual_unit(name));
+  if (!unit) throw std::runtime_error(where + ": `" + name + "` is no unit");
+  return *unit;
+}
+
+void scale(std::vector<double>& values, const text::Unit& unit) {
+  for (double& value : values) value = value * unit.numerator / unit.denominator;
+}
+
+/// The vectors as a table, in SI, as the request has it.
+Table table_of(const text::ColumnTitle& column, std::vector<double> time, std::vector<double> value,
+               const text::SeriesRequest& request, const std::string& where_time,
+               const std::string& path) {
+  const text::Unit unit = unit_named(column.unit, path);
+  scale(value, unit);
+  scale(time, unit_named(request.time_unit.empty() ? "s" : request.time_unit, path));
+  for (double& moment : time) moment -= request.offset.value_or(0.);
+  check_increasing(time, where_time);
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    const bool gap = std::isnan(value[i]) && request.gaps != text::Gaps::error;
+    if (std::isfinite(value[i]) || gap) continue;
+    throw std::runtime_error(
+        path + ": element " + std::to_string(i + 1) + " of '" + column.name + "' is not finite" +
+        (std::isnan(value[i]) ? ": `gaps = interpolate` says what stands for it" : ""));
+  }
+  if (!text::fill_gaps(time, value, request.gaps))
+    throw std::runtime_error(path + ": '" + column.name + "' holds no number");
+  return {{column.name},
+          {{column.name, column.unit, unit, !column.unit.empty()}},
+          std::move(time),
+          {std::move(value)},
+          {}};
+}
+
 /// Bytes of memory that a variable claims, structures with their fields.
 double claimed(matvar_t& variable) {
   double count = 1.;
@@ -173,7 +218,8 @@ class FirstLook {
 
 }  // namespace
 
-Series read_mat_series(const std::filesystem::path& path, const std::string& column) {
+Table read_mat_table(const std::filesystem::path& path, const text::SeriesRequest& request) {
+  const std::string& column = request.columns.front();
   const std::string name = path.string();
   const std::string refusal = text::refusal(path, text::Use::series);
   if (!refusal.empty()) throw std::runtime_error(name + ": " + refusal);
@@ -188,25 +234,19 @@ Series read_mat_series(const std::filesystem::path& path, const std::string& col
   const bool of_structure = dot != std::string::npos;
   matvar_t* values =
       of_structure ? field(variable.get(), column.substr(dot + 1).c_str()) : variable.get();
+  const std::string stated = text_of(field(values, "unit"));
   if (matvar_t* data = field(values, "data")) values = data;
   matvar_t* own_time = of_structure ? field(variable.get(), "time") : nullptr;
   const std::string time_name = own_time != nullptr ? column.substr(0, dot) + ".time" : "time";
-  Series series{
-      read_vector(own_time != nullptr ? own_time : common_time.get(), *file, name, time_name),
-      read_vector(values, *file, name, column)};
-  if (series.time.size() != series.value.size()) {
-    throw std::runtime_error(name + ": '" + column + "' has " +
-                             std::to_string(series.value.size()) + " elements, '" + time_name +
-                             "' " + std::to_string(series.time.size()));
+  std::vector<double> time =
+      read_vector(own_time != nullptr ? own_time : common_time.get(), *file, name, time_name);
+  std::vector<double> value = read_vector(values, *file, name, column);
+  if (time.size() != value.size()) {
+    throw std::runtime_error(name + ": '" + column + "' has " + std::to_string(value.size()) +
+                             " elements, '" + time_name + "' " + std::to_string(time.size()));
   }
-  check_increasing(series.time, name + ": '" + time_name + "'");
-  for (std::size_t i = 0; i < series.value.size(); ++i) {
-    if (!std::isfinite(series.value[i])) {
-      throw std::runtime_error(name + ": element " + std::to_string(i + 1) + " of '" + column +
-                               "' is not finite");
-    }
-  }
-  return series;
+  return table_of({column, request.unit.empty() ? stated : request.unit}, std::move(time),
+                  std::move(value), request, name + ": '" + time_name + "'", name);
 }
 
 }  // namespace hookpoint::control

@@ -2,23 +2,15 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
+#include <utility>
 
-#include "text/csv_reader.h"
 #include "text/formats.h"
 namespace hookpoint::control {
 namespace {
-
-/// "force [N]" -> "force".
-std::string without_unit(const std::string& title) {
-  const std::size_t open = title.rfind(" [");
-  if (open == std::string::npos || title.back() != ']') return title;
-  return title.substr(0, title.find_last_not_of(' ', open) + 1);
-}
 
 /// The text of a file. Refuses another format, and what no text editor wrote, by its first bytes.
 std::string file_text(const std::filesystem::path& path) {
@@ -29,10 +21,11 @@ std::string file_text(const std::filesystem::path& path) {
   std::string text(std::istreambuf_iterator<char>(file), {});
   if (file.bad()) throw std::runtime_error(path.string() + ": reading it failed");
   constexpr std::size_t most = 1024;
-  const bool readable = std::ranges::all_of(text.substr(0, most), [](char c) {
-    const bool blank = c == '\t' || c == '\r' || c == '\n';
-    return blank || static_cast<unsigned char>(c) >= ' ';
-  });
+  const bool wide = text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF");
+  const bool readable = wide || std::ranges::all_of(text.substr(0, most), [](char c) {
+                          const bool blank = c == '\t' || c == '\r' || c == '\n';
+                          return blank || static_cast<unsigned char>(c) >= ' ';
+                        });
   if (!readable) throw std::runtime_error(path.string() + ": this is not a text file");
   return text;
 }
@@ -47,68 +40,82 @@ std::string shown(const std::string& text) {
   return "'" + printable + (text.size() > most ? "...'" : "'");
 }
 
-double parse_number(const std::string& text, const std::string& where, const std::string& column) {
-  double number = 0.;
-  const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, number);
-  if (error != std::errc{} || stop != end || !std::isfinite(number)) {
-    throw std::runtime_error(where + ": " + shown(text) + " in column " + shown(column) +
-                             " is not a finite number");
-  }
-  return number;
-}
-
-void read_header(const std::vector<std::string>& titles, const std::string& where, Table& table) {
-  if (titles.size() < 2) {
-    throw std::runtime_error(where +
-                             ": expected a time column and at least one more, separated by commas");
-  }
-  double number = 0.;
-  if (std::from_chars(titles[0].data(), titles[0].data() + titles[0].size(), number).ec ==
-      std::errc{}) {
-    throw std::runtime_error(where + ": expected a row of column names before the numbers");
-  }
-  for (std::size_t i = 1; i < titles.size(); ++i) table.names.push_back(without_unit(titles[i]));
-  table.columns.resize(table.names.size());
-}
-
-void read_row(const std::vector<std::string>& fields, const std::string& where, Table& table) {
-  const double time = parse_number(fields[0], where, "time");
-  if (!table.time.empty() && time <= table.time.back()) {
-    throw std::runtime_error(where + ": time " + fields[0] +
-                             " is not after that of the row before");
-  }
-  table.time.push_back(time);
-  for (std::size_t i = 0; i < table.columns.size(); ++i) {
-    table.columns[i].push_back(parse_number(fields[i + 1], where, table.names[i]));
-  }
+/// The words of a choice as what they mean.
+text::Gaps gaps_of(const std::string& words) {
+  if (words == "hold") return text::Gaps::hold;
+  return words == "interpolate" ? text::Gaps::interpolate : text::Gaps::error;
 }
 
 }  // namespace
 
-Table read_csv_table(const std::filesystem::path& path) {
-  const auto where = [&](std::size_t line) { return path.string() + ":" + std::to_string(line); };
-  text::Fault fault;
-  const auto text = text::read_foreign(file_text(path), fault);
-  if (!text && fault.kind == text::Fault::Kind::empty)
-    throw std::runtime_error(path.string() + ": holds no row of numbers");
-  if (!text) throw std::runtime_error(where(fault.line) + ": " + fault.text());
-  Table table;
-  read_header(text->header, where(text->header_line), table);
-  for (std::size_t i = 0; i < text->rows.size(); ++i)
-    read_row(text->rows[i], where(text->lines[i]), table);
-  if (table.time.empty()) throw std::runtime_error(path.string() + ": holds no row of numbers");
+TableFields::TableFields(Component& owner)
+    : file(Text{owner, "file", "the table: text of columns, or a MAT file by the ending .mat"}
+               .path()),
+      time(owner, "time",
+           "title, name or number of the column of the times; default: the first, unless it counts "
+           "frames"),
+      time_unit(owner, "time_unit", "of the times, \"ms\"; default: as the table says, else s"),
+      unit(owner, "unit",
+           "of the values, \"kN\"; default: as the table says, else that of what they drive"),
+      gaps(Text{owner, "gaps", "what stands for a missing value, empty or NaN", "error"}.choices(
+          {"error", "hold", "interpolate"})),
+      sample_rate(Parameter{owner, "sample_rate", "Hz", 0.,
+                            "rows are this often, for tables without times; 0: as the times say"}
+                      .range(0., 1e9)),
+      start(owner, "start", "s", 0., "time of the simulation at the table's time 0"),
+      offset(
+          owner, "offset", "s", 0.,
+          "what the table's clock reads at its time 0; 0: a clock that counts from a date begins "
+          "at the first row") {}
+
+text::SeriesRequest TableFields::request(std::vector<std::string> columns) const {
+  text::SeriesRequest request;
+  request.columns = std::move(columns);
+  request.time = time.value();
+  request.time_unit = time_unit.value();
+  request.unit = unit.value();
+  request.sample_rate = sample_rate;
+  if (offset != 0.) request.offset = offset;
+  request.gaps = gaps_of(gaps.value());
+  return request;
+}
+
+Table TableFields::read(const std::vector<std::string>& columns, TableReport& report) const {
+  if (file.value().empty()) throw std::runtime_error("file is not given");
+  const bool is_mat = file.value().ends_with(".mat");
+  if (is_mat && columns.size() != 1)
+    throw std::runtime_error(file.value() + ": of a MAT file `columns` names one variable");
+  Table table = is_mat ? read_mat_table(file.value(), request(columns))
+                       : read_csv_table(file.value(), request(columns));
+  report = {};
+  report.first = table.time.front() + start;
+  report.last = table.time.back() + start;
+  for (const std::string& notice : table.notices)
+    report.notices.push_back(file.value() + ": " + notice);
   return table;
 }
 
-Series read_csv_series(const std::filesystem::path& path, const std::string& column) {
-  Table table = read_csv_table(path);
-  const auto place = std::find(table.names.begin(), table.names.end(), column);
-  if (place == table.names.end()) {
-    throw std::runtime_error(path.string() + ": no column '" + column + "'; there are " +
-                             list_of_names(table.names));
-  }
-  return {std::move(table.time), std::move(table.columns[place - table.names.begin()])};
+Table read_csv_table(const std::filesystem::path& path, const text::SeriesRequest& request) {
+  const auto where = [&](std::size_t line) {
+    return path.string() + (line == 0 ? "" : ":" + std::to_string(line)) + ": ";
+  };
+  text::Fault fault;
+  const auto tables = text::read_foreign(file_text(path), fault);
+  if (!tables && fault.kind == text::Fault::Kind::empty)
+    throw std::runtime_error(where(0) + "holds no row of numbers");
+  if (!tables) throw std::runtime_error(where(fault.line) + fault.text());
+  text::SeriesFault wrong;
+  auto series = text::read_series(*tables, request, wrong);
+  if (!series) throw std::runtime_error(where(wrong.line) + wrong.text());
+  text::Samples& samples = series->cases.begin()->second;
+  Table table{{},
+              series->columns,
+              std::move(samples.time),
+              std::move(samples.columns),
+              std::move(series->notices)};
+  for (const text::SeriesColumn& column : table.units)
+    table.names.push_back(text::parts_of(column.title).name);
+  return table;
 }
 
 std::string list_of_names(const std::vector<std::string>& names) {

@@ -1,5 +1,5 @@
-// A table of numbers against time, read from a file: what Data and Controller.Trajectory look
-// values up in.
+// Tables of numbers against time, read from files: what Data and Controller.Trajectory look values
+// up in. Their common fields stand here once; text/series.h reads the tables.
 #pragma once
 
 #include <cstddef>
@@ -7,37 +7,66 @@
 #include <string>
 #include <vector>
 
+#include "control/component.h"
+#include "text/series.h"
+
 namespace hookpoint::control {
 
-/// A CSV file: a header row of `name` or `name [unit]`, then numbers; the first column is the time
-/// [s], strictly increasing.
+/// Columns over time.
 struct Table {
-  std::vector<std::string> names;            ///< of the columns after the time, without units
-  std::vector<double> time;                  ///< [s]
-  std::vector<std::vector<double>> columns;  ///< columns[i][row]
+  std::vector<std::string> names;            ///< of the columns, without units
+  std::vector<text::SeriesColumn> units;     ///< of the columns
+  std::vector<double> time;                  ///< [s], strictly increasing
+  std::vector<std::vector<double>> columns;  ///< in SI: columns[i][row]
+  std::vector<std::string> notices;          ///< what was assumed of the file, for the user
 };
 
-/// Reads the whole table, separated by commas, semicolons or tabs (text/csv_reader.h). Empty
-/// lines and lines that begin with # are skipped; fields may stand in quotes. Throws
-/// std::runtime_error with file and line: no header, no rows, a row of other length, not a finite
-/// number, time that does not increase.
-Table read_csv_table(const std::filesystem::path& path);
+/// Reads what `request` asks of a table as a text file (text/foreign_table.h). Throws
+/// std::runtime_error with file and line: another format, no rows, a row of other length, not a
+/// finite number, times that do not rise, no such column (with those that there are).
+Table read_csv_table(const std::filesystem::path& path, const text::SeriesRequest& request = {});
 
-/// Values of one column against time.
-struct Series {
-  std::vector<double> time;  ///< [s], strictly increasing
-  std::vector<double> value;
+/// The vector that `request` names in a MAT file (v5 or 7.3) against its vector `time`. "run.force"
+/// is a field of the structure `run`, and the time then the field `time` of the same structure if
+/// there is one. A structure with a field `data`, a channel of a record, stands for that field, in
+/// the unit that a field `unit` beside it says. Throws std::runtime_error with file and variable.
+Table read_mat_table(const std::filesystem::path& path, const text::SeriesRequest& request);
+
+/// What a component that reads a table says of it after `start`.
+struct TableReport {
+  struct Unit {
+    std::string output;  ///< "goal"
+    std::size_t element = 0;
+    std::string written;  ///< as the table has it: "kN"
+    text::Dimension dimension;
+  };
+  std::vector<Unit> units;           ///< of the elements of outputs whose unit is known
+  std::vector<std::string> notices;  ///< what was assumed of the file, beginning with its name
+  double first = 0., last = 0.;      ///< row of the table, as a time of the simulation [s]
+  bool repeats = false;              ///< so that it holds at all times
 };
 
-/// The column `column` of a CSV file against its first. Throws std::runtime_error: what
-/// read_csv_table throws, and a column that there is not (with those that there are).
-Series read_csv_series(const std::filesystem::path& path, const std::string& column);
+class ReadsTable {
+ public:
+  virtual ~ReadsTable() = default;
+  const TableReport& report() const { return report_; }
 
-/// The vector `column` of a MAT file (v5 or 7.3) against its vector `time`. "run.force" is a field
-/// of the structure `run`, and the time then the field `time` of the same structure if there is
-/// one. A structure with a field `data`, a channel of a record, stands for that field. Throws
-/// std::runtime_error with file and variable.
-Series read_mat_series(const std::filesystem::path& path, const std::string& column);
+ protected:
+  TableReport report_;
+};
+
+/// How a table is to be read: the fields of every component that reads one.
+struct TableFields {
+  explicit TableFields(Component& owner);
+
+  /// Of these columns, at `start` and `offset`.
+  text::SeriesRequest request(std::vector<std::string> columns) const;
+  /// Reads the file and fills what does not depend on outputs of `report`.
+  Table read(const std::vector<std::string>& columns, TableReport& report) const;
+
+  Text file, time, time_unit, unit, gaps;
+  Parameter sample_rate, start, offset;
+};
 
 /// "'a', 'b' and 7 more".
 std::string list_of_names(const std::vector<std::string>& names);

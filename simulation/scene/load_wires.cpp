@@ -6,6 +6,7 @@
 #include <exception>
 #include <new>
 
+#include "control/data/table.h"
 #include "control/registry.h"
 #include "language/tree/references.h"
 #include "language/units.h"
@@ -14,6 +15,7 @@
 #include "simulation/scene/load_parts.h"
 #include "simulation/wiring/timing.h"
 #include "simulation/wiring/wiring_order.h"
+#include "text/number.h"
 
 namespace hookpoint::simulation {
 
@@ -301,6 +303,49 @@ class Wires {
     Components components(experiment_);
     for (const StartProblem& problem : components.start(experiment_))
       loading_.error(place_of_problem(problem, components[problem.component]), problem.message);
+    for (std::size_t i = 0; i < components.size(); ++i) {
+      if (const auto* table = dynamic_cast<const control::ReadsTable*>(&components[i]))
+        check_table(*loading_.components[i], i, table->report());
+    }
+  }
+
+  /// What the user should know of a table, and whether its units suit what it drives.
+  void check_table(const language::Object& object, std::size_t index,
+                   const control::TableReport& report) {
+    const language::Position& place = place_of(object, "file");
+    for (const std::string& notice : report.notices) loading_.diagnostics.note(place, notice);
+    const double end = experiment_.duration;
+    if (!report.repeats && (report.last < 0. || report.first > end))
+      loading_.diagnostics.warning(
+          place,
+          fmt::format("the table's times, {} s to {} s, lie outside of the run, 0 s to {} s: "
+                      "one row holds throughout; `start` and `offset` move them",
+                      text::rounded(report.first, 6), text::rounded(report.last, 6),
+                      text::rounded(end, 6)));
+    const std::string& trail = experiment_.components[index].trail;
+    for (std::size_t i = 0; i < drivers_.size(); ++i) {
+      if (drivers_[i].from != &object) continue;
+      for (const control::TableReport::Unit& unit : report.units) {
+        const std::string port = trail + "." + unit.output;
+        const std::string& from = experiment_.wires[i].from;
+        if (from == port || from == fmt::format("{}[{}]", port, unit.element))
+          check_unit(drivers_[i], unit);
+      }
+    }
+  }
+
+  /// A unit that a table states suits the port that its wire drives.
+  void check_unit(const Driver& driver, const control::TableReport::Unit& unit) {
+    const std::string& wanted = driver.to->unit_of(*driver.input);
+    if (wanted == "?") return;
+    const language::Dimension expected = language::parse_unit(wanted)->dimension;
+    if (language::fits(unit.dimension, expected)) return;
+    loading_.error(
+        driver.position,
+        fmt::format("the table has `{}` in {} ({}), and `{}` of this {} is {}: wire "
+                    "another column, or state its `unit`",
+                    unit.output, unit.written, language::describe_dimension(unit.dimension),
+                    driver.input->name, driver.to->type, language::describe_dimension(expected)));
   }
 
   /// A message that begins with the name of a data file is about the field that names it.

@@ -9,7 +9,9 @@
 #include <unordered_map>
 #include <utility>
 
+#include "control/data/table.h"
 #include "simulation/wiring/force_window.h"
+#include "text/units.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -277,6 +279,21 @@ void Signals::add_held_ports(std::vector<Port>& ports) {
   }
 }
 
+namespace {
+
+/// The unit of an element of an output: the class's, or that of the table which it reads.
+std::string unit_of_element(const control::Component& component,
+                            const control::PortDescription& port, std::size_t element) {
+  if (port.unit != "?") return port.unit;
+  const auto* table = dynamic_cast<const control::ReadsTable*>(&component);
+  if (table == nullptr) return "";
+  for (const control::TableReport::Unit& unit : table->report().units)
+    if (unit.output == port.name && unit.element == element) return text::unit_text(unit.dimension);
+  return "";
+}
+
+}  // namespace
+
 void Signals::add_component_ports(std::vector<Port>& ports) {
   for (std::size_t c = 0; c < components_.size(); ++c) {
     const std::string trail = experiment_.components[c].trail + ".";
@@ -286,7 +303,7 @@ void Signals::add_component_ports(std::vector<Port>& ports) {
                             description.kind == control::PortKind::state;
       for (std::size_t i = 0; i < description.count; ++i) {
         Port port = held_port(trail + description.name + element_suffix(description, i),
-                              description.unit == "?" ? "" : description.unit,
+                              unit_of_element(components_[c], description, i),
                               components_[c].values()[description.first + i], !computed);
         port.doc = description.doc;
         port.minimum = description.minimum;

@@ -17,7 +17,7 @@ using language::Object;
 /// A column that sets a Param, which has its name.
 struct SettingColumn {
   std::size_t column = 0;
-  ColumnTitle title;
+  text::Column title;
 };
 
 /// An Only block: what a row's field must be.
@@ -41,8 +41,8 @@ struct AdmittedColumn {
 /// A Cases block and its table.
 class CaseReader {
  public:
-  CaseReader(const Object& object, const std::filesystem::path& file, const text::Table& table,
-             Diagnostics& diagnostics)
+  CaseReader(const Object& object, const std::filesystem::path& file,
+             const text::ForeignTable& table, Diagnostics& diagnostics)
       : object_(object),
         block_(cases_block(object)),
         file_(file),
@@ -78,8 +78,8 @@ class CaseReader {
 
  private:
   void find_settings(const std::vector<std::string>& parameters) {
-    for (std::size_t i = 0; i < table_.header.size(); ++i) {
-      const ColumnTitle title = parts_of(table_.header[i]);
+    for (std::size_t i = 0; i < table_.columns.size(); ++i) {
+      const text::Column& title = table_.columns[i];
       if (std::ranges::find(parameters, title.name) != parameters.end())
         settings_.push_back({i, title});
     }
@@ -105,7 +105,7 @@ class CaseReader {
     for (const Object* only : object_.children_of("Only")) {
       const auto column = column_of(table_, only->name, file_, only->position, diagnostics_);
       if (!column) return false;
-      const std::string unit = parts_of(table_.header[*column]).unit;
+      const std::string unit = table_.columns[*column].unit;
       const language::Unit written = language::parse_unit(unit).value_or(language::Unit{});
       admitted_.push_back({*column, written.numerator / written.denominator, only_block(*only)});
     }
@@ -123,7 +123,7 @@ class CaseReader {
   const Object& object_;
   const CasesBlock block_;
   const std::filesystem::path& file_;
-  const text::Table& table_;
+  const text::ForeignTable& table_;
   Diagnostics& diagnostics_;
   std::vector<SettingColumn> settings_;
   std::vector<AdmittedColumn> admitted_;
@@ -134,9 +134,9 @@ class CaseReader {
 std::optional<CaseTable> read_cases(const Object& block, const std::filesystem::path& file,
                                     const std::vector<std::string>& parameters,
                                     Diagnostics& diagnostics) {
-  const auto table = read_table(file, cases_block(block).file.position(), diagnostics);
-  if (!table) return std::nullopt;
-  return CaseReader(block, file, *table, diagnostics).read(parameters);
+  const auto tables = read_tables(file, cases_block(block).file.position(), diagnostics);
+  if (!tables) return std::nullopt;
+  return CaseReader(block, file, tables->front(), diagnostics).read(parameters);
 }
 
 }  // namespace hookpoint::studies

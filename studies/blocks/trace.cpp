@@ -21,13 +21,20 @@ Fields<TraceBlock> trace_fields(bool weighted) {
                              "orientation 1 / (1 deg); a Calibrate needs it");
   return {
       required(text_field("file", &TraceBlock::file,
-                          "the table, comma-separated, with titles like `z [m]`")),
+                          "the table: text of columns, with titles like `z [m]`")),
       required(
           words_field("column", 4, &TraceBlock::column,
                       "title of what was measured, \"z [m]\"; the three of a vector, or the four, "
                       "w, x, y, z, of an orientation")),
-      text_field("time", &TraceBlock::time,
-                 "title of the column of times; default: the first column"),
+      text_field(
+          "time", &TraceBlock::time,
+          "title, name or number of the column of times; default: the first, unless it counts "
+          "frames"),
+      text_field("time_unit", &TraceBlock::time_unit,
+                 "of the times, \"ms\"; default: as the table says"),
+      text_field("unit", &TraceBlock::unit, "of the columns, \"mm\"; default: as the table says"),
+      positive(number_field("sample_rate", "Hz", &TraceBlock::sample_rate,
+                            "rows are this often, for tables without times")),
       required(words_field("of", 1, &TraceBlock::of,
                            "trail of the port that was measured; of a vector or an orientation "
                            "without its parts")),
@@ -85,7 +92,11 @@ std::optional<std::map<std::string, TracePlan>> TraceReader::read(
                        block.column.position(),
                        block.time.position_or(block.file.position())};
   const bool fitted = !object.children_of("Vary").empty();
-  if (block.offset && !fitted) request.offset = *block.offset;
+  // A clock that is fitted reads what it reads.
+  if (block.offset || fitted) request.offset = fitted ? 0. : *block.offset;
+  request.unit = block.unit ? *block.unit : "";
+  request.time_unit = block.time_unit ? *block.time_unit : "";
+  request.sample_rate = block.sample_rate ? *block.sample_rate : 0.;
   request.may_be_early = fitted;
   auto measured = read_traces(request, source_.diagnostics);
   if (!measured || !units_agree(block, measured->begin()->second.unit, trace)) return std::nullopt;

@@ -20,8 +20,8 @@ namespace hookpoint::studies {
 struct TraceBlock {
   language::Placed<std::string> file;
   language::Placed<std::vector<std::string>> column;
-  language::Placed<std::string> time, of;
-  language::Placed<double> offset, weight;
+  language::Placed<std::string> time, time_unit, unit, of;
+  language::Placed<double> sample_rate, offset, weight;
   bool may_be_empty = false;
 };
 

@@ -44,28 +44,35 @@ std::filesystem::path written(const std::string& bytes, const char* name) {
   return file;
 }
 
-void require_series(const control::Series& series) {
-  fuzz::require(!series.time.empty() && series.time.size() == series.value.size(),
-                "a series of two lengths");
-  for (std::size_t i = 0; i < series.time.size(); ++i) {
-    fuzz::require(std::isfinite(series.time[i]) && std::isfinite(series.value[i]),
-                  "a series that is not finite");
-    fuzz::require(i == 0 || series.time[i] > series.time[i - 1], "time that does not increase");
+void require_series(const control::Table& table) {
+  fuzz::require(!table.time.empty() && !table.columns.empty(), "a table without numbers");
+  for (std::size_t i = 0; i < table.time.size(); ++i) {
+    fuzz::require(std::isfinite(table.time[i]), "a time that is not finite");
+    fuzz::require(i == 0 || table.time[i] > table.time[i - 1], "time that does not increase");
+  }
+  for (const std::vector<double>& column : table.columns) {
+    fuzz::require(column.size() == table.time.size(), "a series of two lengths");
+    for (const double value : column)
+      fuzz::require(std::isfinite(value), "a series that is not finite");
   }
 }
 
 void read_csv(const std::string& bytes) {
-  const control::Table table = control::read_csv_table(written(bytes, "table.csv"));
-  for (const std::string& name : table.names) {
-    const std::vector<double>& first =
-        table.columns[static_cast<std::size_t>(&name - table.names.data())];
-    require_series({table.time, first});
+  const std::filesystem::path file = written(bytes, "table.csv");
+  text::SeriesRequest request;
+  request.gaps = text::Gaps::interpolate;
+  try {
+    require_series(control::read_csv_table(file, request));
+  } catch (const std::runtime_error&) {
+    request.sample_rate = 100.;
+    require_series(control::read_csv_table(file, request));
   }
 }
 
 void read_mat(const std::string& bytes) {
-  const std::filesystem::path file = written(bytes, "series.mat");
-  require_series(control::read_mat_series(file, "force"));
+  text::SeriesRequest request;
+  request.columns = {"force"};
+  require_series(control::read_mat_table(written(bytes, "series.mat"), request));
 }
 
 void read_grid(const std::string& bytes) {

@@ -77,7 +77,7 @@ TEST(CalibrateCommand, AConstantThatChangesNoTraceIsAFault) {
 
 TEST(CalibrateCommand, RefusesABadTraceWithItsPlace) {
   const Workplace place;
-  place.file("drop.csv", "time [s],z [m]\n0,1\n0,2\n");
+  place.file("drop.csv", "time [s],z [m]\n1,1\n0,2\n");
   place.file("bad.hook", R"(Calibrate floor {
   scene = "scenes/dropped_box.hook";
   Trace drop { file = "drop.csv"; column = "z [m]"; of = world.box.base.location.z; weight = 1 / (1 mm); }

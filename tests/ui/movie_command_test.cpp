@@ -318,12 +318,13 @@ TEST_F(MovieCommand, AKilledMatlabRecordIsRecovered) {
   kill_when_larger("run/fall.mat.spool", 60'000);
   const std::string said = fine("recover run/fall.mat.spool").out;
   EXPECT_FALSE(std::filesystem::exists(place.folder() / "run/fall.mat.spool"));
-  const control::Series series =
-      control::read_mat_series(place.folder() / "run/fall.mat", "w_block_base_location_x.data");
+  text::SeriesRequest request;
+  request.columns = {"w_block_base_location_x.data"};
+  const control::Table series = control::read_mat_table(place.folder() / "run/fall.mat", request);
   EXPECT_EQ(said, "run/fall.mat: " + std::to_string(series.time.size()) + " rows\n");
   EXPECT_GT(series.time.size(), 1000U);
   fine("run scene.hook --out whole --record block.base.location.x");
-  EXPECT_EQ(series.value[900], std::stod(row("whole/trace.csv", "0.9")));
+  EXPECT_EQ(series.columns[0][900], std::stod(row("whole/trace.csv", "0.9")));
 
   expect_refused("recover scene.hook", "it is no spool of a record");
   expect_refused("recover nowhere.spool", "cannot recover nowhere.spool");

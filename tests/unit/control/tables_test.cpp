@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "control/data/table.h"
 #include "output/records/recorder.h"
 #include "tests/support/component_bench.h"
 
@@ -86,24 +87,65 @@ TEST(Data, SaysWhatIsWrongWithAFileAndWhere) {
     const std::string text = data_error(file.path());
     return text.rfind(file.path(), 0) == 0 ? text.substr(file.path().size()) : text;
   };
-  EXPECT_EQ(error("time,force\n0,1\n1,x\n"), ":3: 'x' in column 'force' is not a finite number");
-  EXPECT_EQ(error("time,force\n0,1\n1,\n"), ":3: '' in column 'force' is not a finite number");
+  EXPECT_EQ(error("time,force\n0,1\n1,x\n"),
+            ":3: `x` in the column `force` is not a finite number");
+  EXPECT_EQ(error("time,force\n0,1\n1,\n"),
+            ":3: `` in the column `force` is not a finite number but a missing value: `gaps = "
+            "interpolate` or `gaps = hold` says what stands for it");
   EXPECT_EQ(error("time,force\n0,1\n1,inf\n"),
-            ":3: 'inf' in column 'force' is not a finite number");
-  EXPECT_EQ(error("time,force\n0,1\n\n0,2\n"), ":4: time 0 is not after that of the row before");
+            ":3: `inf` in the column `force` is not a finite number");
+  EXPECT_EQ(error("time,force\n1,1\n\n0,2\n"),
+            ":4: its time, 0 s, is not after that of the row before: times rise");
   EXPECT_EQ(error("time,force\n0,1,2\n"),
             ":2: expected 2 fields, found 3, separated by commas; where commas stand in numbers, "
             "separate the fields by semicolons");
-  EXPECT_EQ(error("0,1\n1,2\n"), ":1: expected a row of column names before the numbers");
+  EXPECT_EQ(
+      error("0,1\n1,2\n"),
+      ": has no column `force`; the table has no titles: its 2 columns have the numbers from 1 "
+      "on");
   EXPECT_EQ(error("time\n0\n"),
-            ":1: expected a time column and at least one more, separated by commas");
+            ": has no column `force`; its one column is `time`: fields are separated by commas, "
+            "semicolons, tabs or blanks");
   EXPECT_EQ(error("time,force\n"), ": holds no row of numbers");
   EXPECT_EQ(error(""), ": holds no row of numbers");
-  EXPECT_EQ(error("time [s],forc [N],b\n0,1,2\n"), ": no column 'force'; there are 'forc', 'b'");
+  EXPECT_EQ(
+      error("time [s],forc [N],b\n0,1,2\n"),
+      ": has no column `force`; its columns are `time [s]`, `forc [N]`, `b`, separated by commas");
   EXPECT_EQ(data_error("nowhere.csv"), "nowhere.csv: cannot be read");
   EXPECT_EQ(data_error("nowhere.mat"), "nowhere.mat: cannot be read as a MAT file");
   EXPECT_EQ(data_error(""), "file is not given");
   EXPECT_EQ(data_error("x.csv", ""), "column is not given");
+}
+
+TEST(Data, ObeysTheUnitsOfItsTableAndItsFields) {
+  const TemporaryFile file("units.csv",
+                           "clock [ms],F [kN],knee [deg]\n5000,1,90\n5100,,180\n5200,3,0\n");
+  ComponentBench data("Data", 0.05);
+  data.text("file", file.path());
+  data.text("column", "F");
+  data.text("gaps", "interpolate");
+  data["offset"] = 5.;
+  data["start"] = 0.1;
+  data.start();
+  const double expected[] = {1000., 1000., 1000., 1500., 2000., 2500., 3000., 3000.};
+  for (const double value : expected) {
+    data.tick();
+    EXPECT_NEAR(data["output"], value, 1e-9);
+  }
+  const auto& report = dynamic_cast<control::ReadsTable&>(data.component()).report();
+  ASSERT_EQ(report.units.size(), 1U);
+  EXPECT_EQ(report.units[0].written, "kN");
+  EXPECT_NEAR(report.last, 0.3, 1e-12);
+
+  ComponentBench goals("Controller.Trajectory", 0.1);
+  goals.text("file", file.path());
+  goals.text("columns", "knee");
+  goals.text("interpolate", "linear");
+  goals["offset"] = 5.;
+  goals.start();
+  goals.tick(2);
+  EXPECT_NEAR(goals["goal[0]"], std::numbers::pi, 1e-12);
+  EXPECT_NEAR(goals["goal_rate[0]"], -10. * std::numbers::pi, 1e-12);
 }
 
 /// The bytes of numbers as they are in memory (little-endian, as the header says).
@@ -178,7 +220,8 @@ TEST(Data, SaysWhatIsWrongWithAMatFile) {
   EXPECT_EQ(error(time, "time.force"), ": no variable 'time.force'; there are 'time'");
   EXPECT_EQ(error(mat_vector("force", {1., 2.})), ": no variable 'time'; there are 'force'");
   EXPECT_EQ(error(time + mat_vector("force", {1., 2., 3.})), ": 'force' has 3 elements, 'time' 2");
-  EXPECT_EQ(error(time + mat_vector("force", {1., NAN})), ": element 2 of 'force' is not finite");
+  EXPECT_EQ(error(time + mat_vector("force", {1., NAN})),
+            ": element 2 of 'force' is not finite: `gaps = interpolate` says what stands for it");
   EXPECT_EQ(error(mat_vector("time", {1., 1.}) + mat_vector("force", {1., 2.})),
             ": 'time': element 2 is not after the one before");
   const TemporaryFile text("text.mat", "this is no such file");
@@ -293,7 +336,8 @@ TEST(Trajectory, RefusesWhatItCannotFollow) {
   for (int i = 0; i < 25; ++i) wide += ",q", row += ",0";
   const TemporaryFile many("many.csv", wide + "\n" + row + "\n");
   bench.text("file", many.path());
-  EXPECT_EQ(testing::start_error(bench), many.path() + ": 25 goals, at most 24 are possible");
+  EXPECT_EQ(testing::start_error(bench),
+            many.path() + ": 25 goals, at most 24 are possible: `columns` says which");
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "language/document/document.h"
 #include "simulation/analysis/stability.h"
 #include "simulation/analysis/step_warning.h"
+#include "tests/support/component_bench.h"
 #include "tests/support/folders.h"
 #include "tests/support/load_text.h"
 
@@ -45,6 +46,22 @@ TEST(Warnings, TellOfALawWhoseOwnConstantsNoMaterialStates) {
   EXPECT_NE(load_text(world("contact = impulse; Terrain.Flat f { } "))
                 .diagnostics.find("the ground has no Material"),
             std::string::npos);
+}
+
+TEST(Warnings, TellOfATableThatLiesOutsideOfTheRun) {
+  const testing::TemporaryFile file("late.csv", "time [s],F [N]\n100,1\n101,2\n");
+  const auto said = [&](const std::string& fields) {
+    const Loaded loaded = load_text(
+        "World w { duration = 1 s; Robot b { Base.mobile { mass = 1; inertia = 1, 1, 1, 0, "
+        "0, 0; } } Force p { body = b.base; } Data d { file = \"" +
+        file.path() + "\"; column = \"F\"; " + fields + " Wire TO p.force.z; } }");
+    EXPECT_TRUE(loaded.experiment) << loaded.diagnostics;
+    return loaded.diagnostics;
+  };
+  EXPECT_NE(said("").find("the table's times, 100 s to 101 s, lie outside of the run, 0 s to 1 s"),
+            std::string::npos);
+  EXPECT_EQ(said("offset = 100 s;"), "");
+  EXPECT_EQ(said("start = -99.5 s;"), "");
 }
 
 constexpr const char* overlapping = "overlap or touch";

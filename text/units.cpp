@@ -1,4 +1,4 @@
-#include "language/units.h"
+#include "text/units.h"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 #include <charconv>
 #include <numbers>
 
-namespace hookpoint::language {
+namespace hookpoint::text {
 namespace {
 
 struct NamedUnit {
@@ -21,22 +21,39 @@ constexpr Dimension watts{1, 2, -3, 0}, pressure{1, -1, -2, 0}, angular_rate{0, 
 constexpr double pi = std::numbers::pi;
 
 constexpr std::array units{
-    NamedUnit{"kg", {1., 1., mass}},        NamedUnit{"g", {1., 1e3, mass}},
-    NamedUnit{"mg", {1., 1e6, mass}},       NamedUnit{"m", {1., 1., length}},
-    NamedUnit{"km", {1e3, 1., length}},     NamedUnit{"cm", {1., 1e2, length}},
-    NamedUnit{"mm", {1., 1e3, length}},     NamedUnit{"um", {1., 1e6, length}},
-    NamedUnit{"s", {1., 1., time}},         NamedUnit{"ms", {1., 1e3, time}},
-    NamedUnit{"us", {1., 1e6, time}},       NamedUnit{"min", {60., 1., time}},
-    NamedUnit{"h", {3600., 1., time}},      NamedUnit{"Hz", {1., 1., frequency}},
-    NamedUnit{"kHz", {1e3, 1., frequency}}, NamedUnit{"N", {1., 1., force}},
-    NamedUnit{"mN", {1., 1e3, force}},      NamedUnit{"kN", {1e3, 1., force}},
-    NamedUnit{"MN", {1e6, 1., force}},      NamedUnit{"J", {1., 1., energy}},
-    NamedUnit{"mJ", {1., 1e3, energy}},     NamedUnit{"kJ", {1e3, 1., energy}},
-    NamedUnit{"W", {1., 1., watts}},        NamedUnit{"kW", {1e3, 1., watts}},
-    NamedUnit{"Pa", {1., 1., pressure}},    NamedUnit{"kPa", {1e3, 1., pressure}},
-    NamedUnit{"MPa", {1e6, 1., pressure}},  NamedUnit{"GPa", {1e9, 1., pressure}},
-    NamedUnit{"rad", {1., 1., angle}},      NamedUnit{"mrad", {1., 1e3, angle}},
-    NamedUnit{"deg", {pi, 180., angle}},    NamedUnit{"rpm", {pi, 30., angular_rate}},
+    NamedUnit{"kg", {1., 1., mass}},
+    NamedUnit{"g", {1., 1e3, mass}},
+    NamedUnit{"mg", {1., 1e6, mass}},
+    NamedUnit{"m", {1., 1., length}},
+    NamedUnit{"km", {1e3, 1., length}},
+    NamedUnit{"cm", {1., 1e2, length}},
+    NamedUnit{"mm", {1., 1e3, length}},
+    NamedUnit{"um", {1., 1e6, length}},
+    NamedUnit{"s", {1., 1., time}},
+    NamedUnit{"ms", {1., 1e3, time}},
+    NamedUnit{"us", {1., 1e6, time}},
+    NamedUnit{"ns", {1., 1e9, time}},
+    NamedUnit{"min", {60., 1., time}},
+    NamedUnit{"h", {3600., 1., time}},
+    NamedUnit{"Hz", {1., 1., frequency}},
+    NamedUnit{"kHz", {1e3, 1., frequency}},
+    NamedUnit{"N", {1., 1., force}},
+    NamedUnit{"mN", {1., 1e3, force}},
+    NamedUnit{"kN", {1e3, 1., force}},
+    NamedUnit{"MN", {1e6, 1., force}},
+    NamedUnit{"J", {1., 1., energy}},
+    NamedUnit{"mJ", {1., 1e3, energy}},
+    NamedUnit{"kJ", {1e3, 1., energy}},
+    NamedUnit{"W", {1., 1., watts}},
+    NamedUnit{"kW", {1e3, 1., watts}},
+    NamedUnit{"Pa", {1., 1., pressure}},
+    NamedUnit{"kPa", {1e3, 1., pressure}},
+    NamedUnit{"MPa", {1e6, 1., pressure}},
+    NamedUnit{"GPa", {1e9, 1., pressure}},
+    NamedUnit{"rad", {1., 1., angle}},
+    NamedUnit{"mrad", {1., 1e3, angle}},
+    NamedUnit{"deg", {pi, 180., angle}},
+    NamedUnit{"rpm", {pi, 30., angular_rate}},
     NamedUnit{"%", {1., 1e2, one}},
 };
 
@@ -189,4 +206,4 @@ Dimension power(const Dimension& dimension, int exponent) {
           dimension.angle * exponent};
 }
 
-}  // namespace hookpoint::language
+}  // namespace hookpoint::text
