@@ -4,8 +4,11 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <utility>
 
+#include "text/formats.h"
 #include "text/letters.h"
 #include "text/units.h"
 
@@ -94,11 +97,25 @@ std::vector<std::string_view> lines_of(std::string_view text) {
   return lines;
 }
 
-/// A rate that a line states: the first number above 0 behind the word rate, frequency or Hz [Hz].
+bool is_letter_of_word(char c) { return c >= 'a' && c <= 'z'; }
+
+/// Where the key stands as a word: "rate" in "Sampling rate" and "SampleRate", not in "generated".
+std::size_t place_of_key(const std::string& words, std::string_view key) {
+  const std::size_t at = words.find(key), end = at + key.size();
+  if (at == std::string::npos) return at;
+  const std::string_view before = std::string_view(words).substr(0, at);
+  bool begins = at == 0 || !is_letter_of_word(before.back());
+  for (const std::string_view word : {"sample", "sampling", "frame", "data", "scan"})
+    begins = begins || before.ends_with(word);
+  const bool ends = end == words.size() || !is_letter_of_word(words[end]);
+  return begins && ends ? at : std::string::npos;
+}
+
+/// A rate that a line states: the number above 0 behind the word rate or frequency [Hz]; else 0.
 double rate_in(std::string_view line) {
   const std::string words = lower_case(line);
   for (const std::string_view key : {"rate", "frequency"}) {
-    const std::size_t at = words.find(key);
+    const std::size_t at = place_of_key(words, key);
     if (at == std::string::npos) continue;
     const std::size_t begin = words.find_first_of("0123456789", at);
     if (begin == std::string::npos) continue;
@@ -171,23 +188,25 @@ std::optional<Preamble> qualisys(const std::vector<std::string_view>& lines) {
   return preamble;
 }
 
+/// A line without the empty fields at its end.
+std::string_view without_empty_fields(std::string_view line) {
+  line = trimmed(line);
+  return line.substr(0, line.find_last_not_of(",\t;") + 1);
+}
+
 /// The words with which Vicon Nexus begins a section; a line with its rate follows.
 bool begins_section(const std::vector<std::string_view>& lines, std::size_t at) {
   constexpr std::array words{"Trajectories",  "Devices",  "Joints",
                              "Model Outputs", "Segments", "Events"};
   if (at + 1 >= lines.size()) return false;
-  const auto bare = [&](std::size_t line) {
-    const std::string_view text = trimmed(lines[line]);
-    return text.substr(0, text.find_last_not_of(",\t;") + 1);
-  };
-  return std::ranges::find(words, bare(at)) != words.end() && number_in(bare(at + 1)).has_value();
+  return std::ranges::find(words, without_empty_fields(lines[at])) != words.end() &&
+         number_in(without_empty_fields(lines[at + 1])).has_value();
 }
 
 std::optional<Preamble> vicon(const std::vector<std::string_view>& lines) {
   if (!begins_section(lines, 0)) return std::nullopt;
   Preamble preamble{"Vicon Nexus", "s", "", 2, 0., false, {}};
-  const std::string_view rate = trimmed(lines[1]);
-  preamble.sample_rate = number_in(rate.substr(0, rate.find_last_not_of(",\t;") + 1)).value_or(0.);
+  preamble.sample_rate = number_in(without_empty_fields(lines[1])).value_or(0.);
   return preamble;
 }
 
@@ -215,6 +234,8 @@ std::size_t used(const Record& record) {
   while (count > 0 && record.fields[count - 1].empty()) --count;
   return count;
 }
+
+bool is_clock(const Column& column) { return counts_rows(column) || is_called_time(column); }
 
 /// Finds the table among the records of a section.
 class Layout {
@@ -419,10 +440,9 @@ class Layout {
       return {name, name, bare_unit(unit), group};
     }
     const ColumnTitle parts = parts_of(title);
-    const std::string name = lower_case(parts.name);
-    const bool counts = name == "time" || name.starts_with("frame") || name == "sub frame";
-    return {title, parts.name, parts.unit.empty() ? bare_unit(unit) : parts.unit,
-            counts ? "" : group};
+    Column column{title, parts.name, parts.unit.empty() ? bare_unit(unit) : parts.unit, group};
+    if (is_clock(column)) column.group.clear();
+    return column;
   }
 
   Records records_;
@@ -467,6 +487,7 @@ class Section {
     bool found = false;
     for (const char separator : {';', '\t', ',', ' '}) {
       if (stated_separator_ != 0 && separator != stated_separator_) continue;
+      if (separator != ' ' && body_.find(separator) == std::string::npos) continue;
       // Where commas make a table but for a row of it, blanks are not what separates.
       if (found && separator == ' ') break;
       auto records = read_records(body_, {separator, true}, fault);
@@ -515,9 +536,6 @@ class Section {
       table.format = "a table of ROS";
       table.time_unit = "ns";
     }
-    const auto is_clock = [](const Column& column) {
-      return lower_case(column.name).starts_with("frame") || lower_case(column.name) == "time";
-    };
     for (Column& column : table.columns)
       if (column.unit.empty() && !is_clock(column)) column.unit = preamble_.unit;
     return table;
@@ -545,6 +563,15 @@ class Section {
   std::string body_;
   char stated_separator_ = 0;
 };
+
+/// "time_ms" -> "time" and "ms"; an empty unit where the name ends in no unit of time.
+ColumnTitle parts_of_clock(const std::string& name) {
+  for (const std::string_view unit : {"s", "ms", "us", "ns"})
+    if (name.size() > unit.size() && name.ends_with(unit) &&
+        name[name.size() - unit.size() - 1] == '_')
+      return {name.substr(0, name.size() - unit.size() - 1), std::string(unit)};
+  return {name, ""};
+}
 
 /// "kNm" is kN.m, "N-m" N.m: what programs write for the product of a force and a length.
 void replace_torque(std::string& unit, std::string_view written) {
@@ -642,6 +669,43 @@ std::string usual_unit(std::string_view given) {
     at = end + 1;
   }
   return parse_unit(result) ? result : unit;
+}
+
+bool counts_rows(const Column& column) {
+  constexpr std::array names{"",       "frame",  "frame#",    "frames",    "frame number",
+                             "index",  "sample", "samples",   "sub frame", "subframe",
+                             "number", "no",     "no.",       "nr",        "#",
+                             "row",    "item",   "unnamed: 0"};
+  return std::ranges::find(names, lower_case(column.name)) != names.end();
+}
+
+bool is_called_time(const Column& column) {
+  constexpr std::array names{"time", "t",     "%time", "__time",       "timestamp",
+                             "zeit", "temps", "clock", "elapsed time", "time stamp"};
+  const std::string name = parts_of_clock(lower_case(column.name)).name;
+  return std::ranges::find(names, name) != names.end();
+}
+
+std::string unit_in_name(const std::string& name) { return parts_of_clock(name).unit; }
+
+std::optional<std::string> text_of_table(const std::filesystem::path& file, std::string& problem) {
+  problem = refusal(file, Use::series);
+  if (!problem.empty()) return std::nullopt;
+  std::ifstream stream(file, std::ios::binary);
+  std::string text(std::istreambuf_iterator<char>(stream), {});
+  if (!stream.is_open() || stream.bad()) {
+    problem = "cannot be read";
+    return std::nullopt;
+  }
+  constexpr std::size_t most = 1024;
+  const bool wide = text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF");
+  const bool readable = wide || std::ranges::all_of(text.substr(0, most), [](char c) {
+                          const bool blank = c == '\t' || c == '\r' || c == '\n';
+                          return blank || static_cast<unsigned char>(c) >= ' ';
+                        });
+  if (readable) return text;
+  problem = "this is not a text file";
+  return std::nullopt;
 }
 
 std::optional<double> number_in(std::string_view field) {

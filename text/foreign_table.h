@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -53,6 +54,17 @@ struct ColumnTitle {
   std::string name, unit;
 };
 ColumnTitle parts_of(const std::string& title);
+
+/// Whether a column counts rows or frames: its name is "Frame", "Sub Frame", "index", "" ...
+bool counts_rows(const Column& column);
+/// Whether a column is called a time: "Time", "t", "timestamp", "time_ms" ...
+bool is_called_time(const Column& column);
+/// The unit with which the name of a column of times ends, "ms" of "time_ms"; "" without one.
+std::string unit_in_name(const std::string& name);
+
+/// The text of a file that may hold tables; nothing with the problem: it cannot be read, is of
+/// another format, or is no text.
+std::optional<std::string> text_of_table(const std::filesystem::path& file, std::string& problem);
 
 /// A unit as programs write it, as units.h has it: "Seconds" is s, "Nm" N.m, "m/s²" m/s^2, "°" deg.
 /// What is none comes back as it is.

@@ -277,7 +277,8 @@ std::string_view read_there(Use use) {
       return "heights are read from an ESRI ASCII grid, a matrix of numbers as text, or a "
              "grayscale PNG";
     case Use::series:
-      return "series are read from CSV and from MAT files (.mat)";
+      return "series are read from tables as text (.csv, .tsv, .txt, .mot, .sto, .trc) and from MAT "
+             "files (.mat)";
   }
   return "";
 }

@@ -14,39 +14,11 @@ namespace hookpoint::text {
 namespace {
 
 constexpr Dimension time_dimension{0, 0, 1, 0};
-/// A clock that reads more at the first row counts from a date, not from the begin of a measurement
-/// [s]: it is 1973.
-constexpr double least_epoch = 1e8;
 /// No count of seconds is as large (the year 5138) [s].
 constexpr double most_seconds = 1e11;
 
-bool counts_rows(const Column& column) {
-  constexpr std::array names{"",       "frame",  "frame#",    "frames",    "frame number",
-                             "index",  "sample", "samples",   "sub frame", "subframe",
-                             "number", "no",     "no.",       "nr",        "#",
-                             "row",    "item",   "unnamed: 0"};
-  return std::ranges::find(names, lower_case(column.name)) != names.end();
-}
-
 bool is_sub_frame(const Column& column) {
   return lower_case(column.name) == "sub frame" || lower_case(column.name) == "subframe";
-}
-
-bool is_called_time(const Column& column) {
-  constexpr std::array names{"time", "t",     "%time", "__time",       "timestamp",
-                             "zeit", "temps", "clock", "elapsed time", "time stamp"};
-  const std::string name = lower_case(column.name);
-  return std::ranges::find(names, name) != names.end() || name.starts_with("time_") ||
-         name.starts_with("t_");
-}
-
-/// "time_ms" -> "ms"; "" where the name of a column of times ends in no unit of time.
-std::string unit_in_name(const std::string& name) {
-  for (const std::string_view unit : {"s", "ms", "us", "ns"})
-    if (name.size() > unit.size() && name.ends_with(unit) &&
-        name[name.size() - unit.size() - 1] == '_')
-      return std::string(unit);
-  return "";
 }
 
 /// Of OpenSim's columns those that are no angles, by the names that it gives them.
@@ -97,8 +69,7 @@ class SeriesReader {
     for (auto& [name, samples] : result_.cases)
       if (!fill(samples)) return std::nullopt;
     if (frames_) note("rows are taken as " + shortest(rate_) + " a second, the first at 0 s");
-    if (dated_)
-      note("its clock counts from a date: the first row is taken as 0 s; `offset` says otherwise");
+    if (dated_) note(dated_clock_notice);
     if (repeated_ > 0)
       note(std::to_string(repeated_) + (repeated_ == 1 ? " row has" : " rows have") +
            " the time of the row before, the first in line " + std::to_string(repeated_line_) +
@@ -112,9 +83,13 @@ class SeriesReader {
     fault_ = {about, line, std::move(text), "", ""};
     return std::nullopt;
   }
-  bool fails(std::size_t line, std::string text,
-             SeriesFault::About about = SeriesFault::About::file) {
-    fail(line, std::move(text), about);
+  /// Of all of the file.
+  bool fails(std::string text, SeriesFault::About about = SeriesFault::About::file) {
+    fail(0, std::move(text), about);
+    return false;
+  }
+  bool wrong(std::size_t row, std::string text) {
+    fail(table_.lines[row], std::move(text));
     return false;
   }
   void note(std::string text) { result_.notices.push_back(std::move(text)); }
@@ -123,6 +98,9 @@ class SeriesReader {
     const std::vector<Column>& columns = table_.columns;
     rate_ = request_.sample_rate;
     if (!request_.time.empty()) {
+      if (rate_ > 0.)
+        return fails("rows are by `time` or by `sample_rate`, not by both",
+                     SeriesFault::About::time);
       time_ = find_column(table_, request_.time, fault_);
       if (!time_) fault_.about = SeriesFault::About::time;
       return time_ && find_time_unit();
@@ -142,11 +120,11 @@ class SeriesReader {
       frames_ = true;
       if (rate_ == 0.) rate_ = table_.sample_rate;
       if (rate_ > 0.) return true;
-      return fails(0,
-                   "its rows are counted, not timed: `sample_rate = 100 Hz` says how often they "
-                   "are; " +
-                       words_of_columns(table_),
-                   SeriesFault::About::time);
+      return fails(
+          "its rows are counted, not timed: `sample_rate = 100 Hz` says how often they "
+          "are; " +
+              words_of_columns(table_),
+          SeriesFault::About::time);
     }
     return find_time_unit();
   }
@@ -159,8 +137,7 @@ class SeriesReader {
     if (unit.empty()) unit = table_.time_unit;
     time_unit_is_stated_ = !unit.empty();
     if (unit.empty() && request_.unit_of_time_needed)
-      return fails(0,
-                   "the column `" + column.title +
+      return fails("the column `" + shown(column.title) +
                        "` is no time: its title says the unit, as `time [s]` does, or "
                        "`time_unit = ms` says it",
                    SeriesFault::About::time);
@@ -170,10 +147,9 @@ class SeriesReader {
       return true;
     }
     if (!parsed)
-      return fails(0, "`" + unit + "` of the column `" + column.name + "` is no unit",
+      return fails("`" + shown(unit) + "` of the column `" + shown(column.name) + "` is no unit",
                    SeriesFault::About::time);
-    return fails(0,
-                 "the column `" + column.title +
+    return fails("the column `" + shown(column.title) +
                      "` is no time: its title says the unit, as "
                      "`time [s]` does; `time` names the column of the times",
                  SeriesFault::About::time);
@@ -196,7 +172,7 @@ class SeriesReader {
       if (i != time_ && !(frames_ && (i == frame_ || i == sub_frame_)) && !add_column(i))
         return false;
     return !values_.empty() ||
-           fails(0, "expected a column beside the times; " + words_of_columns(table_), About::file);
+           fails("expected a column beside the times; " + words_of_columns(table_), About::file);
   }
 
   bool add_column(std::size_t index) {
@@ -205,12 +181,11 @@ class SeriesReader {
     if (unit.empty() && table_.in_degrees && !is_linear(column.name)) unit = "deg";
     const auto parsed = parse_unit(usual_unit(unit));
     if (!parsed)
-      return fails(0,
-                   "`" + unit + "` of the column `" + column.name +
+      return fails("`" + shown(unit) + "` of the column `" + shown(column.name) +
                        "` is no unit: `unit = N` states the one that is meant",
                    SeriesFault::About::column);
     values_.push_back(index);
-    result_.columns.push_back({column.title, unit, *parsed, !unit.empty()});
+    result_.columns.push_back({column.title, unit, *parsed});
     return true;
   }
 
@@ -219,8 +194,8 @@ class SeriesReader {
     if (frames_) return frame_time(row);
     const auto stamp = stamp_in(fields[*time_]);
     if (!stamp)
-      return fail(table_.lines[row], "`" + fields[*time_] + "` in the column `" +
-                                         table_.columns[*time_].title +
+      return fail(table_.lines[row], "`" + shown(fields[*time_]) + "` in the column `" +
+                                         shown(table_.columns[*time_].title) +
                                          "` is not a finite number; rows without times of their "
                                          "own have a `sample_rate`");
     const auto in_seconds = [&](double value) {
@@ -230,12 +205,12 @@ class SeriesReader {
     if (!time_unit_is_stated_ && std::abs(first.number) >= most_seconds) {
       const double n = std::abs(first.number);
       const char* unit = n < 1e14 ? "ms" : n < 1e17 ? "us" : "ns";
-      return fail(table_.lines[row], "its time, " + fields[*time_] +
+      return fail(table_.lines[row], "its time, " + shown(fields[*time_]) +
                                          ", is no count of seconds: `time_unit = " + unit +
                                          "` says what it counts");
     }
     if (request_.offset) return in_seconds(stamp->number) - *request_.offset;
-    if (in_seconds(first.number) < least_epoch) return in_seconds(stamp->number);
+    if (!counts_from_date(in_seconds(first.number))) return in_seconds(stamp->number);
     dated_ = true;
     return in_seconds(difference(*stamp, first));
   }
@@ -250,8 +225,9 @@ class SeriesReader {
     };
     const auto frame = count(row, *frame_), first = count(0, *frame_);
     if (!frame || !first)
-      return fail(table_.lines[row], "`" + table_.rows[row][*frame_] + "` in the column `" +
-                                         table_.columns[*frame_].title + "` is not a number");
+      return fail(table_.lines[row], "`" + shown(table_.rows[row][*frame_]) + "` in the column `" +
+                                         shown(table_.columns[*frame_].title) +
+                                         "` is not a number");
     if (!sub_frame_) return (*frame - *first) / rate_ - offset;
     double most = 0.;
     for (std::size_t i = 0; sub_frames_ == 0. && i < table_.rows.size(); ++i)
@@ -270,10 +246,10 @@ class SeriesReader {
     samples.columns.resize(values_.size());
     const auto time = time_of(row, of_case);
     if (!time) return false;
-    if (!std::isfinite(*time)) return fails(table_.lines[row], "its time is not finite in seconds");
+    if (!std::isfinite(*time)) return wrong(row, "its time is not finite in seconds");
     if (!samples.time.empty() && *time < samples.time.back())
-      return fails(table_.lines[row], "its time, " + shortest(*time) +
-                                          " s, is not after that of the row before: times rise");
+      return wrong(row, "its time, " + shortest(*time) +
+                            " s, is not after that of the row before: times rise");
     if (!samples.time.empty() && *time == samples.time.back()) {
       if (repeated_++ == 0) repeated_line_ = table_.lines[row];
       samples.time.pop_back(), samples.lines.pop_back();
@@ -299,11 +275,11 @@ class SeriesReader {
       if (std::isfinite(value_in_si)) return value_in_si;
     }
     if (!is_gap(field))
-      return fail(table_.lines[row],
-                  "`" + field + "` in the column `" + title + "` is not a finite number");
+      return fail(table_.lines[row], "`" + shown(field) + "` in the column `" + shown(title) +
+                                         "` is not a finite number");
     if (request_.gaps != Gaps::error) return std::nan("");
     return fail(table_.lines[row],
-                "`" + field + "` in the column `" + title +
+                "`" + shown(field) + "` in the column `" + shown(title) +
                     "` is not a finite number but a missing value: `gaps = interpolate` or `gaps = "
                     "hold` says what stands for it");
   }
@@ -311,7 +287,7 @@ class SeriesReader {
   bool fill(Samples& samples) {
     for (std::size_t i = 0; i < samples.columns.size(); ++i)
       if (!fill_gaps(samples.time, samples.columns[i], request_.gaps))
-        return fails(0, "the column `" + result_.columns[i].title + "` holds no number",
+        return fails("the column `" + shown(result_.columns[i].title) + "` holds no number",
                      SeriesFault::About::column);
     return true;
   }
@@ -383,7 +359,7 @@ std::optional<std::size_t> find_column(const ForeignTable& table, std::string_vi
   }
   fault.line = 0;
   if (several) {
-    fault.problem = "has more than one column `" + std::string(wanted) + "`: say its ";
+    fault.problem = "has more than one column `" + shown(wanted) + "`: say its ";
     fault.problem += columns[*named].group.empty() ? "unit, too" : "group, too";
     fault.columns = words_of_columns(table);
     return std::nullopt;
@@ -393,7 +369,7 @@ std::optional<std::size_t> find_column(const ForeignTable& table, std::string_vi
   if (error == std::errc{} && end == wanted.data() + wanted.size() && number >= 1 &&
       number <= columns.size())
     return number - 1;
-  fault.problem = "has no column `" + std::string(wanted) + "`";
+  fault.problem = "has no column `" + shown(wanted) + "`";
   fault.wanted = wanted;
   fault.columns = words_of_columns(table);
   return std::nullopt;
@@ -436,8 +412,8 @@ std::string words_of_columns(const ForeignTable& table) {
   std::string words;
   for (std::size_t i = 0; i < std::min(most, table.columns.size()); ++i) {
     const Column& column = table.columns[i];
-    words +=
-        (i == 0 ? "`" : ", `") + (column.group.empty() ? column.title : column.full_name()) + "`";
+    words += (i == 0 ? "`" : ", `") +
+             shown(column.group.empty() ? column.title : column.full_name()) + "`";
   }
   if (table.columns.size() > most)
     words += ", " + std::to_string(table.columns.size() - most) + " more";

@@ -39,9 +39,8 @@ struct SeriesRequest {
 /// A column that was read.
 struct SeriesColumn {
   std::string title;
-  std::string unit;       ///< "kN"; "" of none
-  Unit scale;             ///< what the unit means
-  bool has_unit = false;  ///< whether the table or the request says one
+  std::string unit;  ///< that the table or the request says, "kN"; "" of none
+  Unit scale;        ///< what it means
 };
 
 /// The rows of one case, in order of time.
@@ -70,7 +69,8 @@ struct SeriesFault {
 };
 
 /// The index of the column that `wanted` is: its title, its name, its full name or the words of that
-/// which tell it from others, or, from 1, its number; nothing with the fault (none or several of that name).
+/// which tell it from others, or, from 1, its number; nothing with the fault (none or several of
+/// that name).
 std::optional<std::size_t> find_column(const ForeignTable& table, std::string_view wanted,
                                        SeriesFault& fault);
 
@@ -81,6 +81,12 @@ std::optional<std::size_t> find_column(const ForeignTable& table, std::string_vi
 /// time the last counts. Nothing with the fault.
 std::optional<SeriesTable> read_series(const std::vector<ForeignTable>& tables,
                                        const SeriesRequest& request, SeriesFault& fault);
+
+/// Whether a clock that reads so at its first row [s] counts from a date, not from the begin of a
+/// measurement: from 1e8 s on, which is 1973. Such a clock begins at that row, which the notice says.
+constexpr bool counts_from_date(double first) { return first >= 1e8; }
+inline constexpr const char* dated_clock_notice =
+    "its clock counts from a date: the first row is taken as 0 s; `offset` says otherwise";
 
 /// Gives each NaN of `values` a number: on the line between its neighbours, or the one before it;
 /// before the first number and after the last these hold. False where there is no number.

@@ -37,7 +37,7 @@ class Trajectory final : public Component, public ReadsTable {
     }
     for (std::size_t i = 0; i < read.units.size(); ++i) {
       const text::SeriesColumn& column = read.units[i];
-      if (!column.has_unit) continue;
+      if (column.unit.empty()) continue;
       const text::Dimension dimension = column.scale.dimension;
       report_.units.push_back({"goal", i, column.unit, dimension});
       report_.units.push_back(

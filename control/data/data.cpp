@@ -23,7 +23,7 @@ class Data final : public Component, public ReadsTable {
     Table read = table.read({column.value()}, report_);
     time_ = std::move(read.time);
     value_ = std::move(read.columns[0]);
-    if (read.units[0].has_unit)
+    if (!read.units[0].unit.empty())
       report_.units.push_back({"output", 0, read.units[0].unit, read.units[0].scale.dimension});
     linear_ = interpolate.value() == "linear";
   }

@@ -12,9 +12,34 @@
 
 #include "control/data/table.h"
 #include "text/formats.h"
+#include "text/letters.h"
 
 namespace hookpoint::control {
 namespace {
+
+/// "'a', 'b' and 7 more".
+std::string list_of_names(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 20;
+  std::string list;
+  for (std::size_t i = 0; i < std::min(names.size(), most); ++i)
+    list += (i == 0 ? "'" : ", '") + text::shown(names[i]) + "'";
+  if (names.size() > most) list += " and " + std::to_string(names.size() - most) + " more";
+  return list;
+}
+
+/// Throws unless `time` is finite and increases strictly; `where` begins the message, as "x.mat:
+/// 'time'".
+void check_increasing(const std::vector<double>& time, const std::string& where) {
+  for (std::size_t i = 0; i < time.size(); ++i) {
+    if (!std::isfinite(time[i])) {
+      throw std::runtime_error(where + ": element " + std::to_string(i + 1) + " is not finite");
+    }
+    if (i > 0 && time[i] <= time[i - 1]) {
+      throw std::runtime_error(where + ": element " + std::to_string(i + 1) +
+                               " is not after the one before");
+    }
+  }
+}
 
 struct CloseFile {
   void operator()(mat_t* file) const { Mat_Close(file); }
@@ -86,19 +111,26 @@ std::vector<double> read_vector(const matvar_t* variable, mat_t& file, const std
   return values;
 }
 
-/// A text of MATLAB's characters; "" for anything else.
+/// A text of MATLAB's characters, of one byte or two; "" for anything else.
 std::string text_of(const matvar_t* variable) {
   if (variable == nullptr || variable->class_type != MAT_C_CHAR || variable->data == nullptr)
     return "";
-  const auto* characters = static_cast<const char*>(variable->data);
-  const bool narrow = variable->data_size == 1;
-  return narrow ? std::string(characters, variable->nbytes) : "";
+  const auto letters = [&](const auto* data) {
+    std::string text;
+    for (std::size_t i = 0; i < variable->nbytes / sizeof *data; ++i)
+      text += data[i] < 0x80U ? static_cast<char>(data[i]) : '?';
+    return text;
+  };
+  if (variable->data_size == 2) return letters(static_cast<const std::uint16_t*>(variable->data));
+  if (variable->data_size != 1) return "";
+  const auto* bytes = static_cast<const char*>(variable->data);
+  return {bytes, variable->nbytes};
 }
 
 /// A unit by its name. Throws where it is none.
 text::Unit unit_named(const std::string& name, const std::string& where) {
   const auto unit = text::parse_unit(text::usual_unit(name));
-  if (!unit) throw std::runtime_error(where + ": `" + name + "` is no unit");
+  if (!unit) throw std::runtime_error(where + ": `" + text::shown(name) + "` is no unit");
   return *unit;
 }
 
@@ -113,7 +145,9 @@ Table table_of(const text::ColumnTitle& column, std::vector<double> time, std::v
   const text::Unit unit = unit_named(column.unit, path);
   scale(value, unit);
   scale(time, unit_named(request.time_unit.empty() ? "s" : request.time_unit, path));
-  for (double& moment : time) moment -= request.offset.value_or(0.);
+  const bool dated = !request.offset && !time.empty() && text::counts_from_date(time.front());
+  const double begin = dated ? time.front() : request.offset.value_or(0.);
+  for (double& moment : time) moment -= begin;
   check_increasing(time, where_time);
   for (std::size_t i = 0; i < value.size(); ++i) {
     const bool gap = std::isnan(value[i]) && request.gaps != text::Gaps::error;
@@ -125,10 +159,10 @@ Table table_of(const text::ColumnTitle& column, std::vector<double> time, std::v
   if (!text::fill_gaps(time, value, request.gaps))
     throw std::runtime_error(path + ": '" + column.name + "' holds no number");
   return {{column.name},
-          {{column.name, column.unit, unit, !column.unit.empty()}},
+          {{column.name, column.unit, unit}},
           std::move(time),
           {std::move(value)},
-          {}};
+          dated ? std::vector<std::string>{text::dated_clock_notice} : std::vector<std::string>{}};
 }
 
 /// Bytes of memory that a variable claims, structures with their fields.
@@ -228,19 +262,28 @@ Table read_mat_table(const std::filesystem::path& path, const text::SeriesReques
   const std::unique_ptr<mat_t, CloseFile> file(
       FirstLook(name).is_sound() ? Mat_Open(name.c_str(), MAT_ACC_RDONLY) : nullptr);
   if (!file) throw std::runtime_error(name + ": cannot be read as a MAT file");
+  const std::string moment = request.time.empty() ? "time" : request.time;
   const std::size_t dot = column.find('.');
   const Variable variable = read_variable(*file, name, column.substr(0, dot));
-  const Variable common_time = read_variable(*file, name, "time");
   const bool of_structure = dot != std::string::npos;
   matvar_t* values =
       of_structure ? field(variable.get(), column.substr(dot + 1).c_str()) : variable.get();
-  const std::string stated = text_of(field(values, "unit"));
+  const bool is_data = of_structure && column.substr(dot + 1) == "data";
+  const std::string stated = text_of(field(is_data ? variable.get() : values, "unit"));
   if (matvar_t* data = field(values, "data")) values = data;
-  matvar_t* own_time = of_structure ? field(variable.get(), "time") : nullptr;
-  const std::string time_name = own_time != nullptr ? column.substr(0, dot) + ".time" : "time";
-  std::vector<double> time =
-      read_vector(own_time != nullptr ? own_time : common_time.get(), *file, name, time_name);
   std::vector<double> value = read_vector(values, *file, name, column);
+  matvar_t* own_time = of_structure ? field(variable.get(), moment.c_str()) : nullptr;
+  const std::string time_name = own_time != nullptr ? column.substr(0, dot) + "." + moment : moment;
+  std::vector<double> time;
+  if (request.sample_rate > 0.) {
+    if (!request.time.empty())
+      throw std::runtime_error(name + ": rows are by `time` or by `sample_rate`, not by both");
+    for (std::size_t i = 0; i < value.size(); ++i)
+      time.push_back(static_cast<double>(i) / request.sample_rate);
+  } else {
+    const Variable common_time = own_time == nullptr ? read_variable(*file, name, moment) : nullptr;
+    time = read_vector(own_time != nullptr ? own_time : common_time.get(), *file, name, time_name);
+  }
   if (time.size() != value.size()) {
     throw std::runtime_error(name + ": '" + column + "' has " + std::to_string(value.size()) +
                              " elements, '" + time_name + "' " + std::to_string(time.size()));

@@ -1,44 +1,11 @@
 #include "control/data/table.h"
 
 #include <algorithm>
-#include <cctype>
-#include <cmath>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <utility>
 
-#include "text/formats.h"
 namespace hookpoint::control {
 namespace {
-
-/// The text of a file. Refuses another format, and what no text editor wrote, by its first bytes.
-std::string file_text(const std::filesystem::path& path) {
-  if (const std::string refusal = text::refusal(path, text::Use::series); !refusal.empty())
-    throw std::runtime_error(path.string() + ": " + refusal);
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw std::runtime_error(path.string() + ": cannot be read");
-  std::string text(std::istreambuf_iterator<char>(file), {});
-  if (file.bad()) throw std::runtime_error(path.string() + ": reading it failed");
-  constexpr std::size_t most = 1024;
-  const bool wide = text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF");
-  const bool readable = wide || std::ranges::all_of(text.substr(0, most), [](char c) {
-                          const bool blank = c == '\t' || c == '\r' || c == '\n';
-                          return blank || static_cast<unsigned char>(c) >= ' ';
-                        });
-  if (!readable) throw std::runtime_error(path.string() + ": this is not a text file");
-  return text;
-}
-
-/// A field as it may be shown: short and printable.
-std::string shown(const std::string& text) {
-  constexpr std::size_t most = 30;
-  std::string printable = text.substr(0, most);
-  for (char& c : printable) {
-    if (std::iscntrl(static_cast<unsigned char>(c)) != 0) c = '?';
-  }
-  return "'" + printable + (text.size() > most ? "...'" : "'");
-}
 
 /// The words of a choice as what they mean.
 text::Gaps gaps_of(const std::string& words) {
@@ -68,9 +35,9 @@ TableFields::TableFields(Component& owner)
           "what the table's clock reads at its time 0; 0: a clock that counts from a date begins "
           "at the first row") {}
 
-text::SeriesRequest TableFields::request(std::vector<std::string> columns) const {
+text::SeriesRequest TableFields::request(const std::vector<std::string>& columns) const {
   text::SeriesRequest request;
-  request.columns = std::move(columns);
+  request.columns = columns;
   request.time = time.value();
   request.time_unit = time_unit.value();
   request.unit = unit.value();
@@ -100,7 +67,10 @@ Table read_csv_table(const std::filesystem::path& path, const text::SeriesReques
     return path.string() + (line == 0 ? "" : ":" + std::to_string(line)) + ": ";
   };
   text::Fault fault;
-  const auto tables = text::read_foreign(file_text(path), fault);
+  std::string problem;
+  const auto content = text::text_of_table(path, problem);
+  if (!content) throw std::runtime_error(where(0) + problem);
+  const auto tables = text::read_foreign(*content, fault);
   if (!tables && fault.kind == text::Fault::Kind::empty)
     throw std::runtime_error(where(0) + "holds no row of numbers");
   if (!tables) throw std::runtime_error(where(fault.line) + fault.text());
@@ -116,27 +86,6 @@ Table read_csv_table(const std::filesystem::path& path, const text::SeriesReques
   for (const text::SeriesColumn& column : table.units)
     table.names.push_back(text::parts_of(column.title).name);
   return table;
-}
-
-std::string list_of_names(const std::vector<std::string>& names) {
-  constexpr std::size_t most = 20;
-  std::string list;
-  for (std::size_t i = 0; i < std::min(names.size(), most); ++i)
-    list += (i == 0 ? "" : ", ") + shown(names[i]);
-  if (names.size() > most) list += " and " + std::to_string(names.size() - most) + " more";
-  return list;
-}
-
-void check_increasing(const std::vector<double>& time, const std::string& where) {
-  for (std::size_t i = 0; i < time.size(); ++i) {
-    if (!std::isfinite(time[i])) {
-      throw std::runtime_error(where + ": element " + std::to_string(i + 1) + " is not finite");
-    }
-    if (i > 0 && time[i] <= time[i - 1]) {
-      throw std::runtime_error(where + ": element " + std::to_string(i + 1) +
-                               " is not after the one before");
-    }
-  }
 }
 
 std::size_t row_at(const std::vector<double>& rows, double time) {

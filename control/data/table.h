@@ -59,21 +59,16 @@ class ReadsTable {
 struct TableFields {
   explicit TableFields(Component& owner);
 
-  /// Of these columns, at `start` and `offset`.
-  text::SeriesRequest request(std::vector<std::string> columns) const;
-  /// Reads the file and fills what does not depend on outputs of `report`.
+  /// Reads these columns of the file (none: all but the times), and fills the report but for its
+  /// units, which are of the component's own outputs. Throws as read_csv_table and read_mat_table.
   Table read(const std::vector<std::string>& columns, TableReport& report) const;
 
   Text file, time, time_unit, unit, gaps;
   Parameter sample_rate, start, offset;
+
+ private:
+  text::SeriesRequest request(const std::vector<std::string>& columns) const;
 };
-
-/// "'a', 'b' and 7 more".
-std::string list_of_names(const std::vector<std::string>& names);
-
-/// Throws std::runtime_error unless `time` is finite and increases strictly; `where` begins the
-/// message, as "x.mat: 'time'".
-void check_increasing(const std::vector<double>& time, const std::string& where);
 
 /// The last row i whose time is not after `time`, as far as there are rows: 0 before the first.
 /// `time` is not empty. O(log n).

@@ -7,8 +7,6 @@
 #include <utility>
 
 #include "language/names.h"
-#include "output/files/file.h"
-#include "text/formats.h"
 #include "text/number.h"
 
 namespace hookpoint::studies {
@@ -136,13 +134,10 @@ std::optional<std::size_t> column_of(const text::ForeignTable& table, const std:
 std::optional<std::vector<text::ForeignTable>> read_tables(const std::filesystem::path& file,
                                                            const Position& place,
                                                            Diagnostics& diagnostics) {
-  const auto text = output::read_file(file);
+  std::string problem;
+  const auto text = text::text_of_table(file, problem);
   if (!text) {
-    diagnostics.error(place, "cannot read " + file.string());
-    return std::nullopt;
-  }
-  if (const std::string refusal = text::refusal(*text, file, text::Use::series); !refusal.empty()) {
-    diagnostics.error(place, file.string() + ": " + refusal);
+    diagnostics.error(place, fmt::format("{}: {}", file.string(), problem));
     return std::nullopt;
   }
   text::Fault fault;

@@ -191,19 +191,44 @@ TEST(Data, ReadsMatlabVectors) {
   }
 }
 
+TEST(Data, TimesOfAMatFileAreThoseThatItsFieldsName) {
+  const TemporaryFile file("clock.mat", mat_file(mat_vector("stamp", {1609060336e3, 1609060337e3}) +
+                                                 mat_vector("force", {1., 3.})));
+  ComponentBench by_name("Data", 0.5);
+  by_name.text("file", file.path());
+  by_name.text("column", "force");
+  by_name.text("time", "stamp");
+  by_name.text("time_unit", "ms");
+  by_name.start();
+  by_name.tick(2);
+  EXPECT_NEAR(by_name["output"], 2., 1e-12);
+  ComponentBench by_rate("Data", 0.25);
+  by_rate.text("file", file.path());
+  by_rate.text("column", "force");
+  by_rate["sample_rate"] = 2.;
+  by_rate.start();
+  by_rate.tick(2);
+  EXPECT_NEAR(by_rate["output"], 2., 1e-12);
+  by_rate.text("time", "stamp");
+  EXPECT_NE(testing::start_error(by_rate).find("not by both"), std::string::npos);
+}
+
 TEST(Data, ReadsTheRecordsThatRunsLeave) {
   for (const char* format : {"mat5", "mat73"}) {
     const std::string path = ::testing::TempDir() + "control_tables_" + format + ".mat";
     output::RecordHeader header;
     header.channels.resize(2);
     header.channels[0].path = "bot.leg[0].angle";
+    header.channels[0].unit = "deg";
     header.channels[1].path = "other";
     const auto writer = output::make_record_writer(format, path, header);
     for (int k = 0; k < 5; ++k) writer->row(0.05 * k, std::vector<double>{1. * k * k, -1.});
     writer->close();
     for (int k = 0; k < 5; ++k) {
-      EXPECT_EQ(data_at(path, "bot_leg_0_angle", "hold", k), k * k) << format;
-      EXPECT_EQ(data_at(path, "bot_leg_0_angle.data", "hold", k), k * k) << format;
+      const double angle = k * k * std::numbers::pi / 180.;
+      EXPECT_NEAR(data_at(path, "bot_leg_0_angle", "hold", k), angle, 1e-15) << format;
+      EXPECT_NEAR(data_at(path, "bot_leg_0_angle.data", "hold", k), angle, 1e-15) << format;
+      EXPECT_EQ(data_at(path, "other", "hold", k), -1.) << format;
     }
     std::filesystem::remove(path);
   }
