@@ -50,6 +50,11 @@ Input&& Input::counted_by(std::string name) && {
   return std::move(*this);
 }
 
+Input&& Input::mean() && {
+  description().mean = true;
+  return std::move(*this);
+}
+
 Parameter::Parameter(Component& owner, std::string name, std::string unit, double default_value,
                      std::string doc, std::size_t count)
     : PortHandle(owner, {.kind = PortKind::parameter,
@@ -75,6 +80,14 @@ Parameter&& Parameter::of_world(WorldValue value) && {
   if (port.count != numbers)
     throw std::logic_error("'" + port.name + "' has not as many values as the World gives it");
   port.world = value;
+  return std::move(*this);
+}
+
+Parameter&& Parameter::orientation() && {
+  if (description().count != 4)
+    throw std::logic_error("'" + description().name + "' has not the 4 values of a quaternion");
+  description().orientation = true;
+  value_at(0) = 1.;
   return std::move(*this);
 }
 

@@ -73,6 +73,10 @@ struct PortDescription {
   std::string counted_by =
       {};  ///< of an array: the parameter that says how many of its elements are in use ("legs"),
            ///< so that a file gives as many; "": all of them
+  bool mean = false;  ///< of an input: a sample of its wires is the mean over the steps since the
+                      ///< last one, not the value of the step in which it is taken
+  bool orientation = false;  ///< of a parameter of 4 numbers: a quaternion w, x, y, z, which a file
+                             ///< may also give as roll, pitch, yaw
 };
 
 class Component;
@@ -113,6 +117,9 @@ class Input : public PortHandle {
   Input&& attached(std::string port) &&;
   /// Only as many elements are in use as the parameter `name` says ("": all).
   Input&& counted_by(std::string name) &&;
+  /// A sample of its wires is the mean over the steps since the last one: of a force that comes in
+  /// impulses.
+  Input&& mean() &&;
 };
 
 class Parameter : public PortHandle {
@@ -124,6 +131,9 @@ class Parameter : public PortHandle {
   Parameter&& range(double minimum, double maximum) &&;
   /// Where the file gives nothing it is what the World says; the default holds outside of one.
   Parameter&& of_world(WorldValue value) &&;
+  /// Its 4 values are a quaternion w, x, y, z, by default no turn; a file may also give roll, pitch,
+  /// yaw.
+  Parameter&& orientation() &&;
   /// Only as many elements are in use as the parameter `name` says ("": all).
   Parameter&& counted_by(std::string name) &&;
 };

@@ -70,7 +70,7 @@ class PeerEngine final : public simulation::Engine, public simulation::Restartab
     }
     state_.bodies.resize(tree_.bodies.size());
     state_.joints.resize(passive_joints_.size());
-    anchors_.resize(passive_joints_.size());
+    hooks_.resize(passive_joints_.size());
     state_.points.resize(experiment_.points.size());
     state_.loops.resize(experiment_.loops.size());
     state_.notices = std::move(notices);
@@ -151,7 +151,7 @@ class PeerEngine final : public simulation::Engine, public simulation::Restartab
       if (body.link == nullptr) continue;
       const auto joint = static_cast<std::size_t>(body.joint);
       state_.joints[joint] = {body.link->angle, body.link->rate};
-      anchors_[joint] = body.link->angle;
+      hooks_[joint] = {body.link->angle};
     }
     std::ranges::fill(state_.loops, simulation::LoopState{});
     next_bodies_ = state_.bodies;
@@ -173,10 +173,10 @@ class PeerEngine final : public simulation::Engine, public simulation::Restartab
       const auto joint = static_cast<std::size_t>(body.joint);
       const JointState& now = state_.joints[joint];
       const simulation::JointProperties& passive = passive_joints_[joint];
-      anchors_[joint] = simulation::dragged_anchor(passive, now.angle, anchors_[joint]);
+      hooks_[joint] = simulation::dragged(passive, now.angle, now.rate, hooks_[joint]);
       acting_.joint_torques[joint] =
           simulation::drive_torque(passive, inputs_.joint_torques[joint]) +
-          simulation::passive_joint_torque(passive, now.angle, now.rate, anchors_[joint]);
+          simulation::passive_joint_torque(passive, now.angle, now.rate, hooks_[joint]);
     }
   }
 
@@ -276,7 +276,7 @@ class PeerEngine final : public simulation::Engine, public simulation::Restartab
   std::vector<BodyState> next_bodies_;
   std::vector<JointState> next_joints_;
   std::vector<simulation::JointProperties> passive_joints_;
-  std::vector<double> anchors_;  ///< where the joints' dry friction is hooked
+  std::vector<simulation::FrictionHook> hooks_;  ///< of the joints' dry friction
   bool has_details_ = false;
   StepStatus failure_;
 };

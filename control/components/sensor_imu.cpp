@@ -3,6 +3,8 @@
 //
 //   accelerometer = R^T (dv/dt - g) + bias + noise        gyroscope = R^T w + bias + noise
 //
+// R = R_WB R_BS turns the unit's axes S, which its mounting turns from the body's B, into the
+// world's.
 // dv/dt is the difference of velocities over the unit's own period: the mean acceleration of that
 // period, as a unit that integrates between readings reports it.
 #include <cmath>
@@ -22,8 +24,16 @@ class InertialMeasurementUnit final : public Component {
       Parameter{*this, "horizontal_gravity", "m/s^2", 0., "its x and y", 2}.of_world(
           WorldValue::gravity_sideways);
   Parameter mounting{*this, "mounting", "m", 0., "place of the unit in the body's frame", 3};
-  Parameter accelerometer_bias{*this, "accelerometer_bias",        "m/s^2",
-                               0.,    "constant error, body axes", 3};
+  Parameter mounting_orientation =
+      Parameter{*this,
+                "mounting_orientation",
+                "",
+                0.,
+                "R_BS: turns the unit's axes into the body's; by default not",
+                4}
+          .orientation();
+  Parameter accelerometer_bias{
+      *this, "accelerometer_bias", "m/s^2", 0., "constant error, the unit's axes", 3};
   Parameter accelerometer_noise =
       Parameter{*this, "accelerometer_noise", "m/s^2", 0., "standard deviation of a reading"}.range(
           0., 1e9);
@@ -31,7 +41,8 @@ class InertialMeasurementUnit final : public Component {
       Parameter{*this, "accelerometer_walk", "m/s^2", 0.,
                 "random walk of the bias: standard deviation of its change in 1 s"}
           .range(0., 1e9);
-  Parameter gyroscope_bias{*this, "gyroscope_bias", "rad/s", 0., "constant error, body axes", 3};
+  Parameter gyroscope_bias{*this, "gyroscope_bias", "rad/s", 0., "constant error, the unit's axes",
+                           3};
   Parameter gyroscope_noise =
       Parameter{*this, "gyroscope_noise", "rad/s", 0., "standard deviation of a reading"}.range(
           0., 1e9);
@@ -50,15 +61,16 @@ class InertialMeasurementUnit final : public Component {
       Input{*this, "angular_velocity", "rad/s", "of the body, world axes", 0., 3}.attached(
           "angular_velocity");
 
-  Output accelerometer{*this, "accelerometer", "m/s^2", "specific force, body axes x, y, z", 3};
-  Output gyroscope{*this, "gyroscope", "rad/s", "angular velocity, body axes x, y, z", 3};
+  Output accelerometer{*this, "accelerometer", "m/s^2", "specific force, the unit's axes x, y, z",
+                       3};
+  Output gyroscope{*this, "gyroscope", "rad/s", "angular velocity, the unit's axes x, y, z", 3};
 
   State last_velocity{*this, "last_velocity", "m/s", "of the unit at its last reading, world axes",
                       3};
   State accelerometer_drift{*this, "accelerometer_drift", "m/s^2",
-                            "bias gained by the random walk, body axes", 3};
+                            "bias gained by the random walk, the unit's axes", 3};
   State gyroscope_drift{*this, "gyroscope_drift", "rad/s",
-                        "bias gained by the random walk, body axes", 3};
+                        "bias gained by the random walk, the unit's axes", 3};
 
   void start(double) override {
     for (std::uint32_t channel = 0; channel < 12; ++channel) {
@@ -67,19 +79,19 @@ class InertialMeasurementUnit final : public Component {
   }
 
   void update(const Tick& tick) override {
-    const Quaterniond q_BW =
-        conjugate(Quaterniond{orientation[0], orientation[1], orientation[2], orientation[3]});
-    const Vector3d w_WB = vector(angular_velocity), w_B = rotate(q_BW, w_WB);
-    const Vector3d v_W = vector(velocity) + cross(w_WB, rotate(conjugate(q_BW), vector(mounting)));
+    const Quaterniond q_WB = quaternion(orientation);
+    const Quaterniond q_SW = conjugate(q_WB * normalized(quaternion(mounting_orientation)));
+    const Vector3d w_WB = vector(angular_velocity);
+    const Vector3d v_W = vector(velocity) + cross(w_WB, rotate(q_WB, vector(mounting)));
     const Vector3d last_W{last_velocity.get(0), last_velocity.get(1), last_velocity.get(2)};
     // The first reading has no difference to take: the unit is then taken to be unaccelerated.
     const Vector3d a_W = tick.count == 0 ? Vector3d{} : (1. / tick.period) * (v_W - last_W);
     const Vector3d g_W{horizontal_gravity[0], horizontal_gravity[1], -gravity};
     put(last_velocity, v_W);
     put(accelerometer,
-        rotate(q_BW, a_W - g_W) + vector(accelerometer_bias) +
+        rotate(q_SW, a_W - g_W) + vector(accelerometer_bias) +
             error(0, accelerometer_drift, accelerometer_walk, accelerometer_noise, tick));
-    put(gyroscope, w_B + vector(gyroscope_bias) +
+    put(gyroscope, rotate(q_SW, w_WB) + vector(gyroscope_bias) +
                        error(6, gyroscope_drift, gyroscope_walk, gyroscope_noise, tick));
   }
 
@@ -87,6 +99,10 @@ class InertialMeasurementUnit final : public Component {
   template <class Port>
   static Vector3d vector(const Port& port) {
     return {port[0], port[1], port[2]};
+  }
+  template <class Port>
+  static Quaterniond quaternion(const Port& port) {
+    return {port[0], port[1], port[2], port[3]};
   }
   template <class Port>
   static void put(Port& port, const Vector3d& a) {

@@ -61,12 +61,18 @@ TransmissionLine::TransmissionLine(const LineDescription& description, const Rat
       noise_(description.noise),
       delay_(delay_steps(description.delay, dt)),
       output_(description.initial),
+      mean_(description.mean && !schedule_.every_step()),
       ring_(ring_size(delay_, schedule_.shortest_interval())) {
   if (!(noise_ >= 0.)) throw std::invalid_argument("noise must not be negative");
 }
 
 void TransmissionLine::take(std::int64_t step, double source_value) {
   const double noise = noise_ > 0. ? noise_ * stream_.gaussian(schedule_.count() - 1) : 0.;
+  if (mean_) {
+    source_value = sum_ / static_cast<double>(summed_);
+    sum_ = 0.;
+    summed_ = 0;
+  }
   const double value = source_value + noise;
   if (delay_ == 0) {
     output_ = value;
@@ -83,12 +89,21 @@ void TransmissionLine::arrive() {
   --under_way_;
 }
 
+std::string TransmissionLine::state_layout() const {
+  if (passes()) return "";
+  return "samples output under_way value[" + std::to_string(ring_.size()) + "]" +
+         (mean_ ? " sum summed" : "");
+}
+
 void TransmissionLine::save(std::span<double> state) const {
   if (passes()) return;
   state[0] = static_cast<double>(schedule_.count());
   state[1] = output_;
   state[2] = static_cast<double>(under_way_);
   for (std::size_t i = 0; i < ring_.size(); ++i) state[3 + i] = ring_[i].value;
+  if (!mean_) return;
+  state[3 + ring_.size()] = sum_;
+  state[4 + ring_.size()] = static_cast<double>(summed_);
 }
 
 void TransmissionLine::restore(std::int64_t step, std::span<const double> state) {
@@ -100,6 +115,10 @@ void TransmissionLine::restore(std::int64_t step, std::span<const double> state)
   const auto size = static_cast<std::int64_t>(ring_.size());
   first_ = static_cast<std::size_t>(oldest % size);
   for (std::size_t i = 0; i < ring_.size(); ++i) ring_[i].value = state[3 + i];
+  if (mean_) {
+    sum_ = state[3 + ring_.size()];
+    summed_ = static_cast<std::int64_t>(state[4 + ring_.size()]);
+  }
   for (std::int64_t n = oldest; n < schedule_.count(); ++n)
     ring_[static_cast<std::size_t>(n % size)].arrival = schedule_.step_of(n) + delay_;
 }

@@ -1,12 +1,13 @@
-// What a wire does to a value on its way: it is sampled, noise joins the sample, and the sample
-// arrives later (docs/transmission.md). Time is a count of steps; a rate of 300 Hz on a step of 1
-// ms samples at steps 0, 4, 7, 10, 14 ...
+// What a wire does to a value on its way: it is sampled (the value of that step, or the mean since
+// the last sample), noise joins the sample, and the sample arrives later (docs/transmission.md).
+// Time is a count of steps; a rate of 300 Hz on a step of 1 ms samples at steps 0, 4, 7, 10, 14 ...
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "control/core/rational.h"
@@ -66,6 +67,7 @@ struct LineDescription {
   std::uint64_t stream_seed = 0;  ///< key of its noise, see stream_key
   double initial =
       0.;  ///< output before the first arrival: the initial value of the port that it drives
+  bool mean = false;  ///< a sample is the mean over the steps since the last one, its own included
 };
 
 /// A plain value: a copy is a checkpoint.
@@ -86,6 +88,10 @@ class TransmissionLine {
   /// they may be called in either order: a value can then be delivered before the one that is
   /// sampled is known.
   void sample(std::int64_t step, double source_value) {
+    if (mean_) {
+      sum_ += source_value;
+      ++summed_;
+    }
     if (schedule_.due(step)) take(step, source_value);
   }
   double deliver(std::int64_t step) {
@@ -107,9 +113,12 @@ class TransmissionLine {
 
   /// The state as numbers, for records from which a run is resumed: `state_size()` of them, the
   /// same for the life of the line: samples taken, output, samples under way, then the n-th sample
-  /// at n modulo the ring's size. None where every step's value is the output of that step: its
-  /// samples are as many as there were steps.
-  std::size_t state_size() const { return passes() ? 0 : 3 + ring_.size(); }
+  /// at n modulo the ring's size; of a mean the sum since the last sample and of how many steps.
+  /// None where every step's value is the output of that step: its samples are as many as there
+  /// were steps.
+  std::size_t state_size() const { return passes() ? 0 : 3 + ring_.size() + (mean_ ? 2 : 0); }
+  /// The names of these numbers.
+  std::string state_layout() const;
   void save(std::span<double> state) const;
   /// As after `step`, of which the numbers are. Where there are none `output` is that of the next
   /// step on.
@@ -130,6 +139,9 @@ class TransmissionLine {
   double noise_;
   std::int64_t delay_;  // steps
   double output_;
+  bool mean_;                // of more than one step
+  double sum_ = 0.;          // since the last sample
+  std::int64_t summed_ = 0;  // of so many steps
   // Samples under way: a ring, the n-th sample at n modulo its size, oldest at first_.
   std::vector<Sample> ring_;
   std::size_t first_ = 0, under_way_ = 0;

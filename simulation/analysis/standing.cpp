@@ -217,7 +217,7 @@ struct Drives {
       double asked = drive == nullptr ? tree.link.torque : 0.;
       if (drive != nullptr && drive->goal) asked = drive->proportional * (*drive->goal - position);
       const double torque = drive_torque(properties, asked) +
-                            passive_joint_torque(properties, position, 0., joints.anchors()[joint]);
+                            passive_joint_torque(properties, position, 0., joints.hooks()[joint]);
       sum += torque * levers.row(static_cast<Eigen::Index>(joint)).transpose();
     });
     return sum;

@@ -18,11 +18,11 @@ constexpr double beyond = 1e-9;
 
 JointSet::JointSet(const RobotSpec& robot) {
   for_each_link(robot, [&](const TreeLink& at) {
-    if (at.link.friction > 0.) dry_joints_.push_back({.joint = at.joint()});
-    properties_.push_back(joint_properties(at.link));
-    anchors_.push_back(at.link.angle);
+    const JointProperties& joint = properties_.emplace_back(joint_properties(at.link));
+    if (joint.friction + joint.static_excess > 0.) dry_joints_.push_back({.joint = at.joint()});
+    hooks_.push_back({at.link.angle});
   });
-  anchors_before_ = anchors_;
+  hooks_before_ = hooks_;
 }
 
 void JointSet::torques(std::span<const double> drive, std::span<const double> positions,
@@ -30,7 +30,7 @@ void JointSet::torques(std::span<const double> drive, std::span<const double> po
   for (std::size_t i = 0; i < properties_.size(); ++i) {
     const JointProperties& joint = properties_[i];
     torques[i] = drive_torque(joint, drive[i]) +
-                 passive_joint_torque(joint, positions[i], rates[i], anchors_[i]);
+                 passive_joint_torque(joint, positions[i], rates[i], hooks_[i]);
   }
 }
 
@@ -46,24 +46,27 @@ void JointSet::torques_at_end_of(double h, std::span<const double> drive,
   };
   for (std::size_t i = 0; i < properties_.size(); ++i)
     move(i, moving_spring(properties_[i], positions[i]));
-  for (const auto& [i, slips, bound] : dry_joints_) {
+  for (const auto& [i, bound] : dry_joints_) {
     if (bound)
-      torques[i] += dry_friction(properties_[i], positions[i], rates[i], anchors_[i]) - *bound;
+      torques[i] += dry_friction(properties_[i], positions[i], rates[i], hooks_[i]) - *bound;
     else
-      move(i, friction_spring(properties_[i], positions[i], rates[i], anchors_[i]));
+      move(i, friction_spring(properties_[i], positions[i], rates[i], hooks_[i]));
   }
 }
 
 bool JointSet::bind_friction(double h, std::span<const double> positions,
                              std::span<const double> rates, std::span<const double> accelerations) {
   bool any = false;
-  for (auto& [i, slips, bound] : dry_joints_) {
+  for (auto& [i, bound] : dry_joints_) {
     if (bound) continue;
-    const auto [k, c] = friction_spring(properties_[i], positions[i], rates[i], anchors_[i]);
-    const double friction = dry_friction(properties_[i], positions[i], rates[i], anchors_[i]) +
+    const JointProperties& joint = properties_[i];
+    const auto [k, c] = friction_spring(joint, positions[i], rates[i], hooks_[i]);
+    const double friction = dry_friction(joint, positions[i], rates[i], hooks_[i]) +
                             h * k * rates[i] + h * (h * k + c) * accelerations[i];
-    if (std::abs(friction) <= properties_[i].friction) continue;
-    bound = std::copysign(properties_[i].friction, friction);
+    const double most =
+        (joint.friction + joint.static_excess) * friction_part(joint, rates[i], hooks_[i]);
+    if (std::abs(friction) <= most) continue;
+    bound = std::copysign(most, friction);
     any = true;
   }
   return any;
@@ -74,12 +77,9 @@ void JointSet::unbind_friction() {
 }
 
 void JointSet::commit(std::span<const double> positions, std::span<const double> rates) {
-  for (DryJoint& dry : dry_joints_) {
+  for (const DryJoint& dry : dry_joints_) {
     const std::size_t i = dry.joint;
-    const double before = anchors_[i];
-    anchors_[i] = dragged_anchor(properties_[i], positions[i], before);
-    const double stretch = positions[i] - anchors_[i];
-    dry.slips = anchors_[i] != before && stretch * rates[i] > 0.;
+    hooks_[i] = dragged(properties_[i], positions[i], rates[i], hooks_[i]);
   }
 }
 
@@ -100,8 +100,8 @@ void JointSet::event_values(std::span<const double> positions, std::span<const d
   }
   for (const DryJoint& dry : dry_joints_) {
     const JointProperties& joint = properties_[dry.joint];
-    const double stretch = positions[dry.joint] - anchors_[dry.joint];
-    *value++ = dry.slips
+    const double stretch = positions[dry.joint] - hooks_[dry.joint].anchor;
+    *value++ = hooks_[dry.joint].drags
                    ? std::copysign(1., stretch) * rates[dry.joint] + beyond * joint.friction_speed
                    : (1. + beyond) * joint.friction_deflection - std::abs(stretch);
   }

@@ -27,8 +27,8 @@ class JointSet {
   void torques_at_end_of(double h, std::span<const double> drive, std::span<const double> positions,
                          std::span<const double> rates, std::span<double> torques,
                          std::span<double> inertias) const;
-  /// Whether some joint's dry friction would exceed tau_f at the end of that step, with these
-  /// accelerations: it is tau_f from now on, until unbind_friction().
+  /// Whether some joint's dry friction would exceed the most that it gives at the end of that step,
+  /// with these accelerations: it is that much from now on, until unbind_friction().
   bool bind_friction(double h, std::span<const double> positions, std::span<const double> rates,
                      std::span<const double> accelerations);
   void unbind_friction();
@@ -36,8 +36,8 @@ class JointSet {
   /// The state is accepted: dry friction is hooked where the joints have dragged it. `keep`
   /// remembers where it was, `undo` takes it back there.
   void commit(std::span<const double> positions, std::span<const double> rates);
-  void keep() { anchors_before_ = anchors_; }
-  void undo() { anchors_ = anchors_before_; }
+  void keep() { hooks_before_ = hooks_; }
+  void undo() { hooks_ = hooks_before_; }
 
   /// Events of adaptive integrators: each limit that a joint has, then where each joint with dry
   /// friction begins to slip or, while it slips, reverses.
@@ -48,27 +48,30 @@ class JointSet {
   bool remembers() const { return !dry_joints_.empty(); }
 
   const std::vector<JointProperties>& properties() const { return properties_; }
-  /// Where the dry friction of each joint is hooked.
-  const std::vector<double>& anchors() const { return anchors_; }
+  /// What the dry friction of each joint remembers.
+  const std::vector<FrictionHook>& hooks() const { return hooks_; }
 
   template <class Self, class Archive>
   static void exchange(Self& self, Archive& archive) {
-    archive.each("friction_anchor", self.dry_joints_,
-                 [&self](auto& dry, auto& each) { each("", self.anchors_[dry.joint]); });
+    archive.each("friction", self.dry_joints_, [&self](auto& dry, auto& each) {
+      each("anchor", self.hooks_[dry.joint].anchor);
+      each("rate", self.hooks_[dry.joint].rate);
+      each("drags", self.hooks_[dry.joint].drags);
+      each("slips", self.hooks_[dry.joint].slips);
+    });
   }
 
  private:
   /// A joint with dry friction.
   struct DryJoint {
     std::size_t joint = 0;
-    bool slips = false;  ///< when its anchor was committed
-    /// At the end of the step, where its state would say more than tau_f [N m, N].
+    /// At the end of the step, where its state would say more than it gives [N m, N].
     std::optional<double> bound{};
   };
 
   std::vector<JointProperties> properties_;
   std::vector<DryJoint> dry_joints_;
-  std::vector<double> anchors_, anchors_before_;
+  std::vector<FrictionHook> hooks_, hooks_before_;
 };
 
 }  // namespace hookpoint::simulation

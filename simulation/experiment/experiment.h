@@ -106,6 +106,8 @@ struct LinkSpec {
          torque = 0.;    ///< initial angle, rate and constant torque (SI by joint kind)
   double damping = 0.;   ///< torque = -damping rate
   double friction = 0.;  ///< dry friction torque, opposes the rate
+  std::optional<double> static_friction;  ///< of a joint that sticks, at least `friction`
+  double stribeck_velocity = 0.;          ///< over this rate it falls to `friction`; 0: at once
   double friction_deflection = joint_types[0].defaults.friction_deflection;
   double friction_speed = joint_types[0].defaults.friction_speed;
   double stiffness = 0., rest_angle = 0.;  ///< torque = -stiffness (angle - rest_angle)
@@ -261,6 +263,7 @@ struct WireSpec {
   std::optional<double> rate;  ///< of sampling [Hz]; none: every step
   double delay = 0.;           ///< [s]
   double noise = 0.;           ///< standard deviation, in the unit of the value
+  bool mean = false;           ///< a sample is the mean over the steps since the last one
 };
 
 /// A data file of the run.

@@ -21,22 +21,47 @@ JointSpring moving_spring(const JointProperties& joint, double position) {
 
 JointSpring resting_spring(const JointProperties& joint, double position) {
   const JointSpring moving = moving_spring(joint, position);
-  return {moving.stiffness + joint.friction / joint.friction_deflection,
-          moving.damping + joint.friction / joint.friction_speed};
+  const double most = joint.friction + joint.static_excess;
+  return {moving.stiffness + most / joint.friction_deflection,
+          moving.damping + most / joint.friction_speed};
+}
+
+FrictionHook dragged(const JointProperties& joint, double position, double rate,
+                     const FrictionHook& hook) {
+  const auto anchor_of = [&](const FrictionHook& now) {
+    const double z = position - hook.anchor;
+    const double most = joint.friction_deflection * friction_part(joint, rate, now);
+    return select(z > most, position - most, select(z < -most, position + most, hook.anchor));
+  };
+  FrictionHook next{anchor_of(hook), rate};
+  // The hook of a joint that slows down stays behind while friction rises again.
+  const bool moves = next.anchor != hook.anchor || (hook.slips && joint.static_excess > 0.);
+  if (!moves || !((position - next.anchor) * rate > 0.)) return next;
+  next.drags = true;
+  const bool speeds_up = hook.drags && std::abs(rate) > std::abs(hook.rate);
+  next.slips = hook.slips || speeds_up || std::abs(rate) > joint.friction_speed;
+  next.anchor = anchor_of(next);
+  return next;
 }
 
 JointSpring friction_spring(const JointProperties& joint, double position, double rate,
-                            double anchor) {
-  const double z = std::clamp((position - anchor) / joint.friction_deflection, -1., 1.);
-  const double load = std::abs(z + rate / joint.friction_speed);
-  return {load < 1. ? joint.friction / joint.friction_deflection : 0.,
-          joint.friction / (joint.friction_speed * std::max(1., load))};
+                            const FrictionHook& hook) {
+  const double part = friction_part(joint, rate, hook);
+  const double most = joint.friction + joint.static_excess;
+  const double z = std::clamp((position - hook.anchor) / joint.friction_deflection, -part, part);
+  const double sum = std::abs(z + rate / joint.friction_speed);
+  if (part <= 0.) return {};
+  const double load = sum / part;
+  return {load < 1. ? most / joint.friction_deflection : 0.,
+          most / (joint.friction_speed * std::max(1., load))};
 }
 
 JointProperties joint_properties(const LinkSpec& link) {
   JointProperties joint;
   joint.damping = link.damping;
   joint.friction = link.friction;
+  if (link.static_friction) joint.static_excess = *link.static_friction - link.friction;
+  joint.stribeck_velocity = link.stribeck_velocity;
   joint.friction_deflection = link.friction_deflection;
   joint.friction_speed = link.friction_speed;
   joint.stiffness = link.stiffness;

@@ -2,6 +2,7 @@
 // is hooked: damper, dry friction, spring, limits; and how much of its drive's torque it gets.
 #pragma once
 
+#include <cmath>
 #include <limits>
 
 #include "math/scalar.h"
@@ -13,9 +14,11 @@ namespace hookpoint::simulation {
 /// (force in N).
 struct JointProperties {
   double damping{0.};                ///< b
-  double friction{0.};               ///< tau_f, dry friction
+  double friction{0.};               ///< tau_f, dry friction of a joint that slips
+  double static_excess{0.};          ///< tau_s - tau_f: by how much one that sticks holds more
+  double stribeck_velocity{0.};      ///< v_s: over this rate friction falls from tau_s to tau_f
   double friction_deflection{1e-3};  ///< z_f: deflection of a joint that sticks before it slips
-  double friction_speed{0.05};       ///< v_f: at this rate a joint that sticks is damped by tau_f
+  double friction_speed{0.05};       ///< v_f: at this rate a joint that sticks is damped by tau_s
   double stiffness{0.}, rest_position{0.};
   double lower_limit{-std::numeric_limits<double>::infinity()};
   double upper_limit{std::numeric_limits<double>::infinity()};
@@ -33,28 +36,51 @@ inline double drive_torque(const JointProperties& joint, double torque) {
   return select(torque > most, most, select(torque < -most, -most, torque));
 }
 
-/// Where dry friction is hooked once the joint has come to `position`: the anchor h stays while
-/// |q - h| <= z_f, beyond it is dragged along.
-inline double dragged_anchor(const JointProperties& joint, double position, double anchor) {
-  const double z = position - anchor;
-  const double most = joint.friction_deflection;
-  return select(z > most, position - most, select(z < -most, position + most, anchor));
+/// What the dry friction of a joint remembers of the last accepted state.
+struct FrictionHook {
+  double anchor = 0.;  ///< h: where it is hooked [rad, m]
+  double rate = 0.;    ///< of the joint [rad/s, m/s]
+  bool drags = false;  ///< the joint moved it
+  bool slips = false;  ///< it has broken away: friction falls from tau_s
+};
+
+/// The most that dry friction gives, as a part of tau_s: all until the joint breaks away, then
+/// tau_f + (tau_s - tau_f) exp(-(rate/v_s)^2), with v_s = 0 tau_f (Armstrong-Helouvry, Dupont &
+/// Canudas de Wit, Automatica 30, 1994, section 2).
+inline double friction_part(const JointProperties& joint, double rate, const FrictionHook& hook) {
+  if (!hook.slips || joint.static_excess <= 0.) return 1.;
+  double fall = 0.;
+  if (joint.stribeck_velocity > 0.) {
+    const double speed = rate / joint.stribeck_velocity;
+    fall = std::exp(-speed * speed);
+  }
+  return (joint.friction + joint.static_excess * fall) / (joint.friction + joint.static_excess);
 }
 
-/// tau_f sat(z/z_f + rate/v_f), against the motion: z = q - h is clipped to [-z_f, z_f], sat to
-/// [-1, 1]. It takes at least the power that its spring stores, whatever the rate.
+/// Dry friction once the joint has come to `position` with `rate`. The anchor h stays while
+/// |q - h| <= z_f, beyond it is dragged along until the joint turns back; z_f shrinks with what
+/// friction gives. A joint breaks away that drags the hook and speeds up, or is faster than
+/// v_f. A load below tau_s that is put on at once does neither: it moves the joint with less than
+/// v_f, and drags it while it slows down.
+FrictionHook dragged(const JointProperties& joint, double position, double rate,
+                     const FrictionHook& hook);
+
+/// tau_s sat(z/z_f + rate/v_f), against the motion: z = q - h is clipped to [-z_f, z_f], sat to
+/// [-1, 1], of a joint that slips both to `friction_part`. It takes at least the power that its
+/// spring stores, whatever the rate.
 inline double dry_friction(const JointProperties& joint, double position, double rate,
-                           double anchor) {
-  const auto clipped = [](double x) { return max(-1., min(1., x)); };
-  const double z = clipped((position - anchor) / joint.friction_deflection);
-  return joint.friction * clipped(z + rate / joint.friction_speed);
+                           const FrictionHook& hook) {
+  const double most = friction_part(joint, rate, hook);
+  const auto clipped = [&](double x) { return max(-most, min(most, x)); };
+  const double z = clipped((position - hook.anchor) / joint.friction_deflection);
+  return (joint.friction + joint.static_excess) * clipped(z + rate / joint.friction_speed);
 }
 
 /// tau = -b rate - dry_friction - k (q - q_rest) + stop(lower) - stop(upper), where a stop pushes
 /// max(0, k_l depth + c_l ddepth/dt) while the joint is beyond it (depth > 0) and never pulls.
 inline double passive_joint_torque(const JointProperties& joint, double position, double rate,
-                                   double anchor) {
-  const double dry = dry_friction(joint, position, rate, anchor);
+                                   const FrictionHook& hook) {
+  const double dry = dry_friction(joint, position, rate, hook);
   const double spring = joint.stiffness * (position - joint.rest_position);
   const auto stop = [&](double depth, double depth_rate) {
     const double push = max(0., joint.limit_stiffness * depth + joint.limit_damping * depth_rate);
@@ -78,6 +104,6 @@ JointSpring moving_spring(const JointProperties& joint, double position);
 /// What dry_friction is about a state to a method that is implicit in it: the derivatives, but of
 /// friction that slips the damper friction/rate, which stops a joint and does not turn it back.
 JointSpring friction_spring(const JointProperties& joint, double position, double rate,
-                            double anchor);
+                            const FrictionHook& hook);
 
 }  // namespace hookpoint::simulation

@@ -72,7 +72,8 @@ EnergyWatch::EnergyWatch(const Experiment& experiment, const World& world, std::
     first_bodies_.push_back(bodies);
     bodies += body_count(robot);
     for_each_link(robot, [&](const TreeLink& at) {
-      most_in_friction_ += 0.5 * at.link.friction * at.link.friction_deflection;
+      const double most = at.link.static_friction.value_or(at.link.friction);
+      most_in_friction_ += 0.5 * most * at.link.friction_deflection;
     });
   }
 }

@@ -22,6 +22,7 @@ using language::FieldSchema;
 using language::list_field;
 using language::number_field;
 using language::object_field;
+using language::orientation_field;
 using language::port_only;
 using language::text_field;
 
@@ -80,9 +81,11 @@ std::string document(const PortDescription& port) {
                      port.kind == PortKind::output ? "drives" : "reads", port.attached);
 }
 
-/// A number, or an array that takes one number for all of its elements, or as many as are in use.
+/// A number, an orientation, or an array that takes one number for all of its elements, or as many as are in use.
 FieldSchema value_of(const PortDescription& port) {
   const bool computed = port.kind == PortKind::output || port.kind == PortKind::state;
+  if (port.orientation)
+    return with_port(Direction::both, orientation_field(port.name, document(port)));
   const bool open = computed || port.world != control::WorldValue::none;
   const std::string value = open ? "" : fmt::format("{}", port.default_value);
   FieldSchema field =

@@ -28,6 +28,9 @@ namespace {
 namespace link_field {
 constexpr const char *joint = "joint", *angle = "angle", *lower_limit = "lower_limit";
 }
+namespace friction_field {
+constexpr const char *at_rest = "static_friction", *fall = "stribeck_velocity";
+}
 
 /// Where the link's frame is in the preceding one at joint angle 0.
 const Fields<LinkSpec>& frame_fields() {
@@ -131,6 +134,12 @@ const Fields<LinkSpec>& joint_fields() {
       not_negative(joint_field("friction", &Units::torque, &LinkSpec::friction,
                                "dry friction: a joint that carries less than this sticks; one that "
                                "slips is braked by it")),
+      not_negative(joint_field(friction_field::at_rest, &Units::torque, &LinkSpec::static_friction,
+                               "of a joint that sticks, at least `friction`: it starts to slip "
+                               "beyond this; the same as `friction` if not given")),
+      not_negative(joint_field(friction_field::fall, &Units::rate, &LinkSpec::stribeck_velocity,
+                               "v_s of friction + (static_friction - friction) exp(-(rate/v_s)^2) "
+                               "of a joint that slips; 0: friction falls as soon as it slips")),
       positive(constant_field("friction_deflection", &Units::position,
                               &LinkSpec::friction_deflection, &Usual::friction_deflection,
                               "deflection of a joint that sticks, as a spring, before it slips")),
@@ -172,6 +181,19 @@ void check_limits(const language::Object& object, const LinkSpec& link, Loading&
   }
   if (const std::string problem = angle_problem(link); !problem.empty())
     loading.error(place_of(object, link_field::angle), problem);
+}
+
+void check_friction(const language::Object& object, const LinkSpec& link, Loading& loading) {
+  if (link.static_friction && *link.static_friction < link.friction) {
+    loading.error(place_of(object, friction_field::at_rest),
+                  "static_friction is below friction; a joint that sticks holds at least as much "
+                  "as one that slips");
+  }
+  if (!link.static_friction && object.given(friction_field::fall)) {
+    loading.error(place_of(object, friction_field::fall),
+                  "stribeck_velocity says how fast friction falls from static_friction: give that "
+                  "too, or leave this out");
+  }
 }
 
 /// A joint that does not move has nothing of its own.
@@ -225,6 +247,7 @@ LinkSpec load_link(const language::Object& object, std::string name, Loading& lo
   }
   store_fields(object, joint_fields(), link);
   check_limits(object, link, loading);
+  check_friction(object, link, loading);
   return link;
 }
 

@@ -143,7 +143,7 @@ class Wires {
       return loading_.diagnostics.note(drivers_[first.first->second].position,
                                        "the first one is here");
     }
-    WireSpec spec{from, to, {}, 0., 0.};
+    WireSpec spec{.from = from, .to = to, .rate = {}, .mean = takes_mean(driver)};
     if (const language::Field* rate = property(driver, language::wire_rate))
       spec.rate = rate->numbers[0];
     if (const language::Field* delay = property(driver, language::wire_delay))
@@ -153,6 +153,16 @@ class Wires {
     drivers_.push_back(driver);
     ends_by_output_.emplace(from, to);
     experiment_.wires.push_back(std::move(spec));
+  }
+
+  /// Whether it ends at an input that takes means.
+  static bool takes_mean(const Driver& driver) {
+    const control::ComponentClass* type = control::Registry::instance().find(driver.to->type);
+    if (type == nullptr) return false;
+    const auto component = type->make();
+    const auto input =
+        std::ranges::find(component->ports(), driver.input->name, &PortDescription::name);
+    return input != component->ports().end() && input->mean;
   }
 
   /// The wire's own; else that of the stub at its end; else that of the stub at its beginning.

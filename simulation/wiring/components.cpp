@@ -11,10 +11,10 @@
 namespace hookpoint::simulation {
 namespace {
 
-constexpr std::string_view letters = "xyz";
-
-bool has_letters(const control::PortDescription& port) {
-  return port.count == 2 || port.count == letters.size();
+/// Of the elements of short lists and of orientations, in their order; "" of other ports.
+std::string_view letters_of(const control::PortDescription& port) {
+  if (port.orientation) return "wxyz";
+  return port.count == 2 || port.count == 3 ? "xyz" : "";
 }
 
 /// Index among the component's values of "goal", "goal[3]" or "gyroscope.x".
@@ -22,11 +22,12 @@ std::optional<std::size_t> find_element(const control::Component& component,
                                         std::string_view name) {
   if (const auto found = control::find_value(component, name)) return found;
   if (name.size() < 2 || name[name.size() - 2] != '.') return std::nullopt;
-  const std::size_t element = letters.find(name.back());
+  const char letter = name.back();
   name.remove_suffix(2);
   for (const control::PortDescription& port : component.ports()) {
-    const bool is_list = port.kind != control::PortKind::text && has_letters(port);
-    if (is_list && port.name == name && element < port.count) return port.first + element;
+    if (port.kind == control::PortKind::text || port.name != name) continue;
+    const std::size_t element = letters_of(port).find(letter);
+    if (element < port.count) return port.first + element;
   }
   return std::nullopt;
 }
@@ -55,7 +56,7 @@ void take_from_world(const control::PortDescription& port, const Vector3d& gravi
 
 std::string element_suffix(const control::PortDescription& port, std::size_t index) {
   if (port.count == 1) return "";
-  if (has_letters(port)) return {'.', letters[index]};
+  if (!letters_of(port).empty()) return {'.', letters_of(port)[index]};
   return '[' + std::to_string(index) + ']';
 }
 

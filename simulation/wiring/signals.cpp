@@ -349,8 +349,8 @@ std::vector<StateSection> Signals::state_layout() const {
   for (std::size_t i = 0; i < lines_.size(); ++i) {
     const WireSpec& wire = experiment_.wires[i];
     if (const std::size_t size = lines_[i].line.state_size(); size > 0) {
-      sections.push_back({fmt::format("wire {} -> {}", wire.from, wire.to),
-                          fmt::format("samples output under_way value[{}]", size - 3), size});
+      sections.push_back(
+          {fmt::format("wire {} -> {}", wire.from, wire.to), lines_[i].line.state_layout(), size});
     }
   }
   return sections;

@@ -23,6 +23,7 @@ control::TransmissionLine transmission_line(const WireSpec& wire, const Experime
   line.noise = wire.noise;
   line.stream_seed = control::stream_key(experiment.seed, wire.from + " -> " + wire.to);
   line.initial = initial;
+  line.mean = wire.mean;
   return {line, Rational::from(experiment.deltat)};
 }
 

@@ -126,7 +126,7 @@ StateMachine pulse {
   Transition up { from = off; to = on; when = "time_in_state >= 61 ms || smooth > 0.05"; }
   Transition down { from = on; to = off; when = "time_in_state > 23 ms"; }
 }
-Sensor.Foot foot { body = world.hexapod.leg[0].tibia; noise = 0.1 N; }
+Sensor.Foot foot { body = world.hexapod.leg[0].tibia; rate = 190 Hz; noise = 0.1 N; }
 Probe felt { Wire FROM foot.normal TO input { delay = 20 ms; rate = 333 Hz; } }
 Probe shaken { Wire FROM world.hexapod.leg[4].tibia.linear_acceleration.x TO input { delay = 3 ms; } }
 )";
@@ -223,8 +223,8 @@ TEST(ResumedDryJoints, AreExactUnderEveryIntegratorAndImpulseLaw) {
     SCOPED_TRACE(setting);
     expect_exact(loaded(place, "World w { deltat = 2 ms; " + setting + R"(
   Robot arm { Base.fixed { location = 0, 0, 2; orientation = 0, 90 deg, 0; } Chain c {
-    Link a { mass = 1; center_of_mass = 0.2, 0, 0; inertia = 0.01, 0.01, 0.01, 0, 0, 0; friction = 0.4; rate = 2; }
-    Link b { dhlength = 0.4; joint = prismatic; mass = 1; inertia = 0.01, 0.01, 0.01, 0, 0, 0; friction = 1;
+    Link a { mass = 1; center_of_mass = 0.2, 0, 0; inertia = 0.01, 0.01, 0.01, 0, 0, 0; static_friction = 0.6; friction = 0.4; stribeck_velocity = 0.3; rate = 2; }
+    Link b { dhlength = 0.4; joint = prismatic; mass = 1; inertia = 0.01, 0.01, 0.01, 0, 0, 0; static_friction = 1.4; friction = 1;
       lower_limit = -0.05; stiffness = 300; } } } }
 )"),
                  {1, 60, 200, 333}, 400);

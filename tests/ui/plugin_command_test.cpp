@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <vector>
 
+#include "control/plugin/plugin_abi.h"
 #include "tests/support/command.h"
 #include "tests/support/folders.h"
 
@@ -268,7 +269,8 @@ INSTANTIATE_TEST_SUITE_P(
                     "has no symbol `hookpoint_plugin_abi`: it is no plugin, or was not "
                     "built by hookpoint_add_controller"},
         WrongPlugin{"wrong_version",
-                    std::string("was built for plugin ABI 999, this program has 4") + again},
+                    std::string("was built for plugin ABI 999, this program has ") +
+                        std::to_string(control::plugin_abi_version) + again},
         WrongPlugin{"old_strings", std::string("was built with libstdc++ with strings from before "
                                                "C++11, this program with libstdc++ with C++11 "
                                                "strings") +

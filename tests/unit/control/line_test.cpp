@@ -40,6 +40,32 @@ TEST(TransmissionLine, ThreeHundredHertzOnAMillisecond) {
             (Sequence{0, 0, 0, 0, 4, 4, 4, 7, 7, 7, 10, 10, 10, 10, 14}));
 }
 
+// The source is k at step k: samples at 0, 4, 7, 10, 14 are the means of 0; 1 ... 4; 5 ... 7; 8 ... 10; 11 ... 14.
+TEST(TransmissionLine, MeanSinceTheLastSample) {
+  LineDescription mean = line_of(Rational(300), 0);
+  mean.mean = true;
+  EXPECT_EQ(outputs(mean, millisecond, 15),
+            (Sequence{0, 0, 0, 0, 2.5, 2.5, 2.5, 6, 6, 6, 9, 9, 9, 9, 12.5}));
+  mean.delay = Rational(5, 2000);
+  EXPECT_EQ(outputs(mean, millisecond, 18),
+            (Sequence{-1, -1, -1, 0, 0, 0, 0, 2.5, 2.5, 2.5, 6, 6, 6, 9, 9, 9, 9, 12.5}));
+  mean.rate.reset();
+  mean.delay = 0;
+  EXPECT_EQ(outputs(mean, millisecond, 4), (Sequence{0, 1, 2, 3}));
+}
+
+TEST(TransmissionLine, MeanResumesInTheMidstOfASum) {
+  LineDescription description = line_of(Rational(300), Rational(5, 2000));
+  description.mean = true;
+  TransmissionLine line(description, millisecond);
+  for (int k = 0; k < 9; ++k) line.at(k, k);
+  std::vector<double> state(line.state_size());
+  line.save(state);
+  TransmissionLine resumed(description, millisecond);
+  resumed.restore(8, state);
+  for (int k = 9; k < 40; ++k) EXPECT_EQ(resumed.at(k, k), line.at(k, k)) << k;
+}
+
 // A run has at most 2^53 steps.
 TEST(TransmissionLine, DelayThatNoRunLastsIsRefused) {
   const Rational rare(1, std::int64_t{1} << 40), longest(std::int64_t{1} << 53);

@@ -26,11 +26,26 @@ void set(ComponentBench& bench, const Quaterniond& q_WB) {
   bench["orientation[2]"] = q_WB.y;
   bench["orientation[3]"] = q_WB.z;
 }
+void set_mounting(ComponentBench& bench, const Quaterniond& q_BS) {
+  bench["mounting_orientation[0]"] = q_BS.w;
+  bench["mounting_orientation[1]"] = q_BS.x;
+  bench["mounting_orientation[2]"] = q_BS.y;
+  bench["mounting_orientation[3]"] = q_BS.z;
+}
 void expect_vector(ComponentBench& bench, const std::string& name, const Vector3d& v,
                    double tolerance) {
   EXPECT_NEAR(bench[name + "[0]"], v.x, tolerance) << name;
   EXPECT_NEAR(bench[name + "[1]"], v.y, tolerance) << name;
   EXPECT_NEAR(bench[name + "[2]"], v.z, tolerance) << name;
+}
+
+/// On a circle of radius r at rate W, the velocities of two readings T apart differ by 2 W r sin(W
+/// T/2) towards the centre as seen halfway, W T/2 before the later reading; as T -> 0 that is W^2 r
+/// towards the centre.
+Vector3d on_a_circle(double radius, double rate, double period) {
+  const double half = 0.5 * rate * period;
+  const double inward = 2. * rate * radius * std::sin(half) / period;
+  return {-inward * std::cos(half), inward * std::sin(half), 9.81};
 }
 
 void expect_attached(const std::string& class_name, control::Attachment attachment,
@@ -141,6 +156,60 @@ TEST(IMU, AtRestFeelsTheGroundPushUp) {
   expect_vector(imu, "accelerometer", {-9.81, 0., 0.}, 1e-14);
 }
 
+/// Screwed in upside down, then with its x along the body's y.
+TEST(IMU, ReadsInTheAxesOfItsMounting) {
+  ComponentBench imu("Sensor.IMU");
+  imu.start();
+  set(imu, Quaterniond{});
+  set(imu, "angular_velocity", {1., 2., 3.});
+  set_mounting(imu, from_roll_pitch_yaw(std::numbers::pi, 0., 0.));
+  imu.tick();
+  expect_vector(imu, "accelerometer", {0., 0., -9.81}, 1e-14);
+  expect_vector(imu, "gyroscope", {1., -2., -3.}, 1e-14);
+  set_mounting(imu, from_roll_pitch_yaw(0., 0., std::numbers::pi / 2.));
+  set(imu, "accelerometer_bias", {0.1, 0.2, 0.3});
+  imu.tick();
+  expect_vector(imu, "accelerometer", {0.1, 0.2, 9.81 + 0.3}, 1e-14);
+  expect_vector(imu, "gyroscope", {2., -1., 3.}, 1e-14);
+}
+
+/// The place is counted in the body's axes, whatever the unit's: on a circle the specific force
+/// towards the centre is -x of the body, -y of a unit that is turned by -90 deg about z.
+TEST(IMU, PlaceOfATurnedUnitIsInTheBodysAxes) {
+  const double radius = 0.3, rate = 4., period = 0.01;
+  ComponentBench imu("Sensor.IMU", period);
+  imu["mounting[0]"] = radius;
+  set_mounting(imu, from_roll_pitch_yaw(0., 0., -std::numbers::pi / 2.));
+  imu.start();
+  for (int k = 0; k < 5; ++k) {
+    set(imu, from_roll_pitch_yaw(0., 0., rate * k * period));
+    set(imu, "angular_velocity", {0., 0., rate});
+    imu.tick();
+    const Vector3d a = on_a_circle(radius, rate, period);
+    if (k > 0) expect_vector(imu, "accelerometer", {-a.y, a.x, a.z}, 1e-12);
+  }
+}
+
+/// Of a unit that is upside down (about x) roll is half a turn off and pitch is that of the body.
+TEST(TiltSensor, ReadsTheTiltOfItsMounting) {
+  ComponentBench sensor("Sensor.Tilt");
+  set_mounting(sensor, from_roll_pitch_yaw(std::numbers::pi, 0., 0.));
+  set(sensor, from_roll_pitch_yaw(0.4, 0.3, 1.1));
+  sensor.tick();
+  EXPECT_NEAR(sensor["roll"], 0.4 - std::numbers::pi, 1e-14);
+  EXPECT_NEAR(sensor["pitch"], 0.3, 1e-14);
+  // Turned by 90 deg about z: it rolls as the body pitches, and pitches against the body's roll.
+  set_mounting(sensor, from_roll_pitch_yaw(0., 0., std::numbers::pi / 2.));
+  set(sensor, from_roll_pitch_yaw(0., 0.3, 0.));
+  sensor.tick();
+  EXPECT_NEAR(sensor["roll"], 0.3, 1e-14);
+  EXPECT_NEAR(sensor["pitch"], 0., 1e-14);
+  set(sensor, from_roll_pitch_yaw(0.4, 0., 0.));
+  sensor.tick();
+  EXPECT_NEAR(sensor["roll"], 0., 1e-14);
+  EXPECT_NEAR(sensor["pitch"], -0.4, 1e-14);
+}
+
 TEST(IMU, GravityIsAParameter) {
   ComponentBench imu("Sensor.IMU");
   imu["gravity"] = 1.62;
@@ -171,15 +240,6 @@ TEST(IMU, FallingFeelsNothing) {
     imu.tick();
     if (k > 0) expect_vector(imu, "accelerometer", {}, 1e-11);
   }
-}
-
-/// On a circle of radius r at rate W, the velocities of two readings T apart differ by 2 W r sin(W
-/// T/2) towards the centre as seen halfway, W T/2 before the later reading; as T -> 0 that is W^2 r
-/// towards the centre.
-Vector3d on_a_circle(double radius, double rate, double period) {
-  const double half = 0.5 * rate * period;
-  const double inward = 2. * rate * radius * std::sin(half) / period;
-  return {-inward * std::cos(half), inward * std::sin(half), 9.81};
 }
 
 TEST(IMU, BodyThatRunsOnACircle) {
