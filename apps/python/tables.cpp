@@ -32,9 +32,9 @@ bool holds_seeds(const std::string& title) {
 /// Columns of words, should one be empty throughout or hold names that read as numbers.
 bool holds_words(const std::string& title) {
   constexpr std::array words{
-      "subject", "engine",   "law",         "integrator", "settings", "study", "regime",
-      "metric",  "scene",    "truth",       "unit",       "allowed",  "ok",    "status",
-      "stage",   "feasible", "recommended", "objective",  "constant", "told",  "at_end",
+      "subject", "engine",   "law",         "integrator", "settings", "study",      "regime",
+      "metric",  "scene",    "truth",       "unit",       "allowed",  "ok",         "status",
+      "stage",   "feasible", "recommended", "objective",  "constant", "identified", "at_end",
       "reason",  "other",    "held_out",    "trace",      "port"};
   return title.ends_with("_ok") || holds_seeds(title) ||
          std::ranges::find(words, title) != words.end();

@@ -25,10 +25,11 @@ Fields<CalibrateBlock> make_calibrate_fields() {
                                    "parts of a cross-validation over the traces; below 2: none")),
              between(0, 100000,
                      integer_field("resamples", &CalibrationWork::resamples,
-                                   "samples of the bootstrap")),
+                                   "samples of the bootstrap, for correlations; 0: neither "
+                                   "correlations nor intervals")),
              choice_field("bootstrap", {"refits", "one_step"}, &CalibrationWork::bootstrap,
                           "each sample is fitted again, or solved with the model linearised at the "
-                          "optimum, without a run"),
+                          "optimum, without a run; of least_squares"),
              between(1, 10000,
                      integer_field("starts", &CalibrationWork::starts,
                                    "points all over the ranges that are looked at; the best are "

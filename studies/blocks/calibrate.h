@@ -11,7 +11,7 @@
 
 namespace hookpoint::studies {
 
-/// How the spread of the constants is found.
+/// How the correlations of the constants are found.
 enum class Bootstrap {
   refits,   ///< every sample is fitted from the optimum on
   one_step  ///< every sample is solved with the model linearised at the optimum
@@ -27,7 +27,7 @@ enum class FitMethod {
 struct CalibrationWork {
   std::size_t folds = 5;  ///< of the cases; fewer than 2: no cross-validation
   std::size_t resamples = 200;
-  Bootstrap bootstrap = Bootstrap::refits;
+  Bootstrap bootstrap = Bootstrap::one_step;
   std::size_t starts = 16;
   FitMethod method = FitMethod::least_squares;
   int population = 12, generations = 10;  ///< of cmaes

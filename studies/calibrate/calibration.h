@@ -46,8 +46,8 @@ struct FittedConstant {
   std::string reason;               ///< why not, or what is missing
 };
 
-/// A fit whose error is greater misses its own weights: 1 is expected where those are 1 over the
-/// noise.
+/// A fit whose error is so many times what is expected, where each weight is 1 over the noise,
+/// misses its own weights.
 constexpr double greatest_error_of_a_fit = 2.;
 
 /// Where the error of cases that a fit has not seen will be, with a chance of 95 %.

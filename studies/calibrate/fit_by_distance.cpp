@@ -9,6 +9,7 @@
 
 #include "studies/calibrate/calibration_method.h"
 #include "studies/calibrate/intervals.h"
+#include "studies/calibrate/profiles.h"
 #include "studies/calibrate/resampling.h"
 #include "studies/calibrate/response_surface.h"
 #include "studies/measurements/trace_residual.h"
@@ -21,6 +22,8 @@ namespace {
 /// Rounds of a search after CMA-ES, and evaluations of each.
 constexpr int surface_rounds = 3;
 constexpr std::size_t surface_evaluations = 4;
+/// Distances within this part of their mean count as squares in a refit, which needs derivatives.
+constexpr double smoothing = 0.3;
 /// A fold's search that begins where the first one ended has this width at first [parts of the
 /// range], and takes half of the generations.
 constexpr double width_of_a_fold = 0.3;
@@ -81,7 +84,7 @@ class DistanceMethod final : public CalibrationMethod {
 
   static std::size_t rows_of(const CalibrationPlan& plan, std::size_t constants) {
     return constants + evaluations_of_a_search(plan, plan.generations) +
-           (plan.resamples < least_resamples ? 0 : axis_points * constants) +
+           (plan.resamples == 0 ? 0 : rows_of_profiles(constants)) +
            fold_count(plan) * evaluations_of_a_search(plan, generations_of_folds(plan));
   }
 
@@ -106,19 +109,20 @@ class DistanceMethod final : public CalibrationMethod {
     return true;
   }
 
-  /// Of each sample of the bootstrap the point where the surface is least, without a run.
+  /// By profiles; of each sample of the bootstrap the point where the surface is least, without a
+  /// run.
   void intervals() override {
+    if (fit_.plan.resamples == 0) return;
     const Cases cases = fit_.drawn_cases();
-    const FitOutcome& best = *found_.best();
+    const FitMeasure distances = measure(cases);
+    polish(fit_, distances);
+    set_intervals(fit_, find_profiles(fit_, distances));
     std::vector<UnitPoint> points;
     for (std::size_t i = 0; i < fit_.plan.resamples; ++i) {
       std::mt19937_64 random = fit_.random_of(i);
       points.push_back(*found_.least(draw_with_replacement(cases.size(), random)));
     }
-    std::vector<FitOutcome> evaluated = found_.evaluated;
-    if (fit_.plan.resamples >= least_resamples) evaluate_axes(cases, best.point, evaluated);
-    find_intervals(fit_, points, ends_of(points_as_near(evaluated, best)), {},
-                   tail_of_interval(static_cast<double>(cases.size())));
+    set_correlations(fit_, points);
   }
 
   /// Each case by constants that were fitted without it; without folds by those of all. A fold's
@@ -227,55 +231,105 @@ class DistanceMethod final : public CalibrationMethod {
     return found;
   }
 
-  /// Adds points along the axes through the best one: the search itself went where the error falls,
-  /// and saw little of a constant that changes nothing.
-  void evaluate_axes(const Cases& cases, const UnitPoint& best,
-                     std::vector<FitOutcome>& evaluated) {
-    const std::vector<UnitPoint> points = points_on_axes(best);
-    const auto outcomes =
-        fit_.run({points.size(), [&](std::size_t i) { return fit_.identity("axis", i, points[i]); },
-                  [&](std::size_t i) { return evaluate(points[i], cases); }});
-    for (std::size_t i = 0; i < outcomes.size(); ++i) {
-      if (!outcomes[i]) continue;
-      fit_.result.records.push_back({FitStage::axis, i + 1, points[i], outcomes[i]->error,
-                                     outcomes[i]->models, outcomes[i]->status});
-      evaluated.push_back(*outcomes[i]);
-    }
-    stop_if_unfinished(outcomes);
+  /// Mean distances; of enough cases compared case by case, else sample by sample.
+  FitMeasure measure(const Cases& cases) const {
+    FitMeasure mean{cases};
+    mean.error = [this, cases](const Residuals& residuals) {
+      return std::optional(mean_by_fours(distances(cases, residuals)));
+    };
+    mean.to_squares = [this, cases](const Residuals& residuals, const Residuals& from) {
+      return roots_of_distances(cases, residuals, smoothing * mean_of(cases, from));
+    };
+    const bool by_case = cases.size() >= least_cases_to_resample;
+    mean.excess_over = [this, cases, by_case](const Residuals& at_optimum) -> Excess {
+      PairedThings things{by_case ? distances(cases, at_optimum) : parts(cases, at_optimum)};
+      const auto count = static_cast<double>(things.at_optimum.size());
+      things.limits_largest = by_case;
+      if (!by_case) things.worth = statistical_inefficiency(at_optimum, curve_sizes(cases));
+      things.count =
+          by_case ? count
+                  : count / things.worth - static_cast<double>(fit_.subject.constants.size()) + 1.;
+      things.equal = equal_errors * std::max(1., mean_of(cases, at_optimum));
+      if (by_case)
+        return [this, cases, things](const Residuals& residuals) {
+          return paired_excess(things, distances(cases, residuals));
+        };
+      return [this, cases, things, at_optimum](const Residuals& residuals) {
+        return paired_excess(things, parts(cases, residuals), scores(cases, residuals, at_optimum));
+      };
+    };
+    return mean;
   }
 
-  /// Points whose mean distance is not greater than the best one's by more than chance makes it,
-  /// case by case (Student's t, one constant of 95 %).
-  static std::vector<UnitPoint> points_as_near(const std::vector<FitOutcome>& evaluated,
-                                               const FitOutcome& best) {
-    std::vector<UnitPoint> points;
-    for (const FitOutcome& one : evaluated) {
-      if (!one.error) continue;
-      const double count = static_cast<double>(one.cases.size());
-      double sum = 0., squares = 0.;
-      for (std::size_t i = 0; i < one.cases.size(); ++i) {
-        const double more = one.cases[i] - best.cases[i];
-        sum += more;
-        squares += more * more;
+  double mean_of(const Cases& cases, const Residuals& residuals) const {
+    return mean_by_fours(distances(cases, residuals));
+  }
+
+  /// Calls `visit(trace, sample, index of the trace's first residual, its part of the mean)` for
+  /// every sample.
+  template <class Visit>
+  void for_each_sample(const Cases& cases, Visit visit) const {
+    std::size_t first = 0;
+    for (const std::size_t one : cases) {
+      const auto& traces = fit_.plan.cases[one].traces;
+      for (const TracePlan& trace : traces) {
+        const std::size_t samples = trace.measured.time.size();
+        const double part = 1. / static_cast<double>(cases.size() * traces.size() * samples);
+        for (std::size_t sample = 0; sample < samples; ++sample) visit(trace, sample, first, part);
+        first += trace.residuals();
       }
-      const double variance =
-          std::max(0., (squares - sum * sum / count) / std::max(1., count - 1.));
-      if (sum / count <= student_quantile(count) * std::sqrt(variance / count))
-        points.push_back(one.point);
     }
-    return points;
   }
 
-  /// The ends of the box about these points, of which there is one at least.
-  static std::vector<ProfileEnd> ends_of(const std::vector<UnitPoint>& points) {
-    std::vector<ProfileEnd> ends;
-    for (std::size_t i = 0; i < points.front().size(); ++i) {
-      const auto [low, high] =
-          std::ranges::minmax(points, {}, [i](const UnitPoint& point) { return point[i]; });
-      ends.push_back({low[i], low});
-      ends.push_back({high[i], high});
-    }
-    return ends;
+  /// The parts of all samples, whose mean is the mean distance.
+  std::vector<double> parts(const Cases& cases, const Residuals& residuals) const {
+    std::vector<double> each;
+    for_each_sample(
+        cases, [&](const TracePlan& trace, std::size_t sample, std::size_t first, double part) {
+          each.push_back(part * distance(trace, sample,
+                                         std::span(residuals).subspan(first, trace.residuals())));
+        });
+    for (double& one : each) one *= static_cast<double>(each.size());
+    return each;
+  }
+
+  /// Of every sample by how much its part may change with a move of its residuals: the part of the
+  /// move that is along the residuals, on average over their directions.
+  std::vector<double> scores(const Cases& cases, const Residuals& residuals,
+                             const Residuals& at_optimum) const {
+    Residuals moved = residuals;
+    for (std::size_t i = 0; i < moved.size(); ++i) moved[i] -= at_optimum[i];
+    std::vector<double> each = parts(cases, moved);
+    std::size_t at = 0;
+    for_each_sample(cases, [&](const TracePlan& trace, std::size_t, std::size_t, double) {
+      each[at++] /= std::sqrt(static_cast<double>(trace.residuals_a_sample()));
+    });
+    return each;
+  }
+
+  /// Residuals whose sum of squares is the mean distance, smooth within `width` of 0: a distance d
+  /// counts as sqrt(d^2 + width^2) - width.
+  Residuals roots_of_distances(const Cases& cases, const Residuals& residuals, double width) const {
+    Residuals roots = residuals;
+    const double least = std::max(width, 1e-9);
+    for_each_sample(
+        cases, [&](const TracePlan& trace, std::size_t sample, std::size_t first, double part) {
+          const auto of_trace = std::span(residuals).subspan(first, trace.residuals());
+          const double far = distance(trace, sample, of_trace);
+          // (sqrt(d^2 + w^2) - w)/d^2 = 1/(sqrt(d^2 + w^2) + w).
+          const double factor = std::sqrt(part / (std::hypot(far, least) + least));
+          for (std::size_t at = sample; at < of_trace.size(); at += trace.measured.time.size())
+            roots[first + at] *= factor;
+        });
+    return roots;
+  }
+
+  std::vector<std::size_t> curve_sizes(const Cases& cases) const {
+    std::vector<std::size_t> sizes;
+    for (const std::size_t one : cases)
+      for (const TracePlan& trace : fit_.plan.cases[one].traces)
+        sizes.insert(sizes.end(), trace.residuals_a_sample(), trace.measured.time.size());
+    return sizes;
   }
 
   /// Of the cases that a search may see at most so many that it has not evaluated, in their order.

@@ -1,13 +1,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "studies/calibrate/calibration_method.h"
 #include "studies/calibrate/intervals.h"
-#include "studies/calibrate/profile.h"
+#include "studies/calibrate/profiles.h"
 #include "studies/calibrate/resampling.h"
-#include "studies/results/statistics.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -17,16 +17,6 @@ namespace {
 constexpr FitOptions fit_of_runs{5e-4, 60, 1e-8}, refit_of_runs{5e-4, 30, 1e-6};
 /// Rounds of the search along the axes.
 constexpr std::size_t axis_rounds = 3;
-/// Evaluations of a profile on either side of the optimum at most.
-constexpr ProfileOptions profile_of_runs{{5e-4, 20, 1e-4}, 16, 0.05};
-/// A profile that finds a better optimum begins there again, at most so often in all.
-constexpr std::size_t profile_rounds = 3;
-/// Root mean squares that differ by less than this part of the weight's error are equal: how the
-/// numbers of a table are rounded makes more.
-constexpr double equal_errors = 1e-6;
-/// What became of a profile.
-constexpr const char* no_run_beyond = "no run beyond has a value";
-constexpr const char* better_optimum = "a better optimum";
 
 /// The sum of all squares, by derivatives.
 class SquaresMethod final : public CalibrationMethod {
@@ -36,7 +26,7 @@ class SquaresMethod final : public CalibrationMethod {
   static std::size_t rows_of(const CalibrationPlan& plan, std::size_t constants) {
     return constants + 2 + plan.starts + refined_starts +
            axis_rounds * (axis_points * constants + refined_starts) +
-           profile_rounds * profiles_of(plan, constants) +
+           (plan.resamples == 0 ? 0 : rows_of_profiles(constants)) +
            (plan.bootstrap == Bootstrap::refits ? plan.resamples : 0) + fold_count(plan);
   }
 
@@ -65,9 +55,9 @@ class SquaresMethod final : public CalibrationMethod {
   }
 
   void intervals() override {
-    if (optimum_.residuals.empty()) return;
-    std::vector<ProfileEnd> ends;
-    if (fit_.plan.resamples >= least_resamples) ends = find_profiles();
+    if (optimum_.residuals.empty() || fit_.plan.resamples == 0) return;
+    const Profiles profiles = find_profiles(fit_, measure());
+    linearise_at_optimum();
     fit_.result.block =
         fit_.plan.resamples_cases() ? 0 : block_length(optimum_.residuals, trace_sizes());
     const auto fit = [&](std::size_t i) {
@@ -92,7 +82,8 @@ class SquaresMethod final : public CalibrationMethod {
       }
       stop_if_unfinished(outcomes);
     }
-    find_intervals(fit_, points, ends, points_within_noise(), interval_tail());
+    set_intervals(fit_, profiles);
+    set_correlations(fit_, points);
   }
 
   void folds() override {
@@ -121,9 +112,37 @@ class SquaresMethod final : public CalibrationMethod {
   }
 
  private:
-  /// Ends of intervals that are searched for in a round, and the fit from a better optimum.
-  static std::size_t profiles_of(const CalibrationPlan& plan, std::size_t constants) {
-    return plan.resamples < least_resamples ? 0 : 2 * constants + 1;
+  /// Squares of independent residuals; of enough cases their sums, which also say how much cases
+  /// differ.
+  FitMeasure measure() const {
+    FitMeasure squares{fit_.cases};
+    squares.error = [](const Residuals& residuals) { return error_of(residuals); };
+    squares.to_squares = [](const Residuals& residuals, const Residuals&) { return residuals; };
+    squares.excess_over = [this](const Residuals& at_optimum) -> Excess {
+      if (!fit_.plan.resamples_cases())
+        return excess_of_squares(at_optimum, fit_.subject.constants.size(),
+                                 statistical_inefficiency(at_optimum, trace_sizes()));
+      PairedThings things{squares_of_cases(at_optimum)};
+      things.count = static_cast<double>(fit_.plan.cases.size());
+      things.equal =
+          static_cast<double>(at_optimum.size()) / things.count * equal_errors * equal_errors;
+      things.limits_largest = true;
+      return [this, things](const Residuals& residuals) {
+        return paired_excess(things, squares_of_cases(residuals));
+      };
+    };
+    return squares;
+  }
+
+  std::vector<double> squares_of_cases(const Residuals& residuals) const {
+    std::vector<double> sums;
+    auto from = residuals.begin();
+    for (const CalibrationCase& one : fit_.plan.cases) {
+      const auto to = from + static_cast<std::ptrdiff_t>(one.residuals());
+      sums.push_back(std::inner_product(from, to, from, 0.));
+      from = to;
+    }
+    return sums;
   }
 
   ResidualModel model_of(const Cases& cases) const {
@@ -315,88 +334,6 @@ class SquaresMethod final : public CalibrationMethod {
           return residuals;
         },
         start);
-  }
-
-  /// A sum of squares up to which a point explains the data as well as the optimum does: of one
-  /// constant that is moved, with 95 % (F(1, n - p) is t^2), where as many independent residuals as
-  /// the correlated ones are worth say how large the noise is.
-  double bound_of_noise() const {
-    const double count = static_cast<double>(fit_.plan.residuals());
-    const double constants = static_cast<double>(fit_.subject.constants.size());
-    const double worth = statistical_inefficiency(optimum_.residuals, trace_sizes());
-    const double things = fit_.plan.resamples_cases() ? static_cast<double>(fit_.plan.cases.size())
-                                                      : count / worth - constants + 1.;
-    const double t = student_quantile(things), sum = sum_of_squares(optimum_.residuals);
-    const double variance = sum / std::max(1., count - constants);
-    return sum + std::max(worth * variance * t * t, count * equal_errors * equal_errors);
-  }
-
-  /// Both ends of each constant's interval by its profile, from the lower end of the first on;
-  /// empty where a profile leads to ever better optima.
-  std::vector<ProfileEnd> find_profiles() {
-    for (std::size_t round = 0; round < profile_rounds; ++round) {
-      const std::size_t count = 2 * fit_.subject.constants.size();
-      const double bound = bound_of_noise();
-      const ResidualModel model = model_of(fit_.cases);
-      const auto outcomes = fit_.run(
-          {count, [&](std::size_t i) { return fit_.identity("profile", i, optimum_.point); },
-           [&](std::size_t i) {
-             const ProfileEnd end =
-                 profile_end(model, optimum_, i / 2, i % 2 == 1, bound, profile_of_runs);
-             FitOutcome outcome = outcome_of(
-                 end.better ? *end.better : LeastSquaresFit{end.point, end.sum, end.models},
-                 fit_.plan.residuals());
-             outcome.models = end.models;
-             outcome.end = end.share;
-             if (end.without_runs) outcome.status = no_run_beyond;
-             if (end.better) outcome.status = better_optimum;
-             return outcome;
-           }});
-      std::vector<ProfileEnd> ends;
-      const FitOutcome* better = nullptr;
-      for (std::size_t i = 0; i < outcomes.size(); ++i) {
-        if (!outcomes[i]) continue;
-        const FitOutcome& one = *outcomes[i];
-        fit_.result.records.push_back({FitStage::profile, round * count + i + 1, one.point,
-                                       one.error, one.models, one.status});
-        if (one.status == better_optimum && (better == nullptr || *one.error < *better->error))
-          better = &one;
-        ends.push_back({one.end.value_or(0.), one.point, 0., one.status == no_run_beyond});
-      }
-      stop_if_unfinished(outcomes);
-      if (better == nullptr) return ends;
-      if (!move_to(better->point)) break;
-    }
-    return {};
-  }
-
-  /// Refines from a point that is better than the optimum. False where there is no run.
-  bool move_to(const UnitPoint& from) {
-    const auto refined = refine_all({from});
-    record(FitStage::refined, refined, {from});
-    stop_if_unfinished(refined);
-    linearise_at_optimum();
-    return !optimum_.residuals.empty();
-  }
-
-  /// Places of the search that explain the data as well as the optimum.
-  std::vector<UnitPoint> points_within_noise() const {
-    const double greatest =
-        std::sqrt(bound_of_noise() / static_cast<double>(fit_.plan.residuals()));
-    std::vector<UnitPoint> points;
-    for (const FitRecord& one : fit_.result.records)
-      if (one.stage != FitStage::resample && one.error && *one.error <= greatest)
-        points.push_back(one.point);
-    return points;
-  }
-
-  /// The fit has taken one of the blocks for each constant.
-  double interval_tail() const {
-    if (fit_.plan.resamples_cases())
-      return tail_of_interval(static_cast<double>(fit_.plan.cases.size()));
-    const double blocks =
-        static_cast<double>(fit_.plan.residuals()) / static_cast<double>(fit_.result.block);
-    return tail_of_interval(blocks - static_cast<double>(fit_.subject.constants.size()));
   }
 
   SubjectFit& fit_;

@@ -10,8 +10,10 @@ constexpr const char* error_name = "error";
 constexpr const char* held_out_name = "held_out";
 constexpr const char* models_name = "models";
 constexpr const char* end_name = "end";
+constexpr const char* least_sure_name = "least_sure";
 
 std::string share_name(std::size_t number) { return "share_" + std::to_string(number); }
+std::string apart_name(std::size_t number) { return "apart_" + std::to_string(number); }
 std::string case_name(std::size_t number) { return "case_" + std::to_string(number); }
 
 RunRecord record_of_fit(const FitOutcome& outcome) {
@@ -24,7 +26,10 @@ RunRecord record_of_fit(const FitOutcome& outcome) {
     record.values[share_name(i)].measured = outcome.point[i];
   for (std::size_t i = 0; i < outcome.cases.size(); ++i)
     record.values[case_name(i)].measured = outcome.cases[i];
+  for (std::size_t i = 0; i < outcome.apart.size(); ++i)
+    record.values[apart_name(i)].measured = outcome.apart[i];
   if (outcome.end) record.values[end_name].measured = outcome.end;
+  if (outcome.least_sure) record.values[least_sure_name].measured = outcome.least_sure;
   return record;
 }
 
@@ -43,7 +48,10 @@ FitOutcome fit_in(const RunRecord& record) {
     outcome.point.push_back(value(share_name(i)).value_or(0.));
   for (std::size_t i = 0; record.values.contains(case_name(i)); ++i)
     outcome.cases.push_back(value(case_name(i)).value_or(0.));
+  for (std::size_t i = 0; record.values.contains(apart_name(i)); ++i)
+    outcome.apart.push_back(value(apart_name(i)).value_or(0.));
   if (record.values.contains(end_name)) outcome.end = value(end_name);
+  if (record.values.contains(least_sure_name)) outcome.least_sure = value(least_sure_name);
   return outcome;
 }
 

@@ -15,6 +15,8 @@ namespace {
 
 /// A constant whose interval is a greater part of its range is not identified by the data.
 constexpr double widest_interval = 0.5;
+/// A constant that moves by less than this part of its range with another is no partner of it.
+constexpr double least_partner = 0.05;
 /// Two optima are farther apart than this part of a range, and than the interval is wide.
 constexpr double least_gap = 0.01;
 
@@ -50,6 +52,22 @@ std::string unit_of(const CalibrationPlan& plan, const FittedConstant& constant)
   return unit.empty() ? "" : " " + unit;
 }
 
+/// The other constants that move when this one does, from one end of its interval to the other:
+/// " with b and c"; "" where there are none.
+std::string partners(const SubjectFit& fit, const Profiles& profiles, std::size_t constant) {
+  std::string names;
+  for (std::size_t other = 0; other < fit.result.constants.size(); ++other) {
+    const double from = profiles.ends[2 * constant].point[other];
+    const double to = profiles.ends[2 * constant + 1].point[other];
+    const double at = fit.result.constants[other].share;
+    const double moved = std::max({from, to, at}) - std::min({from, to, at});
+    if (other == constant || moved < least_partner) continue;
+    names += (names.empty() ? " together with " : " and ") +
+             fit.plan.varied[fit.result.constants[other].constant].name;
+  }
+  return names;
+}
+
 std::string why_not_identifiable(const FittedConstant& constant) {
   if (const std::string_view end = range_end(constant.share); !end.empty())
     return fmt::format("the fit ends at the {} end of its range", end);
@@ -64,35 +82,33 @@ std::string why_not_identifiable(const FittedConstant& constant) {
 
 }  // namespace
 
-void find_intervals(SubjectFit& fit, const std::vector<UnitPoint>& points,
-                    const std::vector<ProfileEnd>& ends, const std::vector<UnitPoint>& as_good,
-                    double tail) {
-  fit.result.resamples = points.size();
-  if (points.size() < least_resamples) {
-    for (FittedConstant& constant : fit.result.constants)
-      constant.reason = fmt::format("an interval needs {} samples of the bootstrap, not {}",
-                                    least_resamples, points.size());
-    return;
-  }
-  std::vector<std::vector<double>> columns(fit.subject.constants.size());
-  for (const UnitPoint& point : points)
-    for (std::size_t i = 0; i < point.size(); ++i) columns[i].push_back(point[i]);
-  for (std::size_t i = 0; i < columns.size(); ++i) {
+void set_intervals(SubjectFit& fit, const Profiles& profiles) {
+  if (profiles.ends.empty()) return;
+  for (std::size_t i = 0; i < fit.result.constants.size(); ++i) {
     FittedConstant& constant = fit.result.constants[i];
-    ExplainedRange interval{quantile(columns[i], tail), quantile(columns[i], 1. - tail)};
-    interval.include(constant.share);
+    ExplainedRange interval{constant.share, constant.share}, least_sure = interval;
     std::string beyond;
-    for (std::size_t side = 0; side < (ends.empty() ? 0 : 2); ++side) {
-      const ProfileEnd& end = ends[2 * i + side];
+    for (std::size_t side = 0; side < 2; ++side) {
+      const ProfileEnd& end = profiles.ends[2 * i + side];
       interval.include(end.share);
+      least_sure.include(end.least_sure);
       if (end.without_runs)
         beyond = fmt::format("no run has a value beyond the {} end of its interval",
                              side == 0 ? "lower" : "upper");
     }
-    const auto apart = interval.include(as_good, i);
+    const auto apart = interval.include(profiles.as_good, i);
     constant.low = interval.low;
     constant.high = interval.high;
     constant.reason = why_not_identifiable(constant);
+    if (constant.reason.empty()) {
+      // What an interval of 99.9 % does not identify is not called identified.
+      FittedConstant wider = constant;
+      wider.low = std::min(interval.low, least_sure.low);
+      wider.high = std::max(interval.high, least_sure.high);
+      wider.reason = why_not_identifiable(wider);
+      if (!wider.reason.empty()) constant = wider;
+    }
+    if (!constant.reason.empty()) constant.reason += partners(fit, profiles, i);
     if (constant.reason.empty()) constant.reason = beyond;
     if (apart && range_end(constant.share).empty())
       constant.reason =
@@ -100,8 +116,18 @@ void find_intervals(SubjectFit& fit, const std::vector<UnitPoint>& points,
                       value_text(fit.plan, constant, constant.share),
                       value_text(fit.plan, constant, *apart), unit_of(fit.plan, constant));
     constant.identifiable = constant.reason.empty();
+  }
+}
+
+void set_correlations(SubjectFit& fit, const std::vector<UnitPoint>& points) {
+  fit.result.resamples = points.size();
+  if (points.size() < 2) return;
+  std::vector<std::vector<double>> columns(fit.subject.constants.size());
+  for (const UnitPoint& point : points)
+    for (std::size_t i = 0; i < point.size(); ++i) columns[i].push_back(point[i]);
+  for (const std::vector<double>& one : columns) {
     std::vector<double>& row = fit.result.correlations.emplace_back();
-    for (const std::vector<double>& other : columns) row.push_back(correlation(columns[i], other));
+    for (const std::vector<double>& other : columns) row.push_back(correlation(one, other));
   }
 }
 

@@ -1,19 +1,19 @@
-// Intervals of the fitted constants: from a bootstrap, from profiles, and from points that explain
-// the data as well.
+// What profiles and bootstrap say of the constants of a fit.
 #pragma once
 
 #include <vector>
 
-#include "studies/calibrate/profile.h"
+#include "studies/calibrate/profiles.h"
 #include "studies/calibrate/subject_fit.h"
 
 namespace hookpoint::studies {
 
-/// Sets intervals, correlations and reasons of `fit.result`. `points`: those of the bootstrap;
-/// `ends`: of each constant's profile, lower and upper, or none; `as_good`: points that explain the
-/// data as well; `tail`: part of the bootstrap beyond either end of an interval.
-void find_intervals(SubjectFit& fit, const std::vector<UnitPoint>& points,
-                    const std::vector<ProfileEnd>& ends, const std::vector<UnitPoint>& as_good,
-                    double tail);
+/// Sets the interval of every constant, and whether the data identify it: it is not identifiable
+/// where the interval spans more than half of its range or reaches an end of it, where the fit ends
+/// at one, where no run has a value beyond, or where separate values explain the data.
+void set_intervals(SubjectFit& fit, const Profiles& profiles);
+
+/// Sets the correlations of the constants over the points of a bootstrap.
+void set_correlations(SubjectFit& fit, const std::vector<UnitPoint>& points);
 
 }  // namespace hookpoint::studies

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numbers>
 #include <span>
 
 #include "studies/calibrate/figures.h"
@@ -58,21 +59,47 @@ std::vector<ConstantSetting> fitted_settings(const CalibrationPlan& plan,
   return settings;
 }
 
+/// Mean length of normal errors of `parts` parts, each of standard deviation 1: the mean of the chi
+/// distribution, sqrt(2) G((n + 1)/2)/G(n/2).
+double mean_length(std::size_t parts) {
+  const auto count = static_cast<double>(parts);
+  return std::numbers::sqrt2 * std::tgamma(0.5 * (count + 1.)) / std::tgamma(0.5 * count);
+}
+
+/// Error of a model that is right, where each weight is 1 over the noise: of least squares 1, of
+/// distances the mean length of the noise.
+double expected_error(const CalibrationPlan& plan) {
+  if (plan.method == FitMethod::least_squares) return 1.;
+  double sum = 0.;
+  for (const CalibrationCase& one : plan.cases) {
+    double of_case = 0.;
+    for (const TracePlan& trace : one.traces) of_case += mean_length(trace.residuals_a_sample());
+    sum += of_case / static_cast<double>(one.traces.size());
+  }
+  return sum / static_cast<double>(plan.cases.size());
+}
+
+/// "more `starts` (now 16)": what a search of the plan's method may lack.
+std::string wider_search(const CalibrationPlan& plan) {
+  return plan.method == FitMethod::least_squares
+             ? fmt::format("more `starts` (now {})", plan.starts)
+             : fmt::format("more `generations` (now {})", plan.generations);
+}
+
 /// "misses its own weights: ...", with what to try; "" of a fit that does not.
 std::string misfit_of(const CalibrationPlan& plan, const SubjectCalibration& found) {
-  const bool misses = plan.method == FitMethod::least_squares && !plan.varied.empty() &&
-                      found.error && *found.error > greatest_error_of_a_fit;
-  if (!misses) return "";
+  if (plan.varied.empty() || !found.error) return "";
+  const double expected = expected_error(plan);
+  if (!(*found.error > greatest_error_of_a_fit * expected)) return "";
   std::string ends;
   for (const FittedConstant& constant : found.constants)
     if (!range_end(constant.share).empty())
       ends += (ends.empty() ? "" : ", ") + plan.varied[constant.constant].name;
   return fmt::format(
-      "misses its own weights: error {}, where 1 is expected if each weight is 1 over the noise. "
-      "Try more `starts` (now {}), {}, another clock `offset`, or another law: this one may not "
-      "make "
-      "the measured curve",
-      text::rounded(*found.error), plan.starts,
+      "misses its own weights: error {}, where {} is expected if each weight is 1 over the noise. "
+      "Try {}, {}, another clock `offset`, or another law: this one may not make the measured "
+      "curve",
+      text::rounded(*found.error), text::rounded(expected, 2), wider_search(plan),
       ends.empty() ? "wider ranges" : "a wider range of " + ends);
 }
 
@@ -136,8 +163,8 @@ std::string material_file(const CalibrationPlan& plan, const CalibrationSubject&
 
 output::CsvTable calibration_table(const CalibrationPlan& plan, const CalibrationResult& result) {
   output::CsvTable table;
-  table.header = {"subject", "constant", "unit",   "value", "low",
-                  "high",    "told",     "at_end", "reason"};
+  table.header = {"subject", "constant",   "unit",   "value", "low",
+                  "high",    "identified", "at_end", "reason"};
   for_each_subject(
       plan, result, [&](const CalibrationSubject& subject, const SubjectCalibration& found) {
         for (std::size_t constant = 0; constant < plan.varied.size(); ++constant) {

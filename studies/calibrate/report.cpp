@@ -67,7 +67,7 @@ std::string subject_composition(const SubjectInfo& info) {
   return text;
 }
 
-std::optional<double> promised_error(const FoldResult& fold) {
+std::optional<double> expected_error_of_fold(const FoldResult& fold) {
   return fold.prediction ? std::optional(fold.prediction->error) : std::nullopt;
 }
 
@@ -95,7 +95,7 @@ std::string subjects_table(const CalibrationPlan& plan, const CalibrationResult&
     table.row({html(info.name) + "<small> " + html(subject_composition(info)) + "</small>",
                text::rounded(found.error, "–"), text::rounded(found.own_error, "–"),
                text::rounded(mean_error(found.folds, &FoldResult::training), "–"),
-               text::rounded(mean_error(found.folds, promised_error), "–"),
+               text::rounded(mean_error(found.folds, expected_error_of_fold), "–"),
                text::rounded(mean_error(found.folds, &FoldResult::held), "–"), html(found.status)});
   }
   return table.text();
@@ -154,24 +154,29 @@ std::string correlations_of_subjects(const CalibrationPlan& plan, const Calibrat
                     "anything nearby.");
 }
 
+/// How intervals are found, whatever the method.
+constexpr const char* interval_words =
+    "each constant is moved to the ends of its range, the others refitted (profile likelihood), and "
+    "separate valleys are searched for. A constant is identifiable unless its interval spans more "
+    "than half of its range or reaches an end of it, or separate values explain the data.";
+
 std::string search_words(const CalibrationPlan& plan) {
   return fmt::format(
       "The same for every subject: CMA-ES, {} generations of {} places, the scene's own constants "
       "and the analytic guess among the first, over {} cases. What is made least, and reported as "
       "the error, is the mean over cases of the mean weighted distance of model and measurement. "
       "A quadratic surface over the best places says where to look further, and answers {} "
-      "bootstrap "
-      "samples over those cases without a run. Each fold is a search of its own over as many of "
-      "the cases that it may see{}. Places whose mean distance is not greater than the best "
-      "one's by more than chance makes it, case by case, count into the intervals. A constant is "
-      "identifiable unless its interval spans more than half of its range or reaches an end of "
-      "it.",
+      "bootstrap samples over those cases without a run. Each fold is a search of its own over as many of "
+      "the cases that it may see{}. Points whose mean distance is not greater than the best "
+      "one's by more than chance makes it, case by case or sample by sample, are in an interval: "
+      "{}",
       plan.generations, plan.population,
       plan.most_cases == 0 ? plan.cases.size() : std::min(plan.most_cases, plan.cases.size()),
       plan.resamples,
       folds_search_whole_box(plan)
           ? ""
-          : ", from where the first search ended, whose cases none holds out");
+          : ", from where the first search ended, whose cases none holds out",
+      interval_words);
 }
 
 std::string method_words(const CalibrationPlan& plan, const CalibrationResult& result) {
@@ -197,14 +202,10 @@ std::string method_words(const CalibrationPlan& plan, const CalibrationResult& r
       "one, and {} points all over the ranges; the best {} of them refined by "
       "Levenberg-Marquardt; {} bootstrap samples {}, each {}. The error is the root mean square "
       "of weight (model - measured): 1 where the weight is 1 over the noise and the model is "
-      "right. The interval of a constant is the wider of the bootstrap's and the profile's: how "
-      "far "
-      "it can move, the others refitted, before the error rises by more than noise makes it; other "
-      "places of the search that fit as well are in it. A constant is identifiable unless its "
-      "interval spans more than half of its range, reaches an end of it, or has two values apart "
-      "that fit equally well. An interval is of the data's noise alone: of a subject with an error "
+      "right. Points whose error is not greater than the best one's by more than noise makes it are "
+      "in an interval: {} An interval is of the data's noise alone: of a subject with an error "
       "well above 1 it is about a constant of a model that does not make this curve.",
-      plan.starts, refined_starts, plan.resamples, drawn, refits);
+      plan.starts, refined_starts, plan.resamples, drawn, refits, interval_words);
 }
 
 std::string traces_table(const CalibrationPlan& plan) {

@@ -102,7 +102,8 @@ void SubjectFit::adopt(const UnitPoint& point) {
   result.constants.clear();
   for (std::size_t i = 0; i < point.size(); ++i)
     result.constants.push_back({subject.constants[i], point[i], std::nullopt, std::nullopt, false,
-                                "its interval is not known"});
+                                plan.resamples == 0 ? "`resamples = 0`: no interval is searched for"
+                                                    : "its interval is not known"});
 }
 
 UnitPoint SubjectFit::best_point() const {

@@ -18,8 +18,6 @@ namespace hookpoint::studies {
 /// Indices into CalibrationPlan::cases, in order.
 using Cases = std::vector<std::size_t>;
 
-/// Fewer samples have less than one in a tail of 2.5 %.
-inline constexpr std::size_t least_resamples = 39;
 /// Points along each constant's axis at which other valleys are searched for.
 inline constexpr std::size_t axis_points = 12;
 /// Streams of random numbers; those of the bootstrap's samples come before.

@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t listed_runs = 10;
 
-Cell verdict_cell(const MetricSummary& metric) {
+Cell judged_cell(const MetricSummary& metric) {
   const int all = metric.passed + metric.failed;
   if (all == 0) return {"-", Tone::faint};
   const std::string word = metric.failed == 0 ? "pass" : "FAIL";
@@ -67,7 +67,7 @@ CellRow metric_row(const StudyResult& study, const MetricSummary& summary, std::
     row.push_back(number_cell(if_any(summary.largest)));
   }
   if (shape.predicted) row.push_back(number_cell(worst ? worst->predicted : std::nullopt));
-  if (shape.verdict) row.push_back(verdict_cell(summary));
+  if (shape.verdict) row.push_back(judged_cell(summary));
   return row;
 }
 

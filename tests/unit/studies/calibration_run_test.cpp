@@ -631,5 +631,19 @@ TEST_F(CalibrateFile, SubjectsByTheirNames) {
   EXPECT_FALSE(subject_named(world, "hookpoint_hunt_crossley"));
 }
 
+// Every method says that a fit misses its own weights.
+TEST_F(CalibrateFile, AFitByCmaesThatMissesItsOwnWeightsSaysSo) {
+  const std::string search = "method = cmaes; generations = 4; resamples = 0;\n" + trace();
+  const auto wrong =
+      plan(block(search + "Vary normal_damping { from = 1 N.s/m; to = 2 N.s/m; }\n"));
+  ASSERT_TRUE(wrong) << told_;
+  const auto sentences = misfits(*wrong, run(*wrong, "wrong"));
+  ASSERT_EQ(sentences.size(), 1U);
+  // The mean length of a normal error of one part is sqrt(2/pi).
+  EXPECT_NE(sentences[0].find("where 0.8 is expected"), std::string::npos) << sentences[0];
+  EXPECT_NE(place_.read("wrong/calibration.json").find("misses its own weights"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace hookpoint::studies

@@ -4,11 +4,24 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 namespace hookpoint::studies {
 namespace {
 
-constexpr ProfileOptions options{{1e-5, 30, 1e-10}, 24, 0.02};
+constexpr ProfileOptions options{{1e-5, 30, 1e-10}, 1e-2, 24, 0.02};
+
+/// Points whose sum of squares is greater than the optimum's by up to `margin` explain the data.
+ProfileProblem problem_of(const ResidualModel& model, const UnitPoint& optimum, double margin) {
+  ProfileProblem problem{optimum, model};
+  const double least = sum_of_squares(*model(optimum));
+  problem.excess = [=](const Residuals& residuals) {
+    return (sum_of_squares(residuals) - least) / margin;
+  };
+  problem.to_squares = [](const Residuals& residuals, const Residuals&) { return residuals; };
+  problem.zeros.assign(optimum.size(), std::nullopt);
+  return problem;
+}
 
 struct Ends {
   ProfileEnd low, high;
@@ -17,11 +30,9 @@ struct Ends {
 /// Both ends of a constant from the optimum, where the sum of squares grows by `margin`.
 Ends ends_of(const ResidualModel& model, const UnitPoint& optimum, std::size_t constant,
              double margin) {
-  const auto fit = linearise(model, optimum, 1e-5);
-  EXPECT_TRUE(fit);
-  const double bound = sum_of_squares(fit->residuals) + margin;
-  return {profile_end(model, *fit, constant, false, bound, options),
-          profile_end(model, *fit, constant, true, bound, options)};
+  const ProfileProblem problem = problem_of(model, optimum, margin);
+  return {profile_end(problem, constant, false, options),
+          profile_end(problem, constant, true, options)};
 }
 
 TEST(Profile, OfALineIsTheIntervalOfItsCovariance) {
@@ -109,13 +120,49 @@ TEST(Profile, ABetterOptimumAndPlacesWithoutRunsAreReported) {
   };
   const Ends from_worse = ends_of(valleys, {0.3}, 0, 0.5);
   EXPECT_TRUE(from_worse.high.better || from_worse.high.without_runs);
-  const auto fit = linearise(valleys, {0.7}, 1e-5);
-  const ProfileEnd high = profile_end(valleys, *fit, 0, true, 1.5, options);
+  const auto [low, high] = ends_of(valleys, {0.7}, 0, 0.5);
   EXPECT_TRUE(high.without_runs);
   EXPECT_NEAR(high.share, 0.9, 0.01);
-  const ProfileEnd low = profile_end(valleys, *fit, 0, false, 1.5, options);
   EXPECT_FALSE(low.without_runs);
   EXPECT_NEAR(low.share, 0.5, 0.01);
+}
+
+/// The sum steps at every 0.01 of x y, as where a body lands on whole steps of time.
+TEST(Profile, OfACurvedValleyWithRipplesGoesToItsEnds) {
+  struct Valley {
+    double (*seen)(double, double);
+    double low, high;  // where x can be, the other one within its range
+  };
+  // At (0.5, 0.5): x y = 0.25, x^2 + y^2 = 0.5, x/y = 1, x^2 y^3 = 1/32.
+  const std::vector<Valley> valleys{
+      {[](double x, double y) { return x * y; }, 0.25, 1.},
+      {[](double x, double y) { return x * x + y * y; }, 0., std::sqrt(0.5)},
+      {[](double x, double y) { return x / (y + 1e-9); }, 0., 1.},
+      {[](double x, double y) { return x * x * y * y * y * 8.; }, std::sqrt(1. / 32.), 1.}};
+  for (const Valley& valley : valleys) {
+    const ResidualModel rippled = [&](const UnitPoint& point) -> std::optional<Residuals> {
+      const double seen = valley.seen(point[0], point[1]);
+      const double landed = 0.01 * std::floor(seen / 0.01);
+      return Residuals{1., 100. * (seen - valley.seen(0.5, 0.5)),
+                       150. * (landed - 0.01 * std::floor(valley.seen(0.5, 0.5) / 0.01))};
+    };
+    const Ends ends = ends_of(rippled, {0.5, 0.5}, 0, 1.);
+    EXPECT_NEAR(ends.low.share, valley.low, 0.02);
+    EXPECT_NEAR(ends.high.share, valley.high, 0.02);
+  }
+}
+
+// cos(8 pi x) has the value of x = 0.3 at 0.05, 0.2, 0.45, 0.55 ... as well.
+TEST(Profile, ASeparateValleyIsFound) {
+  const ResidualModel periodic = [](const UnitPoint& point) -> std::optional<Residuals> {
+    constexpr double turns = 8. * 3.14159265358979323846;
+    return Residuals{1., 100. * (std::cos(turns * point[0]) - std::cos(turns * 0.3))};
+  };
+  const Ends ends = ends_of(periodic, {0.3}, 0, 1.);
+  ASSERT_TRUE(ends.high.apart);
+  ASSERT_TRUE(ends.low.apart);
+  EXPECT_GT((*ends.high.apart)[0], 0.4);
+  EXPECT_LT((*ends.low.apart)[0], 0.25);
 }
 
 }  // namespace
