@@ -9,6 +9,7 @@
 // period, as a unit that integrates between readings reports it.
 #include <cmath>
 
+#include "control/components/mounting.h"
 #include "control/random.h"
 #include "control/registry.h"
 #include "math/rotation.h"
@@ -24,14 +25,7 @@ class InertialMeasurementUnit final : public Component {
       Parameter{*this, "horizontal_gravity", "m/s^2", 0., "its x and y", 2}.of_world(
           WorldValue::gravity_sideways);
   Parameter mounting{*this, "mounting", "m", 0., "place of the unit in the body's frame", 3};
-  Parameter mounting_orientation =
-      Parameter{*this,
-                "mounting_orientation",
-                "",
-                0.,
-                "R_BS: turns the unit's axes into the body's; by default not",
-                4}
-          .orientation();
+  Parameter mounting_orientation = mounting_orientation_of(*this);
   Parameter accelerometer_bias{
       *this, "accelerometer_bias", "m/s^2", 0., "constant error, the unit's axes", 3};
   Parameter accelerometer_noise =
@@ -79,10 +73,10 @@ class InertialMeasurementUnit final : public Component {
   }
 
   void update(const Tick& tick) override {
-    const Quaterniond q_WB = quaternion(orientation);
-    const Quaterniond q_SW = conjugate(q_WB * normalized(quaternion(mounting_orientation)));
+    const Quaterniond q_SW = conjugate(unit_orientation(orientation, mounting_orientation));
     const Vector3d w_WB = vector(angular_velocity);
-    const Vector3d v_W = vector(velocity) + cross(w_WB, rotate(q_WB, vector(mounting)));
+    const Vector3d v_W =
+        vector(velocity) + cross(w_WB, rotate(quaternion_of(orientation), vector(mounting)));
     const Vector3d last_W{last_velocity.get(0), last_velocity.get(1), last_velocity.get(2)};
     // The first reading has no difference to take: the unit is then taken to be unaccelerated.
     const Vector3d a_W = tick.count == 0 ? Vector3d{} : (1. / tick.period) * (v_W - last_W);
@@ -99,10 +93,6 @@ class InertialMeasurementUnit final : public Component {
   template <class Port>
   static Vector3d vector(const Port& port) {
     return {port[0], port[1], port[2]};
-  }
-  template <class Port>
-  static Quaterniond quaternion(const Port& port) {
-    return {port[0], port[1], port[2], port[3]};
   }
   template <class Port>
   static void put(Port& port, const Vector3d& a) {

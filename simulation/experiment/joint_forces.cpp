@@ -48,10 +48,9 @@ JointSpring friction_spring(const JointProperties& joint, double position, doubl
                             const FrictionHook& hook) {
   const double part = friction_part(joint, rate, hook);
   const double most = joint.friction + joint.static_excess;
-  const double z = std::clamp((position - hook.anchor) / joint.friction_deflection, -part, part);
-  const double sum = std::abs(z + rate / joint.friction_speed);
   if (part <= 0.) return {};
-  const double load = sum / part;
+  const double z = std::clamp((position - hook.anchor) / joint.friction_deflection, -part, part);
+  const double load = std::abs(z + rate / joint.friction_speed) / part;
   return {load < 1. ? most / joint.friction_deflection : 0.,
           most / (joint.friction_speed * std::max(1., load))};
 }

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <exception>
+#include <map>
 #include <new>
+#include <set>
 
 #include "control/data/table.h"
 #include "control/registry.h"
@@ -156,13 +158,15 @@ class Wires {
   }
 
   /// Whether it ends at an input that takes means.
-  static bool takes_mean(const Driver& driver) {
+  bool takes_mean(const Driver& driver) {
+    const auto [inputs, is_new] = mean_inputs_.try_emplace(driver.to->type);
     const control::ComponentClass* type = control::Registry::instance().find(driver.to->type);
-    if (type == nullptr) return false;
-    const auto component = type->make();
-    const auto input =
-        std::ranges::find(component->ports(), driver.input->name, &PortDescription::name);
-    return input != component->ports().end() && input->mean;
+    if (is_new && type != nullptr) {
+      const auto component = type->make();
+      for (const PortDescription& port : component->ports())
+        if (port.mean) inputs->second.insert(port.name);
+    }
+    return inputs->second.contains(driver.input->name);
   }
 
   /// The wire's own; else that of the stub at its end; else that of the stub at its beginning.
@@ -376,7 +380,8 @@ class Wires {
   std::size_t errors_before_ = loading_.diagnostics.error_count();
   std::vector<Driver> drivers_;  // one a wire
   std::map<std::string, std::size_t> drivers_by_input_;
-  std::multimap<std::string, std::string> ends_by_output_;  ///< of the wires so far
+  std::map<std::string, std::set<std::string>> mean_inputs_;  ///< that take means, by class
+  std::multimap<std::string, std::string> ends_by_output_;    ///< of the wires so far
 };
 
 }  // namespace

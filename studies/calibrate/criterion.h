@@ -37,7 +37,8 @@ struct PairedThings {
   double worth = 1.;
   double count = 0.;  ///< independent things that say how large the noise is
   double equal = 0.;  ///< means that differ by less are equal
-  /// One thing alone does not decide: its difference counts as twice the second largest at most.
+  /// One thing alone does not decide: its difference counts as twice the second largest at most
+  /// (it is winsorised).
   bool limits_largest = false;
 };
 double paired_excess(const PairedThings& things, const std::vector<double>& parts);

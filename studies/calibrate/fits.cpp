@@ -10,7 +10,7 @@ constexpr const char* error_name = "error";
 constexpr const char* held_out_name = "held_out";
 constexpr const char* models_name = "models";
 constexpr const char* end_name = "end";
-constexpr const char* least_sure_name = "least_sure";
+constexpr const char* wide_end_name = "wide_end";
 
 std::string share_name(std::size_t number) { return "share_" + std::to_string(number); }
 std::string apart_name(std::size_t number) { return "apart_" + std::to_string(number); }
@@ -29,7 +29,7 @@ RunRecord record_of_fit(const FitOutcome& outcome) {
   for (std::size_t i = 0; i < outcome.apart.size(); ++i)
     record.values[apart_name(i)].measured = outcome.apart[i];
   if (outcome.end) record.values[end_name].measured = outcome.end;
-  if (outcome.least_sure) record.values[least_sure_name].measured = outcome.least_sure;
+  if (outcome.wide_end) record.values[wide_end_name].measured = outcome.wide_end;
   return record;
 }
 
@@ -51,7 +51,7 @@ FitOutcome fit_in(const RunRecord& record) {
   for (std::size_t i = 0; record.values.contains(apart_name(i)); ++i)
     outcome.apart.push_back(value(apart_name(i)).value_or(0.));
   if (record.values.contains(end_name)) outcome.end = value(end_name);
-  if (record.values.contains(least_sure_name)) outcome.least_sure = value(least_sure_name);
+  if (record.values.contains(wide_end_name)) outcome.wide_end = value(wide_end_name);
   return outcome;
 }
 

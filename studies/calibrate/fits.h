@@ -15,14 +15,14 @@ namespace hookpoint::studies {
 /// What a fit leaves, or the evaluation of a point.
 struct FitOutcome {
   std::string status = "ok";
-  std::optional<double> error;         ///< root mean square of the residuals; nothing: no run
-  std::optional<double> held_out;      ///< the same of what a fold has held out
-  std::size_t models = 0;              ///< points at which the cases were run
-  UnitPoint point;                     ///< where it ended; empty: nowhere
-  std::vector<double> cases{};         ///< error of each case; empty: not distinguished
-  std::optional<double> end{};         ///< of a profile: the share at which the interval ends
-  std::optional<double> least_sure{};  ///< of a profile: see ProfileEnd
-  UnitPoint apart{};                   ///< of a profile: see ProfileEnd; empty: none
+  std::optional<double> error;       ///< root mean square of the residuals; nothing: no run
+  std::optional<double> held_out;    ///< the same of what a fold has held out
+  std::size_t models = 0;            ///< points at which the cases were run
+  UnitPoint point;                   ///< where it ended; empty: nowhere
+  std::vector<double> cases{};       ///< error of each case; empty: not distinguished
+  std::optional<double> end{};       ///< of a profile: the share at which the interval ends
+  std::optional<double> wide_end{};  ///< the same of the interval of 99.9 %
+  UnitPoint apart{};                 ///< of a profile: see ProfileEnd; empty: none
 };
 
 /// Some fits of one kind.

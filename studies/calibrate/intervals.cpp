@@ -86,12 +86,12 @@ void set_intervals(SubjectFit& fit, const Profiles& profiles) {
   if (profiles.ends.empty()) return;
   for (std::size_t i = 0; i < fit.result.constants.size(); ++i) {
     FittedConstant& constant = fit.result.constants[i];
-    ExplainedRange interval{constant.share, constant.share}, least_sure = interval;
+    ExplainedRange interval{constant.share, constant.share}, wide = interval;
     std::string beyond;
     for (std::size_t side = 0; side < 2; ++side) {
       const ProfileEnd& end = profiles.ends[2 * i + side];
       interval.include(end.share);
-      least_sure.include(end.least_sure);
+      wide.include(end.wide_share);
       if (end.without_runs)
         beyond = fmt::format("no run has a value beyond the {} end of its interval",
                              side == 0 ? "lower" : "upper");
@@ -103,8 +103,8 @@ void set_intervals(SubjectFit& fit, const Profiles& profiles) {
     if (constant.reason.empty()) {
       // What an interval of 99.9 % does not identify is not called identified.
       FittedConstant wider = constant;
-      wider.low = std::min(interval.low, least_sure.low);
-      wider.high = std::max(interval.high, least_sure.high);
+      wider.low = std::min(interval.low, wide.low);
+      wider.high = std::max(interval.high, wide.high);
       wider.reason = why_not_identifiable(wider);
       if (!wider.reason.empty()) constant = wider;
     }

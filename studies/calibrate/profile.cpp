@@ -170,7 +170,7 @@ class Walk {
     walk_to_first_end();
     if (!end_.better && outside_) search_beyond();
     end_.share = held_at(crossing());
-    end_.least_sure = held_at(std::max(crossing(), least_sure_));
+    end_.wide_share = held_at(std::max(crossing(), wide_));
     end_.without_runs = outside_ && std::isinf(outside_excess_);
     return std::move(end_);
   }
@@ -247,7 +247,7 @@ class Walk {
       if (end_.better) return;
       places.push_back({distance, excess, last_});
       if (excess <= 1.) farthest = places.size() - 1;
-      if (excess <= surely_outside) least_sure_ = distance;
+      if (excess <= surely_outside) wide_ = distance;
     }
     if (farthest && leads_to(*farthest, places)) {
       inside_ = places[*farthest].distance;
@@ -457,7 +457,7 @@ class Walk {
   UnitPoint slope_;  ///< of the others with the constant, at the optimum; empty: not known
   std::vector<UnitPoint> valley_;  ///< points inside, from the optimum on
   UnitPoint last_;                 ///< of the last refit
-  double inside_ = 0., inside_excess_ = 0., least_sure_ = 0.;
+  double inside_ = 0., inside_excess_ = 0., wide_ = 0.;
   std::optional<double> outside_;
   double outside_excess_ = 0.;
   ProfileEnd end_;

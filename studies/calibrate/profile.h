@@ -46,11 +46,11 @@ inline constexpr double surely_outside = 2.82;
 
 /// One end of a constant's interval.
 struct ProfileEnd {
-  double share = 0.;       ///< the constant, where the excess reaches 1
-  double least_sure = 0.;  ///< the farthest share found, at or beyond, that is not surely outside
-  UnitPoint point;         ///< the farthest point found that explains the data
-  bool without_runs = false;          ///< the model has no residuals beyond
-  std::size_t models = 0;             ///< points at which the model was evaluated
+  double share = 0.;          ///< the constant, where the excess reaches 1
+  double wide_share = 0.;     ///< of the interval of 99.9 %: the farthest share found within it
+  UnitPoint point;            ///< the farthest point found that explains the data
+  bool without_runs = false;  ///< the model has no residuals beyond
+  std::size_t models = 0;     ///< points at which the model was evaluated
   std::optional<UnitPoint> better{};  ///< better than the optimum: the profile then ended there
   /// Not surely outside, beyond the end, in a valley of its own: no valley leads there at the
   /// places that were refitted.

@@ -93,7 +93,7 @@ class Profiler {
            const ProfileEnd end = profile_end(problem_, i / 2, i % 2 == 1, profile_of_runs);
            FitOutcome outcome = outcome_at(end.better ? *end.better : end.point, end.models);
            outcome.end = end.share;
-           outcome.least_sure = end.least_sure;
+           outcome.wide_end = end.wide_share;
            if (end.apart) outcome.apart = *end.apart;
            if (end.without_runs) outcome.status = no_run_beyond;
            if (end.better) outcome.status = better_optimum;
@@ -112,7 +112,7 @@ class Profiler {
       }
       const double end = one.end.value_or(0.);
       found.ends.push_back(
-          {end, one.least_sure.value_or(end), one.point, one.status == no_run_beyond});
+          {end, one.wide_end.value_or(end), one.point, one.status == no_run_beyond});
       if (!one.apart.empty()) found.as_good.push_back(one.apart);
     }
     stop_if_unfinished(outcomes);

@@ -12,6 +12,7 @@
 #include "output/files/csv.h"
 #include "studies/calibrate/calibration.h"
 #include "tests/support/command.h"
+#include "tests/support/normal_noise.h"
 #include "tests/support/planned.h"
 
 namespace hookpoint::testing {
@@ -89,11 +90,8 @@ class RoughCalibrations {
     if (recorded.status != 0 || !table) throw std::runtime_error(recorded.err);
     std::string text;
     for (std::size_t row = 0; row < table->rows.size(); row += each) {
-      // The sum of twelve uniform numbers, the same with every library (Irwin & Hall).
-      double normal = -6.;
-      for (int part = 0; part < 12; ++part) normal += static_cast<double>(random() >> 11) * 0x1p-53;
       text += before + table->rows[row][0] + "," +
-              std::to_string(std::stod(table->rows[row][1]) + 2e-4 * normal) + "\n";
+              std::to_string(std::stod(table->rows[row][1]) + 2e-4 * normal_number(random)) + "\n";
     }
     return text;
   }

@@ -14,6 +14,7 @@
 
 #include "studies/calibrate/calibration.h"
 #include "tests/support/command.h"
+#include "tests/support/normal_noise.h"
 #include "tests/support/planned.h"
 
 namespace hookpoint::testing {
@@ -127,18 +128,13 @@ class SyntheticCalibrations {
   void measure(const std::string& name, const SyntheticPush& push, std::size_t seed) const {
     std::seed_seq seeds{static_cast<unsigned>(seed)};
     std::mt19937_64 random(seeds);
-    const auto normal = [&] {
-      // The sum of twelve uniform numbers, the same with every library (Irwin & Hall).
-      double sum = -6.;
-      for (int part = 0; part < 12; ++part) sum += static_cast<double>(random() >> 11) * 0x1p-53;
-      return sum;
-    };
     std::string text = "t [s],x [m],y [m]\n";
     for (int i = 1; i <= samples; ++i) {
       const double time = 0.05 * i;
       text += std::to_string(time);
       for (const char* along : {push.along_x, push.along_y})
-        text += "," + std::to_string(0.5 * force(along) * time * time + noise * normal());
+        text +=
+            "," + std::to_string(0.5 * force(along) * time * time + noise * normal_number(random));
       text += "\n";
     }
     place_.file(name + ".csv", text);

@@ -5,8 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
+#include <string>
 
+#include "tests/support/folders.h"
 #include "tests/support/synthetic_calibration.h"
+#include "tests/support/text.h"
 
 namespace hookpoint {
 namespace {
@@ -41,6 +44,16 @@ TEST(CalibrationCoverageFull, WithoutOneIntervalsHoldTheTruthIn95Percent) {
   EXPECT_EQ(counts.intervals, 2 * static_cast<int>(calibrations_of_a_kind));
   EXPECT_GE(part, 0.93);
   EXPECT_LE(part, 0.97);
+  // What the manual says of this test.
+  const auto of = [](int holding, int intervals) {
+    return std::to_string(holding) + " of " + std::to_string(intervals);
+  };
+  const std::string sentence = of(counts.holding, counts.intervals) +
+                               " intervals hold the truth (least squares " +
+                               of(counts.holding_by_method[0], counts.intervals_by_method[0]) +
+                               ", cmaes " + std::to_string(counts.holding_by_method[1]) + ")";
+  EXPECT_NE(read_file(source_folder() + "/docs/tuning.md").find(sentence), std::string::npos)
+      << sentence;
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include <random>
 
 #include "tests/support/command.h"
+#include "tests/support/normal_noise.h"
 #include "tests/support/planned.h"
 
 namespace hookpoint::studies {
@@ -87,12 +88,9 @@ class KnownConstants : public ::testing::Test {
     std::mt19937_64 random(seed);
     std::string text = "time [s],z [mm]\n";
     for (int i = 0; i <= samples; ++i) {
-      // The mean of twelve uniform numbers, the same with every library (Irwin & Hall).
-      double normal = -6.;
-      for (int part = 0; part < 12; ++part) normal += static_cast<double>(random() >> 11) * 0x1p-53;
       const double time = sample_interval * i;
-      text +=
-          std::to_string(time) + "," + std::to_string(1e3 * (motion(time) + noise * normal)) + "\n";
+      text += std::to_string(time) + "," +
+              std::to_string(1e3 * (motion(time) + noise * testing::normal_number(random))) + "\n";
     }
     place_.file(name, text);
   }

@@ -10,6 +10,7 @@
 #include <random>
 
 #include "studies/results/statistics.h"
+#include "tests/support/normal_noise.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -60,13 +61,6 @@ TEST(Resampling, BlocksGrowWithWhatHangsTogether) {
   EXPECT_LE(block_length(slow, sizes), 54U);
 }
 
-/// Close to normal, of variance 1, the same with every library (Irwin & Hall).
-double normal_number(std::mt19937_64& random) {
-  double sum = -6.;
-  for (int i = 0; i < 12; ++i) sum += static_cast<double>(random() >> 11) * 0x1p-53;
-  return sum;
-}
-
 TEST(Resampling, IntervalsHoldTheTruthInNineteenOfTwentyCases) {
   // Slopes of straight lines through 60 samples of noise alone.
   constexpr std::size_t samples = 60, resamples = 100;
@@ -85,7 +79,7 @@ TEST(Resampling, IntervalsHoldTheTruthInNineteenOfTwentyCases) {
   int inside = 0;
   for (int line = 0; line < lines; ++line) {
     Residuals data(samples);
-    for (double& one : data) one = normal_number(random);
+    for (double& one : data) one = testing::normal_number(random);
     const double slope = slope_of(data);  // the true one is 0
     const double mean = std::accumulate(data.begin(), data.end(), 0.) / samples;
     Residuals rest(samples);
@@ -112,7 +106,7 @@ TEST(Resampling, CorrelatedResidualsAreWorthFewerIndependentOnes) {
     Residuals residuals;
     double last = 0.;
     for (std::size_t i = 0; i < sizes[0]; ++i)
-      residuals.push_back(last = a * last + normal_number(random));
+      residuals.push_back(last = a * last + testing::normal_number(random));
     const double expected = (1. + a) / (1. - a);
     EXPECT_NEAR(statistical_inefficiency(residuals, sizes), expected, 0.1 * expected) << a;
   }
