@@ -72,12 +72,11 @@ double ImpulseAdvance::lowest_gap() const {
 // t^2/2.
 double ImpulseAdvance::safe_time(const FlightState& flight, const FlightLoad& load,
                                  double longest) const {
-  const double speed = angular_speed_bound(inertia_, flight, load, longest);
-  const double unit_jerk = jerk_bound(inertia_, load, speed);
+  const double unit_jerk = motion_bound(inertia_, flight, load, longest).jerk;
   const Vector3d w = contact::angular_velocity(inertia_, flight);
   const Quaterniond& q = flight.orientation;
   const Vector3d turning = load.torque - cross(w, flight.angular_momentum);
-  const Vector3d alpha = rotate(q, inertia_.inverse_inertia * rotate(conjugate(q), turning));
+  const Vector3d alpha = rotate(q, inertia_.inverse_times(rotate(conjugate(q), turning)));
   const double sink = 0.5 * options_.tolerance;
   double safe = longest;
   for (const Touch& point : points_) {
@@ -140,13 +139,31 @@ class ImpulseAdvance::Struck final : public StruckRobot {
   }
 
   Symmetric3d collision_matrix(std::size_t point) override {
-    // K = 1/m - [r] I^-1 [r].
-    const Matrix3d R = rotation_matrix(flight_.orientation);
-    const Matrix3d lever = cross_matrix(body_.points_[point].arm);
-    const Matrix3d turning = lever * general(rotate(R, body_.inertia_.inverse_inertia)) * lever;
-    const double translation = 1. / body_.inertia_.mass;
-    return Symmetric3d{translation, translation, translation, 0., 0., 0.} - symmetric_part(turning);
+    return symmetric_part(coupling(point, point));
   }
+  // K_ij = 1/m - [r_i] I^-1 [r_j], as a sum over the principal axes a of (a x r_i)(a x r_j)^T/I_a: for
+  // a point on an axis with a tiny moment the difference of great numbers would leave but rounding.
+  Matrix3d coupling(std::size_t i, std::size_t j) override {
+    const FlightInertia& body = body_.inertia_;
+    const Matrix3d R_WP = rotation_matrix(flight_.orientation) * body.R_BP;
+    const Vector3d a = transpose_times(R_WP, body_.points_[i].arm);
+    const Vector3d b = transpose_times(R_WP, body_.points_[j].arm);
+    const double per_x = 1. / body.moments.x, per_y = 1. / body.moments.y,
+                 per_z = 1. / body.moments.z, translation = 1. / body.mass;
+    const Matrix3d K{translation + per_y * a.z * b.z + per_z * a.y * b.y,
+                     -per_z * a.y * b.x,
+                     -per_y * a.z * b.x,
+                     -per_z * a.x * b.y,
+                     translation + per_x * a.z * b.z + per_z * a.x * b.x,
+                     -per_x * a.z * b.y,
+                     -per_y * a.x * b.z,
+                     -per_x * a.y * b.z,
+                     translation + per_x * a.y * b.y + per_y * a.x * b.x};
+    return R_WP * K * transpose(R_WP);
+  }
+
+  bool same_bodies(std::size_t /*i*/, std::size_t /*j*/) const override { return true; }
+  Vector3d place(std::size_t point) const override { return body_.points_[point].arm; }
 
   void strike(std::size_t point, const Vector3d& impulse) override {
     const Vector3d moment = cross(body_.points_[point].arm, impulse);
@@ -208,7 +225,7 @@ AdvanceResult ImpulseAdvance::advance(ImpulseState& state, double dt, const Impu
     Struck struck(*this, flight, flight_load, result);
     const AdvanceStatus collided = resolution_.resolve(struck, result);
     if (collided != AdvanceStatus::ok) return failed(collided);
-    const double turn = angular_speed_bound(inertia_, flight, flight_load, left);
+    const double turn = motion_bound(inertia_, flight, flight_load, left).angular_speed;
     const double travel = norm(flight.velocity) + left * norm(flight_load.acceleration);
     const double longest = std::min({left, options_.largest_turn / std::max(turn, 1e-300),
                                      options_.largest_travel / std::max(travel, 1e-300)});

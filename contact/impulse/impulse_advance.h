@@ -47,8 +47,8 @@ class ImpulseAdvance {
 
   /// Advances `state` by `dt` [s]. On any status but ok the state is unchanged.
   /// A point that starts up to 1e-9 m inside the ground counts as touching; deeper is
-  /// `inside_ground`. Impacts at one instant are resolved one after another, the fastest approach
-  /// first (of equals the first point), until no touching point approaches. Cost: about one ground
+  /// `inside_ground`. Impacts at one instant are resolved together, again until no touching point
+  /// approaches. Cost: about one ground
   /// query a point and flight, and one collision an impact.
   AdvanceResult advance(ImpulseState& state, double dt, const ImpulseLoad& load,
                         const GroundQuery& ground);

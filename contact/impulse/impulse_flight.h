@@ -3,7 +3,7 @@
 // Runge-Kutta.
 #pragma once
 
-#include "math/rotation.h"
+#include "math/principal_axes.h"
 
 namespace hookpoint::contact {
 
@@ -14,9 +14,15 @@ struct FlightInertia {
 
   double mass;                  ///< [kg]
   Symmetric3d inertia;          ///< I [kg m^2]
-  Symmetric3d inverse_inertia;  ///< I^-1
-  double least_inertia;  ///< a lower bound of the principal moments, within a factor of 3 [kg m^2]
-  double greatest_inertia;  ///< an upper bound of them, likewise
+  Symmetric3d inverse_inertia;  ///< I^-1 [1/(kg m^2)]
+  Vector3d moments;             ///< principal [kg m^2]
+  Matrix3d R_BP;                ///< body axes from principal ones
+
+  /// I^-1 L, body axes: by principal axes, so that a tiny moment spoils only the rate about its own.
+  Vector3d inverse_times(const Vector3d& L) const {
+    const Vector3d L_P = transpose_times(R_BP, L);
+    return R_BP * Vector3d{L_P.x / moments.x, L_P.y / moments.y, L_P.z / moments.z};
+  }
 };
 
 /// World axes, SI.
@@ -41,13 +47,17 @@ Vector3d angular_velocity(const FlightInertia& body, const FlightState& state);
 FlightState fly(const FlightInertia& body, const FlightState& state, const FlightLoad& load,
                 double duration);
 
-/// A bound of |w| over the next `duration`: from the kinetic energy, which only the torque can
-/// raise [rad/s].
-double angular_speed_bound(const FlightInertia& body, const FlightState& state,
-                           const FlightLoad& load, double duration);
+/// What no motion of a flight exceeds.
+struct MotionBound {
+  double angular_speed = 0.;  ///< |w| [rad/s]
+  /// |d^3x/dt^3| of a point at unit distance from the centre of mass [1/s^3].
+  double jerk = 0.;
+};
 
-/// A bound of |d^3x/dt^3| of a point at unit distance from the centre of mass while |w| <=
-/// `angular_speed` [1/s^3].
-double jerk_bound(const FlightInertia& body, const FlightLoad& load, double angular_speed);
+/// Bounds over the next `duration` [s], from the kinetic energy, which only the torque can raise, and
+/// from Euler's equations, component by component along the principal axes: a moment of inertia that
+/// is tiny, of a slender body about its own axis, bounds the rate about that axis alone.
+MotionBound motion_bound(const FlightInertia& body, const FlightState& state,
+                         const FlightLoad& load, double duration);
 
 }  // namespace hookpoint::contact

@@ -7,8 +7,8 @@
 #include <numbers>
 #include <string_view>
 
+#include "math/principal_axes.h"
 #include "reference/ground.h"
-#include "reference/principal_axes.h"
 #include "reference/solids.h"
 #include "reference/touching_points.h"
 #include "simulation/experiment/loop_places.h"

@@ -6,13 +6,15 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "contact/force_law.h"
 #include "simulation/dts_engine/force_robot.h"
 #include "simulation/dts_engine/group_part.h"
 #include "simulation/dts_engine/impulse_part.h"
-#include "simulation/engine_interface/effort_watch.h"
+#include "simulation/engine_interface/drive_watch.h"
 #include "simulation/engine_interface/restartable.h"
 #include "simulation/experiment/ground.h"
 
@@ -35,7 +37,7 @@ class DtsEngine final : public Engine, public Resumable, public Restartable {
   explicit DtsEngine(const Experiment& experiment)
       : experiment_(experiment),
         inputs_(initial_inputs(experiment_)),
-        efforts_(experiment_),
+        drives_(experiment_),
         ground_(make_ground(experiment_)),
         together_(step_together(experiment_)),
         ground_moves_(ground_moves(experiment_)) {
@@ -51,6 +53,8 @@ class DtsEngine final : public Engine, public Resumable, public Restartable {
         chains += experiment_.robots[robot].chains.size();
       parts_.back().chain_count = chains - parts_.back().first_chain;
     }
+    for (Part& part : parts_) part.notice.reserve(longest_notice);
+    state_.notices.reserve(parts_.size());
     state_.bodies.resize(bodies);
     state_.joints.resize(joints);
     if (together_)
@@ -66,7 +70,7 @@ class DtsEngine final : public Engine, public Resumable, public Restartable {
   }
 
   StepStatus step() override {
-    efforts_.look(inputs_, state_.time, state_.notices);
+    drives_.look(inputs_, state_.joints, state_.time, state_.notices);
     for (std::size_t i = 0; i < parts_.size(); ++i) {
       const StepStatus status = parts_[i].robot->step(state_.time);
       if (status.ok()) continue;
@@ -82,16 +86,17 @@ class DtsEngine final : public Engine, public Resumable, public Restartable {
 
   const WorldState& state() const override { return state_; }
   WorldInputs& inputs() override { return inputs_; }
+  // Whoever wants a port calls these: many do, and what is published is up to date.
   void publish_details() override {
-    has_details_ = true;
-    copy_details();
+    if (!std::exchange(has_details_, true)) copy_details();
   }
   void publish_reactions() override {
-    has_reactions_ = true;
-    copy_reactions();
+    if (!std::exchange(has_reactions_, true)) copy_reactions();
   }
   void enable_mean_forces(bool on) override {
+    if (std::exchange(mean_forces_, on) == on) return;
     for (ForceDetails* details : details_) details->enable_mean_forces(on);
+    if (has_details_) copy_details();
   }
   void publish_ground_forces() override {
     if (!tells_details()) return;
@@ -204,6 +209,7 @@ class DtsEngine final : public Engine, public Resumable, public Restartable {
     std::size_t first_body = 0, first_joint = 0, first_chain = 0;
     std::size_t chain_count = 0;
     bool noticed = false;
+    std::string notice{};  ///< room for it, so that the step in which it comes allocates nothing
   };
 
   /// Whether what robots touch makes one system of them.
@@ -246,7 +252,8 @@ class DtsEngine final : public Engine, public Resumable, public Restartable {
       add(part.robot->statistics(), state_.integrator);
       state_.impacts += part.robot->impacts();
       if (!part.noticed && !part.robot->notice().empty()) {
-        state_.notices.push_back(part.robot->notice());
+        part.notice = part.robot->notice();
+        state_.notices.push_back(std::move(part.notice));
         part.noticed = true;
       }
       part.robot->publish_loops(state_.loops);
@@ -292,7 +299,7 @@ class DtsEngine final : public Engine, public Resumable, public Restartable {
 
   const Experiment experiment_;
   WorldInputs inputs_;
-  EffortWatch efforts_;
+  DriveWatch drives_;
   const std::optional<contact::Terrain> ground_;
   const bool together_;  ///< all robots are one part
   const bool ground_moves_;
@@ -300,6 +307,7 @@ class DtsEngine final : public Engine, public Resumable, public Restartable {
   std::vector<ForceDetails*> details_;  ///< of the parts, in their order; none under an impulse law
   WorldState state_;
   bool has_details_ = false, has_reactions_ = false;
+  std::optional<bool> mean_forces_;  ///< as they were enabled; none: as the parts have them
 };
 
 }  // namespace

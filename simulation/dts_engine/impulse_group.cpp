@@ -433,6 +433,19 @@ Matrix3d ImpulseGroup::coupling(std::size_t i, std::size_t j) {
   return sum;
 }
 
+bool ImpulseGroup::same_bodies(std::size_t i, std::size_t j) const {
+  const ImpulsePlace& a = places_->places()[i];
+  const ImpulsePlace& b = places_->places()[j];
+  const auto same = [](const PlaceSide& s, const PlaceSide& t) {
+    return s.robot == t.robot && s.body == t.body && s.sign == t.sign;
+  };
+  return a.surface == b.surface && std::ranges::equal(a.bodies(), b.bodies(), same);
+}
+
+Vector3d ImpulseGroup::place(std::size_t point) const {
+  return body_point(places_->places()[point].sides[0]).p_WP;
+}
+
 Symmetric3d ImpulseGroup::collision_matrix(std::size_t point) {
   Symmetric3d K = symmetric_part(coupling(point, point));
   const double yielding = yielding_share * (K.xx + K.yy + K.zz);

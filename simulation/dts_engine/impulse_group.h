@@ -64,6 +64,9 @@ class ImpulseGroup final : public ImpulsePart, private contact::StruckRobot {
   Vector3d velocity(std::size_t point) const override;
   double rounding() const override { return rounding_; }
   Symmetric3d collision_matrix(std::size_t point) override;
+  Matrix3d coupling(std::size_t i, std::size_t j) override;
+  bool same_bodies(std::size_t i, std::size_t j) const override;
+  Vector3d place(std::size_t point) const override;
   void strike(std::size_t point, const Vector3d& impulse) override;
   double begin_reversal(std::size_t struck) override;
   Vector3d flight_acceleration(std::size_t point) const override;
@@ -84,8 +87,6 @@ class ImpulseGroup final : public ImpulsePart, private contact::StruckRobot {
   contact::AdvanceStatus fly_above(const contact::GroundQuery& ground, double elapsed,
                                    double longest, double* duration, contact::ImpulseTally& tally);
   contact::AdvanceStatus inside() const;
-  /// Velocity change of place i for a unit impulse at place j, K_ij [1/kg].
-  Matrix3d coupling(std::size_t i, std::size_t j);
   dts::BodyPoint<double> body_point(const PlaceSide& side) const;
   std::size_t body_number(const PlaceSide& side) const {
     return first_bodies_[side.robot] + side.body;

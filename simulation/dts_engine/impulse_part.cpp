@@ -15,6 +15,27 @@ namespace {
 /// gives.
 constexpr double most_bounce = 1e-6;
 
+const char* seen_order(contact::OrderCause cause) {
+  switch (cause) {
+    case contact::OrderCause::none:
+      return "";
+    case contact::OrderCause::microcollisions:
+      return ": points that rest and strike equally fast are hit one after another, so that creep and "
+             "drift, of the order of rebound_speed, depend on the order of the points.";
+    case contact::OrderCause::different_bodies:
+      return ": points of different bodies that act on each other landed at one instant equally "
+             "fast: the bodies were hit one after another, so that the result depends on their order.";
+    case contact::OrderCause::many_corners:
+      return ": more than 64 corners of one face landed at one instant: they were hit one after "
+             "another, so that the result depends on their order. Give the face fewer points.";
+    case contact::OrderCause::unsolved:
+      return ": points of one face that landed at one instant had no common impulse: they were hit one "
+             "after another, so that the result depends on their order. Check the inertia.";
+  }
+  return "";
+}
+static_assert(contact::most_hit_together == 64);
+
 contact::ImpulseLaw impulse_law(const std::string& name) {
   if (const auto* const law = contact::find_impulse_law(name)) return law->impulse->law;
   throw ExperimentError("there is no impulse law `" + name + "`");
@@ -35,11 +56,25 @@ StepStatus ImpulsePart::step(double time) {
     return {lost ? StepStatus::Kind::not_finite : StepStatus::Kind::solver_failed, time,
             failed_robot() + ".base", contact::advice(tally.status)};
   }
+  look_for_order(tally.order_matters);
   noticed_before_ = !notice_.empty();
   if (!left_.empty()) notice_ = left_;
   impacts_before_ = impacts_;
   impacts_ += static_cast<std::uint64_t>(tally.impacts);
   return {};
+}
+
+ImpulsePart::ImpulsePart(const Experiment& experiment, RobotRange robots,
+                         const contact::Terrain* ground)
+    : experiment_(experiment), robots_(robots), ground_(experiment, ground), terrain_(ground) {
+  notice_.reserve(longest_notice);
+  left_.reserve(longest_notice);
+}
+
+void ImpulsePart::look_for_order(contact::OrderCause cause) {
+  if (cause == contact::OrderCause::none || !notice_.empty() || !left_.empty()) return;
+  left_ = specs().front().name;
+  left_ += seen_order(cause);
 }
 
 const std::string& ImpulsePart::failed_robot() const { return specs().front().name; }

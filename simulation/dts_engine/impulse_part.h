@@ -35,8 +35,7 @@ class ImpulsePart : public RobotPart {
  protected:
   /// `ground` may be null. Without ground and obstacles there are no boundary points. All that is
   /// referred to outlives the part.
-  ImpulsePart(const Experiment& experiment, RobotRange robots, const contact::Terrain* ground)
-      : experiment_(experiment), robots_(robots), ground_(experiment, ground), terrain_(ground) {}
+  ImpulsePart(const Experiment& experiment, RobotRange robots, const contact::Terrain* ground);
 
   /// Takes the motion of the last successful step back.
   virtual void go_back() = 0;
@@ -44,6 +43,8 @@ class ImpulsePart : public RobotPart {
   virtual const std::string& failed_robot() const;
   /// Says once that a robot of the experiment is beside the terrain, at `place`.
   void look_for_edge(std::size_t robot, const Vector3d& place);
+  /// Says once that the order of points matters to the result, and why.
+  void look_for_order(contact::OrderCause cause);
 
   std::span<const RobotSpec> specs() const {
     return std::span(experiment_.robots).subspan(robots_.first, robots_.count);

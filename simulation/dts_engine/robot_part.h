@@ -33,6 +33,9 @@ class ForceDetails {
   virtual void publish_hips(std::span<ChainState> chains) const = 0;
 };
 
+/// Characters of a notice that a step has room for, without allocation.
+inline constexpr std::size_t longest_notice = 400;
+
 class RobotPart {
  public:
   virtual ~RobotPart() = default;
@@ -62,7 +65,8 @@ class RobotPart {
   virtual IntegratorState statistics() const { return {}; }
   /// Impulses so far.
   virtual std::uint64_t impacts() const { return 0; }
-  /// That the robot has left the terrain; "" while it has not.
+  /// What the user should know, said once: the robot has left the terrain, the order of its points
+  /// matters; "" while there is nothing.
   virtual const std::string& notice() const = 0;
   /// The run continues from an instant at which it had not.
   virtual void forget_notice() = 0;
