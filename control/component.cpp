@@ -9,6 +9,9 @@ namespace hookpoint::control {
 PortHandle::PortHandle(Component& owner, PortDescription description)
     : owner_(&owner), port_(owner.ports_.size()), first_(0) {
   const std::string& name = description.name;
+  const bool after_open = std::ranges::any_of(owner.ports_, &PortDescription::open);
+  if (after_open && description.kind != PortKind::text)
+    throw std::logic_error("port '" + name + "' stands after one that is open");
   if (name.empty()) throw std::logic_error("a port has no name");
   if (description.count == 0) throw std::logic_error("port '" + name + "' has no values");
   if (std::any_of(owner.ports_.begin(), owner.ports_.end(),
@@ -38,6 +41,8 @@ Input::Input(Component& owner, std::string name, std::string unit, std::string d
                          .default_value = default_value,
                          .count = count}) {}
 
+std::size_t Input::count() const { return owner_->ports_[port_].count; }
+
 bool Input::driven(std::size_t i) const { return owner_->driven_[first_ + i] != 0; }
 
 Input&& Input::attached(std::string port) && {
@@ -52,6 +57,11 @@ Input&& Input::counted_by(std::string name) && {
 
 Input&& Input::mean() && {
   description().mean = true;
+  return std::move(*this);
+}
+
+Input&& Input::open() && {
+  description().open = true;
   return std::move(*this);
 }
 
@@ -161,6 +171,14 @@ std::pair<std::string_view, std::optional<std::size_t>> split_index(std::string_
 }
 
 }  // namespace
+
+void Component::set_open_count(std::size_t count) {
+  const auto open = std::ranges::find_if(ports_, &PortDescription::open);
+  if (open == ports_.end()) return;
+  open->count = std::max<std::size_t>(count, 1);
+  values_.resize(open->first + open->count, open->default_value);
+  driven_.resize(values_.size(), 0);
+}
 
 std::optional<std::size_t> find_value(const Component& component, std::string_view name) {
   const auto [port_name, index] = split_index(name);

@@ -73,6 +73,9 @@ struct PortDescription {
   std::string counted_by =
       {};  ///< of an array: the parameter that says how many of its elements are in use ("legs"),
            ///< so that a file gives as many; "": all of them
+  bool open =
+      false;  ///< of an input, the last port that has values: an experiment gives it as many
+              ///< elements as it needs (`Component::set_open_count`)
   bool mean = false;  ///< of an input: a sample of its wires is the mean over the steps since the
                       ///< last one, not the value of the step in which it is taken
   bool orientation = false;  ///< of a parameter of 4 numbers: a quaternion w, x, y, z, which a file
@@ -110,6 +113,7 @@ class Input : public PortHandle {
     return (*this)[0];
   }  // NOLINT(google-explicit-constructor): reads as the value that it is
   double operator[](std::size_t i) const { return value_at(i); }
+  std::size_t count() const;
   /// A wire or an attachment drives it.
   bool driven(std::size_t i = 0) const;
   /// Reads `port` of the object that the component is attached to; returns itself, for the member's
@@ -120,6 +124,8 @@ class Input : public PortHandle {
   /// A sample of its wires is the mean over the steps since the last one: of a force that comes in
   /// impulses.
   Input&& mean() &&;
+  /// It has as many elements as the experiment needs; no port with values is declared after it.
+  Input&& open() &&;
 };
 
 class Parameter : public PortHandle {
@@ -213,6 +219,9 @@ class Component {
   std::span<const double> values() const { return values_; }
   std::span<std::string> texts() { return texts_; }
   void set_driven(std::size_t value, bool driven) { driven_[value] = driven ? 1 : 0; }
+  /// Before anything refers to its values: the elements, at least 1, of its open input, if it has
+  /// one. Allocates.
+  void set_open_count(std::size_t count);
   /// Before `start`: the key of the component's own noise (random.h: stream_key of the experiment's
   /// seed and the component's trail).
   void set_stream(std::uint64_t key) { stream_ = key; }

@@ -13,8 +13,9 @@
 
 #include "reference/experiment_checks.h"
 #include "reference/ground.h"
+#include "reference/held_back_torques.h"
 #include "reference/touching_points.h"
-#include "simulation/engine_interface/effort_watch.h"
+#include "simulation/engine_interface/drive_watch.h"
 #include "simulation/engine_interface/restartable.h"
 #include "simulation/experiment/joint_forces.h"
 #include "simulation/experiment/names.h"
@@ -60,7 +61,7 @@ class PeerEngine final : public simulation::Engine, public simulation::Restartab
         tree_(robot_tree(experiment_)),
         trails_(simulation::body_trails(experiment_)),
         inputs_(simulation::initial_inputs(experiment_)),
-        efforts_(experiment_),
+        drives_(experiment_),
         acting_(inputs_),
         touching_(touching_points(experiment_, tree_)),
         point_forces_(touching_.size()) {
@@ -68,6 +69,9 @@ class PeerEngine final : public simulation::Engine, public simulation::Restartab
     for (const TreeBody& body : tree_.bodies) {
       if (body.link != nullptr) passive_joints_.push_back(simulation::joint_properties(*body.link));
     }
+    for (const simulation::RobotSpec& robot : experiment_.robots)
+      held_back_.emplace_back(robot, experiment_.deltat);
+    drive_torques_.resize(passive_joints_.size());
     state_.bodies.resize(tree_.bodies.size());
     state_.joints.resize(passive_joints_.size());
     hooks_.resize(passive_joints_.size());
@@ -93,7 +97,7 @@ class PeerEngine final : public simulation::Engine, public simulation::Restartab
 
   StepStatus step() override {
     if (!failure_.ok()) return failure_;
-    efforts_.look(inputs_, state_.time, state_.notices);
+    drives_.look(inputs_, state_.joints, state_.time, state_.notices);
     take_inputs();
     const std::string trouble = world_->advance(acting_);
     world_->read(next_bodies_, next_joints_);
@@ -159,7 +163,8 @@ class PeerEngine final : public simulation::Engine, public simulation::Restartab
   }
 
   /// What the joints exert by themselves (docs/joints.md) and what their drives may give every peer
-  /// has as an explicit torque, from the state at the step's start.
+  /// has as an explicit torque, from the state at the step's start; what drives hold back at their
+  /// velocity_limit also from the step before.
   void take_inputs() {
     acting_.forces = inputs_.forces;
     acting_.pull = inputs_.pull;
@@ -174,9 +179,18 @@ class PeerEngine final : public simulation::Engine, public simulation::Restartab
       const JointState& now = state_.joints[joint];
       const simulation::JointProperties& passive = passive_joints_[joint];
       hooks_[joint] = simulation::dragged(passive, now.angle, now.rate, hooks_[joint]);
+      drive_torques_[joint] = simulation::drive_torque(passive, inputs_.joint_torques[joint]);
       acting_.joint_torques[joint] =
-          simulation::drive_torque(passive, inputs_.joint_torques[joint]) +
+          drive_torques_[joint] +
           simulation::passive_joint_torque(passive, now.angle, now.rate, hooks_[joint]);
+    }
+    for (std::size_t i = 0; i < held_back_.size(); ++i) {
+      const std::size_t body = tree_.bases[i], joint = inputs_.first_joints[i];
+      const std::size_t count = simulation::joint_count(experiment_.robots[i]);
+      held_back_[i].take(std::span(drive_torques_).subspan(joint, count),
+                         std::span(state_.bodies).subspan(body, count + 1),
+                         std::span(state_.joints).subspan(joint, count),
+                         std::span(acting_.joint_torques).subspan(joint, count));
     }
   }
 
@@ -266,7 +280,7 @@ class PeerEngine final : public simulation::Engine, public simulation::Restartab
   const RobotTree tree_;
   const std::vector<std::string> trails_;
   simulation::WorldInputs inputs_;
-  simulation::EffortWatch efforts_;
+  simulation::DriveWatch drives_;
   simulation::WorldInputs acting_;  ///< with what the joints exert by themselves
   std::optional<contact::Terrain> ground_;
   const std::vector<TouchingPoint> touching_;
@@ -277,6 +291,8 @@ class PeerEngine final : public simulation::Engine, public simulation::Restartab
   std::vector<JointState> next_joints_;
   std::vector<simulation::JointProperties> passive_joints_;
   std::vector<simulation::FrictionHook> hooks_;  ///< of the joints' dry friction
+  std::vector<double> drive_torques_;            ///< within effort_limit
+  std::vector<HeldBackTorques> held_back_;       ///< one a robot
   bool has_details_ = false;
   StepStatus failure_;
 };
@@ -309,6 +325,7 @@ std::unique_ptr<simulation::Engine> make_peer_engine(const simulation::Experimen
                                       "; install " + std::string(peer.package) +
                                       " and build again");
   auto notices = check_supported(experiment, peer.describe());
+  std::ranges::move(notices_of_unread_constants(experiment, peer), std::back_inserter(notices));
   check_triangles(experiment, peer);
   return std::make_unique<PeerEngine>(experiment, peer, std::move(notices));
 }

@@ -38,6 +38,9 @@ ArticulatedRobot::ArticulatedRobot(const Experiment& experiment, std::size_t ind
       state_(initial_state(experiment.robots[index])),
       workspace_(model_),
       joints_(experiment.robots[index]),
+      speed_limits_(experiment.robots[index], experiment.deltat),
+      drive_torques_(model_.link_count()),
+      whole_torques_(model_.link_count()),
       applied_torques_(model_.link_count()),
       joint_torques_(model_.link_count()),
       model_of_step_(model_),
@@ -155,6 +158,8 @@ void ArticulatedRobot::apply_external_forces() {
 
 void ArticulatedRobot::find_torques(std::span<double> torques) const {
   joints_.torques(drives(), state_.joint_positions, state_.joint_rates, torques);
+  const std::span<const double> held_back = speed_limits_.held_back();
+  for (std::size_t i = 0; i < torques.size(); ++i) torques[i] -= held_back[i];
 }
 
 void ArticulatedRobot::solve(ConstraintSet::Closing closing) {
@@ -174,10 +179,26 @@ void ArticulatedRobot::solve(ConstraintSet::Closing closing) {
   for (std::size_t i = 0; i < a.size(); ++i) joint_torques_[i] -= added_inertias_[i] * a[i];
 }
 
+void ArticulatedRobot::solve_within_limits() {
+  solve(ConstraintSet::Closing::at_this_moment);
+  if (!speed_limits_.any()) return;
+  for (std::size_t i = 0; i < drive_torques_.size(); ++i)
+    drive_torques_[i] = drive_torque(joints_.properties()[i], drives()[i]);
+  std::ranges::copy(applied_torques_, whole_torques_.begin());
+  const auto without = [&](std::span<const double> held_back) -> std::span<const double> {
+    std::ranges::transform(whole_torques_, held_back, applied_torques_.begin(), std::minus<>());
+    solve(ConstraintSet::Closing::at_this_moment);
+    return workspace_.joint_accelerations;
+  };
+  if (speed_limits_.find(drive_torques_, state_.joint_rates, workspace_.joint_accelerations,
+                         without))
+    without(speed_limits_.held_back());
+}
+
 void ArticulatedRobot::accelerate() {
   if (joint_step_ == 0.) {
-    find_torques(applied_torques_);
-    return solve(ConstraintSet::Closing::at_this_moment);
+    joints_.torques(drives(), state_.joint_positions, state_.joint_rates, applied_torques_);
+    return solve_within_limits();
   }
   const double h = joint_step_;
   const std::span<const double> q = state_.joint_positions, v = state_.joint_rates,
@@ -187,7 +208,7 @@ void ArticulatedRobot::accelerate() {
     joints_.torques_at_end_of(h, drives(), q, v, applied_torques_, added_inertias_);
     for (std::size_t i = 0; i < added_inertias_.size(); ++i)
       model_of_step_.set_rotor_inertia(i + 1, joint_inertias_[i] + added_inertias_[i]);
-    solve(ConstraintSet::Closing::at_this_moment);
+    solve_within_limits();
   } while (joints_.bind_friction(h, q, v, a));
 }
 

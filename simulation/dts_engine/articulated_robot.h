@@ -12,6 +12,7 @@
 #include "simulation/dts_engine/constraint_set.h"
 #include "simulation/dts_engine/joint_set.h"
 #include "simulation/engine_interface/engine.h"
+#include "simulation/experiment/speed_limits.h"
 
 namespace hookpoint::simulation {
 
@@ -54,7 +55,7 @@ class ArticulatedRobot {
   /// No external force but those of the experiment's Forces, as the inputs have them now.
   void apply_external_forces();
   /// v' from M v' + c = tau + J^T f of the forces applied so far, joint torques as the inputs have
-  /// them now. O(links).
+  /// them now but for what drives hold back at their velocity_limit. O(links (1 + limits met)).
   void accelerate();
   /// Greatest angular velocity of a body at the kinematics in the workspace [rad/s]. O(links).
   double greatest_angular_speed() const;
@@ -65,7 +66,7 @@ class ArticulatedRobot {
   /// `h` [s] (integrators/system.h); 0: as it is now.
   void take_joints_at_end_of(double h) { joint_step_ = h; }
   /// The joints' torques at the present state: drives as the inputs have them now, and what joints exert
-  /// by themselves [N m, N].
+  /// by themselves, less what drives held back in the last accelerate() [N m, N].
   void find_torques(std::span<double> torques) const;
   /// As the inputs have it now [m/s^2].
   const Vector3d& gravity() const { return inputs_->gravity; }
@@ -108,6 +109,8 @@ class ArticulatedRobot {
  private:
   /// v' from applied_torques_ under the forces in the workspace.
   void solve(ConstraintSet::Closing closing);
+  /// The same, less what drives hold back at their velocity_limit.
+  void solve_within_limits();
   std::span<const double> drives() const {
     return std::span(inputs_->joint_torques).subspan(first_joint_, joint_torques_.size());
   }
@@ -123,6 +126,8 @@ class ArticulatedRobot {
   dts::State<double> state_;
   dts::Workspace<double> workspace_;
   JointSet joints_;
+  SpeedLimits speed_limits_;
+  std::vector<double> drive_torques_, whole_torques_;  ///< before drives hold back [N m, N]
   /// Of drives and what joints exert by themselves, before constraint forces and what an implicit
   /// integrator takes at the end of its step [N m, N].
   std::vector<double> applied_torques_;

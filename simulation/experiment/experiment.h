@@ -114,8 +114,9 @@ struct LinkSpec {
   std::optional<double> lower_limit, upper_limit;
   double limit_stiffness = joint_types[0].defaults.limit_stiffness;
   double limit_damping = joint_types[0].defaults.limit_damping;
-  std::optional<double> effort_limit;  ///< of the drive's torque, either way
-  double rotor_inertia = 0.;           ///< of motor and gears, at the joint
+  std::optional<double> effort_limit;    ///< of the drive's torque, either way
+  std::optional<double> velocity_limit;  ///< to which the drive takes the joint, either way
+  double rotor_inertia = 0.;             ///< of motor and gears, at the joint
 };
 
 /// Links in series that hang on the base or on a link of an earlier chain.
@@ -166,6 +167,8 @@ struct MaterialSpec {
   /// Constants that the file leaves at their defaults: where the other side of a contact states one,
   /// that holds.
   std::vector<double contact::MaterialConstants<double>::*> unstated{};
+  /// Constants that are stated for this run: those that its engine does not read are reported.
+  std::vector<double contact::MaterialConstants<double>::*> meant{};
 };
 
 /// Constants of contacts between two materials, whichever is the foot's, instead of what they
@@ -254,7 +257,8 @@ struct ComponentSpec {
   std::optional<double> rate;  ///< of its updates [Hz]; none: every step
   std::vector<std::pair<std::size_t, double>> values;  ///< index among the component's values
   std::vector<std::pair<std::size_t, std::string>>
-      texts;  ///< index among its texts; paths absolute
+      texts;                    ///< index among its texts; paths absolute
+  std::size_t open_inputs = 0;  ///< elements of its open input; one where it is 0
 };
 
 /// One number's way from a port to a port, by their trails from the top.

@@ -10,9 +10,7 @@
 
 namespace hookpoint::simulation {
 
-using language::Direction;
 using language::FieldSchema;
-using language::port_only;
 
 namespace {
 
@@ -32,14 +30,15 @@ class Expression final : public control::Component {
                         "(since the last update) and of `previous`, its own last value"};
   control::Text unit{*this, "unit", "of the value, as \"N.m\"; default: what the formula yields"};
   control::Parameter initial{*this, "initial", "?", 0., "`previous` at the first update"};
-  control::Input in{
-      *this, "in", "?", "the ports that the formula names, in its order", 0., most_formula_inputs};
   control::Output output{*this, "output", "?", "the formula's value"};
+  control::Input in =
+      control::Input{*this, "in", "?", "the ports that the formula names, in its order"}.open();
 
   void start(double) override {
     // A class that nobody has given a formula has the value 0.
     FormulaInputs inputs({expression_words.begin(), expression_words.end()});
     compiled_.emplace(formula.value().empty() ? "0" : formula.value(), inputs);
+    values_ = inputs.values_for(in);
   }
 
   void update(const control::Tick& tick) override {
@@ -47,14 +46,13 @@ class Expression final : public control::Component {
     values_[0] = tick.time;
     values_[1] = tick.period;
     values_[2] = last;
-    for (std::size_t i = 0; i < most_formula_inputs; ++i)
-      values_[expression_words.size() + i] = in[i];
+    read_inputs(in, std::span(values_).subspan(expression_words.size()));
     output = (*compiled_)(values_);
   }
 
  private:
   std::optional<ComponentFormula> compiled_;
-  std::array<double, expression_words.size() + most_formula_inputs> values_{};
+  std::vector<double> values_;  ///< of the words, then of the inputs
 };
 
 HOOKPOINT_REGISTER_COMPONENT(Expression, "Expression",
@@ -112,8 +110,8 @@ void describe_formula_class(language::ClassSchema& schema) {
   const bool machine = schema.name == "StateMachine";
   if (schema.name == "Input") schema.top_level = false;
   if (schema.name != "Expression" && !machine) return;
-  FieldSchema& in = declared_field(schema, "in");
-  in = port_only(Direction::output, std::move(in));
+  // What it holds are the values of ports that have names of their own.
+  std::erase_if(schema.fields, [](const FieldSchema& field) { return field.name == "in"; });
   schema.default_input.clear();
   if (machine) return describe_state_machine(schema);
   FieldSchema& formula = declared_field(schema, "formula");
@@ -128,6 +126,8 @@ void load_formulas(const language::Object& object, const control::ComponentClass
   if (type.name == "StateMachine")
     spec.texts.emplace_back(text_index(type, "program"),
                             state_machine_program(object, index, loading));
+  spec.open_inputs = static_cast<std::size_t>(
+      std::ranges::count(loading.formula_inputs, index, &FormulaInput::component));
 }
 
 }  // namespace hookpoint::simulation

@@ -13,9 +13,16 @@ namespace hookpoint::simulation {
 std::size_t FormulaInputs::place(const std::string& name) {
   const auto word = std::ranges::find(words_, std::string_view(name));
   if (word != words_.end()) return static_cast<std::size_t>(word - words_.begin());
-  auto known = std::ranges::find(names_, name);
-  if (known == names_.end()) known = names_.insert(names_.end(), name);
-  return words_.size() + static_cast<std::size_t>(known - names_.begin());
+  return words_.size() + places_.emplace(name, places_.size()).first->second;
+}
+
+std::vector<double> FormulaInputs::values_for(const control::Input& in) const {
+  if (in.count() < size()) throw std::logic_error("a formula reads more than it is given");
+  return std::vector<double>(words_.size() + size());
+}
+
+void read_inputs(const control::Input& in, std::span<double> values) {
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = in[i];
 }
 
 namespace {
@@ -136,13 +143,6 @@ bool FormulaLoader::resolve(const std::string& name, const language::Position& p
   }
   dimension = dimension_of_port(*target.object, *target.field);
   if (at - inputs_.word_count() < count) return true;  // an earlier formula has it
-  if (inputs_.size() > most_formula_inputs) {
-    loading_.error(place,
-                   fmt::format("`{}` is one port more than the {} that the formulas of {} "
-                               "may name: divide the formula",
-                               name, most_formula_inputs, language::with_article(object_.type)));
-    return false;
-  }
   loading_.formula_inputs.push_back(
       {index_, at - inputs_.word_count(), {name, target.object, target.port, place}});
   return true;

@@ -3,6 +3,7 @@
 // reads the formula back from its text.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -18,9 +19,6 @@
 
 namespace hookpoint::simulation {
 
-/// Ports that the formulas of one component may name.
-inline constexpr std::size_t most_formula_inputs = 16;
-
 /// A name that a class gives a value itself: `time`, `previous`.
 struct FormulaWord {
   std::string_view name;
@@ -32,15 +30,21 @@ struct FormulaWord {
 class FormulaInputs {
  public:
   explicit FormulaInputs(std::vector<std::string_view> words) : words_(std::move(words)) {}
-  /// Index of a word, or the number of words + index of an input; new names are added.
+  /// Index of a word, or the number of words + index of an input; new names are added. O(log
+  /// names).
   std::size_t place(const std::string& name);
   std::size_t word_count() const { return words_.size(); }
-  std::size_t size() const { return names_.size(); }
+  std::size_t size() const { return places_.size(); }
+  /// Room for the words and the inputs, which `in` holds.
+  std::vector<double> values_for(const control::Input& in) const;
 
  private:
   std::vector<std::string_view> words_;
-  std::vector<std::string> names_;
+  std::map<std::string, std::size_t> places_;  ///< of inputs, in the order of the texts
 };
+
+/// Copies the first values of `in`.
+void read_inputs(const control::Input& in, std::span<double> values);
 
 /// A formula that a component computes: words first, then the inputs, as numbered by
 /// `FormulaInputs`.

@@ -154,6 +154,11 @@ const Fields<LinkSpec>& joint_fields() {
                            "greatest `torque` that the drive gives, either way: what is commanded "
                            "beyond it is not exerted, and a notice of the run says so; none if not "
                            "given")),
+      positive(
+          joint_field("velocity_limit", &Units::rate, &LinkSpec::velocity_limit,
+                      "greatest `rate` to which the drive brings its joint, either way: of its "
+                      "torque it holds back what would move it faster, and never brakes; none "
+                      "if not given")),
       not_negative(joint_field("rotor_inertia", &Units::inertia, &LinkSpec::rotor_inertia,
                                "of motor and gears, as the joint sees it: gear ratio squared times "
                                "the rotor's own")),

@@ -10,6 +10,7 @@
 
 #include "control/data/table.h"
 #include "control/registry.h"
+#include "language/tree/fields.h"
 #include "language/tree/references.h"
 #include "language/units.h"
 #include "language/values/budget.h"
@@ -110,10 +111,11 @@ class Wires {
                                         from.field->name, from.object->type));
     }
     if (!is_published(*from.object, *from.field, input.from.position)) return;
-    const FieldSchema* in = object.schema->find("in");
-    add({from.object, &object, nullptr, from.field, in, input.from.position}, from.trails[0],
-        loading_.trails.at(&object) + "." + in->name +
-            language::part_name(*in, static_cast<int>(input.element)));
+    static const FieldSchema in = language::number_field("in", "?", "", "");
+    const std::size_t count = experiment_.components[input.component].open_inputs;
+    const std::string element = count > 1 ? fmt::format("[{}]", input.element) : "";
+    add({from.object, &object, nullptr, from.field, &in, input.from.position}, from.trails[0],
+        loading_.trails.at(&object) + "." + in.name + element);
   }
 
   static const language::Position& end_place(const language::Wire& wire,

@@ -31,13 +31,12 @@ class StateMachine final : public control::Component {
   /// Lines `state OUTPUT`, and behind each those of its ways out, `to INDEX GUARD`; `initial
   /// INDEX`.
   control::Text program{*this, "program", "its states and transitions"};
-  control::Input in{*this, "in",
-                    "?",   "the ports that the formulas name, in their order",
-                    0.,    most_formula_inputs};
   control::Output output{*this, "output", "?", "what the state says"};
   control::Output state{*this, "state", "", "which one it is in: 0 the first in the file"};
   control::Output time_in_state{*this, "time_in_state", "s", "since it entered the state"};
   control::State entered{*this, "entered", "s", "when it entered the state"};
+  control::Input in =
+      control::Input{*this, "in", "?", "the ports that the formulas name, in their order"}.open();
 
   void start(double) override {
     FormulaInputs inputs({machine_words.begin(), machine_words.end()});
@@ -51,13 +50,14 @@ class StateMachine final : public control::Component {
       if (word == "state") states_.push_back({ComponentFormula(formula, inputs), {}});
       if (word == "to") states_.back().ways.push_back({index, ComponentFormula(formula, inputs)});
     }
+    values_ = inputs.values_for(in);
   }
 
   void update(const control::Tick& tick) override {
     if (states_.empty()) return;
     values_[0] = tick.time;
     values_[1] = tick.period;
-    for (std::size_t i = 0; i < most_formula_inputs; ++i) values_[machine_words.size() + i] = in[i];
+    read_inputs(in, std::span(values_).subspan(machine_words.size()));
     if (tick.count == 0) {
       enter(initial_, tick);
     } else {
@@ -97,7 +97,7 @@ class StateMachine final : public control::Component {
 
   std::vector<Phase> states_;
   std::size_t initial_ = 0;
-  std::array<double, machine_words.size() + most_formula_inputs> values_{};
+  std::vector<double> values_;  ///< of the words, then of the inputs
 };
 
 HOOKPOINT_REGISTER_COMPONENT(StateMachine, "StateMachine",

@@ -11,10 +11,11 @@
 namespace hookpoint::simulation {
 namespace {
 
-/// Of the elements of short lists and of orientations, in their order; "" of other ports.
+/// Of the elements of short lists of a fixed length and of orientations, in their order; "" of other
+/// ports.
 std::string_view letters_of(const control::PortDescription& port) {
   if (port.orientation) return "wxyz";
-  return port.count == 2 || port.count == 3 ? "xyz" : "";
+  return !port.open && (port.count == 2 || port.count == 3) ? "xyz" : "";
 }
 
 /// Index among the component's values of "goal", "goal[3]" or "gyroscope.x".
@@ -65,6 +66,7 @@ Components::Components(const Experiment& experiment) {
     const control::ComponentClass* type = control::Registry::instance().find(spec.type);
     if (type == nullptr) throw ExperimentError("there is no component class `" + spec.type + "`");
     control::Component& component = *components_.emplace_back(type->make());
+    component.set_open_count(spec.open_inputs);
     for (const control::PortDescription& port : component.ports())
       take_from_world(port, experiment.gravity, component.values());
     for (const auto& [index, value] : spec.values) component.values()[index] = value;

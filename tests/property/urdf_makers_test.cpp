@@ -61,7 +61,8 @@ const Written writings[] = {
      "note 1:2 left out: <material> (2), <mujoco> (1)\n"},
     {"safety_controller", with("", safety), "note 1:2 left out: <safety_controller> (1)\n"},
     {"effort_of_zero", with("", "<limit effort=\"0\" velocity=\"0\"/>"),
-     "note 1:2 left out: limit of effort that is no bound (1), limit of velocity (1)\n"},
+     "note 1:2 left out: limit of effort that is no bound (1), limit of velocity that is no "
+     "bound (1)\n"},
     {"effort_without_end", with("", "<limit effort=\"inf\"/>"),
      "note 1:2 left out: limit of effort that is no bound (1)\n"},
     {"effort_beyond_all_numbers", with("", "<limit effort=\"1e400\"/>"),
@@ -131,7 +132,9 @@ TEST(UrdfMakers, AnEffortIsALimitOfTheDrive) {
   const Loaded loaded = load_urdf(with("", "<limit effort=\"23.7\" velocity=\"30\"/>"));
   ASSERT_TRUE(loaded.experiment) << loaded.diagnostics;
   EXPECT_EQ(first_link(loaded).effort_limit, 23.7);
+  EXPECT_EQ(first_link(loaded).velocity_limit, 30.);
   EXPECT_FALSE(first_link(load_urdf(with("", "<limit effort=\"0\"/>"))).effort_limit);
+  EXPECT_FALSE(first_link(load_urdf(with("", "<limit velocity=\"0\"/>"))).velocity_limit);
   EXPECT_FALSE(load_urdf(with("", "<limit effort=\"strong\"/>")).experiment);
 }
 

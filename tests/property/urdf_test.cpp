@@ -154,18 +154,17 @@ INSTANTIATE_TEST_SUITE_P(Tilts, RandomRobot, ::testing::Values(2., 0.5, 1e-6, 1e
 TEST(Urdf, LimitsDampingFrictionAndEffortComeAlong) {
   const Loaded loaded = load_urdf(
       robot(link_l + joint("knee", "revolute",
-                           "<limit lower=\"-0.5\" upper=\"1.25\" effort=\"9\" velocity=\"9\"/>"
+                           "<limit lower=\"-0.5\" upper=\"1.25\" effort=\"9\" velocity=\"8\"/>"
                            "<dynamics damping=\"0.3\" friction=\"0.2\"/>")),
       ", knee = -10 deg, location = 1,2,3, yaw_is_none = 1");
   EXPECT_EQ(
       loaded.diagnostics,
-      "note 1:2 left out: limit of velocity (1)\n"
       "error 1:77 the robot takes no argument `yaw_is_none`; it takes name, base, shapes, "
       "meshes, mimic, lock, inertia, hold, rotor_inertia, fields of its base, and the names of its moving "
       "joints\n");
   const Loaded good = load_urdf(
       robot(link_l + joint("knee", "revolute",
-                           "<limit lower=\"-0.5\" upper=\"1.25\" effort=\"9\" velocity=\"9\"/>"
+                           "<limit lower=\"-0.5\" upper=\"1.25\" effort=\"9\" velocity=\"8\"/>"
                            "<dynamics damping=\"0.3\" friction=\"0.2\"/>")),
       ", knee = -10 deg, location = 1,2,3");
   ASSERT_TRUE(good.experiment) << good.diagnostics;
@@ -180,6 +179,7 @@ TEST(Urdf, LimitsDampingFrictionAndEffortComeAlong) {
   EXPECT_EQ(link.damping, 0.3);
   EXPECT_EQ(link.friction, 0.2);
   EXPECT_EQ(link.effort_limit, 9.);
+  EXPECT_EQ(link.velocity_limit, 8.);
   EXPECT_DOUBLE_EQ(link.angle, -10. * M_PI / 180.);
 }
 
@@ -256,7 +256,7 @@ TEST(Urdf, TellsInOneLineWhatItLeftOut) {
   ASSERT_TRUE(loaded.experiment) << loaded.diagnostics;
   EXPECT_EQ(loaded.diagnostics,
             "note 1:2 left out: <gazebo> (2), <material> (1), <safety_controller> (1), <visual> "
-            "(1), limit of velocity (1), mesh of <collision> (1)\n");
+            "(1), mesh of <collision> (1)\n");
   const auto& shapes = loaded.experiment->robots.at(0).chains.at(0).links.at(0).body.shapes;
   ASSERT_EQ(shapes.size(), 1u);
   EXPECT_EQ(std::get<simulation::Sphere>(shapes[0].geometry).radius, 2.);

@@ -312,12 +312,15 @@ void UrdfReader::read_axis(const pugi::xml_node& node, UrdfJoint& joint) {
 
 void UrdfReader::read_limit(const pugi::xml_node& node, UrdfJoint& joint) {
   const pugi::xml_node limit = only(node, "limit");
-  if (limit.attribute("velocity")) leave_out("limit of velocity");
-  if (limit.attribute("effort")) {
-    joint.effort_limit = bound(limit, "effort");
-    joint.effort_place = place(limit, "effort");
-    if (!joint.effort_limit) leave_out("limit of effort that is no bound");
-  }
+  const auto read_bound = [&](const char* attribute, std::optional<double>& bounds,
+                              language::Position& at) {
+    if (!limit.attribute(attribute)) return;
+    bounds = bound(limit, attribute);
+    at = place(limit, attribute);
+    if (!bounds) leave_out(fmt::format("limit of {} that is no bound", attribute));
+  };
+  read_bound("effort", joint.effort_limit, joint.effort_place);
+  read_bound("velocity", joint.velocity_limit, joint.velocity_place);
   if (joint.type == UrdfJointType::continuous) return;
   if (!limit.attribute("lower") && !limit.attribute("upper"))
     return leave_out(fmt::format("limits that joint `{}` is not given", joint.name));

@@ -315,6 +315,7 @@ void RobotInclude::add_joint(const UrdfJoint& joint, const UrdfHold& held, Forei
   if (damping != 0.) add("damping", damping, has_own ? joint.damping_place : joint.place);
   if (joint.friction != 0.) add("friction", joint.friction, joint.friction_place);
   if (joint.effort_limit) add("effort_limit", *joint.effort_limit, joint.effort_place);
+  if (joint.velocity_limit) add("velocity_limit", *joint.velocity_limit, joint.velocity_place);
   if (joint.rotor_inertia != 0.) add("rotor_inertia", joint.rotor_inertia, joint.rotor_place);
   if (joint.stiffness != 0. && held.stiffness == 0.) {
     add("stiffness", joint.stiffness, joint.place);

@@ -57,14 +57,14 @@ struct UrdfFollows {
 struct UrdfJoint {
   std::string name;
   language::Position place, type_place, limit_place, damping_place, friction_place, effort_place,
-      rotor_place;
+      velocity_place, rotor_place;
   UrdfJointType type = UrdfJointType::fixed;
   std::size_t parent = 0, child = 0;  ///< indices of links
   Pose origin;                        ///< X_PC at angle 0: of the child's frame in its parent's
   Vector3d axis{1., 0., 0.};          ///< unit vector, child's frame
   std::optional<double> lower_limit, upper_limit;
   double damping = 0., friction = 0.;
-  std::optional<double> effort_limit;
+  std::optional<double> effort_limit, velocity_limit;
   double rotor_inertia = 0.;  ///< at the joint [kg m^2, kg]
   double stiffness = 0., rest_angle = 0.;
   std::optional<double> angle;  ///< at the start

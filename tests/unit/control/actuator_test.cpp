@@ -112,8 +112,8 @@ TEST(DCMotor, CurrentLimitCutsTheLineOff) {
   EXPECT_NEAR(bench["current"], -0.3, 1e-15);
 }
 
-/// Power at the joint is efficiency times that of the motor when it drives, and the reverse when it
-/// is driven.
+/// Power at the joint is efficiency times that of the motor when it drives; when it is driven the
+/// motor has 2 - 1/efficiency times that of the joint.
 TEST(DCMotor, GearLosesPowerBothWays) {
   ComponentBench bench = motor();
   bench["efficiency"] = 0.8;
@@ -122,7 +122,7 @@ TEST(DCMotor, GearLosesPowerBothWays) {
   EXPECT_NEAR(driving, 0.8 * (0.2 * bench["current"] * 50. * 4.), 1e-13);
   const double driven = torque_at(bench, 1., 20.) * 20.;
   EXPECT_LT(driven, 0.);
-  EXPECT_NEAR(0.8 * driven, 0.2 * bench["current"] * 50. * 20., 1e-12);
+  EXPECT_NEAR((2. - 1. / 0.8) * driven, 0.2 * bench["current"] * 50. * 20., 1e-12);
 }
 
 /// Alone on an inertia J it reaches the no-load speed W as W (1 - exp(-t/T)), T = J W/stall torque;
