@@ -11,6 +11,7 @@
 
 #include "reference/experiment_checks.h"
 #include "reference/settings.h"
+#include "reference/unread_constants.h"
 #include "simulation/engine_interface/engine.h"
 #include "simulation/experiment/closed_form.h"
 
@@ -32,6 +33,9 @@ struct Peer {
   /// What it does not do as ours does, beside what every peer lacks (common_gaps_and).
   std::span<const OwnGap> gaps{};
   OwnSetting own_setting{};
+  /// Of a Material, what it makes contacts of at `settings = matched`, beside friction.
+  std::span<double contact::MaterialConstants<double>::*const> matched_constants =
+      spring_and_damper;
   TriangleLimit triangles{};
 
   /// make_engine of this row: the peer as any other engine is built. Throws

@@ -1,6 +1,7 @@
 #include "apps/python/arguments.h"
 
 #include <fmt/format.h>
+#include <pybind11/stl/filesystem.h>
 
 #include "apps/python/errors.h"
 
@@ -71,6 +72,14 @@ std::vector<std::string> names_of(const py::handle& names, const char* argument)
     all.push_back(name.cast<std::string>());
   }
   return all;
+}
+
+std::filesystem::path path_of(const py::object& path, const char* argument) {
+  try {
+    return path.cast<std::filesystem::path>();
+  } catch (const py::cast_error&) {
+    throw py::type_error(fmt::format("`{}` is a path, not {}", argument, type_name(path)));
+  }
 }
 
 int threads_of(std::int64_t count, const char* argument) {

@@ -5,6 +5,7 @@
 #include <pybind11/pybind11.h>
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,9 @@ std::vector<std::string> settings_of(const pybind11::handle& set);
 
 /// One name, or a sequence of names. Throws TypeError; `argument` names the argument.
 std::vector<std::string> names_of(const pybind11::handle& names, const char* argument);
+
+/// A path: text, bytes or what os.fspath takes. Throws TypeError; `argument` names the argument.
+std::filesystem::path path_of(const pybind11::object& path, const char* argument);
 
 /// A number of threads: 0 is one a core. Throws hookpoint.Error.
 int threads_of(std::int64_t count, const char* argument);

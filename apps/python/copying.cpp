@@ -1,5 +1,6 @@
 #include "apps/python/copying.h"
 
+#include <fmt/format.h>
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -39,9 +40,20 @@ BatchOptions options_of(const py::tuple& options) {
         variant.cast<std::pair<std::vector<std::string>, std::optional<std::uint64_t>>>();
     variants.push_back({settings, seed});
   }
+  if (variants.empty()) throw py::cast_error("a Batch has a world or more");
   return {options[0].cast<int>(), variants, options[2].cast<std::vector<std::string>>(),
           options[3].cast<std::vector<std::string>>(),
           options[4].cast<std::optional<std::string>>()};
+}
+
+/// What `make` reads out of the tuple of a pickle, which anybody may have written.
+template <class Make>
+auto unpickled(const char* name, const Make& make) {
+  try {
+    return make();
+  } catch (const py::cast_error&) {
+    throw py::type_error(fmt::format("this is no {} that was pickled", name));
+  }
 }
 
 template <class Class>
@@ -65,9 +77,11 @@ void add_copying(py::class_<PythonWorld>& world) {
         return py::make_tuple(tuple_of(self.file().source()), self.state());
       },
       [](const py::tuple& pickled) {
-        auto made = make_whole<PythonWorld>(loaded(pickled[0]));
-        made->set_state(pickled[1]);
-        return made;
+        return unpickled("World", [&] {
+          auto made = make_whole<PythonWorld>(loaded(pickled[0]));
+          made->set_state(pickled[1]);
+          return made;
+        });
       }));
 }
 
@@ -79,9 +93,11 @@ void add_copying(py::class_<PythonBatch>& batch) {
                               self.states(), self.failures(), self.actions());
       },
       [](const py::tuple& pickled) {
-        auto made = make_whole<PythonBatch>(loaded(pickled[0]), options_of(pickled[1]));
-        made->continue_from(pickled[2], pickled[3], pickled[4].cast<py::array_t<double>>());
-        return made;
+        return unpickled("Batch", [&] {
+          auto made = make_whole<PythonBatch>(loaded(pickled[0]), options_of(pickled[1]));
+          made->continue_from(pickled[2], pickled[3], pickled[4].cast<py::array_t<double>>());
+          return made;
+        });
       }));
 }
 

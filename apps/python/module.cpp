@@ -34,7 +34,7 @@ py::dict run_world(PythonWorld& world, std::optional<double> duration, const py:
   if (py::isinstance<py::bool_>(movie)) {
     if (movie.cast<bool>()) options.movie.emplace();
   } else {
-    options.movie = movie.cast<std::filesystem::path>();
+    options.movie = path_of(movie, "movie");
   }
   return world.run(options);
 }
@@ -165,7 +165,7 @@ std::unique_ptr<PythonBatch> batch_of(const py::object& file, std::int64_t world
     source.file = "<text>";
     source.text = file.cast<std::string>();
   } else {
-    source.file = file.cast<std::filesystem::path>();
+    source.file = path_of(file, "file");
   }
   const BatchOptions options{threads_of(threads, "threads"), variants,
                              names_of(observations, "observations"), names_of(actions, "actions"),

@@ -474,6 +474,9 @@ void PythonBatch::continue_from(const py::list& states, const py::dict& failures
     if (failures.contains(i)) worlds_[i].failure = failures[py::int_(i)].cast<std::string>();
     show(i);
   }
+  if (static_cast<std::size_t>(actions.size()) != memory_->written.size())
+    throw_error(fmt::format("a Batch with {} actions continues from as many, not {}",
+                            memory_->written.size(), actions.size()));
   std::copy_n(actions.data(), actions.size(), memory_->written.data());
 }
 

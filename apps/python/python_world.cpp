@@ -14,6 +14,7 @@
 #include "apps/python/gil.h"
 #include "apps/python/state_values.h"
 #include "apps/python/trails.h"
+#include "simulation/engine_interface/step_count.h"
 #include "simulation/run/energy_watch.h"
 #include "simulation/run/initial_state.h"
 #include "simulation/run/loop.h"
@@ -278,8 +279,10 @@ py::dict PythonWorld::run(const RunOptions& options) {
   if (options.every < 1) throw_error("`every` is a number of steps, 1 or more");
   const double left = options.duration ? *options.duration : experiment().duration - time();
   const double steps = std::round(left / experiment().deltat);
-  if (!(steps >= 0. && steps < 1e15))
-    throw_error("`duration` is a time in seconds that is not negative");
+  if (!(steps >= 0.)) throw_error("`duration` is a time in seconds that is not negative");
+  if (const std::string problem = simulation::step_count_problem(left, experiment().deltat);
+      !problem.empty())
+    throw_error(problem);
   Recording recording;
   recording.every = options.every;
   for (const std::string& trail : options.trails) {

@@ -46,7 +46,9 @@ std::unique_ptr<Object> Library::evaluate(const std::filesystem::path& file,
   if (options.amend) options.amend(*root);
   Checker checker(implementation_->prepared, implementation_->files, builder.left_out(),
                   builder.hints(), report);
-  for (const Override& setting : split.overrides)
+  // Of a file that could not be read at all nothing is known.
+  const bool unread = parsed.report.has_errors() && parsed.syntax.items.empty();
+  for (const Override& setting : unread ? std::vector<Override>{} : split.overrides)
     checker.apply(*root, setting, param_names(parsed));
   checker.check(*root);
   report.deliver(diagnostics);

@@ -43,7 +43,9 @@ void Builder::take_parameters(const EvaluateOptions& options, FileScope& scope) 
     std::optional<std::vector<Value>> values =
         ExpressionEvaluator(text, none, report_, budget_).evaluate_list(item.value);
     const Position place{&text.source, 0, name.size()};
-    scope.given.emplace(name, Given{std::move(values).value_or(std::vector<Value>{}), place});
+    Given given{std::move(values).value_or(std::vector<Value>{}), place};
+    for (Value& one : given.values) one.from_outside = true;
+    scope.given.emplace(name, std::move(given));
   }
 }
 

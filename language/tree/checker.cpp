@@ -65,7 +65,7 @@ void Checker::apply(Object& root, const Override& setting, const std::vector<std
   std::optional<Field> made = make_field(
       schema_.context(*target->object->schema, *target->field, evaluate, report_), item.value);
   if (!made) return;
-  made->given = true;
+  made->given = made->from_outside = true;
   // The tree is the caller's to change; only the look-up sees it as const.
   Object& object = const_cast<Object&>(*target->object);
   object.implicit = false;

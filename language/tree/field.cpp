@@ -125,6 +125,7 @@ std::optional<Field> FieldMaker::run() {
       good = make_formula();
       break;
   }
+  field_.from_outside = std::ranges::any_of(values_, &Value::from_outside);
   return good ? std::optional(std::move(field_)) : std::nullopt;
 }
 

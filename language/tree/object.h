@@ -29,6 +29,7 @@ struct Reference {
 struct Field {
   const FieldSchema* schema = nullptr;
   bool given = false;              ///< written in the file (or set from outside), not a default
+  bool from_outside = false;       ///< set from outside the file, or worked out of Params that were
   std::vector<double> numbers;     ///< number, integer, numbers (SI); orientation: w, x, y, z,
                                    ///< normalised; boolean: 0 or 1
   std::vector<std::string> words;  ///< text, choice, words; of numbers the words in their place

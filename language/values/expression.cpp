@@ -40,10 +40,14 @@ std::optional<Value> ExpressionEvaluator::evaluate(const Expression& expression)
   std::vector<Value> stack;
   if (!take(Resource::steps, expression.code.size() + 1, position(expression.span)))
     return std::nullopt;
+  bool from_outside = false;
   for (std::uint32_t next = expression.code.begin; next < expression.code.end;) {
     const Instruction& instruction = syntax_.code[next++];
     if (!step(instruction, stack, next)) return std::nullopt;
+    if (instruction.operation == Operation::push_trail)
+      from_outside = from_outside || stack.back().from_outside;
   }
+  stack.back().from_outside = from_outside;
   stack.back().position =
       stack.back().kind == ValueKind::word ? stack.back().position : position(expression.span);
   return std::move(stack.back());

@@ -17,6 +17,8 @@ struct Value {
   std::string text;   ///< text; word: a name or trail that is no variable, to be understood by the
                       ///< field that takes it
   Position position;  ///< where it was written: of a word, where it stands in the text
+  bool from_outside =
+      false;  ///< set from outside the file (EvaluateOptions), or worked out of what was
 };
 
 /// "a number in m", "a string", "true or false", "the word `x`".

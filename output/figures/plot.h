@@ -52,6 +52,8 @@ struct Plot {
 /// How many colours there are: styles s and s + style_colors share a colour and differ in marker,
 /// or where the markers are used up in the dashes of the line.
 inline constexpr int style_colors = 20;
+/// How many markers.
+inline constexpr int style_shapes = 5;
 /// The style of this colour is grey.
 inline constexpr int grey_style = 7;
 

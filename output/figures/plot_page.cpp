@@ -93,8 +93,9 @@ void PlotPage::legend_entry(double x, double y, const Series& series) {
     return entry(x, y, series.label, line_color(series),
                  "1.3" + dash_type(reference_dashes(series.style)), 0);
   const SeriesStyle style = series_style(series.style);
+  const bool dashed = !series.scattered && !style.dashes.empty();
   entry(x, y, series.label, line_color(series),
-        joined(series) ? "1.6" + dash_type(style.dashes) : "", style.filled_marker());
+        joined(series) || dashed ? "1.6" + dash_type(style.dashes) : "", style.filled_marker());
 }
 
 void PlotPage::legend_notes(double x, double y, const Notes& notes) {

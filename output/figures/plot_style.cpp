@@ -5,7 +5,7 @@
 namespace hookpoint::output {
 namespace {
 
-constexpr std::size_t shape_count = 5;
+constexpr std::size_t shape_count = style_shapes;
 
 }  // namespace
 

@@ -1,5 +1,7 @@
 #include "reference/mujoco/world.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -99,6 +101,11 @@ class MujocoWorld final : public PeerWorld {
       const mjWarningStat& warning = data_->warning[kind];
       if (warning.number == 0 || std::exchange(warned_[static_cast<std::size_t>(kind)], true))
         continue;
+      if (kind == mjWARN_CONTACTFULL || kind == mjWARN_CNSTRFULL)
+        return fmt::format(
+            "MuJoCo has room for {} contacts, and leaves the others out: bodies may "
+            "fall through; give shapes fewer boundary points, or run fewer bodies",
+            model_.nconmax);
       return std::string("MuJoCo warned: ") + mju_warningText(kind, warning.lastinfo) +
              "; later warnings of this kind are not repeated";
     }

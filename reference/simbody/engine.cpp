@@ -39,6 +39,11 @@ constexpr auto gaps = std::to_array<OwnGap>({
     {feature::rotors, refused, "joints of Simbody have no inertia of their own; use dts or mujoco"},
 });
 
+/// At `settings = matched` friction is a damper without a spring.
+constexpr std::array matched_constants{&contact::MaterialConstants<double>::normal_stiffness,
+                                       &contact::MaterialConstants<double>::normal_damping,
+                                       &contact::MaterialConstants<double>::tangential_damping};
+
 }  // namespace
 
 constinit const Peer simbody_peer{
@@ -47,6 +52,7 @@ constinit const Peer simbody_peer{
     .package = "libsimbody-dev",
     .version = HOOKPOINT_SIMBODY_VERSION,
     .gaps = gaps,
+    .matched_constants = matched_constants,
     .make = make_engine<simbody_peer>,
     .make_world = HOOKPOINT_SIMBODY_WORLD,
     .settings_table = simbody_settings_table,

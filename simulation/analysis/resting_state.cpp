@@ -100,13 +100,21 @@ class RestSearch {
       if (!advance(x, residual, step) || !is_near(x)) break;
     }
     if (residual.norm() < nearly_at_rest && is_near(x)) return {state_at(x), ""};
-    return {
-        std::nullopt,
-        "nothing balances its weight there: the slope is steeper than friction holds, it rolls, "
-        "or it tips over"};
+    return {std::nullopt, why_not()};
   }
 
  private:
+  /// Of what can keep a weight from being balanced, what this ground can do.
+  std::string why_not() const {
+    const bool rough = std::holds_alternative<GridSpec>(ground_.description().surface);
+    return std::string(
+               "nothing balances its weight there: the slope is steeper than friction "
+               "holds, it rolls, or it tips over") +
+           (rough ? "; or the points that bear it lie on tiles of several slopes, between which it "
+                    "settles by moving"
+                  : "");
+  }
+
   /// How far the touching points deflect where they share the weight evenly [m].
   double deflection(const Vector3d& normal,
                     const contact::MaterialConstants<double>& material) const {

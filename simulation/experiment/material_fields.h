@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <span>
+#include <string>
 
 #include "contact/vocabulary.h"
 
@@ -87,6 +89,15 @@ inline constexpr std::array<MaterialField, 25> material_fields() {
 inline MaterialField field_of(double contact::MaterialConstants<double>::*constant) {
   const auto fields = material_fields();
   return *std::ranges::find(fields, constant, &MaterialField::member);
+}
+
+/// "`restitution`, `exponent`".
+inline std::string quoted_fields(
+    std::span<double contact::MaterialConstants<double>::*const> constants) {
+  std::string names;
+  for (const auto constant : constants)
+    names += (names.empty() ? "`" : ", `") + std::string(field_of(constant).name) + '`';
+  return names;
 }
 
 }  // namespace hookpoint::simulation

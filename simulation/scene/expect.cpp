@@ -14,6 +14,7 @@
 #include "simulation/scene/load.h"
 #include "simulation/scene/load_parts.h"
 #include "simulation/scene/schema.h"
+#include "simulation/scene/unread_constants.h"
 
 namespace hookpoint::simulation {
 
@@ -127,7 +128,26 @@ class ExpectationLoader {
     return given.words;
   }
 
+  /// Of a scene as it stands; who shortens a run knows what it leaves out.
+  void check_duration() {
+    const language::Object* root = &object_;
+    while (root->parent != nullptr) root = root->parent;
+    const auto worlds = root->children_of("World");
+    if (worlds.empty() || set_from_outside(*worlds[0], duration_field)) return;
+    const double end = loading_.experiment.duration * (1. + 1e-9);
+    const char* const late = spec_.reduction.from > end              ? "from"
+                             : spec_.reduction.to.value_or(0.) > end ? expect_field::to
+                                                                     : nullptr;
+    if (late == nullptr) return;
+    loading_.error(
+        place_of(object_, late),
+        fmt::format("`{}` lies beyond the run, which lasts {:g} s: give the World a longer "
+                    "duration",
+                    late, loading_.experiment.duration));
+  }
+
   void check_times() {
+    check_duration();
     if (spec_.reduction.to && *spec_.reduction.to <= spec_.reduction.from)
       loading_.error(place_of(object_, expect_field::to), "`to` must be later than `from`");
     if (const std::string missing = missing_of(spec_.reduction); !missing.empty())

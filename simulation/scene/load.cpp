@@ -115,22 +115,38 @@ void choose_deltat(const language::Object& root, Loading& loading) {
   }
 }
 
+/// A step that was chosen may make a run long: of stiff ground under a light body.
+void warn_of_many_steps(const language::Object& world, Loading& loading) {
+  constexpr double many = 1e7;
+  const Experiment& experiment = loading.experiment;
+  const double steps = experiment.duration / experiment.deltat;
+  if (!(steps >= many)) return;
+  loading.diagnostics.warning(
+      world.position,
+      fmt::format("the chosen step is {:.2g} s, so that the run takes {:.1e} steps: the ground is "
+                  "stiff for the lightest body that touches it; lower its normal_stiffness and "
+                  "tangential_stiffness, or choose `deltat` or an integrator that bears more",
+                  experiment.deltat, steps));
+}
+
 }  // namespace
 
 std::optional<Experiment> load_experiment(const language::Object& root,
                                           language::Diagnostics& diagnostics,
                                           const std::vector<std::filesystem::path>& search_path,
-                                          const std::vector<FileSpec>& given) {
+                                          const std::vector<FileSpec>& given, RunOf run) {
   Loading loading{diagnostics, search_path, given, {}, {}, {}, {}, {}, {}, {}, 0, {}};
   const std::size_t errors_before = diagnostics.error_count();
   const language::Object* world = find_world(root, loading);
   if (world == nullptr) return std::nullopt;
   check_strays(root, loading);
   load_world(*world, loading);
+  loading.serves_study = run == RunOf::study && (set_from_outside(*world, "contact") ||
+                                                 set_from_outside(*world, "engine"));
   load_materials(root, loading);
   load_terrain(*world, loading);
   warn_of_unstated_constants(*world, loading);
-  warn_of_unread_constants(*world, loading);
+  find_unread_constants(*world, loading);
   load_robots(*world, loading);
   load_obstacles(*world, loading);
   if (diagnostics.error_count() == errors_before) load_couplings(*world, loading);
@@ -142,6 +158,8 @@ std::optional<Experiment> load_experiment(const language::Object& root,
   if (diagnostics.error_count() == errors_before) place_on_terrain(loading);
   if (diagnostics.error_count() == errors_before && is_automatic(*world))
     choose_deltat(root, loading);
+  if (diagnostics.error_count() == errors_before && loading.experiment.chosen_from)
+    warn_of_many_steps(*world, loading);
   if (diagnostics.error_count() == errors_before)
     check_duration(place_of(*world, duration_field), loading.experiment.duration,
                    loading.experiment.deltat, diagnostics);

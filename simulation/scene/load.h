@@ -13,6 +13,12 @@
 
 namespace hookpoint::simulation {
 
+/// Whose choices the law, the engine and the settings of a World are.
+enum class RunOf {
+  scene,  ///< of the file, and of who runs it
+  study,  ///< of a study, whose scene serves runs of several laws and engines
+};
+
 /// The experiment of the one World below `root`; nothing when `diagnostics` got an error. A
 /// terrain's file is looked up beside the .hook file that names it, then along `search_path`. Cost:
 /// linear in the tree, plus the terrain's file. `given`: files that are taken instead of being
@@ -20,7 +26,7 @@ namespace hookpoint::simulation {
 std::optional<Experiment> load_experiment(
     const language::Object& root, language::Diagnostics& diagnostics,
     const std::vector<std::filesystem::path>& search_path = {},
-    const std::vector<FileSpec>& given = {});
+    const std::vector<FileSpec>& given = {}, RunOf run = RunOf::scene);
 
 /// The port of an Expect as its file writes it.
 const std::string& port_of_expect(const language::Object& expect);

@@ -53,7 +53,7 @@ void check_tolerances(const language::Object& world, Loading& loading) {
 }  // namespace
 
 bool set_from_outside(const language::Object& object, std::string_view field) {
-  return object.given(field) && object.find(field)->position.file != object.position.file;
+  return object.given(field) && object.find(field)->from_outside;
 }
 
 void check_combinations(const language::Object& world, Loading& loading) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -102,47 +103,68 @@ bool is_the_only_friction(const language::Object& material, const MaterialField&
          material.number(static_friction_field) == material.number(kinetic_friction_field);
 }
 
-/// Constants of the Material that its user means for this run and that the law does not read:
-/// stated in the World's own file, not in one that it includes, which may serve many laws. Where a
-/// study or the command line chooses the law, only those that it states too.
-std::vector<contact::Constant> unread_constants(const contact::LawDescription& law,
-                                                const language::Object& world,
-                                                const language::Object& material) {
-  const bool chosen_outside = set_from_outside(world, "contact");
+/// Whether the Material is written for whatever law a run has: it states a constant of its own of each
+/// law that has some.
+bool is_for_every_law(const language::Object& material) {
+  return std::ranges::all_of(contact::law_table(), [&](const contact::LawDescription& law) {
+    return law.own_constants.size() == 0 ||
+           std::ranges::any_of(law.own_constants, [&](auto constant) {
+             return material.given(field_of(constant).name);
+           });
+  });
+}
+
+/// Constants of the Material that its user means for this run, `reads` those that it reads anyway.
+/// None of them where the Material is written for every law and none was set from outside.
+template <class Reads>
+std::vector<contact::Constant> unread_constants(const language::Object& material,
+                                                const Loading& loading, const Reads& reads) {
   std::vector<contact::Constant> unread;
+  bool set = false;
   for (const MaterialField& field : material_fields()) {
-    if (!material.given(field.name) || law_reads(law, field.member) ||
-        is_the_only_friction(material, field))
+    if (!material.given(field.name) || reads(field.member) || is_the_only_friction(material, field))
       continue;
-    const bool stated_outside = set_from_outside(material, field.name);
-    const bool stated_here =
-        material.find(field.name)->position.file == world.position.file && !chosen_outside;
-    if (stated_outside || stated_here) unread.push_back(field.member);
+    const bool set_here = set_from_outside(material, field.name);
+    if (set_here || !loading.serves_study) unread.push_back(field.member);
+    set = set || set_here;
   }
+  if (!set && is_for_every_law(material)) unread.clear();
   return unread;
 }
 
-/// Says so where other laws read them all; a Material whose constants no one law reads is written
-/// for several.
-void check_unread(const contact::LawDescription& law, const language::Object& world,
-                  const language::Object& material, Loading& loading) {
-  const std::vector<contact::Constant> unread = unread_constants(law, world, material);
-  if (unread.empty()) return;
-  std::vector<std::string> names, readers;
-  for (const contact::Constant constant : unread)
-    names.push_back(fmt::format("`{}`", field_of(constant).name));
-  for (const contact::LawDescription& other : contact::law_table()) {
-    if (std::ranges::all_of(unread, [&](auto constant) { return law_reads(other, constant); }))
-      readers.emplace_back(other.name);
+std::string laws_reading(const std::vector<contact::Constant>& constants) {
+  std::vector<std::string> laws;
+  for (const contact::LawDescription& law : contact::law_table()) {
+    if (std::ranges::all_of(constants, [&](auto constant) { return law_reads(law, constant); }))
+      laws.emplace_back(law.name);
   }
-  if (readers.empty()) return;
-  const bool one = names.size() == 1;
+  return language::join(laws, ", ");
+}
+
+/// "laws that read it: impulse"; of constants that no one law reads those of each.
+std::string who_reads(const std::vector<contact::Constant>& constants) {
+  const std::string all = laws_reading(constants);
+  if (!all.empty())
+    return fmt::format("laws that read {}: {}", constants.size() == 1 ? "it" : "them", all);
+  std::map<std::string, std::vector<contact::Constant>> by_laws;
+  for (const contact::Constant constant : constants)
+    by_laws[laws_reading({constant})].push_back(constant);
+  std::vector<std::string> groups;
+  for (const auto& [laws, read] : by_laws) groups.push_back(quoted_fields(read) + ": " + laws);
+  return "laws that read " + language::join(groups, "; ");
+}
+
+void check_unread(const contact::LawDescription& law, const language::Object& material,
+                  Loading& loading) {
+  const std::vector<contact::Constant> unread =
+      unread_constants(material, loading, [&](auto constant) { return law_reads(law, constant); });
+  if (unread.empty()) return;
+  const bool one = unread.size() == 1;
   loading.diagnostics.warning(
       place_of(material, field_of(unread.front()).name),
-      fmt::format("{} {} not read by contact law {}: {} nothing in this run; laws that read {}: {}",
-                  language::join(names, ", "), one ? "is" : "are", law.name,
-                  one ? "it changes" : "they change", one ? "it" : "them",
-                  language::join(readers, ", ")));
+      fmt::format("{} {} not read by contact law {}: {} nothing in this run; {}",
+                  quoted_fields(unread), one ? "is" : "are", law.name,
+                  one ? "it changes" : "they change", who_reads(unread)));
 }
 
 }  // namespace
@@ -155,13 +177,18 @@ void warn_of_unstated_constants(const language::Object& world, Loading& loading)
     check_unstated(*law, world, material, loading);
 }
 
-void warn_of_unread_constants(const language::Object& world, Loading& loading) {
-  const contact::LawDescription* law = chosen_law(loading);
-  if (law == nullptr) return;
+void find_unread_constants(const language::Object& world, Loading& loading) {
+  if (!loading.experiment.terrain) return;
   std::set<int> used = materials_in_use(*loading.experiment.terrain);
   used.merge(foot_materials_in_use(world, loading));
-  for (const language::Object* material : written(used, loading))
-    if (material != nullptr) check_unread(*law, world, *material, loading);
+  const contact::LawDescription* law = chosen_law(loading);
+  for (const language::Object* material : written(used, loading)) {
+    if (material == nullptr) continue;
+    if (law != nullptr) check_unread(*law, *material, loading);
+    const auto index = static_cast<std::size_t>(loading.materials.at(material));
+    loading.experiment.materials[index].meant =
+        unread_constants(*material, loading, [](auto) { return false; });
+  }
 }
 
 }  // namespace hookpoint::simulation

@@ -58,6 +58,9 @@ struct Loading {
   std::size_t boundary_points = 0;     ///< requested, of all bodies
   std::vector<ShapeOverlap> overlaps;  ///< one a body whose shapes overlap
   language::Names names{};             ///< of the tree that is read, each scope's made once
+  /// The scene serves runs of a study, which chose the law or the engine of this one: what they do not
+  /// read of it is meant for others.
+  bool serves_study = false;
 
   void error(const language::Position& position, std::string message) {
     diagnostics.error(position, std::move(message));

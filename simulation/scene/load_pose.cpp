@@ -69,10 +69,16 @@ void lay_down(const language::Object& base, const contact::Terrain& ground, Robo
               Loading& loading) {
   const std::vector<RobotPoint> points = points_in_base(robot);
   if (points.empty()) {
+    const bool drawn = std::ranges::any_of(bodies_of(robot), [](const BodySpec* body) {
+      return !body->shapes_without_contact.empty();
+    });
     return loading.error(
         place_of(base, base_field::rest_on),
-        fmt::format("`{}` has no boundary points to rest on; give it a shape or a ContactPoint",
-                    robot.name));
+        fmt::format("`{}` has no boundary points to rest on; {}", robot.name,
+                    drawn
+                        ? "none of its shapes touches (`contact = false`): let one touch, or give "
+                          "it a ContactPoint"
+                        : "give it a shape or a ContactPoint"));
   }
   double lowest = std::numeric_limits<double>::infinity();
   const auto bottom = [](const RobotPoint& point) { return point.p_BP.z - point.radius; };
@@ -99,6 +105,20 @@ void lay_down(const language::Object& base, const contact::Terrain& ground, Robo
   }
 }
 
+/// What keeps `settled = true` from doing all that it says, although there may be a balance; "" where
+/// nothing does.
+std::string limit_of_settling(const RobotSpec& robot, const Experiment& experiment) {
+  if (experiment.engine != Experiment{}.engine)
+    return fmt::format("engine {} starts with contacts that bear nothing yet", experiment.engine);
+  if (!contact::find_force_law(experiment.contact))
+    return fmt::format("contact law {} has no springs to stretch", experiment.contact);
+  const auto index = static_cast<int>(&robot - experiment.robots.data());
+  const auto force = std::ranges::find(experiment.forces, index, &ForceSpec::robot);
+  if (force != experiment.forces.end())
+    return fmt::format("the balance is that of its weight, without Force `{}`", force->name);
+  return "";
+}
+
 /// Brings the robot from where it was laid into static balance. Where there is none, only a file
 /// that says `settled = true` is warned: a slope that is too steep or a ball is meant to move.
 void settle(const language::Object& base, const contact::Terrain& ground, RobotSpec& robot,
@@ -113,6 +133,11 @@ void settle(const language::Object& base, const contact::Terrain& ground, RobotS
         place_of(base, base_field::settled),
         fmt::format("`{}` cannot start settled, and starts level on its points: {}", robot.name,
                     resting.problem));
+  const std::string limit = limit_of_settling(robot, loading.experiment);
+  if (written && !limit.empty() && !loading.serves_study)
+    loading.diagnostics.warning(
+        place_of(base, base_field::settled),
+        fmt::format("`{}` moves at the start in spite of `settled = true`: {}", robot.name, limit));
   if (!resting.state) return;
   // A law without tangential spring holds by creeping, which is no rest: it starts so only where
   // the file says so.

@@ -343,11 +343,15 @@ void load_expectations(SceneNames& scene, StudyParts& so_far, Diagnostics& diagn
   const auto experiment = simulation::load_experiment(scene.tree(), unreported);
   if (!experiment) return;  // which a row says as well
   const bool as_long = std::abs(experiment->duration - so_far.duration) <= 1e-9 * so_far.duration;
+  std::vector<const Object*> left_out;
   for (const Object* block : scene.tree().children_of("Expect")) {
     const auto& specs = experiment->expectations;
     const auto spec = std::ranges::find(specs, block->name, &simulation::ExpectationSpec::name);
     if (spec == specs.end()) continue;
-    if (spec->reduction.to ? *spec->reduction.to > so_far.duration : !as_long) continue;
+    if (spec->reduction.to ? *spec->reduction.to > so_far.duration : !as_long) {
+      left_out.push_back(block);
+      continue;
+    }
     if (so_far.metric_index(spec->name) >= 0) {
       diagnostics.error(block->position,
                         fmt::format("the study measures another `{}`; rename one, or say "
@@ -357,6 +361,14 @@ void load_expectations(SceneNames& scene, StudyParts& so_far, Diagnostics& diagn
     }
     add_expectation(*block, *spec, scene, so_far);
   }
+  if (left_out.empty()) return;
+  diagnostics.warning(
+      left_out.front()->position,
+      fmt::format("the study does not judge {}: its runs last {:g} s, and the scene's {:g} s; give "
+                  "it that duration or the Expect a `to`, or say `expects = false`",
+                  left_out.size() == 1 ? "this Expect"
+                                       : fmt::format("{} Expects of its scene", left_out.size()),
+                  so_far.duration, experiment->duration));
 }
 
 }  // namespace hookpoint::studies

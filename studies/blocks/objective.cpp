@@ -100,10 +100,15 @@ class ValuesOfMetric {
     return number_in(*field.field, unit_, diagnostics_);
   }
 
+  /// The metric's unit.
+  WrittenUnit own() const {
+    return {unit_, language::parse_unit(unit_).value_or(language::Unit{})};
+  }
+
   /// The number in the unit that the file writes, else in the metric's.
   std::string written(const Placed<double>& field) const {
     WrittenUnit unit = written_unit(*field.field);
-    if (unit.text.empty()) unit = {unit_, language::parse_unit(unit_).value_or(language::Unit{})};
+    if (unit.text.empty()) unit = own();
     return text::rounded(unit.from_si(*field), 6) + (unit.text.empty() ? "" : " " + unit.text);
   }
 
@@ -162,7 +167,14 @@ std::optional<ObjectivePlan> load_objective(const Object& block, StudyParts& so_
   if (minimise + maximise + objective.target.has_value() != 1)
     diagnostics.error(block.position,
                       "an Objective says one of `minimise;`, `maximise;` and `target = `");
-  if (objective.target) objective.target_text = values.written(said.target);
+  if (objective.target) {
+    objective.target_text = values.written(said.target);
+    const WrittenUnit unit = written_unit(*said.target.field);
+    if (!unit.text.empty()) {
+      objective.written_unit = unit.text;
+      objective.in_written_unit = unit.from_si(values.own().to_si(1.));
+    }
+  }
   objective.may_be_empty = said.may_be_empty;
   return objective;
 }

@@ -27,7 +27,11 @@ struct ObjectivePlan {
   Take take = Take::mean;
   std::optional<double> target = {};  ///< in the metric's unit
   std::string target_text = {};       ///< as its author wrote it: "3 mm"
-  bool may_be_empty = false;          ///< it may judge nothing
+  /// Of a target that is written in another unit than the metric's: that unit, and how many of them
+  /// the metric's is.
+  std::string written_unit = {};
+  double in_written_unit = 1.;
+  bool may_be_empty = false;  ///< it may judge nothing
 
   /// What the objective is for a run with this value of the metric.
   double of_run(double value) const { return target ? std::abs(value - *target) : value; }

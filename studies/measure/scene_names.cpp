@@ -67,7 +67,18 @@ SceneNames::SceneNames(const language::Object& tree, std::map<std::string, std::
       experiment_(experiment),
       trails_(simulation::trails_of(tree)) {
   const auto worlds = tree.children_of("World");
-  if (!worlds.empty()) world_ = worlds.front();
+  if (worlds.empty()) return;
+  world_ = worlds.front();
+  // A choice of the World, such as its engine and its contact law, is a word of every run.
+  for (const language::FieldSchema& choice : world_->schema->fields) {
+    if (choice.type != language::FieldType::choice) continue;
+    const language::Field* field = world_->find(choice.name);
+    const bool is_param =
+        std::ranges::find(tree.parameters, choice.name, &language::ParameterValue::name) !=
+        tree.parameters.end();
+    if (field != nullptr && !field->words.empty() && !is_param)
+      words_.try_emplace(choice.name, field->words[0]);
+  }
 }
 
 std::optional<language::Target> SceneNames::resolve(const std::string& trail, std::string& why) {

@@ -58,6 +58,9 @@ std::vector<std::string> words_in(const Object& study) {
   owners.push_back(&study);
   for (const Object* owner : owners)
     for (const Object* fix : owner->children_of("Fix")) append(words, fixed_words(*fix));
+  for (const Object* subject : study.children_of("Subject"))
+    for (const CompositionWord& word : composition_words)
+      if (subject->given(word.field)) words.push_back(subject->word(word.field));
   return words;
 }
 

@@ -87,7 +87,8 @@ std::optional<LoadedScene> load_scene(language::Library& library, const ScenePla
                                       language::Diagnostics& diagnostics) {
   auto tree = lay_down(library, scene, diagnostics);
   if (!tree) return std::nullopt;
-  auto experiment = simulation::load_experiment(*tree, diagnostics, library.search_path());
+  auto experiment = simulation::load_experiment(*tree, diagnostics, library.search_path(), {},
+                                                simulation::RunOf::study);
   if (!experiment || diagnostics.has_errors()) return std::nullopt;
   simulation::write_chosen_step(*experiment, *tree);
   return LoadedScene{std::move(tree), std::move(*experiment)};

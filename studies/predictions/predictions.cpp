@@ -7,6 +7,7 @@
 #include "contact/force_law.h"
 #include "contact/predictions.h"
 #include "studies/measure/body_on_plane.h"
+#include "studies/predictions/start_effects.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -50,14 +51,25 @@ Prediction sticking_creep(const RunContext& context, const BodyOnPlane& body,
   return *speed;
 }
 
+/// The steady motion, where the start does not count in what is measured any more.
+Prediction once_started(const RunContext& context, const BodyOnPlane& body, Fitted fitted,
+                        const Prediction& steady) {
+  if (!steady) return steady;
+  if (std::string why = why_start_counts(context, body, fitted, *steady); !why.empty())
+    return NoClosedForm{std::move(why)};
+  return steady;
+}
+
 Prediction creep_speed(const RunContext& context, const BodyOnPlane& body,
                        const PeerContact& peer) {
   if (body.speed > 0.) return thrown;
   if (std::string why = why_it_may_break_away(context, body); !why.empty())
     return NoClosedForm{std::move(why)};
-  if (body.sticks()) return sticking_creep(context, body, peer);
   // The best line through a t^2/2 on [t1, t2] has the slope a (t1 + t2)/2.
-  return body.slip_acceleration() * 0.5 * (context.settle + context.duration);
+  const Prediction steady =
+      body.sticks() ? sticking_creep(context, body, peer)
+                    : body.slip_acceleration() * 0.5 * (context.settle + context.duration);
+  return once_started(context, body, Fitted::speed, steady);
 }
 
 /// Isotropic friction acts along the line of steepest descent at every contact, so nothing moves
@@ -74,16 +86,21 @@ Prediction slip_acceleration(const RunContext& context, const BodyOnPlane& body,
   if (body.speed > 0.) return thrown;
   if (std::string why = why_it_may_break_away(context, body); !why.empty())
     return NoClosedForm{std::move(why)};
-  return body.sticks() ? 0. : body.slip_acceleration();
+  return once_started(context, body, Fitted::acceleration,
+                      body.sticks() ? 0. : body.slip_acceleration());
 }
 
 /// Of `friction`, tangential over normal force: mu_k of a body that slides, tan(slope) of one that
 /// sticks.
-Prediction friction(const RunContext& context, const BodyOnPlane& body, const PeerContact&) {
+Prediction friction(const RunContext& context, const BodyOnPlane& body, const PeerContact& peer) {
   if (body.speed > 0.) return thrown;
   if (std::string why = why_it_may_break_away(context, body); !why.empty())
     return NoClosedForm{std::move(why)};
-  return body.sticks() ? body.tangent() : body.material.kinetic_friction;
+  if (body.sticks()) return body.tangent();
+  // (pull - a)/load, a the slide's acceleration.
+  const Prediction slide = slip_acceleration(context, body, peer);
+  if (!slide) return slide;
+  return body.material.kinetic_friction;
 }
 
 Prediction anisotropy(const RunContext&, const BodyOnPlane& body, const PeerContact&) {
@@ -134,6 +151,8 @@ Prediction stopping_distance(const RunContext& context, const BodyOnPlane& body,
                              const PeerContact&) {
   if (body.speed == 0.) return NoClosedForm{"the body is not thrown"};
   if (!body.level()) return NoClosedForm{"the ground slopes"};
+  if (body.material.kinetic_friction == 0.)
+    return NoClosedForm{"without friction the body never stops"};
   const double coulomb =
       contact::braking_distance(body.speed, body.gravity, body.material.kinetic_friction);
   if (!body.law) return coulomb;

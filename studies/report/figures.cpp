@@ -333,6 +333,26 @@ std::size_t panels_across(const StudyResult& study, const PlotSpec& spec) {
   return spec.panels.size() > 1 ? last : std::min(last, most);
 }
 
+/// What a subject shares its colour with: its law, or the engine of one without a law; its integrator
+/// where all have one law; nothing where they have one integrator too.
+std::vector<std::string> families_of(const StudyResult& study) {
+  const SubjectInfo& first = study.subjects.front();
+  const auto all_have = [&](std::string SubjectInfo::*word) {
+    return !(first.*word).empty() && std::ranges::all_of(study.subjects, [&](const auto& subject) {
+      return subject.*word == first.*word;
+    });
+  };
+  const bool one_law = all_have(&SubjectInfo::law);
+  const bool one_integrator = one_law && all_have(&SubjectInfo::integrator);
+  std::vector<std::string> families;
+  for (const SubjectInfo& subject : study.subjects)
+    families.push_back(one_integrator        ? subject.name
+                       : one_law             ? subject.integrator
+                       : subject.law.empty() ? subject.engine
+                                             : subject.law);
+  return families;
+}
+
 }  // namespace
 
 std::vector<int> subject_styles(const StudyResult& study) {
@@ -346,23 +366,25 @@ std::vector<int> subject_styles(const StudyResult& study) {
   for (const bool running : {true, false})
     for (std::size_t i = 0; i < runs.size(); ++i)
       if (runs[i] == running) order.push_back(i);
-  std::vector<std::string> families;
+  const std::vector<std::string> families = families_of(study);
+  std::vector<std::string> colored;  // families, by the number of their colour
+  for (const std::size_t i : order)
+    if (std::ranges::find(colored, families[i]) == colored.end()) colored.push_back(families[i]);
+  // A family that has more members than there are markers goes on with colours that none has.
   std::vector<int> members(output::style_colors, 0);
   std::vector<int> styles(study.subjects.size(), 0);
-  const bool one_law =
-      std::all_of(study.subjects.begin(), study.subjects.end(), [&](const SubjectInfo& subject) {
-        return !subject.law.empty() && subject.law == study.subjects.front().law;
-      });
   for (const std::size_t i : order) {
-    const SubjectInfo& subject = study.subjects[i];
-    const std::string& family = one_law               ? subject.integrator
-                                : subject.law.empty() ? subject.engine
-                                                      : subject.law;
-    const auto place = std::find(families.begin(), families.end(), family);
-    const auto color = (place - families.begin()) % output::style_colors;
-    if (place == families.end()) families.push_back(family);
-    int& member = members[static_cast<std::size_t>(color)];
-    styles[i] = static_cast<int>(color) + output::style_colors * member++;
+    auto color =
+        static_cast<std::size_t>(std::ranges::find(colored, families[i]) - colored.begin()) %
+        members.size();
+    if (members[color] >= output::style_shapes) {
+      const auto free = static_cast<std::ptrdiff_t>(std::min(colored.size(), members.size() - 1));
+      const auto other = std::ranges::find_if(members.begin() + free, members.end(), [](int count) {
+        return count < output::style_shapes;
+      });
+      if (other != members.end()) color = static_cast<std::size_t>(other - members.begin());
+    }
+    styles[i] = static_cast<int>(color) + output::style_colors * members[color]++;
   }
   return styles;
 }

@@ -19,8 +19,8 @@ struct Figure {
 };
 
 /// The output::Series::style of each subject: the colour is its family's (its law, or the engine of
-/// a peer; its integrator where all have one law), the marker tells members of a family apart. No
-/// two are the same. Families without a run, or whose engine is not there, take their colours last.
+/// a peer; its integrator where all have one law; its own where they have one integrator too), the
+/// marker tells members of a family apart. No two are the same. Families without a run, or whose engine is not there, take their colours last.
 std::vector<int> subject_styles(const StudyResult& study);
 
 /// The figure of `study.plots[plot]`. A subject looks the same in every figure. Rows that the

@@ -172,7 +172,7 @@ std::string peer_table(const ReportContext& context) {
   std::vector<std::vector<std::string>> rows;
   for (const PeerSetting& peer : context.peers)
     rows.push_back({peer.engine, peer.settings, peer.name, peer.value, peer.source});
-  return heading("Settings of the peers") +
+  return heading("Settings of the reference engines") +
          wide_table({"engine", "settings", "what", "value", "source"}, rows);
 }
 

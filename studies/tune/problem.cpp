@@ -82,7 +82,7 @@ void check_search(const TunePlan& plan, const Object& tune, const TuneBlock& blo
                   Diagnostics& diagnostics) {
   if (plan.varied.empty())
     diagnostics.error(tune.position, "a Tune needs a Vary: nothing is to be tuned");
-  if (plan.objectives.empty())
+  if (plan.objectives.empty() && tune.children_of("Objective").empty())
     diagnostics.error(tune.position, "a Tune needs an Objective: nothing is wanted");
   if (plan.method == SearchMethod::cmaes && plan.objectives.size() > 1)
     diagnostics.error(block.method.position_or(tune.position),
@@ -225,6 +225,10 @@ std::optional<TunePlan> make_tune_plan(const Object& root, const Object& tune,
 }
 
 }  // namespace
+
+std::string TunePlan::shown_unit_of(const ObjectivePlan& objective) const {
+  return objective.written_unit.empty() ? unit_of(objective) : objective.written_unit;
+}
 
 std::string TunePlan::unit_of(const ObjectivePlan& objective) const {
   return std::string(runs.metrics[objective.metric].definition->unit);

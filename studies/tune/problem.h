@@ -33,6 +33,8 @@ struct TunePlan {
   std::string runs_hash;  ///< of all that decides the numbers of a run but its constants and seed
 
   std::string unit_of(const ObjectivePlan& objective) const;
+  /// The unit that its target is written in, else the metric's: what a reader sees.
+  std::string shown_unit_of(const ObjectivePlan& objective) const;
   std::string name_of(const ObjectivePlan& objective) const;  ///< the metric's: "sink"
   /// What is made small or great: "foot_slip", "distance of sink from 3 mm".
   std::string label_of(const ObjectivePlan& objective) const;

@@ -28,12 +28,16 @@ std::string seeds_text(double value, std::span<const double> seeds, const std::s
   return text::rounded(value) + " ± " + number_with(standard_error(seeds), unit);
 }
 
-/// "0.02 ± 0.001 m"; of an objective with a target "2.9 ± 0.1 mm, 0.1 ± 0.1 mm off".
+/// "0.02 ± 0.001 m"; of an objective with a target "2.9 ± 0.1 mm, 0.1 ± 0.1 mm off", in the unit
+/// that the target is written in. `unit`: shown_unit_of the objective, or "" where it stands
+/// elsewhere.
 std::string with_error(const ObjectivePlan& objective, const Candidate& candidate,
                        const std::string& unit) {
-  const auto values = values_of_seeds(candidate, objective.metric);
+  auto values = values_of_seeds(candidate, objective.metric);
   if (!values) return "no value";
-  const auto wanted = *objective_of_seeds(objective, candidate);
+  auto wanted = *objective_of_seeds(objective, candidate);
+  for (std::vector<double>* numbers : {&*values, &wanted})
+    for (double& number : *numbers) number *= objective.in_written_unit;
   const std::string text = seeds_text(take_of(objective, wanted), wanted, unit);
   return objective.target ? seeds_text(mean(*values), *values, unit) + ", " + text + " off" : text;
 }
@@ -100,7 +104,7 @@ std::string comparison_table(const TunePlan& plan, const TuneResult& result) {
   const Candidate& tuned = checked ? result.candidates[*result.fresh] : result.best();
   for (std::size_t i = 0; i < plan.objectives.size(); ++i) {
     const ObjectivePlan& objective = plan.objectives[i];
-    const std::string unit = plan.unit_of(objective);
+    const std::string unit = plan.shown_unit_of(objective);
     std::vector<std::string> row{html(goal_text(plan, objective)),
                                  html(with_error(objective, tuned, unit))};
     for (const TuneReference& reference : result.references) {
@@ -152,7 +156,8 @@ std::string front_table(const TunePlan& plan, const TuneResult& result) {
   for (const VariedConstant& constant : plan.varied)
     head.push_back(html(output::column_title(constant.name, constant.unit.text)));
   for (const ObjectivePlan& objective : plan.objectives)
-    head.push_back(html(output::column_title(plan.label_of(objective), plan.unit_of(objective))));
+    head.push_back(
+        html(output::column_title(plan.label_of(objective), plan.shown_unit_of(objective))));
   HtmlTable table(head, 0);
   for (std::size_t i = 0; i < std::min(most, result.pareto.size()); ++i) {
     const std::size_t member = result.pareto[i];
@@ -312,7 +317,7 @@ std::string tune_terminal_text(const TunePlan& plan, const TuneResult& result) {
   const Candidate& tuned = result.fresh ? result.candidates[*result.fresh] : result.best();
   for (std::size_t i = 0; i < plan.objectives.size(); ++i) {
     const ObjectivePlan& objective = plan.objectives[i];
-    const std::string unit = plan.unit_of(objective);
+    const std::string unit = plan.shown_unit_of(objective);
     text +=
         fmt::format("  {:<22} {:>18}", plan.name_of(objective), with_error(objective, tuned, unit));
     for (const TuneReference& reference : result.references) {

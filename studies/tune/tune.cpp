@@ -130,9 +130,10 @@ class Tuning {
         if (!value) continue;
         if (!best || (objective.maximise ? *value > *best : *value < *best)) best = value;
       }
-      const std::string unit = plan_.unit_of(objective);
+      const std::string unit = plan_.shown_unit_of(objective);
       if (best)
-        report.best.push_back(plan_.label_of(objective) + " " + text::rounded(*best, 3) +
+        report.best.push_back(plan_.label_of(objective) + " " +
+                              text::rounded(*best * objective.in_written_unit, 3) +
                               (unit.empty() ? "" : " " + unit));
     }
     options_.generation(report);

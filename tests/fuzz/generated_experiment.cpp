@@ -185,7 +185,9 @@ class Generator : DrawnText {
   void expect() {
     if (trails_.empty()) return;
     write("Expect e { of = " + one_of(trails_) + ";");
-    fields("Expect", {"of"}, {"within", "equals"});
+    fields("Expect", {"of", "from", "to"}, {"within", "equals"});
+    // No later than the run ends.
+    if (chance(0.12)) write("to = " + number(between(0.5, 1.) * step_) + ";");
     write("}");
   }
 

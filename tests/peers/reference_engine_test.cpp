@@ -12,6 +12,7 @@
 #include "reference/engines.h"
 #include "reference/experiment_checks.h"
 #include "reference/ode/engine.h"
+#include "simulation/experiment/material_fields.h"
 #include "tests/support/reference_scenes.h"
 
 namespace hookpoint {
@@ -194,6 +195,63 @@ TEST(PeerEngine, SaysWhereItDoesNotReadTheRestitution) {
 }
 
 // Without samples there is nothing to touch with in its place.
+/// The block thrown at a slope, its material with `factor` times that constant.
+std::vector<double> thrown(const reference::Peer& peer, const std::string& settings,
+                           double contact::MaterialConstants<double>::*constant, double factor) {
+  simulation::Experiment experiment = sloped_block(15. * degree, 0.2, 0.5, 1e-3, settings);
+  experiment.robots[0].angular_velocity = {0.3, -0.5, 0.2};
+  experiment.robots[0].velocity = {0.02, 0.01, 0.};
+  experiment.materials[0].constants.*constant *= factor;
+  const auto engine = peer.make(experiment);
+  std::vector<double> values;
+  // It comes to rest.
+  for (int i = 0; i < 200 && engine->step().ok(); ++i) {
+    const auto& body = engine->state().bodies[0];
+    values.insert(values.end(), {body.position.x, body.position.y, body.position.z});
+  }
+  return values;
+}
+
+TEST(PeerEngine, SaysWhichConstantsItDoesNotRead) {
+  for (const auto& peer : reference::peers()) {
+    if (!peer.found()) continue;
+    for (const std::string& settings : peer.settings_names()) {
+      simulation::Experiment experiment = sloped_block(15. * degree, 0.2, 0.5, 1e-3, settings);
+      experiment.materials[0].name = "clay";
+      for (const simulation::MaterialField& field : simulation::material_fields())
+        experiment.materials[0].meant.push_back(field.member);
+      const auto notices = peer.make(experiment)->state().notices;
+      const auto told = std::ranges::find_if(notices, [&](const std::string& notice) {
+        return notice.find("of material 'clay' are not read at `settings = " + settings + "`") !=
+               std::string::npos;
+      });
+      ASSERT_NE(told, notices.end()) << peer.name << " " << settings;
+      const std::string list = told->substr(0, told->find(" of material"));
+      const std::vector<double> as_it_is =
+          thrown(peer, settings, &contact::MaterialConstants<double>::normal_stiffness, 1.);
+      for (const simulation::MaterialField& field : simulation::material_fields()) {
+        const bool friction =
+            field.member == &contact::MaterialConstants<double>::static_friction ||
+            field.member == &contact::MaterialConstants<double>::kinetic_friction;
+        // Nothing is a factor of 0, and friction has notices of its own.
+        if (friction || contact::MaterialConstants<double>{}.*field.member == 0.) continue;
+        const bool reads = thrown(peer, settings, field.member, 0.7) != as_it_is;
+        const bool said = list.find("`" + std::string(field.name) + "`") != std::string::npos;
+        EXPECT_NE(reads, said) << peer.name << " " << settings << " " << field.name;
+      }
+    }
+  }
+}
+
+TEST(PeerEngine, SaysNothingOfConstantsThatNobodyMeans) {
+  for (const auto& peer : reference::peers()) {
+    if (!peer.found()) continue;
+    for (const std::string& notice :
+         peer.make(sloped_block(15. * degree, 0., 0.5, 1e-3))->state().notices)
+      EXPECT_EQ(notice.find("not read"), std::string::npos) << notice;
+  }
+}
+
 TEST(PeerEngine, RunsALegconeOrNamesIt) {
   simulation::Experiment experiment = sloped_block(0., 0., 0.5, 1e-3);
   experiment.robots[0].base.shapes[0].geometry = simulation::Legcone{0.3, 0.05, 0.05};

@@ -340,10 +340,11 @@ TEST(UrdfMesh, ColladaThatContradictsItselfIsRefused) {
   const auto problem = [&](const std::string& was, const std::string& now) {
     return simulation::read_collada(changed(whole, was, now)).problem;
   };
-  for (const char* meter : {"0", "-1", "x", "", "nan", "inf", "1e400", "1 2", "0x1"})
-    EXPECT_EQ(
-        problem("meter=\"0.001\"", "meter=\"" + std::string(meter) + "\""),
-        "<unit meter=\"" + std::string(meter) + "\">: a length in metres above 0 is expected");
+  for (const char* meter :
+       {"0", "-1", "x", "", "nan", "inf", "1e400", "1e-300", "1e-10", "1e10", "1 2", "0x1"})
+    EXPECT_EQ(problem("meter=\"0.001\"", "meter=\"" + std::string(meter) + "\""),
+              "<unit meter=\"" + std::string(meter) +
+                  "\">: a length in metres from 1e-09 to 1e+09 is expected");
   for (const char* stride : {"4294967296", "4294967299", "-3", "3.5", "x", "", "1e30"})
     EXPECT_EQ(problem("stride=\"3\"", "stride=\"" + std::string(stride) + "\""),
               "<accessor stride=\"" + std::string(stride) +
@@ -408,10 +409,42 @@ TEST(UrdfMesh, ObjWhoseFacesNameNoVertexIsRefused) {
     EXPECT_EQ(problem(good), "") << good;
   EXPECT_EQ(problem("f 1 2 4"), "a face names vertex 4 of 3");
   EXPECT_EQ(problem("f 1 2 1e300"), "a face names vertex 1e+300 of 3");
+  EXPECT_EQ(problem("vt 0 0\nf 1/9 2/1 3/1"), "a face names place in the texture 9 of 1");
+  EXPECT_EQ(problem("vn 0 0 1\nf 1//1 2//1 3//2"), "a face names normal 2 of 1");
+  EXPECT_EQ(problem("vt 0 0\nf 1/x 2/1 3/1"), "line 5: `1/x` names no place in the texture");
   for (const char* index : {"0", "-4", "x", "1.5", "/1", "nan"})
     EXPECT_EQ(problem("f 1 2 " + std::string(index)),
               "line 4: `" + std::string(index) + "` names no vertex");
   EXPECT_EQ(problem("v 0 0 1 red"), "line 4: a vertex has three numbers");
+}
+
+TEST(UrdfMesh, ColladaWhoseFacesContradictItIsRefused) {
+  const std::string whole = collada(brick());  // 36 vertices
+  const auto problem = [&](const std::string& faces) {
+    return simulation::read_collada(changed(whole, "</mesh>", faces + "</mesh>")).problem;
+  };
+  const std::string vertex = "<input semantic=\"VERTEX\" source=\"#v\" offset=\"0\"/>";
+  const std::string normal = "<input semantic=\"NORMAL\" source=\"#n\" offset=\"1\"/>";
+  const auto triangles = [&](int count, const std::string& inputs, const std::string& p) {
+    return problem("<triangles count=\"" + std::to_string(count) + "\">" + inputs + "<p>" + p +
+                   "</p></triangles>");
+  };
+  EXPECT_EQ(triangles(2, vertex, "0 1 2 0 1 35"), "");
+  EXPECT_EQ(triangles(1, vertex + normal, "0 7 1 7 2 7"), "");
+  EXPECT_EQ(triangles(2, vertex, "0 1 2 0 1 36"),
+            "its <triangles> name vertex 36 of 36, counted "
+            "from 0");
+  EXPECT_EQ(triangles(1, vertex, "0 1 -1"), "its <triangles> name vertex -1 of 36, counted from 0");
+  EXPECT_EQ(triangles(9, vertex, "0 1 2"),
+            "<triangles count=\"9\"> has 3 indices in its <p>, and 27 belong to it");
+  EXPECT_EQ(triangles(1, vertex, ""),
+            "<triangles count=\"1\"> has 0 indices in its <p>, and 3 belong to it");
+  EXPECT_EQ(problem("<polylist count=\"2\">" + vertex +
+                    "<vcount>4 3</vcount><p>0 1 2 3 4 5 6</p></polylist>"),
+            "");
+  EXPECT_EQ(
+      problem("<polylist count=\"2\">" + vertex + "<vcount>4</vcount><p>0 1 2 3</p></polylist>"),
+      "<polylist count=\"2\"> has 1 numbers in its <vcount>");
 }
 
 TEST(UrdfMesh, BrokenFilesGiveVerticesOrAProblem) {

@@ -65,6 +65,15 @@ class Arrays(unittest.TestCase):
         self.assertEqual((done.sum(), actions.sum(), len(junk)), (0, 3 * 64 * 3, 200))
 
 
+class RandomCalls(unittest.TestCase):
+    def test_whatever_is_called_is_done_or_refused(self):
+        program = os.path.join(os.path.dirname(os.path.abspath(__file__)), "random_calls.py")
+        for seed in range(4):
+            done = subprocess.run([sys.executable, program, str(seed), "500"], capture_output=True, text=True, timeout=300)
+            last = "\n".join(done.stdout.splitlines()[-2:])
+            self.assertEqual((done.returncode, last.endswith("done")), (0, True), f"seed {seed}: {last}\n{done.stderr[-2000:]}")
+
+
 class Bare(unittest.TestCase):
     def test_an_object_that_was_never_made_refuses_everything(self):
         dynamics = hookpoint.loads(FALLING).dynamics()

@@ -38,13 +38,14 @@ struct Loaded {
 };
 
 inline Loaded load_file(const std::filesystem::path& file,
-                        const language::EvaluateOptions& options = {}) {
+                        const language::EvaluateOptions& options = {},
+                        simulation::RunOf run = simulation::RunOf::scene) {
   const std::filesystem::path configs = std::filesystem::path(testing::source_folder()) / "configs";
   language::Library library(experiment_schema(), {configs});
   language::Diagnostics diagnostics;
   Loaded loaded;
   const auto root = library.evaluate(file, options, diagnostics);
-  if (root) loaded.experiment = simulation::load_experiment(*root, diagnostics, {configs});
+  if (root) loaded.experiment = simulation::load_experiment(*root, diagnostics, {configs}, {}, run);
   std::ostringstream text;
   for (const language::Diagnostic& diagnostic : diagnostics.all()) {
     constexpr const char* names[] = {"error", "warning", "note"};
@@ -60,13 +61,14 @@ inline Loaded load_file(const std::filesystem::path& file,
 }
 
 /// `text` as a file of its own.
-inline Loaded load_text(const std::string& text, const language::EvaluateOptions& options = {}) {
+inline Loaded load_text(const std::string& text, const language::EvaluateOptions& options = {},
+                        simulation::RunOf run = simulation::RunOf::scene) {
   const std::filesystem::path folder =
       std::filesystem::temp_directory_path() / ("hookpoint_load_" + std::to_string(getpid()));
   std::filesystem::create_directories(folder);
   const std::filesystem::path file = folder / "text.hook";
   std::ofstream(file) << text;
-  Loaded loaded = load_file(file, options);
+  Loaded loaded = load_file(file, options, run);
   std::filesystem::remove_all(folder);
   return loaded;
 }

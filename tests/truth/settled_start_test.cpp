@@ -24,7 +24,8 @@ std::string block(const std::string& law, double degrees) {
          "10 kN/m; tangential_damping = 50; static_friction = 0.8; kinetic_friction = 0.7; "
          "exponent "
          "= 1; hysteresis_damping = 0.3; regularisation_speed = 1 mm/s; exponential_force = 0.5; "
-         "exponential_rate = 2000; nominal_stiffness = 10 kN/m; nominal_penetration = 1 mm; } "
+         "exponential_rate = 2000; nominal_stiffness = 10 kN/m; nominal_penetration = 1 mm; breakaway "
+         "= 0.7; restitution = 0.3; } "
          "Terrain.Slope s { angle = " +
          std::to_string(degrees) +
          " deg; azimuth = 30 deg; material = m; } Robot b { Base.mobile { rest_on = s; settled = "

@@ -70,6 +70,42 @@ TEST(StudyMeasure, AFallingBodyKeepsEveryClosedForm) {
   EXPECT_EQ(work.hookpoint("study wrong.hook --out there").status, 1);
 }
 
+TEST(StudyMeasure, PredictedFollowsTheLawOfEachSubject) {
+  const Workplace work;
+  work.file("falling.hook", falling);
+  const auto result = work.hookpoint(
+      "study " +
+      work.file(
+          "s.hook",
+          "Study s { scene = \"falling.hook\"; duration = 0.5 s; expects = false; Subject a { "
+          "contact = lugre; } Subject b { contact = nominal; } Subject c { } Subject d { engine "
+          "= ode; } Measure top { of = ball.position.z; take = maximum; predicted = contact == "
+          "lugre ? 1 m : engine == ode ? 2 m : contact == nominal ? 3 m : 4 m; } }") +
+      " --out out");
+  EXPECT_EQ(result.status, 0) << result.err;
+  const std::string rows = work.read("out/results.csv");
+  for (const char* predicted : {",2,1,", ",2,3,", ",2,4,", ",2,2,"})
+    EXPECT_NE(rows.find(predicted), std::string::npos) << predicted << rows;
+}
+
+TEST(StudyMeasure, AnExpectThatIsNotJudgedIsWarnedOf) {
+  const Workplace work;
+  work.file("falling.hook", falling);
+  const auto run = [&](const std::string& more) {
+    return work
+        .hookpoint("study " +
+                   work.file("s.hook",
+                             "Study s { scene = \"falling.hook\"; duration = 0.1 s; Subject ours "
+                             "{ } Measure apex { of = ball.position.z; } " +
+                                 more + " }"))
+        .err;
+  };
+  EXPECT_NE(run("").find("the study does not judge this Expect: its runs last 0.1 s, and the "
+                         "scene's 0.5 s"),
+            std::string::npos);
+  EXPECT_EQ(run("expects = false;").find("does not judge"), std::string::npos);
+}
+
 TEST(StudyMeasure, AMatrixBeginsWithTheClaimsOfItsStudies) {
   const Workplace work;
   work.file("falling.hook", falling);

@@ -2,8 +2,10 @@
 // transforms of its nodes.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <pugixml.hpp>
 #include <unordered_map>
 
@@ -18,6 +20,7 @@ constexpr std::size_t most_vertices = 10'000'000, most_numbers = 3 * most_vertic
 // Nodes may stand in one another by name, and a file may say so of a hundred in ten lines.
 constexpr std::size_t most_nodes = 100'000;
 constexpr int most_depth = 100;
+constexpr double shortest_unit = 1e-9, longest_unit = 1e9;  // [m]
 
 /// The beginning of a text of the file, for a message.
 std::string_view shown(std::string_view text) { return text.substr(0, 40); }
@@ -75,9 +78,10 @@ class ColladaScene {
     if (!meter) return 1.;
     std::string_view text = meter.value();
     const std::optional<double> metre = mesh_number(next_word(text));
-    if (metre && *metre > 0. && next_word(text).empty()) return *metre;
-    fail(fmt::format("<unit meter=\"{}\">: a length in metres above 0 is expected",
-                     shown(meter.value())));
+    if (metre && *metre >= shortest_unit && *metre <= longest_unit && next_word(text).empty())
+      return *metre;
+    fail(fmt::format("<unit meter=\"{}\">: a length in metres from {:g} to {:g} is expected",
+                     shown(meter.value()), shortest_unit, longest_unit));
     return 1.;
   }
 
@@ -162,11 +166,53 @@ class ColladaScene {
   }
 
   void add_geometry(const pugi::xml_node& geometry, const Affine& X) {
-    for (const pugi::xml_node& vertices : geometry.child("mesh").children("vertices")) {
+    const std::size_t before = mesh_.vertices.size();
+    const pugi::xml_node mesh = geometry.child("mesh");
+    for (const pugi::xml_node& vertices : mesh.children("vertices")) {
       const pugi::xml_node input =
           vertices.find_child_by_attribute("input", "semantic", "POSITION");
       if (!input) return fail("its <vertices> have no input of semantic POSITION");
       if (const pugi::xml_node source = find(input, "source")) add_positions(source, X);
+    }
+    for (const pugi::xml_node& faces : mesh.children()) {
+      if (failed()) return;
+      const std::string_view kind = faces.name();
+      if (kind == "triangles" || kind == "polylist" || kind == "lines")
+        check_faces(faces, mesh_.vertices.size() - before);
+    }
+  }
+
+  /// Only positions are read of a mesh; its faces show whether they are whole. As many as it says,
+  /// each with an index for every input, and none beyond the `vertices`.
+  void check_faces(const pugi::xml_node& faces, std::size_t vertices) {
+    std::size_t stride = 0, position = 0;
+    for (const pugi::xml_node& input : faces.children("input")) {
+      const std::size_t offset = whole(input, "offset", 0);
+      stride = std::max(stride, offset + 1);
+      if (std::string_view(input.attribute("semantic").value()) == "VERTEX") position = offset;
+    }
+    std::vector<double> indices, corners;
+    read_numbers(faces.child("p").text().get(), indices, most_numbers);
+    read_numbers(faces.child("vcount").text().get(), corners, most_numbers);
+    const std::size_t count = whole(faces, "count", 0);
+    if (failed()) return;
+    const std::string_view kind = faces.name();
+    double wanted = static_cast<double>(count * (kind == "lines" ? 2 : 3));
+    if (kind == "polylist") {
+      wanted = std::accumulate(corners.begin(), corners.end(), 0.);
+      if (corners.size() != count)
+        return fail(fmt::format("<polylist count=\"{}\"> has {} numbers in its <vcount>", count,
+                                corners.size()));
+    }
+    if (static_cast<double>(indices.size()) != wanted * static_cast<double>(stride))
+      return fail(fmt::format("<{} count=\"{}\"> has {} indices in its <p>, and {} belong to it",
+                              kind, count, indices.size(), wanted * static_cast<double>(stride)));
+    for (std::size_t i = position; i < indices.size(); i += stride) {
+      if (indices[i] >= 0. && indices[i] < static_cast<double>(vertices) &&
+          indices[i] == std::floor(indices[i]))
+        continue;
+      return fail(fmt::format("its <{}> name vertex {:g} of {}, counted from 0", kind, indices[i],
+                              vertices));
     }
   }
 

@@ -85,26 +85,50 @@ MeshPoints read_ascii_stl(std::string_view bytes) {
   return mesh;
 }
 
-/// Vertex indices of an OBJ file's faces, lines and points, of which only the first number of
-/// `v/vt/vn` counts: from 1, or from -1 backwards from the last vertex so far.
+/// What an OBJ file's faces, lines and points name by `v/vt/vn`: a vertex, a place in its texture, a
+/// normal. Each counts from 1, or from -1 backwards from the last one so far.
 class ObjIndices {
  public:
-  /// "" or what is wrong with a line that had `vertices` before it.
-  std::string add(std::string_view line, std::size_t vertices) {
+  /// Counts a line that begins with `kind`.
+  void define(std::string_view kind) {
+    for (Named& named : named_)
+      if (kind == named.kind) ++named.there;
+  }
+  /// "" or what is wrong with the rest of a line that names some.
+  std::string add(std::string_view line) {
     for (std::string_view word = next_word(line); !word.empty(); word = next_word(line)) {
-      const std::optional<double> index = mesh_number(word.substr(0, word.find('/')));
-      if (!index || *index != std::floor(*index) || *index == 0. ||
-          *index < -static_cast<double>(vertices))
-        return fmt::format("`{}` names no vertex", word.substr(0, 40));
-      greatest_ = std::max(greatest_, *index);
+      std::string_view left = word;
+      for (Named& named : named_) {
+        const std::string_view number = left.substr(0, left.find('/'));
+        const bool is_vertex = named.kind == named_.front().kind;
+        const std::optional<double> index = mesh_number(number);
+        const bool good = index && *index == std::floor(*index) && *index != 0. &&
+                          *index >= -static_cast<double>(named.there);
+        if (!good && (is_vertex || !number.empty()))
+          return fmt::format("`{}` names no {}", word.substr(0, 40), named.words);
+        if (good) named.greatest = std::max(named.greatest, *index);
+        left.remove_prefix(std::min(number.size() + 1, left.size()));
+      }
     }
     return "";
   }
-  /// Greatest index, which may name a vertex that follows.
-  double greatest() const { return greatest_; }
+  /// "" or what is named and not there, also behind. A file may leave out all places in a texture or
+  /// all normals.
+  std::string missing() const {
+    for (const Named& named : named_)
+      if (named.greatest > static_cast<double>(named.there) &&
+          (named.there > 0 || named.kind == named_.front().kind))
+        return fmt::format("a face names {} {} of {}", named.words, named.greatest, named.there);
+    return "";
+  }
 
  private:
-  double greatest_ = 0.;
+  struct Named {
+    std::string_view kind, words;
+    std::size_t there = 0;
+    double greatest = 0.;
+  };
+  std::array<Named, 3> named_{{{"v", "vertex"}, {"vt", "place in the texture"}, {"vn", "normal"}}};
 };
 
 /// What is wrong with the vertices; "" if nothing is.
@@ -128,12 +152,14 @@ MeshPoints read_stl(std::string_view bytes) {
     const std::size_t body = bytes.size() - stl_header;
     const std::size_t wanted = stl_triangle * triangles;
     // Some programs begin a binary file with the word of the other kind: the length decides.
-    const bool whole = body / stl_triangle == triangles;
-    if (body == wanted || (whole && !may_be_text)) return read_binary_stl(bytes, triangles);
+    if (body == wanted) return read_binary_stl(bytes, triangles);
     if (!may_be_text)
       return {{},
-              fmt::format("it says {} triangles and {} {}", triangles,
-                          body < wanted ? "ends after" : "has", body / stl_triangle)};
+              fmt::format("it says {} triangles and {} {}{}", triangles,
+                          body < wanted ? "ends after" : "has", body / stl_triangle,
+                          body > wanted && body / stl_triangle == triangles
+                              ? fmt::format(", with {} more bytes after the last", body - wanted)
+                              : "")};
   }
   if (!may_be_text) return {{}, "it is no STL: neither `solid` nor a whole header"};
   return read_ascii_stl(bytes);
@@ -147,8 +173,9 @@ MeshPoints read_obj(std::string_view bytes) {
     std::string_view line = rest.substr(0, rest.find('\n'));
     rest.remove_prefix(std::min(line.size() + 1, rest.size()));
     const std::string_view kind = next_word(line);
+    indices.define(kind);
     if (kind == "f" || kind == "l" || kind == "p") {
-      if (const std::string problem = indices.add(line, mesh.vertices.size()); !problem.empty())
+      if (const std::string problem = indices.add(line); !problem.empty())
         return broken_line(bytes, here, problem);
     }
     if (kind != "v") continue;
@@ -156,9 +183,7 @@ MeshPoints read_obj(std::string_view bytes) {
     if (!vertex || !only_numbers(line)) return broken_line(bytes, here, broken_vertex);
     mesh.vertices.push_back(*vertex);
   }
-  if (indices.greatest() > static_cast<double>(mesh.vertices.size()))
-    return {{},
-            fmt::format("a face names vertex {} of {}", indices.greatest(), mesh.vertices.size())};
+  mesh.problem = indices.missing();
   return mesh;
 }
 

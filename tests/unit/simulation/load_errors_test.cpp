@@ -112,6 +112,15 @@ const Case cases[] = {
      "World w { Terrain.Flat g { } Robot r { Base.mobile { mass = 1; inertia = "
      "1,1,1,0,0,0;\nrest_on = g; } } }",
      "error 2:11 `r` has no boundary points to rest on; give it a shape or a ContactPoint\n"},
+    {"nothing_of_it_touches",
+     "World w { Terrain.Flat g { } Robot r { Base.mobile { mass = 1; inertia = 1,1,1,0,0,0; "
+     "Shape.Sphere { radius = 1; contact = false; }\nrest_on = g; } } }",
+     "error 2:11 `r` has no boundary points to rest on; none of its shapes touches (`contact = "
+     "false`): let one touch, or give it a ContactPoint\n"},
+    {"expect_beyond_the_run",
+     "World w { duration = 1 s; Robot r { Base.mobile { mass = 1; inertia = 1,1,1,0,0,0; } } }\n"
+     "Expect e { of = w.r.position.z; equals = 1 m; within = 1 m;\nfrom = 2 s; }",
+     "error 3:8 `from` lies beyond the run, which lasts 1 s: give the World a longer duration\n"},
     {"two_terrains", "World w { Terrain.Flat a { }\nTerrain.Flat b { } }",
      "error 2:1 a second Terrain; a World has at most one ground\nnote 1:11 the first is here\n"},
     {"off_the_terrain",

@@ -102,21 +102,61 @@ TEST(Warnings, TellOfConstantsThatTheLawDoesNotRead) {
 }
 
 TEST(Warnings, AreSilentOfConstantsForOtherLaws) {
-  // Written for several laws: no one of them reads all that this one does not.
-  EXPECT_EQ(on_clay("hookpoint", "restitution = 0.8; exponent = 1.2; stribeck_speed = 0.1;"), "");
+  // Written for every law: something of each that has constants of its own.
+  const std::string written =
+      "normal_stiffness = 1e5; restitution = 0.8; exponent = 1.2; breakaway = 0.7; "
+      "nominal_stiffness = 1e4; ";
+  EXPECT_EQ(on_clay("hookpoint", written + "exponential_rate = 1e3;"), "");
+  EXPECT_NE(on_clay("hookpoint", written).find("are not read"), std::string::npos);
   // Nothing lies on the other Material.
   EXPECT_EQ(load_text(world("Material ice { restitution = 0.8; } Material clay { normal_stiffness "
                             "= 1e5; } Terrain.Flat f { material = clay; } "))
                 .diagnostics,
             "");
-  // The law is chosen outside, as in a comparison; or the constant too.
+}
+
+TEST(Warnings, TellOfConstantsOfSeveralLawsThatNoneIsWrittenFor) {
+  const std::string told = on_clay("hookpoint", "restitution = 0.8; exponent = 1.5;");
+  EXPECT_NE(told.find("`restitution`, `exponent` are not read by contact law hookpoint: they "
+                      "change nothing in this run; laws that read `exponent`: hunt_crossley; "
+                      "`restitution`: impulse, impulse_reversal"),
+            std::string::npos)
+      << told;
+  EXPECT_NE(on_clay("hookpoint", "normal_stiffness = 1e5; restitution = 0.8; exponent = 1.5;")
+                .find("`restitution`, `exponent` are not read"),
+            std::string::npos);
+}
+
+constexpr const char* unread_restitution = "`restitution` is not read by contact law lugre";
+
+TEST(Warnings, TellOfUnreadConstantsWhoeverChoosesTheLaw) {
   const std::string file =
-      world("Material clay { normal_stiffness = 1e5; } Terrain.Flat f { material = clay; } ");
-  EXPECT_EQ(load_text(file, set({{"w.contact", "impulse"}})).diagnostics.find("not read"),
+      world("Material clay { restitution = 0.8; } Terrain.Flat f { material = clay; } ");
+  EXPECT_NE(load_text(file, set({{"w.contact", "lugre"}})).diagnostics.find(unread_restitution),
             std::string::npos);
-  EXPECT_NE(load_text(file, set({{"w.contact", "lugre"}, {"w.clay.restitution", "0.8"}}))
-                .diagnostics.find("`restitution` is not read by contact law lugre"),
+  const testing::TemporaryFile material("clay.hook", "Material clay { restitution = 0.8; }");
+  EXPECT_NE(load_text("Include \"" + material.path() + "\"; " +
+                      world("contact = lugre; Terrain.Flat f { material = clay; } "))
+                .diagnostics.find(unread_restitution),
             std::string::npos);
+}
+
+TEST(Warnings, TellAStudyOfUnreadConstantsThatItSets) {
+  const std::string file =
+      "Param e = 0.8; Let rebound = e/2; " +
+      world("Material clay { restitution = 2*rebound; } Terrain.Flat f { material = clay; } ");
+  language::EvaluateOptions subject = set({{"w.contact", "lugre"}});
+  const auto told = [&] {
+    return load_text(file, subject, simulation::RunOf::study)
+               .diagnostics.find(unread_restitution) != std::string::npos;
+  };
+  // Its scene serves other subjects too.
+  EXPECT_FALSE(told());
+  subject.parameters["e"] = "0.2";
+  EXPECT_TRUE(told());
+  subject.parameters.clear();
+  subject.overrides.push_back({"w.clay.restitution", "0.2"});
+  EXPECT_TRUE(told());
 }
 
 TEST(Warnings, TellOfBodiesThatRestOnPutsBelowTheGround) {
@@ -132,6 +172,41 @@ TEST(Warnings, TellOfBodiesThatRestOnPutsBelowTheGround) {
       << hanging.diagnostics;
   EXPECT_NE(hanging.diagnostics.find("by 0.5 m"), std::string::npos) << hanging.diagnostics;
   EXPECT_EQ(load_text(arm(-0.5)).diagnostics, "");
+}
+
+TEST(Warnings, TellWhereASettledStartIsNone) {
+  const auto on_slope = [](const std::string& fields, const std::string& settled) {
+    return load_text("World w { " + fields +
+                     " Terrain.Slope f { angle = 15 deg; } Robot b { Base.mobile { rest_on = f; " +
+                     settled + " Shape.Box { dimensions = 0.3, 0.2, 0.1; mass = 2; } } } }")
+        .diagnostics;
+  };
+  const std::string settled = "settled = true;",
+                    force = "Force push { body = b.base; force = 1, 0, -5; }";
+  const std::string told = "`b` moves at the start in spite of `settled = true`: ";
+  EXPECT_EQ(on_slope("", settled), "");
+  EXPECT_NE(on_slope("engine = ode;", settled).find(told + "engine ode starts"), std::string::npos);
+  EXPECT_NE(
+      on_slope("contact = impulse;", settled).find(told + "contact law impulse has no springs"),
+      std::string::npos);
+  EXPECT_NE(on_slope(force, settled)
+                .find(told + "the balance is that of its weight, without Force "
+                             "`push`"),
+            std::string::npos);
+  for (const std::string& fields : {std::string("engine = ode;"), force})
+    EXPECT_EQ(on_slope(fields, "").find(told), std::string::npos);
+}
+
+TEST(Warnings, TellOfAChosenStepThatMakesARunLong) {
+  const auto cube = [](const std::string& fields) {
+    return load_text(
+               "World w { duration = 10 s; " + fields +
+               " Terrain.Flat f; Robot b { Base.mobile { rest_on = f; Shape.Cube { dimensions "
+               "= 0.01, 0.01, 0.01; mass = 1e-3; } } } }")
+        .diagnostics;
+  };
+  EXPECT_NE(cube("").find("the chosen step is"), std::string::npos) << cube("");
+  EXPECT_EQ(cube("deltat = 1e-6 s;").find("the chosen step is"), std::string::npos);
 }
 
 TEST(Warnings, TellOfShapesOfOneBodyThatMeet) {

@@ -210,6 +210,19 @@ TEST(Figures, NoTwoSeriesLookTheSame) {
     const Figure figure = make_figure(study_of_families(families), 0);
     EXPECT_EQ(looks_of(figure).size(), static_cast<std::size_t>(families));
   }
+  // Of one law, by one integrator or by two: colour and marker alone tell them apart.
+  for (const int integrators : {1, 2}) {
+    StudyResult same = study_of_families(45);
+    for (std::size_t i = 0; i < same.subjects.size(); ++i) {
+      same.subjects[i].law = "lugre";
+      same.subjects[i].integrator =
+          i % 2 < static_cast<std::size_t>(integrators - 1) ? "rk4" : "euler";
+    }
+    std::set<std::pair<std::string, int>> marks;
+    for (const int style : subject_styles(same))
+      marks.emplace(output::series_style(style).color, output::series_style(style).shape);
+    EXPECT_EQ(marks.size(), same.subjects.size()) << integrators;
+  }
   // Two members of a family, at each value of a sweep.
   StudyResult study = study_of_families(2);
   study.subjects[1].law = study.subjects[0].law;
