@@ -15,7 +15,7 @@ namespace hookpoint::control {
 
 /// Raised by every change of an installed header that a compiled plugin would notice
 /// (tests/unit/control/plugin_abi_test.cpp holds it to them).
-inline constexpr std::uint32_t plugin_abi_version = 5;
+inline constexpr std::uint32_t plugin_abi_version = 6;
 
 /// The first three members stay where they are for good: every version of the program reads them.
 struct PluginAbi {
