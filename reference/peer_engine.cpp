@@ -144,7 +144,8 @@ class PeerEngine final : public simulation::Engine, public simulation::Restartab
     world_->read_shapes(shapes);
     for (const ShapeForce& shape : shapes) add(shape.body, shape.position, shape.force);
   }
-  void publish_ground_forces() override { state_.ground_force_time = world_->force_time(); }
+  void publish_ground_forces() override { state_.ground_force_time = tells_ground_forces(); }
+  simulation::GroundForceTime tells_ground_forces() const override { return world_->force_time(); }
 
  private:
   /// Publishes the initial state of the robots.

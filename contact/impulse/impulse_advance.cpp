@@ -167,11 +167,13 @@ class ImpulseAdvance::Struck final : public StruckRobot {
 
   void strike(std::size_t point, const Vector3d& impulse) override {
     const Vector3d moment = cross(body_.points_[point].arm, impulse);
+    const Vector3d before = velocity(point);
     flight_.velocity += (1. / body_.inertia_.mass) * impulse;
     flight_.angular_momentum += moment;
     result_.impulse += impulse;
     result_.angular_impulse += moment;
     w_ = contact::angular_velocity(body_.inertia_, flight_);
+    result_.impulse_work += 0.5 * dot(impulse, before + velocity(point));
   }
 
   double begin_reversal(std::size_t struck) override {

@@ -31,6 +31,7 @@ struct AdvanceResult : ImpulseTally {
   Vector3d impulse;  ///< sum over the step, on the body [N s]
   Vector3d
       angular_impulse;  ///< likewise, about the centre of mass where it was at each impact [N m s]
+  double impulse_work = 0.;  ///< likewise, each impulse times the mean velocity of its point [J]
 };
 
 /// Everything outside the law and the ground that acts on the body during a step, world axes.

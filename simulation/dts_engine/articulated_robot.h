@@ -68,6 +68,10 @@ class ArticulatedRobot {
   /// The joints' torques at the present state: drives as the inputs have them now, and what joints exert
   /// by themselves, less what drives held back in the last accelerate() [N m, N].
   void find_torques(std::span<double> torques) const;
+  /// Torques of the drives, as the inputs have them now [N m, N].
+  std::span<const double> drives() const {
+    return std::span(inputs_->joint_torques).subspan(first_joint_, joint_torques_.size());
+  }
   /// As the inputs have it now [m/s^2].
   const Vector3d& gravity() const { return inputs_->gravity; }
   /// v' as accelerate() found it, in the layout of v.
@@ -111,9 +115,6 @@ class ArticulatedRobot {
   void solve(ConstraintSet::Closing closing);
   /// The same, less what drives hold back at their velocity_limit.
   void solve_within_limits();
-  std::span<const double> drives() const {
-    return std::span(inputs_->joint_torques).subspan(first_joint_, joint_torques_.size());
-  }
   bool pulled() const { return inputs_->pull.robot == static_cast<int>(index_); }
 
   const Experiment* experiment_;

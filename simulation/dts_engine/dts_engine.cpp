@@ -98,9 +98,18 @@ class DtsEngine final : public Engine, public Resumable, public Restartable {
     for (ForceDetails* details : details_) details->enable_mean_forces(on);
     if (has_details_) copy_details();
   }
+  GroundForceTime tells_ground_forces() const override {
+    return tells_details() ? GroundForceTime::now : GroundForceTime::unknown;
+  }
+  bool tells_works() const override { return true; }
+  void publish_works() override {
+    if (!state_.works.empty()) return;
+    state_.works.resize(experiment_.robots.size());
+    for (Part& part : parts_) part.robot->measure_work();
+  }
   void publish_ground_forces() override {
     if (!tells_details()) return;
-    state_.ground_force_time = GroundForceTime::now;
+    state_.ground_force_time = tells_ground_forces();
     std::size_t points = 0;
     for (const RobotSpec& robot : experiment_.robots) points += boundary_points(robot).size();
     if (together_) points *= 2;  // a place between two bodies is told of both
@@ -263,6 +272,8 @@ class DtsEngine final : public Engine, public Resumable, public Restartable {
     }
     if (together_)
       std::ranges::copy(parts_[0].robot->surface_works(), state_.surface_works.begin());
+    for (std::size_t i = 0; i < parts_.size() && !state_.works.empty(); ++i)
+      parts_[i].robot->publish_works(std::span(state_.works).subspan(i));
     if (has_details_) copy_details();
     if (has_reactions_) copy_reactions();
     if (state_.ground_force_time != GroundForceTime::unknown) copy_ground_forces();

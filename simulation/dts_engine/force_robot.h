@@ -28,6 +28,8 @@ class ForceRobot final : public RobotPart, private ForceDetails {
   void publish_loops(std::span<LoopState> loops) const override {
     system_.robot().constraints().publish(system_.workspace(), loops);
   }
+  void measure_work() override { system_.measure_work(); }
+  void publish_works(std::span<double> works) const override { works[0] = system_.work(); }
   ForceDetails* details() override { return this; }
   IntegratorState statistics() const override;
   const std::string& notice() const override;

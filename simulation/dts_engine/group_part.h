@@ -2,6 +2,7 @@
 // moves.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <memory>
 
@@ -27,6 +28,10 @@ class GroupPart final : public RobotPart, private ForceDetails {
   void publish(std::span<BodyState> bodies, std::span<JointState> joints) const override;
   void add_contacts(std::size_t first_body, std::span<const BodyState> bodies,
                     std::vector<ContactView>& contacts) const override;
+  void measure_work() override { group_.measure_work(); }
+  void publish_works(std::span<double> works) const override {
+    std::ranges::transform(group_.works(), works.begin(), &WorkMeter::work);
+  }
   ForceDetails* details() override { return this; }
   IntegratorState statistics() const override;
   const std::string& notice() const override;

@@ -1,5 +1,7 @@
 #include "simulation/dts_engine/impulse_body.h"
 
+#include "simulation/engine_interface/held_force.h"
+
 namespace hookpoint::simulation {
 namespace {
 
@@ -50,6 +52,17 @@ void ImpulseBody::publish(std::span<BodyState> bodies, std::span<JointState> /*j
                motion_.angular_velocity,
                (1. / experiment_.deltat) * result_.impulse,
                result_.contacts};
+}
+
+// The forces that were held over the step act at points of the body.
+void ImpulseBody::publish_works(std::span<double> works) const {
+  const Pose before{motion_before_.position, motion_before_.orientation};
+  const Pose now{motion_.position, motion_.orientation};
+  works[0] = result_.impulse_work;
+  for (const std::size_t k : inputs_.forces_of[index_])
+    works[0] += held_force_work(inputs_.forces[k], before, now);
+  if (inputs_.pull.robot == static_cast<int>(index_))
+    works[0] += held_force_work(inputs_.pull.force, before, now);
 }
 
 // The external forces about the centre of mass, at the step's start.

@@ -16,6 +16,8 @@ class ImpulseBody final : public ImpulsePart {
   std::size_t joint_count() const override { return 0; }
   contact::ImpulseTally advance(const contact::GroundQuery& ground) override;
   void publish(std::span<BodyState> bodies, std::span<JointState> joints) const override;
+  void measure_work() override {}
+  void publish_works(std::span<double> works) const override;
 
   std::size_t state_size() const override;
   std::string state_layout() const override;

@@ -252,10 +252,12 @@ AdvanceStatus ImpulseGroup::run(const contact::GroundQuery& ground, contact::Imp
     const AdvanceStatus collided = resolution_.resolve(*this, tally);
     if (collided != AdvanceStatus::ok) return collided;
     if (begin_flight() != integrators::Status::ok) return AdvanceStatus::not_finite;
+    for (std::size_t i = 0; i < meters_.size(); ++i) meters_[i].begin(robots_[i]);
     double duration = 0.;
     const AdvanceStatus flown =
         fly_above(ground, experiment_.deltat - left, longest_flight(left), &duration, tally);
     if (flown != AdvanceStatus::ok) return flown;
+    for (std::size_t i = 0; i < meters_.size(); ++i) meters_[i].end(robots_[i]);
     left -= duration;
   }
   tally.deepest = std::max(tally.deepest, -lowest_gap());
@@ -281,6 +283,7 @@ contact::ImpulseTally ImpulseGroup::advance(const contact::GroundQuery& ground) 
   std::fill(impulses_.begin(), impulses_.end(), Vector3d{});
   std::fill(contacts_.begin(), contacts_.end(), 0);
   works_before_ = surface_works_;
+  for (WorkMeter& meter : meters_) meter.begin_step();
   places_->begin_step();
   resolution_.begin_step();
   tally.status = run(ground, tally);
@@ -299,6 +302,11 @@ contact::ImpulseTally ImpulseGroup::advance(const contact::GroundQuery& ground) 
       look_for_edge(robots_[side.robot].index(), *beside);
   }
   return tally;
+}
+
+void ImpulseGroup::measure_work() {
+  for (std::size_t i = meters_.size(); i < robots_.size(); ++i)
+    meters_.emplace_back(robots_[i], WorkMeter::Quadrature::ends);
 }
 
 void ImpulseGroup::go_back() {
@@ -399,11 +407,13 @@ dts::BodyPoint<double> ImpulseGroup::body_point(const PlaceSide& side) const {
 Vector3d ImpulseGroup::velocity(std::size_t point) const {
   const ImpulsePlace& place = places_->places()[point];
   Vector3d u = place.surface_velocity;
-  for (const PlaceSide& side : place.bodies()) {
-    const dts::BodyMotion<double>& body = robots_[side.robot].workspace().bodies[side.body];
-    u += side.sign * (body.v_WB + cross(body.w_WB, side.arm));
-  }
+  for (const PlaceSide& side : place.bodies()) u += side.sign * velocity_of(side);
   return u;
+}
+
+Vector3d ImpulseGroup::velocity_of(const PlaceSide& side) const {
+  const dts::BodyMotion<double>& body = robots_[side.robot].workspace().bodies[side.body];
+  return body.v_WB + cross(body.w_WB, side.arm);
 }
 
 Vector3d ImpulseGroup::flight_acceleration(std::size_t point) const {
@@ -464,7 +474,10 @@ void ImpulseGroup::strike(std::size_t point, const Vector3d& impulse) {
     const std::span<double> change = std::span(change_).first(robot.velocity_count());
     dts::velocity_change<double>(robot.model(), robot.workspace(), body_point(side), on_body,
                                  change);
+    const Vector3d before = velocity_of(side);
     flights_[side.robot].jump(change);
+    if (!meters_.empty())
+      meters_[side.robot].strike(0.5 * dot(on_body, before + velocity_of(side)));
     impulses_[body_number(side)] += on_body;
   }
   if (place.surface >= 0 && !surface_works_.empty())

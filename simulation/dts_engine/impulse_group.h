@@ -3,6 +3,7 @@
 // up (docs/contact_impulse.md). One robot over tiles, or all of an experiment's, which touch each other.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "simulation/dts_engine/impulse_part.h"
 #include "simulation/dts_engine/impulse_places.h"
 #include "simulation/dts_engine/robot_flight.h"
+#include "simulation/dts_engine/work_meter.h"
 
 namespace hookpoint::simulation {
 
@@ -33,6 +35,10 @@ class ImpulseGroup final : public ImpulsePart, private contact::StruckRobot {
   void add_contacts(std::size_t first_body, std::span<const BodyState> bodies,
                     std::vector<ContactView>& contacts) const override;
   std::span<const double> surface_works() const override { return surface_works_; }
+  void measure_work() override;
+  void publish_works(std::span<double> works) const override {
+    std::ranges::transform(meters_, works.begin(), &WorkMeter::work);
+  }
 
   std::size_t state_size() const override;
   std::string state_layout() const override;
@@ -88,6 +94,8 @@ class ImpulseGroup final : public ImpulsePart, private contact::StruckRobot {
                                    double longest, double* duration, contact::ImpulseTally& tally);
   contact::AdvanceStatus inside() const;
   dts::BodyPoint<double> body_point(const PlaceSide& side) const;
+  /// Of its place on the body.
+  Vector3d velocity_of(const PlaceSide& side) const;
   std::size_t body_number(const PlaceSide& side) const {
     return first_bodies_[side.robot] + side.body;
   }
@@ -115,6 +123,7 @@ class ImpulseGroup final : public ImpulsePart, private contact::StruckRobot {
   std::vector<Vector3d> impulses_, impulses_before_;
   std::vector<int> contacts_, contacts_before_;
   std::vector<double> surface_works_, works_before_;  ///< of terrain and obstacles [J]
+  std::vector<WorkMeter> meters_;                     ///< one a robot, once they are wanted
   // A reversal's: the couplings K_ij of its points, and their velocities.
   std::vector<Matrix3d> couplings_;
   std::vector<Vector3d> velocities_, work_;

@@ -88,12 +88,28 @@ void RobotGroup::commit_memory() {
   for (ArticulatedRobot& robot : robots_) robot.commit_joints();
   contacts_.commit();
   contacts_.begin_step();
+  for (std::size_t i = 0; i < meters_.size(); ++i) {
+    meters_[i].begin_step();
+    meters_[i].begin(robots_[i]);
+  }
 }
 
 void RobotGroup::finish_step() {
   read(q_, v_);
   for (ArticulatedRobot& robot : robots_) robot.meet_constraints();
   refresh(dt_);
+  for (std::size_t i = 0; i < meters_.size(); ++i) meters_[i].end(robots_[i]);
+}
+
+void RobotGroup::measure_work() {
+  if (!meters_.empty()) return;
+  for (const ArticulatedRobot& robot : robots_)
+    meters_.emplace_back(robot, quadrature_of(stepper_of(experiment_)));
+}
+
+void RobotGroup::add_work(double weight) {
+  for (std::size_t i = 0; i < meters_.size(); ++i)
+    if (meters_[i].quadrature() == WorkMeter::Quadrature::nodes) meters_[i].add(weight, robots_[i]);
 }
 
 void RobotGroup::undo() {
@@ -216,7 +232,9 @@ void RobotGroup::tangent_rate(std::span<const double> u, std::span<const double>
 }
 
 void RobotGroup::weigh(double weight) {
-  if (!contacts_.adaptive()) contacts_.add_impulses(weight);
+  if (contacts_.adaptive()) return;
+  contacts_.add_impulses(weight);
+  add_work(weight);
 }
 
 // What one that chooses its own steps asks besides.
@@ -224,9 +242,13 @@ void RobotGroup::weigh(double weight) {
 void RobotGroup::weigh_at(double weight, std::span<const double> q, std::span<const double> v) {
   read(q, v);
   update_kinematics();
-  for (dts::Workspace<double>* workspace : workspaces_) dts::clear_external_forces(*workspace);
+  if (meters_.empty())
+    for (dts::Workspace<double>* workspace : workspaces_) dts::clear_external_forces(*workspace);
+  else
+    apply_external_forces();
   apply_contacts(Evaluation::trial, last_time_ - start_);
   contacts_.add_impulses(weight);
+  add_work(weight);
 }
 
 void RobotGroup::commit(double time, std::span<const double> q, std::span<const double> v) {

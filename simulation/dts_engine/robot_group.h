@@ -8,6 +8,7 @@
 #include "simulation/dts_engine/articulated_robot.h"
 #include "simulation/dts_engine/shape_contacts.h"
 #include "simulation/dts_engine/stepped_system.h"
+#include "simulation/dts_engine/work_meter.h"
 
 namespace hookpoint::simulation {
 
@@ -26,6 +27,11 @@ class RobotGroup final : public SteppedSystem {
   const ShapeContacts& contacts() const { return contacts_; }
   double dt() const { return dt_; }
   void enable_mean_forces(bool on) { has_means_ = on; }
+  /// From the next step on `works` are right.
+  void measure_work();
+  /// Work of each robot's forces and joints over the last step (work_meter.h); empty until it is
+  /// measured.
+  std::span<const WorkMeter> works() const { return meters_; }
 
   template <class Self, class Archive>
   static void exchange(Self& self, Archive& archive) {
@@ -62,7 +68,9 @@ class RobotGroup final : public SteppedSystem {
   void weigh(double weight) override;
 
   // integrators::HybridSystem
-  bool has_integrals() const override { return has_means_ || contacts_.surfaces_move(); }
+  bool has_integrals() const override {
+    return has_means_ || !meters_.empty() || contacts_.surfaces_move();
+  }
   void weigh_at(double weight, std::span<const double> q, std::span<const double> v) override;
   void commit(double time, std::span<const double> q, std::span<const double> v) override;
   void cross_events(std::span<const int> directions) override;
@@ -85,6 +93,8 @@ class RobotGroup final : public SteppedSystem {
   template <class Robots, class Visit>
   static void for_each(Robots& robots, const Visit& visit);
   void update_kinematics();
+  /// Each robot's meter counts the present state for `weight` [s].
+  void add_work(double weight);
   void apply_external_forces();
   void accelerate();
   void refresh(double elapsed);
@@ -102,6 +112,7 @@ class RobotGroup final : public SteppedSystem {
   double dt_;
   double last_time_ = 0.;  ///< of the evaluation before, for integrals over a step [s]
   bool has_means_ = true;
+  std::vector<WorkMeter> meters_;  ///< one a robot, once they are wanted
   std::size_t dof_count_ = 0;
   std::vector<double> q_, v_, q_before_, v_before_;
 };

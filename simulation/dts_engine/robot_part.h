@@ -61,6 +61,10 @@ class RobotPart {
   /// Work of the terrain's motion and of each obstacle's on bodies since the start [J]; empty where
   /// surfaces stand still.
   virtual std::span<const double> surface_works() const { return {}; }
+  /// From the next step on `publish_works` is right.
+  virtual void measure_work() = 0;
+  /// Writes, one a robot of it, the work of forces and joints over the last step (work_meter.h) [J].
+  virtual void publish_works(std::span<double> works) const = 0;
   /// What the integration has cost so far; zeros where there is no integrator.
   virtual IntegratorState statistics() const { return {}; }
   /// Impulses so far.

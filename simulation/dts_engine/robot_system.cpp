@@ -45,12 +45,20 @@ void RobotSystem::begin_step(double /*time*/, double dt) {
 void RobotSystem::commit_memory() {
   robot_.commit_joints();
   contacts_.commit();
+  if (!meter_) return;
+  meter_->begin_step();
+  meter_->begin(robot_);
 }
 
 void RobotSystem::finish_step() {
   read(q_, v_);
   robot_.meet_constraints();
   refresh();
+  if (meter_) meter_->end(robot_);
+}
+
+void RobotSystem::measure_work() {
+  if (!meter_) meter_.emplace(robot_, quadrature_of(stepper_of(robot_.experiment())));
 }
 
 void RobotSystem::undo() {
@@ -125,19 +133,25 @@ void RobotSystem::tangent_rate(std::span<const double> u, std::span<const double
 }
 
 void RobotSystem::weigh(double weight) {
-  if (contacts_.empty() || contacts_.adaptive()) return;
-  contacts_.add_impulses(weight);
+  if (contacts_.adaptive()) return;
+  if (!contacts_.empty()) contacts_.add_impulses(weight);
+  if (meter_ && meter_->quadrature() == WorkMeter::Quadrature::nodes) meter_->add(weight, robot_);
 }
 
 // What one that chooses its own steps asks besides.
 
-// Kinematics and contact alone: the motion is the integrator's.
+// Kinematics and contact alone, and where work is measured the other forces: the motion is the
+// integrator's.
 void RobotSystem::weigh_at(double weight, std::span<const double> q, std::span<const double> v) {
   read(q, v);
   robot_.update_kinematics();
-  dts::clear_external_forces(workspace());
+  if (meter_)
+    robot_.apply_external_forces();
+  else
+    dts::clear_external_forces(workspace());
   contacts_.apply_forces(workspace(), Evaluation::trial, dt_);
   contacts_.add_impulses(weight);
+  if (meter_) meter_->add(weight, robot_);
 }
 
 void RobotSystem::commit(double /*time*/, std::span<const double> q, std::span<const double> v) {

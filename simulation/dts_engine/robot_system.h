@@ -2,12 +2,14 @@
 // contact events.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "simulation/dts_engine/articulated_robot.h"
 #include "simulation/dts_engine/contact_set.h"
 #include "simulation/dts_engine/stepped_system.h"
+#include "simulation/dts_engine/work_meter.h"
 
 namespace hookpoint::simulation {
 
@@ -42,6 +44,10 @@ class RobotSystem final : public SteppedSystem {
   /// Whether the ground's impulses are worked out where they cost something: with an integrator
   /// that chooses its own steps.
   void enable_mean_forces(bool on) { has_means_ = on; }
+  /// From the next step on `work()` is right.
+  void measure_work();
+  /// Of the robot's forces and joints over the last step (work_meter.h), once it is measured [J].
+  double work() const { return meter_ ? meter_->work() : 0.; }
   /// Length of the last step, which the present state is the end of [s].
   double dt() const { return dt_; }
 
@@ -80,7 +86,7 @@ class RobotSystem final : public SteppedSystem {
   void weigh(double weight) override;
 
   // integrators::HybridSystem
-  bool has_integrals() const override { return has_means_ && !contacts_.empty(); }
+  bool has_integrals() const override { return meter_ || (has_means_ && !contacts_.empty()); }
   void weigh_at(double weight, std::span<const double> q, std::span<const double> v) override;
   void commit(double time, std::span<const double> q, std::span<const double> v) override;
   void cross_events(std::span<const int> directions) override;
@@ -113,6 +119,7 @@ class RobotSystem final : public SteppedSystem {
   ContactSet contacts_;
   double dt_;  ///< of the present step, or the last; before the first, of that [s]
   bool has_means_ = true;
+  std::optional<WorkMeter> meter_;  ///< once it is wanted
   std::vector<double> q_, v_, q_before_, v_before_;
 };
 

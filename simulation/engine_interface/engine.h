@@ -125,6 +125,10 @@ struct WorldState {
   // Once Engine::publish_ground_forces was called.
   std::vector<GroundForce> ground_forces;
   GroundForceTime ground_force_time = GroundForceTime::unknown;
+  /// Once Engine::publish_works was called; empty where the engine does not tell. One a robot: work
+  /// over the last step of its external forces, contacts among them, and of its joints' torques [J].
+  /// What is left of the change of its kinetic and gravitational energy is numerical.
+  std::vector<double> works;
   std::uint64_t impacts = 0;  ///< impulses applied so far (event-driven laws)
   /// Work that the terrain's motion, if there is a terrain, and that of each obstacle has done on
   /// bodies since the start [J]; empty where the engine does not tell.
@@ -221,6 +225,11 @@ class Engine {
   /// From now on, after each step, `state().ground_forces` is kept up to date. An engine that does
   /// not know them leaves `ground_force_time` unknown.
   virtual void publish_ground_forces() {}
+  /// What `ground_force_time` is once that was called.
+  virtual GroundForceTime tells_ground_forces() const { return GroundForceTime::unknown; }
+  /// From now on, after each step, `state().works` is kept up to date, where the engine tells them.
+  virtual void publish_works() {}
+  virtual bool tells_works() const { return false; }
   /// Puts what touches the ground at the published state in the place of `contacts`: boundary
   /// points with a name or without. Changes nothing of the run and costs nothing but when it is
   /// called, O(boundary points); details need not have been requested. Under an impulse law a

@@ -44,6 +44,7 @@ StepStatus World::step() {
   if (!start_.ok()) return start_;
   if (!signals_.running()) return {};
 
+  signals_.begin_step();
   // The engine steps with the inputs held, those that actuate() below left at k. Ours: step.cpp.
   const StepStatus status = engine_->step();
   if (!status.ok()) return with_advice(status, as_it_stands());

@@ -32,6 +32,9 @@ class World {
   /// From the next step on the bodies' `contact_force` in `state()` is right, as it is anyway once
   /// somebody reads its port.
   void publish_contact_forces() { engine_->enable_mean_forces(true); }
+  /// Numerical energy of the robots, and the work of what drives them; to be begun by who reads it.
+  EnergyBalance& energy_balance() { return signals_.energy_balance(); }
+  const EnergyBalance& energy_balance() const { return signals_.energy_balance(); }
   /// Every port of the run. O(ports).
   std::vector<Port> ports() { return signals_.ports(); }
   /// Every port that may be set between two steps. O(ports).

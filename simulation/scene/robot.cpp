@@ -57,17 +57,23 @@ language::ClassSchema robot_class() {
   append(robot.fields, motion_ports("position", "the base's"));
   append(robot.fields, acceleration_ports("the base's origin"));
   append(robot.fields, contact_ports());
-  append(robot.fields,
-         {port_only(Direction::output,
-                    number_field("kinetic_energy", "J", "", "of all its bodies that move")),
-          port_only(Direction::output,
-                    number_field("potential_energy", "J", "",
-                                 "of the same in gravity, zero at the world's origin")),
-          port_only(Direction::output,
-                    vector_field("center_of_mass", "m", "", "of the same, world axes")),
-          port_only(Direction::output,
-                    vector_field("center_of_mass_velocity", "m/s", "", "of that, world axes")),
-          port_only(Direction::output, number_field("total_mass", "kg", "", "of the same"))});
+  append(
+      robot.fields,
+      {port_only(Direction::output,
+                 number_field("kinetic_energy", "J", "", "of all its bodies that move")),
+       port_only(Direction::output,
+                 number_field("potential_energy", "J", "",
+                              "of the same in gravity, zero at the world's origin")),
+       port_only(Direction::output,
+                 number_field("numerical_energy", "J", "",
+                              "change of both since it is read, less the work of all that acts on "
+                              "the robot: what the integration has added; not in engine simbody "
+                              "where there is ground")),
+       port_only(Direction::output,
+                 vector_field("center_of_mass", "m", "", "of the same, world axes")),
+       port_only(Direction::output,
+                 vector_field("center_of_mass_velocity", "m/s", "", "of that, world axes")),
+       port_only(Direction::output, number_field("total_mass", "kg", "", "of the same"))});
   return robot;
 }
 

@@ -66,6 +66,14 @@ std::string missing_port(const Experiment& experiment, const language::Object& o
         "a {} is a part of the body that carries it and does not publish `{}`: read that body's",
         object.type == "Link" ? "Link whose joint is fixed" : "Chain whose joints are fixed",
         field.name);
+  // It takes steps of its own between the instants whose forces it tells (wiring/energy_balance.h).
+  const bool of_instants = experiment.engine == "simbody";
+  if (field.name == "numerical_energy" && of_instants &&
+      (experiment.terrain || !experiment.obstacles.empty()))
+    return fmt::format(
+        "engine {} does not tell what its ground does between the instants that it publishes, so that "
+        "`{}` is not known: choose another engine",
+        experiment.engine, field.name);
   const bool detail = !field.setting && (object.type == "ContactPoint" || object.type == "Chain" ||
                                          of_body_contact() || of_reaction());
   const bool peer = experiment.engine != "dts";

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <span>
 
-#include "simulation/engine_interface/rotors.h"
 #include "simulation/experiment/robot_tree.h"
 
 namespace hookpoint::simulation {
@@ -19,15 +18,19 @@ DerivedPorts::DerivedPorts(const Experiment& experiment, Engine& engine)
     : experiment_(experiment),
       engine_(engine),
       robots_(experiment.robots.size()),
+      numerical_(experiment.robots.size()),
       bodies_(engine.state().bodies.size()),
       joint_bias_(experiment),
+      balance_(experiment, engine),
       contact_forces_(engine),
       details_(engine),
       reactions_(engine) {}
 
 void DerivedPorts::update() {
   finite_ = true;
+  balance_.end_step();
   energies_.update();
+  numerical_energies_.update();
   accelerations_.update();
   contacts_.update();
   joint_terms_.update();
@@ -35,39 +38,28 @@ void DerivedPorts::update() {
 
 void DerivedPorts::restart() {
   before_.clear();
+  balance_.restored();
   update();
 }
 
-// T = (m v_c^2 + w.I w + I_r q'^2)/2, V = -m g.c of every body that moves.
 void DerivedPorts::compute_energies() {
-  auto body = engine_.state().bodies.begin();
+  std::span bodies(engine_.state().bodies);
   std::span joints(engine_.state().joints);
   for (std::size_t i = 0; i < robots_.size(); ++i) {
     const RobotSpec& robot = experiment_.robots[i];
-    RobotValues sum;
-    const auto add = [&](const MassSpec& mass, const BodyState& state) {
-      const Vector3d arm = rotate(state.orientation, mass.center_of_mass);
-      const Vector3d center = state.position + arm;
-      const Vector3d velocity = state.velocity + cross(state.angular_velocity, arm);
-      const Vector3d w = rotate(conjugate(state.orientation), state.angular_velocity);
-      sum.kinetic_energy += 0.5 * (mass.mass * dot(velocity, velocity) + dot(w, mass.inertia * w));
-      sum.potential_energy -= mass.mass * dot(experiment_.gravity, center);
-      sum.center_of_mass += mass.mass * center;
-      sum.center_velocity += mass.mass * velocity;
-      sum.mass += mass.mass;
-    };
-    if (robot.mobile) add(robot.base.mass, *body);
-    ++body;
-    for_each_link(robot, [&](const TreeLink& at) { add(at.link.body.mass, *body++); });
-    sum.kinetic_energy += rotor_energy(robot, joints);
+    RobotSums& sum = robots_[i];
+    sum = robot_sums(robot, experiment_.gravity, bodies, joints);
+    bodies = bodies.subspan(body_count(robot));
     joints = joints.subspan(joint_count(robot));
-    if (sum.mass > 0.) {
-      sum.center_of_mass = (1. / sum.mass) * sum.center_of_mass;
-      sum.center_velocity = (1. / sum.mass) * sum.center_velocity;
-    }
     finite_ = finite_ && std::isfinite(sum.kinetic_energy) && std::isfinite(sum.potential_energy) &&
               is_finite(sum.center_of_mass);
-    robots_[i] = sum;
+  }
+}
+
+void DerivedPorts::compute_numerical_energies() {
+  for (std::size_t i = 0; i < numerical_.size(); ++i) {
+    numerical_[i] = balance_.numerical_energy(i);
+    finite_ = finite_ && std::isfinite(numerical_[i]);
   }
 }
 

@@ -4,6 +4,8 @@
 
 #include <vector>
 
+#include "simulation/engine_interface/robot_sums.h"
+#include "simulation/wiring/energy_balance.h"
 #include "simulation/wiring/joint_bias.h"
 #include "simulation/wiring/ports.h"
 
@@ -25,24 +27,22 @@ class DerivedPorts {
   /// The engine's state has become another one: differences restart.
   void restart();
 
-  struct RobotValues {
-    double kinetic_energy = 0.;    ///< of its bodies; a fixed base counts for nothing [J]
-    double potential_energy = 0.;  ///< of gravity, zero at the world's origin [J]
-    Vector3d center_of_mass;       ///< world axes [m]
-    Vector3d center_velocity;      ///< of the same [m/s]
-    double mass = 0.;              ///< of the same bodies [kg]
-  };
   struct BodyValues {
     Vector3d acceleration,
         angular_acceleration;  ///< mean over the last step, world axes; at first 0
     double contacts = 0.;      ///< boundary points that carried force
   };
-  const RobotValues& robot(std::size_t i) const { return robots_[i]; }
+  const RobotSums& robot(std::size_t i) const { return robots_[i]; }
+  const double& numerical_energy(std::size_t i) const { return numerical_[i]; }
   const BodyValues& body(std::size_t i) const { return bodies_[i]; }
 
   const JointBiasValues& joint(std::size_t i) const { return joint_bias_.values()[i]; }
 
   Lazy& energies() { return energies_; }
+  /// The robots' numerical energies; their balance begins with the first request.
+  Lazy& numerical_energies() { return numerical_energies_; }
+  EnergyBalance& balance() { return balance_; }
+  const EnergyBalance& balance() const { return balance_; }
   Lazy& accelerations() { return accelerations_; }
   Lazy& contacts() { return contacts_; }
   /// What gravity and velocities take of the joints.
@@ -71,6 +71,19 @@ class DerivedPorts {
     DerivedPorts& owner_;
     void (DerivedPorts::*compute_)();
   };
+  struct NumericalEnergies final : Lazy {
+    explicit NumericalEnergies(DerivedPorts& of) : owner(of) {}
+    void begin() override {
+      owner.balance_.begin();
+      if (!wanted) owner.compute_numerical_energies();
+      wanted = true;
+    }
+    void update() const {
+      if (wanted) owner.compute_numerical_energies();
+    }
+    DerivedPorts& owner;
+    bool wanted = false;
+  };
   struct Details final : Lazy {
     explicit Details(Engine& of_engine) : engine(of_engine) {}
     void begin() override { engine.publish_details(); }
@@ -90,18 +103,22 @@ class DerivedPorts {
   };
 
   void compute_energies();
+  void compute_numerical_energies();
   void compute_accelerations();
   void compute_contacts();
   void compute_joint_bias();
 
   const Experiment& experiment_;
   Engine& engine_;
-  std::vector<RobotValues> robots_;
+  std::vector<RobotSums> robots_;
+  std::vector<double> numerical_;  ///< numerical energy of each robot [J]
   std::vector<BodyValues> bodies_;
   JointBias joint_bias_;
+  EnergyBalance balance_;
   std::vector<BodyState> before_;  // of the step before, while accelerations are wanted
   bool finite_ = true;
   Group energies_{*this, &DerivedPorts::compute_energies};
+  NumericalEnergies numerical_energies_{*this};
   Group accelerations_{*this, &DerivedPorts::compute_accelerations};
   Group contacts_{*this, &DerivedPorts::compute_contacts};
   Group joint_terms_{*this, &DerivedPorts::compute_joint_bias};

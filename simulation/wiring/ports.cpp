@@ -58,8 +58,8 @@ void add_body(std::vector<Port>& ports, const std::string& trail, const char* po
   ports.back().lazy = &derived.contacts();
 }
 
-void add_robot(std::vector<Port>& ports, const std::string& trail,
-               const DerivedPorts::RobotValues& values, DerivedPorts& derived) {
+void add_robot(std::vector<Port>& ports, const std::string& trail, const RobotSums& values,
+               const double& numerical_energy, DerivedPorts& derived) {
   const std::size_t first = ports.size();
   ports.push_back(readable(trail + ".kinetic_energy", "J", values.kinetic_energy));
   ports.push_back(readable(trail + ".potential_energy", "J", values.potential_energy));
@@ -67,6 +67,9 @@ void add_robot(std::vector<Port>& ports, const std::string& trail,
   add_vector(ports, trail + ".center_of_mass_velocity", "m/s", values.center_velocity);
   ports.push_back(readable(trail + ".total_mass", "kg", values.mass));
   on_demand(ports, first, derived.energies());
+  if (!derived.balance().is_known()) return;
+  ports.push_back(readable(trail + ".numerical_energy", "J", numerical_energy));
+  ports.back().lazy = &derived.numerical_energies();
 }
 
 void add_joint(std::vector<Port>& ports, const std::string& trail, const JointUnits& units,
@@ -195,7 +198,9 @@ std::vector<Port> list_ports(const Experiment& experiment, Engine& engine, Deriv
     const std::string base = robot.base.name.empty() ? "base" : robot.base.name;
     add(world + robot.name + "." + base, "location");
     add(world + robot.name, "position");
-    add_robot(ports, world + robot.name, derived.robot(index++), derived);
+    add_robot(ports, world + robot.name, derived.robot(index), derived.numerical_energy(index),
+              derived);
+    ++index;
     ++body;
     for_each_link(robot, [&](const TreeLink& at) {
       const std::string trail = world + robot.name + "." + at.chain.name + "." + at.link.body.name;

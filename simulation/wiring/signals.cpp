@@ -325,6 +325,7 @@ void Signals::exchange(Self& self, Archive& archive) {
   archive("running", self.held_.running);
   archive("quit", self.held_.quit);
   archive("joint_torque", self.engine_.inputs().joint_torques);
+  archive("gravity", self.engine_.inputs().gravity);
   archive.each("force", self.held_.forces, [](auto& force, auto& part) {
     part("point", force.point);
     part("force", force.force);
@@ -334,6 +335,7 @@ void Signals::exchange(Self& self, Archive& archive) {
     if ((*self.experiment_.values)[i].writable) archive("value", self.held_.values[i]);
   }
   Pull::exchange(self.pull_, archive);
+  EnergyBalance::exchange(self.derived_.balance(), archive);
 }
 
 std::vector<StateSection> Signals::state_layout() const {

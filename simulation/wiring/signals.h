@@ -22,6 +22,11 @@ class Signals {
   /// causes.
   Signals(const Experiment& experiment, Engine& engine);
 
+  /// Before the engine steps, under the inputs that it steps with.
+  void begin_step() { derived_.balance().begin_step(); }
+  EnergyBalance& energy_balance() { return derived_.balance(); }
+  const EnergyBalance& energy_balance() const { return derived_.balance(); }
+
   // The parts of an update at `step` (World::step has their order): of every step once, from 0 on,
   // when the engine has the state of that step. Allocate nothing.
 

@@ -42,11 +42,12 @@ struct PeerContact;
 
 /// What a metric reads of a run beyond poses and velocities; each costs time at every step.
 struct MetricNeeds {
-  bool points = false;         ///< Observation::points
-  bool forces = false;         ///< WorldState::ground_forces
-  bool contact_force = false;  ///< that of bodies
-  bool feet = false;           ///< Observation::feet
-  bool stance = false;         ///< Observation::stance, of the gait
+  bool points = false;            ///< Observation::points
+  bool forces = false;            ///< WorldState::ground_forces
+  bool contact_force = false;     ///< that of bodies
+  bool feet = false;              ///< Observation::feet
+  bool stance = false;            ///< Observation::stance, of the gait
+  bool numerical_energy = false;  ///< Observation::numerical_energy
 };
 
 /// A metric: a row in the file of its family (studies/metrics/table.h).

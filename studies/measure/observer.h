@@ -46,6 +46,9 @@ struct Observation {
   /// One a chain, above 0.5 while its leg is to stand; empty unless a metric needs them and a gait
   /// tells.
   std::span<const double* const> stance{};
+  /// Of the measured robot, since the start [J]; nothing unless a metric needs it and the engine tells.
+  std::optional<double> numerical_energy{};
+  double driven_work = 0.;  ///< with it, work of what drives the robot since the start [J]
 };
 
 /// Whether `settle` has come. Half a step before counts: times are multiples of the step, rounded.

@@ -34,6 +34,8 @@ constexpr auto order = std::to_array<std::string_view>({
     "force_residual_cone",
     "force_residual_dissipation",
     "energy_residual",
+    "numerical_energy",
+    "numerical_energy_part",
     "joint_gap",
     "rebound",
     "energy_drift",

@@ -117,6 +117,12 @@ class Watch {
     }
     if (any_needs(measurement.metrics, &MetricNeeds::stance))
       stance_ = stance_ports(context, world);
+    balanced_ = any_needs(measurement.metrics, &MetricNeeds::numerical_energy) &&
+                world.energy_balance().is_known();
+    if (balanced_) {
+      world.energy_balance().begin();
+      world.energy_balance().begin_drives();
+    }
     if (measurement.path) path_.emplace(measurement.duration);
     const std::int64_t settle =
         simulation::step_count(measurement.settle, context.experiment->deltat);
@@ -127,6 +133,11 @@ class Watch {
   void observe(const simulation::World& world) {
     Observation observation = observer_.observe(world.state(), &world.inputs());
     observation.stance = stance_;
+    if (balanced_) {
+      const auto robot = static_cast<std::size_t>(context_.robot);
+      observation.numerical_energy = world.energy_balance().numerical_energy(robot);
+      observation.driven_work = world.energy_balance().driven_work(robot);
+    }
     for (const auto& metric : metrics_)
       if (metric) metric->observe(observation);
     for (Recording& recording : recordings_) recording.observe(context_, observation);
@@ -163,6 +174,7 @@ class Watch {
   Observer observer_;
   std::vector<std::unique_ptr<Metric>> metrics_;
   std::vector<const double*> stance_;
+  bool balanced_ = false;  ///< metrics need the numerical energy
   std::vector<Recording> recordings_;
   std::optional<PathRecording> path_;
 };

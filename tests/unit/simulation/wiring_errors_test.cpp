@@ -71,7 +71,7 @@ const Case cases[] = {
      "error 2:11 a Robot has no output of its own: the wire needs FROM and a port; its outputs are "
      "self_contact, position, orientation, velocity, angular_velocity, linear_acceleration, "
      "angular_acceleration, "
-     "contact.force, contact.count, contact.moment, contact.center_of_pressure, contact.normal_load, contact.tangential_load, kinetic_energy, potential_energy, center_of_mass, "
+     "contact.force, contact.count, contact.moment, contact.center_of_pressure, contact.normal_load, contact.tangential_load, kinetic_energy, potential_energy, numerical_energy, center_of_mass, "
      "center_of_mass_velocity, total_mass\n"},
     {"noise_in_another_unit",
      "Controller.PD p { Wire FROM w.bot.leg.one.angle TO current { noise = 2 mm; } }",

@@ -201,6 +201,39 @@ TEST(EnergyResidual, CountsTheWorkOfJointsAndExternalForces) {
   EXPECT_NEAR(residual(1.5, 0.), 2. / (3.5 + 1.5), 1e-12);
 }
 
+// Of a wheel that turns with 100 rad/s beside a block that swings to and fro along x with 1 J.
+TEST(NumericalEnergy, IsHeldAgainstWhatTakesPartInTheMotion) {
+  Experiment experiment = rough_block();
+  experiment.gravity = {};
+  simulation::LinkSpec wheel;
+  wheel.body.mass = {1., {}, {1., 1., 2., 0., 0., 0.}};
+  wheel.stiffness = 0.5;
+  experiment.robots[0].chains.resize(1);
+  experiment.robots[0].chains[0].links.push_back(wheel);
+  const RunContext context = make_context(experiment, 0.5, 2.);
+  for (const auto& [name, expected] :
+       {std::pair{"numerical_energy", 0.3}, {"numerical_energy_part", 0.3 / 5.}}) {
+    const auto metric = find_metric(name)->make(context);
+    EXPECT_FALSE(metric->value());
+    Observer observer(context, false);
+    WorldState world;
+    world.bodies.resize(2);
+    world.joints.resize(1);
+    for (int step = 0; step <= 200; ++step) {
+      world.time = 0.01 * step;
+      // The block has 1 J and 0, the joint's spring 4 J and 1: half of 1 + 3; drives took 3 J.
+      world.bodies[0].velocity = {std::sqrt(2.) * std::cos(2. * M_PI * world.time), 0., 0.};
+      world.bodies[1].angular_velocity = {0., 0., 100.};
+      world.joints[0].angle = 3. + std::cos(4. * M_PI * world.time);
+      Observation observation = observer.observe(world);
+      observation.numerical_energy = 0.2 * world.time;
+      observation.driven_work = -2. * world.time;
+      metric->observe(observation);
+    }
+    EXPECT_NEAR(*metric->value(), expected, 1e-12) << name;
+  }
+}
+
 TEST(Friction, IsWhatSlowsTheSlide) {
   // On 0.3 rad with mu = 0.25 a = g (sin - 0.25 cos).
   const auto slides = [](const RunContext& context, WorldState& world) {
