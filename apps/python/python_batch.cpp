@@ -273,8 +273,7 @@ void PythonBatch::advance(std::size_t world, std::int64_t count, const std::atom
   for (double* port : member.written) *port = *action++;
   if (!member.written.empty()) member.world->follow();
   std::optional<simulation::EnergyWatch> energy;
-  // Actions drive a world.
-  if (member.written.empty() && !member.driven && count >= simulation::EnergyWatch::fewest_steps)
+  if (count >= simulation::EnergyWatch::fewest_steps)
     energy.emplace(member.kind->experiment, *member.world, member.world->state().step + count);
   const auto observe = [&] {
     if (energy) energy->observe();
@@ -358,7 +357,6 @@ std::vector<std::size_t> PythonBatch::worlds_of(const py::object& mask) const {
 
 void PythonBatch::restart(Member& member, const std::vector<simulation::InitialValue>& values) {
   member.failure.clear();
-  member.driven = false;
   try {
     if (values.empty() && !member.kind->start.empty()) {
       member.world->restore(member.kind->start);
@@ -450,7 +448,6 @@ void PythonBatch::set_state(std::size_t world, const py::bytes& state) {
   Member& of = member(world);
   state_bytes(of).restore(std::string_view(state), *of.world);
   of.failure.clear();
-  of.driven = true;
   show_all(world);
 }
 

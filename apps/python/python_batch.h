@@ -104,7 +104,6 @@ class PythonBatch : public MadeWhole {
     std::vector<const double*> observed;
     std::vector<double*> written;
     const double* done = nullptr;
-    bool driven = false;  ///< its inputs may not be the file's
     std::string failure;
     std::vector<std::string> notices;  ///< since the last reset
     std::size_t next_notice = 0;       ///< of the engine's

@@ -88,11 +88,11 @@ struct PythonWorld::Recording {
   }
 };
 
-/// Watches the energy of steps in which nothing drives the world (energy_watch.h), Python included.
+/// Watches the energy of the steps of one call (energy_watch.h).
 class PythonWorld::Watch {
  public:
   Watch(PythonWorld& owner, std::int64_t count) : owner_(owner) {
-    if (!is_driven() && count >= simulation::EnergyWatch::fewest_steps)
+    if (count >= simulation::EnergyWatch::fewest_steps)
       energy_.emplace(owner.experiment(), *owner.world_, owner.steps() + count);
   }
   void observe() {
@@ -100,13 +100,12 @@ class PythonWorld::Watch {
   }
   /// After the last step.
   void finish() {
-    if (!energy_ || is_driven()) return;
+    if (!energy_) return;
     if (std::string finding = energy_->finding(); !finding.empty())
       owner_.add_notice(std::move(finding));
   }
 
  private:
-  bool is_driven() const { return owner_.driven_ || !owner_.viewed_inputs_.empty(); }
   PythonWorld& owner_;
   std::optional<simulation::EnergyWatch> energy_;
 };
@@ -184,7 +183,6 @@ void PythonWorld::reset(const py::object& state) {
     simulation::write_initial_state(experiment(), values.of(0), *started_);
     world_->restart(*started_);
   }
-  driven_ = false;
   notices_.resize(first_notices_);
   next_notice_ = world_->state().notices.size();
 }
@@ -213,7 +211,6 @@ py::bytes PythonWorld::state() {
 void PythonWorld::set_state(const py::bytes& state) {
   Busy::require_idle(busy_);
   state_bytes().restore(std::string_view(state), *world_);
-  driven_ = true;
 }
 
 std::unique_ptr<PythonWorld> PythonWorld::copy() {
@@ -223,7 +220,6 @@ std::unique_ptr<PythonWorld> PythonWorld::copy() {
   std::vector<double> numbers(world_->state_size());
   world_->save(numbers);
   made->world_->restore(numbers);
-  made->driven_ = driven_ || !viewed_inputs_.empty();
   return made;
 }
 
@@ -351,7 +347,6 @@ void PythonWorld::write(const std::string& trail, const py::object& value) {
   }
   Busy::require_idle(busy_);
   for (std::size_t i = 0; i < elements.size(); ++i) world_->set(elements[i], numbers.data()[i]);
-  driven_ = true;
 }
 
 std::string PythonWorld::repr() const {

@@ -104,7 +104,6 @@ class PythonWorld : public MadeWhole {
   std::size_t first_notices_ = 0;  ///< of them, said at time 0
   std::size_t next_notice_ = 0;    ///< the first of the engine's that is not passed on
   std::vector<simulation::Port> viewed_inputs_;  ///< may be written without a call
-  bool driven_ = false;                          ///< inputs are not the file's
   std::atomic<bool> busy_{false};                ///< steps without the GIL
   pybind11::dict recorded_;
 };

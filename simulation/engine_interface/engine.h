@@ -165,8 +165,6 @@ struct SurfaceMotion {
 
 /// Whether the ground moves, by itself or because a wire drives it.
 bool ground_moves(const Experiment& experiment);
-/// Whether a wire drives the ground or an obstacle.
-bool moves_a_surface(const Experiment& experiment, const WireSpec& wire);
 /// Whether the ground or an obstacle moves, by itself or because a wire drives it.
 bool surfaces_move(const Experiment& experiment);
 /// Takes its frame to the end of a step of `dt` [s].

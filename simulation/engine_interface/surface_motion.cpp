@@ -15,21 +15,15 @@ bool ground_moves(const Experiment& experiment) {
                              [&](const WireSpec& wire) { return wire.to.starts_with(trail); });
 }
 
-bool moves_a_surface(const Experiment& experiment, const WireSpec& wire) {
-  const auto leads_to = [&](const std::string& name) {
-    return wire.to.starts_with(experiment.world + "." + name + ".");
-  };
-  return (experiment.terrain && leads_to(experiment.terrain->name)) ||
-         std::ranges::any_of(experiment.obstacles, leads_to, &ObstacleSpec::name);
-}
-
 bool surfaces_move(const Experiment& experiment) {
   const auto moves = [](const ObstacleSpec& obstacle) {
     return obstacle.velocity != Vector3d{} || obstacle.angular_velocity != Vector3d{};
   };
   return ground_moves(experiment) || std::ranges::any_of(experiment.obstacles, moves) ||
          std::ranges::any_of(experiment.wires, [&](const WireSpec& wire) {
-           return moves_a_surface(experiment, wire);
+           return std::ranges::any_of(experiment.obstacles, [&](const ObstacleSpec& obstacle) {
+             return wire.to.starts_with(experiment.world + "." + obstacle.name + ".");
+           });
          });
 }
 

@@ -3,13 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
-#include <string_view>
-#include <unordered_set>
 #include <variant>
 
-#include "simulation/engine_interface/rotors.h"
+#include "simulation/engine_interface/robot_sums.h"
 #include "simulation/experiment/joint_forces.h"
 #include "simulation/experiment/robot_tree.h"
 
@@ -18,62 +17,43 @@ namespace {
 
 constexpr std::int64_t windows = 20, samples_a_window = 64;
 static_assert(EnergyWatch::fewest_steps >= 10 * windows);
-/// Of the kinetic energy: by so much the maxima of a bounded vibration differ.
+/// Of the energy that takes part in the motion: by so much a bounded vibration's wavers.
 constexpr double wavering = 0.05;
 /// Of the energies summed: what rounding leaves.
-constexpr double rounding = 1e-9;
+constexpr double rounding_part = 1e-9;
 /// Than at both of its ends a body may have been between two samples.
 constexpr double faster = 3.;
 /// Of a contact's depth that counts [m].
 constexpr double least_jump = 1e-6;
 
-double spring_energy(const JointProperties& joint, double position, double drive) {
+double spring_energy(const JointProperties& joint, double position) {
   const double below = std::max(0., joint.lower_limit - position);
   const double above = std::max(0., position - joint.upper_limit);
   const double stretch = position - joint.rest_position;
   return 0.5 * (joint.stiffness * stretch * stretch +
-                joint.limit_stiffness * (below * below + above * above)) -
-         drive_torque(joint, drive) * position;
-}
-
-/// Whether the port of that trail is of one of the objects in `trails`.
-bool is_of(const std::string& port, const std::unordered_set<std::string_view>& trails) {
-  for (std::size_t dot = port.find('.'); dot != std::string::npos; dot = port.find('.', dot + 1))
-    if (trails.contains(std::string_view(port).substr(0, dot))) return true;
-  return false;
+                joint.limit_stiffness * (below * below + above * above));
 }
 
 }  // namespace
 
-bool is_passive(const Experiment& experiment) {
-  for (const ForceSpec& force : experiment.forces) {
-    if (force.window || !(force.torque == Vector3d{})) return false;
-  }
-  // What only listens drives nothing: what a component makes of it leaves by another wire.
-  std::unordered_set<std::string_view> components;
-  for (const ComponentSpec& component : experiment.components) components.insert(component.trail);
-  return std::ranges::none_of(experiment.wires, [&](const WireSpec& wire) {
-    if (wire.to.starts_with("Simulator.pull.")) return true;
-    return wire.to.starts_with(experiment.world + ".") && !is_of(wire.to, components) &&
-           !moves_a_surface(experiment, wire);
-  });
-}
-
-EnergyWatch::EnergyWatch(const Experiment& experiment, const World& world, std::int64_t last)
+EnergyWatch::EnergyWatch(const Experiment& experiment, World& world, std::int64_t last)
     : experiment_(experiment), world_(world) {
   const std::int64_t steps = last - world.state().step;
-  if (!is_passive(experiment) || !world.ground_energy() || steps < fewest_steps) return;
-  surfaces_move_ = surfaces_move(experiment);
-  if (surfaces_move_ && world.state().surface_works.empty()) return;
+  ground_known_ = world.ground_energy().has_value() &&
+                  !(surfaces_move(experiment) && world.state().surface_works.empty());
+  measured_ = world.energy_balance().has_begun();
+  if (steps < fewest_steps || experiment.robots.empty() || !(ground_known_ || measured_)) return;
+  world.energy_balance().begin_drives();
   stride_ = std::max<std::int64_t>(1, steps / (windows * samples_a_window));
-  samples_.reserve(static_cast<std::size_t>(steps / stride_ + 2));
-  std::size_t bodies = 0;
-  for (const RobotSpec& robot : experiment.robots) {
-    first_bodies_.push_back(bodies);
-    bodies += body_count(robot);
-    for_each_link(robot, [&](const TreeLink& at) {
-      const double most = at.link.static_friction.value_or(at.link.friction);
-      most_in_friction_ += 0.5 * most * at.link.friction_deflection;
+  const auto most = static_cast<std::size_t>(steps / stride_ + 2);
+  samples_.reserve(most);
+  for (std::size_t i = 0; i < experiment.robots.size(); ++i) {
+    moving_.emplace_back(experiment, i);
+    numerical_.emplace_back().reserve(most);
+    driven_before_.push_back(world.energy_balance().driven_work(i));
+    for_each_link(experiment.robots[i], [&](const TreeLink& at) {
+      const double friction = at.link.static_friction.value_or(at.link.friction);
+      most_in_friction_ += 0.5 * friction * at.link.friction_deflection;
     });
   }
 }
@@ -81,33 +61,30 @@ EnergyWatch::EnergyWatch(const Experiment& experiment, const World& world, std::
 void EnergyWatch::sample() {
   const WorldState& state = world_.state();
   Sample now{state.time, 0., world_.ground_energy().value_or(0.)};
-  auto body = state.bodies.begin();
+  std::span bodies(state.bodies);
   std::span joints(state.joints);
-  const auto add = [&](const MassSpec& mass, const BodyState& motion) {
-    const Vector3d arm = rotate(motion.orientation, mass.center_of_mass);
-    const Vector3d velocity = motion.velocity + cross(motion.angular_velocity, arm);
-    const Vector3d w = rotate(conjugate(motion.orientation), motion.angular_velocity);
-    now.kinetic += 0.5 * (mass.mass * dot(velocity, velocity) + dot(w, mass.inertia * w));
-    now.energy -= mass.mass * dot(experiment_.gravity, motion.position + arm);
-  };
-  for (const RobotSpec& robot : experiment_.robots) {
-    if (robot.mobile) add(robot.base.mass, *body);
-    ++body;
+  for (std::size_t i = 0; i < experiment_.robots.size(); ++i) {
+    const RobotSpec& robot = experiment_.robots[i];
+    const RobotSums sums = robot_sums(robot, world_.inputs().gravity, bodies, joints);
+    now.size += sums.kinetic_energy + std::abs(sums.potential_energy);
+    now.energy += sums.kinetic_energy + sums.potential_energy;
     for_each_link(robot, [&](const TreeLink& at) {
-      add(at.link.body.mass, *body++);
-      now.energy +=
-          spring_energy(joint_properties(at.link), joints[at.joint()].angle, at.link.torque);
+      now.energy += spring_energy(joint_properties(at.link), joints[at.joint()].angle);
     });
-    now.kinetic += rotor_energy(robot, joints.first(joint_count(robot)));
+    const double driven = world_.energy_balance().driven_work(i);
+    now.energy -= driven;
+    now.size += std::abs(driven);
+    bodies = bodies.subspan(body_count(robot));
     joints = joints.subspan(joint_count(robot));
+    if (measured_) numerical_[i].push_back(world_.energy_balance().numerical_energy(i));
+    moving_[i].observe(state);
   }
-  for (const ForceSpec& force : experiment_.forces) {
-    const std::size_t first = first_bodies_[static_cast<std::size_t>(force.robot)];
-    const BodyState& pushed = state.bodies[first + static_cast<std::size_t>(force.body)];
-    now.energy -= dot(force.force, pushed.position + rotate(pushed.orientation, force.point));
+  for (std::size_t i = 0; i < state.loops.size(); ++i) {
+    const double error = state.loops[i].error;
+    now.energy += 0.5 * experiment_.loops[i].stiffness.value_or(0.) * error * error;
   }
-  now.energy += now.kinetic;
   for (const double work : state.surface_works) now.energy -= work;
+  now.size += std::abs(now.energy);
   now.jumped = jumps(samples_.empty() ? 0. : now.time - samples_.back().time);
   samples_.push_back(now);
 }
@@ -135,49 +112,93 @@ bool EnergyWatch::jumps(double interval) {
   return false;
 }
 
-std::string EnergyWatch::finding() const {
-  const auto count = static_cast<std::int64_t>(samples_.size()) / windows;
-  if (count == 0) return "";
-  struct Window {
-    double begin = 0., end = 0., energy = -HUGE_VAL, kinetic = 0.;
+/// From the least of the windows to the greatest after it; `window(first, last)` is the account over
+/// some samples.
+template <class Window>
+EnergyWatch::Rise EnergyWatch::greatest_rise(const Window& window) const {
+  const std::size_t count = samples_.size() / windows;
+  if (count == 0) return {};
+  std::array<double, windows> account{};
+  for (std::size_t i = 0; i < windows; ++i) account[i] = window(i * count, (i + 1) * count);
+  const auto least = std::ranges::min_element(account);
+  const auto most = std::ranges::max_element(least, account.end());
+  const auto begin = [&](const auto& at) {
+    return static_cast<std::size_t>(at - account.begin()) * count;
   };
-  std::vector<Window> all(windows);
-  double scale = 0.;
-  for (std::int64_t i = 0; i < windows * count; ++i) {
-    const Sample& sample = samples_[static_cast<std::size_t>(i)];
-    Window& window = all[static_cast<std::size_t>(i / count)];
-    if (i % count == 0) window.begin = sample.time;
-    window.end = sample.time;
-    window.energy = std::max(window.energy, sample.energy);
-    window.kinetic = std::max(window.kinetic, sample.kinetic);
-    scale = std::max(scale, std::abs(sample.energy) + sample.kinetic);
-  }
-  const auto least = std::ranges::min_element(all, {}, &Window::energy);
-  const auto most = std::ranges::max_element(least, all.end(), {}, &Window::energy);
-  double kinetic = 0.;
-  for (auto window = least; window != all.end(); ++window)
-    kinetic = std::max(kinetic, window->kinetic);
-  const double rise = most->energy - least->energy;
-  if (!(rise > wavering * kinetic + rounding * scale + most_in_friction_)) return "";
+  const auto end = [&](const auto& at) { return samples_[begin(at) + count - 1].time; };
+  return {*most - *least, end(least), end(most), samples_[begin(least)].time};
+}
+
+// Greatest values: between them the energy of a vibration wavers.
+EnergyWatch::Rise EnergyWatch::rise_of_all() const {
+  if (!ground_known_) return {};
+  return greatest_rise([&](std::size_t first, std::size_t last) {
+    const auto row = std::span(samples_).subspan(first, last - first);
+    return std::ranges::max_element(row, {}, &Sample::energy)->energy;
+  });
+}
+
+// Means: while something hits the ground the numerical energy wavers, and comes back.
+EnergyWatch::Rise EnergyWatch::rise_of(std::size_t robot) const {
+  return greatest_rise([&](std::size_t first, std::size_t last) {
+    double sum = 0.;
+    for (std::size_t i = first; i < last; ++i) sum += numerical_[robot][i];
+    return sum / static_cast<double>(last - first);
+  });
+}
+
+double EnergyWatch::part_of(std::size_t robot) const {
+  return moving_[robot].value() +
+         std::abs(world_.energy_balance().driven_work(robot) - driven_before_[robot]);
+}
+
+double EnergyWatch::rounding() const {
+  double size = 0.;
+  for (const Sample& sample : samples_) size = std::max(size, sample.size);
+  return rounding_part * size;
+}
+
+bool EnergyWatch::blames_edges(const Rise& rise) const {
   double at_edges = 0.;
   for (std::size_t k = 1; k < samples_.size(); ++k) {
     const Sample &now = samples_[k], &before = samples_[k - 1];
-    if (now.jumped && now.time > least->begin && before.time < most->end)
+    if (now.jumped && now.time > rise.begin && before.time < rise.to)
       at_edges += std::max(0., now.energy - before.energy);
   }
-  const std::string found =
-      fmt::format("{}{} by {:.3g} J between {:.4g} and {:.4g} s", energy_finding,
-                  surfaces_move_ ? " beyond the work of what moves the ground" : "", rise,
-                  least->end, most->end);
+  return at_edges > 0.5 * rise.energy;
+}
+
+std::string EnergyWatch::finding() const {
+  double moving = 0.;
+  for (std::size_t i = 0; i < moving_.size(); ++i) moving += part_of(i);
+  Rise rise = rise_of_all();
+  const bool all = rise.energy > wavering * moving + rounding() + most_in_friction_;
+  std::string whose;
+  if (!all) {
+    for (std::size_t i = 0; measured_ && i < moving_.size(); ++i) {
+      rise = rise_of(i);
+      moving = part_of(i);
+      if (rise.energy > wavering * moving + rounding()) {
+        whose = fmt::format("robot '{}': ", experiment_.robots[i].name);
+        break;
+      }
+    }
+    if (whose.empty()) return "";
+    if (moving_.size() == 1) whose.clear();
+  }
+  const std::string found = fmt::format(
+      "{}, by {}{:.3g} J ({:.2g} % of what takes part in its motion) between {:.4g} and "
+      "{:.4g} s",
+      energy_finding, whose, rise.energy, 100. * rise.energy / moving, rise.from, rise.to);
   const char* const mend =
       experiment_.touch == "points"
           ? "write touch = shapes, or give the ground finer steps and less steep tiles"
           : "give the ground damping, or less steep tiles";
-  if (at_edges > 0.5 * rise)
+  if (all && blames_edges(rise))
     return fmt::format("{}: contacts crossed edges of the ground, where their depth jumps; {}",
                        found, mend);
   const bool edges =
-      experiment_.terrain && std::holds_alternative<GridSpec>(experiment_.terrain->surface);
+      all && experiment_.terrain && std::holds_alternative<GridSpec>(experiment_.terrain->surface);
   return fmt::format(
       "{}: deltat {:.4g} s is too large for how it moves; halve it, soften the "
       "ground, or choose another integrator{}{}",

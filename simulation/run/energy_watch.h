@@ -1,6 +1,10 @@
-// Where nothing drives a world, its mechanical energy cannot grow. If it does, the step is too
-// large for what moves, or a contact has crossed an edge of the ground where its depth jumps.
-// Watched at some instants of a run, at no cost to the others.
+// Whether a run has gained energy that nothing put in: its step is too large for what moves, or a contact
+// has crossed an edge of the ground where its depth jumps. Two accounts are watched:
+//  - where the engine tells what its ground holds, T + V of all that moves, springs and ground
+//    included, less the work of drives, Forces and ground in motion, which cannot grow;
+//  - where the run measures it for somebody, the numerical energy of each robot (docs/integrators.md),
+//    whose drift is the integration's, even where friction and dampers hide it.
+// Looked at in some instants of a run; between them the work of drives alone is summed.
 #pragma once
 
 #include <cstdint>
@@ -8,64 +12,73 @@
 #include <string_view>
 #include <vector>
 
+#include "simulation/engine_interface/moving_energy.h"
 #include "simulation/run/world.h"
 
 namespace hookpoint::simulation {
 
-/// Whether nothing drives the experiment but ground and obstacles that move, whose work is counted: no
-/// wire ends at a joint, a Force or gravity, and no Force acts over a window or by a moment. A wire
-/// that ends at a component, wherever that stands, drives nothing by itself. What is
-/// constant has a potential: gravity, forces, torques of joints.
-bool is_passive(const Experiment& experiment);
-
-/// T + V of all that moves [J]: kinetic energy, weights, Forces, springs and constant torques of
-/// joints, stops, and what the ground holds, less the work of ground and obstacles that move. Nothing is said of a world that is driven, or whose
-/// engine does not tell what its ground holds. What joints' dry friction holds is not published:
-/// the most that it can hold counts as no rise. From published values. O(bodies + boundary points).
+/// What joints' dry friction holds is not published: the most that it can hold counts as no rise.
 class EnergyWatch {
  public:
   /// Steps below which nothing is said.
   static constexpr std::int64_t fewest_steps = 200;
   /// Of a run from the world's present step to step `last`.
-  EnergyWatch(const Experiment& experiment, const World& world, std::int64_t last);
+  EnergyWatch(const Experiment& experiment, World& world, std::int64_t last);
 
-  /// After each step; looks at one in many.
+  /// After each step; looks at one in many. O(bodies + boundary points) where it looks.
   void observe() {
     if (stride_ > 0 && world_.state().step % stride_ == 0) sample();
   }
 
-  /// "its energy rose by 0.1 J ...", or "" where it did not. Compares the greatest energy in
-  /// twentieths of the run: between its extremes a vibration's energy wavers with the step.
+  /// "its energy rose by more than was put in ...", or "" where it did not. Compares twentieths of the
+  /// run: between its extremes a vibration's energy wavers with the step.
   std::string finding() const;
 
  private:
   struct Sample {
-    double time = 0.;                  ///< [s]
-    double kinetic = 0., energy = 0.;  ///< the part that is kinetic, and the whole [J]
-    bool jumped = false;               ///< as `jumps` says
+    double time = 0.;     ///< [s]
+    double size = 0.;     ///< of the energies that it is made of [J]
+    double energy = 0.;   ///< that cannot grow [J]
+    bool jumped = false;  ///< as `jumps` says
   };
   /// The deepest contact of a body.
   struct Touch {
     double depth = 0.;  ///< [m]; 0 where there is none
     double speed = 0.;  ///< that any of its contacts can have [m/s]
   };
+  /// By how much an account rose, and from when to when.
+  struct Rise {
+    double energy = 0., from = 0., to = 0., begin = 0.;
+  };
   void sample();
   /// Whether some body is deeper in the ground than it can have moved since the last sample,
   /// `interval` [s] ago: the ground under it has jumped.
   bool jumps(double interval);
+  template <class Window>
+  Rise greatest_rise(const Window& window) const;
+  Rise rise_of_all() const;
+  Rise rise_of(std::size_t robot) const;
+  /// What takes part in the motion of a robot, and what drives have put in [J].
+  double part_of(std::size_t robot) const;
+  double rounding() const;
+  bool blames_edges(const Rise& rise) const;
 
   const Experiment& experiment_;
-  const World& world_;
+  World& world_;
   std::int64_t stride_ = 0;  ///< steps from one look to the next; 0: nothing is said
-  bool surfaces_move_ = false;
-  double most_in_friction_ = 0.;           ///< that springs of joints' dry friction can hold [J]
-  std::vector<std::size_t> first_bodies_;  ///< of each robot, in WorldState::bodies
+  bool ground_known_ =
+      false;               ///< the engine tells what it takes to know the energy that cannot grow
+  bool measured_ = false;  ///< somebody has numerical energy measured
+  double most_in_friction_ = 0.;       ///< that springs of joints' dry friction can hold [J]
+  std::vector<double> driven_before_;  ///< work of drives on each robot when the watch began [J]
+  std::vector<MovingEnergy> moving_;   ///< of each robot
   std::vector<Sample> samples_;
+  std::vector<std::vector<double>> numerical_;   ///< energies of each robot, one a sample [J]
   std::vector<Touch> touches_, touches_before_;  ///< of each body
   std::vector<ContactView> contacts_;
 };
 
 /// With which every finding begins.
-inline constexpr std::string_view energy_finding = "nothing drives it, yet its energy rose";
+inline constexpr std::string_view energy_finding = "its energy rose by more than was put in";
 
 }  // namespace hookpoint::simulation

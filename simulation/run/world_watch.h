@@ -13,7 +13,7 @@ namespace hookpoint::simulation {
 class WorldWatch {
  public:
   /// Of a run from the world's present step to step `last`.
-  WorldWatch(const Experiment& experiment, const World& world, std::int64_t last)
+  WorldWatch(const Experiment& experiment, World& world, std::int64_t last)
       : energy_(experiment, world, last), overlap_(experiment, world) {}
 
   /// After each step.

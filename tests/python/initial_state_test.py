@@ -381,7 +381,7 @@ class Notices(unittest.TestCase):
         self.assertEqual(world.notices, messages(caught))
         self.assertTrue(all(each.category is UserWarning for each in caught))
         self.assertRegex(world.notices[0], "deltat 0.001 s is above the largest stable step")
-        self.assertRegex(world.notices[1], "nothing drives it, yet its energy rose by .* J")
+        self.assertRegex(world.notices[1], "its energy rose by more than was put in, by .* J")
         with tempfile.TemporaryDirectory() as folder:
             (pathlib.Path(folder) / "box.hook").write_text(UNSTABLE)
             printed = subprocess.run([PROGRAM, "run", "box.hook"], cwd=folder, capture_output=True, text=True).stderr
@@ -397,9 +397,9 @@ class Notices(unittest.TestCase):
             batch.step(count=1000)
         self.assertEqual(len(caught), 2)
         self.assertRegex(messages(caught)[0], "^deltat 0.001 s is above")
-        self.assertRegex(messages(caught)[1], "^worlds 0, 1, 2: nothing drives it, yet its energy rose")
+        self.assertRegex(messages(caught)[1], "^worlds 0, 1, 2: its energy rose by more than was put in")
         self.assertEqual(len(batch.notices), 4)
-        self.assertTrue(batch.notices[3].startswith("world 2: nothing drives it"))
+        self.assertTrue(batch.notices[3].startswith("world 2: its energy rose"))
         batch.reset([True, False, False])
         self.assertEqual(len(batch.notices), 3)
         # One world of its own constants.

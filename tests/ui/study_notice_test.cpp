@@ -102,7 +102,7 @@ TEST(WallNotices, AreToldWithTheSceneAndTheSubject) {
             "dts; integrator = explicit_euler; } Scene swing { file = \"swing.hook\"; } }\n");
   const auto result = work.hookpoint("study wall.hook --jobs 1 --out here");
   EXPECT_EQ(result.status, 0) << result.err;
-  const std::string note = "nothing drives it, yet its energy rose";
+  const std::string note = "its energy rose by more than was put in";
   EXPECT_EQ(count(result.err, "hookpoint: note: swing under euler: " + note), 1U) << result.err;
   EXPECT_EQ(count(result.err, note), 1U) << result.err;
 }
