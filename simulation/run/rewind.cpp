@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <span>
 #include <sstream>
 
 #include "simulation/engine_interface/step_count.h"
 #include "simulation/run/loop.h"
 #include "simulation/run/movies.h"
+#include "simulation/wiring/measured_section.h"
 #include "text/number.h"
 
 namespace hookpoint::simulation {
@@ -154,20 +156,28 @@ std::string Rewind::difference(std::size_t instant) {
   const auto same = [](double a, double b) {
     return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
   };
-  const auto differs = std::ranges::mismatch(recorded_, computed_, same).in1;
-  if (differs == recorded_.end()) return "";
-  auto index = static_cast<std::size_t>(differs - recorded_.begin());
+  std::size_t first = 0, index = 0;
   auto section = sections_.begin();
-  for (; index >= section->size; ++section) index -= section->size;
+  for (; section != sections_.end(); first += section->size, ++section) {
+    const auto recorded = std::span(recorded_).subspan(first, section->size);
+    const auto computed = std::span(computed_).subspan(first, section->size);
+    const bool unmeasured =
+        section->name == measured_section && (recorded.front() == 0. || computed.front() == 0.);
+    const auto differs = std::ranges::mismatch(recorded, computed, same).in1;
+    index = static_cast<std::size_t>(differs - recorded.begin());
+    if (!unmeasured && differs != recorded.end()) break;
+  }
+  if (section == sections_.end()) return "";
   return fmt::format(
       "the run does not repeat: at {} s number {} of `{}` is {} in the movie and {} here. The "
       "movie is of hookpoint {}, this is {}; another build, another machine or a changed plugin "
       "computes other last digits, and a field that was edited while it ran (changes.csv) is not "
       "in "
       "the movie: --changes repeats such a run",
-      time_text(steps_[instant]), index, section->name, text::seventeen_digits(*differs),
-      text::seventeen_digits(computed_[static_cast<std::size_t>(differs - recorded_.begin())]),
-      version_of(movie_.header()), HOOKPOINT_VERSION);
+      time_text(steps_[instant]), index, section->name,
+      text::seventeen_digits(recorded_[first + index]),
+      text::seventeen_digits(computed_[first + index]), version_of(movie_.header()),
+      HOOKPOINT_VERSION);
 }
 
 }  // namespace hookpoint::simulation

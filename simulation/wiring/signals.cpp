@@ -11,6 +11,7 @@
 
 #include "control/data/table.h"
 #include "simulation/wiring/force_window.h"
+#include "simulation/wiring/measured_section.h"
 #include "text/units.h"
 
 namespace hookpoint::simulation {
@@ -335,7 +336,6 @@ void Signals::exchange(Self& self, Archive& archive) {
     if ((*self.experiment_.values)[i].writable) archive("value", self.held_.values[i]);
   }
   Pull::exchange(self.pull_, archive);
-  EnergyBalance::exchange(self.derived_.balance(), archive);
 }
 
 std::vector<StateSection> Signals::state_layout() const {
@@ -343,7 +343,10 @@ std::vector<StateSection> Signals::state_layout() const {
   StateLayout layout;
   exchange(*this, held);
   exchange(*this, layout);
-  std::vector<StateSection> sections{{"signals", layout.text(), held.count()}};
+  const EnergyBalance& balance = derived_.balance();
+  std::vector<StateSection> sections{
+      {"signals", layout.text(), held.count()},
+      {std::string(measured_section), simulation::layout_of(balance), count_of(balance)}};
   for (std::size_t i = 0; i < components_.size(); ++i) {
     sections.push_back({experiment_.components[i].trail, layout_of(components_[i]),
                         components_[i].values().size() + 2});
@@ -370,6 +373,8 @@ void Signals::save(std::span<double> numbers) const {
   StateSaver saver(numbers);
   exchange(*this, saver);
   std::span<double> left = numbers.subspan(held.count());
+  save_to(left, derived_.balance());
+  left = left.subspan(count_of(derived_.balance()));
   for (std::size_t i = 0; i < components_.size(); ++i) {
     const std::span<const double> values = components_[i].values();
     std::ranges::copy(values, left.begin());
@@ -391,6 +396,8 @@ void Signals::restore(std::span<const double> numbers) {
   StateRestorer restorer(numbers);
   exchange(*this, restorer);
   std::span<const double> left = numbers.subspan(held.count());
+  restore_from(left, derived_.balance());
+  left = left.subspan(count_of(derived_.balance()));
   for (std::size_t i = 0; i < components_.size(); ++i) {
     const std::span<double> values = components_[i].values();
     std::ranges::copy(left.first(values.size()), values.begin());
