@@ -40,7 +40,8 @@ class EnergyBalance {
 
   /// Of robot i, since it began [J]. O(bodies).
   double numerical_energy(std::size_t i) const;
-  /// Work on robot i since it began of drives of joints, Forces, pulls and changes of gravity [J].
+  /// Work on robot i since it began of drives of joints, Forces, pulls and changes of gravity [J]. A
+  /// drive at its velocity_limit counts as if it held nothing back: an upper bound.
   double driven_work(std::size_t i) const { return driven_[i]; }
 
   /// An archive has been read, or the engine has become another one: numerical energy continues from

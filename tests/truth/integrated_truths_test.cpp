@@ -98,5 +98,27 @@ TEST(IntegratedTruths, AMassThatHunts) {
   EXPECT_NEAR(low, expected(scene, "lowest"), 1e-5);
 }
 
+// A rigid ball about an edge: y = (angle q of its centre, speed v, spin w). It rolls while the edge's
+// friction holds 2/7 m g sin q, then slips, until the edge no longer presses.
+TEST(IntegratedTruths, ABallThatRollsAndSlipsOffAnEdge) {
+  constexpr double g = 9.81, r = 0.1, mu = 5., v0 = 0.1, h = 1e-5;
+  const auto pressure = [&](const std::array<double, 3>& y) {
+    return g * std::cos(y[0]) - y[1] * y[1] / r;  // per unit of mass
+  };
+  const auto rolls = [&](const std::array<double, 3>& y) {
+    const double along = 5. / 7. * g * std::sin(y[0]);
+    return std::array{y[1] / r, along, along / r};
+  };
+  const auto slips = [&](const std::array<double, 3>& y) {
+    const double friction = mu * pressure(y);
+    return std::array{y[1] / r, g * std::sin(y[0]) - friction, 2.5 * friction / r};
+  };
+  std::array<double, 3> y{0., v0, v0 / r};
+  while (2. / 7. * g * std::sin(y[0]) <= mu * pressure(y)) y = stepped(y, h, rolls);
+  while (pressure(y) > 0.) y = stepped(y, h, slips);
+  const simulation::Experiment scene = testing::load_scene("scenes/ball_off_step.hook", {});
+  EXPECT_NEAR(y[2], expected(scene, "spin"), 1e-4);
+}
+
 }  // namespace
 }  // namespace hookpoint

@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "integrators/stepper.h"
+#include "reference/engines.h"
 #include "reference/simbody/engine.h"
 #include "tests/support/command.h"
 #include "tests/support/folders.h"
@@ -202,6 +204,31 @@ TEST(NumericalEnergy, OfAPendulumUnderAMotorIsSmallBesideTheMotorsWork) {
               0.06 * first_order);
   // Dry friction has a corner where the joint turns back.
   EXPECT_LT(greatest(pendulum("rk4", 1e-3), "r", 2000), 1e-4 * through);
+}
+
+// A lift whose drive is at its velocity_limit: it holds 103.8 N of 300 N back, 52 J in the second, which is
+// no work. Its weight of 196.2 N takes 98 J.
+TEST(NumericalEnergy, KnowsWhatADriveHoldsBackAtItsVelocityLimit) {
+  const auto lift = [](const std::string& settings, simulation::EngineFactory make) {
+    Running run(
+        "World w { gravity = 9.81; deltat = 1 ms; " + settings +
+            " Robot r { Base.fixed; Chain c { Link l { joint = prismatic; mass = 20 kg; inertia = "
+            "1, 1, 1, 0, 0, 0; torque = 300 N; velocity_limit = 0.5 m/s; } } } }",
+        make);
+    const double* energy = run.port("r.numerical_energy").value;
+    run.step(1000);
+    EXPECT_NEAR(run["r.c.l.rate"], 0.5, 1e-3);
+    EXPECT_NEAR(*energy, 0., 0.05);
+  };
+  for (const integrators::StepperDescription& stepper : integrators::stepper_table()) {
+    SCOPED_TRACE(stepper.name);
+    lift("integrator = " + std::string(stepper.name) + ";", simulation::make_dts);
+  }
+  lift("contact = impulse;", simulation::make_dts);
+  for (const auto& peer : reference::peers()) {
+    SCOPED_TRACE(peer.name);
+    lift("", peer.make);
+  }
 }
 
 // Ground.
