@@ -16,6 +16,8 @@ struct Rim {
 };
 
 inline constexpr std::size_t rim_points = 3;
+/// Sine of the angle between axis and normal below which a rim is level.
+inline constexpr double level_rim = 1e-12;
 
 /// Where a rim presses on a plane of unit normal n: its point that reaches deepest, and those a third
 /// of a turn from it to either side. `center_depth` d0 is that of its centre [m].
@@ -31,7 +33,11 @@ inline std::array<Vector3d, rim_points> deepest_points(const Rim& rim, const Vec
   const double a = rim.radius * norm(down);
   const double level = center_depth > 0. ? max(0., 1. - a / center_depth) : 0.;
   Vector3d deepest = rim.radius * down + (center_depth * level * level) * rim.reference;
-  if (norm(deepest) == 0.) deepest = rim.reference;
+  // `down` of a level rim is rounding.
+  if (norm(deepest) <= level_rim * rim.radius) deepest = rim.reference;
+  deepest = (1. / norm(deepest)) * deepest;
+  deepest -=
+      dot(deepest, rim.axis) * rim.axis;  // of a rim that is nearly level `down` is hardly across
   const Vector3d e1 = (1. / norm(deepest)) * deepest;
   const Vector3d e2 = cross(rim.axis, e1);
   constexpr double cosine = -0.5, sine = 0.8660254037844386;  // of 120 deg

@@ -158,7 +158,7 @@ void ArticulatedRobot::apply_external_forces() {
 
 void ArticulatedRobot::find_torques(std::span<double> torques) const {
   joints_.torques(drives(), state_.joint_positions, state_.joint_rates, torques);
-  const std::span<const double> held_back = speed_limits_.held_back();
+  const std::span<const double> held_back = held_back_torques();
   for (std::size_t i = 0; i < torques.size(); ++i) torques[i] -= held_back[i];
 }
 

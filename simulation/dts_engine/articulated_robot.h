@@ -68,6 +68,8 @@ class ArticulatedRobot {
   /// The joints' torques at the present state: drives as the inputs have them now, and what joints exert
   /// by themselves, less what drives held back in the last accelerate() [N m, N].
   void find_torques(std::span<double> torques) const;
+  /// What drives held back in the last accelerate() [N m, N].
+  std::span<const double> held_back_torques() const { return speed_limits_.held_back(); }
   /// Torques of the drives, as the inputs have them now [N m, N].
   std::span<const double> drives() const {
     return std::span(inputs_->joint_torques).subspan(first_joint_, joint_torques_.size());

@@ -15,6 +15,12 @@ Vector3d rotation_vector(const Matrix3d& before, const Matrix3d& after) {
   return contact::rotation_vector(quaternion_from(after * transpose(before)));
 }
 
+/// Torques of the joints as if no drive held anything back.
+void find_whole_torques(const ArticulatedRobot& robot, std::span<double> torques) {
+  robot.joints().torques(robot.drives(), robot.state().joint_positions, robot.state().joint_rates,
+                         torques);
+}
+
 bool acts(const Wrench<double>& wrench) {
   return !(wrench.force == Vector3d{} && wrench.moment == Vector3d{});
 }
@@ -38,7 +44,7 @@ void WorkMeter::begin(const ArticulatedRobot& robot) {
   if (quadrature_ == Quadrature::nodes) return;
   std::ranges::copy(robot.workspace().bodies, bodies_.begin());
   std::ranges::copy(robot.workspace().external, external_.begin());
-  robot.find_torques(joint_torques_);
+  find_whole_torques(robot, joint_torques_);
 }
 
 void WorkMeter::add(double weight, const ArticulatedRobot& robot) {
@@ -80,9 +86,12 @@ double WorkMeter::work_of_joints(const ArticulatedRobot& robot) {
   double work = 0.;
   const std::span<const double> positions = robot.state().joint_positions;
   if (quadrature_ == Quadrature::ends) {
-    robot.find_torques(torques_);
+    find_whole_torques(robot, torques_);
+    // What drives hold back at their velocity_limit they hold back from start to end.
+    const std::span<const double> held_back = robot.held_back_torques();
     for (std::size_t i = 0; i < torques_.size(); ++i)
-      work += 0.5 * (joint_torques_[i] + torques_[i]) * (positions[i] - joint_positions_[i]);
+      work += (0.5 * (joint_torques_[i] + torques_[i]) - held_back[i]) *
+              (positions[i] - joint_positions_[i]);
     return work;
   }
   for (std::size_t i = 0; i < torques_.size(); ++i) {

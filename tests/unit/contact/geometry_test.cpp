@@ -266,6 +266,24 @@ Ridge nosing() {
   return ridge;
 }
 
+// The axis is off the normal by nothing but rounding, or by little more: the points lie on the rim all the
+// same, in its plane.
+TEST(Rim, ThatIsAllButLevelHasItsPointsInItsPlane) {
+  for (const double tilt : {0., 1e-17, 1e-16, 1e-15, 1e-13, 1e-11, 1e-9, 1e-6, 1e-3}) {
+    const Vector3d normal = (1. / std::sqrt(14.)) * Vector3d{1., 2., 3.};
+    Vector3d axis = normal + Vector3d{0., tilt, 0.};
+    axis = (1. / norm(axis)) * axis;
+    const Vector3d across = (1. / std::sqrt(5.)) * Vector3d{2., -1., 0.};
+    const Vector3d reference = across - dot(across, axis) * axis;
+    const Rim rim{{}, axis, 0.05, (1. / norm(reference)) * reference};
+    for (const double depth : {-1e-3, 0., 1e-3})
+      for (const Vector3d& point : deepest_points(rim, normal, depth)) {
+        EXPECT_NEAR(dot(point, axis), 0., 1e-16) << tilt;
+        EXPECT_NEAR(norm(point), 0.05, 1e-16) << tilt;
+      }
+  }
+}
+
 TEST(RimOnRidge, IsPushedAlongItsRadius) {
   const Vector3d out = unit({-1., 0., 1.});
   const Rim rim{nosing().point + 0.045 * out, {0., 1., 0.}, 0.05, {1., 0., 0.}};

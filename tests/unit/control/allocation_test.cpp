@@ -13,6 +13,7 @@ TEST(ControlAllocation, NoUpdateAllocates) {
     testing::ComponentBench bench(name);
     if (name == "Data" || name == "Controller.Trajectory") bench.text("file", file.path());
     if (name == "Data") bench.text("column", "x");
+    bench.component().set_open_count(3);  // of those that take as many as their formulas name
     if (name == "Expression") bench.text("formula", "previous + sin(a) * min(b, time, 2)");
     if (name == "StateMachine")
       bench.text("program", "state a + hypot(b, 2)\nto 1 time > 0.05\nstate 1\nto 0 time < 0\n");
