@@ -202,8 +202,9 @@ TEST(RecordOption, TakesVectorsAndGlobs) {
   EXPECT_EQ(header("'**.base.contact.force'"),
             "time [s],world.block.base.contact.force.x [N],world.block.base.contact.force.y [N],"
             "world.block.base.contact.force.z [N]");
-  EXPECT_EQ(header("'block.*_energy'"),
-            "time [s],block.kinetic_energy [J],block.potential_energy [J]");
+  EXPECT_EQ(
+      header("'block.*_energy'"),
+      "time [s],block.kinetic_energy [J],block.potential_energy [J],block.numerical_energy [J]");
   const CommandResult none = work.hookpoint("run " + block + " --record 'block.bsae.*' --out no");
   EXPECT_EQ(none.status, 2);
   EXPECT_TRUE(has(none.err, "did you mean `block.base.*`?")) << none.err;
