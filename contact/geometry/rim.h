@@ -33,11 +33,9 @@ inline std::array<Vector3d, rim_points> deepest_points(const Rim& rim, const Vec
   const double a = rim.radius * norm(down);
   const double level = center_depth > 0. ? max(0., 1. - a / center_depth) : 0.;
   Vector3d deepest = rim.radius * down + (center_depth * level * level) * rim.reference;
-  // `down` of a level rim is rounding.
+  // Of a level rim `down` is rounding, and of one that is nearly level it is hardly across the axis.
   if (norm(deepest) <= level_rim * rim.radius) deepest = rim.reference;
-  deepest = (1. / norm(deepest)) * deepest;
-  deepest -=
-      dot(deepest, rim.axis) * rim.axis;  // of a rim that is nearly level `down` is hardly across
+  deepest = tangential((1. / norm(deepest)) * deepest, rim.axis);
   const Vector3d e1 = (1. / norm(deepest)) * deepest;
   const Vector3d e2 = cross(rim.axis, e1);
   constexpr double cosine = -0.5, sine = 0.8660254037844386;  // of 120 deg

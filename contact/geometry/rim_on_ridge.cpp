@@ -57,7 +57,7 @@ RimCrossings rim_on_ridge(const Ridge& ridge, const Rim& rim, double reach) {
   if (std::abs(slope) > parallel) {
     const Vector3d pierced = to_line - (dot(to_line, rim.axis) / slope) * ridge.along;
     const double distance = norm(pierced);
-    if (distance > 0. && distance < 2. * rim.radius + reach)
+    if (distance > parallel * rim.radius && distance < 2. * rim.radius + reach)
       starts[start_count++] = (1. / distance) * pierced;
   }
   const Vector3d flat = tangential(ridge.along, rim.axis);

@@ -129,5 +129,28 @@ TEST(PeerShapes, ASoleStandsOnTheEdgeOfAStep) {
   }
 }
 
+// g (sin - mu cos) = 0.657 m/s^2, as on its corners. Of MuJoCo and Simbody friction creeps, and the table
+// leans.
+TEST(PeerShapes, ATableOnBallsSlides) {
+  for (const reference::Peer& peer : reference::peers()) {
+    if (peer.name == "mujoco" || peer.name == "simbody") continue;
+    Running run(
+        "World w { engine = " + std::string(peer.name) +
+            "; deltat = 1 ms; gravity = 9.81; touch = shapes; Material floor { "
+            "static_friction = 0.5; kinetic_friction = 0.5; } Terrain.Slope hill { angle = 30 deg; "
+            "material = floor; } Robot table { Base.mobile { rest_on = hill; Shape.Box { dimensions = "
+            "0.6, 0.4, 0.05; location = 0, 0, 0.1; mass = 10 kg; contact = false; } For x in "
+            "-0.25, 0.25 { For y in -0.15, 0.15 { Shape.Sphere { radius = 30 mm; location = x, y, 0; "
+            "mass = 0.1 kg; } } } } } }",
+        peer.make);
+    const auto speed = [&] { return std::hypot(run["table.velocity.x"], run["table.velocity.z"]); };
+    run.step(1000);
+    const double before = speed();
+    run.step(1000);
+    EXPECT_NEAR(speed() - before, g * (std::sin(30. * degree) - 0.5 * std::cos(30. * degree)), 0.01)
+        << peer.name;
+  }
+}
+
 }  // namespace
 }  // namespace hookpoint

@@ -293,6 +293,19 @@ TEST(RimOnRidge, IsPushedAlongItsRadius) {
   EXPECT_NEAR(norm(found.crossings[0].normal - out), 0., 1e-9);
 }
 
+// Through the rim's centre but for rounding: no direction from there is that of the ridge.
+TEST(RimOnRidge, ThatPiercesTheCentreHasItsCrossingsOnTheRim) {
+  const Vector3d axis = unit({0.2, 1., 0.3});
+  for (const double beside : {0., 1e-18, 1e-17, 1e-16, 1e-13, 1e-9}) {
+    const Rim rim{nosing().point + Vector3d{1e-17, 0.01, beside}, axis, 0.05,
+                  unit(tangential({1., 0., 0.}, axis))};
+    for (const RimCrossing& at : rim_on_ridge(nosing(), rim, 1.).all()) {
+      EXPECT_NEAR(dot(at.radial, axis), 0., 1e-12) << beside;
+      EXPECT_NEAR(norm(at.place - rim.center), 0.05, 1e-15) << beside;
+    }
+  }
+}
+
 // Standing over the edge with its end, a cylinder is held in the two places where its rim crosses it.
 TEST(RimOnRidge, CrossesTwiceWhereItStandsOverTheEdge) {
   const double d = 1e-4, r = 0.05, over = 0.02;

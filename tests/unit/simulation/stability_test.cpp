@@ -5,7 +5,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "reference/bullet/engine.h"
 #include "reference/engines.h"
@@ -45,6 +47,25 @@ TEST(StabilityBound, OfABoxHasItsFourCornersWhereverItStartsAboveTheGround) {
     EXPECT_NEAR(bound_of(dropped_box(fmt::format("location = 0, 0, {};", height))).step, resting,
                 1e-3 * resting)
         << height;
+}
+
+// Those of a pair with the least effective mass, which the lightest two are where shapes are alike.
+TEST(StabilityBound, OfBodiesThatMeetIsThatOfTheLightestPairInAnyOrder) {
+  const auto bound_of_boxes = [](const std::vector<double>& masses) {
+    std::string robots;
+    for (std::size_t i = 0; i < masses.size(); ++i)
+      robots += fmt::format(
+          "Robot b{} {{ Base.mobile {{ location = {}, 0, 0; Shape.Box {{ dimensions = 0.1, 0.1, 0.1; "
+          "mass = {}; }} }} }} ",
+          i, i, masses[i]);
+    return bound_of("World w { touch = shapes; gravity = 0; " + robots + "}").step;
+  };
+  const double lightest = bound_of_boxes({0.1, 0.2});
+  EXPECT_LT(lightest, 0.9 * bound_of_boxes({0.1, 1.}));
+  std::vector<double> masses{0.1, 0.2, 1., 5.};
+  do {
+    EXPECT_NEAR(bound_of_boxes(masses), lightest, 1e-9 * lightest);
+  } while (std::ranges::next_permutation(masses).found);
 }
 
 // Tilted by 10 deg from 10 cm: it trembled for ever at 1 ms, with a bound of 1.034 ms printed.
