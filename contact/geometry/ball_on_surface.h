@@ -42,7 +42,8 @@ struct BallContacts {
   std::size_t count = 0;
   Holding holding;  ///< of this state
 
-  std::span<const SurfaceContact> all() const { return std::span(contacts).first(count); }
+  std::span<const SurfaceContact> all() const& { return std::span(contacts).first(count); }
+  std::span<const SurfaceContact> all() const&& = delete;  // it would outlive what it shows
 };
 
 /// The face under which a place inside lies whose normal is nearest to `normal`; its nearest face where

@@ -32,25 +32,38 @@ std::optional<EdgeContact> edge_on_ridge(const Ridge& ridge, const BodyEdge& edg
   // The places of the two lines that are nearest to each other.
   const Vector3d between_lines = ridge.point - edge.from;
   const double of_edge = dot(between_lines, e), of_ridge = dot(between_lines, ridge.along);
-  const double s = (of_edge - cosine * of_ridge) / sine_2;
-  const double t = (cosine * of_edge - of_ridge) / sine_2;
-  if (s < -edge_width || s > length + edge_width || t < ridge.from - edge_width ||
-      t > ridge.to + edge_width)
-    return std::nullopt;
+  double s = (of_edge - cosine * of_ridge) / sine_2;
+  double t = (cosine * of_edge - of_ridge) / sine_2;
+  const auto is_past_an_end = [&] {
+    return s < -edge_width || s > length + edge_width || t < ridge.from - edge_width ||
+           t > ridge.to + edge_width;
+  };
+  if (edge.taper == 0. && is_past_an_end()) return std::nullopt;
 
   Vector3d normal = (1. / std::sqrt(sine_2)) * cross(e, ridge.along);
   if (dot(normal, ridge.normals[0] + ridge.normals[1]) < 0.) normal = -normal;
+  if (edge.taper != 0.) {
+    // The balls about the axis reach deepest where their radius grows as their distance does.
+    const double nearest = dot(edge.from + s * e - ridge.point - t * ridge.along, normal);
+    const double rest_2 = sine_2 - square(edge.taper);
+    if (nearest <= 0. || rest_2 <= 0.) return std::nullopt;
+    s += edge.taper * nearest / std::sqrt(sine_2 * rest_2);
+    t = dot(edge.from + s * e - ridge.point, ridge.along);
+    normal = unit(edge.from + s * e - ridge.point - t * ridge.along);
+    if (is_past_an_end()) return std::nullopt;
+  }
   EdgeContact contact;
   const Vector3d on_edge = edge.from + s * e;
   const Vector3d on_ridge = ridge.point + t * ridge.along;
-  contact.depth = edge.radius - dot(on_edge - on_ridge, normal);
+  const double radius = edge.radius + edge.taper * s;
+  contact.depth = radius - dot(on_edge - on_ridge, normal);
   if (contact.depth <= -reach || contact.depth > most_depth) return std::nullopt;
 
   constexpr double nearly_parallel = 0.01;  // sin^2
   contact.weight = std::min(1., sine_2 / nearly_parallel) * between(normal, ridge.outwards);
-  if (edge.radius == 0.) contact.weight *= between(-normal, edge.outwards);
+  if (edge.radius == 0. && edge.taper == 0.) contact.weight *= between(-normal, edge.outwards);
   if (contact.weight <= 0.) return std::nullopt;
-  contact.place = on_edge - edge.radius * normal;
+  contact.place = on_edge - radius * normal;
   contact.normal = normal;
   contact.along = std::clamp(s / length, 0., 1.);
   const auto end_within = [](double at, double from, double to) {
@@ -59,7 +72,7 @@ std::optional<EdgeContact> edge_on_ridge(const Ridge& ridge, const BodyEdge& edg
   contact.at_end = end_within(s, 0., length);
   contact.at_ridge_end = end_within(t, ridge.from, ridge.to);
 
-  if (edge.radius > 0.) return contact;
+  if (edge.radius > 0. || edge.taper != 0.) return contact;
   const std::array<double, 2> cosines{dot(normal, ridge.normals[0]), dot(normal, ridge.normals[1])};
   const Vector3d across = tangential(ridge.outwards[0] - ridge.outwards[1], normal);
   for (std::size_t end = 0; end < 2; ++end) {

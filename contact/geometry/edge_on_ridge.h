@@ -16,6 +16,7 @@ struct BodyEdge {
   double radius = 0.;  ///< [m]
   /// Of the two faces that meet there, as Ridge has them; of a round one none.
   std::array<Vector3d, 2> normals, outwards;
+  double taper = 0.;  ///< of a round one, how its radius grows along it: a cone's
 };
 
 struct EdgeContact {
@@ -31,7 +32,8 @@ struct EdgeContact {
 
 /// Where they cross with a depth above -`reach` and below `most_depth` [m]; none where they do not,
 /// or are parallel: then their ends touch. The depth is along n = e x t / |e x t|, that of the two
-/// directions, which keeps the springs' energy a function of the pose.
+/// directions, which keeps the springs' energy a function of the pose; of a cone along the normal of its
+/// side that is across t.
 ///
 /// Where an end of the edge comes over the ridge, it is the end that touches a face from then on: at
 /// the end the contact's weight has come to cos^2 of the face it leaves less that of the face it

@@ -23,7 +23,8 @@ struct RimCrossings {
   std::array<RimCrossing, most> crossings;
   std::size_t count = 0;
 
-  std::span<const RimCrossing> all() const { return std::span(crossings).first(count); }
+  std::span<const RimCrossing> all() const& { return std::span(crossings).first(count); }
+  std::span<const RimCrossing> all() const&& = delete;  // it would outlive what it shows
 };
 
 /// All of them within the ridge's ends and with a depth above -`reach` [m]. The normal n is along

@@ -1,6 +1,8 @@
-// Balls, capsules and cylinders as what others touch.
+// Solids of revolution as what others touch: balls, capsules, cylinders, truncated cones, discs.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <optional>
 
 #include "math/vector3.h"
@@ -8,12 +10,38 @@
 namespace hookpoint::contact {
 
 /// All places within `radius` of the line from `from` to `to`: a capsule, a ball where they are one
-/// place; with `flat_ends` cut off there: a cylinder.
+/// place. With `flat_ends` it is cut off there, and its radius goes evenly over to `far_radius`: a
+/// cylinder, a truncated cone, and where they are one place a disc without thickness.
 struct RoundSolid {
-  Vector3d from, to;
-  double radius = 0.;
+  Vector3d from, to;       ///< [m]
+  double radius = 0.;      ///< at `from` [m]
+  double far_radius = 0.;  ///< at `to`; a capsule's is `radius` [m]
+  Vector3d axis;           ///< unit, from `from` to `to`; of a ball any
   bool flat_ends = false;
+
+  double length() const { return norm(to - from); }
+  bool is_disc() const { return flat_ends && length() == 0.; }
 };
+
+/// A flat end: 0 at `from`, 1 at `to`.
+struct RoundEnd {
+  Vector3d center;     ///< [m]
+  Vector3d normal;     ///< unit, out of the solid
+  double radius = 0.;  ///< [m]
+
+  double height(const Vector3d& place) const { return dot(place - center, normal); }
+};
+RoundEnd end_of(const RoundSolid& solid, std::size_t end);
+
+/// Of a place beside the axis of a solid with flat ends: the side's normal there, and the height over
+/// it, < 0 inside [m].
+struct OverSide {
+  Vector3d normal;      ///< unit
+  double height = 0.;   ///< over the cone or cylinder of which the side is a part [m]
+  bool within = false;  ///< whether the nearest place of that lies between the ends
+};
+/// None on the axis, where no way out is the nearest.
+std::optional<OverSide> over_side(const RoundSolid& solid, const Vector3d& place);
 
 struct RoundContact {
   Vector3d normal;       ///< unit, out of the solid
@@ -26,13 +54,30 @@ struct RoundContact {
 std::optional<RoundContact> ball_on_round(const RoundSolid& solid, const Vector3d& center,
                                           double radius, double reach);
 
+/// The same against a disc, which has no inside: it is left by the end through which the centre came,
+/// 0 or 1.
+std::optional<RoundContact> ball_on_disc(const RoundSolid& disc, const Vector3d& center,
+                                         double radius, double reach, std::size_t came_through);
+
+/// A side of a solid of revolution as the envelope of balls about its axis: that of a ball goes evenly
+/// from `radius` at `from` to `far_radius` at `to`.
+struct RoundSide {
+  Vector3d from, to;       ///< [m]
+  double radius = 0.;      ///< [m]
+  double far_radius = 0.;  ///< [m]
+};
+/// Of a truncated cone, or a cylinder, whose radii at its ends are those. A ball about c touches the
+/// side at s = c - m r(s), m = dr/ds, with the radius r sqrt(1 + m^2).
+RoundSide side_of(const RoundSolid& solid);
+
 /// Two round sides that cross, seen from the second: none where their axes are parallel or nearest at
-/// an end, where balls and rims touch.
-struct CrossedAxes {
+/// an end, where balls and rims touch. With u from the second's axis to the first's, and k the growth
+/// of a radius along an axis e, the depth is greatest where u . e_1 = k_1 and u . e_2 = -k_2.
+struct CrossedSides {
   Vector3d place;  ///< on the first one's surface [m]
   RoundContact contact;
 };
-std::optional<CrossedAxes> crossed_axes(const RoundSolid& first, const RoundSolid& second,
-                                        double reach);
+std::optional<CrossedSides> crossed_sides(const RoundSide& first, const RoundSide& second,
+                                          double reach);
 
 }  // namespace hookpoint::contact

@@ -40,7 +40,8 @@ struct Face {
   std::array<FaceEdge, most_edges> edges;
   std::size_t edge_count = 0;
 
-  std::span<const FaceEdge> all_edges() const { return std::span(edges).first(edge_count); }
+  std::span<const FaceEdge> all_edges() const& { return std::span(edges).first(edge_count); }
+  std::span<const FaceEdge> all_edges() const&& = delete;  // it would outlive what it shows
   /// Height of a place over the face's plane, < 0 inside [m].
   double height(const Vector3d& place) const { return dot(place - point, normal); }
 };
@@ -66,7 +67,8 @@ struct Corner {
   std::size_t edge_count = 0;
   int material = 0;
 
-  std::span<const Vector3d> all_edges() const { return std::span(edges).first(edge_count); }
+  std::span<const Vector3d> all_edges() const& { return std::span(edges).first(edge_count); }
+  std::span<const Vector3d> all_edges() const&& = delete;  // it would outlive what it shows
 };
 
 /// A box along the frame's axes [m].

@@ -7,9 +7,9 @@
 namespace hookpoint::contact {
 namespace {
 
-using Components = std::array<double, 3>;  // along the principal axes
+using AlongAxes = std::array<double, 3>;  // along the principal axes
 
-double size(const Components& a) { return std::hypot(a[0], a[1], a[2]); }
+double size(const AlongAxes& a) { return std::hypot(a[0], a[1], a[2]); }
 
 Quaterniond advanced(const Quaterniond& q, double h, const Quaterniond& rate) {
   return {q.w + h * rate.w, q.x + h * rate.x, q.y + h * rate.y, q.z + h * rate.z};
@@ -52,17 +52,17 @@ FlightState fly(const FlightInertia& body, const FlightState& state, const Fligh
 
 MotionBound motion_bound(const FlightInertia& body, const FlightState& state,
                          const FlightLoad& load, double duration) {
-  const Components I{body.moments.x, body.moments.y, body.moments.z};
+  const AlongAxes I{body.moments.x, body.moments.y, body.moments.z};
   const Vector3d w = angular_velocity(body, state);
   const Vector3d w_P = transpose_times(body.R_BP, rotate(conjugate(state.orientation), w));
-  const Components start{std::abs(w_P.x), std::abs(w_P.y), std::abs(w_P.z)};
+  const AlongAxes start{std::abs(w_P.x), std::abs(w_P.y), std::abs(w_P.z)};
   const double torque = norm(load.torque);
   const auto gyration = [&](std::size_t i) { return std::abs(I[(i + 1) % 3] - I[(i + 2) % 3]); };
 
   // sqrt(2 E) and its growth: d sqrt(2 E)/dt <= |tau|/sqrt(I_min).
   const double energy = std::sqrt(std::max(0., dot(state.angular_momentum, w))) +
                         duration * torque / std::sqrt(*std::min_element(I.begin(), I.end()));
-  Components speed{};  // bounds of |w_i|
+  AlongAxes speed{};  // bounds of |w_i|
   for (std::size_t i = 0; i < 3; ++i) speed[i] = energy / std::sqrt(I[i]);
   // Of I_i dw_i = (I_j - I_k) w_j w_k + tau_i, from bounds that hold a bound that holds.
   const auto acceleration = [&](std::size_t i) {
@@ -73,10 +73,10 @@ MotionBound motion_bound(const FlightInertia& body, const FlightState& state,
     for (std::size_t i = 0; i < 3; ++i)
       speed[i] = std::min(speed[i], start[i] + duration * acceleration(i));
   }
-  const Components alphas{acceleration(0), acceleration(1), acceleration(2)};
+  const AlongAxes alphas{acceleration(0), acceleration(1), acceleration(2)};
   const double speed_all = size(speed);
   // The derivative of Euler's equations in body axes, where tau turns with -w.
-  Components alpha_rates{};
+  AlongAxes alpha_rates{};
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
     alpha_rates[i] =

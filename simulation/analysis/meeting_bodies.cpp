@@ -26,7 +26,7 @@ std::set<int> materials_of(const ShapeObject& object) {
   };
   add(object.balls);
   add(object.rims);
-  add(object.axes);
+  add(object.sides);
   add(object.polyhedra);
   add(object.rounds);
   return all;

@@ -6,6 +6,7 @@
 
 #include "contact/geometry/folds.h"
 #include "contact/geometry/rim_on_ridge.h"
+#include "contact/geometry/rim_on_round.h"
 #include "simulation/experiment/robot_tree.h"
 
 namespace hookpoint::simulation {
@@ -13,16 +14,19 @@ namespace {
 
 /// Numbers of features of a kind begin here, so that keys of different kinds differ.
 constexpr std::int64_t kind_size = std::int64_t{1} << 40;
-enum Kind : std::int64_t { ball_kind, rim_kind, corner_kind, edge_kind, axis_kind, round_kind };
-constexpr std::int64_t of_a_ridge = kind_size / 2;  // of key.other, where it is a ridge's
+enum Kind : std::int64_t { ball_kind, rim_kind, corner_kind, edge_kind, side_kind, round_kind };
+constexpr std::int64_t of_a_ridge =
+    kind_size / 2;  // of key.other, where it is a ridge's or a rim's
 constexpr std::int64_t part_size = std::int64_t{1} << 28;
+/// How thick the ground is [m].
+constexpr double solid_ground = std::numeric_limits<double>::infinity();
 std::int64_t numbered(Kind kind, std::size_t part, std::int64_t number = 0) {
   return kind * kind_size + static_cast<std::int64_t>(part) * part_size + number;
 }
 
 /// The part that a number was made of.
 std::size_t part_of(std::int64_t number) {
-  return static_cast<std::size_t>(number % kind_size / part_size);
+  return static_cast<std::size_t>(number % of_a_ridge / part_size);
 }
 
 bool overlap(const contact::Region& a, const contact::Region& b) {
@@ -113,7 +117,7 @@ bool ShapeContact::is_tracked() const { return key.feature < kind_size; }
 
 bool ShapeContact::fades() const {
   const std::int64_t kind = key.feature / kind_size;
-  return kind == edge_kind || kind == axis_kind ||
+  return kind == edge_kind || kind == side_kind ||
          (kind == rim_kind && key.other % kind_size >= of_a_ridge);
 }
 
@@ -253,14 +257,15 @@ double ShapeDetection::radius_of(const ContactKey& key) const {
     case rim_kind:
       radius = a.rims[part].rim.radius;
       break;
-    case axis_kind:
-      radius = a.axes[part].radius;
+    case side_kind:
+      radius = std::max(a.sides[part].side.radius, a.sides[part].side.far_radius);
       break;
     default:
       break;
   }
   if (key.other / kind_size == round_kind)
-    return std::max(radius, b.rounds[part_of(key.other)].solid.radius);
+    return std::max({radius, b.rounds[part_of(key.other)].solid.radius,
+                     b.rounds[part_of(key.other)].solid.far_radius});
   return radius;
 }
 
@@ -301,6 +306,21 @@ void ShapeDetection::ball_on_surface(const contact::Surface& surface, std::size_
   }
 }
 
+// By the end that holds it, else the one over which it was before.
+std::optional<contact::RoundContact> ShapeDetection::on_disc(const contact::RoundSolid& disc,
+                                                             const BallFeature& ball,
+                                                             const ContactKey& key,
+                                                             contact::Holding& held) const {
+  const auto a = static_cast<std::size_t>(key.a), b = static_cast<std::size_t>(key.b);
+  held = memory_->holding(key);
+  if (held.count == 0) {
+    const Vector3d before = memory_->before(b).to_object(memory_->before(a).to_world(ball.center));
+    held = {{contact::end_of(disc, 1).height(before) > 0. ? 1 : 0}, 1};
+  }
+  return contact::ball_on_disc(disc, motions_[b].to_object(motions_[a].to_world(ball.center)),
+                               ball.radius, reach_, static_cast<std::size_t>(held.faces[0]));
+}
+
 void ShapeDetection::balls_on(std::size_t a, std::size_t b) {
   const ShapeObject &own = objects_[a], &other = objects_[b];
   const auto wide = [](const BallFeature& ball) { return ball.radius > 0.; };
@@ -316,22 +336,20 @@ void ShapeDetection::balls_on(std::size_t a, std::size_t b) {
     for (std::size_t p = 0; p < other.rounds.size(); ++p) {
       const RoundFeature& round = other.rounds[p];
       const Vector3d center = motions_[a].to_world(ball.center);
-      const auto at =
-          contact::ball_on_round(round.solid, motions_[b].to_object(center), ball.radius, reach_);
+      const ContactKey key{static_cast<std::int64_t>(a), static_cast<std::int64_t>(b), feature,
+                           numbered(round_kind, p)};
+      contact::Holding held;
+      const auto at = round.solid.is_disc()
+                          ? on_disc(round.solid, ball, key, held)
+                          : contact::ball_on_round(round.solid, motions_[b].to_object(center),
+                                                   ball.radius, reach_);
       if (!at) continue;
       // Two balls, or ends of capsules, meet once; and a ball meets a polyhedron's corner itself.
       const bool as_ball = !round.solid.flat_ends && !at->on_side;
       if (as_ball && (wide(ball) ? a > b : ball.is_corner)) continue;
       const Vector3d normal = motions_[b].R_WB * at->normal;
-      add({{static_cast<std::int64_t>(a), static_cast<std::int64_t>(b), feature,
-            numbered(round_kind, p)},
-           center - ball.radius * normal,
-           normal,
-           at->depth,
-           1.,
-           ball.material,
-           material_of(b, center, round.material),
-           {}});
+      add({key, center - ball.radius * normal, normal, at->depth, 1., ball.material,
+           material_of(b, center, round.material), held});
     }
   }
 }
@@ -351,8 +369,8 @@ void ShapeDetection::corners_on(std::size_t a, std::size_t b) {
       const RoundFeature& round = other.rounds[p];
       const Vector3d place = motions_[a].to_world(corner.position);
       const auto at = contact::ball_on_round(round.solid, motions_[b].to_object(place), 0., reach_);
-      // The ball of a capsule's end meets corners as a ball.
-      if (!at || !at->on_side) continue;
+      // The ball of a capsule's end meets corners as a ball; of a disc there is no inside.
+      if (!at || (!round.solid.flat_ends && !at->on_side) || round.solid.is_disc()) continue;
       add({{static_cast<std::int64_t>(a), static_cast<std::int64_t>(b), feature,
             numbered(round_kind, p)},
            place,
@@ -368,17 +386,10 @@ void ShapeDetection::corners_on(std::size_t a, std::size_t b) {
 
 void ShapeDetection::rim_on_surface(const contact::Surface& surface, std::size_t a, std::size_t b,
                                     const RimFeature& feature_of_a, std::int64_t feature,
-                                    std::int64_t other, int material_b) {
+                                    std::int64_t other, int material_b, double half_thickness) {
   const ObjectMotion& frame = motions_[b];
-  const auto to_frame = [&](const Vector3d& direction) {
-    return transpose_times(frame.R_WB, motions_[a].R_WB * direction);
-  };
-  const auto place_in_frame = [&](const Vector3d& p) {
-    return frame.to_object(motions_[a].to_world(p));
-  };
-  const contact::Rim rim{place_in_frame(feature_of_a.rim.center), to_frame(feature_of_a.rim.axis),
-                         feature_of_a.rim.radius, to_frame(feature_of_a.rim.reference)};
-  const Vector3d middle = place_in_frame(feature_of_a.middle);
+  const contact::ShapeRim shape = rim_in(a, feature_of_a, frame);
+  const contact::Rim& rim = shape.rim;
   const auto touch = [&](const Vector3d& point, const Vector3d& normal, double depth, double weight,
                          std::size_t number, std::int64_t of_b) {
     const Vector3d place = frame.to_world(point);
@@ -396,7 +407,7 @@ void ShapeDetection::rim_on_surface(const contact::Surface& surface, std::size_t
   std::array<RimOnFaces, contact::rim_points> on_faces;
   surface.faces(
       contact::region_about(rim.center, rim.radius + reach_), [&](const contact::Face& face) {
-        if (face.height(middle) <= 0.) return;  // the shape comes from the other side
+        if (!shape.is_over(face.height(shape.middle), half_thickness)) return;
         const auto points = contact::deepest_points(rim, face.normal, -face.height(rim.center));
         for (std::size_t i = 0; i < points.size(); ++i) {
           const double depth = -face.height(points[i]);
@@ -413,7 +424,6 @@ void ShapeDetection::rim_on_surface(const contact::Surface& surface, std::size_t
         touch(on_faces[i].points[k], at.normal, at.depth, at.part, i, other + on_faces[i].ids[k]);
     }
   }
-  const Vector3d end = dot(rim.center - middle, rim.axis) > 0. ? rim.axis : -rim.axis;
   surface.ridges(
       contact::region_about(rim.center, rim.radius + reach_), [&](const contact::Ridge& ridge) {
         const contact::RimCrossings found = contact::rim_on_ridge(ridge, rim, reach_);
@@ -421,12 +431,68 @@ void ShapeDetection::rim_on_surface(const contact::Surface& surface, std::size_t
           const contact::RimCrossing& at = found.crossings[i];
           if (at.depth > rim.radius) continue;
           // Between the side and the end of the shape that meet in the rim.
-          const double weight = contact::between(at.normal, ridge.outwards) *
-                                contact::between(-at.normal, {at.radial, end});
+          const double weight =
+              contact::between(at.normal, ridge.outwards) *
+              contact::between(-at.normal, {at.radial, shape.end_against(at.normal)});
           if (weight > 0.)
             touch(at.place, at.normal, at.depth, weight, i, other + of_a_ridge + ridge.id);
         }
       });
+}
+
+void ShapeDetection::rim_on_round(const RoundFeature& round, std::size_t a, std::size_t b,
+                                  const RimFeature& feature_of_a, std::int64_t feature,
+                                  std::int64_t other) {
+  const contact::ShapeRim rim = rim_in(a, feature_of_a, motions_[b]);
+  const std::size_t came_over =
+      round.solid.is_disc() ? end_over_which(round.solid, a, b, feature_of_a, feature, other) : 0;
+  // Two rims cross each other once.
+  const contact::RimContacts found =
+      contact::rim_on_round(round.solid, rim, reach_, a < b, came_over);
+  for (const contact::RimContact& at : found.all()) {
+    const Vector3d place = motions_[b].to_world(at.place);
+    const std::int64_t of_b =
+        at.kind == contact::RimContact::Kind::rim ? of_a_ridge + static_cast<std::int64_t>(at.end)
+        : at.kind == contact::RimContact::Kind::side ? 2
+                                                     : static_cast<std::int64_t>(at.end);
+    add({{static_cast<std::int64_t>(a), static_cast<std::int64_t>(b),
+          feature + static_cast<std::int64_t>(at.number), other + of_b},
+         place,
+         motions_[b].R_WB * at.normal,
+         at.depth,
+         at.weight,
+         feature_of_a.material,
+         material_of(b, place, round.material),
+         {{static_cast<std::int64_t>(at.end)}, 1}});
+  }
+}
+
+// That which holds a point of the rim, else the one over which the shape was before.
+std::size_t ShapeDetection::end_over_which(const contact::RoundSolid& disc, std::size_t a,
+                                           std::size_t b, const RimFeature& rim,
+                                           std::int64_t feature, std::int64_t other) const {
+  for (const std::int64_t end : {0, 1}) {
+    for (std::int64_t number = 0; number < std::int64_t{contact::rim_points}; ++number) {
+      const ContactKey key{static_cast<std::int64_t>(a), static_cast<std::int64_t>(b),
+                           feature + number, other + end};
+      if (memory_->holding(key).count > 0) return static_cast<std::size_t>(end);
+    }
+  }
+  const Vector3d before = memory_->before(b).to_object(memory_->before(a).to_world(rim.middle));
+  return contact::end_of(disc, 1).height(before) > 0. ? 1 : 0;
+}
+
+contact::ShapeRim ShapeDetection::rim_in(std::size_t object, const RimFeature& of,
+                                         const ObjectMotion& frame) const {
+  const auto direction = [&](const Vector3d& of_object) {
+    return transpose_times(frame.R_WB, motions_[object].R_WB * of_object);
+  };
+  const auto place = [&](const Vector3d& p) {
+    return frame.to_object(motions_[object].to_world(p));
+  };
+  return {
+      {place(of.rim.center), direction(of.rim.axis), of.rim.radius, direction(of.rim.reference)},
+      place(of.middle)};
 }
 
 void ShapeDetection::rims_on(std::size_t a, std::size_t b) {
@@ -434,41 +500,51 @@ void ShapeDetection::rims_on(std::size_t a, std::size_t b) {
   for (std::size_t k = 0; k < own.rims.size(); ++k) {
     const std::int64_t feature = numbered(rim_kind, k);
     if (other.ground && !other.ground->is_rough())
-      rim_on_surface(*other.ground, a, b, own.rims[k], feature, 0, no_material);
+      rim_on_surface(*other.ground, a, b, own.rims[k], feature, 0, no_material, solid_ground);
     for (std::size_t p = 0; p < other.polyhedra.size(); ++p)
       rim_on_surface(*other.polyhedra[p].solid, a, b, own.rims[k], feature,
-                     numbered(corner_kind, p), other.polyhedra[p].material);
+                     numbered(corner_kind, p), other.polyhedra[p].material,
+                     other.polyhedra[p].half_thickness);
+    for (std::size_t p = 0; p < other.rounds.size(); ++p)
+      rim_on_round(other.rounds[p], a, b, own.rims[k], feature, numbered(round_kind, p));
   }
 }
 
-// Axes of a across the ridges of `surface`, a part of b.
-void ShapeDetection::axes_on_ridges(const contact::Surface& surface, std::size_t a, std::size_t b,
-                                    std::int64_t other, int material_b) {
+// Round sides of a across the ridges of `surface`, a part of b.
+void ShapeDetection::sides_on_ridges(const contact::Surface& surface, std::size_t a, std::size_t b,
+                                     std::int64_t other, int material_b) {
   const ObjectMotion& frame = motions_[b];
   const ShapeObject& own = objects_[a];
-  if (own.axes.empty()) return;
+  if (own.sides.empty()) return;
   surface.ridges(near_box(a, frame), [&](const contact::Ridge& ridge) {
-    for (std::size_t k = 0; k < own.axes.size(); ++k) {
-      const AxisFeature& axis = own.axes[k];
-      const contact::BodyEdge edge{frame.to_object(motions_[a].to_world(axis.from)),
-                                   frame.to_object(motions_[a].to_world(axis.to)),
-                                   axis.radius,
-                                   {},
-                                   {}};
-      const auto at = contact::edge_on_ridge(ridge, edge, reach_, 2. * axis.radius);
+    for (std::size_t k = 0; k < own.sides.size(); ++k) {
+      const contact::RoundSide side = side_in(a, k, frame);
+      const double widening = side.far_radius - side.radius;
+      const contact::BodyEdge edge{side.from, side.to, side.radius,
+                                   {},        {},      widening / norm(side.to - side.from)};
+      const double widest = std::max(side.radius, side.far_radius);
+      const auto at = contact::edge_on_ridge(ridge, edge, reach_, 2. * widest);
       if (!at) continue;
       const Vector3d place = frame.to_world(at->place);
-      add({{static_cast<std::int64_t>(a), static_cast<std::int64_t>(b), numbered(axis_kind, k),
+      add({{static_cast<std::int64_t>(a), static_cast<std::int64_t>(b), numbered(side_kind, k),
             other + ridge.id},
            place,
            frame.R_WB * at->normal,
            at->depth,
            at->weight,
-           axis.material,
+           own.sides[k].material,
            material_of(b, place, material_b),
            {}});
     }
   });
+}
+
+contact::RoundSide ShapeDetection::side_in(std::size_t object, std::size_t side,
+                                           const ObjectMotion& frame) const {
+  contact::RoundSide at = objects_[object].sides[side].side;
+  at.from = frame.to_object(motions_[object].to_world(at.from));
+  at.to = frame.to_object(motions_[object].to_world(at.to));
+  return at;
 }
 
 contact::BodyEdge ShapeDetection::edge_of(const PolyhedronFeature& polyhedron, std::size_t ridge,
@@ -579,26 +655,23 @@ void ShapeDetection::edges_on_ridges(const contact::Surface& surface, double hal
   });
 }
 
-void ShapeDetection::axes_on_axes(std::size_t a, std::size_t b) {
+void ShapeDetection::sides_on_sides(std::size_t a, std::size_t b) {
   const ShapeObject &own = objects_[a], &other = objects_[b];
   const ObjectMotion& frame = motions_[b];
-  for (std::size_t k = 0; k < own.axes.size(); ++k) {
-    const AxisFeature& first = own.axes[k];
-    const contact::RoundSolid solid{frame.to_object(motions_[a].to_world(first.from)),
-                                    frame.to_object(motions_[a].to_world(first.to)), first.radius};
-    for (std::size_t l = 0; l < other.axes.size(); ++l) {
-      const AxisFeature& second = other.axes[l];
-      const auto at = contact::crossed_axes(solid, {second.from, second.to, second.radius}, reach_);
+  for (std::size_t k = 0; k < own.sides.size(); ++k) {
+    const contact::RoundSide first = side_in(a, k, frame);
+    for (std::size_t l = 0; l < other.sides.size(); ++l) {
+      const auto at = contact::crossed_sides(first, other.sides[l].side, reach_);
       if (!at) continue;
       const Vector3d place = frame.to_world(at->place);
-      add({{static_cast<std::int64_t>(a), static_cast<std::int64_t>(b), numbered(axis_kind, k),
-            numbered(axis_kind, l)},
+      add({{static_cast<std::int64_t>(a), static_cast<std::int64_t>(b), numbered(side_kind, k),
+            numbered(side_kind, l)},
            place,
            frame.R_WB * at->contact.normal,
            at->contact.depth,
            1.,
-           first.material,
-           material_of(b, place, second.material),
+           own.sides[k].material,
+           material_of(b, place, other.sides[l].material),
            {}});
     }
   }
@@ -606,21 +679,20 @@ void ShapeDetection::axes_on_axes(std::size_t a, std::size_t b) {
 
 void ShapeDetection::edges_on(std::size_t a, std::size_t b) {
   const ShapeObject &own = objects_[a], &other = objects_[b];
-  constexpr double solid_ground = std::numeric_limits<double>::infinity();
   if (other.ground) {
-    axes_on_ridges(*other.ground, a, b, 0, no_material);
+    sides_on_ridges(*other.ground, a, b, 0, no_material);
     edges_on_ridges(*other.ground, solid_ground, a, b, 0, no_material);
   }
   for (std::size_t p = 0; p < other.polyhedra.size(); ++p) {
     const PolyhedronFeature& polyhedron = other.polyhedra[p];
-    axes_on_ridges(*polyhedron.solid, a, b, numbered(edge_kind, p), polyhedron.material);
+    sides_on_ridges(*polyhedron.solid, a, b, numbered(edge_kind, p), polyhedron.material);
     edges_on_ridges(*polyhedron.solid, polyhedron.half_thickness, a, b, numbered(edge_kind, p),
                     polyhedron.material);
   }
   for (std::size_t p = 0; p < own.polyhedra.size(); ++p)
-    axes_on_ridges(*own.polyhedra[p].solid, b, a, numbered(edge_kind, p),
-                   own.polyhedra[p].material);
-  axes_on_axes(a, b);
+    sides_on_ridges(*own.polyhedra[p].solid, b, a, numbered(edge_kind, p),
+                    own.polyhedra[p].material);
+  sides_on_sides(a, b);
 }
 
 }  // namespace hookpoint::simulation

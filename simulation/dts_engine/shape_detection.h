@@ -9,6 +9,7 @@
 
 #include "contact/geometry/ball_on_surface.h"
 #include "contact/geometry/edge_on_ridge.h"
+#include "contact/geometry/rim_on_round.h"
 #include "dts/workspace.h"
 #include "simulation/dts_engine/shape_object.h"
 #include "simulation/engine_interface/engine.h"
@@ -114,15 +115,25 @@ class ShapeDetection {
                        int material_b);
   void rim_on_surface(const contact::Surface& surface, std::size_t a, std::size_t b,
                       const RimFeature& rim, std::int64_t feature, std::int64_t other,
-                      int material_b);
-  void axes_on_ridges(const contact::Surface& surface, std::size_t a, std::size_t b,
-                      std::int64_t other, int material_b);
+                      int material_b, double half_thickness);
+  std::size_t end_over_which(const contact::RoundSolid& disc, std::size_t a, std::size_t b,
+                             const RimFeature& rim, std::int64_t feature, std::int64_t other) const;
+  void rim_on_round(const RoundFeature& round, std::size_t a, std::size_t b, const RimFeature& rim,
+                    std::int64_t feature, std::int64_t other);
+  contact::ShapeRim rim_in(std::size_t object, const RimFeature& of,
+                           const ObjectMotion& frame) const;
+  std::optional<contact::RoundContact> on_disc(const contact::RoundSolid& disc,
+                                               const BallFeature& ball, const ContactKey& key,
+                                               contact::Holding& held) const;
+  void sides_on_ridges(const contact::Surface& surface, std::size_t a, std::size_t b,
+                       std::int64_t other, int material_b);
+  contact::RoundSide side_in(std::size_t object, std::size_t side, const ObjectMotion& frame) const;
   void edges_on_ridges(const contact::Surface& surface, double half_thickness, std::size_t a,
                        std::size_t b, std::int64_t other, int material_b);
   bool is_corners(const contact::EdgeContact& at, const contact::Surface& surface,
                   const contact::Ridge& ridge, const contact::Polyhedron& solid, std::size_t edge,
                   std::size_t a, const ObjectMotion& frame) const;
-  void axes_on_axes(std::size_t a, std::size_t b);
+  void sides_on_sides(std::size_t a, std::size_t b);
   void find_edges(std::size_t a, const ObjectMotion& frame);
   contact::BodyEdge edge_of(const PolyhedronFeature& polyhedron, std::size_t ridge, std::size_t a,
                             const ObjectMotion& frame) const;

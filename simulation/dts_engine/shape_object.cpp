@@ -25,7 +25,8 @@ class FeatureMaker {
 
   void operator()(const Sphere& sphere) const {
     object_.balls.push_back({place({}), sphere.radius, shape_.material, shape_.first_point});
-    object_.rounds.push_back({{place({}), place({}), sphere.radius, false}, shape_.material});
+    object_.rounds.push_back(
+        {round({}, {}, sphere.radius, sphere.radius, {0., 0., 1.}, false), shape_.material});
   }
   void operator()(const Box& box) const {
     const contact::Polyhedron local = contact::Polyhedron::box(box.dimensions);
@@ -39,10 +40,8 @@ class FeatureMaker {
   void operator()(const Cylinder& cylinder) const {
     const Vector3d end{0., 0., 0.5 * cylinder.length};
     add_rim(-end, {0., 0., 1.}, cylinder.radius, {});
-    if (cylinder.length == 0.) return;
-    add_rim(end, {0., 0., 1.}, cylinder.radius, {});
-    object_.axes.push_back({place(-end), place(end), cylinder.radius, shape_.material});
-    object_.rounds.push_back({{place(-end), place(end), cylinder.radius, true}, shape_.material});
+    if (cylinder.length > 0.) add_rim(end, {0., 0., 1.}, cylinder.radius, {});
+    add_round(round(-end, end, cylinder.radius, cylinder.radius, {0., 0., 1.}, true));
   }
   void operator()(const Legcone& cone) const {
     const Vector3d far{cone.length, 0., 0.}, middle = 0.5 * far;
@@ -53,17 +52,14 @@ class FeatureMaker {
       else
         object_.balls.push_back({place(end), 0., shape_.material});
     }
-    const double radius = std::min(cone.proximal_radius, cone.distal_radius);
-    if (radius > 0.)
-      object_.rounds.push_back({{place({}), place(far), radius, true}, shape_.material});
+    if (std::max(cone.proximal_radius, cone.distal_radius) > 0.)
+      add_round(round({}, far, cone.proximal_radius, cone.distal_radius, {1., 0., 0.}, true));
   }
   void operator()(const Capsule& capsule) const {
     const Vector3d end{0., 0., 0.5 * capsule.length};
-    const Vector3d from = place(-end), to = place(end);
-    object_.balls.push_back({from, capsule.radius, shape_.material, shape_.first_point});
-    object_.balls.push_back({to, capsule.radius, shape_.material, shape_.first_point + 1});
-    object_.axes.push_back({from, to, capsule.radius, shape_.material});
-    object_.rounds.push_back({{from, to, capsule.radius, false}, shape_.material});
+    object_.balls.push_back({place(-end), capsule.radius, shape_.material, shape_.first_point});
+    object_.balls.push_back({place(end), capsule.radius, shape_.material, shape_.first_point + 1});
+    add_round(round(-end, end, capsule.radius, capsule.radius, {0., 0., 1.}, false));
   }
   void operator()(const Hull& hull) const {
     std::vector<Vector3d> vertices;
@@ -81,6 +77,15 @@ class FeatureMaker {
  private:
   Vector3d place(const Vector3d& p_SP) const {
     return shape_.location + rotate(shape_.orientation, p_SP);
+  }
+  contact::RoundSolid round(const Vector3d& from, const Vector3d& to, double radius,
+                            double far_radius, const Vector3d& axis, bool flat_ends) const {
+    return {place(from), place(to), radius, far_radius, rotate(shape_.orientation, axis),
+            flat_ends};
+  }
+  void add_round(const contact::RoundSolid& solid) const {
+    object_.rounds.push_back({solid, shape_.material});
+    if (!solid.is_disc()) object_.sides.push_back({contact::side_of(solid), shape_.material});
   }
   void add_rim(const Vector3d& center, const Vector3d& axis, double radius,
                const Vector3d& middle) const {
@@ -125,9 +130,9 @@ void measure(ShapeObject& object) {
   object.bounds = {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
   for (const BallFeature& ball : object.balls) include(ball.center, ball.radius, object.bounds);
   for (const RimFeature& at : object.rims) include(at.rim.center, at.rim.radius, object.bounds);
-  for (const AxisFeature& axis : object.axes) {
-    include(axis.from, axis.radius, object.bounds);
-    include(axis.to, axis.radius, object.bounds);
+  for (const RoundFeature& round : object.rounds) {
+    include(round.solid.from, round.solid.radius, object.bounds);
+    include(round.solid.to, round.solid.far_radius, object.bounds);
   }
 }
 
@@ -167,7 +172,7 @@ bool is_plane(const contact::TerrainDescription& terrain) {
 }
 
 std::size_t ShapeObject::place_count() const {
-  std::size_t count = balls.size() + contact::rim_points * rims.size() + 2 * axes.size();
+  std::size_t count = balls.size() + contact::rim_points * rims.size() + 2 * sides.size();
   for (const PolyhedronFeature& polyhedron : polyhedra)
     count += polyhedron.solid->all_ridges().size();
   return count;

@@ -33,10 +33,9 @@ struct RimFeature {
   Vector3d middle;  ///< of the shape: what it touches lies before this place [m]
   int material = no_material;
 };
-/// The axis of a capsule or a cylinder, rounded with its radius.
-struct AxisFeature {
-  Vector3d from, to;   ///< [m]
-  double radius = 0.;  ///< [m]
+/// The side of a capsule, a cylinder or a cone.
+struct SideFeature {
+  contact::RoundSide side;
   int material = no_material;
 };
 struct PolyhedronFeature {
@@ -59,7 +58,7 @@ struct ShapeObject {
   std::unique_ptr<contact::Surface> ground;  ///< of the terrain
   std::vector<BallFeature> balls;
   std::vector<RimFeature> rims;
-  std::vector<AxisFeature> axes;
+  std::vector<SideFeature> sides;
   std::vector<PolyhedronFeature> polyhedra;
   std::vector<RoundFeature> rounds;
   int ground_material = no_material;  ///< of a terrain, where its surface says none

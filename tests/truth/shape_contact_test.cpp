@@ -204,6 +204,166 @@ TEST(ShapeContact, BoxesRestOnBoxes) {
   }
 }
 
+// A tin on a post, and one on it, rim upon rim: three places of k each on the post's end; of two rims
+// that lie on each other, three of either.
+TEST(ShapeContact, TinsStandOnEachOther) {
+  const std::string post =
+      flat +
+      "Obstacle.Cylinder post { radius = 0.1; length = 0.2; location = 0, 0, 0.1; material = "
+      "ground; } ";
+  const std::string tin = "Shape.Cylinder { radius = 0.05; length = 0.1; mass = 1 kg; } } } ";
+  Running pile(
+      yard("deltat = 0.1 ms;", post + "Robot a { Base.mobile { location = 0.03, 0, 0.25; " + tin +
+                                   "Robot b { Base.mobile { location = 0.03, 0, 0.35; " + tin));
+  pile.step(10000);
+  EXPECT_NEAR(pile["yard.a.position.z"], 0.25 - 2. * g / 3e5, 1e-8);
+  EXPECT_NEAR(pile["yard.b.position.z"] - pile["yard.a.position.z"], 0.1 - g / 6e5, 1e-8);
+  // Its centre over the other's end, a tin stands; past it, it tips.
+  for (const auto& [beside, stands] : {std::pair{0.045, true}, std::pair{0.055, false}}) {
+    Running run(
+        yard("deltat = 0.1 ms;",
+             post +
+                 "Obstacle.Cylinder foot { radius = 0.05; length = 0.1; location = 0, 0, 0.25; "
+                 "material = ground; } Robot tin { Base.mobile { location = " +
+                 std::to_string(beside) + ", 0, 0.35; " + tin));
+    run.step(10000);
+    EXPECT_EQ(std::abs(run["yard.tin.position.z"] - 0.35) < 1e-3, stands) << beside;
+    if (stands) {
+      EXPECT_NEAR(run["yard.tin.angular_velocity.y"], 0., 1e-6);
+    }
+  }
+}
+
+// A log in the groove between two others touches each along a line: its axis lies sqrt(4 r^2 - a^2/4)
+// over theirs, a apart, but for what its weight presses.
+TEST(ShapeContact, ALogLiesInTheGrooveBetweenTwo) {
+  const double r = 0.05, apart = 0.12;
+  const std::string lies =
+      " orientation = pi/2, 0, 0; Shape.Cylinder { radius = 0.05; length = 0.4; mass = 1 kg; } } } ";
+  const std::string post =
+      " orientation = pi/2, 0, 0; radius = 0.05; length = 0.4; material = ground; } ";
+  Running run(
+      yard("deltat = 0.1 ms;", flat + "Obstacle.Cylinder left { location = -0.06, 0, 0.2;" + post +
+                                   "Obstacle.Cylinder right { location = 0.06, 0, 0.2;" + post +
+                                   "Robot log { Base.mobile { location = 0, 0.05, 0.281;" + lies));
+  run.step(20000);
+  EXPECT_NEAR(run["yard.log.position.z"], 0.2 + std::sqrt(4. * r * r - 0.25 * apart * apart), 1e-4);
+  EXPECT_NEAR(run["yard.log.position.x"], 0., 1e-6);
+  EXPECT_NEAR(run["yard.log.velocity.z"], 0., 1e-6);
+  EXPECT_NEAR(run["yard.log.angular_velocity.z"], 0., 1e-6);
+}
+
+// A cone that rolls about its tip on a plane of slope b swings with w^2 = 5 g sin b cos a/(h (1 + 5 cos^2 a)),
+// a half its opening: of its kinetic energy 3 m h^2 (1 + 5 cos^2 a) q'^2/40 (Landau and Lifshitz, Mechanics,
+// section 32, problem 7), with its centre of mass 3 h/4 from the tip.
+TEST(ShapeContact, AConeRollsAboutItsTip) {
+  const double h = 0.2, r = 0.08, b = 20. * deg, half = std::atan(r / h);
+  Running run(yard(
+      "deltat = 0.05 ms; gravity = " + std::to_string(g * std::sin(b)) + ", 0, " +
+          std::to_string(-g * std::cos(b)) + ";",
+      flat + "Robot cone { Base.mobile { location = 0, 0, 0; orientation = 0, " +
+          std::to_string(-half) +
+          ", 0.1; Shape.Legcone { length = 0.2; proximal_radius = 0; distal_radius = 0.08; mass = 1 "
+          "kg; } } }"));
+  // Of the axis in the plane.
+  const auto direction = [&] {
+    const auto q = [&](const char* axis) {
+      return run[std::string("yard.cone.orientation.") + axis];
+    };
+    const double x = 1. - 2. * (q("y") * q("y") + q("z") * q("z"));
+    const double y = 2. * (q("x") * q("y") + q("w") * q("z"));
+    return std::atan2(y, x);
+  };
+  std::vector<double> crossings;
+  double before = direction();
+  for (int i = 0; i < 80000; ++i) {
+    run.step();
+    const double now = direction();
+    if ((before < 0.) != (now < 0.)) crossings.push_back((i + before / (before - now)) * 5e-5);
+    before = now;
+  }
+  ASSERT_GE(crossings.size(), 4u);
+  const double period =
+      2. * (crossings.back() - crossings.front()) / static_cast<double>(crossings.size() - 1);
+  const double cosine = std::cos(half);
+  const double rate = std::sqrt(5. * g * std::sin(b) * cosine / (h * (1. + 5. * cosine * cosine)));
+  EXPECT_NEAR(period, 2. * std::numbers::pi / rate, 0.01 * period);
+}
+
+TEST(ShapeContact, AConeCarriesABox) {
+  Running run(yard("deltat = 0.1 ms;",
+                   flat +
+                       "Robot cone { Base.mobile { location = 0, 0, 0; orientation = 0, -pi/2, 0; "
+                       "Shape.Legcone { length = 0.2; proximal_radius = 0.1; distal_radius = 0.06; "
+                       "mass = 2 kg; } } } Robot box { Base.mobile { location = 0.01, 0, 0.23; "
+                       "Shape.Box { dimensions = 0.2, 0.2, 0.06; mass = 1 kg; } } }"));
+  run.step(20000);
+  EXPECT_NEAR(run["yard.box.position.z"], 0.23, 2e-4);
+  EXPECT_NEAR(run["yard.box.velocity.z"], 0., 1e-6);
+  EXPECT_NEAR(run["yard.box.orientation.w"], 1., 1e-6);
+}
+
+// A disc has no thickness, but two faces: what falls on either stays on it.
+TEST(ShapeContact, ADiscCarriesABallAndLiesOnAPost) {
+  for (const char* turn : {"0", "pi"}) {
+    Running run(yard(
+        "deltat = 0.1 ms;",
+        flat +
+            "Obstacle.Cylinder post { radius = 0.04; length = 0.2; location = 0, 0, 0.1; material = "
+            "ground; } Robot plate { Base.mobile { location = 0, 0, 0.2001; orientation = " +
+            turn +
+            ", 0, 0; Shape.Disc { radius = 0.1; mass = 1 kg; } } } Robot ball { Base.mobile { location = "
+            "0, 0, 0.2202; Shape.Sphere { radius = 0.02; mass = 0.1 kg; } } }"));
+    run.step(10000);
+    EXPECT_NEAR(run["yard.plate.position.z"], 0.2, 2e-4) << turn;
+    EXPECT_NEAR(run["yard.ball.position.z"], 0.22, 2e-4) << turn;
+  }
+}
+
+// Lying flat a disc is all below the face that carries it: on the ground, on a box, on a tin and on
+// another disc, at m g/(3 k) for its three points.
+TEST(ShapeContact, ADiscLiesFlat) {
+  const std::string lies = "Shape.Disc { radius = 0.05; mass = 1 kg; } } } ";
+  Running run(yard(
+      "deltat = 0.1 ms;",
+      flat +
+          "Obstacle.Box box { dimensions = 0.4, 0.4, 0.2; location = 2, 0, 0.1; material = ground; } "
+          "Obstacle.Cylinder post { radius = 0.1; length = 0.2; location = 3, 0, 0.1; material = "
+          "ground; } Robot a { Base.mobile { location = 0, 0, 1e-4; " +
+          lies +
+          "Robot shelf { Base.fixed { location = 4, 0, 0.3; Shape.Disc { radius = 0.1; } } } Robot b { "
+          "Base.mobile { location = 4.02, 0, 0.3001; " +
+          lies + "Robot c { Base.mobile { location = 2.02, 0, 0.2001; orientation = pi, 0, 0; " +
+          lies + "Robot d { Base.mobile { location = 3.01, 0, 0.22; orientation = 0.3, 0.2, 0; " +
+          lies));
+  run.step(20000);
+  EXPECT_NEAR(run["yard.a.position.z"], -g / 3e5, 1e-8);
+  EXPECT_NEAR(run["yard.b.position.z"], 0.3 - g / 3e5, 1e-8);
+  EXPECT_NEAR(run["yard.c.position.z"], 0.2 - g / 3e5, 1e-8);
+  EXPECT_NEAR(run["yard.d.position.z"], 0.2 - g / 3e5, 1e-6);
+}
+
+// A disc that falls on a box's edge with its rim or one of its faces.
+TEST(ShapeContact, ADiscIsStoppedByAnEdge) {
+  for (const char* turn : {"0.7, 0.1, 0", "2.4, 0.1, 0", "pi/2, 0, 0.3", "pi/2, 0, 1.5"}) {
+    Running run(
+        yard("deltat = 0.02 ms;",
+             flat +
+                 "Obstacle.Box block { dimensions = 0.2, 0.6, 0.2; orientation = 0, pi/4, 0; "
+                 "location = 0, 0, 0.15; material = ground; } Robot plate { Base.mobile { "
+                 "location = 0.01, 0, 0.5; orientation = " +
+                 std::string(turn) + "; Shape.Disc { radius = 0.06; mass = 0.5 kg; } } }"));
+    run.step(7500);
+    EXPECT_LT(run["yard.plate.velocity.z"], -1.4);
+    double highest = -2.;
+    for (int i = 0; i < 50; ++i) {
+      run.step(100);
+      highest = std::max(highest, run["yard.plate.velocity.z"]);
+    }
+    EXPECT_GT(highest, -0.6) << turn;
+  }
+}
+
 // A state that is saved and restored goes on with the same bytes: hooks, faces that hold corners, and
 // where everything stood.
 TEST(ShapeContact, ASavedStateGoesOnAlike) {

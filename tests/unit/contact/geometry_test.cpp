@@ -16,7 +16,6 @@
 #include "contact/geometry/polyhedron.h"
 #include "contact/geometry/rim.h"
 #include "contact/geometry/rim_on_ridge.h"
-#include "contact/geometry/round_solid.h"
 #include "contact/geometry/stairs_surface.h"
 
 namespace hookpoint::contact {
@@ -299,7 +298,8 @@ TEST(RimOnRidge, ThatPiercesTheCentreHasItsCrossingsOnTheRim) {
   for (const double beside : {0., 1e-18, 1e-17, 1e-16, 1e-13, 1e-9}) {
     const Rim rim{nosing().point + Vector3d{1e-17, 0.01, beside}, axis, 0.05,
                   unit(tangential({1., 0., 0.}, axis))};
-    for (const RimCrossing& at : rim_on_ridge(nosing(), rim, 1.).all()) {
+    const RimCrossings found = rim_on_ridge(nosing(), rim, 1.);
+    for (const RimCrossing& at : found.all()) {
       EXPECT_NEAR(dot(at.radial, axis), 0., 1e-12) << beside;
       EXPECT_NEAR(norm(at.place - rim.center), 0.05, 1e-15) << beside;
     }
@@ -346,36 +346,6 @@ TEST(EdgeOnRidge, HandsOverAtItsEnds) {
   const auto leaves = edge_on_ridge(nosing(), sole_edge(0.5 + 1e-6, 0.4, 0.2, 1e-4), 0., 0.01);
   ASSERT_TRUE(leaves);
   EXPECT_NEAR(end_weighted(*leaves, {1., 1.}), 0., 1e-3);
-}
-
-TEST(RoundSolids, GiveTheNearestWayOut) {
-  const RoundSolid cylinder{{0., 0., -0.1}, {0., 0., 0.1}, 0.05, true};
-  const auto side = ball_on_round(cylinder, {0.06, 0., 0.}, 0.02, 0.);
-  ASSERT_TRUE(side);
-  EXPECT_NEAR(side->depth, 0.01, tight);
-  EXPECT_EQ(side->normal.x, 1.);
-  const auto end = ball_on_round(cylinder, {0.01, 0., 0.11}, 0.02, 0.);
-  ASSERT_TRUE(end);
-  EXPECT_NEAR(end->depth, 0.01, tight);
-  EXPECT_EQ(end->normal.z, 1.);
-  const auto rim = ball_on_round(cylinder, {0.06, 0., 0.11}, 0.02, 0.);
-  ASSERT_TRUE(rim);
-  EXPECT_NEAR(rim->depth, 0.02 - std::hypot(0.01, 0.01), tight);
-  EXPECT_FALSE(ball_on_round(cylinder, {0.08, 0., 0.}, 0.02, 0.));
-  const RoundSolid capsule{{0., 0., -0.1}, {0., 0., 0.1}, 0.05, false};
-  const auto tip = ball_on_round(capsule, {0., 0., 0.16}, 0.02, 0.);
-  ASSERT_TRUE(tip);
-  EXPECT_NEAR(tip->depth, 0.01, tight);
-}
-
-TEST(CrossedAxes, MeetBetweenTheirEnds) {
-  const RoundSolid below{{-1., 0., 0.}, {1., 0., 0.}, 0.05};
-  const RoundSolid above{{0., -1., 0.09}, {0., 1., 0.09}, 0.05};
-  const auto at = crossed_axes(above, below, 0.);
-  ASSERT_TRUE(at);
-  EXPECT_NEAR(at->contact.depth, 0.01, tight);
-  EXPECT_NEAR(at->contact.normal.z, 1., tight);
-  EXPECT_NEAR(norm(at->place - Vector3d{0., 0., 0.04}), 0., tight);
 }
 
 }  // namespace
