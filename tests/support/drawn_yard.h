@@ -342,7 +342,8 @@ class DrawnYard {
 
   std::string ground_;
   Vector3d up_{0., 0., 1.};
-  double lowest_ = 0.;  ///< how far up a body's centre is at least [m]
+  /// How far up a body's centre is at least: a disc that lies flat is as deep as its weight presses [m].
+  double lowest_ = -0.01;
   std::vector<Standing> obstacles_, bodies_;
   std::string head_;
 };
