@@ -125,12 +125,14 @@ std::optional<Crossing> crossing(const Circle& first, double angle, const Circle
 
 class RimSearch {
  public:
-  RimSearch(const RoundSolid& solid, const ShapeRim& shape, double reach, RimContacts& found)
+  RimSearch(const RoundSolid& solid, const ShapeRim& shape, double reach, bool held,
+            RimContacts& found)
       : solid_(solid),
         shape_(shape),
         circle_(shape.rim),
         reach_(reach),
         length_(solid.length()),
+        held_(held),
         found_(found) {}
 
   void on_end(std::size_t which, bool with_rims) {
@@ -202,8 +204,12 @@ class RimSearch {
   bool is_under(const RoundEnd& end, const Vector3d& point, double depth) const {
     constexpr double shallow = 0.02;  // of the solid
     const Vector3d across = tangential(point - end.center, end.normal);
-    if (norm(across) > end.radius + edge_width) return false;
-    if (solid_.is_disc()) return depth < end.radius;
+    const double margin = end.radius - norm(across);
+    if (margin < -edge_width) return false;
+    if (solid_.is_disc()) {
+      constexpr double level = 1e-3;  // of the radius: of rims that lie on each other
+      return held_ ? depth < end.radius : depth <= margin + level * end.radius;
+    }
     const auto side = over_side(solid_, point);
     return depth <= shallow * std::min(length_, greatest_radius()) || !side ||
            side->height <= -depth;
@@ -215,17 +221,19 @@ class RimSearch {
   const ShapeRim& shape_;
   Circle circle_;
   double reach_, length_;
+  bool held_;
   RimContacts& found_;
 };
 
 }  // namespace
 
 RimContacts rim_on_round(const RoundSolid& solid, const ShapeRim& shape, double reach,
-                         bool with_rims, std::size_t came_over) {
+                         bool with_rims, const CameOver& of_a_disc) {
   RimContacts found;
-  RimSearch search(solid, shape, reach, found);
+  RimSearch search(solid, shape, reach, of_a_disc.held, found);
   for (const std::size_t end : {0, 1}) {
-    if (solid.flat_ends && (!solid.is_disc() || end == came_over)) search.on_end(end, with_rims);
+    if (solid.flat_ends && (!solid.is_disc() || end == of_a_disc.end))
+      search.on_end(end, with_rims);
   }
   if (solid.length() > 0.) search.on_side();
   return found;

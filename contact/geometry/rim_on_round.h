@@ -56,14 +56,21 @@ struct RimContacts {
   std::span<const RimContact> all() const&& = delete;  // it would outlive what it shows
 };
 
+/// Of a disc, which has no inside: the end over which the other shape came, and whether it has come
+/// under it since.
+struct CameOver {
+  std::size_t end = 0;
+  bool held = false;
+};
+
 /// With a depth above -`reach` [m]:
 /// - the points of the rim that are deepest under a flat end over which its shape is, where they are
-///   over that end (deepest_points); of a disc, which has no inside, the end `came_over`;
+///   over that end (deepest_points); of a disc under the end that it came over alone, through that end and not round its rim;
 /// - `with_rims`: where the rim and the end's rim are nearest to each other as they cross, fading out as
 ///   the two run alongside, and as the normal leaves the faces that meet in them;
 /// - the places of the rim nearest to the side, where the normal there lies between the faces that meet
 ///   in the rim.
 RimContacts rim_on_round(const RoundSolid& solid, const ShapeRim& shape, double reach,
-                         bool with_rims, std::size_t came_over = 0);
+                         bool with_rims, const CameOver& of_a_disc = {});
 
 }  // namespace hookpoint::contact

@@ -444,8 +444,9 @@ void ShapeDetection::rim_on_round(const RoundFeature& round, std::size_t a, std:
                                   const RimFeature& feature_of_a, std::int64_t feature,
                                   std::int64_t other) {
   const contact::ShapeRim rim = rim_in(a, feature_of_a, motions_[b]);
-  const std::size_t came_over =
-      round.solid.is_disc() ? end_over_which(round.solid, a, b, feature_of_a, feature, other) : 0;
+  const contact::CameOver came_over =
+      round.solid.is_disc() ? came_over_end(round.solid, a, b, feature_of_a, feature, other)
+                            : contact::CameOver{};
   // Two rims cross each other once.
   const contact::RimContacts found =
       contact::rim_on_round(round.solid, rim, reach_, a < b, came_over);
@@ -468,18 +469,18 @@ void ShapeDetection::rim_on_round(const RoundFeature& round, std::size_t a, std:
 }
 
 // That which holds a point of the rim, else the one over which the shape was before.
-std::size_t ShapeDetection::end_over_which(const contact::RoundSolid& disc, std::size_t a,
-                                           std::size_t b, const RimFeature& rim,
-                                           std::int64_t feature, std::int64_t other) const {
+contact::CameOver ShapeDetection::came_over_end(const contact::RoundSolid& disc, std::size_t a,
+                                                std::size_t b, const RimFeature& rim,
+                                                std::int64_t feature, std::int64_t other) const {
   for (const std::int64_t end : {0, 1}) {
     for (std::int64_t number = 0; number < std::int64_t{contact::rim_points}; ++number) {
       const ContactKey key{static_cast<std::int64_t>(a), static_cast<std::int64_t>(b),
                            feature + number, other + end};
-      if (memory_->holding(key).count > 0) return static_cast<std::size_t>(end);
+      if (memory_->holding(key).count > 0) return {static_cast<std::size_t>(end), true};
     }
   }
   const Vector3d before = memory_->before(b).to_object(memory_->before(a).to_world(rim.middle));
-  return contact::end_of(disc, 1).height(before) > 0. ? 1 : 0;
+  return {contact::end_of(disc, 1).height(before) > 0. ? std::size_t{1} : std::size_t{0}, false};
 }
 
 contact::ShapeRim ShapeDetection::rim_in(std::size_t object, const RimFeature& of,

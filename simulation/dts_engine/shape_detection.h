@@ -116,8 +116,9 @@ class ShapeDetection {
   void rim_on_surface(const contact::Surface& surface, std::size_t a, std::size_t b,
                       const RimFeature& rim, std::int64_t feature, std::int64_t other,
                       int material_b, double half_thickness);
-  std::size_t end_over_which(const contact::RoundSolid& disc, std::size_t a, std::size_t b,
-                             const RimFeature& rim, std::int64_t feature, std::int64_t other) const;
+  contact::CameOver came_over_end(const contact::RoundSolid& disc, std::size_t a, std::size_t b,
+                                  const RimFeature& rim, std::int64_t feature,
+                                  std::int64_t other) const;
   void rim_on_round(const RoundFeature& round, std::size_t a, std::size_t b, const RimFeature& rim,
                     std::int64_t feature, std::int64_t other);
   contact::ShapeRim rim_in(std::size_t object, const RimFeature& of,

@@ -266,6 +266,19 @@ TEST(RimOnRound, CrossesAnotherRimAcrossBoth) {
   EXPECT_GT(crossings, 20);
 }
 
+// What comes round the rim of a disc is not under its face; what came through the face stays so.
+TEST(RimOnRound, ComesUnderADiscThroughItsFaceAlone) {
+  const double depth = 2e-3, margin = 1e-3;
+  const ShapeRim rim{{{0.1 - margin, 0., -depth}, {0., 0., 1.}, 0.05, {-1., 0., 0.}},
+                     {0.1 - margin, 0., 0.1}};
+  const auto under = [&](const CameOver& came_over) {
+    const RimContacts found = rim_on_round(disc(), rim, 0., false, came_over);
+    return found.count;
+  };
+  EXPECT_EQ(under({1, false}), 0u);
+  EXPECT_EQ(under({1, true}), 1u);
+}
+
 // A disc has two ends, and is pressed on against either.
 TEST(RimOnRound, OfADiscLeavesByEitherEnd) {
   const ShapeRim rim{{{0.06, 0., 0.}, {1., 0., 0.}, 0.05, {0., 0., 1.}}, {0.06, 0., 0.}};
