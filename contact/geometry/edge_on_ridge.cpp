@@ -38,6 +38,7 @@ std::optional<EdgeContact> edge_on_ridge(const Ridge& ridge, const BodyEdge& edg
     return s < -edge_width || s > length + edge_width || t < ridge.from - edge_width ||
            t > ridge.to + edge_width;
   };
+  const bool round = edge.radius > 0. || edge.taper != 0.;
   if (edge.taper == 0. && is_past_an_end()) return std::nullopt;
 
   Vector3d normal = (1. / std::sqrt(sine_2)) * cross(e, ridge.along);
@@ -61,7 +62,7 @@ std::optional<EdgeContact> edge_on_ridge(const Ridge& ridge, const BodyEdge& edg
 
   constexpr double nearly_parallel = 0.01;  // sin^2
   contact.weight = std::min(1., sine_2 / nearly_parallel) * between(normal, ridge.outwards);
-  if (edge.radius == 0. && edge.taper == 0.) contact.weight *= between(-normal, edge.outwards);
+  if (!round) contact.weight *= between(-normal, edge.outwards);
   if (contact.weight <= 0.) return std::nullopt;
   contact.place = on_edge - radius * normal;
   contact.normal = normal;
@@ -72,7 +73,7 @@ std::optional<EdgeContact> edge_on_ridge(const Ridge& ridge, const BodyEdge& edg
   contact.at_end = end_within(s, 0., length);
   contact.at_ridge_end = end_within(t, ridge.from, ridge.to);
 
-  if (edge.radius > 0. || edge.taper != 0.) return contact;
+  if (round) return contact;
   const std::array<double, 2> cosines{dot(normal, ridge.normals[0]), dot(normal, ridge.normals[1])};
   const Vector3d across = tangential(ridge.outwards[0] - ridge.outwards[1], normal);
   for (std::size_t end = 0; end < 2; ++end) {

@@ -32,22 +32,15 @@ class Circle {
 constexpr int samples = 16;  // of a circle, among which roots and minima are looked for
 constexpr double sample_width = 2. * std::numbers::pi / samples;
 
-/// Angles at which `value` changes its sign; visits each. Two that are nearer to each other than a
-/// sample is wide are none.
+/// Angles near which `value` changes its sign, by the straight line between samples; visits each. Two that
+/// are nearer to each other than a sample is wide are none.
 template <class Value, class Visitor>
-void for_each_root(const Value& value, const Visitor& visit) {
-  constexpr int halvings = 50;
-  double high_value = value(0.);
-  for (int i = 0; i < samples; ++i) {
-    double low = i * sample_width, high = low + sample_width;
-    const double low_value = high_value;
-    high_value = value(high);
-    if ((low_value < 0.) == (high_value < 0.)) continue;
-    for (int k = 0; k < halvings; ++k) {
-      const double middle = 0.5 * (low + high);
-      ((value(middle) < 0.) == (low_value < 0.) ? low : high) = middle;
-    }
-    visit(0.5 * (low + high));
+void for_each_sign_change(const Value& value, const Visitor& visit) {
+  double before = value(0.);
+  for (int i = 1; i <= samples; ++i) {
+    const double now = value(i * sample_width);
+    if ((before < 0.) != (now < 0.)) visit((i - now / (now - before)) * sample_width);
+    before = now;
   }
 }
 
@@ -55,7 +48,7 @@ void for_each_root(const Value& value, const Visitor& visit) {
 /// the value grows by `steepest` a radian at most.
 template <class Value, class Visitor>
 void for_each_minimum(const Value& value, double steepest, double limit, const Visitor& visit) {
-  constexpr int cuts = 60;
+  constexpr int cuts = 40;  // to 4e-9 of the interval: the value is then exact to rounding
   std::array<double, samples> values;
   for (std::size_t i = 0; i < values.size(); ++i)
     values[i] = value(static_cast<double>(i) * sample_width);
@@ -175,12 +168,17 @@ class RimSearch {
       const Vector3d across = tangential(circle_.place(angle) - end.center, end.normal);
       return dot(across, across) - end.radius * end.radius;
     };
-    for_each_root(outside, [&](double angle) {
+    for_each_sign_change(outside, [&](double angle) {
       const Vector3d place = circle_.place(angle);
       const Vector3d over = unit(tangential(place - end.center, end.normal));
       const Rim rim{end.center, end.normal, end.radius, over};
       const std::optional<Crossing> at = crossing(circle_, angle, Circle(rim));
-      if (!at) return;
+      constexpr double same = 1e-9;  // of the radius
+      const auto is_at = [&](const RimContact& other) {
+        return other.kind == RimContact::Kind::rim && other.end == which && at &&
+               norm(other.place - at->place) < same * end.radius;
+      };
+      if (!at || std::ranges::any_of(found_.all(), is_at)) return;
       Vector3d normal = at->across;
       if (dot(normal, end.normal + at->out) < 0.) normal = -normal;
       const double depth = dot(at->of_other - at->place, normal);

@@ -99,12 +99,15 @@ std::optional<RoundContact> ball_on_round(const RoundSolid& solid, const Vector3
 
 std::optional<RoundContact> ball_on_disc(const RoundSolid& disc, const Vector3d& center,
                                          double radius, double reach, std::size_t came_through) {
+  if (is_beside(disc, center)) return ball_on_round(disc, center, radius, reach);
   const RoundEnd end = end_of(disc, came_through);
-  const double height = end.height(center);
-  if (meridian(disc, center).off_axis > disc.radius)
-    return ball_on_round(disc, center, radius, reach);
-  if (radius - height <= -reach) return std::nullopt;
-  return RoundContact{end.normal, radius - height, false};
+  const double depth = radius - end.height(center);
+  if (depth <= -reach) return std::nullopt;
+  return RoundContact{end.normal, depth, false};
+}
+
+bool is_beside(const RoundSolid& disc, const Vector3d& place) {
+  return meridian(disc, place).off_axis > disc.radius;
 }
 
 RoundSide side_of(const RoundSolid& solid) {

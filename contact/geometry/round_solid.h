@@ -54,10 +54,12 @@ struct RoundContact {
 std::optional<RoundContact> ball_on_round(const RoundSolid& solid, const Vector3d& center,
                                           double radius, double reach);
 
-/// The same against a disc, which has no inside: it is left by the end through which the centre came,
-/// 0 or 1.
+/// The same against a disc, which has no inside: it is left by the end through which the centre came, 0
+/// or 1. Beside the disc its rim is nearest, whichever end that was.
 std::optional<RoundContact> ball_on_disc(const RoundSolid& disc, const Vector3d& center,
                                          double radius, double reach, std::size_t came_through);
+/// Whether a place lies beside a disc, over neither of its ends.
+bool is_beside(const RoundSolid& disc, const Vector3d& place);
 
 /// A side of a solid of revolution as the envelope of balls about its axis: that of a ball goes evenly
 /// from `radius` at `from` to `far_radius` at `to`.

@@ -306,19 +306,26 @@ void ShapeDetection::ball_on_surface(const contact::Surface& surface, std::size_
   }
 }
 
-// By the end that holds it, else the one over which it was before.
+std::size_t ShapeDetection::end_before(const contact::RoundSolid& disc, std::size_t b,
+                                       std::size_t a, const Vector3d& place) const {
+  const Vector3d before = memory_->before(b).to_object(memory_->before(a).to_world(place));
+  return contact::end_of(disc, 1).height(before) > 0. ? 1 : 0;
+}
+
+// By the end that holds it, else the one over which it was before. Beside the disc nothing holds it: a ball
+// may go round the rim.
 std::optional<contact::RoundContact> ShapeDetection::on_disc(const contact::RoundSolid& disc,
                                                              const BallFeature& ball,
                                                              const ContactKey& key,
                                                              contact::Holding& held) const {
   const auto a = static_cast<std::size_t>(key.a), b = static_cast<std::size_t>(key.b);
-  held = memory_->holding(key);
-  if (held.count == 0) {
-    const Vector3d before = memory_->before(b).to_object(memory_->before(a).to_world(ball.center));
-    held = {{contact::end_of(disc, 1).height(before) > 0. ? 1 : 0}, 1};
-  }
-  return contact::ball_on_disc(disc, motions_[b].to_object(motions_[a].to_world(ball.center)),
-                               ball.radius, reach_, static_cast<std::size_t>(held.faces[0]));
+  const Vector3d center = motions_[b].to_object(motions_[a].to_world(ball.center));
+  const contact::Holding before = memory_->holding(key);
+  const std::size_t end = before.count > 0 ? static_cast<std::size_t>(before.faces[0])
+                                           : end_before(disc, b, a, ball.center);
+  held = {};
+  if (!contact::is_beside(disc, center)) held = {{static_cast<std::int64_t>(end)}, 1};
+  return contact::ball_on_disc(disc, center, ball.radius, reach_, end);
 }
 
 void ShapeDetection::balls_on(std::size_t a, std::size_t b) {
@@ -479,8 +486,7 @@ contact::CameOver ShapeDetection::came_over_end(const contact::RoundSolid& disc,
       if (memory_->holding(key).count > 0) return {static_cast<std::size_t>(end), true};
     }
   }
-  const Vector3d before = memory_->before(b).to_object(memory_->before(a).to_world(rim.middle));
-  return {contact::end_of(disc, 1).height(before) > 0. ? std::size_t{1} : std::size_t{0}, false};
+  return {end_before(disc, b, a, rim.middle), false};
 }
 
 contact::ShapeRim ShapeDetection::rim_in(std::size_t object, const RimFeature& of,

@@ -123,6 +123,9 @@ class ShapeDetection {
                     std::int64_t feature, std::int64_t other);
   contact::ShapeRim rim_in(std::size_t object, const RimFeature& of,
                            const ObjectMotion& frame) const;
+  /// The end of b's disc over which a place of a was at the accepted state before.
+  std::size_t end_before(const contact::RoundSolid& disc, std::size_t b, std::size_t a,
+                         const Vector3d& place) const;
   std::optional<contact::RoundContact> on_disc(const contact::RoundSolid& disc,
                                                const BallFeature& ball, const ContactKey& key,
                                                contact::Holding& held) const;

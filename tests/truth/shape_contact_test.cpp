@@ -343,6 +343,27 @@ TEST(ShapeContact, ADiscLiesFlat) {
   EXPECT_NEAR(run["yard.d.position.z"], 0.2 - g / 3e5, 1e-6);
 }
 
+// A spring whose end goes round the rim of a disc, from the one face to the other, takes a ball along,
+// always touching: it is a radius off, on that side on which it is.
+TEST(ShapeContact, ABallGoesRoundTheRimOfADisc) {
+  Running run(yard(
+      "deltat = 0.05 ms; gravity = 0;",
+      "Robot plate { Base.fixed { location = 0, 0, 0; Shape.Disc { radius = 0.1; } } } Robot ball { "
+      "Base.mobile { location = 0.1, 0, 0.02; Shape.Sphere { radius = 0.02; mass = 0.1 kg; } } } Force "
+      "pull { body = ball.base; } Expression x { formula = \"-1 N/mm * (ball.position.x - 0.1 m - 18 mm * "
+      "sin(pi * min(time / (1 s), 1)) + 30 mm * max(0, time / (1 s) - 1))\"; unit = \"N\"; Wire TO "
+      "pull.force.x; } Expression z { formula = \"-1 N/mm * (ball.position.z - 18 mm * cos(pi * "
+      "min(time / (1 s), 1)))\"; unit = \"N\"; Wire TO pull.force.z; }",
+      "static_friction = 0;"));
+  for (int i = 0; i < 300; ++i) {
+    run.step(100);
+    const double x = run["yard.ball.position.x"], z = run["yard.ball.position.z"];
+    ASSERT_NEAR(std::hypot(std::max(0., x - 0.1), z), 0.02, 5e-4) << i;
+  }
+  EXPECT_NEAR(run["yard.ball.position.z"], -0.02, 5e-4);
+  EXPECT_LT(run["yard.ball.position.x"], 0.095);
+}
+
 // A disc that falls on a box's edge with its rim or one of its faces.
 TEST(ShapeContact, ADiscIsStoppedByAnEdge) {
   for (const char* turn : {"0.7, 0.1, 0", "2.4, 0.1, 0", "pi/2, 0, 0.3", "pi/2, 0, 1.5"}) {
