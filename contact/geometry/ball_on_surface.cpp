@@ -47,10 +47,11 @@ class Found {
   std::size_t count_ = 0;
 };
 
-void touch_from_outside(const Surface& surface, const Vector3d& c, double radius, double reach,
-                        Found& found) {
+void touch_from_outside(const Surface& surface, const Vector3d& c, double radius,
+                        const Vector3d& cap, double reach, Found& found) {
   places_near(surface, c, radius + reach, radius == 0.,
-              [&](const Vector3d& normal, double distance, int material) {
+              [&](const Vector3d& normal, double distance, int material, bool at_corner) {
+                if (at_corner && dot(normal, cap) > 0.) return;
                 found.add({normal, radius - distance, 1., material});
               });
 }
@@ -139,7 +140,8 @@ std::int64_t face_along(const Surface& surface, const Vector3d& inside, const Ve
 }
 
 BallContacts ball_on_surface(const Surface& surface, const Vector3d& center, double radius,
-                             const Vector3d& before, const Holding& held, double reach) {
+                             const Vector3d& before, const Holding& held, double reach,
+                             const Vector3d& cap) {
   BallContacts result;
   Found found;
   Holding start = held;
@@ -149,7 +151,7 @@ BallContacts ball_on_surface(const Surface& surface, const Vector3d& center, dou
     if (entered >= 0) hold(start, entered);
   }
   if (!inside || start.count == 0) {
-    touch_from_outside(surface, center, radius, reach, found);
+    touch_from_outside(surface, center, radius, cap, reach, found);
     found.share_into(result);
     return result;
   }

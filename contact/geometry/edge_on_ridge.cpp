@@ -61,8 +61,14 @@ std::optional<EdgeContact> edge_on_ridge(const Ridge& ridge, const BodyEdge& edg
   if (contact.depth <= -reach || contact.depth > most_depth) return std::nullopt;
 
   constexpr double nearly_parallel = 0.01;  // sin^2
-  contact.weight = std::min(1., sine_2 / nearly_parallel) * between(normal, ridge.outwards);
-  if (!round) contact.weight *= between(-normal, edge.outwards);
+  contact.weight = std::min(1., sine_2 / nearly_parallel);
+  if (round) {
+    contact.weight *= between(normal, ridge.outwards);
+  } else {
+    constexpr double leaning =
+        0.2;  // a sole that leans back on soft ground stands on its edge still
+    contact.weight *= between(normal, ridge.outwards, leaning) * between(-normal, edge.outwards);
+  }
   if (contact.weight <= 0.) return std::nullopt;
   contact.place = on_edge - radius * normal;
   contact.normal = normal;

@@ -21,8 +21,8 @@ inline Fold fold(const Vector3d& outward, const Vector3d& normal_beyond) {
 
 /// 1 for a normal that lies between those of the two faces, down to 0 where it has left them by the
 /// sine `fade`.
-inline double between(const Vector3d& normal, const std::array<Vector3d, 2>& outwards) {
-  constexpr double fade = 0.02;
+inline double between(const Vector3d& normal, const std::array<Vector3d, 2>& outwards,
+                      double fade = 0.02) {
   double weight = 1.;
   for (const Vector3d& outward : outwards)
     weight = std::min(weight, std::clamp(1. + dot(normal, outward) / fade, 0., 1.));

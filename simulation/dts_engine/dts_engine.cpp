@@ -64,6 +64,8 @@ class DtsEngine final : public Engine, public Resumable, public Restartable {
       state_.points.resize(experiment_.points.size());
       state_.chains.resize(chains);
       state_.body_contacts.resize(bodies);
+      surface_sums_.resize((experiment_.terrain ? 1 : 0) + experiment_.obstacles.size());
+      state_.surface_contacts.resize(surface_sums_.size());
       state_.reactions.resize(joints);
     }
     publish();
@@ -306,6 +308,20 @@ class DtsEngine final : public Engine, public Resumable, public Restartable {
           std::span(state_.body_contacts)
               .subspan(parts_[i].first_body, parts_[i].robot->body_count()));
     }
+    copy_surface_contacts();
+  }
+
+  void copy_surface_contacts() {
+    std::ranges::fill(surface_sums_, SurfaceSum{});
+    for (const ForceDetails* details : details_) details->add_surface_contacts(surface_sums_);
+    const std::size_t obstacles = experiment_.terrain ? 1 : 0;
+    for (std::size_t i = 0; i < surface_sums_.size(); ++i) {
+      const SurfaceMotion& surface =
+          i < obstacles ? inputs_.ground : inputs_.obstacles[i - obstacles];
+      const auto& [contacts, mean_force] = surface_sums_[i];
+      state_.surface_contacts[i] = {mean_force, static_cast<double>(contacts.count()),
+                                    contacts.about(surface.position)};
+    }
   }
 
   const Experiment experiment_;
@@ -316,6 +332,7 @@ class DtsEngine final : public Engine, public Resumable, public Restartable {
   const bool ground_moves_;
   std::vector<Part> parts_;
   std::vector<ForceDetails*> details_;  ///< of the parts, in their order; none under an impulse law
+  std::vector<SurfaceSum> surface_sums_;  ///< for what is published
   WorldState state_;
   bool has_details_ = false, has_reactions_ = false;
   std::optional<bool> mean_forces_;  ///< as they were enabled; none: as the parts have them

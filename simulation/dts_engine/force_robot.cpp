@@ -75,6 +75,13 @@ void ForceRobot::publish_body_contacts(std::span<BodyContact> bodies) const {
   simulation::publish_body_contacts(system_.contacts(), system_.workspace(), bodies);
 }
 
+void ForceRobot::add_surface_contacts(std::span<SurfaceSum> surfaces) const {
+  if (surfaces.empty()) return;
+  add_ground_contacts(system_.contacts(), surfaces[0].contacts);
+  for (const Vector3d& impulse : system_.contacts().impulses())
+    surfaces[0].mean_force -= (1. / system_.dt()) * impulse;
+}
+
 void ForceRobot::publish_hips(std::span<ChainState> chains) const {
   simulation::publish_hips(system_.robot(), chains);
 }

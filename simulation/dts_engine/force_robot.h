@@ -48,6 +48,7 @@ class ForceRobot final : public RobotPart, private ForceDetails {
   void publish_reactions(std::span<JointReaction> joints) override { reactions_.publish(joints); }
   void publish_hips(std::span<ChainState> chains) const override;
   void publish_body_contacts(std::span<BodyContact> bodies) const override;
+  void add_surface_contacts(std::span<SurfaceSum> surfaces) const override;
 
   const Experiment& experiment_;
   RobotSystem system_;

@@ -117,26 +117,45 @@ PointState GroupPart::point_state(std::size_t robot, std::size_t body, std::size
   PointState state;
   state.position = state.hook = motion.p_WB + motion.R_WB * spec.boundary_points[point];
   double deepest = 0.;
-  Vector3d force;
+  ContactSum sum;
   for (const ShapeContacts::Place& place : group_.contacts().places()) {
     const ShapeObject& of = group_.contacts().objects()[static_cast<std::size_t>(place.at.key.a)];
     if (of.kind != ShapeObject::Kind::body || of.index != robot || of.body != body ||
         group_.contacts().boundary_point(place.at.key) != point)
       continue;
-    force += place.force;
+    sum.add(place.at.place, place.at.normal, place.force, place.moment);
     if (place.at.depth > deepest) {
       deepest = place.at.depth;
       state = place_state(place);
     }
   }
-  state.force = force;
+  state.force = sum.force();
+  const BodyContact loads = sum.about(state.position);
+  state.normal_load = loads.normal_load;
+  state.tangential_load = loads.tangential_load;
   return state;
 }
 
 double GroupPart::ground_energy() const { return group_.contacts().stored_energy(); }
 
+void GroupPart::add_surface_contacts(std::span<SurfaceSum> surfaces) const {
+  const ShapeContacts& contacts = group_.contacts();
+  for (const ShapeContacts::Place& place : contacts.places()) {
+    if (!place.memory.attached) continue;
+    const auto add = [&](std::int64_t object, double sign) {
+      if (const auto surface = contacts.surface_of(static_cast<std::size_t>(object)))
+        surfaces[*surface].contacts.add(place.at.place, sign * place.at.normal, sign * place.force,
+                                        sign * place.moment);
+    };
+    add(place.at.key.a, 1.);
+    add(place.at.key.b, -1.);
+  }
+  for (std::size_t i = 0; i < surfaces.size(); ++i)
+    surfaces[i].mean_force -= (1. / group_.dt()) * contacts.surface_impulses()[i];
+}
+
 void GroupPart::publish_body_contacts(std::span<BodyContact> bodies) const {
-  std::ranges::fill(sums_, BodyContactSum{});
+  std::ranges::fill(sums_, ContactSum{});
   for (const ShapeContacts::Place& place : group_.contacts().places()) {
     if (!place.memory.attached) continue;
     const auto add = [&](std::int64_t object, double sign) {

@@ -7,7 +7,6 @@
 #include <memory>
 
 #include "integrators/stepper.h"
-#include "simulation/dts_engine/publish_contacts.h"
 #include "simulation/dts_engine/reactions.h"
 #include "simulation/dts_engine/robot_group.h"
 #include "simulation/dts_engine/robot_part.h"
@@ -57,6 +56,7 @@ class GroupPart final : public RobotPart, private ForceDetails {
   void publish_reactions(std::span<JointReaction> joints) override;
   void publish_hips(std::span<ChainState> chains) const override;
   void publish_body_contacts(std::span<BodyContact> bodies) const override;
+  void add_surface_contacts(std::span<SurfaceSum> surfaces) const override;
   /// Calls `visit(robot, first_body, first_joint)` for each.
   template <class Visit>
   void for_each_robot(const Visit& visit) const;
@@ -66,7 +66,7 @@ class GroupPart final : public RobotPart, private ForceDetails {
   std::vector<Reactions> reactions_;  ///< one a robot
   std::unique_ptr<integrators::Stepper> stepper_;
   std::size_t body_count_ = 0, joint_count_ = 0;
-  mutable std::vector<BodyContactSum> sums_;  ///< one a body, for what is published
+  mutable std::vector<ContactSum> sums_;  ///< one a body, for what is published
   std::array<double, integrators::Stepper::state_size()> stepper_before_{};
 };
 

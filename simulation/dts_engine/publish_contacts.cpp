@@ -14,17 +14,18 @@ void publish_contact_forces(const ContactSet& contacts, double dt, std::span<Bod
   }
 }
 
-void BodyContactSum::add(const Vector3d& place, const Vector3d& normal, const Vector3d& force,
-                         const Vector3d& moment) {
+void ContactSum::add(const Vector3d& place, const Vector3d& normal, const Vector3d& force,
+                     const Vector3d& moment) {
   const double load = dot(force, normal);
   force_ += force;
   moment_ += cross(place, force) + moment;
   weighted_ += load * place;
   tangential_ += force - load * normal;
   load_ += load;
+  if (load > 0.) ++count_;
 }
 
-BodyContact BodyContactSum::about(const Vector3d& origin) const {
+BodyContact ContactSum::about(const Vector3d& origin) const {
   return {moment_ - cross(origin, force_), load_ != 0. ? (1. / load_) * weighted_ : origin, load_,
           norm(tangential_)};
 }
@@ -32,11 +33,20 @@ BodyContact BodyContactSum::about(const Vector3d& origin) const {
 void publish_body_contacts(const ContactSet& contacts, const dts::Workspace<double>& workspace,
                            std::span<BodyContact> bodies) {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    BodyContactSum sum;
+    ContactSum sum;
     for (const ContactPoint& point : contacts.near_points_of(i)) {
       if (point.pending.attached) sum.add(point.position, point.normal, point.force, point.moment);
     }
     bodies[i] = sum.about(workspace.bodies[i].p_WB);
+  }
+}
+
+void add_ground_contacts(const ContactSet& contacts, ContactSum& ground) {
+  for (std::size_t i = 0; i < contacts.body_count(); ++i) {
+    for (const ContactPoint& point : contacts.near_points_of(i)) {
+      if (point.pending.attached)
+        ground.add(point.position, -point.normal, -point.force, -point.moment);
+    }
   }
 }
 

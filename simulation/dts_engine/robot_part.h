@@ -7,9 +7,16 @@
 #include <string>
 #include <vector>
 
+#include "simulation/dts_engine/publish_contacts.h"
 #include "simulation/engine_interface/engine.h"
 
 namespace hookpoint::simulation {
+
+/// What bodies do to the terrain or an obstacle.
+struct SurfaceSum {
+  ContactSum contacts;  ///< as the law left them
+  Vector3d mean_force;  ///< over the last step [N]
+};
 
 /// What a robot under a force law can tell between steps: its contacts, and its hips, whose forces
 /// an impulse law does not work out.
@@ -23,6 +30,8 @@ class ForceDetails {
                                  std::vector<GroundForce>& forces) const = 0;
   /// What the contacts of each of its bodies come to.
   virtual void publish_body_contacts(std::span<BodyContact> bodies) const = 0;
+  /// Adds what its contacts do to the terrain, if there is one, and to each obstacle.
+  virtual void add_surface_contacts(std::span<SurfaceSum> surfaces) const = 0;
   /// What the springs of its contacts hold [J].
   virtual double ground_energy() const = 0;
   /// Whether the bodies' mean contact forces are worked out where they cost something.

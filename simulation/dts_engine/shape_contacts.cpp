@@ -118,6 +118,7 @@ void ShapeContacts::take_surfaces() {
   surfaces_.insert(surfaces_.end(), inputs_.obstacles.begin(), inputs_.obstacles.end());
   loads_.resize(surfaces_.size());
   surface_works_.resize(surfaces_.size());
+  surface_impulses_.resize(surfaces_.size());
   works_before_.resize(surfaces_.size());
 }
 
@@ -204,7 +205,7 @@ std::optional<Vector3d> ShapeContacts::normal_at(std::size_t a, std::size_t b,
          kept(static_cast<std::int64_t>(first), static_cast<std::int64_t>(second))) {
       const double distance =
           std::min(norm(other.at.place - place), norm(other_place(other.at) - place));
-      if (distance >= nearest) continue;
+      if (distance >= nearest || !(other.at.depth > 0.)) continue;
       nearest = distance;
       normal = sign * other.at.normal;
     }
@@ -402,10 +403,10 @@ void ShapeContacts::add_force(std::span<dts::Workspace<double>* const> workspace
 void ShapeContacts::add_surface_load(const ShapeContact& contact, const Vector3d& force,
                                      const Vector3d& moment) {
   const auto add = [&](std::int64_t object, double sign) {
-    const auto surface = static_cast<std::size_t>(object);  // surfaces come first among the objects
-    if (surface >= surfaces_.size()) return;
-    const Vector3d arm = contact.place - motions_[surface].p_WB;
-    SurfaceLoad& load = loads_[surface];
+    const auto surface = surface_of(static_cast<std::size_t>(object));
+    if (!surface) return;
+    const Vector3d arm = contact.place - motions_[*surface].p_WB;
+    SurfaceLoad& load = loads_[*surface];
     load.force += sign * force;
     load.moment += sign * (cross(arm, force) + moment);
     load.tangential_force += sign * tangential(force, contact.normal);
@@ -608,7 +609,10 @@ bool ShapeContacts::is_active_state(std::size_t i) const {
 
 // Impulses.
 
-void ShapeContacts::begin_impulses() { std::ranges::fill(impulses_, Vector3d{}); }
+void ShapeContacts::begin_impulses() {
+  std::ranges::fill(impulses_, Vector3d{});
+  std::ranges::fill(surface_impulses_, Vector3d{});
+}
 
 std::span<const Vector3d> ShapeContacts::impulses(std::size_t robot) const {
   return std::span(impulses_).subspan(first_bodies_[robot],
@@ -623,6 +627,7 @@ void ShapeContacts::add_impulses(double weight) {
                          dot(loads_[i].moment, surfaces_[i].angular_velocity) +
                          dot(loads_[i].tangential_force, surfaces_[i].belt_velocity);
     surface_works_[i] += weight * power;
+    surface_impulses_[i] += weight * loads_[i].force;
   }
 }
 

@@ -96,6 +96,12 @@ class ShapeContacts final : private DetectionMemory {
   /// The boundary point that a place belongs to; none of a rim, an edge, and on the other's side.
   std::optional<std::size_t> boundary_point(const ContactKey& key) const;
   double stored_energy() const;
+  /// Number of an object among the terrain, if there is one, and the obstacles; none for bodies.
+  std::optional<std::size_t> surface_of(std::size_t object) const {
+    return object < surfaces_.size() ? std::optional(object) : std::nullopt;  // they come first
+  }
+  /// Of each of them, on bodies over the step [N s].
+  std::span<const Vector3d> surface_impulses() const { return surface_impulses_; }
   /// Work on bodies since the run's start of the terrain's motion, then of each obstacle's: by their
   /// frames and their belts [J]. Summed as the impulses are, by the integrator's weights.
   std::span<const double> surface_works() const { return surface_works_; }
@@ -226,6 +232,7 @@ class ShapeContacts final : private DetectionMemory {
   std::vector<ObjectMotion> motions_;    ///< of each object, at the state under evaluation
   std::vector<SurfaceMotion> surfaces_;  ///< of terrain and obstacles, at the committed state
   std::vector<SurfaceLoad> loads_;       ///< of each of them, at the state under evaluation
+  std::vector<Vector3d> surface_impulses_;
   std::vector<double> surface_works_, works_before_;
   /// Since the step's start, of the state under evaluation and of the committed one [s].
   double elapsed_ = 0., committed_elapsed_ = 0.;

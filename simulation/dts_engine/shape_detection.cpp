@@ -296,7 +296,8 @@ void ShapeDetection::ball_on_surface(const contact::Surface& surface, std::size_
       held = {{contact::face_along(surface, place_in_b, transpose_times(frame.R_WB, *normal))}, 1};
   }
   const contact::BallContacts found =
-      contact::ball_on_surface(surface, place_in_b, ball.radius, before, held, reach_);
+      contact::ball_on_surface(surface, place_in_b, ball.radius, before, held, reach_,
+                               transpose_times(frame.R_WB, motions_[a].R_WB * ball.cap));
   for (const contact::SurfaceContact& at : found.all()) {
     const Vector3d normal = frame.R_WB * at.normal;
     const Vector3d place = center - ball.radius * normal;

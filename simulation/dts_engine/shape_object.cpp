@@ -57,8 +57,12 @@ class FeatureMaker {
   }
   void operator()(const Capsule& capsule) const {
     const Vector3d end{0., 0., 0.5 * capsule.length};
-    object_.balls.push_back({place(-end), capsule.radius, shape_.material, shape_.first_point});
-    object_.balls.push_back({place(end), capsule.radius, shape_.material, shape_.first_point + 1});
+    for (const double sign : {-1., 1.}) {
+      BallFeature ball{place(sign * end), capsule.radius, shape_.material,
+                       shape_.first_point + (sign > 0. ? 1 : 0)};
+      ball.cap = rotate(shape_.orientation, Vector3d{0., 0., sign});
+      object_.balls.push_back(ball);
+    }
     add_round(round(-end, end, capsule.radius, capsule.radius, {0., 0., 1.}, false));
   }
   void operator()(const Hull& hull) const {

@@ -50,6 +50,13 @@ struct BodyContact {
   double tangential_load = 0.;  ///< size of the rest of the force [N]
 };
 
+/// What bodies do to the terrain or an obstacle. The sums are about the origin of its frame.
+struct SurfaceContact {
+  Vector3d force;     ///< impulse on it over the last step by the step's length, world axes [N]
+  double count = 0.;  ///< places that carry force
+  BodyContact sums;
+};
+
 /// What a chain does to the body that carries it, at its hip, world axes, in the step just taken.
 struct ChainState {
   Vector3d hip_force;   ///< [N]
@@ -116,9 +123,10 @@ struct WorldState {
   std::vector<BodyState> bodies;
   std::vector<JointState> joints;
   // Once Engine::publish_details was called; empty where the engine has none.
-  std::vector<PointState> points;          ///< one a PointSpec
-  std::vector<ChainState> chains;          ///< robots in order
-  std::vector<BodyContact> body_contacts;  ///< one a body
+  std::vector<PointState> points;                ///< one a PointSpec
+  std::vector<ChainState> chains;                ///< robots in order
+  std::vector<BodyContact> body_contacts;        ///< one a body
+  std::vector<SurfaceContact> surface_contacts;  ///< of the terrain, if there is one, and obstacles
   // Once Engine::publish_reactions was called; empty where the engine has none.
   std::vector<JointReaction> reactions;  ///< one a joint
   std::vector<LoopState> loops;          ///< one a LoopSpec; empty where the engine has none

@@ -1,6 +1,8 @@
 // What a base and a link share: shapes, the points that may touch the ground, what is published.
 #include "simulation/scene/body.h"
 
+#include <fmt/format.h>
+
 #include "contact/force_law.h"
 #include "contact/terrain/boundary_points.h"
 #include "language/values/budget.h"
@@ -8,6 +10,7 @@
 
 namespace hookpoint::simulation {
 
+using language::append;
 using language::Direction;
 using language::FieldSchema;
 using language::number_field;
@@ -90,31 +93,54 @@ void add_shape_points(const language::Object& object, const ShapeSpec& shape, Bo
     add_point(shape.location + rotate(shape.orientation, p_SP), 0., shape.material, body);
 }
 
+const std::string of_force_laws = "; engine dts with a force law only";
+
+/// What the contacts come to that `from` has with `on`.
+std::vector<FieldSchema> contact_sum_ports(const std::string& from, const std::string& on) {
+  const std::string origin = on == "it" ? "its origin" : on + "'s origin";
+  return {
+      port_only(Direction::output,
+                vector_field("contact.moment", "N.m", "",
+                             fmt::format("of {} on {} about its origin, world axes{}", from, on,
+                                         of_force_laws))),
+      port_only(Direction::output,
+                vector_field("contact.center_of_pressure", "m", "",
+                             fmt::format("mean of the places that touch, by normal load, world "
+                                         "axes; without load {}{}",
+                                         origin, of_force_laws))),
+      port_only(Direction::output,
+                number_field("contact.normal_load", "N", "",
+                             "sum over the contacts, each along its normal" + of_force_laws)),
+      port_only(Direction::output, number_field("contact.tangential_load", "N", "",
+                                                "size of the rest of the force" + of_force_laws))};
+}
+
 }  // namespace
 
 std::vector<FieldSchema> contact_ports() {
-  const std::string where = "; engine dts with a force law only";
-  return {
+  std::vector<FieldSchema> ports{
       port_only(Direction::output,
                 vector_field("contact.force", "N", "",
                              "impulse of the ground on the body over the last step by the step's "
                              "length, world axes; at first 0")),
       port_only(Direction::output,
                 number_field("contact.count", "", "",
-                             "boundary points that carried force in the last step")),
+                             "boundary points that carried force in the last step"))};
+  append(ports, contact_sum_ports("the ground", "the body"));
+  return ports;
+}
+
+std::vector<FieldSchema> surface_contact_ports() {
+  std::vector<FieldSchema> ports{
       port_only(Direction::output,
-                vector_field("contact.moment", "N.m", "",
-                             "of the ground on the body about its origin, world axes" + where)),
+                vector_field("contact.force", "N", "",
+                             "impulse of bodies on it over the last step by the step's length, "
+                             "world axes; at first 0" +
+                                 of_force_laws)),
       port_only(Direction::output,
-                vector_field("contact.center_of_pressure", "m", "",
-                             "mean of the places that touch, by normal load, world axes; without "
-                             "load the body's origin" +
-                                 where)),
-      port_only(Direction::output,
-                number_field("contact.normal_load", "N", "",
-                             "sum over the contacts, each along its normal" + where)),
-      port_only(Direction::output, number_field("contact.tangential_load", "N", "",
-                                                "size of the rest of the force" + where))};
+                number_field("contact.count", "", "", "places that carry force" + of_force_laws))};
+  append(ports, contact_sum_ports("bodies", "it"));
+  return ports;
 }
 
 std::vector<FieldSchema> acceleration_ports(const std::string& body) {

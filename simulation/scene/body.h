@@ -32,6 +32,8 @@ inline constexpr const char* of_its_shapes =
     ", for its shapes and ContactPoints that name none of their own";
 /// What every body publishes of its contact with the ground.
 std::vector<FieldSchema> contact_ports();
+/// What bodies do to the terrain or to an obstacle.
+std::vector<FieldSchema> surface_contact_ports();
 /// How a body's velocities change, for whom `body` is.
 std::vector<FieldSchema> acceleration_ports(const std::string& body);
 /// The motion of a body that moves with others: read only. `position` is the name of its place.

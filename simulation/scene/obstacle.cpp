@@ -62,6 +62,7 @@ language::ClassSchema obstacle_class(const std::string& kind, const char* what,
                     number_field("work", "J", "", "of its motion on bodies since the start")),
           port_only(Direction::output,
                     vector_field("position", "m", "", "of its frame's origin now, world axes"))});
+  append(obstacle.fields, surface_contact_ports());
   return obstacle;
 }
 

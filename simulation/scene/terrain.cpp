@@ -6,6 +6,7 @@
 
 #include "language/tree/fields.h"
 #include "simulation/engine_interface/engine.h"
+#include "simulation/scene/body.h"
 #include "simulation/scene/load.h"
 #include "simulation/scene/load_parts.h"
 #include "simulation/scene/schema.h"
@@ -169,6 +170,7 @@ language::ClassSchema terrain_class(const char* name, const char* doc,
                     vector_field("position", "m", "", "of its frame's origin, 0 at first")),
           port_only(Direction::output,
                     orientation_field("orientation", "its frame to world axes, w,x,y,z"))});
+  append(terrain.fields, surface_contact_ports());
   return terrain;
 }
 

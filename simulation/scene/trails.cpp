@@ -58,6 +58,11 @@ std::string missing_port(const Experiment& experiment, const language::Object& o
     return field.name == "contact.moment" || field.name == "contact.center_of_pressure" ||
            field.name == "contact.normal_load" || field.name == "contact.tangential_load";
   };
+  const auto of_surface_contact = [&] {
+    const bool is_surface = object.type.starts_with("Terrain.") ||
+                            (object.type.starts_with("Obstacle.") && !object.boolean("free"));
+    return is_surface && field.name.starts_with("contact.");
+  };
   const auto of_reaction = [&] {
     return field.name == "reaction_force" || field.name == "reaction_moment";
   };
@@ -74,8 +79,9 @@ std::string missing_port(const Experiment& experiment, const language::Object& o
         "engine {} does not tell what its ground does between the instants that it publishes, so that "
         "`{}` is not known: choose another engine",
         experiment.engine, field.name);
-  const bool detail = !field.setting && (object.type == "ContactPoint" || object.type == "Chain" ||
-                                         of_body_contact() || of_reaction());
+  const bool detail =
+      !field.setting && (object.type == "ContactPoint" || object.type == "Chain" ||
+                         of_body_contact() || of_surface_contact() || of_reaction());
   const bool peer = experiment.engine != "dts";
   // A peer publishes ContactPoints, but no hips.
   const bool published =

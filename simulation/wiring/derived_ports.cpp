@@ -24,6 +24,7 @@ DerivedPorts::DerivedPorts(const Experiment& experiment, Engine& engine)
       balance_(experiment, engine),
       contact_forces_(engine),
       details_(engine),
+      surface_contacts_(engine),
       reactions_(engine) {}
 
 void DerivedPorts::update() {

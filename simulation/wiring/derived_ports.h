@@ -51,6 +51,8 @@ class DerivedPorts {
   Lazy& contact_forces() { return contact_forces_; }
   /// The engine's own details (Engine::publish_details).
   Lazy& details() { return details_; }
+  /// The contacts of terrain and obstacles, whose mean forces are of both groups above.
+  Lazy& surface_contacts() { return surface_contacts_; }
   /// The same of joint reactions (Engine::publish_reactions).
   Lazy& reactions() { return reactions_; }
 
@@ -102,6 +104,15 @@ class DerivedPorts {
     Engine& engine;
   };
 
+  struct SurfaceContacts final : Lazy {
+    explicit SurfaceContacts(Engine& of_engine) : engine(of_engine) {}
+    void begin() override {
+      engine.enable_mean_forces(true);
+      engine.publish_details();
+    }
+    Engine& engine;
+  };
+
   void compute_energies();
   void compute_numerical_energies();
   void compute_accelerations();
@@ -124,6 +135,7 @@ class DerivedPorts {
   Group joint_terms_{*this, &DerivedPorts::compute_joint_bias};
   ContactForces contact_forces_;
   Details details_;
+  SurfaceContacts surface_contacts_;
   Reactions reactions_;
 };
 

@@ -118,6 +118,24 @@ void add_body_contact(std::vector<Port>& ports, const std::string& trail,
   ports.push_back(readable(trail + ".contact.tangential_load", "N", contact.tangential_load));
 }
 
+/// What bodies do to the terrain and the obstacles.
+void add_surface_contacts(std::vector<Port>& ports, const Experiment& experiment,
+                          const WorldState& state, DerivedPorts& derived) {
+  const std::size_t first = ports.size();
+  auto contact = state.surface_contacts.begin();
+  const auto add = [&](const std::string& name) {
+    if (contact == state.surface_contacts.end()) return;
+    const std::string trail = experiment.world + "." + name;
+    add_vector(ports, trail + ".contact.force", "N", contact->force);
+    ports.push_back(readable(trail + ".contact.count", "", contact->count));
+    add_body_contact(ports, trail, contact->sums);
+    ++contact;
+  };
+  if (experiment.terrain) add(experiment.terrain->name);
+  for (const ObstacleSpec& obstacle : experiment.obstacles) add(obstacle.name);
+  on_demand(ports, first, derived.surface_contacts());
+}
+
 /// What only some engines have: hips, ContactPoints, and what the contacts of a body come to.
 void add_details(std::vector<Port>& ports, const Experiment& experiment, const WorldState& state,
                  DerivedPorts& derived) {
@@ -237,6 +255,7 @@ std::vector<Port> list_ports(const Experiment& experiment, Engine& engine, Deriv
     add_vector(ports, trail + ".moment", "N.m", state.loops[i].moment);
   }
   add_details(ports, experiment, state, derived);
+  add_surface_contacts(ports, experiment, state, derived);
   add_reactions(ports, experiment, state, derived);
   return ports;
 }

@@ -103,6 +103,22 @@ TEST(ShapeContact, ASoleWithItsCentreOverTheTreadStands) {
   EXPECT_LT(std::abs(run["yard.foot.angular_velocity.y"]), 1e-6);
 }
 
+// Ground so soft that the sole sinks in by 2 % of its length and leans back: it comes to rest, its corners
+// and its edges over the nosing as deep as an exponential spring is under their parts of its weight.
+TEST(ShapeContact, ASoleRestsOnSoftTreads) {
+  Running run(yard("deltat = 0.1 ms; contact = exponential;", sole(0.4)));
+  run.step(100000);
+  EXPECT_LT(std::abs(run["yard.foot.velocity.z"]), 1e-7);
+  EXPECT_LT(std::abs(run["yard.foot.angular_velocity.y"]), 1e-6);
+  const double x = run["yard.foot.position.x"], z = run["yard.foot.position.z"];
+  const double q = 2. * std::asin(run["yard.foot.orientation.y"]);
+  const double heel = x - 0.12 * std::cos(q) - 0.02 * std::sin(q);
+  const double on_nosing = 20. * g * (x - heel) / (0.5 - heel);
+  const auto sunk = [](double load) { return std::log(load / 0.5336) / 1150.; };
+  EXPECT_NEAR(std::sin(q) * (0.5 - x) - std::cos(q) * z + 0.02, sunk(0.5 * on_nosing), 1e-4);
+  EXPECT_NEAR(0.02 * std::cos(q) - 0.12 * std::sin(q) - z, sunk(0.5 * (20. * g - on_nosing)), 1e-4);
+}
+
 // Its centre d past the nosing and h above it, it turns about the nosing: what its centre has lost in
 // height at the angle q is in the turn, I w^2/2 = m g (h (1 - cos q) + d sin q).
 TEST(ShapeContact, ASoleWithItsCentreInTheAirTips) {

@@ -8,8 +8,8 @@ import { trianglesOf } from "./shapes.ts";
 
 export const numbersOfContact = 12;
 
-const leastTiles = 0.3; // of the ground's tiles, in the radius of a picture
-const mostSurround = 4; // radii of the robots, which are to be seen among their obstacles
+const leastTiles = 0.3; // of the ground's tiles, in the radius of a picture, unless bodies would be specks
+const mostSurround = 4; // radii of the robots, which are to be seen among their obstacles and on their tiles
 
 export class Stage {
   snapshot: Snapshot | null = null;
@@ -107,7 +107,7 @@ export class Stage {
     this.surround = this.radius;
     for (const each of corners)
       this.surround = Math.max(this.surround, Math.min(each.distanceTo(this.center), mostSurround * this.radius));
-    this.fitting = Math.max(this.surround, leastTiles * (this.ground?.spacing ?? 0));
+    this.fitting = Math.max(this.surround, Math.min(leastTiles * (this.ground?.spacing ?? 0), mostSurround * this.radius));
     for (const each of balls) this.fitting = Math.max(this.fitting, each.center.distanceTo(this.center) + each.radius);
     const up = new Vector3(...this.description.scene.gravity).negate();
     if (up.length() === 0) up.set(0, 0, 1);
