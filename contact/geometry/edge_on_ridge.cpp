@@ -65,9 +65,9 @@ std::optional<EdgeContact> edge_on_ridge(const Ridge& ridge, const BodyEdge& edg
   if (round) {
     contact.weight *= between(normal, ridge.outwards);
   } else {
-    constexpr double leaning =
-        0.2;  // a sole that leans back on soft ground stands on its edge still
-    contact.weight *= between(normal, ridge.outwards, leaning) * between(-normal, edge.outwards);
+    constexpr double leaning = 0.2;  // so far a sole on soft ground leans and keeps its edge
+    contact.weight *= between(normal, ridge.outwards, leaning);
+    contact.weight *= between(-normal, edge.outwards, leaning);
   }
   if (contact.weight <= 0.) return std::nullopt;
   contact.place = on_edge - radius * normal;
