@@ -3,18 +3,16 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <iostream>
 
 #include "apps/cli/commands.h"
 #include "apps/cli/exit_status.h"
 #include "apps/cli/headless_browser.h"
 #include "apps/cli/interrupt.h"
-#include "apps/cli/movie_windows.h"
+#include "apps/cli/movie_part.h"
 #include "apps/view/page_bundle.h"
 #include "apps/view/session/film_session.h"
 #include "output/files/progress.h"
-#include "text/number.h"
 
 namespace hookpoint::cli {
 namespace {
@@ -24,8 +22,6 @@ using view::FilmError;
 using view::FilmFormat;
 
 constexpr int least_side = 16, greatest_side = 8192;
-constexpr double greatest_rate = 1000.;
-constexpr int most_pictures = 1'000'000;
 
 /// "1280x720".
 void read_size(const std::string& text, Film& film) {
@@ -46,51 +42,12 @@ void read_size(const std::string& text, Film& film) {
     throw FilmError(fmt::format("a video's width and height are even numbers, not {}", text));
 }
 
-double read_rate(const std::string& text) {
-  double rate = 0.;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), rate);
-  if (error != std::errc{} || end != text.data() + text.size() || !(rate > 0.) ||
-      rate > greatest_rate)
-    throw FilmError(
-        fmt::format("--fps takes a number of pictures a second, above 0 and up to {}; not `{}`",
-                    greatest_rate, text));
-  return rate;
-}
-
 std::string camera_of(const FilmArguments& arguments, MovieWindows& windows) {
   const std::vector<std::string> cameras = windows.cameras();
   if (!arguments.camera) return cameras.front();
   if (std::ranges::find(cameras, *arguments.camera) != cameras.end()) return *arguments.camera;
   throw FilmError(fmt::format("there is no camera `{}`; there {} {}", *arguments.camera,
                               cameras.size() == 1 ? "is" : "are", fmt::join(cameras, ", ")));
-}
-
-/// From `--from` to `--to`, or all of the movie.
-std::vector<std::int64_t> steps_of(const FilmArguments& arguments, double rate,
-                                   MovieWindows& windows) {
-  view::Reel reel(windows.movie());
-  const double deltat = windows.experiment().deltat;
-  const double first = static_cast<double>(reel.first()) * deltat;
-  const double last = static_cast<double>(reel.last()) * deltat;
-  const auto moment = [&](const std::optional<std::string>& text, const char* option,
-                          double otherwise) {
-    if (!text) return otherwise;
-    const double time = seconds(*text, option);
-    if (time >= first - deltat / 2. && time <= last + deltat / 2.) return time;
-    throw FilmError(fmt::format("{} is no moment of the movie: it goes from {} s to {} s", option,
-                                text::rounded(first, 6), text::rounded(last, 6)));
-  };
-  const double from = moment(arguments.from, "--from", first);
-  const double to = moment(arguments.to, "--to", last);
-  if (to < from)
-    throw FilmError(fmt::format("--to, {} s, lies before --from, {} s", text::rounded(to, 6),
-                                text::rounded(from, 6)));
-  if (const double pictures = (to - from) * rate; !(pictures <= most_pictures))
-    throw FilmError(
-        fmt::format("{} pictures are more than a film may have ({}): choose a part with "
-                    "--from and --to, or a lower --fps",
-                    text::rounded(pictures), most_pictures));
-  return view::film_steps(from, to, rate, deltat);
 }
 
 /// Numbered pictures of an older, longer film would look like the end of this one.
@@ -108,10 +65,10 @@ int make(const ReplayArguments& arguments) {
   film.file = arguments.film.file;
   film.format = view::film_format(film.file);
   read_size(arguments.film.size, film);
-  film.rate = read_rate(arguments.film.rate);
+  film.rate = rate_of(arguments.part);
   MovieWindows windows(arguments.movie, arguments.allow_plugins);
   film.camera = camera_of(arguments.film, windows);
-  film.steps = steps_of(arguments.film, film.rate, windows);
+  film.steps = steps_of(arguments.part, film.rate, windows);
   refuse_other_pictures(film);
   find_headless_browser();
 

@@ -115,12 +115,18 @@ int show(const ReplayArguments& arguments) {
 
 /// "" or what does not go together.
 std::string conflict(const ReplayArguments& arguments) {
-  const bool moment = arguments.json || !arguments.record.empty();
+  const bool film = !arguments.film.file.empty(), page = !arguments.page.empty();
+  const bool moment = arguments.json || (!arguments.record.empty() && !page);
   if (!arguments.at && moment)
     return "--json and --record tell of a moment: give it with --at, e.g. --at \"2.5 s\"";
   if (arguments.at && arguments.about) return "--about tells of the whole movie: leave out --at";
-  if (!arguments.film.file.empty() && (arguments.at || arguments.about))
-    return "--film takes neither --at nor --about: --from and --to say which part of the movie";
+  if ((film || page) && (arguments.at || arguments.about))
+    return fmt::format(
+        "{} takes neither --at nor --about: --from and --to say which part of the movie",
+        film ? "--film" : "--html");
+  if (film && page) return "--film and --html are two calls";
+  if (arguments.part.given() && !film && !page)
+    return "--fps, --from and --to are of a film or a page: give --film or --html";
   return "";
 }
 
@@ -132,6 +138,7 @@ int replay(const ReplayArguments& arguments) {
     return wrong_input;
   }
   if (!arguments.film.file.empty()) return film(arguments);
+  if (!arguments.page.empty()) return write_page(arguments);
   try {
     return use_movie([&] { return show(arguments); });
   } catch (const view::ServerError& error) {

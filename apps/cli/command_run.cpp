@@ -8,6 +8,7 @@
 #include "apps/cli/run_loop.h"
 #include "apps/shared/application.h"
 #include "apps/shared/live_loader.h"
+#include "apps/shared/robot_file.h"
 #include "simulation/engine_interface/step_count.h"
 #include "simulation/scene/load.h"
 #include "text/shell_word.h"
@@ -87,7 +88,8 @@ int run(const RunArguments& arguments) {
     return wrong_input;
   }
   application::Application application(arguments.allow_plugins);
-  const std::filesystem::path file = application.locate(arguments.file);
+  const std::filesystem::path file = application::with_a_world(
+      application, application.locate(arguments.file), arguments.allow_plugins);
   const auto root = application.evaluate_set(file, settings_with_duration(arguments));
   if (!root) return wrong_input;
   auto experiment = application.load(*root);

@@ -48,23 +48,32 @@ struct FilmArguments {
   std::filesystem::path file;         ///< empty: no film
   std::optional<std::string> camera;  ///< trail; none: the first
   std::string size = "1280x720";
-  std::string rate = "30";              ///< pictures a second
+};
+
+/// Which moments of a movie a film or a page has.
+struct MoviePart {
+  std::optional<std::string> rate;      ///< pictures a second; none: 30
   std::optional<std::string> from, to;  ///< "2.5 s"; none: all of the movie
+  bool given() const { return rate || from || to; }
 };
 
 struct ReplayArguments {
   std::filesystem::path movie;
   std::optional<std::string> at;    ///< "2.5 s"; none: all of it
   std::vector<std::string> record;  ///< trails, vectors, globs; none: a summary, as JSON all
+  std::filesystem::path page;       ///< --html; empty: no page
+  MoviePart part;                   ///< of --film and --html
   bool json = false;
   bool about = false;
   bool allow_plugins = false;
   ViewArguments view;
   FilmArguments film;
 };
-/// replay: a movie in the window, what it is, a moment of it, or a film of it.
+/// replay: a movie in the window, what it is, a moment of it, a film of it, or a page with it.
 int replay(const ReplayArguments& arguments);
 int film(const ReplayArguments& arguments);
+/// replay --html.
+int write_page(const ReplayArguments& arguments);
 
 /// recover: the record that a killed run left as a spool.
 int recover(const std::filesystem::path& spool);

@@ -160,13 +160,14 @@ void add_film(CLI::App* command, FilmArguments& arguments) {
   command->add_option("--size", arguments.size, "of the film's pictures (default: 1280x720)")
       ->type_name("WIDTHxHEIGHT")
       ->needs(film);
-  command->add_option("--fps", arguments.rate, "pictures a second of the film (default: 30)")
-      ->type_name("N")
-      ->needs(film);
-  command->add_option("--from", arguments.from, "where the film begins: \"2.5 s\"")
-      ->type_name("TIME")
-      ->needs(film);
-  command->add_option("--to", arguments.to, "where the film ends")->type_name("TIME")->needs(film);
+}
+
+void add_part(CLI::App* command, MoviePart& part) {
+  command->add_option("--fps", part.rate, "pictures a second of a film or a page (default: 30)")
+      ->type_name("N");
+  command->add_option("--from", part.from, "where the film or the page begins: \"2.5 s\"")
+      ->type_name("TIME");
+  command->add_option("--to", part.to, "where it ends")->type_name("TIME");
 }
 
 void add_movie_tools(CLI::App& app, Request& request) {
@@ -186,6 +187,12 @@ void add_movie_tools(CLI::App& app, Request& request) {
   replay_app->add_flag("--json", request.replay.json, "as JSON, 17 significant digits");
   replay_app->add_flag("--about", request.replay.about, "only say what the movie is");
   add_film(replay_app, request.replay.film);
+  replay_app
+      ->add_option("--html", request.replay.page,
+                   "write it as a page of its own, which a browser opens without the program; "
+                   "--record: ports beside those of its windows")
+      ->type_name("FILE");
+  add_part(replay_app, request.replay.part);
   add_serving(replay_app, request.replay.view);
   add_plugins(replay_app, request.replay.allow_plugins);
   add_command(app, request, "recover", "the MATLAB record of a run that was killed",
@@ -289,7 +296,8 @@ void add_view(CLI::App& app, Request& request) {
   CLI::App* view_app =
       add_command(app, request, "view", "run a world in the windows that its file describes",
                   [&] { return view(request.run); });
-  view_app->add_option("FILE", request.run.file, "a .hook file with a World")->required();
+  view_app->add_option("FILE", request.run.file, "a .hook file with a World, or a robot's file")
+      ->required();
   add_run_options(view_app, request.run);
   view_app->get_option("--for")->description(
       "how long: \"10 s\" (default: the World's duration with --record or --movie, else until you "
@@ -302,7 +310,8 @@ void add_view(CLI::App& app, Request& request) {
 void add_run_and_study(CLI::App& app, Request& request) {
   CLI::App* run_app =
       add_command(app, request, "run", "run a world", [&] { return run(request.run); });
-  run_app->add_option("FILE", request.run.file, "a .hook file with a World, unless --resume");
+  run_app->add_option("FILE", request.run.file,
+                      "a .hook file with a World or a robot's file, unless --resume");
   add_run_options(run_app, request.run);
   run_app->add_flag("--view", request.run.viewed, "in the windows that the file describes");
   add_serving(run_app, request.run.view);

@@ -5,6 +5,7 @@
 #include <sstream>
 #include <utility>
 
+#include "apps/shared/robot_file.h"
 #include "language/document/document.h"
 #include "simulation/scene/load.h"
 #include "text/number.h"
@@ -38,7 +39,7 @@ void LiveLoader::read_anew() {
         else
           print_diagnostics(found);
       });
-  found_ = application_->find(file_);
+  found_ = with_a_world(*application_, application_->find(file_), allow_plugins_);
 }
 
 const simulation::LoadedExperiment* LiveLoader::load_first(std::string& problem) {

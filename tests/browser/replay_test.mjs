@@ -1,6 +1,7 @@
 // A movie in the window: scrubbed, plotted and played.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
+import { pathToFileURL } from "node:url";
 import { configs, eventually, openBrowser, openPage, read, resume, run, serve, time, widget, workFolder } from "./support.mjs";
 
 const angle = "world.pendulum.arm.rod.angle";
@@ -46,5 +47,26 @@ test("a movie is scrubbed to half of it, plotted and played", async (t) => {
 
   await resume(page);
   await eventually("it plays", async () => (await time(page)) > 1.2);
+  assert.deepEqual(page.problems, []);
+});
+
+test("a page with the movie inside plays without the program", async (t) => {
+  const folder = workFolder(t);
+  const made = await run(["run", `${configs}/scenes/pendulum.hook`, "--for", "1 s", "--movie", "--out", "run"], folder);
+  assert.equal(made.status, 0, made.complaints);
+  const written = await run(["replay", "run/movie.h5", "--html", "pendulum.html", "--fps", "50", "--record", `${angle},${rate}`], folder);
+  assert.equal(written.status, 0, written.complaints);
+  const at = await run(["replay", "run/movie.h5", "--at", "0.5 s", "--json", "--record", rate], folder);
+  const [expected] = [...at.out.matchAll(/"[^"]*rate": (-?[0-9.e-]+)/g)].map(([, text]) => Number(text));
+
+  const page = await openPage(browser, pathToFileURL(`${folder}/pendulum.html`).href);
+  t.after(() => page.context().close());
+  await eventually("it plays by itself", async () => (await time(page)) > 0.1);
+  await page.getByRole("slider", { name: "time line" }).fill("0.5");
+  await eventually("half of it", async () => Math.abs((await time(page)) - 0.5) < 1e-9);
+  assert.equal(await read(page, rate), expected);
+  await page.getByRole("combobox", { name: "speed" }).selectOption("5");
+  await resume(page);
+  await eventually("it begins again after its end", async () => (await time(page)) < 0.4);
   assert.deepEqual(page.problems, []);
 });

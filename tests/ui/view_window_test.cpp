@@ -44,8 +44,8 @@ class ViewWindow : public ::testing::Test {
  protected:
   ViewWindow() { place.file("scene.hook", pushed_block); }
 
-  void open(std::vector<std::string> options = {}) {
-    std::vector<std::string> words{"view", "scene.hook", "--no-open"};
+  void open(std::vector<std::string> options = {}, const std::string& file = "scene.hook") {
+    std::vector<std::string> words{"view", file, "--no-open"};
     words.insert(words.end(), options.begin(), options.end());
     program = std::make_unique<ChildProcess>(place.folder(), words);
     ASSERT_TRUE(program->wait_until([&] { return program->out().find('\n') != std::string::npos; }))
@@ -120,6 +120,17 @@ class ViewWindow : public ::testing::Test {
   std::unique_ptr<WindowClient> client;
   int last = 0;
 };
+
+TEST_F(ViewWindow, ARobotsFileIsShownOnAPlane) {
+  std::filesystem::copy_file(testing::source_folder() + "/configs/robots/quadruped.urdf",
+                             place.folder() / "quadruped.urdf");
+  open({}, "quadruped.urdf");
+  const auto description = client->hear();
+  ASSERT_TRUE(description);
+  EXPECT_NE(description->find("world.quadruped.front_left.front_left_hip"), std::string::npos);
+  step(200);
+  EXPECT_GT(read("world.ground.contact.normal_load"), 50.);
+}
 
 TEST_F(ViewWindow, FieldsAreEditedWhileItPlaysAndPlots) {
   open();

@@ -8,6 +8,7 @@ import { offerApi } from "./hookpoint_api.ts";
 import { Notices } from "./notices.ts";
 import { answerPictureRequest } from "./picture_request.ts";
 import { protocolVersion, type Description, type PlotTrace, type Snapshot, type Told } from "./protocol.ts";
+import { readRecording, RecordedSocket } from "./recording.ts";
 import { makeRunPage } from "./run_page.ts";
 import { Branches } from "./series.ts";
 import { makeStudyPage, type StudyPage } from "./study.ts";
@@ -39,7 +40,10 @@ let lastStep = 0; // that was drawn
 let branches = new Branches();
 let quality: Quality = "medium";
 
-const connection = new Connection(() => new WebSocket(addressOfSocket(location)) as unknown as Socket, {
+const recorded = document.getElementById("recording")?.textContent ?? null;
+const recording = recorded === null ? null : readRecording(recorded);
+const openSocket = (): Socket => (recording === null ? (new WebSocket(addressOfSocket(location)) as unknown as Socket) : new RecordedSocket(recording));
+const connection = new Connection(openSocket, {
   told: hear,
   snapshot: (snapshot) => {
     const waiting = newest !== null;

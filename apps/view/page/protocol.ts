@@ -31,6 +31,7 @@ export interface Description {
   subjects: Subject[];
   pull: { stiffness: number; damping: number };
   film?: Film;
+  recorded?: boolean; // the page itself has the movie
 }
 
 /// What a page that makes a film is to draw.

@@ -97,7 +97,7 @@ export function makeTransport(context: Context, chrome: Chrome): Part & { action
 
   const ending = element("select", { "aria-label": "at the end", title: "what playing does at the end" },
     ...(Object.keys(endings) as Ending[]).filter((each) => !(movie && each === "on")).map((each) => element("option", { value: each }, endings[each])));
-  ending.value = localStorage.getItem(keyOfEnding) ?? "stop";
+  ending.value = localStorage.getItem(keyOfEnding) ?? (description.recorded ? "again" : "stop");
   if (ending.selectedIndex < 0) ending.value = "stop";
   ending.addEventListener("change", () => localStorage.setItem(keyOfEnding, ending.value));
   let returning = 0;

@@ -35,12 +35,16 @@ bool Reel::go(Clock::time_point until) {
   return there();
 }
 
-void Reel::publish(Audience& audience, SessionState state) {
+SubjectState Reel::moment(SessionState& state) {
   world_->tell_contacts(contacts_);
   simulation::shown_poses(movie_.experiment, *world_, poses_);
   state.step = step();
   state.time = time();
-  const SubjectState shown{true, poses_, contacts_};
+  return {true, poses_, contacts_};
+}
+
+void Reel::publish(Audience& audience, SessionState state) {
+  const SubjectState shown = moment(state);
   audience.publish(state, std::span(&shown, 1));
 }
 

@@ -49,6 +49,8 @@ class Reel {
   /// Where the run first did not repeat the movie, "" while it does.
   const std::string& difference() const { return difference_; }
 
+  /// The present moment, which it writes into `state`; valid until the world moves.
+  SubjectState moment(SessionState& state);
   /// The present moment, to all viewers. `state`: all but the moment.
   void publish(Audience& audience, SessionState state);
 

@@ -1,7 +1,6 @@
 #include "apps/view/wire/audience.h"
 
 #include <algorithm>
-#include <limits>
 #include <set>
 #include <utility>
 
@@ -13,8 +12,6 @@ namespace {
 
 using simulation::Port;
 using text::JsonWriter;
-
-constexpr double no_port = std::numeric_limits<double>::quiet_NaN();
 
 JsonWriter begin_answer(std::int64_t id) {
   JsonWriter json;
@@ -48,7 +45,7 @@ void Audience::hear() {
       ++joined_;
       wishes_[event.client];
       server_.send(event.client, description_);
-      server_.send(event.client, layout_text());
+      server_.send(event.client, layout_.text());
     } else if (event.kind == Kind::left) {
       wishes_changed = wishes_.erase(event.client) > 0 || wishes_changed;
     } else {
@@ -106,7 +103,7 @@ void Audience::answer_trace(const PageRequest& request, std::string bytes) {
 void Audience::answer_own(Server::ClientId client, std::int64_t id, const ReadPorts& request) {
   std::vector<Port> found;
   for (const std::string& trail : request.trails) {
-    auto port = find(trail);
+    auto port = begin_port(*experiment_, ports_, trail);
     if (!port) return refuse(client, id, "there is no port `" + trail + "`");
     found.push_back(std::move(*port));
   }
@@ -157,38 +154,13 @@ void Audience::answer_own(Server::ClientId client, std::int64_t id, const WatchP
   lay_out();
 }
 
-std::optional<Port> Audience::find(const std::string& trail) const {
-  auto port = simulation::look_up_port(*experiment_, ports_, trail);
-  if (port && port->lazy != nullptr) port->lazy->begin();
-  return port;
-}
-
 void Audience::lay_out() {
   std::vector<std::string> trails = always_;
   for (const auto& [client, wish] : wishes_)
     for (const std::string& trail : wish)
       if (std::ranges::find(trails, trail) == trails.end()) trails.push_back(trail);
-  trails_ = std::move(trails);
-  units_.clear();
-  sources_.clear();
-  for (const std::string& trail : trails_) {
-    const auto port = find(trail);
-    units_.push_back(port ? port->unit : "");
-    sources_.push_back(port ? port->value : nullptr);
-  }
-  values_.resize(sources_.size());
-  ++layout_;
-  server_.broadcast(layout_text());
-}
-
-std::string Audience::layout_text() const {
-  JsonWriter json;
-  json.begin_object().member("tell", "layout").member("layout", layout_);
-  json.key("values").begin_array();
-  for (const std::string& trail : trails_) json.value(trail);
-  json.end_array().key("units").begin_array();
-  for (const std::string& unit : units_) json.value(unit);
-  return json.end_array().end_object().text();
+  layout_.lay_out(std::move(trails), *experiment_, ports_);
+  server_.broadcast(layout_.text());
 }
 
 void Audience::tell_notice(std::string_view level, const std::string& text) {
@@ -216,10 +188,8 @@ void Audience::tell_ended(const std::string& reason) {
 }
 
 void Audience::publish(SessionState state, std::span<const SubjectState> subjects) {
-  for (std::size_t i = 0; i < sources_.size(); ++i)
-    values_[i] = sources_[i] == nullptr ? no_port : *sources_[i];
-  state.layout = layout_;
-  server_.publish(encode_snapshot(state, values_, subjects));
+  state.layout = layout_.number();
+  server_.publish(encode_snapshot(state, layout_.read(), subjects));
 }
 
 }  // namespace hookpoint::view

@@ -14,6 +14,7 @@
 #include "apps/view/wire/commands.h"
 #include "apps/view/wire/server.h"
 #include "apps/view/wire/snapshot.h"
+#include "apps/view/wire/value_layout.h"
 #include "simulation/wiring/ports.h"
 #include "text/json.h"
 
@@ -73,9 +74,6 @@ class Audience {
   void answer_own(Server::ClientId client, std::int64_t id, const WatchPorts& request);
   void refuse(Server::ClientId client, std::optional<std::int64_t> id, const std::string& problem);
   void lay_out();
-  /// Its value is right from now on.
-  std::optional<simulation::Port> find(const std::string& trail) const;
-  std::string layout_text() const;
 
   Server& server_;
   const simulation::Experiment* experiment_ = nullptr;
@@ -85,13 +83,7 @@ class Audience {
   std::map<Server::ClientId, std::vector<std::string>> wishes_;
   std::size_t joined_ = 0;
   std::deque<Server::Event> heard_;
-
-  // What snapshots carry.
-  std::int64_t layout_ = 0;
-  std::vector<std::string> trails_;
-  std::vector<std::string> units_;
-  std::vector<const double*> sources_;  ///< null where no port has the trail
-  std::vector<double> values_;
+  ValueLayout layout_;  ///< of what snapshots carry
 };
 
 }  // namespace hookpoint::view
