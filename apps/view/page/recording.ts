@@ -36,10 +36,10 @@ export function readRecording(text: string): Recording {
   return recording;
 }
 
-/// Whether `trail`, a name of the world or from within it, fits: `*` stands for anything within a name, `**` for anything.
+/// Whether `trail` fits: `*` stands for anything within a name, `**` for anything.
 function fits(pattern: string, trail: string): boolean {
   const words = pattern.split(/(\*\*|\*)/).map((word) => (word === "**" ? ".*" : word === "*" ? "[^.]*" : word.replace(/[\\^$.+?()[\]{}|]/g, "\\$&")));
-  return new RegExp(`(^|\\.)${words.join("")}$`).test(trail);
+  return new RegExp(`^${words.join("")}$`).test(trail);
 }
 
 /// The end of the line at which a program would be.
@@ -121,7 +121,9 @@ export class RecordedSocket implements Socket {
   }
 
   private fitting(pattern: string): PortDescription[] {
-    return this.recording.ports.filter((port) => fits(pattern, port.trail)).map((port) => ({ ...port, writable: false, minimum: null, maximum: null }));
+    const within = `${this.recording.description.world}.`; // a pattern may begin there
+    const wanted = ({ trail }: { trail: string }) => fits(pattern, trail) || (trail.startsWith(within) && fits(pattern, trail.slice(within.length)));
+    return this.recording.ports.filter(wanted).map((port) => ({ ...port, writable: false, minimum: null, maximum: null }));
   }
 
   private placeOf(trail: string): number {
