@@ -2,6 +2,7 @@
 
 #include "apps/shared/subject_words.h"
 #include "apps/view/session/description.h"
+#include "apps/view/widgets/overview.h"
 #include "output/figures/plot.h"
 
 namespace hookpoint::cli {
@@ -42,7 +43,7 @@ view::Shown MovieWindows::show(const std::vector<simulation::Port>& ports, const
                       {},
                       film});
   shown.trails = view::ports_of(panel);
-  shown.plotted = view::plotted_of(panel);
+  shown.plotted = panel.windows.empty() ? view::overview_of(experiment_) : view::plotted_of(panel);
   return shown;
 }
 

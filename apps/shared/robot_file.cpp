@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <iostream>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "text/display.h"
@@ -19,21 +21,6 @@ constexpr double parts_of_weight = 4.;    // on a contact point, as of four feet
 constexpr const char* hold = "0.03 rad";  // by which joints deflect at most
 
 using Arguments = std::vector<std::string>;
-
-/// What an Include of the file may be given, the best first. A module of the language takes none of them.
-std::vector<Arguments> choices(bool stands) {
-  std::vector<Arguments> all;
-  for (const bool keyframe : {true, false})
-    for (const char* shapes : {"meshes = hull", "", "shapes = inertia"}) {
-      Arguments& arguments = all.emplace_back();
-      if (stands) arguments.emplace_back("rest_on = ground");
-      arguments.push_back(fmt::format("hold = {}", hold));
-      if (keyframe) arguments.emplace_back("keyframe = home");
-      if (*shapes != '\0') arguments.emplace_back(shapes);
-    }
-  all.emplace_back();
-  return all;
-}
 
 std::string include_of(const std::filesystem::path& file, const Arguments& arguments) {
   const std::string name = language::quote(file.filename().string());
@@ -68,6 +55,62 @@ double weight_of(const simulation::Experiment& experiment) {
   return gravity * mass;
 }
 
+/// A world around the file: the Include in it, and what came of it.
+struct Trial {
+  std::string include;
+  double weight = 0.;  ///< of all robots [N]
+  double height = 0.;  ///< of the first base [m]
+};
+
+class Trials {
+ public:
+  Trials(std::filesystem::path file, std::filesystem::path place, bool stands, bool allow_plugins)
+      : file_(std::move(file)),
+        place_(std::move(place)),
+        stands_(stands),
+        allow_plugins_(allow_plugins) {}
+
+  /// The best that there is: its keyframe rather than its zero pose, its own shapes rather than boxes of
+  /// inertia, but for a robot whose feet are meshes that are not there.
+  std::optional<Trial> best() const {
+    for (const char* pose : {"keyframe = home", ""}) {
+      if (auto whole = with(pose, "meshes = hull")) return whole;
+      const auto own = with(pose, ""), boxes = with(pose, "shapes = inertia");
+      constexpr double part = 0.87;  // of its height, less where feet do not touch
+      if (own && !(boxes && own->height < part * boxes->height)) return own;
+      if (boxes) return boxes;
+    }
+    return of({});
+  }
+
+ private:
+  std::optional<Trial> with(const std::string& pose, const std::string& shapes) const {
+    Arguments arguments;
+    if (stands_) arguments.emplace_back("rest_on = ground");
+    arguments.push_back(fmt::format("hold = {}", hold));
+    for (const std::string& further : {pose, shapes})
+      if (!further.empty()) arguments.push_back(further);
+    return of(arguments);
+  }
+
+  std::optional<Trial> of(const Arguments& arguments) const {
+    Trial trial;
+    trial.include = include_of(file_, arguments);
+    Application application(allow_plugins_, [](const language::Diagnostics&) {});
+    application.give(place_, world_with(trial.include, stands_ ? 1. : 0.));
+    const auto root = application.evaluate(place_, {});
+    if (!root || !has_shape(*root->children_of("World").front())) return std::nullopt;
+    const auto experiment = application.load(*root);
+    if (!experiment) return std::nullopt;
+    trial.weight = weight_of(*experiment);
+    trial.height = experiment->robots.front().location.z;
+    return trial;
+  }
+
+  const std::filesystem::path file_, place_;
+  const bool stands_, allow_plugins_;
+};
+
 }  // namespace
 
 std::filesystem::path with_a_world(Application& application, const std::filesystem::path& file,
@@ -79,26 +122,17 @@ std::filesystem::path with_a_world(Application& application, const std::filesyst
   const auto robots = alone->children_of("Robot");
   if (robots.empty()) return file;
 
-  const bool stands = std::ranges::none_of(robots, [](const language::Object* robot) {
-    return !robot->children_of("Base.fixed").empty();
+  const bool stands = std::ranges::any_of(robots, [](const language::Object* robot) {
+    return robot->children_of("Base.fixed").empty();
   });
   const std::filesystem::path place =
       file.parent_path() / (file.stem().string() + "_on_a_plane.hook");
-  for (const Arguments& arguments : choices(stands)) {
-    const std::string include = include_of(file, arguments);
-    Application world(allow_plugins, silent);
-    world.give(place, world_with(include, stands ? 1. : 0.));
-    const auto root = world.evaluate(place, {});
-    if (!root || !has_shape(*root->children_of("World").front())) continue;
-    const auto experiment = world.load(*root);
-    if (!experiment) continue;
-    const double load = stands ? weight_of(*experiment) / parts_of_weight : 0.;
-    application.give(place, world_with(include, load));
-    std::cerr << "hookpoint: note: " << text::printable(file.filename().string())
-              << " has no World: it is put into one with " << text::printable(include) << '\n';
-    return place;
-  }
-  return file;
+  const auto best = Trials(file, place, stands, allow_plugins).best();
+  if (!best) return file;
+  application.give(place, world_with(best->include, stands ? best->weight / parts_of_weight : 0.));
+  std::cerr << "hookpoint: note: " << text::printable(file.filename().string())
+            << " has no World: it is put into one with " << text::printable(best->include) << '\n';
+  return place;
 }
 
 }  // namespace hookpoint::application

@@ -17,7 +17,7 @@ namespace {
 /// What is before the script of the page, which reads it as the page begins.
 constexpr std::string_view body = "<body>";
 
-/// Trails of the windows and of the patterns, each once. Throws simulation::ExperimentError.
+/// Time, and trails of the windows and of the patterns, each once. Throws simulation::ExperimentError.
 std::vector<std::string> trails_of(const Shown& shown, const RecordingRequest& request,
                                    const simulation::Experiment& experiment,
                                    const std::vector<simulation::Port>& ports) {
@@ -26,6 +26,7 @@ std::vector<std::string> trails_of(const Shown& shown, const RecordingRequest& r
   const auto add = [&](const std::string& trail) {
     if (known.insert(trail).second) trails.push_back(trail);
   };
+  add(experiment.world + ".time");
   for (const auto* list : {&shown.trails, &shown.plotted})
     for (const std::string& trail : *list) add(trail);
   if (!request.further.empty())
