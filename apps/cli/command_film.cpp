@@ -37,7 +37,7 @@ void read_size(const std::string& text, Film& film) {
         fmt::format("--size takes WIDTHxHEIGHT in pixels, from {} to {}, such as "
                     "1280x720; not `{}`",
                     least_side, greatest_side, text));
-  const bool video = film.format != FilmFormat::png;
+  const bool video = film.format == FilmFormat::webm || film.format == FilmFormat::mp4;
   if (video && (film.width % 2 != 0 || film.height % 2 != 0))
     throw FilmError(fmt::format("a video's width and height are even numbers, not {}", text));
 }
@@ -65,6 +65,11 @@ int make(const ReplayArguments& arguments) {
   film.file = arguments.film.file;
   film.format = view::film_format(film.file);
   read_size(arguments.film.size, film);
+  film.quality = arguments.film.quality;
+  if (arguments.film.bare)
+    film.caption.reset();
+  else
+    film.caption = arguments.film.caption;
   film.rate = rate_of(arguments.part);
   MovieWindows windows(arguments.movie, arguments.allow_plugins);
   film.camera = camera_of(arguments.film, windows);

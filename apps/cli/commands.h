@@ -48,6 +48,9 @@ struct FilmArguments {
   std::filesystem::path file;         ///< empty: no film
   std::optional<std::string> camera;  ///< trail; none: the first
   std::string size = "1280x720";
+  std::string quality = "high";
+  std::string caption;  ///< before the time
+  bool bare = false;    ///< neither caption nor time
 };
 
 /// Which moments of a movie a film or a page has.

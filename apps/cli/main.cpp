@@ -151,7 +151,8 @@ void add_film(CLI::App* command, FilmArguments& arguments) {
   CLI::Option* film =
       command
           ->add_option("--film", arguments.file,
-                       "draw it as a video, FILE.webm or FILE.mp4, or as pictures, DIR/%05d.png")
+                       "draw it as a video, FILE.webm or FILE.mp4, as an animated picture, "
+                       "FILE.webp, or as pictures, DIR/%05d.png")
           ->type_name("FILE");
   command
       ->add_option("--camera", arguments.camera, "whose film: a Window.grob (default: the first)")
@@ -160,6 +161,14 @@ void add_film(CLI::App* command, FilmArguments& arguments) {
   command->add_option("--size", arguments.size, "of the film's pictures (default: 1280x720)")
       ->type_name("WIDTHxHEIGHT")
       ->needs(film);
+  command->add_option("--quality", arguments.quality, "of the film's pictures (default: high)")
+      ->check(CLI::IsMember({"low", "medium", "high"}))
+      ->type_name("low|medium|high")
+      ->needs(film);
+  command->add_option("--caption", arguments.caption, "what stands before the time in a film")
+      ->type_name("TEXT")
+      ->needs(film);
+  command->add_flag("--bare", arguments.bare, "no caption and no time in a film")->needs(film);
 }
 
 void add_part(CLI::App* command, MoviePart& part) {

@@ -106,9 +106,55 @@ TEST_F(FilmCommand, VideosLastAsLongAsTheirPictures) {
   EXPECT_EQ(place.read("film.mp4").substr(4, 4), "ftyp");
 }
 
+/// A little-endian number of `count` bytes.
+std::size_t number_at(const std::string& bytes, std::size_t at, std::size_t count) {
+  std::size_t number = 0;
+  while (count-- > 0) number = number << 8 | static_cast<unsigned char>(bytes.at(at + count));
+  return number;
+}
+
+TEST_F(FilmCommand, AnAnimatedPictureHasItsFrames) {
+  NEEDS_CHROMIUM;
+  film("--film film.webp --camera look.eye --size 321x200 --fps 30");
+  const std::string file = place.read("film.webp");
+  ASSERT_EQ(number_at(file, 4, 4), file.size() - 8);
+  int frames = 0;
+  std::size_t lasts = 0;
+  for (std::size_t at = 12; at < file.size();) {
+    const std::size_t size = number_at(file, at + 4, 4);
+    if (file.substr(at, 4) == "ANMF") {
+      ++frames;
+      EXPECT_EQ(number_at(file, at + 14, 3), 320U);
+      EXPECT_EQ(number_at(file, at + 17, 3), 199U);
+      EXPECT_TRUE(file.substr(at + 24, 3) == "VP8") << file.substr(at + 24, 4);
+      lasts += number_at(file, at + 20, 3);
+    }
+    at += 8 + size + size % 2;
+  }
+  EXPECT_EQ(frames, 7);  // 0, 33 ... 200 ms
+  EXPECT_EQ(lasts, 233U);
+}
+
+/// The time stands at the lower right, and nothing else of a picture is another with `--bare`.
+TEST_F(FilmCommand, ACaptionIsInEachPicture) {
+  NEEDS_CHROMIUM;
+  film("--film plain/%d.png --camera look.eye --size 320x200 --fps 5 --bare");
+  film("--film timed/%d.png --camera look.eye --size 320x200 --fps 5");
+  film("--film named/%d.png --camera look.eye --size 320x200 --fps 5 --caption 'a pendulum'");
+  film("--film rough/%d.png --camera look.eye --size 320x200 --fps 5 --bare --quality low");
+  for (const char* picture : {"/0.png", "/1.png"}) {
+    EXPECT_NE(place.read(std::string("plain") + picture),
+              place.read(std::string("timed") + picture));
+    EXPECT_NE(place.read(std::string("timed") + picture),
+              place.read(std::string("named") + picture));
+    EXPECT_NE(place.read(std::string("plain") + picture),
+              place.read(std::string("rough") + picture));
+  }
+}
+
 TEST_F(FilmCommand, WrongInputIsSaid) {
-  expect_refused("--film film.avi", "--film takes FILE.webm, FILE.mp4, or DIR/%05d.png");
-  expect_refused("--film film.png", "--film takes FILE.webm, FILE.mp4, or DIR/%05d.png");
+  expect_refused("--film film.avi", "--film takes FILE.webm, FILE.mp4, FILE.webp, or DIR/%05d.png");
+  expect_refused("--film film.png", "--film takes FILE.webm, FILE.mp4, FILE.webp, or DIR/%05d.png");
   expect_refused("--film f%05d%d.png", "--film takes");
   expect_refused("--film f.webm --size 320", "--size takes WIDTHxHEIGHT");
   expect_refused("--film f.webm --size 320x99999", "--size takes WIDTHxHEIGHT");
@@ -121,7 +167,9 @@ TEST_F(FilmCommand, WrongInputIsSaid) {
                  "--from is no moment of the movie: it goes from 0 s to 0.2 s");
   expect_refused("--film f.webm --from 0.2 --to 0.1", "lies before --from");
   expect_refused("--film f.webm --at 0.1", "--film takes neither --at nor --about");
+  expect_refused("--film f.webm --quality best", "--quality");
   expect_refused("--camera look.eye", "--film");
+  expect_refused("--caption x", "--film");
   EXPECT_EQ(place.entries(), 2U) << "only the scene and its movie";
 }
 

@@ -5,13 +5,16 @@ import {
 } from "mediabunny";
 import type { Context, Part } from "./context.ts";
 import { element } from "./dom.ts";
+import { formatDecimals } from "./numbers.ts";
 import type { CameraWidget, Film, Widget } from "./protocol.ts";
 import { ownCamera } from "./run_page.ts";
+import { frameOfWebp, headOfWebp } from "./webp.ts";
 import { makeCamera } from "./widgets/camera.ts";
 
 const partSize = 512 * 1024; // bytes; a message holds 1 MiB of base64 and what is around it
 const secondsBetweenKeyFrames = 2;
 const bitsAPixel = 0.2;
+const qualityOfWebp = 0.8;
 const framesInEncoder = 4;
 
 /// In the order in which they are tried: what the muxer calls them, and with profile and level.
@@ -22,21 +25,24 @@ const codecs: Record<"webm" | "mp4", [VideoCodec, string][]> = {
 
 export function makeFilmPage(context: Context): Part {
   const film = context.description.film!;
+  context.quality = film.quality;
   const camera = makeCamera(context, cameraOf(context, film.camera), true);
   for (const each of [camera.element, camera.view.canvas]) {
     each.style.width = `${film.width}px`;
     each.style.height = `${film.height}px`;
   }
   const take = async (index: number): Promise<HTMLCanvasElement> => {
-    await moment(context, index);
+    const time = await moment(context, index);
     const canvas = camera.view.drawNow();
     if (canvas.width !== film.width || canvas.height !== film.height)
       throw new Error(`its picture has ${canvas.width} x ${canvas.height} pixels`);
-    return canvas;
+    return captioned(canvas, film, time, camera.element);
   };
   // Once the page has laid it out.
   requestAnimationFrame(() => {
-    const made = film.format === "png" ? makePictures(context, film, take) : makeVideo(context, film, film.format, take);
+    const made = film.format === "png" ? makePictures(context, film, take)
+      : film.format === "webp" ? makeAnimation(context, film, take)
+      : makeVideo(context, film, film.format, take);
     made.catch((problem: Error) => context.connection.request("film_failed", { text: problem.message }).catch(() => {}));
   });
   return { element: element("div", { class: "film" }, camera.element), dispose: camera.dispose };
@@ -54,8 +60,32 @@ function cameraOf(context: Context, trail: string): CameraWidget {
   return find(context.description.windows) ?? ownCamera(context);
 }
 
-/// Resolves when everything that stands in the page shows the moment of picture `index`.
-async function moment(context: Context, index: number): Promise<void> {
+/// The picture with what the film is called and the time, at its lower right. `place` has the colours of the page.
+function captioned(picture: HTMLCanvasElement, film: Film, time: number, place: HTMLElement): HTMLCanvasElement {
+  if (film.caption === null) return picture;
+  const canvas = document.createElement("canvas");
+  canvas.width = film.width;
+  canvas.height = film.height;
+  const to = canvas.getContext("2d", { alpha: false })!;
+  to.drawImage(picture, 0, 0);
+  const size = Math.max(11, Math.round(film.height / 32));
+  const { fontFamily, color, backgroundColor } = getComputedStyle(place);
+  to.font = `${size}px ${fontFamily}`;
+  to.textAlign = "right";
+  to.textBaseline = "alphabetic";
+  to.lineWidth = size / 4;
+  to.lineJoin = "round";
+  to.strokeStyle = backgroundColor;
+  to.fillStyle = color;
+  const decimals = Math.max(0, Math.ceil(Math.log10(film.rate)));
+  const text = `${film.caption}${film.caption === "" ? "" : "   "}${formatDecimals(time, decimals)} s`;
+  to.strokeText(text, film.width - size, film.height - size);
+  to.fillText(text, film.width - size, film.height - size);
+  return canvas;
+}
+
+/// Resolves to the time when everything that stands in the page shows the moment of picture `index`.
+async function moment(context: Context, index: number): Promise<number> {
   let arrived = -1;
   let wake = () => {};
   const forget = context.onSnapshot((snapshot) => {
@@ -63,8 +93,9 @@ async function moment(context: Context, index: number): Promise<void> {
     wake();
   });
   try {
-    const { snapshot } = await context.connection.request("film_frame", { index });
+    const { snapshot, time } = await context.connection.request("film_frame", { index });
     while (arrived < snapshot) await new Promise<void>((resolve) => (wake = resolve));
+    return time;
   } finally {
     forget();
   }
@@ -73,11 +104,30 @@ async function moment(context: Context, index: number): Promise<void> {
 async function makePictures(context: Context, film: Film, take: (index: number) => Promise<HTMLCanvasElement>): Promise<void> {
   for (let index = 0; index < film.frames; ++index) {
     const canvas = await take(index);
-    const blob = await new Promise<Blob | null>((resolve) => canvas.toBlob(resolve, "image/png"));
-    if (blob === null) throw new Error("it made no PNG of a picture");
-    await send(context, index, 0, new Uint8Array(await blob.arrayBuffer()));
+    await send(context, index, 0, await encoded(canvas, "image/png"));
     await context.connection.request("film_end", { file: index });
   }
+}
+
+async function encoded(canvas: HTMLCanvasElement, type: "image/png" | "image/webp"): Promise<Uint8Array> {
+  const blob = await new Promise<Blob | null>((resolve) => canvas.toBlob(resolve, type, qualityOfWebp));
+  if (blob === null || blob.type !== type) throw new Error(`it encodes no ${type} of a picture`);
+  return new Uint8Array(await blob.arrayBuffer());
+}
+
+/// The head comes last: it has the size of the whole.
+async function makeAnimation(context: Context, film: Film, take: (index: number) => Promise<HTMLCanvasElement>): Promise<void> {
+  const { width, height } = film;
+  let at = headOfWebp(width, height, 0).length;
+  const milliseconds = (index: number) => Math.round((1000 * index) / film.rate);
+  for (let index = 0; index < film.frames; ++index) {
+    const still = await encoded(await take(index), "image/webp");
+    const frame = frameOfWebp(still, width, height, milliseconds(index + 1) - milliseconds(index));
+    await send(context, 0, at, frame);
+    at += frame.length;
+  }
+  await send(context, 0, 0, headOfWebp(width, height, at));
+  await context.connection.request("film_end", { file: 0 });
 }
 
 async function makeVideo(

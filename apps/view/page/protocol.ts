@@ -41,7 +41,9 @@ export interface Film {
   height: number;
   rate: number; // pictures a second
   frames: number;
-  format: "png" | "webm" | "mp4";
+  format: "png" | "webm" | "mp4" | "webp";
+  quality: "low" | "medium" | "high";
+  caption: string | null; // before the time in each picture; null: neither
 }
 
 export interface SceneDescription {

@@ -44,6 +44,8 @@ const char* name_of(FilmFormat format) {
       return "webm";
     case FilmFormat::mp4:
       return "mp4";
+    case FilmFormat::webp:
+      return "webp";
   }
   return "";
 }
@@ -55,10 +57,11 @@ FilmFormat film_format(const std::filesystem::path& file) {
   const bool numbered = number_in(file.filename()).has_value();
   if (end == ".webm") return FilmFormat::webm;
   if (end == ".mp4") return FilmFormat::mp4;
+  if (end == ".webp") return FilmFormat::webp;
   if (end == ".png" && numbered) return FilmFormat::png;
   throw FilmError(fmt::format(
-      "--film takes FILE.webm, FILE.mp4, or DIR/%05d.png for pictures with their number in the "
-      "name; not `{}`",
+      "--film takes FILE.webm, FILE.mp4, FILE.webp, or DIR/%05d.png for pictures with their "
+      "number in the name; not `{}`",
       file.string()));
 }
 
@@ -83,7 +86,13 @@ void write_film(const Film& film, text::JsonWriter& json) {
   json.begin_object().member("camera", film.camera).member("width", film.width);
   json.member("height", film.height).member("rate", film.rate);
   json.member("frames", static_cast<std::int64_t>(film.steps.size()));
-  json.member("format", name_of(film.format)).end_object();
+  json.member("format", name_of(film.format)).member("quality", film.quality);
+  json.key("caption");
+  if (film.caption)
+    json.value(*film.caption);
+  else
+    json.null();
+  json.end_object();
 }
 
 FilmFile::FilmFile(std::filesystem::path path)

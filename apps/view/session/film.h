@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -12,13 +13,15 @@
 
 namespace hookpoint::view {
 
-enum class FilmFormat { png, webm, mp4 };
+enum class FilmFormat { png, webm, mp4, webp };
 
 struct Film {
   std::string camera;  ///< trail
   int width = 1280, height = 720;
   double rate = 30.;  ///< pictures a second
   FilmFormat format = FilmFormat::png;
+  std::string quality = "high";             ///< of the pictures: low, medium, high
+  std::optional<std::string> caption = "";  ///< before the time in each of them; none: neither
   std::filesystem::path file;       ///< of pictures: `%05d` in its name stands for their number
   std::vector<std::int64_t> steps;  ///< of the pictures
 };
@@ -33,7 +36,7 @@ struct DrawingError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// By the file's name. Throws FilmError for one that is neither FILE.webm, FILE.mp4 nor
+/// By the file's name. Throws FilmError for one that is neither FILE.webm, FILE.mp4, FILE.webp nor
 /// DIR/%05d.png.
 FilmFormat film_format(const std::filesystem::path& file);
 /// Where picture `index` goes: "%05d" in the name replaced.
