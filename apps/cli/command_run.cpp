@@ -88,8 +88,11 @@ int run(const RunArguments& arguments) {
     return wrong_input;
   }
   application::Application application(arguments.allow_plugins);
-  const std::filesystem::path file = application::with_a_world(
-      application, application.locate(arguments.file), arguments.allow_plugins);
+  std::filesystem::path file = application.locate(arguments.file);
+  if (const auto world = application::world_of_robot(application, file, arguments.allow_plugins)) {
+    application.give(world->file, world->text);
+    file = world->file;
+  }
   const auto root = application.evaluate_set(file, settings_with_duration(arguments));
   if (!root) return wrong_input;
   auto experiment = application.load(*root);

@@ -5,7 +5,6 @@
 #include <sstream>
 #include <utility>
 
-#include "apps/shared/robot_file.h"
 #include "language/document/document.h"
 #include "simulation/scene/load.h"
 #include "text/number.h"
@@ -39,7 +38,11 @@ void LiveLoader::read_anew() {
         else
           print_diagnostics(found);
       });
-  found_ = with_a_world(*application_, application_->find(file_), allow_plugins_);
+  found_ = application_->find(file_);
+  if (!robot_world_) robot_world_ = world_of_robot(*application_, found_, allow_plugins_);
+  if (!robot_world_) return;
+  application_->give(robot_world_->file, robot_world_->text);
+  found_ = robot_world_->file;
 }
 
 const simulation::LoadedExperiment* LiveLoader::load_first(std::string& problem) {

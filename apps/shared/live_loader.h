@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "apps/shared/application.h"
+#include "apps/shared/robot_file.h"
 #include "simulation/run/live_run.h"
 
 namespace hookpoint::application {
@@ -44,6 +45,8 @@ class LiveLoader {
   std::string told_;  ///< errors of the load that is under way
   std::shared_ptr<Application> application_;
   std::filesystem::path found_;
+  std::optional<RobotWorld>
+      robot_world_;  ///< of a robot's file: chosen once, read as often as the file
   std::unique_ptr<language::Object> root_;
   std::optional<simulation::LoadedExperiment> first_;
   std::vector<std::string> step_;  ///< the setting of a step that was chosen; else empty

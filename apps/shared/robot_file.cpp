@@ -28,7 +28,7 @@ std::string include_of(const std::filesystem::path& file, const Arguments& argum
   return fmt::format("Include {} ({});", name, fmt::join(arguments, ", "));
 }
 
-/// On a floor that gives way by 1 mm under `load` [N] on a contact point; in the air where that is 0.
+/// On a floor that gives way by 1 mm under `load` [N] on a contact point; without a floor where that is 0.
 std::string world_with(const std::string& include, double load) {
   std::string floor;
   if (load > 0.)
@@ -113,14 +113,14 @@ class Trials {
 
 }  // namespace
 
-std::filesystem::path with_a_world(Application& application, const std::filesystem::path& file,
-                                   bool allow_plugins) {
-  const auto silent = [](const language::Diagnostics&) {};
-  Application trial(allow_plugins, silent);
-  const auto alone = trial.evaluate(file, {});
-  if (!alone || !alone->children_of("World").empty()) return file;
+std::optional<RobotWorld> world_of_robot(Application& application,
+                                         const std::filesystem::path& file, bool allow_plugins) {
+  if (application.library().declares(file, "World")) return std::nullopt;
+  Application quiet(allow_plugins, [](const language::Diagnostics&) {});
+  const auto alone = quiet.evaluate(file, {});
+  if (!alone || !alone->children_of("World").empty()) return std::nullopt;
   const auto robots = alone->children_of("Robot");
-  if (robots.empty()) return file;
+  if (robots.empty()) return std::nullopt;
 
   const bool stands = std::ranges::any_of(robots, [](const language::Object* robot) {
     return robot->children_of("Base.fixed").empty();
@@ -128,11 +128,10 @@ std::filesystem::path with_a_world(Application& application, const std::filesyst
   const std::filesystem::path place =
       file.parent_path() / (file.stem().string() + "_on_a_plane.hook");
   const auto best = Trials(file, place, stands, allow_plugins).best();
-  if (!best) return file;
-  application.give(place, world_with(best->include, stands ? best->weight / parts_of_weight : 0.));
+  if (!best) return std::nullopt;
   std::cerr << "hookpoint: note: " << text::printable(file.filename().string())
             << " has no World: it is put into one with " << text::printable(best->include) << '\n';
-  return place;
+  return RobotWorld{place, world_with(best->include, stands ? best->weight / parts_of_weight : 0.)};
 }
 
 }  // namespace hookpoint::application

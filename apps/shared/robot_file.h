@@ -2,16 +2,24 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <string>
 
 #include "apps/shared/application.h"
 
 namespace hookpoint::application {
 
-/// The file to evaluate for `file`: itself, or, if it holds robots and no World, one of the same folder that
-/// `application` is given, in which they stand on a plane as an Include reads them: in the keyframe `home`
+/// A file that is not on disk, beside the robot's.
+struct RobotWorld {
+  std::filesystem::path file;
+  std::string text;
+};
+
+/// The world in which the robots of `file` stand on a plane, as an Include reads them: in the keyframe `home`
 /// if there is one, joints held, meshes by their hulls where those are found; a note on stderr has that
-/// Include. A robot on a fixed base has no ground. What is wrong with `file` is left for its evaluation to report.
-std::filesystem::path with_a_world(Application& application, const std::filesystem::path& file,
-                                   bool allow_plugins);
+/// Include. A robot on a fixed base has no ground. None for a file with a World, and for one that is wrong,
+/// which its evaluation reports. `application`: for files that it has read. Cost: a few evaluations of the file.
+std::optional<RobotWorld> world_of_robot(Application& application,
+                                         const std::filesystem::path& file, bool allow_plugins);
 
 }  // namespace hookpoint::application

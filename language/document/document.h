@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "language/diagnostics.h"
@@ -58,6 +59,9 @@ class Library {
   /// The Params that `file` declares.
   std::vector<ParameterDeclaration> parameters(const std::filesystem::path& file,
                                                Diagnostics& diagnostics);
+  /// Whether `file` itself, not an Include of it, holds an object of this class at its top. O(items there),
+  /// nothing is evaluated; false for a file that is wrong or not in the language.
+  bool declares(const std::filesystem::path& file, std::string_view type);
   /// Where an Include written in `from` (or "" for the command line) finds `path`: beside it, then
   /// in the configs/ of the folders above, then along the search path. Empty if nowhere.
   std::filesystem::path find(const std::filesystem::path& path,

@@ -81,6 +81,18 @@ std::vector<ParameterDeclaration> Library::parameters(const std::filesystem::pat
   return declarations;
 }
 
+bool Library::declares(const std::filesystem::path& file, std::string_view type) {
+  const ParsedFile& parsed = implementation_->files.load(file);
+  const std::string_view text = parsed.source.text;
+  const Range top = parsed.syntax.top;
+  for (std::uint32_t i = top.begin; i < top.end; ++i) {
+    const Item& item = parsed.syntax.items[i];
+    if (item.kind == ItemKind::object && text.substr(item.place.offset, item.place.length) == type)
+      return true;
+  }
+  return false;
+}
+
 std::filesystem::path Library::find(const std::filesystem::path& path,
                                     const std::filesystem::path& from) const {
   return implementation_->files.find(path, from);

@@ -1,6 +1,12 @@
 // A pendulum under a controller with noise, and windows on it, for what is made of movies.
 #pragma once
 
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tests/support/command.h"
+
 namespace hookpoint::testing {
 
 constexpr const char* pendulum_scene = R"(World world {
@@ -25,5 +31,21 @@ Window look {
   Plot way { show = world.pendulum.arm.rod.angle; }
 }
 )";
+
+/// 200 ms of it in a folder, as m.h5.
+class PendulumMovie : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    place.file("scene.hook", pendulum_scene);
+    const CommandResult run = place.hookpoint("run scene.hook --for '200 ms' --movie m.h5");
+    ASSERT_EQ(run.status, 0) << run.err;
+  }
+  void expect_refused(const std::string& arguments, const std::string& said) {
+    const CommandResult result = place.hookpoint("replay m.h5 " + arguments);
+    EXPECT_EQ(result.status, 2) << arguments << '\n' << result.err;
+    EXPECT_NE(result.err.find(said), std::string::npos) << arguments << '\n' << result.err;
+  }
+  Workplace place;
+};
 
 }  // namespace hookpoint::testing

@@ -17,24 +17,13 @@ namespace {
 using testing::CommandResult;
 using testing::Workplace;
 
-class FilmCommand : public ::testing::Test {
+class FilmCommand : public testing::PendulumMovie {
  protected:
-  void SetUp() override {
-    place.file("scene.hook", testing::pendulum_scene);
-    const CommandResult run = place.hookpoint("run scene.hook --for '200 ms' --movie m.h5");
-    ASSERT_EQ(run.status, 0) << run.err;
-  }
-  void expect_refused(const std::string& arguments, const std::string& said) {
-    const CommandResult result = place.hookpoint("replay m.h5 " + arguments);
-    EXPECT_EQ(result.status, 2) << arguments << '\n' << result.err;
-    EXPECT_NE(result.err.find(said), std::string::npos) << arguments << '\n' << result.err;
-  }
   void film(const std::string& arguments) {
     const CommandResult result = place.hookpoint("replay m.h5 " + arguments);
     ASSERT_EQ(result.status, 0) << arguments << '\n' << result.err;
     EXPECT_EQ(result.out, "");
   }
-  Workplace place;
 };
 
 /// Width and height in a PNG's header (RFC 2083, 11.2.1).
@@ -135,7 +124,7 @@ TEST_F(FilmCommand, AnAnimatedPictureHasItsFrames) {
   EXPECT_EQ(lasts, 233U);
 }
 
-/// The time stands at the lower right, and nothing else of a picture is another with `--bare`.
+/// The time, the caption and the quality each make another picture.
 TEST_F(FilmCommand, ACaptionIsInEachPicture) {
   NEEDS_CHROMIUM;
   film("--film plain/%d.png --camera look.eye --size 320x200 --fps 5 --bare");

@@ -44,15 +44,7 @@ std::vector<std::vector<double>> instants_of(const std::vector<std::string>& par
   return instants;
 }
 
-class PageOfAMovie : public ::testing::Test {
- protected:
-  void SetUp() override {
-    place.file("scene.hook", testing::pendulum_scene);
-    const CommandResult run = place.hookpoint("run scene.hook --for '200 ms' --movie m.h5");
-    ASSERT_EQ(run.status, 0) << run.err;
-  }
-  Workplace place;
-};
+class PageOfAMovie : public testing::PendulumMovie {};
 
 TEST_F(PageOfAMovie, HasTheMoviesInstants) {
   const CommandResult made = place.hookpoint(
@@ -108,9 +100,7 @@ TEST_F(PageOfAMovie, RefusesWhatItCannotDo) {
            std::pair("--html m.html --record nothing.here", "nothing.here"),
            std::pair("--fps 20", "give --film or --html"),
        }) {
-    const CommandResult result = place.hookpoint(std::string("replay m.h5 ") + arguments);
-    EXPECT_EQ(result.status, 2) << arguments << '\n' << result.err;
-    EXPECT_NE(result.err.find(said), std::string::npos) << arguments << '\n' << result.err;
+    expect_refused(arguments, said);
     EXPECT_FALSE(std::filesystem::exists(place.folder() / "m.html")) << arguments;
   }
 }
