@@ -11,6 +11,7 @@
 #include "apps/shared/settings.h"
 #include "apps/shared/task_arguments.h"
 #include "apps/shared/task_file.h"
+#include "apps/shared/translated.h"
 
 namespace hookpoint::cli {
 
@@ -135,6 +136,15 @@ struct AdviseArguments {
 };
 /// advise: the ground's constants from what the user wants of it.
 int advise(const AdviseArguments& arguments);
+
+struct TranslateArguments {
+  application::TranslateRequest request;
+  bool allow_plugins = false;
+  bool parameters = false;  ///< only the manual's page of parameters
+  bool json = false;
+};
+/// translate: contact constants in the words of other engines, and back.
+int translate(TranslateArguments arguments);
 
 struct CompareArguments {
   std::filesystem::path first, second;  ///< folders that runs or studies left

@@ -42,6 +42,7 @@ struct Request {
   ReplayArguments replay;
   AdviseArguments advise;
   CompareArguments compare;
+  TranslateArguments translate;
   std::vector<std::filesystem::path> files;
   std::filesystem::path file;
   application::Settings settings;
@@ -455,6 +456,57 @@ void add_advise(CLI::App& app, Request& request) {
   add_plugins(advise_app, request.advise.allow_plugins);
 }
 
+void add_translate(CLI::App& app, Request& request) {
+  CLI::App* translate_app = add_command(app, request, "translate",
+                                        "contact constants in the words of other engines, and back",
+                                        [&] { return translate(request.translate); });
+  application::TranslateRequest& arguments = request.translate.request;
+  translate_app
+      ->add_option(
+          "WORDS", arguments.given,
+          "a .hook file with a World or Materials, or the name of a material; with --from the "
+          "engine's parameters, KEY=VALUE,VALUE...")
+      ->type_name("FILE|MATERIAL|KEY=VALUE...");
+  const auto add = [&](const char* option, auto& value, const char* doc, const char* type) {
+    return translate_app->add_option(option, value, doc)->type_name(type);
+  };
+  add("--from", arguments.from, "read this engine's parameters, those not given at its defaults",
+      "ENGINE");
+  add("--to", arguments.to,
+      "only to these engines, joined by commas (default: all; with --from none)", "ENGINE,...")
+      ->delimiter(',');
+  add("--material", arguments.material, "of several, this one", "NAME");
+  add("--load", arguments.load,
+      "on a contact: \"30 N\" (default: the robot's weight over its contacts, or the mass times 9.81)",
+      "FORCE");
+  add("--mass", arguments.mass,
+      "that a contact stops in a blow: \"3 kg\" (default: the load over 9.81)", "MASS");
+  add("--contacts", arguments.contacts, "that share the body (default: the robot's, else 1)", "N")
+      ->check(is_count("--contacts", 6));
+  add("--creep", arguments.creep,
+      "that a foot on 10 deg may have at most, in an engine without hook or anchor: \"1 mm/s\" (the "
+      "default, for a law that does not creep)",
+      "SPEED");
+  add("--dt", arguments.step,
+      "step of the other engine: \"2 ms\" (default: the World's, else 1 ms)", "TIME");
+  add("--radius", arguments.radius, "of the foot, for Simbody: \"20 mm\" (the default)", "LENGTH");
+  add("--area", arguments.area,
+      "of the foot's face, for Drake's hydroelastic contact: \"10 cm^2\" (the default)", "AREA");
+  translate_app
+      ->add_option_function<std::string>(
+          "--contact",
+          [&arguments](const std::string& law) {
+            arguments.settings.world.emplace_back("contact", law);
+          },
+          "the law whose constants are translated (default: the World's, else hookpoint)")
+      ->type_name("LAW");
+  add_trails(translate_app, arguments.settings);
+  translate_app->add_flag("--parameters", request.translate.parameters,
+                          "only the manual's page of the engines' parameters");
+  translate_app->add_flag("--json", request.translate.json, "as JSON, 17 significant digits");
+  add_plugins(translate_app, request.translate.allow_plugins);
+}
+
 void add_compare(CLI::App& app, Request& request) {
   CLI::App* compare_app = add_command(
       app, request, "compare", "what differs between two runs: settings, metrics, trajectories",
@@ -606,6 +658,7 @@ int main_with(int count, char** words) {
   add_ports(app, request);
   add_inspection(app, request);
   add_advise(app, request);
+  add_translate(app, request);
   add_compare(app, request);
   std::vector<std::string> wanted = with_command(app, given);
   if (wanted.empty() && !given.empty()) return wrong_input;

@@ -17,6 +17,8 @@
 #include "apps/python/python_tasks.h"
 #include "apps/python/python_world.h"
 #include "apps/shared/engines_json.h"
+#include "apps/shared/translated.h"
+#include "text/number.h"
 
 namespace hookpoint::python {
 namespace {
@@ -253,6 +255,47 @@ void add_batch(py::module_& module) {
           "The experiment after includes, loops, expressions and settings.");
 }
 
+/// "solref=0.02,1" of a number, several or a word.
+std::string setting_of(const std::string& name, const py::handle& value) {
+  if (py::isinstance<py::str>(value)) return name + "=" + value.cast<std::string>();
+  std::string text = name + "=";
+  if (!py::isinstance<py::sequence>(value)) return text + text::shortest(value.cast<double>());
+  for (const double number : value.cast<std::vector<double>>())
+    text += (text.back() == '=' ? "" : ",") + text::shortest(number);
+  return text;
+}
+
+py::object translate(const std::filesystem::path& file, const py::object& to,
+                     const std::string& source, const py::dict& parameters,
+                     const std::optional<std::string>& material, std::optional<double> load,
+                     std::optional<double> mass, std::optional<int> contacts,
+                     std::optional<double> deltat, std::optional<double> creep,
+                     bool allow_plugins) {
+  const auto with_unit = [](std::optional<double> value, const char* unit) {
+    return value ? std::optional(text::shortest(*value) + " " + unit) : std::nullopt;
+  };
+  application::TranslateRequest request;
+  request.file = file.string();
+  request.material = material;
+  request.load = with_unit(load, "N");
+  request.mass = with_unit(mass, "kg");
+  request.step = with_unit(deltat, "s");
+  request.creep = with_unit(creep, "m/s");
+  request.contacts = contacts;
+  request.to = names_of(to, "to");
+  request.from = source;
+  for (const auto& [name, value] : parameters)
+    request.given.push_back(setting_of(name.cast<std::string>(), value));
+  try {
+    QuietApplication application(allow_plugins);
+    const auto answers = application::translated(*application, request);
+    if (!answers) application.fail();
+    return py::module_::import("json").attr("loads")(translation::json_of(*answers));
+  } catch (const translation::ParameterError& error) {
+    throw_error(error.what());
+  }
+}
+
 void add_functions(py::module_& module) {
   module.def(
       "load",
@@ -307,6 +350,16 @@ void add_functions(py::module_& module) {
       "\"table\", a dict of numpy arrays: every evaluation of a Tune, the fitted constants of a "
       "Calibrate. `out`: where the files of `hookpoint tune` go, else none are kept. `frames`: "
       "every table is a pandas.DataFrame.");
+  module.def(
+      "translate", &translate, py::arg("file") = py::str(""), py::kw_only(),
+      py::arg("to") = py::list(), py::arg("source") = "", py::arg("parameters") = py::dict(),
+      py::arg("material") = py::none(), py::arg("load") = py::none(), py::arg("mass") = py::none(),
+      py::arg("contacts") = py::none(), py::arg("deltat") = py::none(),
+      py::arg("creep") = py::none(), py::arg("allow_plugins") = false,
+      "Contact constants in the words of other engines: what `hookpoint translate --json` prints, "
+      "a dict, or of a World with several contacts a list of dicts. `file`: a .hook file, or the "
+      "name of a material. `to`: engines, by default all. `source`: an engine whose `parameters`, "
+      "a dict, are read instead of a file. `load` [N], `mass` [kg], `deltat` [s], `creep` [m/s].");
   module.def(
       "engines",
       [] {

@@ -4,13 +4,6 @@
 #include <string>
 
 namespace hookpoint::reference {
-namespace {
-
-// mjmodel.h, mjMINIMP and 1 - mjMAXIMP: MuJoCo takes no impedance beyond.
-constexpr double least_impedance = 1e-4;
-
-}  // namespace
-
 MujocoSettings mujoco_settings(Settings settings, double dt,
                                const contact::MaterialConstants<double>& material) {
   MujocoSettings result;
@@ -36,8 +29,8 @@ MujocoRow mujoco_row(const MujocoSettings& settings, double dt,
   // The spring and damper taken implicitly, f = -k (r + dt (v + dt a)) - c (v + dt a), is a row
   // with R = 1/(dt (c + dt k)), B = 1/dt and K d = k R.
   const double softness = 1. / (dt * (material.normal_damping + dt * material.normal_stiffness));
-  const double d = std::clamp(inverse_weight / (inverse_weight + softness), least_impedance,
-                              1. - least_impedance);
+  const double d = std::clamp(inverse_weight / (inverse_weight + softness), mujoco_least_impedance,
+                              1. - mujoco_least_impedance);
   row.reference = {-d * material.normal_stiffness * softness, -d / dt};
   row.impedance = {d, d, 0., 0.5, 1.};
   return row;

@@ -8,6 +8,9 @@
 
 namespace hookpoint::reference {
 
+/// MuJoCo takes no impedance below this, nor above 1 less this (mjmodel.h, mjMINIMP, mjMAXIMP).
+constexpr double mujoco_least_impedance = 1e-4;
+
 struct MujocoSettings {
   bool elliptic = false;           ///< the cone of friction; else a pyramid inside it
   double friction_impedance = 1.;  ///< R of the normal row over that of a friction row (impratio)

@@ -890,6 +890,19 @@ class Tune(unittest.TestCase):
 
 
 class Module(unittest.TestCase):
+    def test_translation_is_the_commands(self):
+        said = subprocess.run([PROGRAM, "translate", "stone", "--load", "30 N", "--dt", "0.002 s", "--json"],
+                              capture_output=True, check=True, text=True).stdout
+        self.assertEqual(hookpoint.translate("stone", load=30, deltat=0.002), json.loads(said))
+        own = hookpoint.translate(source="mujoco", parameters={"solref": np.array([0.02, 1]), "cone": "elliptic",
+                                                               "impratio": 10}, load=30, to="ode")
+        self.assertEqual(own["from"]["parameters"]["solref"], [0.02, 1])
+        self.assertEqual([each["engine"] for each in own["targets"]], ["ode"])
+        for wrong in ({"file": "stone"}, {"file": "nosuch", "load": 3}, {"source": "mujoco", "load": -3},
+                      {"source": "mujoco", "load": 3, "parameters": {"solreff": 1}}):
+            with self.assertRaises(hookpoint.Error):
+                hookpoint.translate(**wrong)
+
     def test_lists_what_it_has(self):
         listed = hookpoint.engines()
         self.assertIn("dts", [engine["name"] for engine in listed["engines"]])

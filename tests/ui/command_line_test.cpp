@@ -207,6 +207,14 @@ TEST(CommandLine, TheManualsReferencePageIsCurrent) {
             "");
 }
 
+// docs/parameters.md is what `hookpoint translate --parameters` prints.
+TEST(CommandLine, TheManualsPageOfParametersIsCurrent) {
+  const Workplace work;
+  EXPECT_EQ(testing::stale("reference", testing::source_folder() + "/docs/parameters.md",
+                           work.hookpoint("translate --parameters").out),
+            "");
+}
+
 TEST(CommandLine, FmtIsIdempotent) {
   const Workplace work;
   work.file("a.hook", "World   w{deltat=1 ms; // the step\n}\n");

@@ -32,16 +32,18 @@ const std::map<std::string, Names> may_include{
     {"simulation",
      {"math", "text", "dts", "contact", "integrators", "language", "control", "output"}},
     {"reference", {"math", "text", "contact", "simulation"}},
+    {"translation", {"math", "text", "contact", "simulation", "reference"}},
     {"studies", {"math", "text", "contact", "language", "output", "simulation"}},
     {"examples", {"control"}},
     {"apps/view", {"math", "text", "language", "output", "simulation"}},
     {"apps/shared",
      {"math", "text", "dts", "contact", "integrators", "language", "control", "output",
-      "simulation", "reference", "studies", "apps/view"}},
+      "simulation", "reference", "translation", "studies", "apps/view"}},
     {"apps/cli",
      {"math", "text", "dts", "contact", "integrators", "language", "control", "output",
-      "simulation", "reference", "studies", "apps/view", "apps/shared"}},
-    {"apps/python", {"text", "language", "output", "simulation", "studies", "apps/shared"}},
+      "simulation", "reference", "translation", "studies", "apps/view", "apps/shared"}},
+    {"apps/python",
+     {"text", "language", "output", "simulation", "translation", "studies", "apps/shared"}},
 };
 
 /// Folders of reference/, an engine or two each.

@@ -1,0 +1,190 @@
+// Translated constants, given to each engine as its users give them, do what the translation says.
+// ctest: alone, released
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "apps/shared/translated.h"
+#include "tests/support/native_contacts/native_contact.h"
+#include "translation/translate.h"
+
+namespace hookpoint {
+namespace {
+
+using native::Ball;
+using native::Contact;
+using translation::Parameters;
+using translation::Situation;
+
+using Make = std::function<std::unique_ptr<Contact>(const Ball&, const Parameters&,
+                                                    const std::string& snippet)>;
+
+/// The engines of this build by the names of their targets.
+std::map<std::string, Make> engines() {
+  std::map<std::string, Make> all;
+  all["ode"] = [](const Ball& ball, const Parameters& p, const std::string&) {
+    return native::ode_contact(ball, p.number("mu"), p.number("soft_erp"), p.number("soft_cfm"),
+                               p.number("slip1"));
+  };
+  all["bullet"] = [](const Ball& ball, const Parameters& p, const std::string&) {
+    return native::bullet_contact(ball, p.number("contactStiffness"), p.number("contactDamping"),
+                                  p.number("friction"), p.word("frictionAnchor") == "1");
+  };
+  all["pybullet"] = [](const Ball& ball, const Parameters& p, const std::string&) {
+    return native::pybullet_contact(ball, p.number("contactStiffness"), p.number("contactDamping"),
+                                    p.number("lateralFriction"), p.word("frictionAnchor") == "1");
+  };
+#ifdef HOOKPOINT_NATIVE_MUJOCO
+  all["mujoco"] = [](const Ball& ball, const Parameters&, const std::string& snippet) {
+    return native::mujoco_contact(ball, snippet);
+  };
+#endif
+#ifdef HOOKPOINT_NATIVE_DART
+  all["dart"] = [](const Ball& ball, const Parameters& p, const std::string&) {
+    return native::dart_contact(ball, p.number("error_reduction_parameter"),
+                                p.number("max_error_reduction_velocity"),
+                                p.number("constraint_force_mixing"), p.number("slip_compliance"),
+                                p.number("friction_coeff"));
+  };
+#endif
+#ifdef HOOKPOINT_NATIVE_SIMBODY
+  all["simbody"] = [](const Ball& ball, const Parameters& p, const std::string&) {
+    return native::simbody_contact(ball, p.number("stiffness"), p.number("dissipation"),
+                                   p.number("us"), p.number("ud"), p.number("transition_velocity"));
+  };
+#endif
+  return all;
+}
+
+void run(Contact& contact, double deltat, double duration) {
+  for (int i = 0; i < std::lround(duration / deltat); ++i) contact.step();
+}
+
+/// Depth at rest under the load [m].
+double measured_depth(Contact& contact, const Situation& at) {
+  contact.start(0., 0., {0., 0., -at.load / at.mass});
+  run(contact, at.deltat, 3.);
+  return at.radius - contact.position()[2];
+}
+
+/// Speed downhill on 10 deg, once the contact rests [m/s].
+double measured_creep(Contact& contact, const Situation& at) {
+  const double g = at.load / at.mass;
+  contact.start(0., 0., {g * std::sin(translation::slope), 0., -g * std::cos(translation::slope)});
+  run(contact, at.deltat, 3.);
+  const double from = contact.position()[0];
+  run(contact, at.deltat, 1.);
+  return contact.position()[0] - from;
+}
+
+/// Speed after over speed before, in the mean over where in a step the plane is met.
+double measured_rebound(Contact& contact, const Situation& at) {
+  constexpr int phases = 8;
+  double sum = 0.;
+  for (int phase = 0; phase < phases; ++phase) {
+    // From above, so that an engine which sees a contact before it is made does.
+    const double step = translation::impact_speed * at.deltat;
+    contact.start(step * ((phase + 0.5) / phases - 20.), translation::impact_speed, {0., 0., 0.});
+    run(contact, at.deltat, 20. * at.deltat);
+    for (int i = 0; i < 100000; ++i) {
+      contact.step();
+      if (contact.position()[2] > at.radius + 1e-3 && contact.velocity()[2] > 0.) break;
+    }
+    sum += contact.velocity()[2] / translation::impact_speed;
+  }
+  return sum / phases;
+}
+
+constexpr double tolerance = 0.05;
+
+void expect_predicted(Contact& contact, const translation::Behaviour& predicted,
+                      const Situation& at) {
+  ASSERT_TRUE(predicted.static_depth && predicted.rebound);
+  EXPECT_NEAR(measured_depth(contact, at) / *predicted.static_depth, 1., tolerance);
+  EXPECT_NEAR(measured_rebound(contact, at), *predicted.rebound, tolerance * *predicted.rebound);
+  if (predicted.creep) {
+    // The ball's inertia lets it roll by 1e-6 m/s.
+    EXPECT_NEAR(measured_creep(contact, at), *predicted.creep,
+                std::max(tolerance * *predicted.creep, 1e-6));
+  }
+}
+
+class SevenGrounds : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(SevenGrounds, DoInEachEngineWhatTheTranslationSays) {
+  application::TranslateRequest request;
+  request.file = GetParam();
+  request.load = "24.525 N";
+  application::Application application;
+  const auto answers = application::translated(application, request);
+  ASSERT_TRUE(answers);
+  ASSERT_EQ(answers->size(), 1u);
+  const translation::Answer& answer = answers->front();
+  const Situation& at = answer.at;
+  std::size_t judged = 0;
+  for (const auto& [name, make] : engines()) {
+    SCOPED_TRACE(name);
+    const translation::Target* target = translation::find_target(name);
+    ASSERT_TRUE(target);
+    EXPECT_EQ(target->basis, translation::Basis::measured);
+    const auto translated = translation::translate_to(*target, answer.wanted, at);
+    const auto contact = make(Ball{at.mass, at.radius, at.deltat}, translated.parameters,
+                              target->snippet(translated.parameters, at));
+    const translation::Behaviour& predicted = translated.behaviour;
+    expect_predicted(*contact, predicted, at);
+    // The material's own depth, whatever the engine.
+    EXPECT_NEAR(*predicted.static_depth * answer.wanted.stiffness / at.load, 1., tolerance);
+    ++judged;
+  }
+  EXPECT_GE(judged, 3u);
+}
+
+struct Own {
+  const char* engine;
+  std::vector<std::string> settings;
+};
+
+/// What users have in their files: an engine's defaults, and numbers of their own.
+class OwnParameters : public ::testing::TestWithParam<Own> {};
+
+TEST_P(OwnParameters, DoWhatIsPredictedOfThem) {
+  const auto all = engines();
+  const auto found = all.find(GetParam().engine);
+  if (found == all.end()) GTEST_SKIP() << "this build has no " << GetParam().engine;
+  Situation at;
+  at.mass = 2.5;
+  at.load = 24.525;
+  const translation::Target* target = translation::find_target(GetParam().engine);
+  const auto reading = translation::read_from(*target, GetParam().settings, at);
+  const auto contact = found->second(Ball{at.mass, at.radius, at.deltat}, reading.from.parameters,
+                                     target->snippet(reading.from.parameters, at));
+  expect_predicted(*contact, reading.from.behaviour, at);
+  EXPECT_NEAR(reading.wanted.stiffness * *reading.from.behaviour.static_depth, at.load, 1e-9);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, OwnParameters,
+    ::testing::Values(Own{"mujoco", {}}, Own{"mujoco", {"friction=0.6", "impratio=10"}},
+                      Own{"mujoco", {"cone=elliptic", "impratio=100", "solimp=0.9,0.95,0.001"}},
+                      Own{"mujoco", {"cone=elliptic", "solref=0.005,1", "solimp=0.015,1,0.022"}},
+                      Own{"mujoco", {"solref=-20000,-300", "friction=0.8"}},
+                      Own{"ode", {"slip1=1e-5"}},
+                      Own{"ode", {"soft_erp=0.6", "soft_cfm=1e-4", "mu=0.7"}}, Own{"dart", {}},
+                      Own{"dart",
+                          {"constraint_force_mixing=0.5", "error_reduction_parameter=0.3",
+                           "max_error_reduction_velocity=10", "slip_compliance=0.01"}},
+                      Own{"bullet", {"contactStiffness=30000", "contactDamping=200"}},
+                      Own{"pybullet",
+                          {"contactStiffness=30000", "contactDamping=1000", "frictionAnchor=1"}},
+                      Own{"simbody", {"us=0.8", "ud=0.6", "dissipation=0.5"}}));
+
+INSTANTIATE_TEST_SUITE_P(All, SevenGrounds,
+                         ::testing::Values("concrete", "gym_mat", "ice", "loose_sand",
+                                           "packed_clay", "soft_moss", "stone"));
+
+}  // namespace
+}  // namespace hookpoint

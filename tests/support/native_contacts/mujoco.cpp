@@ -1,0 +1,70 @@
+#include <mujoco/mujoco.h>
+
+#include <stdexcept>
+
+#include "tests/support/native_contacts/native_contact.h"
+
+namespace hookpoint::native {
+namespace {
+
+std::string number(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.17g", value);
+  return text;
+}
+
+class MujocoContact final : public Contact {
+ public:
+  MujocoContact(const Ball& ball, const std::string& snippet) : radius_(ball.radius) {
+    const std::string inertia = number(great_inertia);
+    const std::string text =
+        "<mujoco>" + snippet +
+        "<worldbody><geom type=\"plane\" size=\"100 100 1\"/><body><freejoint/>" +
+        "<inertial pos=\"0 0 0\" mass=\"" + number(ball.mass) + "\" diaginertia=\"" + inertia +
+        " " + inertia + " " + inertia + "\"/><geom type=\"sphere\" size=\"" + number(ball.radius) +
+        "\"/></body></worldbody></mujoco>";
+    auto files = std::make_unique<mjVFS>();
+    mj_defaultVFS(files.get());
+    const int size = static_cast<int>(text.size());
+    mj_makeEmptyFileVFS(files.get(), "scene.xml", size);
+    std::copy(text.begin(), text.end(), static_cast<char*>(files->filedata[0]));
+    char error[1000] = "";
+    model_ = mj_loadXML("scene.xml", files.get(), error, sizeof error);
+    mj_deleteVFS(files.get());
+    if (!model_) throw std::runtime_error(error);
+    data_ = mj_makeData(model_);
+  }
+  ~MujocoContact() override {
+    mj_deleteData(data_);
+    mj_deleteModel(model_);
+  }
+  MujocoContact(const MujocoContact&) = delete;
+  MujocoContact& operator=(const MujocoContact&) = delete;
+
+  void start(double depth, double approach, std::array<double, 3> gravity) override {
+    mj_resetData(model_, data_);
+    for (int i = 0; i < 3; ++i) model_->opt.gravity[i] = gravity[static_cast<std::size_t>(i)];
+    data_->qpos[2] = radius_ - depth;
+    data_->qvel[2] = -approach;
+  }
+  void step() override { mj_step(model_, data_); }
+  std::array<double, 3> position() const override {
+    return {data_->qpos[0], data_->qpos[1], data_->qpos[2]};
+  }
+  std::array<double, 3> velocity() const override {
+    return {data_->qvel[0], data_->qvel[1], data_->qvel[2]};
+  }
+
+ private:
+  double radius_;
+  mjModel* model_ = nullptr;
+  mjData* data_ = nullptr;
+};
+
+}  // namespace
+
+std::unique_ptr<Contact> mujoco_contact(const Ball& ball, const std::string& snippet) {
+  return std::make_unique<MujocoContact>(ball, snippet);
+}
+
+}  // namespace hookpoint::native

@@ -1,0 +1,134 @@
+// MuJoCo: rows a = -B v - K d r - R f, R = (1 - d)/d A (reference/mujoco/settings.h). A spring and
+// damper taken implicitly is the row with R = 1/(dt (c + dt k)), B = 1/dt, K d = k R.
+#include <fmt/format.h>
+
+#include <array>
+#include <limits>
+
+#include "reference/mujoco/settings.h"
+#include "translation/soft_row.h"
+#include "translation/targets.h"
+
+namespace hookpoint::translation {
+namespace {
+
+constexpr double any = -std::numeric_limits<double>::infinity();
+
+const std::array parameters_of_mujoco{
+    Parameter{"solref",
+              "s, 1",
+              {{0.02, 1.}, ""},
+              {},
+              "time constant and damping ratio of the error, relative to the mass: K = 1/(d t z)^2 "
+              "[1/s^2], B = 2/(d t) [1/s]. Both below 0: -K d^2 and -B d. Stiffness = K d^2 M/(1 - "
+              "d) [N/m], of a body of M kg",
+              any},
+    Parameter{
+        "solimp",
+        "1, 1, m, 1, 1",
+        {{0.9, 0.95, 1e-3, 0.5, 2.}, ""},
+        {},
+        "impedance d: at the surface, from a depth on (the width), how it goes between. Force "
+        "= d of that of a rigid contact; R = (1 - d)/(d M) of acceleration per force"},
+    Parameter{"friction",
+              "1, m, m",
+              {{1., 0.005, 0.0001}, ""},
+              {},
+              "sliding coefficient; torsion and rolling count from condim 4 on. Of two geoms the "
+              "greater"},
+    Parameter{"impratio",
+              "1",
+              {{1.}, ""},
+              {},
+              "R of the normal row over R of a friction row: a sticking contact creeps at R f_t/(B "
+              "impratio) [m/s] (elliptic cone)",
+              1e-9},
+    Parameter{"cone",
+              "",
+              {{}, "pyramidal"},
+              {"pyramidal", "elliptic"},
+              "shape of the set of friction forces: the cone, or a pyramid inside it"},
+};
+
+reference::MujocoSettings settings_of(const Parameters& parameters) {
+  reference::MujocoSettings settings;
+  settings.elliptic = parameters.word("cone") == "elliptic";
+  settings.friction_impedance = parameters.number("impratio");
+  return settings;
+}
+
+reference::MujocoRow row_of(const Parameters& parameters) {
+  reference::MujocoRow row;
+  for (std::size_t i = 0; i < 2; ++i) row.reference[i] = parameters.number("solref", i);
+  for (std::size_t i = 0; i < 5; ++i) row.impedance[i] = parameters.number("solimp", i);
+  if (row.reference[0] < 0. ? row.reference[1] > 0.
+                            : row.reference[0] == 0. || row.reference[1] <= 0.)
+    throw ParameterError(
+        "solref is a time constant and a damping ratio, both above 0, or -stiffness and -damping, "
+        "neither above 0");
+  return row;
+}
+
+Parameters nearest(const Wanted& wanted, const Situation& at) {
+  const SoftRow soft = nearest_soft_row(wanted, at);
+  Parameters result(parameters_of_mujoco);
+  result.set("solref", {soft.row.reference.begin(), soft.row.reference.end()});
+  result.set("solimp", {soft.row.impedance.begin(), soft.row.impedance.end()});
+  result.set("friction", {wanted.kinetic_friction, 0.005, 0.0001});
+  result.set("impratio", soft.settings.friction_impedance);
+  result.set_word("cone", "elliptic");
+  return result;
+}
+
+Behaviour behaviour(const Parameters& parameters, const Situation& at) {
+  return behaviour_of(settings_of(parameters), row_of(parameters), parameters.number("friction"),
+                      at);
+}
+
+Wanted friction(const Parameters& parameters) {
+  return one_friction(parameters.number("friction"));
+}
+
+std::string snippet(const Parameters& parameters, const Situation& at) {
+  const auto numbers = [&](const char* name) {
+    return numbers_text(parameters.value(name).numbers);
+  };
+  return fmt::format(
+      "<option timestep=\"{}\" cone=\"{}\" impratio=\"{}\"/>\n"
+      "<default>\n"
+      "  <geom priority=\"1\" condim=\"3\" friction=\"{}\"\n"
+      "        solref=\"{}\" solimp=\"{}\"/>\n"
+      "</default>",
+      numbers_text({at.deltat}), parameters.word("cone"), numbers("impratio"), numbers("friction"),
+      numbers("solref"), numbers("solimp"));
+}
+
+std::vector<std::string> cannot(const Wanted& wanted, const Situation& at) {
+  std::vector<std::string> notes;
+  add_note(notes, one_friction_note(wanted));
+  notes.push_back(fmt::format(
+      "MuJoCo's stiffness goes with the mass: these numbers are for {} kg (body_invweight0 = {} "
+      "1/kg) and this timestep; for M kg R is 1/M as large",
+      numbers_text({at.body_mass()}), numbers_text({1. / at.body_mass()})));
+  if (nearest_soft_row(wanted, at).at_bound)
+    notes.emplace_back("the impedance is at a bound of MuJoCo's: the contact is not this stiff");
+  notes.emplace_back(
+      "friction has no spring, so a foot on a slope creeps; a greater impratio creeps less");
+  return notes;
+}
+
+}  // namespace
+
+const Target mujoco_target{
+    "mujoco",
+    "MuJoCo",
+    Basis::measured,
+    "MuJoCo's manual, Computation (Constraint model) and Modeling (Contact parameters)",
+    parameters_of_mujoco,
+    nearest,
+    behaviour,
+    friction,
+    snippet,
+    cannot};
+
+}  // namespace hookpoint::translation
