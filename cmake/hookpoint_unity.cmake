@@ -7,7 +7,7 @@ if(CMAKE_UNITY_BUILD)
   # A library of macros.
   hookpoint_read_apart(simulation scene/urdf/hull.cpp)
   hookpoint_read_apart(reference ground.cpp bullet/engine.cpp dart/engine.cpp mujoco/engine.cpp mujoco/model.cpp ode/engine.cpp ode/shapes.cpp ode/world.cpp robot_tree.cpp simbody/engine.cpp)
-  # One engine each, alike in their functions' names.
-  file(GLOB targets RELATIVE ${PROJECT_SOURCE_DIR}/translation CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/translation/targets/*.cpp)
+  # One engine or format each, alike in their functions' names.
+  file(GLOB targets RELATIVE ${PROJECT_SOURCE_DIR}/translation CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/translation/targets/*.cpp ${PROJECT_SOURCE_DIR}/translation/models/*.cpp)
   hookpoint_read_apart(translation ${targets})
 endif()

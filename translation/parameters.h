@@ -15,6 +15,11 @@ struct ParameterError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// There is no contact whose constants could be translated; the message says why.
+struct NothingToTranslate : ParameterError {
+  using ParameterError::ParameterError;
+};
+
 /// Numbers, or one word.
 struct Value {
   std::vector<double> numbers;

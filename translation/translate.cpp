@@ -14,7 +14,7 @@ Wanted wanted_of(const contact::LawDescription& law, const contact::Constants& m
                  const Situation& at) {
   const double depth = law.static_depth(at.load, material);
   if (!(depth > 0.) || !std::isfinite(depth))
-    throw ParameterError(fmt::format(
+    throw NothingToTranslate(fmt::format(
         "nothing in the law `{}` holds the load by a depth in the ground, so there is no stiffness "
         "to translate",
         law.name));

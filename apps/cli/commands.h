@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/shared/exported.h"
 #include "apps/shared/settings.h"
 #include "apps/shared/task_arguments.h"
 #include "apps/shared/task_file.h"
@@ -145,6 +146,13 @@ struct TranslateArguments {
 };
 /// translate: contact constants in the words of other engines, and back.
 int translate(TranslateArguments arguments);
+
+struct ExportArguments {
+  application::ExportRequest request;
+  std::filesystem::path out;  ///< empty: standard output
+};
+/// export: robots, ground and contact as a model of another program.
+int export_model(const ExportArguments& arguments);
 
 struct CompareArguments {
   std::filesystem::path first, second;  ///< folders that runs or studies left

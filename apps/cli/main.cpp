@@ -43,6 +43,7 @@ struct Request {
   AdviseArguments advise;
   CompareArguments compare;
   TranslateArguments translate;
+  ExportArguments export_;
   std::vector<std::filesystem::path> files;
   std::filesystem::path file;
   application::Settings settings;
@@ -507,6 +508,28 @@ void add_translate(CLI::App& app, Request& request) {
   add_plugins(translate_app, request.translate.allow_plugins);
 }
 
+void add_export(CLI::App& app, Request& request) {
+  CLI::App* export_app = add_command(app, request, "export",
+                                     "robots, ground and contact as a model of another program",
+                                     [&] { return export_model(request.export_); });
+  application::ExportRequest& arguments = request.export_.request;
+  export_app->add_option("FILE", arguments.file, "a .hook file with a World, or a robot's file")
+      ->required();
+  export_app->add_option("--to", arguments.format, "the format: mjcf, urdf or sdf")
+      ->type_name("FORMAT")
+      ->required();
+  export_app->add_option("--out", request.export_.out, "where it goes (default: standard output)")
+      ->type_name("FILE");
+  export_app->add_option("--robot", arguments.robot, "this robot alone (default: all)")
+      ->type_name("NAME");
+  export_app
+      ->add_option("--creep", arguments.creep,
+                   "that a foot on 10 deg may have at most there, as of `translate`")
+      ->type_name("SPEED");
+  add_settings(export_app, arguments.settings);
+  add_plugins(export_app, arguments.allow_plugins);
+}
+
 void add_compare(CLI::App& app, Request& request) {
   CLI::App* compare_app = add_command(
       app, request, "compare", "what differs between two runs: settings, metrics, trajectories",
@@ -659,6 +682,7 @@ int main_with(int count, char** words) {
   add_inspection(app, request);
   add_advise(app, request);
   add_translate(app, request);
+  add_export(app, request);
   add_compare(app, request);
   std::vector<std::string> wanted = with_command(app, given);
   if (wanted.empty() && !given.empty()) return wrong_input;

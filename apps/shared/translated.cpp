@@ -107,19 +107,23 @@ std::string world_with(const std::filesystem::path& file, const std::string& mat
 const contact::LawDescription& law_of(const simulation::Experiment& experiment) {
   const contact::LawDescription* law = contact::find_force_law(experiment.contact);
   if (!law)
-    throw ParameterError(fmt::format(
+    throw translation::NothingToTranslate(fmt::format(
         "the law `{}` has no stiffness and no damping to translate: give --contact with a force law",
         experiment.contact));
   return *law;
 }
 
-std::vector<Answer> answers_of_world(simulation::Experiment experiment,
-                                     const TranslateRequest& request) {
+}  // namespace
+
+std::vector<Answer> contacts_of(simulation::Experiment experiment,
+                                const TranslateRequest& request) {
   const contact::LawDescription& law = law_of(experiment);
   const Situation given = situation_of(request);
   std::vector<Answer> answers;
   const auto terrain = simulation::make_ground(experiment);
-  if (!terrain) throw ParameterError("the World has no terrain: there is no contact to translate");
+  if (!terrain)
+    throw translation::NothingToTranslate(
+        "the World has no terrain: there is no contact to translate");
   experiment.engine = "dts";
   const simulation::WorldInputs inputs = simulation::initial_inputs(experiment);
   for (std::size_t robot = 0; robot < experiment.robots.size(); ++robot) {
@@ -135,15 +139,14 @@ std::vector<Answer> answers_of_world(simulation::Experiment experiment,
       if (!request.step) at.deltat = experiment.deltat;
       if (!request.contacts) at.contacts = static_cast<double>(carried.points);
       if (!(at.load > 0.))
-        throw ParameterError("nothing presses on the ground (gravity?): give --load");
+        throw translation::NothingToTranslate(
+            "nothing presses on the ground (gravity?): give --load");
       answers.push_back(answer_of(law, material, at, request));
       answers.back().robot = experiment.robots[robot].name;
     }
   }
   return answers;
 }
-
-}  // namespace
 
 std::optional<std::vector<Answer>> translated(Application& application,
                                               const TranslateRequest& request) {
@@ -164,7 +167,7 @@ std::optional<std::vector<Answer>> translated(Application& application,
     if (!set) return std::nullopt;
     const auto experiment = application.load(*set);
     if (!experiment) return std::nullopt;
-    auto answers = answers_of_world(*experiment, request);
+    auto answers = contacts_of(*experiment, request);
     if (answers.empty())
       throw ParameterError(
           request.material

@@ -23,6 +23,11 @@ struct TranslateRequest {
   std::vector<std::string> given;  ///< "key=value"
 };
 
+/// One answer a material under a robot of the experiment. Throws translation::ParameterError where its law or
+/// its ground has nothing to translate.
+std::vector<translation::Answer> contacts_of(simulation::Experiment experiment,
+                                             const TranslateRequest& request);
+
 /// One answer a material under a robot of a World, or a material of a file without one. None after errors of
 /// the file, which are reported. Throws translation::ParameterError, and simulation::ExperimentError.
 std::optional<std::vector<translation::Answer>> translated(Application& application,

@@ -8,7 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "apps/shared/exported.h"
 #include "apps/shared/translated.h"
+#include "tests/support/folders.h"
 #include "tests/support/native_contacts/native_contact.h"
 #include "translation/translate.h"
 
@@ -181,6 +183,45 @@ INSTANTIATE_TEST_SUITE_P(
                       Own{"pybullet",
                           {"contactStiffness=30000", "contactDamping=1000", "frictionAnchor=1"}},
                       Own{"simbody", {"us=0.8", "ud=0.6", "dissipation=0.5"}}));
+
+#ifdef HOOKPOINT_NATIVE_MUJOCO
+// The whole way: a scene of ours as MJCF, in MuJoCo itself.
+TEST(ExportedToMujoco, ABlockStandsAndCreepsAsSaid) {
+  application::Application application;
+  application.give(
+      "block.hook",
+      "World w { deltat = 1 ms; Material m { normal_stiffness = 20 kN/m; normal_damping = 60 N.s/m; }\n"
+      "Terrain.Slope hill { angle = 10 deg; material = m; } Robot block { Base.mobile { rest_on = hill;\n"
+      "Shape.Box { dimensions = 0.2, 0.2, 0.04; mass = 4 kg; } } } }");
+  application::ExportRequest request;
+  request.file = "block.hook";
+  request.format = "mjcf";
+  const auto model = application::exported(application, request);
+  ASSERT_TRUE(model);
+  const auto before = native::mujoco_run(model->text, 1000),
+             after = native::mujoco_run(model->text, 2000);
+  const double c = std::cos(translation::slope), s = std::sin(translation::slope);
+  const auto along = [&](const std::vector<double>& q) { return c * q[0] - s * q[2]; };
+  const auto across = [&](const std::vector<double>& q) { return s * q[0] + c * q[2]; };
+  // Half the block's height, less the depth of a quarter of its weight in the spring.
+  EXPECT_NEAR(across(after), 0.02 - 9.81 * c / 20e3, 0.05 * 9.81 / 20e3);
+  EXPECT_NEAR(along(after) - along(before), 1e-3, 0.05e-3);
+}
+
+TEST(ExportedToMujoco, EveryRobotOfTheScenesCompiles) {
+  for (const char* scene :
+       {"standing_hexapod", "walking_hexapod", "standing_quadruped_urdf", "sloped_block"}) {
+    application::Application application(false, [](const language::Diagnostics&) {});
+    application::ExportRequest request;
+    request.file = testing::source_folder() + "/configs/scenes/" + scene + ".hook";
+    request.format = "mjcf";
+    const auto model = application::exported(application, request);
+    ASSERT_TRUE(model);
+    for (const double number : native::mujoco_run(model->text, 100))
+      EXPECT_TRUE(std::isfinite(number)) << scene;
+  }
+}
+#endif
 
 INSTANTIATE_TEST_SUITE_P(All, SevenGrounds,
                          ::testing::Values("concrete", "gym_mat", "ice", "loose_sand",

@@ -1,5 +1,6 @@
 #include <mujoco/mujoco.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "tests/support/native_contacts/native_contact.h"
@@ -13,6 +14,18 @@ std::string number(double value) {
   return text;
 }
 
+mjModel* compiled(const std::string& text) {
+  auto files = std::make_unique<mjVFS>();
+  mj_defaultVFS(files.get());
+  mj_makeEmptyFileVFS(files.get(), "scene.xml", static_cast<int>(text.size()));
+  std::copy(text.begin(), text.end(), static_cast<char*>(files->filedata[0]));
+  char error[1000] = "";
+  mjModel* model = mj_loadXML("scene.xml", files.get(), error, sizeof error);
+  mj_deleteVFS(files.get());
+  if (!model) throw std::runtime_error(error);
+  return model;
+}
+
 class MujocoContact final : public Contact {
  public:
   MujocoContact(const Ball& ball, const std::string& snippet) : radius_(ball.radius) {
@@ -23,15 +36,7 @@ class MujocoContact final : public Contact {
         "<inertial pos=\"0 0 0\" mass=\"" + number(ball.mass) + "\" diaginertia=\"" + inertia +
         " " + inertia + " " + inertia + "\"/><geom type=\"sphere\" size=\"" + number(ball.radius) +
         "\"/></body></worldbody></mujoco>";
-    auto files = std::make_unique<mjVFS>();
-    mj_defaultVFS(files.get());
-    const int size = static_cast<int>(text.size());
-    mj_makeEmptyFileVFS(files.get(), "scene.xml", size);
-    std::copy(text.begin(), text.end(), static_cast<char*>(files->filedata[0]));
-    char error[1000] = "";
-    model_ = mj_loadXML("scene.xml", files.get(), error, sizeof error);
-    mj_deleteVFS(files.get());
-    if (!model_) throw std::runtime_error(error);
+    model_ = compiled(text);
     data_ = mj_makeData(model_);
   }
   ~MujocoContact() override {
@@ -65,6 +70,17 @@ class MujocoContact final : public Contact {
 
 std::unique_ptr<Contact> mujoco_contact(const Ball& ball, const std::string& snippet) {
   return std::make_unique<MujocoContact>(ball, snippet);
+}
+
+std::vector<double> mujoco_run(const std::string& xml, int steps) {
+  mjModel* model = compiled(xml);
+  mjData* data = mj_makeData(model);
+  if (model->nkey > 0) mj_resetDataKeyframe(model, data, 0);
+  for (int i = 0; i < steps; ++i) mj_step(model, data);
+  std::vector<double> positions(data->qpos, data->qpos + model->nq);
+  mj_deleteData(data);
+  mj_deleteModel(model);
+  return positions;
 }
 
 }  // namespace hookpoint::native

@@ -5,6 +5,7 @@
 #include <array>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace hookpoint::native {
 
@@ -26,6 +27,9 @@ class Contact {
 
 /// `snippet`: XML of <mujoco>. Of a library that this build lacks there is no function (HOOKPOINT_NATIVE_NAME).
 std::unique_ptr<Contact> mujoco_contact(const Ball& ball, const std::string& snippet);
+/// qpos of a model of MuJoCo after so many steps from its first keyframe. Throws std::runtime_error with
+/// MuJoCo's words about the XML.
+std::vector<double> mujoco_run(const std::string& xml, int steps);
 std::unique_ptr<Contact> ode_contact(const Ball& ball, double mu, double soft_erp, double soft_cfm,
                                      double slip);
 std::unique_ptr<Contact> bullet_contact(const Ball& ball, double stiffness, double damping,
