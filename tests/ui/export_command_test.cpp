@@ -27,7 +27,7 @@ TEST(ExportCommand, WritesEachFormat) {
     EXPECT_EQ(result.status, 0) << result.err;
     pugi::xml_document document;
     EXPECT_TRUE(document.load_string(result.out.c_str())) << result.out;
-    for (const char* name : {"\"one\"", "\"two\"", "\"ground\""})
+    for (const char* name : {"\"one", "\"two", "\"ground\""})
       EXPECT_NE(result.out.find(name), std::string::npos) << format << name;
   }
   const CommandResult one = work.hookpoint("export two.hook --to urdf --robot two --out two.urdf");
