@@ -240,12 +240,25 @@ class Generator : DrawnText {
     write("}");
   }
 
+  /// Of a joint, whose numbers need one another: static friction at least the kinetic, and how fast it
+  /// falls to it.
+  void friction(std::set<std::string>& without) {
+    without.insert({"friction", "static_friction", "stribeck_velocity"});
+    if (!chance(0.2)) return;
+    const double kinetic = between(0., 0.5);
+    write("friction = " + number(kinetic) + ";");
+    if (!chance(0.5)) return;
+    write("static_friction = " + number(kinetic + between(0., 0.5)) + ";");
+    if (chance(0.5)) write("stribeck_velocity = " + number(between(0.01, 1.)) + ";");
+  }
+
   /// What stands in a body: its mass and inertia, given or of its shapes, and points.
   void body(const std::string& type, std::set<std::string> without) {
     const bool careless = chance(degenerate_);
     std::set<std::string> always;  // to be given
     const std::size_t shapes = below(3);
     if (!careless) {
+      if (type == "Link") friction(without);
       always.insert("mass");
       if (shapes == 0) always.insert("inertia");
       without.insert({"lower_limit", "upper_limit"});

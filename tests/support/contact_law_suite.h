@@ -229,17 +229,15 @@ TYPED_TEST_P(ContactLaw, IsPure) {
     const auto path = any_path();
     const auto trial_path = any_path();
     const auto undisturbed = reactions_along<TypeParam>(path, up, material, dt);
-    Memory<double> memory;
-    Bristle<double> bristle;
-    for (std::size_t k = 1; k < path.size(); ++k) {
-      TypeParam::evaluate(point_at(trial_path, k, up, dt), memory, material, dt);
-      const auto point = accepted<TypeParam>(point_at(path, k, up, dt), bristle, material, dt);
-      const auto reaction = TypeParam::evaluate(point, memory, material, dt);
-      RC_ASSERT(reaction.force == undisturbed[k - 1].force);
-      RC_ASSERT(same(reaction.next, undisturbed[k - 1].next));
-      RC_ASSERT(same(reaction.bristle_rate, undisturbed[k - 1].bristle_rate));
-      memory = reaction.next;
-      bristle = bristle_after(reaction, dt);
+    // Trial states between the accepted ones leave nothing behind.
+    const auto disturbed = reactions_along<TypeParam>(
+        path, up, material, dt, {}, [&](std::size_t k, const Memory<double>& memory) {
+          reaction_of<TypeParam>(point_at(trial_path, k, up, dt), memory, material, dt);
+        });
+    for (std::size_t k = 0; k < undisturbed.size(); ++k) {
+      RC_ASSERT(disturbed[k].force == undisturbed[k].force);
+      RC_ASSERT(same(disturbed[k].next, undisturbed[k].next));
+      RC_ASSERT(same(disturbed[k].bristle_rate, undisturbed[k].bristle_rate));
     }
   }));
 }

@@ -3,6 +3,7 @@
 
 #include <rapidcheck.h>
 
+#include <functional>
 #include <vector>
 
 #include "contact/vocabulary.h"
@@ -86,18 +87,30 @@ PointKinematics<double> accepted(PointKinematics<double> point, const Bristle<do
   return point;
 }
 
-/// The law's reactions at path[1], path[2], ..., each from the memory committed by the one before.
+/// Law::evaluate as one piece of machine code: where it is inlined, rounding may differ from place to
+/// place (a product and a sum are contracted or not).
 template <class Law>
-std::vector<Reaction<double>> reactions_along(const std::vector<Vector3d>& path,
-                                              const Vector3d& normal,
-                                              const MaterialConstants<double>& material, double dt,
-                                              const Vector3d& origin = {}) {
+[[gnu::noinline]] Reaction<double> reaction_of(const PointKinematics<double>& point,
+                                               const Memory<double>& memory,
+                                               const MaterialConstants<double>& material,
+                                               double dt) {
+  return Law::evaluate(point, memory, material, dt);
+}
+
+/// The law's reactions at path[1], path[2], ..., each from the memory committed by the one before.
+/// `meanwhile(k, memory)` is called before each.
+template <class Law>
+[[gnu::noinline]] std::vector<Reaction<double>> reactions_along(
+    const std::vector<Vector3d>& path, const Vector3d& normal,
+    const MaterialConstants<double>& material, double dt, const Vector3d& origin = {},
+    const std::function<void(std::size_t k, const Memory<double>& memory)>& meanwhile = {}) {
   std::vector<Reaction<double>> reactions;
   Memory<double> memory;
   Bristle<double> bristle;
   for (std::size_t k = 1; k < path.size(); ++k) {
+    if (meanwhile) meanwhile(k, memory);
     const auto point = accepted<Law>(point_at(path, k, normal, dt, origin), bristle, material, dt);
-    reactions.push_back(Law::evaluate(point, memory, material, dt));
+    reactions.push_back(reaction_of<Law>(point, memory, material, dt));
     memory = reactions.back().next;
     bristle = bristle_after(reactions.back(), dt);
   }

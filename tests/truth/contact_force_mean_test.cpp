@@ -84,8 +84,12 @@ TEST(ContactForce, LookingChangesNoMotion) {
     looked.port("ball.contact.force.z");
     looked.step(30);
     left.step(30);
-    for (const char* trail : {"ball.position.z", "ball.velocity.x", "integrator.evaluations"})
+    for (const char* trail : {"ball.position.z", "ball.velocity.x", "integrator.steps"})
       EXPECT_EQ(looked[trail], left[trail]) << trail;
+    // The interpolant of SUNDIALS 7's ARKODE takes rates of its own.
+    if (std::string(integrator).starts_with("cvode")) {
+      EXPECT_EQ(looked["integrator.evaluations"], left["integrator.evaluations"]);
+    }
   }
 }
 
