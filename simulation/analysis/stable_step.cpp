@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <limits>
 
 #include "simulation/analysis/eigen_decompositions.h"
 #include "simulation/analysis/period_map.h"
@@ -47,8 +48,10 @@ double step_of(const integrators::MatrixBound& bound, const StepperDescription& 
   if (k == 0. && c == 0.) return unlimited;
   double low = integrators::largest_stable_step(stepper, {k, c, 1.});
   double high = std::min(1. / std::sqrt(bound.stiffness * k), 1. / (bound.damping * c));
+  if (high < std::numeric_limits<double>::min()) return 0.;
   // Where joints pull against the rest, the greatest K and C may not come together.
-  for (; bound.joints < 0. && bears(bound, dynamics, high); high *= 2.) low = high;
+  for (; bound.joints < 0. && std::isfinite(high) && bears(bound, dynamics, high); high *= 2.)
+    low = high;
   for (int i = 0; i < 40 && high - low > 1e-12 * high; ++i) {
     const double h = 0.5 * (low + high);
     (bears(bound, dynamics, h) ? low : high) = h;

@@ -62,6 +62,17 @@ TEST(StableStep, OfABoundThatIsNotBelowSaysOnlyThat) {
   EXPECT_EQ(largest_stable_step(method, dynamics, {}, 1.1 * bound), bound);
 }
 
+// A search for a step that has underflowed would never end.
+TEST(StableStep, OfAnEigenvalueBeyondTheRangeOfNumbersIsNone) {
+  for (const StepperDescription& method :
+       {integrators::semi_implicit_euler, integrators::implicit_joints}) {
+    LinearDynamics dynamics = coupled(1.);
+    dynamics.damping.setConstant(1.7e308);
+    dynamics.of_joints.damping.setZero();
+    EXPECT_EQ(largest_stable_step(method, dynamics), 0.) << method.name;
+  }
+}
+
 TEST(StableStep, OfWhatFeelsNoForceAndOfAnAdaptiveIntegratorIsAny) {
   LinearDynamics free = coupled(1.);
   EXPECT_TRUE(std::isinf(largest_stable_step(integrators::cvode_bdf, free)));

@@ -17,7 +17,8 @@ using testing::Workplace;
 /// some.
 int start_megabytes() {
   for (int megabytes = 100; megabytes < 10'000; megabytes += 100) {
-    const std::string command = "ulimit -v " + std::to_string(1000 * megabytes) + "; '" +
+    // With too little some libraries do not end before main begins.
+    const std::string command = "ulimit -v " + std::to_string(1000 * megabytes) + "; timeout 20 '" +
                                 testing::build_folder() + "/hookpoint' --version >/dev/null 2>&1";
     if (std::system(command.c_str()) == 0) return megabytes;
   }
