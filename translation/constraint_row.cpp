@@ -13,16 +13,12 @@ Behaviour behaviour_of(const ConstraintRow& row, const Situation& at, const char
     // At rest ERP depth/dt = CFM f.
     result.static_depth = row.mixing * at.load * at.deltat / row.error_reduction;
   } else {
-    result.unknown =
-        "the contact gives by more in a step than its correction speed undoes: it sinks on";
+    result.add_unknown(
+        "the load needs a correction speed above the limit: the penetration grows without end");
   }
   result.damping = (1. - row.error_reduction) / row.mixing;
-  if (holds(row.friction)) {
-    result.creep = row.tangential_mixing * tangential_on_slope(at);
-  } else {
-    result.unknown = slides_text;
-  }
-  result.rebound = rebound(at.mass, at.deltat, [&](double depth, double approach) {
+  result.set_creep(row.friction, row.tangential_mixing * tangential_on_slope(at));
+  predict_rebound(result, at, [&](double depth, double approach) {
     if (depth <= 0.) return 0.;
     const double correction =
         std::min(row.error_reduction * depth / at.deltat, row.correction_speed);

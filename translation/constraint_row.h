@@ -1,4 +1,4 @@
-// What engines with rows J v = ERP error/dt - CFM f do at rest and in a blow (reference/settings.h).
+// What engines with rows J v = ERP error/dt - CFM f do at rest and in an impact (reference/settings.h).
 #pragma once
 
 #include <limits>

@@ -24,23 +24,24 @@ double one_sided_restitution(double zeta) {
   return std::exp(-zeta / root * (zeta < 1. ? std::acos(zeta) : std::acosh(zeta)));
 }
 
-double critical_damping(const Wanted& wanted, const Situation& at) {
-  return 2. * std::sqrt(wanted.stiffness * at.mass);
+double critical_damping(const DesiredContact& desired, const Situation& at) {
+  return 2. * std::sqrt(desired.stiffness * at.mass);
 }
 
 }  // namespace
 
-double wanted_rebound(const Wanted& wanted, const Situation& at) {
-  return contact::kelvin_voigt_restitution(wanted.damping / critical_damping(wanted, at));
+double desired_rebound(const DesiredContact& desired, const Situation& at) {
+  return contact::kelvin_voigt_restitution(desired.damping / critical_damping(desired, at));
 }
 
-double hunt_crossley_damping(const Wanted& wanted, const Situation& at) {
-  return damping_for(wanted_rebound(wanted, at), contact::hunt_crossley_restitution) / impact_speed;
+double hunt_crossley_damping(const DesiredContact& desired, const Situation& at) {
+  return damping_for(desired_rebound(desired, at), contact::hunt_crossley_restitution) /
+         impact_speed;
 }
 
-double one_sided_damping(const Wanted& wanted, const Situation& at) {
-  return damping_for(wanted_rebound(wanted, at), one_sided_restitution) *
-         critical_damping(wanted, at);
+double one_sided_damping(const DesiredContact& desired, const Situation& at) {
+  return damping_for(desired_rebound(desired, at), one_sided_restitution) *
+         critical_damping(desired, at);
 }
 
 }  // namespace hookpoint::translation

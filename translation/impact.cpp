@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "translation/situation.h"
-
 namespace hookpoint::translation {
 
 std::optional<double> rebound(double mass, double deltat, const ForceOverStep& force) {
@@ -23,6 +21,11 @@ std::optional<double> rebound(double mass, double deltat, const ForceOverStep& f
     sum -= approach / impact_speed;
   }
   return sum / phases;
+}
+
+void predict_rebound(Behaviour& behaviour, const Situation& at, const ForceOverStep& force) {
+  behaviour.rebound = rebound(at.mass, at.deltat, force);
+  if (!behaviour.rebound) behaviour.add_unknown("the impact does not end within a million steps");
 }
 
 double explicit_stable_step(double mass, double stiffness, double damping) {

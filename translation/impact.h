@@ -4,6 +4,8 @@
 #include <functional>
 #include <optional>
 
+#include "translation/situation.h"
+
 namespace hookpoint::translation {
 
 /// Force of a contact over one step [N], from its depth [m] and the speed of approach [m/s] at the
@@ -12,8 +14,11 @@ using ForceOverStep = std::function<double(double depth, double approach)>;
 
 /// Speed after over speed before of a mass [kg] that comes at 1 m/s, without weight, under
 /// semi-implicit Euler: v += dt f/m, x += dt v. The mean over where in a step the ground is met.
-/// Empty for a blow that is not over after 1e6 steps, or that ends in numbers that are not finite.
+/// Empty for an impact that is not over after 1e6 steps, or that ends in numbers that are not finite.
 std::optional<double> rebound(double mass, double deltat, const ForceOverStep& force);
+
+/// The same of the contact at `at`, as a part of what it does.
+void predict_rebound(Behaviour& behaviour, const Situation& at, const ForceOverStep& force);
 
 /// The largest step [s] at which semi-implicit Euler with a spring k and a damper c that are
 /// evaluated at the step's beginning is stable: dt^2 k/m + 2 dt c/m <= 4.

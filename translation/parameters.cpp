@@ -46,6 +46,10 @@ double Parameters::number(std::string_view name, std::size_t index) const {
   return values_.at(name).numbers.at(index);
 }
 
+std::string Parameters::text(std::string_view name) const {
+  return numbers_text(values_.at(name).numbers);
+}
+
 void Parameters::set(std::string_view name, std::vector<double> numbers) {
   values_.at(name).numbers = std::move(numbers);
 }

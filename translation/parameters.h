@@ -44,6 +44,8 @@ class Parameters {
 
   double number(std::string_view name, std::size_t index = 0) const;
   const std::string& word(std::string_view name) const { return values_.at(name).word; }
+  /// All numbers of a parameter, with blanks in between.
+  std::string text(std::string_view name) const;
   const Value& value(std::string_view name) const { return values_.at(name); }
   void set(std::string_view name, std::vector<double> numbers);
   void set(std::string_view name, double number) { set(name, std::vector<double>{number}); }

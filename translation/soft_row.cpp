@@ -12,7 +12,7 @@ Behaviour behaviour_of(const reference::MujocoSettings& settings, const referenc
                        double friction, const Situation& at) {
   constexpr double least_friction = 1e-5;  // mjMINMU: a pyramid without friction has no rows
   const double mu = std::max(friction, least_friction);
-  const double inverse_weight = 1. / at.body_mass();
+  const double inverse_weight = at.foot_inverse_weight();
   const auto at_rest = [&](double normal, double tangential) {
     reference::MujocoLoad load;
     load.inverse_weight = inverse_weight;
@@ -26,13 +26,11 @@ Behaviour behaviour_of(const reference::MujocoSettings& settings, const referenc
   result.friction_shape = settings.elliptic ? "elliptic cone" : "pyramid inside the cone";
   const auto level = at_rest(at.load, 0.);
   result.static_depth = level->depth;
-  if (!holds(mu)) {
-    result.unknown = slides_text;
-  } else if (const auto rest = at_rest(normal_on_slope(at), tangential_on_slope(at))) {
-    result.creep = rest->velocity.downhill;
-  } else {
-    result.unknown = rest.why();
-  }
+  const auto rest = at_rest(normal_on_slope(at), tangential_on_slope(at));
+  if (holds(mu) && !rest)
+    result.add_unknown(rest.why());
+  else
+    result.set_creep(mu, rest ? rest->velocity.downhill : 0.);
   const auto reference = reference::mujoco_reference(row, at.deltat);
   // With B = 1/dt and one impedance at all depths it is a spring and damper: R = 1/(dt (c + dt k)).
   const double softness = reference::mujoco_normal_softness(
@@ -40,7 +38,7 @@ Behaviour behaviour_of(const reference::MujocoSettings& settings, const referenc
   const bool one_impedance = row.impedance[0] == row.impedance[1];
   if (one_impedance && std::abs(reference.damping * at.deltat - 1.) < 1e-6)
     result.damping = 1. / (softness * at.deltat) - at.deltat * at.load / *result.static_depth;
-  result.rebound = rebound(at.mass, at.deltat, [&](double depth, double approach) {
+  predict_rebound(result, at, [&](double depth, double approach) {
     if (depth <= 0.) return 0.;
     const double d = reference::mujoco_impedance(row, depth);
     return (reference.damping * approach + reference.stiffness * d * depth) /
@@ -49,16 +47,16 @@ Behaviour behaviour_of(const reference::MujocoSettings& settings, const referenc
   return result;
 }
 
-SoftRow nearest_soft_row(const Wanted& wanted, const Situation& at) {
+SoftRow nearest_soft_row(const DesiredContact& desired, const Situation& at) {
   contact::MaterialConstants<double> material;
-  material.normal_stiffness = wanted.stiffness;
-  material.normal_damping = wanted.damping;
+  material.normal_stiffness = desired.stiffness;
+  material.normal_damping = desired.damping;
   SoftRow soft;
   soft.settings = reference::mujoco_settings(reference::Settings::matched, at.deltat, material);
-  // R of the normal row is 1/(dt (c + dt k)), of a friction row that with the wanted mixing.
+  // R of the normal row is 1/(dt (c + dt k)), of a friction row that with the desired mixing.
   soft.settings.friction_impedance =
-      1. / (wanted_mixing(wanted, at) * (wanted.damping + at.deltat * wanted.stiffness));
-  soft.row = reference::mujoco_row(soft.settings, at.deltat, material, 1. / at.body_mass());
+      1. / (desired_mixing(desired, at) * (desired.damping + at.deltat * desired.stiffness));
+  soft.row = reference::mujoco_row(soft.settings, at.deltat, material, at.foot_inverse_weight());
   const double d = soft.row.impedance[0];
   soft.at_bound =
       d <= reference::mujoco_least_impedance || d >= 1. - reference::mujoco_least_impedance;

@@ -1,4 +1,4 @@
-// What contacts of MuJoCo's kind do at rest and in a blow: MuJoCo's own, and Genesis', which has the
+// What contacts of MuJoCo's kind do at rest and in an impact: MuJoCo's own, and Genesis', which has the
 // same rows.
 #pragma once
 
@@ -7,7 +7,7 @@
 
 namespace hookpoint::translation {
 
-/// `friction`: mu. The body's inverse weight is 1/body_mass, as of a body that nothing else holds.
+/// `friction`: mu. The rows scale with Situation::foot_inverse_weight.
 Behaviour behaviour_of(const reference::MujocoSettings& settings, const reference::MujocoRow& row,
                        double friction, const Situation& at);
 
@@ -17,6 +17,6 @@ struct SoftRow {
   reference::MujocoRow row;
   bool at_bound = false;  ///< the impedance is at one of its bounds: the contact is not this stiff
 };
-SoftRow nearest_soft_row(const Wanted& wanted, const Situation& at);
+SoftRow nearest_soft_row(const DesiredContact& desired, const Situation& at);
 
 }  // namespace hookpoint::translation

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <iterator>
 
 namespace hookpoint::translation {
 
@@ -22,20 +21,9 @@ const Target* find_target(std::string_view name) {
   return found == targets().end() ? nullptr : *found;
 }
 
-Wanted one_friction(double friction) {
-  Wanted wanted;
-  wanted.static_friction = wanted.kinetic_friction = friction;
-  return wanted;
-}
-
-std::string one_friction_note(const Wanted& wanted) {
-  return wanted.static_friction == wanted.kinetic_friction
-             ? ""
-             : "it has one coefficient of friction, here the kinetic one";
-}
-
-void add_note(std::vector<std::string>& notes, std::string note) {
-  if (!note.empty()) notes.push_back(std::move(note));
+std::vector<std::string> notes_on_friction(const DesiredContact& desired) {
+  if (desired.static_friction == desired.kinetic_friction) return {};
+  return {"it has one coefficient of friction, here the kinetic one"};
 }
 
 }  // namespace hookpoint::translation

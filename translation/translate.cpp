@@ -10,8 +10,8 @@
 
 namespace hookpoint::translation {
 
-Wanted wanted_of(const contact::LawDescription& law, const contact::Constants& material,
-                 const Situation& at) {
+DesiredContact desired_of(const contact::LawDescription& law, const contact::Constants& material,
+                          const Situation& at) {
   const double depth = law.static_depth(at.load, material);
   if (!(depth > 0.) || !std::isfinite(depth))
     throw NothingToTranslate(fmt::format(
@@ -19,14 +19,14 @@ Wanted wanted_of(const contact::LawDescription& law, const contact::Constants& m
         "to translate",
         law.name));
   const contact::LinearContact linear = law.linearise(at.load, material);
-  Wanted wanted;
-  wanted.stiffness = at.load / depth;
-  wanted.damping = linear.normal_damping;
-  wanted.tangential_stiffness = linear.tangential_stiffness;
-  wanted.tangential_damping = linear.tangential_damping;
-  wanted.static_friction = material.static_friction;
-  wanted.kinetic_friction = material.kinetic_friction;
-  return wanted;
+  DesiredContact desired;
+  desired.stiffness = at.load / depth;
+  desired.damping = linear.normal_damping;
+  desired.tangential_stiffness = linear.tangential_stiffness;
+  desired.tangential_damping = linear.tangential_damping;
+  desired.static_friction = material.static_friction;
+  desired.kinetic_friction = material.kinetic_friction;
+  return desired;
 }
 
 Behaviour behaviour_of(const contact::LawDescription& law, const contact::Constants& material,
@@ -34,12 +34,11 @@ Behaviour behaviour_of(const contact::LawDescription& law, const contact::Consta
   Behaviour result;
   result.friction_shape = "cone";
   result.static_depth = law.static_depth(at.load, material);
-  if (!holds(material.static_friction)) {
-    result.unknown = slides_text;
-  } else {
-    result.creep = law.creep_speed(std::tan(slope), material);
-    if (!result.creep) result.unknown = "the law has no closed form of creep";
-  }
+  const auto creep = law.creep_speed(std::tan(slope), material);
+  if (holds(material.static_friction) && !creep)
+    result.add_unknown("the law has no closed form of creep");
+  else
+    result.set_creep(material.static_friction, creep.value_or(0.));
   result.rebound = law.restitution(at.mass, impact_speed, material);
   const contact::LinearContact linear = law.linearise(at.load, material);
   result.largest_stable_step =
@@ -47,10 +46,10 @@ Behaviour behaviour_of(const contact::LawDescription& law, const contact::Consta
   return result;
 }
 
-Translation translate_to(const Target& target, const Wanted& wanted, const Situation& at) {
-  Parameters parameters = target.nearest(wanted, at);
+Translation translate_to(const Target& target, const DesiredContact& desired, const Situation& at) {
+  Parameters parameters = target.nearest(desired, at);
   Behaviour behaviour = target.behaviour(parameters, at);
-  return {&target, std::move(parameters), std::move(behaviour), target.cannot(wanted, at)};
+  return {&target, std::move(parameters), std::move(behaviour), target.cannot(desired, at)};
 }
 
 Reading read_from(const Target& target, const std::vector<std::string>& settings,
@@ -62,19 +61,21 @@ Reading read_from(const Target& target, const std::vector<std::string>& settings
     throw ParameterError(
         fmt::format("a contact of {} with these parameters has no stiffness to read{}{}",
                     target.title, behaviour.unknown.empty() ? "" : ": ", behaviour.unknown));
-  Reading reading{{&target, parameters, behaviour, {}}, target.friction(parameters)};
-  Wanted& wanted = reading.wanted;
-  wanted.stiffness = at.load / *behaviour.static_depth;
+  Reading reading{{&target, parameters, behaviour, {}}, {}};
+  DesiredContact& desired = reading.desired;
+  desired.static_friction = parameters.number(target.static_friction);
+  desired.kinetic_friction = parameters.number(target.kinetic_friction);
+  desired.stiffness = at.load / *behaviour.static_depth;
   const double zeta =
       contact::kelvin_voigt_damping_ratio(std::max(behaviour.rebound.value_or(0.), 1e-3));
-  wanted.damping = behaviour.damping.value_or(2. * zeta * std::sqrt(wanted.stiffness * at.mass));
-  wanted.tangential_stiffness = wanted.stiffness;
-  wanted.tangential_damping = wanted.damping;
+  desired.damping = behaviour.damping.value_or(2. * zeta * std::sqrt(desired.stiffness * at.mass));
+  desired.tangential_stiffness = desired.stiffness;
+  desired.tangential_damping = desired.damping;
   if (behaviour.creep && *behaviour.creep > 0.) {
     // Of a spring and damper taken implicitly, c_t + dt k_t newtons per speed of creep.
     const double resistance = tangential_on_slope(at) / *behaviour.creep;
-    wanted.tangential_stiffness = std::min(wanted.stiffness, 0.5 * resistance / at.deltat);
-    wanted.tangential_damping = resistance - at.deltat * wanted.tangential_stiffness;
+    desired.tangential_stiffness = std::min(desired.stiffness, 0.5 * resistance / at.deltat);
+    desired.tangential_damping = resistance - at.deltat * desired.tangential_stiffness;
   }
   return reading;
 }

@@ -144,7 +144,7 @@ struct TranslateArguments {
   bool parameters = false;  ///< only the manual's page of parameters
   bool json = false;
 };
-/// translate: contact constants in the words of other engines, and back.
+/// translate: contact constants as parameters of other engines, and back.
 int translate(TranslateArguments arguments);
 
 struct ExportArguments {

@@ -458,9 +458,9 @@ void add_advise(CLI::App& app, Request& request) {
 }
 
 void add_translate(CLI::App& app, Request& request) {
-  CLI::App* translate_app = add_command(app, request, "translate",
-                                        "contact constants in the words of other engines, and back",
-                                        [&] { return translate(request.translate); });
+  CLI::App* translate_app = add_command(
+      app, request, "translate", "contact constants as parameters of other engines, and back",
+      [&] { return translate(request.translate); });
   application::TranslateRequest& arguments = request.translate.request;
   translate_app
       ->add_option(
@@ -481,7 +481,7 @@ void add_translate(CLI::App& app, Request& request) {
       "on a contact: \"30 N\" (default: the robot's weight over its contacts, or the mass times 9.81)",
       "FORCE");
   add("--mass", arguments.mass,
-      "that a contact stops in a blow: \"3 kg\" (default: the load over 9.81)", "MASS");
+      "that a contact stops in an impact: \"3 kg\" (default: the load over 9.81)", "MASS");
   add("--contacts", arguments.contacts, "that share the body (default: the robot's, else 1)", "N")
       ->check(is_count("--contacts", 6));
   add("--creep", arguments.creep,

@@ -356,7 +356,7 @@ void add_functions(py::module_& module) {
       py::arg("material") = py::none(), py::arg("load") = py::none(), py::arg("mass") = py::none(),
       py::arg("contacts") = py::none(), py::arg("deltat") = py::none(),
       py::arg("creep") = py::none(), py::arg("allow_plugins") = false,
-      "Contact constants in the words of other engines: what `hookpoint translate --json` prints, "
+      "Contact constants as parameters of other engines: what `hookpoint translate --json` prints, "
       "a dict, or of a World with several contacts a list of dicts. `file`: a .hook file, or the "
       "name of a material. `to`: engines, by default all. `source`: an engine whose `parameters`, "
       "a dict, are read instead of a file. `load` [N], `mass` [kg], `deltat` [s], `creep` [m/s].");

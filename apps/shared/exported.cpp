@@ -41,7 +41,7 @@ std::vector<std::size_t> robots_of(const simulation::Experiment& experiment,
   return found;
 }
 
-/// The ground's contact in the words of the format's engine; in `left_out` why there is none.
+/// The ground's contact as parameters of the format's engine; in `left_out` why there is none.
 translation::ModelContact contact_of(const simulation::Experiment& experiment,
                                      const ModelFormat& format, const ExportRequest& request,
                                      std::vector<std::string>& left_out) {

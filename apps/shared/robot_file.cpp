@@ -28,7 +28,7 @@ std::string include_of(const std::filesystem::path& file, const Arguments& argum
   return fmt::format("Include {} ({});", name, fmt::join(arguments, ", "));
 }
 
-/// On a floor that gives way by 1 mm under `load` [N] on a contact point; without a floor where that is 0.
+/// On a floor that deflects by 1 mm under `load` [N] on a contact point; without a floor where that is 0.
 std::string world_with(const std::string& include, double load) {
   std::string floor;
   if (load > 0.)

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "simulation/analysis/carried_load.h"
+#include "simulation/analysis/inverse_weight.h"
 #include "simulation/experiment/ground.h"
 #include "text/display.h"
 
@@ -62,12 +63,12 @@ std::vector<const Target*> targets_of(const std::vector<std::string>& names) {
 }
 
 void add_targets(Answer& answer, const TranslateRequest& request) {
-  answer.wanted.most_creep = number_of(request.creep, "--creep", "m/s", "1 mm/s");
+  answer.desired.most_creep = number_of(request.creep, "--creep", "m/s", "1 mm/s");
   // The other engine is to hold a foot as the law does, as nearly as it can.
   const bool law_holds = answer.own && answer.own->creep == 0.;
-  if (!answer.wanted.most_creep && law_holds) answer.wanted.most_creep = usual_creep;
+  if (!answer.desired.most_creep && law_holds) answer.desired.most_creep = usual_creep;
   for (const Target* target : targets_of(request.to))
-    answer.targets.push_back(translation::translate_to(*target, answer.wanted, answer.at));
+    answer.targets.push_back(translation::translate_to(*target, answer.desired, answer.at));
 }
 
 Answer answer_of(const contact::LawDescription& law, const simulation::MaterialSpec& material,
@@ -76,7 +77,7 @@ Answer answer_of(const contact::LawDescription& law, const simulation::MaterialS
   answer.material = material.name;
   answer.law = std::string(law.name);
   answer.at = at;
-  answer.wanted = translation::wanted_of(law, material.constants, answer.at);
+  answer.desired = translation::desired_of(law, material.constants, answer.at);
   answer.own = translation::behaviour_of(law, material.constants, answer.at);
   add_targets(answer, request);
   return answer;
@@ -91,7 +92,7 @@ Answer answer_from(const TranslateRequest& request) {
     throw ParameterError("--from needs --load, what the contact carries, such as --load \"30 N\"");
   translation::Reading reading = translation::read_from(source, request.given, answer.at);
   answer.material = "from_" + request.from;
-  answer.wanted = reading.wanted;
+  answer.desired = reading.desired;
   answer.from = std::move(reading.from);
   if (!request.to.empty()) add_targets(answer, request);
   return answer;
@@ -138,6 +139,8 @@ std::vector<Answer> contacts_of(simulation::Experiment experiment,
       }
       if (!request.step) at.deltat = experiment.deltat;
       if (!request.contacts) at.contacts = static_cast<double>(carried.points);
+      at.effective_mass = carried.least_mass;
+      at.inverse_weight = simulation::inverse_weight(experiment, robot, carried.body);
       if (!(at.load > 0.))
         throw translation::NothingToTranslate(
             "nothing presses on the ground (gravity?): give --load");

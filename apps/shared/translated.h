@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "apps/shared/application.h"
-#include "translation/written.h"
+#include "translation/report.h"
 
 namespace hookpoint::application {
 

@@ -9,7 +9,6 @@
 #include "reference/mujoco/settings.h"
 #include "reference/resting_body.h"
 #include "reference/static_depth.h"
-#include "reference/steady_creep.h"
 #include "simulation/experiment/robot_tree.h"
 
 namespace hookpoint::reference {

@@ -4,11 +4,11 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <numbers>
 #include <string_view>
 
 #include "math/principal_axes.h"
 #include "reference/ground.h"
+#include "reference/mujoco/vertices.h"
 #include "reference/solids.h"
 #include "reference/touching_points.h"
 #include "simulation/experiment/loop_places.h"
@@ -40,23 +40,6 @@ class Text {
 };
 
 std::string name(char kind, std::size_t index) { return kind + std::to_string(index); }
-
-/// Corners of a Legcone, 32 around each end: MuJoCo has no cone, and takes the hull of them.
-Text& operator<<(Text& text, const simulation::Legcone& cone) {
-  constexpr int sides = 32;
-  for (const auto& [x, radius] :
-       {std::pair{0., cone.proximal_radius}, std::pair{cone.length, cone.distal_radius}})
-    for (int i = 0; i < sides; ++i) {
-      const double angle = 2. * std::numbers::pi * i / sides;
-      text << Vector3d{x, radius * std::cos(angle), radius * std::sin(angle)};
-    }
-  return text;
-}
-
-Text& operator<<(Text& text, const simulation::Hull& hull) {
-  for (const Vector3d& vertex : hull.vertices) text << vertex;
-  return text;
-}
 
 class Builder {
  public:
@@ -154,12 +137,10 @@ class Builder {
 
   /// Of a shape that is none of MuJoCo's own.
   void write_mesh(const simulation::ShapeGeometry& geometry, const std::string& named) {
-    const auto* cone = std::get_if<simulation::Legcone>(&geometry);
-    const auto* hull = std::get_if<simulation::Hull>(&geometry);
-    if (cone == nullptr && hull == nullptr) return;
+    const std::vector<Vector3d> vertices = mujoco_vertices(geometry);
+    if (vertices.empty()) return;
     text_ << "<mesh name=\"" << named << "\" vertex=\"";
-    if (cone != nullptr) text_ << *cone;
-    if (hull != nullptr) text_ << *hull;
+    for (const Vector3d& vertex : vertices) text_ << vertex;
     text_ << "\"/>";
   }
 

@@ -1,24 +1,17 @@
 #include "reference/simbody/creep.h"
 
+#include "contact/bisect.h"
 #include "reference/simbody/engine.h"
 #include "reference/simbody/settings.h"
 #include "reference/steady_creep.h"
 #include "reference/touching_points.h"
 
 namespace hookpoint::reference {
-namespace {
 
-/// x with 10 x^3 - 15 x^4 + 6 x^5 = `share`, which is within 0 and 1.
-double stiction_speed(double share) {
-  double low = 0., high = 1.;
-  for (int i = 0; i < 60; ++i) {
-    const double x = 0.5 * (low + high);
-    (x * x * x * (10. + x * (6. * x - 15.)) < share ? low : high) = x;
-  }
-  return 0.5 * (low + high);
+double simbody_stiction_speed(double share) {
+  return contact::bisect(
+      [share](double x) { return x * x * x * (10. + x * (6. * x - 15.)) - share; }, 0., 1.);
 }
-
-}  // namespace
 
 simulation::ClosedForm<simulation::CreepVelocity> simbody_creep(
     const simulation::Experiment& experiment) {
@@ -31,7 +24,8 @@ simulation::ClosedForm<simulation::CreepVelocity> simbody_creep(
     // All points at one speed have one coefficient, so that how they share the load is no matter.
     const double share = body.pull / (material.static_friction * body.press);
     if (!(share < 1.)) return simulation::NoClosedForm{"friction does not carry the body"};
-    return simulation::CreepVelocity{settings.transition_velocity * stiction_speed(share), 0.};
+    return simulation::CreepVelocity{settings.transition_velocity * simbody_stiction_speed(share),
+                                     0.};
   }
   // A point is a ball on a ground that is lowered by its radius, and touches below the point; a
   // ball of the scene is as large and the ground where it is.

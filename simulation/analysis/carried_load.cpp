@@ -53,7 +53,10 @@ std::vector<CarriedLoad> carried_loads(const Experiment& experiment, std::size_t
     ++points;
     CarriedLoad& share = by_material[point.material];
     const double effective = effective_mass(robot, point);
-    share.least_mass = share.points == 0 ? effective : std::min(share.least_mass, effective);
+    if (share.points == 0 || effective < share.least_mass) {
+      share.least_mass = effective;
+      share.body = point.body;
+    }
     share.impact_speed =
         std::max(share.impact_speed,
                  landing_speed(robot, point, std::max(0., -deepest), experiment.gravity));

@@ -48,10 +48,11 @@ double step_of(const integrators::MatrixBound& bound, const StepperDescription& 
   if (k == 0. && c == 0.) return unlimited;
   double low = integrators::largest_stable_step(stepper, {k, c, 1.});
   double high = std::min(1. / std::sqrt(bound.stiffness * k), 1. / (bound.damping * c));
-  if (high < std::numeric_limits<double>::min()) return 0.;
-  // Where joints pull against the rest, the greatest K and C may not come together.
-  for (; bound.joints < 0. && std::isfinite(high) && bears(bound, dynamics, high); high *= 2.)
+  // Where joints pull against the rest, the greatest K and C may not come together, or never resist.
+  for (; bound.joints < 0. && bears(bound, dynamics, high); high *= 2.) {
+    if (std::isinf(2. * high)) return unlimited;
     low = high;
+  }
   for (int i = 0; i < 40 && high - low > 1e-12 * high; ++i) {
     const double h = 0.5 * (low + high);
     (bears(bound, dynamics, h) ? low : high) = h;
@@ -144,6 +145,9 @@ double largest_stable_step(const StepperDescription& stepper, const LinearDynami
   if (!loops.empty()) return step_of_map(stepper, dynamics, loops, least);
   if (dynamics.stiffness.isZero(0.) && dynamics.damping.isZero(0.)) return unlimited;
   if (!dynamics.stiffness.allFinite() || !dynamics.damping.allFinite()) return unlimited;
+  // Of rates beyond the range of numbers.
+  if (!std::isfinite(dynamics.stiffness.norm()) || !std::isfinite(dynamics.damping.norm()))
+    return 0.;
   if (const auto* bound = std::get_if<integrators::EigenvalueBound>(&stepper.stability))
     return step_of(*bound, dynamics);
   if (const auto* bound = std::get_if<integrators::MatrixBound>(&stepper.stability))

@@ -10,6 +10,8 @@
 
 #include "apps/shared/exported.h"
 #include "apps/shared/translated.h"
+#include "simulation/analysis/inverse_weight.h"
+#include "simulation/experiment/robot_tree.h"
 #include "tests/support/folders.h"
 #include "tests/support/native_contacts/native_contact.h"
 #include "translation/translate.h"
@@ -133,13 +135,13 @@ TEST_P(SevenGrounds, DoInEachEngineWhatTheTranslationSays) {
     const translation::Target* target = translation::find_target(name);
     ASSERT_TRUE(target);
     EXPECT_EQ(target->basis, translation::Basis::measured);
-    const auto translated = translation::translate_to(*target, answer.wanted, at);
+    const auto translated = translation::translate_to(*target, answer.desired, at);
     const auto contact = make(Ball{at.mass, at.radius, at.deltat}, translated.parameters,
                               target->snippet(translated.parameters, at));
     const translation::Behaviour& predicted = translated.behaviour;
     expect_predicted(*contact, predicted, at);
     // The material's own depth, whatever the engine.
-    EXPECT_NEAR(*predicted.static_depth * answer.wanted.stiffness / at.load, 1., tolerance);
+    EXPECT_NEAR(*predicted.static_depth * answer.desired.stiffness / at.load, 1., tolerance);
     ++judged;
   }
   EXPECT_GE(judged, 3u);
@@ -165,7 +167,7 @@ TEST_P(OwnParameters, DoWhatIsPredictedOfThem) {
   const auto contact = found->second(Ball{at.mass, at.radius, at.deltat}, reading.from.parameters,
                                      target->snippet(reading.from.parameters, at));
   expect_predicted(*contact, reading.from.behaviour, at);
-  EXPECT_NEAR(reading.wanted.stiffness * *reading.from.behaviour.static_depth, at.load, 1e-9);
+  EXPECT_NEAR(reading.desired.stiffness * *reading.from.behaviour.static_depth, at.load, 1e-9);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -198,14 +200,59 @@ TEST(ExportedToMujoco, ABlockStandsAndCreepsAsSaid) {
   request.format = "mjcf";
   const auto model = application::exported(application, request);
   ASSERT_TRUE(model);
-  const auto before = native::mujoco_run(model->text, 1000),
-             after = native::mujoco_run(model->text, 2000);
+  const auto before = native::mujoco_run(model->text, 1000).positions,
+             after = native::mujoco_run(model->text, 2000).positions;
   const double c = std::cos(translation::slope), s = std::sin(translation::slope);
   const auto along = [&](const std::vector<double>& q) { return c * q[0] - s * q[2]; };
   const auto across = [&](const std::vector<double>& q) { return s * q[0] + c * q[2]; };
   // Half the block's height, less the depth of a quarter of its weight in the spring.
   EXPECT_NEAR(across(after), 0.02 - 9.81 * c / 20e3, 0.05 * 9.81 / 20e3);
   EXPECT_NEAR(along(after) - along(before), 1e-3, 0.05e-3);
+}
+
+/// A table whose four legs hang on stiff springs at hip and knee: its shanks are light, so that MuJoCo
+/// scales their contacts by much more than one over its mass.
+const std::string legged = R"(World w { deltat = 0.5 ms;
+  Material m { normal_stiffness = 20 kN/m; normal_damping = 60 N.s/m; }
+  Terrain.Flat ground { material = m; }
+  Robot table { Base.mobile { location = 0, 0, 0.42; mass = 6; inertia = 0.1, 0.1, 0.1, 0, 0, 0; }
+    For i in 0..3 { Chain leg[i] { hip_distance = i < 2 ? 0.2 : -0.2, i == 0 || i == 2 ? 0.2 : -0.2, 0;
+      hip_orientation = pi/2, 0, 0;
+      Link thigh { dhangle = -pi/2; mass = 0.5; center_of_mass = 0.1, 0, 0; inertia = 1e-3, 1e-3, 1e-3, 0, 0, 0;
+        stiffness = 2000; damping = 20; }
+      Link shank { dhlength = 0.2; mass = 0.1; center_of_mass = 0.1, 0, 0; inertia = 1e-4, 1e-4, 1e-4, 0, 0, 0;
+        stiffness = 2000; damping = 20; Shape.Sphere { radius = 0.02; location = 0.2, 0, 0; } } } } } })";
+
+TEST(ExportedToMujoco, FeetOfARobotWithJointsStandAsDeepAsHere) {
+  application::Application application;
+  application.give("table.hook", legged);
+  application::ExportRequest request;
+  request.file = "table.hook";
+  request.format = "mjcf";
+  const auto model = application::exported(application, request);
+  ASSERT_TRUE(model);
+  const auto run = native::mujoco_run(model->text, 8000);
+  const double mass = 6. + 4. * 0.6;
+  EXPECT_NEAR(run.deepest, mass * 9.81 / 4. / 20e3, 0.05 * mass * 9.81 / 4. / 20e3);
+}
+
+// Of every body of a robot with joints, beside MuJoCo's own of the exported model.
+TEST(ExportedToMujoco, InverseWeightsAreMujocos) {
+  for (const char* scene : {"standing_hexapod", "standing_quadruped_urdf"}) {
+    application::Application application(false, [](const language::Diagnostics&) {});
+    application::ExportRequest request;
+    request.file = testing::source_folder() + "/configs/scenes/" + scene + ".hook";
+    request.format = "mjcf";
+    const auto model = application::exported(application, request);
+    const auto root = application.evaluate(request.file, {});
+    const auto experiment = application.load(*root);
+    ASSERT_TRUE(model && experiment);
+    const auto truth = native::mujoco_run(model->text, 0).inverse_weights;
+    ASSERT_EQ(truth.size(), simulation::body_count(experiment->robots[0]) + 1);
+    for (std::size_t body = 0; body + 1 < truth.size(); ++body)
+      EXPECT_NEAR(simulation::inverse_weight(*experiment, 0, body) / truth[body + 1], 1., 1e-6)
+          << scene << body;
+  }
 }
 
 TEST(ExportedToMujoco, EveryRobotOfTheScenesCompiles) {
@@ -217,7 +264,7 @@ TEST(ExportedToMujoco, EveryRobotOfTheScenesCompiles) {
     request.format = "mjcf";
     const auto model = application::exported(application, request);
     ASSERT_TRUE(model);
-    for (const double number : native::mujoco_run(model->text, 100))
+    for (const double number : native::mujoco_run(model->text, 100).positions)
       EXPECT_TRUE(std::isfinite(number)) << scene;
   }
 }

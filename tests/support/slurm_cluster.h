@@ -119,9 +119,9 @@ class SlurmCluster {
     return major;
   }
   void write_configuration() const {
-    // Since 23.02 slurmd needs no control groups, and 24.11 does not start without being told so where there
-    // are none.
-    if (major_version() >= 23) std::ofstream(folder_ / "cgroup.conf") << "CgroupPlugin=disabled\n";
+    // That of Debian 13, 24.11, does not start where there are no control groups, unless it needs none;
+    // that of Debian 12, 22.05, does.
+    if (major_version() > 22) std::ofstream(folder_ / "cgroup.conf") << "CgroupPlugin=disabled\n";
     std::ofstream(folder_ / "slurm.conf")
         << "ClusterName=test\nSlurmctldHost=" << node() << "(127.0.0.1)\n"
         << "SlurmUser=root\nSlurmdUser=root\nAuthType=auth/munge\nCredType=cred/munge\n"

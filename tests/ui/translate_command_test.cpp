@@ -1,4 +1,4 @@
-// hookpoint translate: contact constants in the words of other engines, and back.
+// hookpoint translate: contact constants as parameters of other engines, and back.
 #include <gtest/gtest.h>
 
 #include <cmath>

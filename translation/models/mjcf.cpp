@@ -1,11 +1,10 @@
 // MJCF, of MuJoCo 2.2 and later: bodies, joints, geoms, motors, a keyframe of the initial state, the
 // ground and its contact.
 #include <algorithm>
-#include <cmath>
 #include <map>
-#include <numbers>
 
 #include "reference/ground.h"
+#include "reference/mujoco/vertices.h"
 #include "reference/solids.h"
 #include "translation/models/writing.h"
 
@@ -255,22 +254,8 @@ class Mjcf {
     } else if (const auto* capsule = std::get_if<simulation::Capsule>(&geometry)) {
       is("capsule", {capsule->radius, 0.5 * capsule->length});
     } else {
-      write_mesh(geom, vertices_of(geometry), name);
+      write_mesh(geom, reference::mujoco_vertices(geometry), name);
     }
-  }
-
-  static std::vector<Vector3d> vertices_of(const simulation::ShapeGeometry& geometry) {
-    if (const auto* hull = std::get_if<simulation::Hull>(&geometry)) return hull->vertices;
-    const auto& cone = std::get<simulation::Legcone>(geometry);
-    constexpr int sides = 32;
-    std::vector<Vector3d> corners;
-    for (const auto& [x, radius] :
-         {std::pair{0., cone.proximal_radius}, std::pair{cone.length, cone.distal_radius}})
-      for (int i = 0; i < (radius > 0. ? sides : 1); ++i) {
-        const double angle = 2. * std::numbers::pi * i / sides;
-        corners.push_back({x, radius * std::cos(angle), radius * std::sin(angle)});
-      }
-    return corners;
   }
 
   /// The compiler takes the hull of the vertices.

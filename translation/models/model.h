@@ -18,7 +18,7 @@ struct Model {
   std::vector<std::string> left_out;  ///< what the format does not hold, each with a reason
 };
 
-/// Contact parameters of the ground in the words of the format's engine (targets.h).
+/// Contact parameters of the ground as parameters of the format's engine (targets.h).
 using ModelContact = std::optional<Parameters>;
 
 /// A format of models: models/NAME.cpp has it.

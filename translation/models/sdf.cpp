@@ -24,10 +24,7 @@ class Sdf {
     for (const std::size_t robot : robots) write_robot(robot);
     for (const simulation::LoopSpec& loop : experiment.loops)
       left_out_.add("the Loop " + loop.name);
-    for (const simulation::CouplingSpec& coupling : experiment.couplings) {
-      (void)coupling;
-      left_out_.add("a mimic of a joint");
-    }
+    left_out_.add("a mimic of a joint", experiment.couplings.size());
     leave_out_parts(experiment, left_out_);
   }
 

@@ -130,10 +130,7 @@ void leave_out_joint(const simulation::LinkSpec& link, LeftOut& left_out) {
 void leave_out_parts(const simulation::Experiment& experiment, LeftOut& left_out) {
   for (const simulation::ComponentSpec& component : experiment.components)
     left_out.add("the " + component.type);
-  for (const simulation::ForceSpec& force : experiment.forces) {
-    (void)force;
-    left_out.add("a Force");
-  }
+  left_out.add("a Force", experiment.forces.size());
 }
 
 }  // namespace hookpoint::translation

@@ -2,7 +2,6 @@
 // what is left out.
 #pragma once
 
-#include <array>
 #include <initializer_list>
 #include <map>
 #include <pugixml.hpp>
@@ -37,11 +36,13 @@ std::string text_of(const pugi::xml_document& document);
 /// What is left out, once each, with how often.
 class LeftOut {
  public:
-  void add(const std::string& what) { ++counts_[what]; }
+  void add(const std::string& what, std::size_t times = 1) {
+    if (times > 0) counts_[what] += times;
+  }
   std::vector<std::string> list() const;
 
  private:
-  std::map<std::string, int> counts_;
+  std::map<std::string, std::size_t> counts_;
 };
 
 /// A robot's bodies as a tree, with names of letters, digits and _ that no two share.

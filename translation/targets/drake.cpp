@@ -16,7 +16,7 @@ namespace hookpoint::translation {
 namespace {
 
 constexpr std::string_view dissipation_text =
-    "D in f (1 + D v): rebound 1 - 2/3 D v of a slow blow. Of both surfaces the mean, weighted by the other's "
+    "D in f (1 + D v): rebound 1 - 2/3 D v of a slow impact. Of both surfaces the mean, weighted by the other's "
     "stiffness";
 constexpr std::string_view tolerance_text =
     "speed e of the friction v/sqrt(v^2 + e^2): a contact that stands creeps at e f_t/sqrt((mu f_n)^2 - f_t^2)";
@@ -67,16 +67,12 @@ Behaviour behaviour_of(double stiffness, const Parameters& parameters, const Sit
   Behaviour result;
   result.friction_shape = "cone, smoothed over the stiction tolerance";
   result.static_depth = at.load / stiffness;
-  if (holds(mu)) {
-    // sap_driver.cc: a friction row gives by sigma/m of its impulse.
-    constexpr double sigma = 1e-3;
-    const double smoothing = std::max(parameters.number("stiction_tolerance"),
-                                      mu * sigma / at.mass * normal_on_slope(at) * at.deltat);
-    result.creep = smoothing / tolerance_over_creep(mu, at);
-  } else {
-    result.unknown = slides_text;
-  }
-  result.rebound = rebound(at.mass, at.deltat, [&](double depth, double approach) {
+  // sap_driver.cc: a friction row yields by sigma/m of its impulse.
+  constexpr double sigma = 1e-3;
+  const double smoothing = std::max(parameters.number("stiction_tolerance"),
+                                    mu * sigma / at.mass * normal_on_slope(at) * at.deltat);
+  result.set_creep(mu, smoothing / tolerance_over_creep(mu, at));
+  predict_rebound(result, at, [&](double depth, double approach) {
     // At the speed u of the step's end f = k (d + dt u)+ (1 + D u)+ and m (v - u) = dt f.
     const auto force = [&](double u) {
       return stiffness * std::max(0., depth + at.deltat * u) * std::max(0., 1. + dissipation * u);
@@ -89,27 +85,27 @@ Behaviour behaviour_of(double stiffness, const Parameters& parameters, const Sit
   return result;
 }
 
-void set_common(Parameters& parameters, const Wanted& wanted, const Situation& at) {
-  parameters.set("hunt_crossley_dissipation", hunt_crossley_damping(wanted, at));
-  if (wanted.most_creep && holds(wanted.kinetic_friction))
+void set_common(Parameters& parameters, const DesiredContact& desired, const Situation& at) {
+  parameters.set("hunt_crossley_dissipation", hunt_crossley_damping(desired, at));
+  if (desired.most_creep && holds(desired.kinetic_friction))
     parameters.set(
         "stiction_tolerance",
         std::min(parameters.number("stiction_tolerance"),
-                 *wanted.most_creep * tolerance_over_creep(wanted.kinetic_friction, at)));
-  parameters.set("mu_static", wanted.static_friction);
-  parameters.set("mu_dynamic", wanted.kinetic_friction);
+                 *desired.most_creep * tolerance_over_creep(desired.kinetic_friction, at)));
+  parameters.set("mu_static", desired.static_friction);
+  parameters.set("mu_dynamic", desired.kinetic_friction);
 }
 
-Parameters nearest_points(const Wanted& wanted, const Situation& at) {
+Parameters nearest_points(const DesiredContact& desired, const Situation& at) {
   Parameters result(parameters_of_points);
-  result.set("point_contact_stiffness", 2. * wanted.stiffness);
-  set_common(result, wanted, at);
+  result.set("point_contact_stiffness", 2. * desired.stiffness);
+  set_common(result, desired, at);
   return result;
 }
-Parameters nearest_patches(const Wanted& wanted, const Situation& at) {
+Parameters nearest_patches(const DesiredContact& desired, const Situation& at) {
   Parameters result(parameters_of_patches);
-  result.set("hydroelastic_modulus", wanted.stiffness * result.number("slab_thickness") / at.area);
-  set_common(result, wanted, at);
+  result.set("hydroelastic_modulus", desired.stiffness * result.number("slab_thickness") / at.area);
+  set_common(result, desired, at);
   return result;
 }
 
@@ -122,67 +118,56 @@ Behaviour behaviour_of_patches(const Parameters& parameters, const Situation& at
       parameters, at);
 }
 
-Wanted friction(const Parameters& parameters) {
-  return one_friction(parameters.number("mu_dynamic"));
-}
-
 std::string head(const Parameters& parameters, const Situation& at) {
   return fmt::format(
       "MultibodyPlantConfig config;\n"
       "config.time_step = {};\n"
       "config.stiction_tolerance = {};  // discrete_contact_approximation = \"lagged\"\n",
-      numbers_text({at.deltat}), numbers_text(parameters.value("stiction_tolerance").numbers));
+      numbers_text({at.deltat}), parameters.text("stiction_tolerance"));
 }
 std::string friction_text(const Parameters& parameters) {
-  return fmt::format("CoulombFriction<double>({}, {})",
-                     numbers_text(parameters.value("mu_static").numbers),
-                     numbers_text(parameters.value("mu_dynamic").numbers));
+  return fmt::format("CoulombFriction<double>({}, {})", parameters.text("mu_static"),
+                     parameters.text("mu_dynamic"));
 }
 
 std::string points_snippet(const Parameters& parameters, const Situation& at) {
-  const auto number = [&](const char* name) {
-    return numbers_text(parameters.value(name).numbers);
-  };
   return head(parameters, at) +
          fmt::format(
              "geometry::ProximityProperties properties;  // the same of ground and foot\n"
              "geometry::AddContactMaterial({} /* s/m */, {} /* N/m */,\n"
              "                             {}, &properties);",
-             number("hunt_crossley_dissipation"), number("point_contact_stiffness"),
-             friction_text(parameters));
+             parameters.text("hunt_crossley_dissipation"),
+             parameters.text("point_contact_stiffness"), friction_text(parameters));
 }
 
 std::string patches_snippet(const Parameters& parameters, const Situation& at) {
-  const auto number = [&](const char* name) {
-    return numbers_text(parameters.value(name).numbers);
-  };
   return head(parameters, at) +
          fmt::format(
              "config.contact_model = \"hydroelastic\";  // the foot rigid: AddRigidHydroelasticProperties\n"
              "geometry::ProximityProperties ground;\n"
              "geometry::AddCompliantHydroelasticPropertiesForHalfSpace({} /* m */, {} /* Pa */, &ground);\n"
              "geometry::AddContactMaterial({} /* s/m */, {{}}, {}, &ground);",
-             number("slab_thickness"), number("hydroelastic_modulus"),
-             number("hunt_crossley_dissipation"), friction_text(parameters));
+             parameters.text("slab_thickness"), parameters.text("hydroelastic_modulus"),
+             parameters.text("hunt_crossley_dissipation"), friction_text(parameters));
 }
 
-std::vector<std::string> common_notes(const Wanted& wanted) {
+std::vector<std::string> common_notes(const DesiredContact& desired) {
   std::vector<std::string> notes{
       fmt::format("its damping goes with the force: the rebound is right at {} m/s alone",
                   numbers_text({impact_speed})),
       "friction has no spring: a foot on a slope creeps at a part of the stiction tolerance"};
-  if (wanted.static_friction != wanted.kinetic_friction)
+  if (desired.static_friction != desired.kinetic_friction)
     notes.emplace_back("discrete models read mu_dynamic alone");
   return notes;
 }
-std::vector<std::string> cannot_points(const Wanted& wanted, const Situation& /*at*/) {
-  std::vector<std::string> notes = common_notes(wanted);
+std::vector<std::string> cannot_points(const DesiredContact& desired, const Situation& /*at*/) {
+  std::vector<std::string> notes = common_notes(desired);
   notes.emplace_back(
       "the approximation sap reads relaxation_time instead of the dissipation: c/(2 k) of each surface");
   return notes;
 }
-std::vector<std::string> cannot_patches(const Wanted& wanted, const Situation& at) {
-  std::vector<std::string> notes = common_notes(wanted);
+std::vector<std::string> cannot_patches(const DesiredContact& desired, const Situation& at) {
+  std::vector<std::string> notes = common_notes(desired);
   notes.push_back(fmt::format("the stiffness of a patch goes with its area, here {} m^2 (--area)",
                               numbers_text({at.area})));
   return notes;
@@ -194,14 +179,28 @@ const char* const source =
 
 }  // namespace
 
-const Target drake_target{
-    "drake",        "Drake, point contact", Basis::formula, source,         parameters_of_points,
-    nearest_points, behaviour_of_points,    friction,       points_snippet, cannot_points};
+const Target drake_target{.name = "drake",
+                          .title = "Drake, point contact",
+                          .basis = Basis::formula,
+                          .source = source,
+                          .parameters = parameters_of_points,
+                          .nearest = nearest_points,
+                          .behaviour = behaviour_of_points,
+                          .static_friction = "mu_dynamic",
+                          .kinetic_friction = "mu_dynamic",
+                          .snippet = points_snippet,
+                          .cannot = cannot_points};
 
-const Target drake_hydroelastic_target{"drake_hydroelastic",  "Drake, hydroelastic contact",
-                                       Basis::formula,        source,
-                                       parameters_of_patches, nearest_patches,
-                                       behaviour_of_patches,  friction,
-                                       patches_snippet,       cannot_patches};
+const Target drake_hydroelastic_target{.name = "drake_hydroelastic",
+                                       .title = "Drake, hydroelastic contact",
+                                       .basis = Basis::formula,
+                                       .source = source,
+                                       .parameters = parameters_of_patches,
+                                       .nearest = nearest_patches,
+                                       .behaviour = behaviour_of_patches,
+                                       .static_friction = "mu_dynamic",
+                                       .kinetic_friction = "mu_dynamic",
+                                       .snippet = patches_snippet,
+                                       .cannot = cannot_patches};
 
 }  // namespace hookpoint::translation

@@ -24,7 +24,7 @@ const std::array parameters_of_gazebo{
         "m/s",
         {{0.01}, ""},
         {},
-        "the fastest at which depth is undone. Below load/(dt kp + kd) the contact sinks without end"},
+        "the fastest at which depth is undone. Below load/(dt kp + kd) the penetration grows without end"},
     Parameter{"min_depth", "m", {{0.}, ""}, {}, "depth that nothing pushes out"},
     Parameter{
         "mu", "1", {{1.}, ""}, {}, "coefficient of friction, and mu2 across: the smaller of both"},
@@ -36,13 +36,13 @@ const std::array parameters_of_gazebo{
         "speed of creep per newton of friction on each contact point, and slip2 across: the smaller of both"},
 };
 
-Parameters nearest(const Wanted& wanted, const Situation& at) {
+Parameters nearest(const DesiredContact& desired, const Situation& at) {
   Parameters result(parameters_of_gazebo);
-  result.set("kp", wanted.stiffness);
-  result.set("kd", wanted.damping);
+  result.set("kp", desired.stiffness);
+  result.set("kd", desired.damping);
   result.set("max_vel", 1e3);
-  result.set("mu", wanted.kinetic_friction);
-  result.set("slip1", wanted_mixing(wanted, at));
+  result.set("mu", desired.kinetic_friction);
+  result.set("slip1", desired_mixing(desired, at));
   return result;
 }
 
@@ -57,25 +57,20 @@ Behaviour behaviour(const Parameters& parameters, const Situation& at) {
   return result;
 }
 
-Wanted friction(const Parameters& parameters) { return one_friction(parameters.number("mu")); }
-
 std::string snippet(const Parameters& parameters, const Situation& /*at*/) {
-  const auto number = [&](const char* name) {
-    return numbers_text(parameters.value(name).numbers);
-  };
   return fmt::format(
       "<!-- in the <collision> of the ground; in those of the feet max_vel and <friction> alike -->\n"
       "<surface>\n"
       "  <contact><ode><kp>{}</kp><kd>{}</kd><max_vel>{}</max_vel><min_depth>{}</min_depth></ode></contact>\n"
       "  <friction><ode><mu>{}</mu><mu2>{}</mu2><slip1>{}</slip1><slip2>{}</slip2></ode></friction>\n"
       "</surface>",
-      number("kp"), number("kd"), number("max_vel"), number("min_depth"), number("mu"),
-      number("mu"), number("slip1"), number("slip1"));
+      parameters.text("kp"), parameters.text("kd"), parameters.text("max_vel"),
+      parameters.text("min_depth"), parameters.text("mu"), parameters.text("mu"),
+      parameters.text("slip1"), parameters.text("slip1"));
 }
 
-std::vector<std::string> cannot(const Wanted& wanted, const Situation& /*at*/) {
-  std::vector<std::string> notes;
-  add_note(notes, one_friction_note(wanted));
+std::vector<std::string> cannot(const DesiredContact& desired, const Situation& /*at*/) {
+  std::vector<std::string> notes = notes_on_friction(desired);
   notes.emplace_back(
       "friction has no spring, so a foot on a slope creeps; a smaller slip creeps less");
   notes.emplace_back(
@@ -87,15 +82,16 @@ std::vector<std::string> cannot(const Wanted& wanted, const Situation& /*at*/) {
 }  // namespace
 
 const Target gazebo_target{
-    "gazebo",
-    "Gazebo (SDF)",
-    Basis::formula,
-    "gazebo-classic, gazebo/physics/ode/ODEPhysics.cc, Collide; SDFormat 1.7, surface",
-    parameters_of_gazebo,
-    nearest,
-    behaviour,
-    friction,
-    snippet,
-    cannot};
+    .name = "gazebo",
+    .title = "Gazebo (SDF)",
+    .basis = Basis::formula,
+    .source = "gazebo-classic, gazebo/physics/ode/ODEPhysics.cc, Collide; SDFormat 1.7, surface",
+    .parameters = parameters_of_gazebo,
+    .nearest = nearest,
+    .behaviour = behaviour,
+    .static_friction = "mu",
+    .kinetic_friction = "mu",
+    .snippet = snippet,
+    .cannot = cannot};
 
 }  // namespace hookpoint::translation

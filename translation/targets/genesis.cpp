@@ -37,15 +37,15 @@ const std::array parameters_of_genesis{
               "shape of the set of friction forces"},
 };
 
-Parameters nearest(const Wanted& wanted, const Situation& at) {
-  const SoftRow soft = nearest_soft_row(wanted, at);
+Parameters nearest(const DesiredContact& desired, const Situation& at) {
+  const SoftRow soft = nearest_soft_row(desired, at);
   const double d = soft.row.impedance[0];
-  const double softness = (1. - d) / d / at.body_mass();
+  const double softness = (1. - d) / d * at.foot_inverse_weight();
   const double time = 2. * at.deltat / d;
-  const double ratio = std::sqrt(d / (wanted.stiffness * softness)) / (2. * at.deltat);
+  const double ratio = std::sqrt(d / (desired.stiffness * softness)) / (2. * at.deltat);
   Parameters result(parameters_of_genesis);
   result.set("sol_params", {time, ratio, d, d, 1e-3, 0.5, 1.});
-  result.set("friction", wanted.kinetic_friction);
+  result.set("friction", desired.kinetic_friction);
   result.set("impratio", soft.settings.friction_impedance);
   result.set_word("friction_cone", "elliptic");
   return result;
@@ -63,29 +63,22 @@ Behaviour behaviour(const Parameters& parameters, const Situation& at) {
   return behaviour_of(settings, row, parameters.number("friction"), at);
 }
 
-Wanted friction(const Parameters& parameters) {
-  return one_friction(parameters.number("friction"));
-}
-
 std::string snippet(const Parameters& parameters, const Situation& at) {
   return fmt::format(
       "rigid_options = gs.options.RigidOptions(dt={}, friction_cone=\"{}\", impratio={})\n"
       "for geom in (*ground.geoms, *robot.geoms):  # the mean of both surfaces counts\n"
       "    geom.set_sol_params([{}])\n"
       "    geom.set_friction({})",
-      numbers_text({at.deltat}), parameters.word("friction_cone"),
-      numbers_text(parameters.value("impratio").numbers),
-      numbers_text(parameters.value("sol_params").numbers, ", "),
-      numbers_text(parameters.value("friction").numbers));
+      numbers_text({at.deltat}), parameters.word("friction_cone"), parameters.text("impratio"),
+      numbers_text(parameters.value("sol_params").numbers, ", "), parameters.text("friction"));
 }
 
-std::vector<std::string> cannot(const Wanted& wanted, const Situation& at) {
-  std::vector<std::string> notes;
-  add_note(notes, one_friction_note(wanted));
+std::vector<std::string> cannot(const DesiredContact& desired, const Situation& at) {
+  std::vector<std::string> notes = notes_on_friction(desired);
   notes.push_back(fmt::format(
-      "stiffness goes with the mass, as in MuJoCo: these numbers are for {} kg and this step",
-      numbers_text({at.body_mass()})));
-  if (nearest_soft_row(wanted, at).at_bound)
+      "the parameters depend on the mass and the step, as in MuJoCo: these are for a foot of inverse weight {} 1/kg",
+      numbers_text({at.foot_inverse_weight()})));
+  if (nearest_soft_row(desired, at).at_bound)
     notes.emplace_back("the impedance is at a bound: the contact is not this stiff");
   notes.emplace_back(
       "friction has no spring, so a foot on a slope creeps; a greater impratio creeps less");
@@ -95,15 +88,17 @@ std::vector<std::string> cannot(const Wanted& wanted, const Situation& at) {
 }  // namespace
 
 const Target genesis_target{
-    "genesis",
-    "Genesis",
-    Basis::formula,
-    "Genesis, genesis/engine/solvers/rigid/constraint/solver.py and genesis/utils/geom.py (imp_aref)",
-    parameters_of_genesis,
-    nearest,
-    behaviour,
-    friction,
-    snippet,
-    cannot};
+    .name = "genesis",
+    .title = "Genesis",
+    .basis = Basis::formula,
+    .source =
+        "Genesis, genesis/engine/solvers/rigid/constraint/solver.py and genesis/utils/geom.py (imp_aref)",
+    .parameters = parameters_of_genesis,
+    .nearest = nearest,
+    .behaviour = behaviour,
+    .static_friction = "friction",
+    .kinetic_friction = "friction",
+    .snippet = snippet,
+    .cannot = cannot};
 
 }  // namespace hookpoint::translation

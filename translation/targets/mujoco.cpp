@@ -14,10 +14,12 @@ namespace {
 
 constexpr double any = -std::numeric_limits<double>::infinity();
 
+const reference::MujocoRow default_row;
+
 const std::array parameters_of_mujoco{
     Parameter{"solref",
               "s, 1",
-              {{0.02, 1.}, ""},
+              {{default_row.reference.begin(), default_row.reference.end()}, ""},
               {},
               "time constant and damping ratio of the error, relative to the mass: K = 1/(d t z)^2 "
               "[1/s^2], B = 2/(d t) [1/s]. Both below 0: -K d^2 and -B d. Stiffness = K d^2 M/(1 - "
@@ -26,7 +28,7 @@ const std::array parameters_of_mujoco{
     Parameter{
         "solimp",
         "1, 1, m, 1, 1",
-        {{0.9, 0.95, 1e-3, 0.5, 2.}, ""},
+        {{default_row.impedance.begin(), default_row.impedance.end()}, ""},
         {},
         "impedance d: at the surface, from a depth on (the width), how it goes between. Force "
         "= d of that of a rigid contact; R = (1 - d)/(d M) of acceleration per force"},
@@ -69,12 +71,12 @@ reference::MujocoRow row_of(const Parameters& parameters) {
   return row;
 }
 
-Parameters nearest(const Wanted& wanted, const Situation& at) {
-  const SoftRow soft = nearest_soft_row(wanted, at);
+Parameters nearest(const DesiredContact& desired, const Situation& at) {
+  const SoftRow soft = nearest_soft_row(desired, at);
   Parameters result(parameters_of_mujoco);
   result.set("solref", {soft.row.reference.begin(), soft.row.reference.end()});
   result.set("solimp", {soft.row.impedance.begin(), soft.row.impedance.end()});
-  result.set("friction", {wanted.kinetic_friction, 0.005, 0.0001});
+  result.set("friction", {desired.kinetic_friction, 0.005, 0.0001});
   result.set("impratio", soft.settings.friction_impedance);
   result.set_word("cone", "elliptic");
   return result;
@@ -85,32 +87,24 @@ Behaviour behaviour(const Parameters& parameters, const Situation& at) {
                       at);
 }
 
-Wanted friction(const Parameters& parameters) {
-  return one_friction(parameters.number("friction"));
-}
-
 std::string snippet(const Parameters& parameters, const Situation& at) {
-  const auto numbers = [&](const char* name) {
-    return numbers_text(parameters.value(name).numbers);
-  };
   return fmt::format(
       "<option timestep=\"{}\" cone=\"{}\" impratio=\"{}\"/>\n"
       "<default>\n"
       "  <geom priority=\"1\" condim=\"3\" friction=\"{}\"\n"
       "        solref=\"{}\" solimp=\"{}\"/>\n"
       "</default>",
-      numbers_text({at.deltat}), parameters.word("cone"), numbers("impratio"), numbers("friction"),
-      numbers("solref"), numbers("solimp"));
+      numbers_text({at.deltat}), parameters.word("cone"), parameters.text("impratio"),
+      parameters.text("friction"), parameters.text("solref"), parameters.text("solimp"));
 }
 
-std::vector<std::string> cannot(const Wanted& wanted, const Situation& at) {
-  std::vector<std::string> notes;
-  add_note(notes, one_friction_note(wanted));
+std::vector<std::string> cannot(const DesiredContact& desired, const Situation& at) {
+  std::vector<std::string> notes = notes_on_friction(desired);
   notes.push_back(fmt::format(
-      "MuJoCo's stiffness goes with the mass: these numbers are for {} kg (body_invweight0 = {} "
-      "1/kg) and this timestep; for M kg R is 1/M as large",
-      numbers_text({at.body_mass()}), numbers_text({1. / at.body_mass()})));
-  if (nearest_soft_row(wanted, at).at_bound)
+      "the parameters depend on the mass and the step: these are for a foot with body_invweight0 = {} 1/kg and this "
+      "timestep",
+      numbers_text({at.foot_inverse_weight()})));
+  if (nearest_soft_row(desired, at).at_bound)
     notes.emplace_back("the impedance is at a bound of MuJoCo's: the contact is not this stiff");
   notes.emplace_back(
       "friction has no spring, so a foot on a slope creeps; a greater impratio creeps less");
@@ -120,15 +114,16 @@ std::vector<std::string> cannot(const Wanted& wanted, const Situation& at) {
 }  // namespace
 
 const Target mujoco_target{
-    "mujoco",
-    "MuJoCo",
-    Basis::measured,
-    "MuJoCo's manual, Computation (Constraint model) and Modeling (Contact parameters)",
-    parameters_of_mujoco,
-    nearest,
-    behaviour,
-    friction,
-    snippet,
-    cannot};
+    .name = "mujoco",
+    .title = "MuJoCo",
+    .basis = Basis::measured,
+    .source = "MuJoCo's manual, Computation (Constraint model) and Modeling (Contact parameters)",
+    .parameters = parameters_of_mujoco,
+    .nearest = nearest,
+    .behaviour = behaviour,
+    .static_friction = "friction",
+    .kinetic_friction = "friction",
+    .snippet = snippet,
+    .cannot = cannot};
 
 }  // namespace hookpoint::translation

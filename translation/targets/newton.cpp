@@ -30,13 +30,13 @@ const std::array parameters_of_newton{
     Parameter{"mu", "1", {{0.5}, ""}, {}, "coefficient of friction; the mean"},
 };
 
-Parameters nearest(const Wanted& wanted, const Situation& at) {
+Parameters nearest(const DesiredContact& desired, const Situation& at) {
   Parameters result(parameters_of_newton);
-  result.set("ke", wanted.stiffness);
-  result.set("kd", one_sided_damping(wanted, at));
+  result.set("ke", desired.stiffness);
+  result.set("kd", one_sided_damping(desired, at));
   // Half of what the step bears.
-  result.set("kf", std::min(1. / wanted_mixing(wanted, at), at.mass / at.deltat));
-  result.set("mu", wanted.kinetic_friction);
+  result.set("kf", std::min(1. / desired_mixing(desired, at), at.mass / at.deltat));
+  result.set("mu", desired.kinetic_friction);
   return result;
 }
 
@@ -45,38 +45,28 @@ Behaviour behaviour(const Parameters& parameters, const Situation& at) {
   Behaviour result;
   result.friction_shape = "cone, smoothed (friction_smoothing)";
   result.static_depth = at.load / ke;
-  if (holds(parameters.number("mu"))) {
-    result.creep = tangential_on_slope(at) / parameters.number("kf");
-  } else {
-    result.unknown = slides_text;
-  }
+  result.set_creep(parameters.number("mu"), tangential_on_slope(at) / parameters.number("kf"));
   const double stable = explicit_stable_step(at.mass, ke, kd);
   result.largest_stable_step = std::min(stable, 2. * at.mass / parameters.number("kf"));
   if (at.deltat > *result.largest_stable_step) {
-    result.unknown = "the step is above the largest stable one";
+    result.add_unknown("the step is above the largest stable one");
   } else {
-    result.rebound = rebound(at.mass, at.deltat, [&](double depth, double approach) {
+    predict_rebound(result, at, [&](double depth, double approach) {
       return depth > 0. ? ke * depth + kd * std::max(0., approach) : 0.;
     });
   }
   return result;
 }
 
-Wanted friction(const Parameters& parameters) { return one_friction(parameters.number("mu")); }
-
 std::string snippet(const Parameters& parameters, const Situation& /*at*/) {
-  const auto number = [&](const char* name) {
-    return numbers_text(parameters.value(name).numbers);
-  };
   return fmt::format(
       "# the same on both shapes: their mean counts; for SolverSemiImplicit and SolverFeatherstone\n"
       "cfg = newton.ModelBuilder.ShapeConfig(ke={}, kd={}, kf={}, mu={}, ka=0.0)",
-      number("ke"), number("kd"), number("kf"), number("mu"));
+      parameters.text("ke"), parameters.text("kd"), parameters.text("kf"), parameters.text("mu"));
 }
 
-std::vector<std::string> cannot(const Wanted& wanted, const Situation& /*at*/) {
-  std::vector<std::string> notes;
-  add_note(notes, one_friction_note(wanted));
+std::vector<std::string> cannot(const DesiredContact& desired, const Situation& /*at*/) {
+  std::vector<std::string> notes = notes_on_friction(desired);
   notes.emplace_back(
       "its damper acts on approach alone: kd gives the same rebound, other speeds in between");
   notes.emplace_back(
@@ -92,15 +82,16 @@ std::vector<std::string> cannot(const Wanted& wanted, const Situation& /*at*/) {
 }  // namespace
 
 const Target newton_target{
-    "newton",
-    "Newton (and warp.sim)",
-    Basis::formula,
-    "newton, newton/_src/solvers/semi_implicit/kernels_contact.py, eval_body_contact",
-    parameters_of_newton,
-    nearest,
-    behaviour,
-    friction,
-    snippet,
-    cannot};
+    .name = "newton",
+    .title = "Newton (and warp.sim)",
+    .basis = Basis::formula,
+    .source = "newton, newton/_src/solvers/semi_implicit/kernels_contact.py, eval_body_contact",
+    .parameters = parameters_of_newton,
+    .nearest = nearest,
+    .behaviour = behaviour,
+    .static_friction = "mu",
+    .kinetic_friction = "mu",
+    .snippet = snippet,
+    .cannot = cannot};
 
 }  // namespace hookpoint::translation

@@ -4,18 +4,22 @@
 
 #include <array>
 
-#include "reference/settings.h"
+#include "reference/ode/settings.h"
 #include "translation/constraint_row.h"
 #include "translation/targets.h"
 
 namespace hookpoint::translation {
 namespace {
 
+const reference::ConstraintConstants defaults =
+    reference::ode_settings(reference::Settings::default_, reference::OdeSolver::step, 1., {})
+        .constraint;
+
 const std::array parameters_of_ode{
     Parameter{"mu", "1", {{1.}, ""}, {}, "coefficient of friction of this contact"},
     Parameter{"soft_erp",
               "1",
-              {{0.2}, ""},
+              {{defaults.normal_error_reduction}, ""},
               {},
               "part of the depth that a step undoes: with CFM the stiffness ERP/(dt CFM) [N/m] and "
               "the damping (1 - ERP)/CFM [N s/m]",
@@ -23,23 +27,23 @@ const std::array parameters_of_ode{
     Parameter{
         "soft_cfm",
         "m/(N s)",
-        {{1e-10}, ""},
+        {{defaults.normal_mixing}, ""},
         {},
-        "speed by which the contact gives per newton; the default is that of double precision"},
+        "speed by which the contact yields per newton; the default is that of double precision"},
     Parameter{"slip1",
               "m/(N s)",
-              {{1e-10}, ""},
+              {{defaults.tangential_mixing}, ""},
               {},
               "speed of creep per newton of friction; without dContactSlip1 it is the world's CFM"},
 };
 
-Parameters nearest(const Wanted& wanted, const Situation& at) {
-  const auto normal = reference::implicit_spring(wanted.stiffness, wanted.damping, at.deltat);
+Parameters nearest(const DesiredContact& desired, const Situation& at) {
+  const auto normal = reference::implicit_spring(desired.stiffness, desired.damping, at.deltat);
   Parameters result(parameters_of_ode);
-  result.set("mu", wanted.kinetic_friction);
+  result.set("mu", desired.kinetic_friction);
   result.set("soft_erp", normal.error_reduction);
   result.set("soft_cfm", normal.mixing);
-  result.set("slip1", wanted_mixing(wanted, at));
+  result.set("slip1", desired_mixing(desired, at));
   return result;
 }
 
@@ -49,12 +53,7 @@ Behaviour behaviour(const Parameters& parameters, const Situation& at) {
                       at, "box of mu times the normal force (dContactApprox1)");
 }
 
-Wanted friction(const Parameters& parameters) { return one_friction(parameters.number("mu")); }
-
 std::string snippet(const Parameters& parameters, const Situation& at) {
-  const auto number = [&](const char* name) {
-    return numbers_text(parameters.value(name).numbers);
-  };
   return fmt::format(
       "dContact contact;  // of each pair that touches, for dWorldStep(world, {})\n"
       "contact.surface.mode = dContactApprox1 | dContactSoftERP | dContactSoftCFM | dContactSlip1 | "
@@ -63,13 +62,12 @@ std::string snippet(const Parameters& parameters, const Situation& at) {
       "contact.surface.soft_erp = {};\n"
       "contact.surface.soft_cfm = {};\n"
       "contact.surface.slip1 = contact.surface.slip2 = {};",
-      numbers_text({at.deltat}), number("mu"), number("soft_erp"), number("soft_cfm"),
-      number("slip1"));
+      numbers_text({at.deltat}), parameters.text("mu"), parameters.text("soft_erp"),
+      parameters.text("soft_cfm"), parameters.text("slip1"));
 }
 
-std::vector<std::string> cannot(const Wanted& wanted, const Situation& /*at*/) {
-  std::vector<std::string> notes;
-  add_note(notes, one_friction_note(wanted));
+std::vector<std::string> cannot(const DesiredContact& desired, const Situation& /*at*/) {
+  std::vector<std::string> notes = notes_on_friction(desired);
   notes.emplace_back(
       "friction has no spring, so a foot on a slope creeps; a smaller slip creeps less");
   notes.emplace_back(
@@ -80,15 +78,16 @@ std::vector<std::string> cannot(const Wanted& wanted, const Situation& /*at*/) {
 
 }  // namespace
 
-const Target ode_target{"ode",
-                        "Open Dynamics Engine",
-                        Basis::measured,
-                        "ODE manual, How to use ERP and CFM, and Contact",
-                        parameters_of_ode,
-                        nearest,
-                        behaviour,
-                        friction,
-                        snippet,
-                        cannot};
+const Target ode_target{.name = "ode",
+                        .title = "Open Dynamics Engine",
+                        .basis = Basis::measured,
+                        .source = "ODE manual, How to use ERP and CFM, and Contact",
+                        .parameters = parameters_of_ode,
+                        .nearest = nearest,
+                        .behaviour = behaviour,
+                        .static_friction = "mu",
+                        .kinetic_friction = "mu",
+                        .snippet = snippet,
+                        .cannot = cannot};
 
 }  // namespace hookpoint::translation

@@ -29,12 +29,12 @@ const std::array parameters_of_physx{
     Parameter{"dynamic_friction", "1", {{0.5}, ""}, {}, "as static_friction"},
 };
 
-Parameters nearest(const Wanted& wanted, const Situation& /*at*/) {
+Parameters nearest(const DesiredContact& desired, const Situation& /*at*/) {
   Parameters result(parameters_of_physx);
-  result.set("compliant_contact_stiffness", wanted.stiffness);
-  result.set("compliant_contact_damping", wanted.damping);
-  result.set("static_friction", wanted.static_friction);
-  result.set("dynamic_friction", wanted.kinetic_friction);
+  result.set("compliant_contact_stiffness", desired.stiffness);
+  result.set("compliant_contact_damping", desired.damping);
+  result.set("static_friction", desired.static_friction);
+  result.set("dynamic_friction", desired.kinetic_friction);
   return result;
 }
 
@@ -44,9 +44,9 @@ Behaviour behaviour(const Parameters& parameters, const Situation& at) {
   if (stiffness == 0.) {
     Behaviour rigid;
     rigid.friction_shape = shape;
-    rigid.rigid = true;
     rigid.static_depth = 0.;
-    rigid.unknown = "the contact is rigid";
+    rigid.set_rigid(": it has no compliant_contact_stiffness");
+    rigid.set_creep(parameters.number("static_friction"), 0.);
     return rigid;
   }
   const auto spring = reference::implicit_spring(
@@ -55,27 +55,18 @@ Behaviour behaviour(const Parameters& parameters, const Situation& at) {
       {spring.error_reduction, spring.mixing, 0., parameters.number("static_friction")}, at, shape);
 }
 
-Wanted friction(const Parameters& parameters) {
-  Wanted wanted;
-  wanted.static_friction = parameters.number("static_friction");
-  wanted.kinetic_friction = parameters.number("dynamic_friction");
-  return wanted;
-}
-
 std::string snippet(const Parameters& parameters, const Situation& at) {
-  const auto number = [&](const char* name) {
-    return numbers_text(parameters.value(name).numbers);
-  };
   return fmt::format(
       "# of the ground, Isaac Lab; the feet rigid, with the same frictions; dt = {}\n"
       "sim_utils.RigidBodyMaterialCfg(\n"
       "    static_friction={}, dynamic_friction={}, restitution=0.0,\n"
       "    compliant_contact_stiffness={}, compliant_contact_damping={})",
-      numbers_text({at.deltat}), number("static_friction"), number("dynamic_friction"),
-      number("compliant_contact_stiffness"), number("compliant_contact_damping"));
+      numbers_text({at.deltat}), parameters.text("static_friction"),
+      parameters.text("dynamic_friction"), parameters.text("compliant_contact_stiffness"),
+      parameters.text("compliant_contact_damping"));
 }
 
-std::vector<std::string> cannot(const Wanted& /*wanted*/, const Situation& /*at*/) {
+std::vector<std::string> cannot(const DesiredContact& /*desired*/, const Situation& /*at*/) {
   return {"friction has no compliance: the tangential stiffness and damping have no counterpart",
           "the TGS solver pushes a depth out no faster than max_depenetration_velocity: leave that "
           "at its default, which is no limit"};
@@ -84,16 +75,18 @@ std::vector<std::string> cannot(const Wanted& /*wanted*/, const Situation& /*at*
 }  // namespace
 
 const Target physx_target{
-    "physx",
-    "PhysX, Isaac Sim and Isaac Lab",
-    Basis::formula,
-    "PhysX 5, physx/source/lowleveldynamics/src/DyContactPrepShared.h, computeCompliantContactCoefficients; "
-    "Isaac Lab, physics_materials_cfg.py",
-    parameters_of_physx,
-    nearest,
-    behaviour,
-    friction,
-    snippet,
-    cannot};
+    .name = "physx",
+    .title = "PhysX, Isaac Sim and Isaac Lab",
+    .basis = Basis::formula,
+    .source =
+        "PhysX 5, physx/source/lowleveldynamics/src/DyContactPrepShared.h, computeCompliantContactCoefficients; "
+        "Isaac Lab, physics_materials_cfg.py",
+    .parameters = parameters_of_physx,
+    .nearest = nearest,
+    .behaviour = behaviour,
+    .static_friction = "static_friction",
+    .kinetic_friction = "dynamic_friction",
+    .snippet = snippet,
+    .cannot = cannot};
 
 }  // namespace hookpoint::translation

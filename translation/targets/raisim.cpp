@@ -22,10 +22,10 @@ const std::array parameters_of_raisim{
     Parameter{"erp2", "1", {{0.002}, ""}, {}, "damping constant of the depth, scaled likewise"},
 };
 
-Parameters nearest(const Wanted& wanted, const Situation& at) {
+Parameters nearest(const DesiredContact& desired, const Situation& at) {
   Parameters result(parameters_of_raisim);
-  result.set("friction", wanted.kinetic_friction);
-  result.set("restitution", wanted_rebound(wanted, at));
+  result.set("friction", desired.kinetic_friction);
+  result.set("restitution", desired_rebound(desired, at));
   result.set("resThreshold", 0.01);
   return result;
 }
@@ -33,33 +33,24 @@ Parameters nearest(const Wanted& wanted, const Situation& at) {
 Behaviour behaviour(const Parameters& parameters, const Situation& /*at*/) {
   Behaviour result;
   result.friction_shape = "cone";
-  result.rigid = true;
   result.static_depth = 0.;
-  if (holds(parameters.number("friction"))) result.creep = 0.;
+  result.set_rigid(", but for an error reduction without units");
+  result.set_creep(parameters.number("friction"), 0.);
   result.rebound = parameters.number("restitution");
-  result.unknown = "the contact is rigid, but for an error reduction without units";
   return result;
 }
 
-Wanted friction(const Parameters& parameters) {
-  return one_friction(parameters.number("friction"));
-}
-
 std::string snippet(const Parameters& parameters, const Situation& at) {
-  const auto number = [&](const char* name) {
-    return numbers_text(parameters.value(name).numbers);
-  };
   return fmt::format(
       "world.setTimeStep({});\n"
       "world.setMaterialPairProp(\"ground\", \"foot\", {}, {}, {});  // friction, restitution, threshold\n"
       "world.setERP({}, {});",
-      numbers_text({at.deltat}), number("friction"), number("restitution"), number("resThreshold"),
-      number("erp"), number("erp2"));
+      numbers_text({at.deltat}), parameters.text("friction"), parameters.text("restitution"),
+      parameters.text("resThreshold"), parameters.text("erp"), parameters.text("erp2"));
 }
 
-std::vector<std::string> cannot(const Wanted& wanted, const Situation& /*at*/) {
-  std::vector<std::string> notes;
-  add_note(notes, one_friction_note(wanted));
+std::vector<std::string> cannot(const DesiredContact& desired, const Situation& /*at*/) {
+  std::vector<std::string> notes = notes_on_friction(desired);
   notes.emplace_back(
       "the contact is rigid: there is no stiffness and no damping; restitution gives the rebound");
   return notes;
@@ -67,15 +58,16 @@ std::vector<std::string> cannot(const Wanted& wanted, const Situation& /*at*/) {
 
 }  // namespace
 
-const Target raisim_target{"raisim",
-                           "RaiSim",
-                           Basis::formula,
-                           "RaiSim's manual, Material System; raisimLib, World.hpp",
-                           parameters_of_raisim,
-                           nearest,
-                           behaviour,
-                           friction,
-                           snippet,
-                           cannot};
+const Target raisim_target{.name = "raisim",
+                           .title = "RaiSim",
+                           .basis = Basis::formula,
+                           .source = "RaiSim's manual, Material System; raisimLib, World.hpp",
+                           .parameters = parameters_of_raisim,
+                           .nearest = nearest,
+                           .behaviour = behaviour,
+                           .static_friction = "friction",
+                           .kinetic_friction = "friction",
+                           .snippet = snippet,
+                           .cannot = cannot};
 
 }  // namespace hookpoint::translation

@@ -6,8 +6,9 @@
 #include <array>
 #include <cmath>
 
-#include "contact/bisect.h"
 #include "contact/predictions.h"
+#include "reference/simbody/creep.h"
+#include "reference/simbody/settings.h"
 #include "translation/damping.h"
 #include "translation/targets.h"
 
@@ -27,7 +28,7 @@ const std::array parameters_of_simbody{
               "s/m",
               {{0.}, ""},
               {},
-              "c of each surface, in f (1 + 3/2 c v): rebound 1 - c v of a slow blow"},
+              "c of each surface, in f (1 + 3/2 c v): rebound 1 - c v of a slow impact"},
     Parameter{
         "us", "1", {{0.}, ""}, {}, "static friction of each surface; of two 2 us1 us2/(us1 + us2)"},
     Parameter{"ud", "1", {{0.}, ""}, {}, "dynamic friction, as us"},
@@ -42,23 +43,19 @@ const std::array parameters_of_simbody{
 /// E of the pair over that of each of two like surfaces: k = E^(2/3) in series.
 const double of_pair = std::pow(0.5, 1.5);
 
-/// x with 10 x^3 - 15 x^4 + 6 x^5 = `share`, which is within 0 and 1.
-double stiction_part(double share) {
-  return contact::bisect(
-      [share](double x) { return x * x * x * (10. + x * (6. * x - 15.)) - share; }, 0., 1.);
-}
-
-Parameters nearest(const Wanted& wanted, const Situation& at) {
-  const double depth = at.load / wanted.stiffness;
+Parameters nearest(const DesiredContact& desired, const Situation& at) {
+  const double depth = at.load / desired.stiffness;
   Parameters result(parameters_of_simbody);
   result.set("stiffness", 0.75 * at.load / (std::sqrt(at.radius) * std::pow(depth, 1.5)) / of_pair);
-  result.set("dissipation", hunt_crossley_damping(wanted, at) / 1.5);
-  result.set("us", wanted.static_friction);
-  result.set("ud", wanted.kinetic_friction);
-  double transition = 1e-3;  // ExampleContactPlayground.cpp
-  if (wanted.most_creep && holds(wanted.static_friction))
-    transition = std::min(
-        transition, *wanted.most_creep / stiction_part(std::tan(slope) / wanted.static_friction));
+  result.set("dissipation", hunt_crossley_damping(desired, at) / 1.5);
+  result.set("us", desired.static_friction);
+  result.set("ud", desired.kinetic_friction);
+  double transition =
+      reference::simbody_settings(reference::Settings::recommended).transition_velocity;
+  if (desired.most_creep && holds(desired.static_friction))
+    transition =
+        std::min(transition, *desired.most_creep / reference::simbody_stiction_speed(
+                                                       std::tan(slope) / desired.static_friction));
   result.set("transition_velocity", transition);
   return result;
 }
@@ -69,37 +66,24 @@ Behaviour behaviour(const Parameters& parameters, const Situation& at) {
   const double modulus = parameters.number("stiffness") * of_pair;
   result.static_depth = std::pow(0.75 * at.load / (modulus * std::sqrt(at.radius)), 2. / 3.);
   const double friction = parameters.number("us");
-  if (holds(friction)) {
-    result.creep =
-        parameters.number("transition_velocity") * stiction_part(std::tan(slope) / friction);
-  } else {
-    result.unknown = slides_text;
-  }
+  const double share = std::min(1., std::tan(slope) / friction);
+  result.set_creep(friction, parameters.number("transition_velocity") *
+                                 reference::simbody_stiction_speed(share));
   result.rebound =
       contact::hunt_crossley_restitution(1.5 * parameters.number("dissipation") * impact_speed);
   return result;
 }
 
-Wanted friction(const Parameters& parameters) {
-  Wanted wanted;
-  wanted.static_friction = parameters.number("us");
-  wanted.kinetic_friction = parameters.number("ud");
-  return wanted;
-}
-
 std::string snippet(const Parameters& parameters, const Situation& /*at*/) {
-  const auto number = [&](const char* name) {
-    return numbers_text(parameters.value(name).numbers);
-  };
   return fmt::format(
       "// the same on both surfaces; arguments: stiffness, dissipation, us, ud, viscous\n"
       "ContactMaterial material({}, {}, {}, {}, 0);\n"
       "contactForces.setTransitionVelocity({});",
-      number("stiffness"), number("dissipation"), number("us"), number("ud"),
-      number("transition_velocity"));
+      parameters.text("stiffness"), parameters.text("dissipation"), parameters.text("us"),
+      parameters.text("ud"), parameters.text("transition_velocity"));
 }
 
-std::vector<std::string> cannot(const Wanted& /*wanted*/, const Situation& at) {
+std::vector<std::string> cannot(const DesiredContact& /*desired*/, const Situation& at) {
   return {
       fmt::format(
           "it has no linear spring. Hertz's force goes with depth^(3/2): the depth is right "
@@ -114,15 +98,17 @@ std::vector<std::string> cannot(const Wanted& /*wanted*/, const Situation& at) {
 }  // namespace
 
 const Target simbody_target{
-    "simbody",
-    "Simbody",
-    Basis::measured,
-    "Simbody, CompliantContactSubsystem.h and ContactSurface.h; Sherman, Seth & Delp 2011",
-    parameters_of_simbody,
-    nearest,
-    behaviour,
-    friction,
-    snippet,
-    cannot};
+    .name = "simbody",
+    .title = "Simbody",
+    .basis = Basis::measured,
+    .source =
+        "Simbody, CompliantContactSubsystem.h and ContactSurface.h; Sherman, Seth & Delp 2011",
+    .parameters = parameters_of_simbody,
+    .nearest = nearest,
+    .behaviour = behaviour,
+    .static_friction = "us",
+    .kinetic_friction = "ud",
+    .snippet = snippet,
+    .cannot = cannot};
 
 }  // namespace hookpoint::translation

@@ -72,15 +72,22 @@ std::unique_ptr<Contact> mujoco_contact(const Ball& ball, const std::string& sni
   return std::make_unique<MujocoContact>(ball, snippet);
 }
 
-std::vector<double> mujoco_run(const std::string& xml, int steps) {
+MujocoRun mujoco_run(const std::string& xml, int steps) {
   mjModel* model = compiled(xml);
   mjData* data = mj_makeData(model);
   if (model->nkey > 0) mj_resetDataKeyframe(model, data, 0);
   for (int i = 0; i < steps; ++i) mj_step(model, data);
-  std::vector<double> positions(data->qpos, data->qpos + model->nq);
+  mj_forward(model, data);
+  MujocoRun run{{data->qpos, data->qpos + model->nq}, 0., {}};
+  for (int geom = 0; geom < model->ngeom; ++geom)
+    if (model->geom_type[geom] == mjGEOM_SPHERE)
+      run.deepest =
+          std::max(run.deepest, model->geom_size[3 * geom] - data->geom_xpos[3 * geom + 2]);
+  for (int body = 0; body < model->nbody; ++body)
+    run.inverse_weights.push_back(model->body_invweight0[2 * body]);
   mj_deleteData(data);
   mj_deleteModel(model);
-  return positions;
+  return run;
 }
 
 }  // namespace hookpoint::native

@@ -27,9 +27,15 @@ class Contact {
 
 /// `snippet`: XML of <mujoco>. Of a library that this build lacks there is no function (HOOKPOINT_NATIVE_NAME).
 std::unique_ptr<Contact> mujoco_contact(const Ball& ball, const std::string& snippet);
-/// qpos of a model of MuJoCo after so many steps from its first keyframe. Throws std::runtime_error with
-/// MuJoCo's words about the XML.
-std::vector<double> mujoco_run(const std::string& xml, int steps);
+/// A model of MuJoCo after so many steps from its first keyframe.
+struct MujocoRun {
+  std::vector<double> positions;  ///< qpos
+  double deepest = 0.;            ///< how far the lowest ball reaches below z = 0 [m]
+  std::vector<double>
+      inverse_weights;  ///< body_invweight0, translational, the world's first [1/kg]
+};
+/// Throws std::runtime_error with MuJoCo's words about the XML.
+MujocoRun mujoco_run(const std::string& xml, int steps);
 std::unique_ptr<Contact> ode_contact(const Ball& ball, double mu, double soft_erp, double soft_cfm,
                                      double slip);
 std::unique_ptr<Contact> bullet_contact(const Ball& ball, double stiffness, double damping,

@@ -16,9 +16,9 @@ struct Answer {
   std::string law;       ///< hookpoint's; "" where constants came from an engine
   std::string robot;     ///< that rests on it; "" where load or mass were given
   Situation at;
-  Wanted wanted;
+  DesiredContact desired;
   std::optional<Behaviour> own;     ///< of the law
-  std::optional<Translation> from;  ///< the engine whose words were read
+  std::optional<Translation> from;  ///< the engine whose parameters were read
   std::vector<Translation> targets;
 };
 

@@ -1,4 +1,4 @@
-#include "translation/written.h"
+#include "translation/report.h"
 
 #include <fmt/format.h>
 
@@ -32,19 +32,19 @@ std::string predicted_text(const Behaviour& does) {
   add(does.largest_stable_step
           ? "largest stable step " + text::rounded(*does.largest_stable_step, digits) + " s"
           : std::string("any step is stable"));
-  if (!does.unknown.empty()) add("no more: " + does.unknown);
+  if (!does.unknown.empty()) add("unknown: " + does.unknown);
   return text;
 }
 
-std::string wanted_text(const Wanted& wanted) {
+std::string desired_text(const DesiredContact& desired) {
   const auto number = [](double value) { return text::rounded(value, digits); };
   return fmt::format(
       "{} N/m and {} N s/m along the normal, {} N/m and {} N s/m along the ground, friction {}",
-      number(wanted.stiffness), number(wanted.damping), number(wanted.tangential_stiffness),
-      number(wanted.tangential_damping),
-      wanted.static_friction == wanted.kinetic_friction
-          ? number(wanted.kinetic_friction)
-          : number(wanted.static_friction) + " and, sliding, " + number(wanted.kinetic_friction));
+      number(desired.stiffness), number(desired.damping), number(desired.tangential_stiffness),
+      number(desired.tangential_damping),
+      desired.static_friction == desired.kinetic_friction
+          ? number(desired.kinetic_friction)
+          : number(desired.static_friction) + " and, sliding, " + number(desired.kinetic_friction));
 }
 
 const char* basis_text(Basis basis) {
@@ -62,17 +62,17 @@ std::string indented(const std::string& text, const std::string& by) {
 
 /// Constants as a block of the language.
 std::string material_block(const Answer& answer) {
-  const Wanted& wanted = answer.wanted;
+  const DesiredContact& desired = answer.desired;
   std::string block = fmt::format("Material {} {{\n", answer.material);
   const auto field = [&](const char* name, double value, const char* unit) {
     block += fmt::format("  {} = {}{}{};\n", name, text::rounded(value, 6), *unit ? " " : "", unit);
   };
-  field("normal_stiffness", wanted.stiffness, "N/m");
-  field("normal_damping", wanted.damping, "N.s/m");
-  field("tangential_stiffness", wanted.tangential_stiffness, "N/m");
-  field("tangential_damping", wanted.tangential_damping, "N.s/m");
-  field("static_friction", wanted.static_friction, "");
-  field("kinetic_friction", wanted.kinetic_friction, "");
+  field("normal_stiffness", desired.stiffness, "N/m");
+  field("normal_damping", desired.damping, "N.s/m");
+  field("tangential_stiffness", desired.tangential_stiffness, "N/m");
+  field("tangential_damping", desired.tangential_damping, "N.s/m");
+  field("static_friction", desired.static_friction, "");
+  field("kinetic_friction", desired.kinetic_friction, "");
   return block + "}";
 }
 
@@ -142,13 +142,14 @@ void write_answer(text::JsonWriter& json, const Answer& answer) {
   if (!answer.law.empty()) json.member("law", answer.law);
   if (!answer.robot.empty()) json.member("robot", answer.robot);
   json.member("load", at.load).member("mass", at.mass).member("contacts", at.contacts);
+  json.member("effective_mass", at.row_mass()).member("inverse_weight", at.foot_inverse_weight());
   json.member("deltat", at.deltat).key("constants").begin_object();
-  const Wanted& wanted = answer.wanted;
-  json.member("normal_stiffness", wanted.stiffness).member("normal_damping", wanted.damping);
-  json.member("tangential_stiffness", wanted.tangential_stiffness);
-  json.member("tangential_damping", wanted.tangential_damping);
-  json.member("static_friction", wanted.static_friction);
-  json.member("kinetic_friction", wanted.kinetic_friction).end_object();
+  const DesiredContact& desired = answer.desired;
+  json.member("normal_stiffness", desired.stiffness).member("normal_damping", desired.damping);
+  json.member("tangential_stiffness", desired.tangential_stiffness);
+  json.member("tangential_damping", desired.tangential_damping);
+  json.member("static_friction", desired.static_friction);
+  json.member("kinetic_friction", desired.kinetic_friction).end_object();
   if (answer.own) {
     json.key("predicted");
     write_behaviour(json, *answer.own);
@@ -173,7 +174,7 @@ std::string text_of(std::span<const Answer> answers) {
   std::string text;
   for (const Answer& answer : answers) {
     if (!text.empty()) text += "\n";
-    text += heading(answer) + "  " + wanted_text(answer.wanted) + "\n";
+    text += heading(answer) + "  " + desired_text(answer.desired) + "\n";
     if (answer.own) text += "  hookpoint: " + predicted_text(*answer.own) + "\n";
     if (answer.from) {
       text += fmt::format("  {}: {} ({})\n", answer.from->target->title,
@@ -185,7 +186,7 @@ std::string text_of(std::span<const Answer> answers) {
       const Target& target = *translation.target;
       text += fmt::format("\n{} ({})\n", target.title, basis_text(target.basis));
       text += indented(target.snippet(translation.parameters, answer.at), "    ");
-      text += fmt::format("  does: {}; friction: {}\n", predicted_text(translation.behaviour),
+      text += fmt::format("  predicted: {}; friction: {}\n", predicted_text(translation.behaviour),
                           translation.behaviour.friction_shape);
       for (const std::string& note : translation.cannot) text += "  note: " + note + "\n";
       text += fmt::format("  source: {}\n", target.source);
