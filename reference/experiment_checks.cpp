@@ -1,7 +1,9 @@
 #include "reference/experiment_checks.h"
 
 #include <algorithm>
+#include <iterator>
 #include <set>
+#include <utility>
 #include <variant>
 
 #include "contact/laws/surface_forces.h"
@@ -153,8 +155,7 @@ std::string_view feature_of(const simulation::ShapeGeometry& geometry) {
 simulation::Experiment with_samples(simulation::Experiment experiment,
                                     const simulation::EngineDescription& engine) {
   const auto lacks = [&](const simulation::ShapeSpec& shape) {
-    return std::ranges::find(engine.gaps, feature_of(shape.geometry), &EngineGap::feature) !=
-           engine.gaps.end();
+    return has_gap(engine, feature_of(shape.geometry));
   };
   const auto sample = [&](simulation::BodySpec& body) {
     for (simulation::ShapeSpec& shape : body.shapes)
@@ -181,6 +182,8 @@ std::vector<FeatureUse> features_used(const simulation::Experiment& experiment) 
     const std::string name = "obstacle '" + experiment.obstacles[0].name + "'";
     uses.push_back({feature::obstacles, name});
     if (has(uses, feature::points)) uses.push_back({feature::points_on_obstacles, name});
+    if (simulation::obstacles_move(experiment))
+      uses.push_back({feature::moving_obstacles, "an obstacle moves"});
   }
   const std::string gravity = experiment.world + ".gravity";
   for (const simulation::WireSpec& wire : experiment.wires)
@@ -208,6 +211,13 @@ std::vector<FeatureUse> features_used(const simulation::Experiment& experiment) 
 }
 
 std::vector<EngineGap> common_gaps_and(std::span<const OwnGap> own) {
+  std::vector<EngineGap> gaps;
+  for (const OwnGap& gap : own)
+    gaps.push_back({std::string(gap.feature), gap.handling, gap.instead});
+  return common_gaps_and(std::move(gaps));
+}
+
+std::vector<EngineGap> common_gaps_and(std::vector<EngineGap> own) {
   using enum EngineGap::Handling;
   std::vector<EngineGap> gaps = {
       {std::string(feature::law), stated,
@@ -237,9 +247,12 @@ std::vector<EngineGap> common_gaps_and(std::span<const OwnGap> own) {
       {std::string(feature::saving), refused,
        "the library keeps to itself what its solver remembers; choose engine dts"},
   };
-  for (const OwnGap& gap : own)
-    gaps.push_back({std::string(gap.feature), gap.handling, gap.instead});
+  std::ranges::move(own, std::back_inserter(gaps));
   return gaps;
+}
+
+bool has_gap(const simulation::EngineDescription& engine, std::string_view feature) {
+  return std::ranges::find(engine.gaps, feature, &EngineGap::feature) != engine.gaps.end();
 }
 
 std::vector<std::string> check_supported(const simulation::Experiment& experiment,
@@ -255,7 +268,7 @@ std::vector<std::string> check_supported(const simulation::Experiment& experimen
   }
   for (const simulation::ObstacleSpec& obstacle : experiment.obstacles) {
     const std::string_view lacked = feature_of(obstacle.geometry);
-    if (std::ranges::find(engine.gaps, lacked, &EngineGap::feature) != engine.gaps.end())
+    if (has_gap(engine, lacked))
       refuse(engine.name, "obstacle '" + obstacle.name + "' has " + std::string(lacked) +
                               ", which this engine lacks; choose another, or engine dts");
   }

@@ -2,6 +2,7 @@
 // and whatever an experiment needs of it is named, with what to change.
 #pragma once
 
+#include <array>
 #include <span>
 #include <string>
 #include <string_view>
@@ -42,6 +43,7 @@ inline constexpr std::string_view lying_cylinder = "cylinders and wheels that ro
 inline constexpr std::string_view capsule = "the shape Capsule";
 inline constexpr std::string_view hull = "the shape Hull";
 inline constexpr std::string_view obstacles = "obstacles";
+inline constexpr std::string_view moving_obstacles = "obstacles that move";
 inline constexpr std::string_view points_on_obstacles = "boundary points on obstacles";
 inline constexpr std::string_view between_robots = "robots that touch each other";
 inline constexpr std::string_view wired_gravity = "gravity that a wire drives";
@@ -52,6 +54,45 @@ inline constexpr std::string_view surface_forces =
     "adhesion, rolling and spinning resistance, friction across";
 inline constexpr std::string_view hips = "hip_force and hip_moment of a Chain";
 inline constexpr std::string_view saving = "movies and resumed runs";
+/// All of them.
+inline constexpr std::array all{
+    chains,
+    planar,
+    loops,
+    compliant_loops,
+    couplings,
+    points,
+    prismatic,
+    massless,
+    no_inertia,
+    joint_limits,
+    rotors,
+    two_frictions,
+    restitution,
+    tile_friction,
+    tile_softness,
+    unmatched_softness,
+    foot_softness,
+    tile_restitution,
+    height_field,
+    legcone,
+    cylinder,
+    disc,
+    lying_cylinder,
+    capsule,
+    hull,
+    obstacles,
+    moving_obstacles,
+    points_on_obstacles,
+    between_robots,
+    wired_gravity,
+    belt,
+    moving_frame,
+    law,
+    surface_forces,
+    hips,
+    saving,
+};
 }  // namespace feature
 
 /// A feature that an experiment needs, and where.
@@ -81,6 +122,9 @@ simulation::Experiment with_samples(simulation::Experiment experiment,
 /// The gaps that every peer has (its own law and integrator, no hips, nothing to resume from), then
 /// those of one engine.
 std::vector<simulation::EngineGap> common_gaps_and(std::span<const OwnGap> own);
+std::vector<simulation::EngineGap> common_gaps_and(std::vector<simulation::EngineGap> own);
+
+bool has_gap(const simulation::EngineDescription& engine, std::string_view feature);
 
 /// What the user should know of the experiment's run in that engine, one line a gap that it meets
 /// and that is `noticed`. Throws ExperimentError where the gap is `refused`, or where the engine cannot

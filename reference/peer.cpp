@@ -10,17 +10,13 @@ std::vector<std::string> Peer::settings_names() const {
   return names;
 }
 
-std::vector<std::string> Peer::one_friction_settings() const {
-  if (std::ranges::find(gaps, feature::two_frictions, &OwnGap::feature) != gaps.end())
-    return settings_names();
-  if (one_friction_setting.empty()) return {};
-  return {std::string(one_friction_setting)};
-}
-
 simulation::EngineDescription Peer::describe() const {
   // Each world checks by a static_assert that its library runs in double precision.
-  return {std::string(name), std::string(version), "double",
-          found(),           settings_names(),     common_gaps_and(gaps)};
+  simulation::EngineDescription engine{std::string(name), std::string(version), "double", found(),
+                                       settings_names(),  common_gaps_and(gaps)};
+  if (has_gap(engine, feature::two_frictions)) engine.one_friction = engine.settings;
+  if (!one_friction_setting.empty()) engine.one_friction.emplace_back(one_friction_setting);
+  return engine;
 }
 
 std::optional<Settings> settings_named(std::string_view name, const Peer& peer) {
@@ -31,12 +27,18 @@ std::optional<Settings> settings_named(std::string_view name, const Peer& peer) 
 }
 
 Settings settings_of(const simulation::Experiment& experiment, const Peer& peer) {
-  if (const auto settings = settings_named(experiment.settings, peer)) return *settings;
-  const std::vector<std::string> known = peer.settings_names();
+  check_settings(experiment, peer.describe());
+  return *settings_named(experiment.settings, peer);
+}
+
+void check_settings(const simulation::Experiment& experiment,
+                    const simulation::EngineDescription& engine) {
+  const std::vector<std::string>& known = engine.settings;
+  if (std::ranges::find(known, experiment.settings) != known.end()) return;
   std::string choice;
   for (std::size_t i = 0; i < known.size(); ++i)
     choice += (i == 0 ? "" : i + 1 < known.size() ? ", " : " or ") + known[i];
-  throw simulation::ExperimentError("engine " + std::string(peer.name) + " has no settings '" +
+  throw simulation::ExperimentError("engine " + engine.name + " has no settings '" +
                                     experiment.settings + "': choose " + choice);
 }
 

@@ -2,6 +2,7 @@
 // the row, engines.cpp lists them.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -41,7 +42,7 @@ struct Peer {
   /// make_engine of this row: the peer as any other engine is built. Throws
   /// simulation::ExperimentError where the build has no such library, and what make_peer_engine
   /// throws.
-  simulation::EngineFactory make = nullptr;
+  std::unique_ptr<simulation::Engine> (*make)(const simulation::Experiment& experiment) = nullptr;
   /// The library's world of an experiment that needs nothing which the engine lacks. Null where
   /// this build has no such library.
   std::unique_ptr<PeerWorld> (*make_world)(const simulation::Experiment& experiment,
@@ -69,8 +70,6 @@ struct Peer {
   bool found() const { return make_world != nullptr; }
   /// Names that `settings =` accepts, in the order of Settings.
   std::vector<std::string> settings_names() const;
-  /// Those at which it has one coefficient of friction, the kinetic one.
-  std::vector<std::string> one_friction_settings() const;
   simulation::EngineDescription describe() const;
 };
 
@@ -78,6 +77,22 @@ struct Peer {
 std::optional<Settings> settings_named(std::string_view name, const Peer& peer);
 /// The setting of `experiment`. Throws simulation::ExperimentError that lists the names.
 Settings settings_of(const simulation::Experiment& experiment, const Peer& peer);
+
+/// Throws simulation::ExperimentError that lists the names where the experiment's is none of them.
+void check_settings(const simulation::Experiment& experiment,
+                    const simulation::EngineDescription& engine);
+
+/// An engine as make_peer_engine builds it.
+struct WorldSource {
+  simulation::EngineDescription engine;
+  std::function<std::unique_ptr<PeerWorld>(const simulation::Experiment& experiment)> make_world;
+};
+/// An engine around a world of `source`, with the published state of `experiment` at time 0 and the
+/// `notices` already said. Throws simulation::ExperimentError with the words of what make_world
+/// throws.
+std::unique_ptr<simulation::Engine> make_peer_engine(const simulation::Experiment& experiment,
+                                                     WorldSource source,
+                                                     std::vector<std::string> notices);
 
 /// An engine around the peer's world, with the published state of `experiment` at time 0 and the
 /// notices of check_supported() already said. The joints' own torques, accelerations, and the named

@@ -36,28 +36,28 @@ bool finite(const BodyState& body) {
          finite(body.contact_force) && finite(Vector3d{q.x, q.y, q.z}) && std::isfinite(q.w);
 }
 
-/// The library's world of an experiment. Throws ExperimentError.
+/// The world of an experiment. Throws ExperimentError.
 std::unique_ptr<PeerWorld> library_world(const simulation::Experiment& experiment,
-                                         const Peer& peer) {
+                                         const WorldSource& source) {
   try {
-    return peer.make_world(experiment, settings_of(experiment, peer));
+    return source.make_world(experiment);
   } catch (const simulation::ExperimentError&) {
     throw;
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
     throw simulation::ExperimentError(
-        fmt::format("engine {}: the library refuses this experiment: {}", peer.name, error.what()));
+        fmt::format("engine {} refuses this experiment: {}", source.engine.name, error.what()));
   }
 }
 
 class PeerEngine final : public simulation::Engine, public simulation::Restartable {
  public:
-  PeerEngine(const simulation::Experiment& experiment, const Peer& peer,
+  PeerEngine(const simulation::Experiment& experiment, WorldSource source,
              std::vector<std::string> notices)
-      : experiment_(with_samples(experiment, peer.describe())),
-        peer_(peer),
-        world_(library_world(experiment_, peer)),
+      : experiment_(with_samples(experiment, source.engine)),
+        source_(std::move(source)),
+        world_(library_world(experiment_, source_)),
         tree_(robot_tree(experiment_)),
         trails_(simulation::body_trails(experiment_)),
         inputs_(simulation::initial_inputs(experiment_)),
@@ -83,7 +83,7 @@ class PeerEngine final : public simulation::Engine, public simulation::Restartab
 
   /// The library's world is made again: its own state can be neither read nor set.
   void restart(const simulation::Experiment& start) override {
-    world_ = library_world(with_samples(start, peer_.describe()), peer_);
+    world_ = library_world(with_samples(start, source_.engine), source_);
     failure_ = {};
     simulation::restart_inputs(start, inputs_);
     acting_.joint_torques = inputs_.joint_torques;
@@ -107,8 +107,7 @@ class PeerEngine final : public simulation::Engine, public simulation::Restartab
         return fail(StepStatus::Kind::not_finite, i,
                     "the state is not finite; look for an extreme force, mass or speed, or reduce "
                     "deltat");
-    if (!trouble.empty())
-      return fail(StepStatus::Kind::solver_failed, 0, trouble + "; a smaller deltat may help");
+    if (!trouble.empty()) return fail(StepStatus::Kind::solver_failed, 0, trouble);
     publish();
     for (simulation::SurfaceMotion& obstacle : inputs_.obstacles)
       simulation::advance(obstacle, experiment_.deltat);
@@ -276,7 +275,7 @@ class PeerEngine final : public simulation::Engine, public simulation::Restartab
   }
 
   const simulation::Experiment experiment_;
-  const Peer& peer_;  ///< of known_peers()
+  const WorldSource source_;
   std::unique_ptr<PeerWorld> world_;
   const RobotTree tree_;
   const std::vector<std::string> trails_;
@@ -319,6 +318,12 @@ void check_triangles(const simulation::Experiment& experiment, const Peer& peer)
 }  // namespace
 
 std::unique_ptr<simulation::Engine> make_peer_engine(const simulation::Experiment& experiment,
+                                                     WorldSource source,
+                                                     std::vector<std::string> notices) {
+  return std::make_unique<PeerEngine>(experiment, std::move(source), std::move(notices));
+}
+
+std::unique_ptr<simulation::Engine> make_peer_engine(const simulation::Experiment& experiment,
                                                      const Peer& peer) {
   const std::string engine = "engine " + std::string(peer.name) + ": ";
   if (!peer.found())
@@ -328,7 +333,12 @@ std::unique_ptr<simulation::Engine> make_peer_engine(const simulation::Experimen
   auto notices = check_supported(experiment, peer.describe());
   std::ranges::move(notices_of_unread_constants(experiment, peer), std::back_inserter(notices));
   check_triangles(experiment, peer);
-  return std::make_unique<PeerEngine>(experiment, peer, std::move(notices));
+  return make_peer_engine(experiment,
+                          {peer.describe(),
+                           [&peer](const simulation::Experiment& of) {
+                             return peer.make_world(of, settings_of(of, peer));
+                           }},
+                          std::move(notices));
 }
 
 }  // namespace hookpoint::reference

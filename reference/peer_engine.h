@@ -19,6 +19,9 @@ struct ShapeForce {
   Vector3d force;        ///< on the body, world axes [N]
 };
 
+/// What helps where a library's own check ended a step.
+inline constexpr const char* smaller_step_helps = "; a smaller deltat may help";
+
 /// One library's world. Bodies and joints are numbered as they are published (robot_tree.h).
 class PeerWorld {
  public:
@@ -26,7 +29,7 @@ class PeerWorld {
   /// Advances by one step under `inputs.forces` and `inputs.pull` (external_forces.h), and
   /// `inputs.joint_torques`, one a joint: the drive's and what the joint exerts by itself at the
   /// step's start (simulation/experiment/joint_forces.h), together. Empty on success, else the
-  /// library's trouble in a few words.
+  /// trouble in a few words and what to do.
   virtual std::string advance(const simulation::WorldInputs& inputs) = 0;
   /// The body whose load or motion is beyond what the library's own checks let pass (extremes.h):
   /// advance() has then not taken the step, which would have led to a state that is not finite.

@@ -23,7 +23,7 @@ studies::SlurmRuns::Options slurm_options(const application::TaskArguments& argu
       {name, std::filesystem::read_symlink("/proc/self/exe"), std::filesystem::current_path(),
        search_path == nullptr ? "" : search_path},
       std::filesystem::absolute(folder / studies::cluster_folder).lexically_normal(),
-      arguments.allow_plugins,
+      {arguments.consent.plugins, arguments.consent.engines, arguments.engine_files},
       arguments.resume,
       std::move(tell)};
   options.settings.jobs = std::max(1, arguments.jobs);

@@ -137,7 +137,7 @@ bool read_wish(application::Application& application, const std::filesystem::pat
 
 int advise(const AdviseArguments& arguments) {
   using Constants = contact::MaterialConstants<double>;
-  application::Application application(arguments.allow_plugins);
+  application::Application application(arguments.consent);
   const std::filesystem::path file = application.locate(arguments.file);
   const auto root = application.evaluate_set(file, arguments.settings);
   if (!root) return wrong_input;

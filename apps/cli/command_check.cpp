@@ -24,7 +24,7 @@ void warn_of_step(const application::Application& application, const language::O
 
 /// What `run`, `study` and `tune` would find before anything runs, found.
 bool can_run(application::Application& application, const language::Object& root,
-             const std::filesystem::path& file, bool allow_plugins) {
+             const std::filesystem::path& file, application::Consent consent) {
   if (!root.children_of("World").empty()) {
     const auto experiment = application.load(root);
     if (!experiment) return false;
@@ -32,7 +32,7 @@ bool can_run(application::Application& application, const language::Object& root
   }
   application::TaskArguments arguments;
   arguments.file = file;
-  arguments.allow_plugins = allow_plugins;
+  arguments.consent = consent;
   return std::ranges::all_of(
       application::task_commands, [&](const application::TaskCommand* command) {
         return !studies::holds_task(root, command->name) ||
@@ -42,13 +42,13 @@ bool can_run(application::Application& application, const language::Object& root
 
 }  // namespace
 
-int check(const std::vector<std::filesystem::path>& files, bool allow_plugins) {
-  application::Application application(allow_plugins);
+int check(const std::vector<std::filesystem::path>& files, application::Consent consent) {
+  application::Application application(consent);
   int status = fine;
   for (const std::filesystem::path& named : files) {
     const std::filesystem::path file = application.locate(named);
     const auto root = application.evaluate(file, {});
-    if (root && can_run(application, *root, file, allow_plugins)) {
+    if (root && can_run(application, *root, file, consent)) {
       std::cout << file.string() << ": fine\n";
     } else {
       status = wrong_input;
@@ -95,8 +95,8 @@ int format(const std::vector<std::filesystem::path>& files, bool check_only) {
 }
 
 int print(const std::filesystem::path& file, const application::Settings& settings,
-          bool allow_plugins) {
-  application::Application application(allow_plugins);
+          application::Consent consent) {
+  application::Application application(consent);
   const auto root = application.evaluate_set(application.locate(file), settings);
   if (!root) return wrong_input;
   std::cout << language::print(*root);

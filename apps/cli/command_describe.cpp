@@ -24,7 +24,7 @@ bool load_plugins(application::Application& application,
 }  // namespace
 
 int describe(const DescribeArguments& arguments) {
-  application::Application application(arguments.allow_plugins);
+  application::Application application(arguments.consent);
   if (!load_plugins(application, arguments.plugins)) return wrong_input;
   const std::optional<std::string>& type = arguments.type;
   if (!type) {

@@ -155,8 +155,8 @@ void print_text(const simulation::Experiment& experiment, const DynamicsReport& 
 }  // namespace
 
 int dynamics(const std::filesystem::path& file, const application::Settings& settings, bool json,
-             bool allow_plugins) {
-  application::Application application(allow_plugins);
+             application::Consent consent) {
+  application::Application application(consent);
   const auto root = application.evaluate_set(application.locate(file), settings);
   if (!root) return wrong_input;
   const auto experiment = application.load(*root);

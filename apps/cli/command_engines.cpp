@@ -9,15 +9,18 @@
 #include "apps/shared/engines_json.h"
 #include "contact/force_law.h"
 #include "integrators/stepper.h"
+#include "text/display.h"
 
 namespace hookpoint::cli {
 
 std::string version_text() {
   const application::Application application;
   std::string text = "hookpoint " HOOKPOINT_VERSION "\n";
-  for (const auto& [name, engine] : application.engines())
-    if (engine.description.found)
-      text += fmt::format("engine {} {}\n", name, engine.description.version);
+  for (const auto& [name, engine] : application.engines()) {
+    if (engine.is_program) continue;
+    const simulation::EngineDescription d = engine.describe();
+    if (d.found) text += fmt::format("engine {} {}\n", name, d.version);
+  }
   text.pop_back();
   return text;
 }
@@ -28,9 +31,10 @@ void print_table(const application::Application& application) {
   fmt::print("{:<16} {:<10} {:<9} {:<6} {}\n", "engine", "version", "precision", "found",
              "settings");
   for (const auto& [name, engine] : application.engines()) {
-    const simulation::EngineDescription& d = engine.description;
-    fmt::print("{:<16} {:<10} {:<9} {:<6} {}\n", d.name, d.version, d.precision,
-               d.found ? "yes" : "no", fmt::join(d.settings, ", "));
+    const simulation::EngineDescription d = engine.describe();
+    fmt::print("{:<16} {:<10} {:<9} {:<6} {}{}\n", d.name, d.version, d.precision,
+               d.found ? "yes" : "no", fmt::join(d.settings, ", "),
+               d.missing.empty() ? "" : "; " + text::printable(d.missing));
   }
   fmt::print("\n{:<20} {:<34} {}\n", "contact law", "source", "what it is");
   for (const contact::LawDescription& law : contact::law_table())
@@ -43,9 +47,11 @@ void print_table(const application::Application& application) {
 
 }  // namespace
 
-int engines(bool json) {
-  const application::Application application;
-  if (json) {
+int engines(const EnginesArguments& arguments) {
+  application::Application application(arguments.consent);
+  if (arguments.file && !application.load_plugins(application.locate(*arguments.file)))
+    return wrong_input;
+  if (arguments.json) {
     std::cout << application::engines_json(application);
   } else {
     print_table(application);

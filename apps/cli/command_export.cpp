@@ -12,7 +12,7 @@
 namespace hookpoint::cli {
 
 int export_model(const ExportArguments& arguments) {
-  application::Application application(arguments.request.allow_plugins);
+  application::Application application(arguments.request.consent);
   try {
     const auto model = application::exported(application, arguments.request);
     if (!model) return wrong_input;

@@ -71,7 +71,7 @@ int make(const ReplayArguments& arguments) {
   else
     film.caption = arguments.film.caption;
   film.rate = rate_of(arguments.part);
-  MovieWindows windows(arguments.movie, arguments.allow_plugins);
+  MovieWindows windows(arguments.movie, arguments.consent);
   film.camera = camera_of(arguments.film, windows);
   film.steps = steps_of(arguments.part, film.rate, windows);
   refuse_other_pictures(film);

@@ -16,7 +16,7 @@ namespace hookpoint::cli {
 namespace {
 
 int write(const ReplayArguments& arguments) {
-  MovieWindows windows(arguments.movie, arguments.allow_plugins);
+  MovieWindows windows(arguments.movie, arguments.consent);
   view::RecordingRequest request;
   request.steps = steps_of(arguments.part, rate_of(arguments.part), windows);
   request.describe = [&](const std::vector<simulation::Port>& ports) {

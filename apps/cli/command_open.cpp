@@ -7,11 +7,11 @@
 namespace hookpoint::cli {
 
 std::optional<std::string> command_for(const std::filesystem::path& file,
-                                       const application::Settings& settings, bool allow_plugins) {
+                                       const application::Settings& settings,
+                                       application::Consent consent) {
   std::vector<language::Diagnostics> found;
   application::Application application(
-      allow_plugins,
-      [&](const language::Diagnostics& diagnostics) { found.push_back(diagnostics); });
+      consent, [&](const language::Diagnostics& diagnostics) { found.push_back(diagnostics); });
   const auto root = application::evaluate_file(application, application.find(file), settings).root;
   if (root) {
     for (const application::TaskCommand* command : application::task_commands)

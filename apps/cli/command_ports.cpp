@@ -111,7 +111,7 @@ void print_table(const std::vector<Port>& ports, PortTexts& texts) {
 }  // namespace
 
 int ports(const PortsArguments& arguments) {
-  application::Application application(arguments.allow_plugins);
+  application::Application application(arguments.consent);
   const auto root =
       application.evaluate_set(application.locate(arguments.file), arguments.settings);
   if (!root) return wrong_input;

@@ -63,7 +63,7 @@ void print_movie(const output::MovieReader& movie) {
 }
 
 int show_moment(const ReplayArguments& arguments) {
-  OpenedMovie movie(arguments.movie, arguments.allow_plugins);
+  OpenedMovie movie(arguments.movie, arguments.consent);
   simulation::Experiment experiment = movie.load();
   simulation::World world = movie.make_world(experiment);
   simulation::Rewind rewind(experiment, movie.reader(), world);
@@ -92,7 +92,7 @@ int show_moment(const ReplayArguments& arguments) {
 /// In the windows of its experiment, until nobody wants to see more.
 int show_window(const ReplayArguments& arguments) {
   const InterruptGuard guard;
-  MovieWindows windows(arguments.movie, arguments.allow_plugins);
+  MovieWindows windows(arguments.movie, arguments.consent);
   view::Server server({arguments.view.bind, arguments.view.port,
                        arguments.view.token.value_or(view::fresh_token())},
                       page_bundle::index_html);
@@ -109,7 +109,7 @@ int show_window(const ReplayArguments& arguments) {
 int show(const ReplayArguments& arguments) {
   if (arguments.at) return show_moment(arguments);
   if (!arguments.about) return show_window(arguments);
-  print_movie(OpenedMovie(arguments.movie, arguments.allow_plugins).reader());
+  print_movie(OpenedMovie(arguments.movie, arguments.consent).reader());
   return fine;
 }
 

@@ -25,7 +25,7 @@ std::int64_t last_step(const RunArguments& arguments, const simulation::Experime
 }
 
 int go_on(const RunArguments& arguments) {
-  OpenedMovie movie(*arguments.resume, arguments.allow_plugins);
+  OpenedMovie movie(*arguments.resume, arguments.consent);
   simulation::Experiment experiment = movie.load();
   if (arguments.movie) simulation::add_movie(*arguments.movie, experiment);
   simulation::World world = movie.make_world(experiment);

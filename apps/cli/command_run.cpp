@@ -34,7 +34,7 @@ int repeat(const RunArguments& arguments) {
   const std::string file = arguments.changes->string();
   std::vector<simulation::Change> changes = simulation::read_changes(*arguments.changes);
   application::LiveLoader loader(arguments.file, settings_with_duration(arguments),
-                                 arguments.allow_plugins, arguments.movie);
+                                 arguments.consent, arguments.movie);
   std::string problem;
   const simulation::LoadedExperiment* first = loader.load_first(problem);
   if (first == nullptr) {
@@ -87,9 +87,9 @@ int run(const RunArguments& arguments) {
     }
     return wrong_input;
   }
-  application::Application application(arguments.allow_plugins);
+  application::Application application(arguments.consent);
   std::filesystem::path file = application.locate(arguments.file);
-  if (const auto world = application::world_of_robot(application, file, arguments.allow_plugins)) {
+  if (const auto world = application::world_of_robot(application, file, arguments.consent)) {
     application.give(world->file, world->text);
     file = world->file;
   }

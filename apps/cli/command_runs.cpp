@@ -12,8 +12,9 @@ namespace hookpoint::cli {
 int runs(const RunsArguments& arguments) {
   try {
     const studies::RunList list = studies::read_run_list(arguments.list);
-    application::Application application(list.allow_plugins);
-    std::set<std::filesystem::path> scenes;
+    application::Application application({list.code.allow_plugins, list.code.allow_engines});
+    std::set<std::filesystem::path> scenes(list.code.engine_files.begin(),
+                                           list.code.engine_files.end());
     for (const studies::RunRequest& run : list.runs) scenes.insert(run.scene.file);
     for (const std::filesystem::path& scene : scenes)
       if (!application.load_plugins(scene)) return wrong_input;

@@ -153,7 +153,7 @@ class TerminalRunner : public studies::TaskRunner {
     const auto scene = task.pictured_scene(task.folder() / "pictures");
     if (!scene) return;
     const std::string problem = draw_scene_picture(
-        {scene->file, scene->settings, arguments_.allow_plugins, task.folder() / Task::picture},
+        {scene->file, scene->settings, arguments_.consent, task.folder() / Task::picture},
         guard_.stop());
     if (problem.empty())
       task.add_picture();
@@ -205,7 +205,7 @@ int print_slurm_scripts(const TaskArguments& arguments, const studies::Tasks& ta
 
 int run_tasks(const application::TaskCommand& command, const TaskArguments& asked,
               const std::optional<ViewArguments>& view) {
-  application::Application application(asked.allow_plugins);
+  application::Application application(asked.consent);
   TaskArguments arguments = asked;
   arguments.file = application.locate(asked.file);
   if (const auto refusal = slurm_refusal(arguments)) return *refusal;
@@ -216,6 +216,7 @@ int run_tasks(const application::TaskCommand& command, const TaskArguments& aske
     application::print_error(application::nothing_to_run(arguments.file, command, command.instead));
     return wrong_input;
   }
+  arguments.engine_files = application.engine_files();
   if (arguments.dry_run) return print_slurm_scripts(arguments, *tasks);
   const InterruptGuard guard;
   return making_runs_away([&] {

@@ -22,7 +22,7 @@ int translate(TranslateArguments arguments) {
       request.file = std::move(request.given.front());
       request.given.clear();
     }
-    application::Application application(arguments.allow_plugins);
+    application::Application application(arguments.consent);
     const auto answers = application::translated(application, request);
     if (!answers) return wrong_input;
     std::cout << (arguments.json ? translation::json_of(*answers) : translation::text_of(*answers));

@@ -47,9 +47,7 @@ struct WrongFile {
 class Watched {
  public:
   explicit Watched(const RunArguments& arguments)
-      : arguments_(arguments),
-        settings_(arguments.settings),
-        application_(arguments.allow_plugins) {
+      : arguments_(arguments), settings_(arguments.settings), application_(arguments.consent) {
     if (arguments.duration) settings_.world.emplace_back("duration", *arguments.duration);
     simulation::LiveRunRequest request;
     request.folder = arguments.out.value_or(std::filesystem::path());
@@ -97,7 +95,7 @@ class Watched {
     std::vector<std::string> settings;
     for (const auto& [trail, value] : latest) settings.push_back(trail + "=" + value);
     // With the step of the run, not one for what was changed.
-    LiveLoader loader(arguments_.file, settings_, arguments_.allow_plugins, std::nullopt,
+    LiveLoader loader(arguments_.file, settings_, arguments_.consent, std::nullopt,
                       loaders_.front().get());
     auto changed = loader.load(settings, problem);
     if (!changed) {
@@ -140,7 +138,7 @@ class Watched {
     // All are stepped together: those beside the run take the step that was chosen for it.
     const LiveLoader* leader = loaders_.empty() ? nullptr : loaders_.front().get();
     loaders_.push_back(std::make_unique<LiveLoader>(arguments_.file, std::move(settings),
-                                                    arguments_.allow_plugins, movie, leader));
+                                                    arguments_.consent, movie, leader));
     LiveLoader& loader = *loaders_.back();
     std::string problem;
     const simulation::LoadedExperiment* first = loader.load_first(problem);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/shared/consent.h"
 #include "apps/shared/exported.h"
 #include "apps/shared/settings.h"
 #include "apps/shared/task_arguments.h"
@@ -35,7 +36,7 @@ struct RunArguments {
   std::optional<std::filesystem::path> resume;   ///< a movie to go on from, instead of `file`
   std::optional<std::string> at;                 ///< moment of it; none: its last
   std::optional<std::filesystem::path> changes;  ///< changes.csv of a run that is repeated
-  bool allow_plugins = false;                    ///< of any folder; here and below: see Application
+  application::Consent consent;                  ///< of any folder; here and below: see Application
   bool viewed = false;                           ///< --view
   ViewArguments view;
 };
@@ -70,7 +71,7 @@ struct ReplayArguments {
   MoviePart part;                   ///< of --film and --html
   bool json = false;
   bool about = false;
-  bool allow_plugins = false;
+  application::Consent consent;
   ViewArguments view;
   FilmArguments film;
 };
@@ -96,12 +97,12 @@ struct RunsArguments {
 int runs(const RunsArguments& arguments);
 
 /// check: every file's diagnostics.
-int check(const std::vector<std::filesystem::path>& files, bool allow_plugins);
+int check(const std::vector<std::filesystem::path>& files, application::Consent consent);
 /// fmt: rewrites each file in canonical layout; with `check_only` says which would change.
 int format(const std::vector<std::filesystem::path>& files, bool check_only);
 /// print: the experiment after includes, loops and expressions.
 int print(const std::filesystem::path& file, const application::Settings& settings,
-          bool allow_plugins);
+          application::Consent consent);
 struct DescribeArguments {
   std::optional<std::string> type;             ///< a class; none: the list of all
   bool markdown = false;                       ///< the manual's reference page
@@ -109,20 +110,20 @@ struct DescribeArguments {
   bool man = false;                            ///< the command's own manual page
   std::optional<std::string> completion;       ///< of its words, in this shell
   std::vector<std::filesystem::path> plugins;  ///< whose classes count too
-  bool allow_plugins = false;
+  application::Consent consent;
 };
 int describe(const DescribeArguments& arguments);
 
 /// dynamics: what the forces do at the file's initial state.
 int dynamics(const std::filesystem::path& file, const application::Settings& settings, bool json,
-             bool allow_plugins);
+             application::Consent consent);
 
 struct PortsArguments {
   std::filesystem::path file;
   std::optional<std::string> pattern;  ///< trail, vector or glob; none: all that changes
   application::Settings settings;
   bool json = false;
-  bool allow_plugins = false;
+  application::Consent consent;
 };
 /// ports: what can be recorded, wired and expected of a world.
 int ports(const PortsArguments& arguments);
@@ -133,14 +134,14 @@ struct AdviseArguments {
   std::optional<std::string> penetration;  ///< at rest, "1 mm"
   std::optional<std::string> rebound;      ///< speed after over before, "0.2"
   bool json = false;
-  bool allow_plugins = false;
+  application::Consent consent;
 };
 /// advise: the ground's constants from what the user wants of it.
 int advise(const AdviseArguments& arguments);
 
 struct TranslateArguments {
   application::TranslateRequest request;
-  bool allow_plugins = false;
+  application::Consent consent;
   bool parameters = false;  ///< only the manual's page of parameters
   bool json = false;
 };
@@ -162,8 +163,15 @@ struct CompareArguments {
 /// compare: what differs between two runs.
 int compare(const CompareArguments& arguments);
 
+struct EnginesArguments {
+  std::optional<std::filesystem::path> file;  ///< whose engines are listed too
+  bool json = false;
+  application::Consent consent;
+};
 /// engines: every engine, law and integrator.
-int engines(bool json);
+int engines(const EnginesArguments& arguments);
+/// engine-check: whether the program that `command` starts does as an engine must.
+int engine_check(const std::vector<std::string>& command);
 /// --version: the program's, then a line an engine that was found.
 std::string version_text();
 
@@ -171,6 +179,7 @@ std::string version_text();
 /// or "run" for a world; none when it has errors, which are printed. Anything else is for the command
 /// to tell.
 std::optional<std::string> command_for(const std::filesystem::path& file,
-                                       const application::Settings& settings, bool allow_plugins);
+                                       const application::Settings& settings,
+                                       application::Consent consent);
 
 }  // namespace hookpoint::cli

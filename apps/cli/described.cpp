@@ -56,11 +56,20 @@ void add_integrators(std::vector<Entry>& entries) {
   }
 }
 
-void add_engines(const application::Application& application, std::vector<Entry>& entries) {
+/// A program is started only where it is the one that is `wanted`.
+void add_engines(const application::Application& application, const std::string& wanted,
+                 std::vector<Entry>& entries) {
   for (const auto& [name, engine] : application.engines()) {
-    const simulation::EngineDescription& of = engine.description;
-    std::string text = fmt::format("{}, engine\n  version {}, {} precision{}\n", name, of.version,
-                                   of.precision, of.found ? "" : "; not found in this build");
+    if (engine.is_program && name != wanted) {
+      entries.push_back({name, ""});
+      continue;
+    }
+    const simulation::EngineDescription of = engine.describe();
+    std::string text =
+        fmt::format("{}, engine\n  version {}, {} precision{}\n", name, of.version, of.precision,
+                    of.found             ? ""
+                    : of.missing.empty() ? "; not found in this build"
+                                         : "; not found: " + of.missing);
     text += fmt::format("  settings: {}\n", fmt::join(of.settings, ", "));
     for (const simulation::EngineGap& gap : of.gaps)
       text += fmt::format("  {}: {}\n", gap.feature, gap.instead);
@@ -129,7 +138,7 @@ std::vector<std::string> described(const application::Application& application,
   add_measurements(entries);
   add_laws(entries);
   add_integrators(entries);
-  add_engines(application, entries);
+  add_engines(application, name, entries);
   add_engine_settings(entries);
   for (const Entry& entry : entries)
     if (entry.name == name) texts.push_back(entry.text);

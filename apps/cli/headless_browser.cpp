@@ -90,7 +90,7 @@ HeadlessBrowser::HeadlessBrowser(const std::string& url, int width, int height)
   const std::filesystem::path program = find_headless_browser();
   const std::filesystem::path& folder = folder_.path();
   try {
-    program_ = std::make_unique<ChildProgram>(
+    program_ = std::make_unique<output::ChildProgram>(
         program, arguments_for(folder, write_opener(folder, url), width, height));
   } catch (const std::system_error& error) {
     throw BrowserMissing(error.what());

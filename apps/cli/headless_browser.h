@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "apps/cli/child_program.h"
+#include "output/files/child_program.h"
 #include "output/files/temporary_folder.h"
 
 namespace hookpoint::cli {
@@ -37,8 +37,8 @@ class HeadlessBrowser {
   std::optional<std::string> ended();
 
  private:
-  output::TemporaryFolder folder_;         ///< its profile
-  std::unique_ptr<ChildProgram> program_;  ///< ends before its folder is removed
+  output::TemporaryFolder folder_;                 ///< its profile
+  std::unique_ptr<output::ChildProgram> program_;  ///< ends before its folder is removed
 };
 
 }  // namespace hookpoint::cli

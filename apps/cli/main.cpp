@@ -49,7 +49,10 @@ struct Request {
   application::Settings settings;
   DescribeArguments describe;
   PortsArguments ports;
-  bool json = false, check_only = false, allow_plugins = false;
+  EnginesArguments engines;
+  std::vector<std::string> words;
+  bool json = false, check_only = false;
+  application::Consent consent;
   std::function<int()> command;
 };
 
@@ -92,10 +95,13 @@ void add_settings(CLI::App* command, application::Settings& settings) {
     add_short_form(command, settings, form);
 }
 
-void add_plugins(CLI::App* command, bool& allowed) {
-  command->add_flag("--allow-plugins", allowed,
+void add_consent(CLI::App* command, application::Consent& consent) {
+  command->add_flag(application::plugin_trust.option, consent.plugins,
                     "run the code of any plugin that the file names, not only of those in "
                     "HOOKPOINT_TRUSTED_PLUGINS");
+  command->add_flag(application::engine_trust.option, consent.engines,
+                    "start the program of any engine that the file names, not only of those in "
+                    "HOOKPOINT_TRUSTED_ENGINES");
 }
 
 void add_movie_option(CLI::App* command, RunArguments& arguments) {
@@ -205,7 +211,7 @@ void add_movie_tools(CLI::App& app, Request& request) {
       ->type_name("FILE");
   add_part(replay_app, request.replay.part);
   add_serving(replay_app, request.replay.view);
-  add_plugins(replay_app, request.replay.allow_plugins);
+  add_consent(replay_app, request.replay.consent);
   add_command(app, request, "recover", "the MATLAB record of a run that was killed",
               [&] { return recover(request.file); })
       ->add_option("FILE", request.file, "NAME.mat.spool")
@@ -272,7 +278,7 @@ void add_many_runs(CLI::App* command, application::TaskArguments& arguments,
                    const ManyRunsText& text) {
   command->add_option("FILE", arguments.file, "a .hook file with " + text.block)->required();
   add_trails(command, arguments.settings);
-  add_plugins(command, arguments.allow_plugins);
+  add_consent(command, arguments.consent);
   command
       ->add_option("--out", arguments.out,
                    "folder of the results (default: runs/" + text.folder + "-HASH)")
@@ -286,7 +292,7 @@ void add_many_runs(CLI::App* command, application::TaskArguments& arguments,
 /// What `run` and `view` have in common.
 void add_run_options(CLI::App* run_app, RunArguments& arguments) {
   add_settings(run_app, arguments.settings);
-  add_plugins(run_app, arguments.allow_plugins);
+  add_consent(run_app, arguments.consent);
   run_app
       ->add_option("--for", arguments.duration,
                    "how long: \"10 s\" (default: the World's duration)")
@@ -398,19 +404,19 @@ int describe_with(const CLI::App& app, const DescribeArguments& arguments) {
 
 void add_language_tools(CLI::App& app, Request& request) {
   CLI::App* check_app = add_command(app, request, "check", "report what is wrong in files",
-                                    [&] { return check(request.files, request.allow_plugins); });
+                                    [&] { return check(request.files, request.consent); });
   check_app->add_option("FILE", request.files, ".hook files")->required();
-  add_plugins(check_app, request.allow_plugins);
+  add_consent(check_app, request.consent);
   CLI::App* fmt = add_command(app, request, "fmt", "rewrite files in canonical layout",
                               [&] { return format(request.files, request.check_only); });
   fmt->add_option("FILE", request.files, ".hook files")->required();
   fmt->add_flag("--check", request.check_only, "only say which would change (exit status 1)");
   CLI::App* print_app =
       add_command(app, request, "print", "the experiment after includes, loops and expressions",
-                  [&] { return print(request.file, request.settings, request.allow_plugins); });
+                  [&] { return print(request.file, request.settings, request.consent); });
   print_app->add_option("FILE", request.file, "a .hook file")->required();
   add_settings(print_app, request.settings);
-  add_plugins(print_app, request.allow_plugins);
+  add_consent(print_app, request.consent);
   CLI::App* describe_app = add_command(
       app, request, "describe", "what a class, metric, law, integrator, engine or setting is",
       [&] { return describe_with(app, request.describe); });
@@ -436,7 +442,7 @@ void add_language_tools(CLI::App& app, Request& request) {
       ->type_name("LIBRARY")
       ->expected(1)
       ->take_all();
-  add_plugins(describe_app, request.describe.allow_plugins);
+  add_consent(describe_app, request.describe.consent);
 }
 
 void add_advise(CLI::App& app, Request& request) {
@@ -454,7 +460,7 @@ void add_advise(CLI::App& app, Request& request) {
                    "wanted, of the speed: 0.2 (default: the material's restitution, or 0.1)")
       ->type_name("RATIO");
   advise_app->add_flag("--json", request.advise.json, "as JSON, 17 significant digits");
-  add_plugins(advise_app, request.advise.allow_plugins);
+  add_consent(advise_app, request.advise.consent);
 }
 
 void add_translate(CLI::App& app, Request& request) {
@@ -505,7 +511,7 @@ void add_translate(CLI::App& app, Request& request) {
   translate_app->add_flag("--parameters", request.translate.parameters,
                           "only the manual's page of the engines' parameters");
   translate_app->add_flag("--json", request.translate.json, "as JSON, 17 significant digits");
-  add_plugins(translate_app, request.translate.allow_plugins);
+  add_consent(translate_app, request.translate.consent);
 }
 
 void add_export(CLI::App& app, Request& request) {
@@ -527,7 +533,7 @@ void add_export(CLI::App& app, Request& request) {
                    "that a foot on 10 deg may have at most there, as of `translate`")
       ->type_name("SPEED");
   add_settings(export_app, arguments.settings);
-  add_plugins(export_app, arguments.allow_plugins);
+  add_consent(export_app, arguments.consent);
 }
 
 void add_compare(CLI::App& app, Request& request) {
@@ -562,22 +568,30 @@ void add_ports(CLI::App& app, Request& request) {
                         "the file's constants)");
   ports_app->add_flag("--json", request.ports.json, "as JSON, 17 significant digits");
   add_settings(ports_app, request.ports.settings);
-  add_plugins(ports_app, request.ports.allow_plugins);
+  add_consent(ports_app, request.ports.consent);
 }
 
 void add_inspection(CLI::App& app, Request& request) {
   CLI::App* dynamics_app = add_command(
       app, request, "dynamics", "forces and accelerations at the initial state; no time passes",
-      [&] {
-        return dynamics(request.file, request.settings, request.json, request.allow_plugins);
-      });
+      [&] { return dynamics(request.file, request.settings, request.json, request.consent); });
   dynamics_app->add_option("FILE", request.file, "a .hook file with a World")->required();
   dynamics_app->add_flag("--json", request.json, "as JSON, 17 significant digits");
   add_settings(dynamics_app, request.settings);
-  add_plugins(dynamics_app, request.allow_plugins);
-  add_command(app, request, "engines", "every engine, contact law and integrator", [&] {
-    return engines(request.json);
-  })->add_flag("--json", request.json, "as JSON");
+  add_consent(dynamics_app, request.consent);
+  CLI::App* engines_app =
+      add_command(app, request, "engines", "every engine, contact law and integrator",
+                  [&] { return engines(request.engines); });
+  engines_app->add_option("FILE", request.engines.file,
+                          "a .hook file, whose engines are listed too");
+  engines_app->add_flag("--json", request.engines.json, "as JSON");
+  add_consent(engines_app, request.engines.consent);
+  add_command(app, request, "engine-check",
+              "whether a program does as an engine must (docs/engine_protocol.md)",
+              [&] { return engine_check(request.words); })
+      ->prefix_command()
+      ->add_option("COMMAND", request.words, "the program and its arguments")
+      ->required();
 }
 
 std::vector<std::string> command_names(const CLI::App& app) {
@@ -595,10 +609,10 @@ std::optional<std::string> command_for(const std::vector<std::string>& words) {
   app.allow_extras();
   std::filesystem::path file;
   application::Settings settings;
-  bool allowed = false;
+  application::Consent allowed;
   app.add_option("FILE", file);
   add_settings(&app, settings);
-  add_plugins(&app, allowed);
+  add_consent(&app, allowed);
   try {
     app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
   } catch (const CLI::ParseError&) {

@@ -16,6 +16,8 @@ constexpr Variable variables[] = {
     {"HOOKPOINT_PATH", "folders, joined by `:`, in which files that are included are looked up"},
     {"HOOKPOINT_TRUSTED_PLUGINS",
      "folders, joined by `:`, whose plugins may run without --allow-plugins"},
+    {"HOOKPOINT_TRUSTED_ENGINES",
+     "folders, joined by `:`, whose engines may be started without --allow-engines"},
     {"NO_COLOR", "when set and not empty, no colours even on a terminal"},
 };
 

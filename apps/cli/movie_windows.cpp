@@ -18,8 +18,8 @@ void collect_cameras(const std::vector<view::Widget>& widgets, std::vector<std::
 
 }  // namespace
 
-MovieWindows::MovieWindows(const std::filesystem::path& file, bool allow_plugins)
-    : opened_(file, allow_plugins), experiment_(opened_.load()), title_(file.filename().string()) {}
+MovieWindows::MovieWindows(const std::filesystem::path& file, application::Consent consent)
+    : opened_(file, consent), experiment_(opened_.load()), title_(file.filename().string()) {}
 
 view::ShownMovie MovieWindows::movie() {
   return {experiment_, opened_.reader(),

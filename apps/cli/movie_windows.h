@@ -14,7 +14,7 @@ namespace hookpoint::cli {
 class MovieWindows {
  public:
   /// Throws output::MovieError.
-  MovieWindows(const std::filesystem::path& file, bool allow_plugins);
+  MovieWindows(const std::filesystem::path& file, application::Consent consent);
 
   const simulation::Experiment& experiment() const { return experiment_; }
   /// It refers to this.

@@ -8,8 +8,8 @@
 #include "simulation/scene/load.h"
 
 namespace hookpoint::cli {
-OpenedMovie::OpenedMovie(const std::filesystem::path& file, bool allow_plugins)
-    : reader_(file), application_(allow_plugins), folder_("movie") {}
+OpenedMovie::OpenedMovie(const std::filesystem::path& file, application::Consent consent)
+    : reader_(file), application_(consent), folder_("movie") {}
 
 simulation::Experiment OpenedMovie::load() {
   const output::MovieHeader& header = reader_.header();

@@ -16,7 +16,7 @@ namespace hookpoint::cli {
 class OpenedMovie {
  public:
   /// Throws output::MovieError.
-  explicit OpenedMovie(const std::filesystem::path& file, bool allow_plugins);
+  explicit OpenedMovie(const std::filesystem::path& file, application::Consent consent);
   OpenedMovie(const OpenedMovie&) = delete;
   OpenedMovie& operator=(const OpenedMovie&) = delete;
 

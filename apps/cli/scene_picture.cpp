@@ -5,8 +5,8 @@
 #include <optional>
 #include <thread>
 
-#include "apps/cli/child_program.h"
 #include "apps/cli/headless_browser.h"
+#include "output/files/child_program.h"
 #include "output/files/temporary_folder.h"
 
 namespace hookpoint::cli {
@@ -23,7 +23,7 @@ constexpr int width = 960, height = 600;
 constexpr const char* name = "scene.png";
 
 /// The address of the viewer's page; none where it ended, or it is late.
-std::optional<std::string> wait_for_address(ChildProgram& viewer, Clock::time_point until,
+std::optional<std::string> wait_for_address(output::ChildProgram& viewer, Clock::time_point until,
                                             const std::atomic<bool>& stop) {
   while (Clock::now() < until && !stop) {
     const bool running = viewer.running();
@@ -47,8 +47,8 @@ std::string draw_into(const fs::path& folder, const PictureRequest& request,
     words.emplace_back("--set");
     words.push_back(setting);
   }
-  if (request.allow_plugins) words.emplace_back("--allow-plugins");
-  ChildProgram viewer("/proc/self/exe", words);
+  for (const char* option : request.consent.options()) words.emplace_back(option);
+  output::ChildProgram viewer("/proc/self/exe", words);
   const auto address = wait_for_address(viewer, until, stop);
   if (!address) return "its window does not open: " + first_line(viewer.errors());
   HeadlessBrowser browser(*address + "&film&picture=" + name, width, height);

@@ -11,7 +11,7 @@ namespace hookpoint::cli {
 struct PictureRequest {
   std::filesystem::path scene;
   std::vector<std::string> settings;  ///< as --set takes them
-  bool allow_plugins = false;
+  application::Consent consent;
   std::filesystem::path file;  ///< a PNG
 };
 

@@ -182,11 +182,11 @@ void StudyView::open(const view::OpenRow& row, view::Server::ClientId client, st
     words.emplace_back("--set");
     words.push_back(setting);
   }
-  if (arguments_.allow_plugins) words.emplace_back("--allow-plugins");
+  for (const char* option : arguments_.consent.options()) words.emplace_back(option);
   if (windows_.size() >= most_windows) windows_.erase(windows_.begin());
   // This very program, wherever it lies.
   windows_.push_back(
-      {row, std::make_unique<ChildProgram>("/proc/self/exe", words), "", {{client, id}}});
+      {row, std::make_unique<output::ChildProgram>("/proc/self/exe", words), "", {{client, id}}});
 }
 
 void StudyView::tell_windows() {

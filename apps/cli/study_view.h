@@ -12,11 +12,11 @@
 #include <string>
 #include <vector>
 
-#include "apps/cli/child_program.h"
 #include "apps/cli/commands.h"
 #include "apps/cli/interrupt.h"
 #include "apps/view/wire/server.h"
 #include "apps/view/wire/study_board.h"
+#include "output/files/child_program.h"
 
 namespace hookpoint::cli {
 
@@ -53,7 +53,7 @@ class StudyView {
   /// The run of a row in a window of its own.
   struct Window {
     view::OpenRow of;
-    std::unique_ptr<ChildProgram> program;
+    std::unique_ptr<output::ChildProgram> program;
     std::string url;  ///< "" until it is ready
     std::vector<std::pair<view::Server::ClientId, std::int64_t>>
         waiting;  ///< whom its answer goes to

@@ -16,14 +16,15 @@ namespace py = pybind11;
 py::tuple tuple_of(const Source& source) {
   const auto file = source.text ? source.file : std::filesystem::absolute(source.file);
   return py::make_tuple(file.string(), source.text, source.settings, source.engine,
-                        source.allow_plugins);
+                        source.consent.plugins, source.consent.engines);
 }
 
 std::shared_ptr<LoadedFile> loaded(const py::tuple& source) {
-  return std::make_shared<LoadedFile>(
-      Source{source[0].cast<std::string>(), source[1].cast<std::optional<std::string>>(),
-             source[2].cast<std::vector<std::string>>(),
-             source[3].cast<std::optional<std::string>>(), source[4].cast<bool>()});
+  return std::make_shared<LoadedFile>(Source{source[0].cast<std::string>(),
+                                             source[1].cast<std::optional<std::string>>(),
+                                             source[2].cast<std::vector<std::string>>(),
+                                             source[3].cast<std::optional<std::string>>(),
+                                             {source[4].cast<bool>(), source[5].cast<bool>()}});
 }
 
 py::tuple tuple_of(const BatchOptions& options) {

@@ -25,10 +25,10 @@ std::string placed(const language::Diagnostic& diagnostic) {
 
 }  // namespace
 
-QuietApplication::QuietApplication(bool allow_plugins)
+QuietApplication::QuietApplication(application::Consent consent)
     : received_(std::make_shared<Received>()),
       application_(std::make_unique<application::Application>(
-          allow_plugins, [told = received_](const language::Diagnostics& diagnostics) {
+          consent, [told = received_](const language::Diagnostics& diagnostics) {
             told->last = diagnostics;
             for (const language::Diagnostic& diagnostic : diagnostics.all()) {
               if (diagnostic.severity == language::Severity::warning)
@@ -50,7 +50,7 @@ std::string warning_of_step(const simulation::Experiment& experiment) {
   return simulation::step_warning(experiment).value_or("");
 }
 
-LoadedFile::LoadedFile(const Source& source) : source_(source), application_(source.allow_plugins) {
+LoadedFile::LoadedFile(const Source& source) : source_(source), application_(source.consent) {
   if (source_.text) application_->give(source_.file, *source_.text);
   if (!application_->load_plugins(source_.file)) application_.fail();
   if (source_.engine)

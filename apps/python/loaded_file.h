@@ -16,7 +16,7 @@ namespace hookpoint::python {
 /// An Application that stores its diagnostics, for an exception.
 class QuietApplication {
  public:
-  explicit QuietApplication(bool allow_plugins);
+  explicit QuietApplication(application::Consent consent);
   application::Application& operator*() { return *application_; }
   application::Application* operator->() { return application_.get(); }
   const application::Application* operator->() const { return application_.get(); }
@@ -42,7 +42,7 @@ struct Source {
   std::optional<std::string> text;    ///< the file's, if it is none on disk
   std::vector<std::string> settings;  ///< trail=value
   std::optional<std::string> engine;
-  bool allow_plugins = false;
+  application::Consent consent;
 };
 
 /// "deltat 0.01 s is above the largest stable step ..."; "" where the step is stable.

@@ -156,11 +156,13 @@ std::unique_ptr<PythonBatch> batch_of(const py::object& file, std::int64_t world
                                       std::int64_t threads, const Seeds& seeds,
                                       const py::object& observations, const py::object& actions,
                                       const std::optional<std::string>& done, const py::object& set,
-                                      std::optional<std::string> engine, bool allow_plugins) {
+                                      std::optional<std::string> engine, bool allow_plugins,
+                                      bool allow_engines) {
   if (worlds < 1 || worlds > most_worlds)
     throw_error(fmt::format("a Batch has 1 to {} worlds, not {}", most_worlds, worlds));
   const Variants variants = changed(Variants(static_cast<std::size_t>(worlds)), set, seeds);
-  Source source{{}, {}, variants.front().settings, std::move(engine), allow_plugins};
+  Source source{
+      {}, {}, variants.front().settings, std::move(engine), {allow_plugins, allow_engines}};
   const bool is_text = py::isinstance<py::str>(file) &&
                        file.cast<std::string>().find_first_of("{\n") != std::string::npos;
   if (is_text) {
@@ -199,6 +201,7 @@ void add_batch(py::module_& module) {
            py::arg("observations") = py::list(), py::arg("actions") = py::list(),
            py::arg("done") = py::none(), py::arg("set") = py::dict(),
            py::arg("engine") = py::none(), py::arg("allow_plugins") = false,
+           py::arg("allow_engines") = false,
            "`file`: a .hook file, or the text of one. `threads`: 0 is one a core. `seeds`: one a "
            "world, of its World and of the Param `seed` where the file has one; by default the "
            "file's. `set`: a dict, or a list of one a world. `observations`, `actions`: trails of "
@@ -287,7 +290,7 @@ py::object translate(const std::filesystem::path& file, const py::object& to,
   for (const auto& [name, value] : parameters)
     request.given.push_back(setting_of(name.cast<std::string>(), value));
   try {
-    QuietApplication application(allow_plugins);
+    QuietApplication application({.plugins = allow_plugins});
     const auto answers = application::translated(*application, request);
     if (!answers) application.fail();
     return py::module_::import("json").attr("loads")(translation::json_of(*answers));
@@ -300,18 +303,19 @@ void add_functions(py::module_& module) {
   module.def(
       "load",
       [](const std::filesystem::path& file, const py::object& set,
-         std::optional<std::string> engine, bool allow_plugins) {
-        return world_of({file, {}, settings_of(set), std::move(engine), allow_plugins});
+         std::optional<std::string> engine, bool allow_plugins, bool allow_engines) {
+        return world_of(
+            {file, {}, settings_of(set), std::move(engine), {allow_plugins, allow_engines}});
       },
       py::arg("file"), py::kw_only(), py::arg("set") = py::dict(), py::arg("engine") = py::none(),
-      py::arg("allow_plugins") = false,
+      py::arg("allow_plugins") = false, py::arg("allow_engines") = false,
       "The World of a .hook file at time 0. `set`: {trail or Param: value}, values as the language "
       "writes them (\"5 deg\"), or numbers in SI. Raises FileError.");
   module.def(
       "loads",
       [](const std::string& text, const py::object& set, std::optional<std::string> engine,
          const std::filesystem::path& name) {
-        return world_of({name, text, settings_of(set), std::move(engine), false});
+        return world_of({name, text, settings_of(set), std::move(engine), {}});
       },
       py::arg("text"), py::kw_only(), py::arg("set") = py::dict(), py::arg("engine") = py::none(),
       py::arg("name") = "<text>",
@@ -319,15 +323,20 @@ void add_functions(py::module_& module) {
   module.def(
       "study",
       [](const std::filesystem::path& file, bool quick, const py::object& only, std::int64_t jobs,
-         std::optional<std::filesystem::path> out, bool resume, bool allow_plugins, bool frames) {
+         std::optional<std::filesystem::path> out, bool resume, bool allow_plugins, bool frames,
+         bool allow_engines) {
         const Frames made(frames);
-        return made.of(run_tasks(application::study_command,
-                                 {file, std::move(out), threads_of(jobs, "jobs"), quick, resume,
-                                  names_of(only, "only"), allow_plugins}));
+        return made.of(run_tasks(application::study_command, {file,
+                                                              std::move(out),
+                                                              threads_of(jobs, "jobs"),
+                                                              quick,
+                                                              resume,
+                                                              names_of(only, "only"),
+                                                              {allow_plugins, allow_engines}}));
       },
       py::arg("file"), py::kw_only(), py::arg("quick") = false, py::arg("only") = py::list(),
       py::arg("jobs") = 0, py::arg("out") = py::none(), py::arg("resume") = false,
-      py::arg("allow_plugins") = false, py::arg("frames") = false,
+      py::arg("allow_plugins") = false, py::arg("frames") = false, py::arg("allow_engines") = false,
       "Runs the Studies, Walls and Matrices of a .hook file: a dict of results by their names, "
       "each with \"table\", a dict of numpy arrays by the titles of results.csv (\"slope [deg]\"), "
       "a "
@@ -337,15 +346,20 @@ void add_functions(py::module_& module) {
   module.def(
       "tune",
       [](const std::filesystem::path& file, bool quick, std::int64_t jobs,
-         std::optional<std::filesystem::path> out, bool resume, bool allow_plugins, bool frames) {
+         std::optional<std::filesystem::path> out, bool resume, bool allow_plugins, bool frames,
+         bool allow_engines) {
         const Frames made(frames);
-        return made.of(run_tasks(
-            application::tune_command,
-            {file, std::move(out), threads_of(jobs, "jobs"), quick, resume, {}, allow_plugins}));
+        return made.of(run_tasks(application::tune_command, {file,
+                                                             std::move(out),
+                                                             threads_of(jobs, "jobs"),
+                                                             quick,
+                                                             resume,
+                                                             {},
+                                                             {allow_plugins, allow_engines}}));
       },
       py::arg("file"), py::kw_only(), py::arg("quick") = false, py::arg("jobs") = 0,
       py::arg("out") = py::none(), py::arg("resume") = false, py::arg("allow_plugins") = false,
-      py::arg("frames") = false,
+      py::arg("frames") = false, py::arg("allow_engines") = false,
       "Runs the Tunes and Calibrates of a .hook file: a dict of results by their names, each with "
       "\"table\", a dict of numpy arrays: every evaluation of a Tune, the fitted constants of a "
       "Calibrate. `out`: where the files of `hookpoint tune` go, else none are kept. `frames`: "

@@ -53,7 +53,7 @@ class PythonRunner : public studies::TaskRunner {
 
 py::dict run_tasks(const application::TaskCommand& command,
                    const application::TaskArguments& asked) {
-  QuietApplication application(asked.allow_plugins);
+  QuietApplication application(asked.consent);
   application::TaskArguments arguments = asked;
   arguments.file = application->find(asked.file);
   application::TaskApplication host(*application, command, arguments);

@@ -2,14 +2,17 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <iostream>
 
+#include "apps/shared/engine_block.h"
 #include "apps/shared/installation.h"
 #include "apps/view/widgets/ghosts.h"
 #include "apps/view/widgets/panel.h"
 #include "apps/view/widgets/schema.h"
 #include "control/plugin/plugin.h"
 #include "reference/engines.h"
+#include "reference/process/engine.h"
 #include "simulation/dts_engine/dts_engine.h"
 #include "simulation/scene/load.h"
 #include "simulation/scene/schema.h"
@@ -30,15 +33,10 @@ std::vector<std::filesystem::path> search_path(const Installation& installation)
   return folders;
 }
 
-std::vector<std::filesystem::path> trusted_folders(const Installation& installation) {
-  auto folders = folders_of("HOOKPOINT_TRUSTED_PLUGINS");
-  if (!installation.plugins.empty()) folders.push_back(installation.plugins);
-  return folders;
-}
-
-language::Schema make_schema() {
+language::Schema make_schema(const simulation::PeerChoices& peers) {
   language::Schema schema;
-  simulation::add_experiment_classes(schema, reference::peer_choices());
+  simulation::add_experiment_classes(schema, peers);
+  add_engine_class(schema);
   view::add_display_classes(schema);
   studies::add_study_classes(schema);
   return schema;
@@ -65,18 +63,66 @@ language::EvaluateOptions options_from(const std::vector<std::string>& settings)
   return options;
 }
 
-Application::Vocabulary::Vocabulary(const std::vector<std::filesystem::path>& search_path)
-    : schema(make_schema()), library(schema, search_path) {}
+Application::Vocabulary::Vocabulary(const std::vector<std::filesystem::path>& search_path,
+                                    const simulation::PeerChoices& peers)
+    : schema(make_schema(peers)), library(schema, search_path) {}
 
-Application::Application(bool allow_plugins, ReceiveDiagnostics tell)
-    : trust_(allow_plugins, trusted_folders(find_installation())),
+Application::Application(Consent consent, ReceiveDiagnostics tell)
+    : plugin_trust_(plugin_trust, consent.plugins, find_installation().plugins),
+      engine_trust_(engine_trust, consent.engines, find_installation().configs / "engines"),
       tell_(std::move(tell)),
-      search_path_(search_path(find_installation())) {
-  add_vocabulary();
-  engines_.add("dts", {simulation::describe_dts(), simulation::make_dts, nullptr});
+      search_path_(search_path(find_installation())),
+      peers_(reference::peer_choices()) {
+  engines_.add("dts", {simulation::describe_dts, simulation::make_dts});
   for (const reference::Peer& peer : reference::known_peers())
-    engines_.add(std::string(peer.name), {peer.describe(), peer.make, peer.creep,
-                                          peer.static_softness, peer.one_friction_settings()});
+    engines_.add(std::string(peer.name), {[&peer] { return peer.describe(); }, peer.make,
+                                          peer.creep, peer.static_softness});
+  for (const std::filesystem::path& folder : search_path_)
+    for (const std::filesystem::path& file : engine_files_in(folder)) add_engines(file);
+  add_vocabulary();
+}
+
+bool Application::add_engines(const std::filesystem::path& file) {
+  const auto [known, is_new] = engine_files_.try_emplace(std::filesystem::weakly_canonical(file));
+  if (!is_new) return known->second;
+  bool right = true;
+  const auto engines = read_engines(
+      file, search_path_, [this](const auto& name) { return engines_.find(name) != nullptr; },
+      [&](const language::Diagnostics& diagnostics) {
+        right = diagnostics.error_count() == 0;
+        tell(diagnostics);
+      });
+  for (reference::ProgramDefinition definition : engines) {
+    if (const std::string problem = engine_trust_.problem(file); !problem.empty())
+      definition.consent = "it is a program, which " + problem;
+    peers_.engines.push_back(definition.name);
+    for (const std::string& name : definition.settings)
+      if (!peers_.knows_setting(name))
+        peers_.settings.push_back({name, name + ": of engine " + definition.name});
+    const reference::ProgramEngine program(definition);
+    engines_.add(definition.name,
+                 {.describe = [program] { return program.describe(); },
+                  .make = [program](const auto& experiment) { return program.make(experiment); },
+                  .is_program = true});
+  }
+  return known->second = right;
+}
+
+std::vector<std::string> Application::engine_files() const {
+  std::vector<std::string> files;
+  for (const auto& [file, right] : engine_files_) files.push_back(file.string());
+  return files;
+}
+
+bool Application::add_engines_of(const std::filesystem::path& file) {
+  const std::size_t before = peers_.engines.size();
+  bool right = true;
+  for (const std::filesystem::path& beside : engine_files_in(file.parent_path()))
+    right = add_engines(beside) && right;
+  for (const std::filesystem::path& declaring : library().declaring(file, engine_class_name))
+    right = add_engines(declaring) && right;
+  if (peers_.engines.size() > before) add_vocabulary();
+  return right;
 }
 
 void Application::tell(const language::Diagnostics& diagnostics) const {
@@ -101,7 +147,7 @@ simulation::EngineDescription Application::describe_engine(
 }
 
 std::string Application::load_library(const std::filesystem::path& library) const {
-  std::string problem = trust_.problem(library);
+  std::string problem = plugin_trust_.problem(library);
   if (!problem.empty()) return problem;
   return control::load_plugin(library, [this](const control::ComponentClass& type) {
     return simulation::component_class_problem(schema(), type);
@@ -116,7 +162,7 @@ void Application::take_new_classes() {
 }
 
 void Application::add_vocabulary() {
-  vocabularies_.push_back(std::make_unique<Vocabulary>(search_path_));
+  vocabularies_.push_back(std::make_unique<Vocabulary>(search_path_, peers_));
   for (const auto& [path, text] : given_) library().give(path, text);
 }
 
@@ -132,7 +178,7 @@ bool Application::load_plugins(const std::filesystem::path& file) {
       diagnostics);
   tell(diagnostics);
   take_new_classes();
-  return loaded;
+  return loaded && add_engines_of(file);
 }
 
 std::string Application::load_plugin(const std::filesystem::path& library) {

@@ -11,10 +11,12 @@
 #include <string>
 #include <vector>
 
-#include "apps/shared/plugin_trust.h"
+#include "apps/shared/consent.h"
 #include "apps/shared/settings.h"
+#include "apps/shared/trust.h"
 #include "language/document/document.h"
 #include "simulation/engine_interface/engine.h"
+#include "simulation/scene/peer_choices.h"
 #include "studies/measure/engine_table.h"
 
 namespace hookpoint::application {
@@ -32,12 +34,13 @@ class Application {
  public:
   /// Receives what is wrong with a file, if anything.
   using ReceiveDiagnostics = std::function<void(const language::Diagnostics&)>;
-  /// `allow_plugins`: those of any folder, not of the trusted ones alone.
-  explicit Application(bool allow_plugins = false, ReceiveDiagnostics tell = print_diagnostics);
+  explicit Application(Consent consent = {}, ReceiveDiagnostics tell = print_diagnostics);
 
   const language::Schema& schema() const { return vocabularies_.back()->schema; }
   language::Library& library() { return vocabularies_.back()->library; }
   const studies::EngineTable& engines() const { return engines_; }
+  /// The files of Engine blocks that were read.
+  std::vector<std::string> engine_files() const;
   /// Builds the world with the engine that the experiment names. Throws
   /// simulation::ExperimentError.
   std::unique_ptr<simulation::Engine> make_engine(const simulation::Experiment& experiment) const;
@@ -47,8 +50,8 @@ class Application {
 
   /// Reports to `tell`, a warning once; what this class itself finds wrong is reported too.
   void tell(const language::Diagnostics& diagnostics) const;
-  /// Loads the plugins that `file` and its Includes name; their classes join the schema. Reports
-  /// what is wrong and is then false. `evaluate` begins with it; a caller of the library must call
+  /// Loads the plugins that `file` and its Includes name, and the engines of their Engine blocks and
+  /// of the folder `engines` beside it; they join the schema. Reports what is wrong and is then false. `evaluate` begins with it; a caller of the library must call
   /// this first.
   bool load_plugins(const std::filesystem::path& file);
   /// Loads one. "" or what is wrong, as a predicate.
@@ -86,21 +89,27 @@ class Application {
   /// The classes known at a time and the files read by them. Plugins make a new one; trees point
   /// into the one that they are of, so all are kept.
   struct Vocabulary {
-    explicit Vocabulary(const std::vector<std::filesystem::path>& search_path);
+    Vocabulary(const std::vector<std::filesystem::path>& search_path,
+               const simulation::PeerChoices& peers);
     language::Schema schema;
     language::Library library;
   };
   std::string load_library(const std::filesystem::path& library) const;
   void take_new_classes();
+  /// Those of a file of Engine blocks; false after errors, which are reported.
+  bool add_engines(const std::filesystem::path& file);
+  bool add_engines_of(const std::filesystem::path& file);
   void add_vocabulary();
 
-  PluginTrust trust_;
+  Trust plugin_trust_, engine_trust_;
   ReceiveDiagnostics tell_;
   mutable std::set<std::string> warned_;  ///< place and message
   std::map<std::filesystem::path, std::string> given_;
   std::vector<std::filesystem::path> search_path_;
   std::vector<std::unique_ptr<Vocabulary>> vocabularies_;
   studies::EngineTable engines_;
+  simulation::PeerChoices peers_;                       ///< what a World may say of them
+  std::map<std::filesystem::path, bool> engine_files_;  ///< that were read: whether they are right
 };
 
 }  // namespace hookpoint::application

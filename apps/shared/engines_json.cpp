@@ -18,12 +18,14 @@ std::string engines_json(const Application& application) {
   text::JsonWriter json;
   json.begin_object().key("engines").begin_array();
   for (const auto& [name, engine] : application.engines()) {
-    const simulation::EngineDescription& d = engine.description;
+    const simulation::EngineDescription d = engine.describe();
     json.begin_object()
         .member("name", d.name)
         .member("version", d.version)
         .member("precision", d.precision)
-        .member("found", d.found);
+        .member("found", d.found)
+        .member("missing", d.missing)
+        .member("program", d.program);
     json.key("settings").begin_array();
     for (const std::string& setting : d.settings) json.value(setting);
     json.end_array().key("gaps").begin_array();

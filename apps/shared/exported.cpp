@@ -71,7 +71,7 @@ translation::ModelContact contact_of(const simulation::Experiment& experiment,
 std::optional<translation::Model> exported(Application& application, const ExportRequest& request) {
   const ModelFormat& format = format_of(request.format);
   std::filesystem::path file = application.locate(request.file);
-  if (const auto world = world_of_robot(application, file, request.allow_plugins)) {
+  if (const auto world = world_of_robot(application, file, request.consent)) {
     application.give(world->file, world->text);
     file = world->file;
   }

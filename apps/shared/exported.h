@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "apps/shared/consent.h"
 #include "apps/shared/translated.h"
 #include "translation/models/model.h"
 
@@ -16,7 +17,7 @@ struct ExportRequest {
   std::optional<std::string>
       robot;  ///< this one alone; none: all, of a format of one robot the only one
   std::optional<std::string> creep;  ///< as TranslateRequest's
-  bool allow_plugins = false;
+  Consent consent;
 };
 
 /// None after errors of the file, which are reported. Throws translation::ParameterError for an unknown

@@ -20,11 +20,11 @@ std::string text_of(const language::Diagnostics& diagnostics) {
 
 }  // namespace
 
-LiveLoader::LiveLoader(std::filesystem::path file, Settings settings, bool allow_plugins,
+LiveLoader::LiveLoader(std::filesystem::path file, Settings settings, Consent consent,
                        std::optional<std::filesystem::path> movie, const LiveLoader* leader)
     : file_(std::move(file)),
       settings_(std::move(settings)),
-      allow_plugins_(allow_plugins),
+      consent_(consent),
       movie_(std::move(movie)),
       leader_(leader) {}
 
@@ -32,14 +32,14 @@ LiveLoader::LiveLoader(std::filesystem::path file, Settings settings, bool allow
 void LiveLoader::read_anew() {
   root_.reset();
   application_ =
-      std::make_shared<Application>(allow_plugins_, [this](const language::Diagnostics& found) {
+      std::make_shared<Application>(consent_, [this](const language::Diagnostics& found) {
         if (found.has_errors())
           told_ += text_of(found);
         else
           print_diagnostics(found);
       });
   found_ = application_->find(file_);
-  if (!robot_world_) robot_world_ = world_of_robot(*application_, found_, allow_plugins_);
+  if (!robot_world_) robot_world_ = world_of_robot(*application_, found_, consent_);
   if (!robot_world_) return;
   application_->give(robot_world_->file, robot_world_->text);
   found_ = robot_world_->file;

@@ -17,7 +17,7 @@ class LiveLoader {
  public:
   /// `movie`: one that is added to those of the file (simulation/run/run_files.h). `leader`: its
   /// chosen step (`deltat = auto`) is taken unless `settings` give one; it outlives this.
-  LiveLoader(std::filesystem::path file, Settings settings, bool allow_plugins,
+  LiveLoader(std::filesystem::path file, Settings settings, Consent consent,
              std::optional<std::filesystem::path> movie = std::nullopt,
              const LiveLoader* leader = nullptr);
 
@@ -39,7 +39,7 @@ class LiveLoader {
 
   const std::filesystem::path file_;
   const Settings settings_;
-  const bool allow_plugins_;
+  const Consent consent_;
   const std::optional<std::filesystem::path> movie_;
   const LiveLoader* const leader_;
   std::string told_;  ///< errors of the load that is under way

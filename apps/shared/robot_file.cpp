@@ -64,11 +64,8 @@ struct Trial {
 
 class Trials {
  public:
-  Trials(std::filesystem::path file, std::filesystem::path place, bool stands, bool allow_plugins)
-      : file_(std::move(file)),
-        place_(std::move(place)),
-        stands_(stands),
-        allow_plugins_(allow_plugins) {}
+  Trials(std::filesystem::path file, std::filesystem::path place, bool stands, Consent consent)
+      : file_(std::move(file)), place_(std::move(place)), stands_(stands), consent_(consent) {}
 
   /// The best that there is: its keyframe rather than its zero pose, its own shapes rather than boxes of
   /// inertia, but for a robot whose feet are meshes that are not there.
@@ -96,7 +93,7 @@ class Trials {
   std::optional<Trial> of(const Arguments& arguments) const {
     Trial trial;
     trial.include = include_of(file_, arguments);
-    Application application(allow_plugins_, [](const language::Diagnostics&) {});
+    Application application(consent_, [](const language::Diagnostics&) {});
     application.give(place_, world_with(trial.include, stands_ ? 1. : 0.));
     const auto root = application.evaluate(place_, {});
     if (!root || !has_shape(*root->children_of("World").front())) return std::nullopt;
@@ -108,15 +105,16 @@ class Trials {
   }
 
   const std::filesystem::path file_, place_;
-  const bool stands_, allow_plugins_;
+  const bool stands_;
+  const Consent consent_;
 };
 
 }  // namespace
 
 std::optional<RobotWorld> world_of_robot(Application& application,
-                                         const std::filesystem::path& file, bool allow_plugins) {
+                                         const std::filesystem::path& file, Consent consent) {
   if (application.library().declares(file, "World")) return std::nullopt;
-  Application quiet(allow_plugins, [](const language::Diagnostics&) {});
+  Application quiet(consent, [](const language::Diagnostics&) {});
   const auto alone = quiet.evaluate(file, {});
   if (!alone || !alone->children_of("World").empty()) return std::nullopt;
   const auto robots = alone->children_of("Robot");
@@ -127,7 +125,7 @@ std::optional<RobotWorld> world_of_robot(Application& application,
   });
   const std::filesystem::path place =
       file.parent_path() / (file.stem().string() + "_on_a_plane.hook");
-  const auto best = Trials(file, place, stands, allow_plugins).best();
+  const auto best = Trials(file, place, stands, consent).best();
   if (!best) return std::nullopt;
   std::cerr << "hookpoint: note: " << text::printable(file.filename().string())
             << " has no World: it is put into one with " << text::printable(best->include) << '\n';

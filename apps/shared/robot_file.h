@@ -20,6 +20,6 @@ struct RobotWorld {
 /// Include. A robot on a fixed base has no ground. None for a file with a World, and for one that is wrong,
 /// which its evaluation reports. `application`: for files that it has read. Cost: a few evaluations of the file.
 std::optional<RobotWorld> world_of_robot(Application& application,
-                                         const std::filesystem::path& file, bool allow_plugins);
+                                         const std::filesystem::path& file, Consent consent);
 
 }  // namespace hookpoint::application

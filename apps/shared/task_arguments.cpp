@@ -24,7 +24,7 @@ std::string rerun_command(const std::string& command, const TaskArguments& argum
       if (field == form.field) add(std::string(" ") + form.option, value);
   if (arguments.quick) line += " --quick";
   for (const std::string& subject : arguments.only) add(" --only", subject);
-  if (arguments.allow_plugins) line += " --allow-plugins";
+  for (const char* option : arguments.consent.options()) line += std::string(" ") + option;
   return arguments.slurm ? line + studies::option_words(arguments.slurm_settings) : line;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/shared/consent.h"
 #include "apps/shared/settings.h"
 #include "studies/cluster/slurm_script.h"
 
@@ -18,11 +19,12 @@ struct TaskArguments {
   bool quick = false;
   bool resume = false;
   std::vector<std::string> only;  ///< subjects
-  bool allow_plugins = false;
+  Consent consent;
   Settings settings{};   ///< of the file and of the scenes that it runs
   bool slurm = false;    ///< the runs are made by a cluster
   bool dry_run = false;  ///< only prints what it would be sent
   studies::SlurmSettings slurm_settings{};
+  std::vector<std::string> engine_files{};  ///< absolute, that a cluster's runs may need
 
   /// `jobs`, or how many cores there are.
   int threads() const;

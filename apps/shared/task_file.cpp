@@ -124,6 +124,12 @@ std::vector<studies::PeerSetting> TaskApplication::peer_settings(
   }
   std::vector<studies::PeerSetting> settings;
   for (const auto& [engine, name] : used) {
+    if (application_.engines().at(engine).is_program) {
+      for (const auto& [of, quantity, value, source] :
+           application_.engines().describe(engine).constants)
+        if (of == name) settings.push_back({engine, name, quantity, value, source});
+      continue;
+    }
     const reference::Peer& peer = reference::peer_named(engine);
     // One that the peer has not is shown as recommended: its rows were refused.
     const auto shown =

@@ -62,6 +62,12 @@ class Library {
   /// Whether `file` itself, not an Include of it, holds an object of this class at its top. O(items there),
   /// nothing is evaluated; false for a file that is wrong or not in the language.
   bool declares(const std::filesystem::path& file, std::string_view type);
+  /// Of `file` and the files that it and they include, by a path in quotes, those that hold an object
+  /// of this class at their top. Nothing is evaluated.
+  std::vector<std::filesystem::path> declaring(const std::filesystem::path& file,
+                                               std::string_view type);
+  /// The first object at the top of `file` itself that is of another class.
+  std::optional<Position> other_than(const std::filesystem::path& file, std::string_view type);
   /// Where an Include written in `from` (or "" for the command line) finds `path`: beside it, then
   /// in the configs/ of the folders above, then along the search path. Empty if nowhere.
   std::filesystem::path find(const std::filesystem::path& path,

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <set>
 
 #include "language/document/document.h"
@@ -81,16 +82,54 @@ std::vector<ParameterDeclaration> Library::parameters(const std::filesystem::pat
   return declarations;
 }
 
-bool Library::declares(const std::filesystem::path& file, std::string_view type) {
-  const ParsedFile& parsed = implementation_->files.load(file);
+namespace {
+
+/// The first object at the top whose class is `type`, or is not.
+const Item* find_at_top(const ParsedFile& parsed, std::string_view type, bool of_type) {
   const std::string_view text = parsed.source.text;
   const Range top = parsed.syntax.top;
   for (std::uint32_t i = top.begin; i < top.end; ++i) {
     const Item& item = parsed.syntax.items[i];
-    if (item.kind == ItemKind::object && text.substr(item.place.offset, item.place.length) == type)
-      return true;
+    if (item.kind != ItemKind::object) continue;
+    if ((text.substr(item.place.offset, item.place.length) == type) == of_type) return &item;
   }
-  return false;
+  return nullptr;
+}
+
+void collect_included(FileStore& files, const ParsedFile& file,
+                      std::vector<const ParsedFile*>& found) {
+  if (std::ranges::find(found, &file) != found.end()) return;
+  found.push_back(&file);
+  Report unreported;  // the evaluation says which files are missing
+  for (const Item& item : file.syntax.items) {
+    if (item.kind != ItemKind::include || !item.value.empty()) continue;
+    const std::filesystem::path path = find_named(files, file, item, unreported);
+    if (!path.empty()) collect_included(files, files.load(path), found);
+  }
+}
+
+}  // namespace
+
+bool Library::declares(const std::filesystem::path& file, std::string_view type) {
+  return find_at_top(implementation_->files.load(file), type, true) != nullptr;
+}
+
+std::vector<std::filesystem::path> Library::declaring(const std::filesystem::path& file,
+                                                      std::string_view type) {
+  std::vector<const ParsedFile*> files;
+  collect_included(implementation_->files, implementation_->files.load(file), files);
+  std::vector<std::filesystem::path> declaring;
+  for (const ParsedFile* each : files)
+    if (find_at_top(*each, type, true) != nullptr) declaring.emplace_back(each->source.path);
+  return declaring;
+}
+
+std::optional<Position> Library::other_than(const std::filesystem::path& file,
+                                            std::string_view type) {
+  const ParsedFile& parsed = implementation_->files.load(file);
+  const Item* item = find_at_top(parsed, type, false);
+  if (item == nullptr) return std::nullopt;
+  return Position{&parsed.source, item->place.offset, item->place.length};
 }
 
 std::filesystem::path Library::find(const std::filesystem::path& path,

@@ -13,31 +13,15 @@
 #include <cmath>
 #include <csignal>
 #include <cstdint>
-#include <cstdlib>
-#include <sstream>
 #include <string_view>
 
+#include "output/files/child_program.h"
 #include "output/files/file.h"
 
 extern char** environ;
 
 namespace hookpoint::output {
 namespace {
-
-/// Relative folders of PATH are left out: the child runs in a folder of results, where anybody may
-/// have put a program.
-std::filesystem::path find_program(const std::string& name) {
-  const char* path = std::getenv("PATH");
-  std::istringstream folders(path == nullptr ? "/usr/local/bin:/usr/bin:/bin" : path);
-  for (std::string folder; std::getline(folders, folder, ':');) {
-    const std::filesystem::path candidate = std::filesystem::path(folder) / name;
-    std::error_code ignored;
-    if (candidate.is_absolute() && std::filesystem::is_regular_file(candidate, ignored) &&
-        ::access(candidate.c_str(), X_OK) == 0)
-      return candidate;
-  }
-  return {};
-}
 
 /// The environment with C's locale in it.
 std::vector<std::string> child_environment() {
@@ -190,7 +174,7 @@ std::optional<ChildResult> run_program(const std::string& name,
                                        const std::vector<std::string>& arguments,
                                        const std::filesystem::path& folder,
                                        const ChildOptions& options) {
-  const std::filesystem::path program = find_program(name);
+  const std::filesystem::path program = program_on_path(name);
   if (program.empty()) return std::nullopt;
   std::vector<std::string> words{name}, variables = child_environment();
   words.insert(words.end(), arguments.begin(), arguments.end());

@@ -99,7 +99,8 @@ class DartWorld final : public PeerWorld {
     static std::mutex mutex;
     const std::lock_guard lock(mutex);
     lost->push_back(std::move(world_));
-    return "an assertion of DART's failed, whose words are on standard error";
+    return std::string("an assertion of DART's failed, whose words are on standard error") +
+           smaller_step_helps;
   }
 
   std::optional<std::size_t> beyond_range() const override { return beyond_range_; }

@@ -184,11 +184,11 @@ class MujocoWorld final : public PeerWorld {
     mj_comPos(&model_, data);
     if (!sound) {
       mj_comVel(&model_, data);
-      return "a coordinate or speed is not finite";
+      return std::string("a coordinate or speed is not finite") + smaller_step_helps;
     }
     if (std::any_of(data->qpos, data->qpos + model_.nq, mju_isBad) ||
         std::any_of(data->qvel, data->qvel + model_.nv, mju_isBad))
-      return "MuJoCo takes no coordinate or speed above 1e10";
+      return std::string("MuJoCo takes no coordinate or speed above 1e10") + smaller_step_helps;
     mj_crb(&model_, data);
     mj_factorM(&model_, data);
     mj_collision(&model_, data);

@@ -152,7 +152,7 @@ class OdeWorld final : public PeerWorld {
       return taken != 0 ? std::string() : std::string("ODE is out of memory");
     } catch (const OdeFailure& failure) {
       abandon_ode_threading(std::move(threading_));
-      return std::string("ODE gave up: ") + failure.what();
+      return std::string("ODE gave up: ") + failure.what() + smaller_step_helps;
     } catch (const std::bad_alloc&) {
       abandon_ode_threading(std::move(threading_));
       throw;

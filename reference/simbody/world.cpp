@@ -184,7 +184,7 @@ class SimbodyWorld final : public PeerWorld {
       throw;
     } catch (const std::exception& error) {
       lost_ = true;
-      return std::string("Simbody gave up: ") + error.what();
+      return std::string("Simbody gave up: ") + error.what() + smaller_step_helps;
     }
   }
 

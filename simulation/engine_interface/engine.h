@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -173,6 +174,8 @@ struct SurfaceMotion {
 
 /// Whether the ground moves, by itself or because a wire drives it.
 bool ground_moves(const Experiment& experiment);
+/// The same of obstacles.
+bool obstacles_move(const Experiment& experiment);
 /// Whether the ground or an obstacle moves, by itself or because a wire drives it.
 bool surfaces_move(const Experiment& experiment);
 /// Takes its frame to the end of a step of `dt` [s].
@@ -262,6 +265,11 @@ struct EngineGap {
   std::string instead;  ///< what happens, or what to do
 };
 
+/// A constant of an engine that is a program, at one of its settings, as it says it.
+struct SettingConstant {
+  std::string settings, quantity, value, source;
+};
+
 /// What `hookpoint engines` and the provenance file say of an engine.
 struct EngineDescription {
   std::string name;       ///< as in `engine = ode`
@@ -270,11 +278,16 @@ struct EngineDescription {
   bool found = true;
   std::vector<std::string> settings;  ///< names that `settings =` accepts
   std::vector<EngineGap> gaps{};
+  /// Settings at which it has one coefficient of friction, the kinetic one.
+  std::vector<std::string> one_friction{};
+  std::vector<SettingConstant> constants{};
+  std::string missing{};  ///< of one that is not found: why, and what to do
+  std::string program{};  ///< hash of the files of an engine that is a program, else empty
 };
 
 /// Builds a world from an experiment. Throws ExperimentError when the engine cannot run it, saying
 /// what it lacks.
-using EngineFactory = std::unique_ptr<Engine> (*)(const Experiment&);
+using EngineFactory = std::function<std::unique_ptr<Engine>(const Experiment&)>;
 
 /// The user's experiment cannot run as written; the message says what to change.
 struct ExperimentError : std::runtime_error {

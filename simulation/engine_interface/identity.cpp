@@ -27,6 +27,7 @@ std::string run_hash(const std::string& experiment, const EngineDescription& eng
   output::Hash hash;
   hash.add(experiment).add(output::hash_of_program());
   hash.add(engine.name).add(engine.version).add(engine.precision).add(engine.found ? "" : "none");
+  if (!engine.program.empty()) hash.add(engine.program);
   return hash.text();
 }
 
@@ -44,7 +45,8 @@ std::vector<output::InputFile> hashed(const std::set<std::string>& paths) {
 }
 
 std::string engine_text(const EngineDescription& engine) {
-  return engine.name + " " + engine.version + ", " + engine.precision;
+  return engine.name + " " + engine.version + ", " + engine.precision +
+         (engine.program.empty() ? "" : ", program " + engine.program);
 }
 
 }  // namespace hookpoint::simulation

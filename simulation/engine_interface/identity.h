@@ -20,7 +20,7 @@ std::vector<std::string> plugins_of(const Experiment& experiment);
 std::string experiment_hash(const std::string& text, const Experiment& experiment);
 
 /// Hash of a run: of its experiment's hash, this program's bytes, and the engine's name, version,
-/// precision and whether it is found.
+/// precision, whether it is found and, of a program, its files.
 std::string run_hash(const std::string& experiment, const EngineDescription& engine);
 
 /// The files that its run reads, by absolute path.
@@ -29,7 +29,7 @@ std::set<std::string> files_read(const Experiment& experiment);
 /// Those files with their hashes. Throws output::FileError.
 std::vector<output::InputFile> hashed(const std::set<std::string>& paths);
 
-/// "dts 0.1.0, double".
+/// "dts 0.1.0, double"; of a program "rapier 0.21.0, single, program 1f0c...".
 std::string engine_text(const EngineDescription& engine);
 
 }  // namespace hookpoint::simulation

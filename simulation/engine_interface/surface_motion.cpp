@@ -15,16 +15,20 @@ bool ground_moves(const Experiment& experiment) {
                              [&](const WireSpec& wire) { return wire.to.starts_with(trail); });
 }
 
-bool surfaces_move(const Experiment& experiment) {
+bool obstacles_move(const Experiment& experiment) {
   const auto moves = [](const ObstacleSpec& obstacle) {
     return obstacle.velocity != Vector3d{} || obstacle.angular_velocity != Vector3d{};
   };
-  return ground_moves(experiment) || std::ranges::any_of(experiment.obstacles, moves) ||
+  return std::ranges::any_of(experiment.obstacles, moves) ||
          std::ranges::any_of(experiment.wires, [&](const WireSpec& wire) {
            return std::ranges::any_of(experiment.obstacles, [&](const ObstacleSpec& obstacle) {
              return wire.to.starts_with(experiment.world + "." + obstacle.name + ".");
            });
          });
+}
+
+bool surfaces_move(const Experiment& experiment) {
+  return ground_moves(experiment) || obstacles_move(experiment);
 }
 
 void advance(SurfaceMotion& surface, double dt) {

@@ -31,7 +31,7 @@ LoadedField<Experiment> engine_field(const PeerChoices& peers) {
 }
 
 LoadedField<Experiment> settings_field(const PeerChoices& peers) {
-  std::vector<std::string> names{"default", "recommended", "matched"};
+  std::vector<std::string> names(common_settings.begin(), common_settings.end());
   std::string doc =
       "how a peer is set up: its first example, its maintainers' practice, or nearest to the "
       "penalty law";

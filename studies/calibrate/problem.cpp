@@ -293,9 +293,8 @@ bool read_traces(const PlanSource& from, CalibrationPlan& plan, const VariedScen
   const auto own = scene.load({}, 1, from.diagnostics);
   if (!own) return false;
   const EngineEntry* engine = from.engines.find(own->experiment.engine);
-  if (engine == nullptr || !engine->description.found) {
-    from.error(from.calibrate.position,
-               "engine " + own->experiment.engine + " is not on this machine");
+  if (engine == nullptr || !engine->describe().found) {
+    from.error(from.calibrate.position, from.engines.absence(own->experiment.engine));
     return false;
   }
   try {

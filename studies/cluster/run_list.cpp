@@ -282,7 +282,10 @@ bool read_member(const std::string& name, const JsonValue& value, const ListedTr
 std::string run_list_text(const RunList& list) {
   text::JsonWriter json;
   const WrittenTraces traces(list);
-  json.begin_object().member("allow_plugins", list.allow_plugins);
+  json.begin_object().member("allow_plugins", list.code.allow_plugins);
+  json.member("allow_engines", list.code.allow_engines).key("engine_files").begin_array();
+  for (const std::string& file : list.code.engine_files) json.value(file);
+  json.end_array();
   traces.write(json);
   json.key("runs").begin_array();
   for (const RunRequest& run : list.runs) write_run(json, run, traces);
@@ -302,7 +305,11 @@ RunList read_run_list(const std::filesystem::path& file) {
   ListedTraces traces;
   for (const auto& [key, value] : root->members()) {
     if (key == "allow_plugins") {
-      list.allow_plugins = value.text() == "true";
+      list.code.allow_plugins = value.text() == "true";
+    } else if (key == "allow_engines") {
+      list.code.allow_engines = value.text() == "true";
+    } else if (key == "engine_files") {
+      for (const JsonValue& name : value.items()) list.code.engine_files.push_back(name.text());
     } else if (key == "measured") {
       for (const JsonValue& trace : value.items()) {
         traces.push_back(read_measured(trace));

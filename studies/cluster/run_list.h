@@ -14,8 +14,14 @@ struct RunListError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Beside this program's own.
+struct ForeignCode {
+  bool allow_plugins = false, allow_engines = false;  ///< of any folder
+  std::vector<std::string> engine_files{};            ///< with the blocks of engines, absolute
+};
+
 struct RunList {
-  bool allow_plugins = false;  ///< of any folder
+  ForeignCode code;
   std::vector<RunRequest> runs;
 };
 

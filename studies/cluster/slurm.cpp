@@ -195,7 +195,7 @@ void SlurmRuns::make_job(const Request& request) {
   const std::size_t chunk = runs_of_a_task(left.size(), options_.settings);
   for (std::size_t begin = 0; begin < left.size(); begin += chunk) {
     const std::size_t task = job.tasks.size(), end = std::min(left.size(), begin + chunk);
-    RunList list{options_.allow_plugins, {}};
+    RunList list{options_.code, {}};
     std::set<std::string> missing;
     for (std::size_t i = begin; i < end; ++i) {
       list.runs.push_back(request(left[i]));

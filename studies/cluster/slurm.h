@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "studies/cluster/journal.h"
+#include "studies/cluster/run_list.h"
 #include "studies/cluster/slurm_script.h"
 #include "studies/run/runs.h"
 
@@ -41,7 +42,7 @@ class SlurmRuns : public RemoteRuns {
     SlurmSettings settings;
     SlurmPlace place;
     std::filesystem::path folder;  ///< absolute
-    bool allow_plugins = false;
+    ForeignCode code;
     bool resume = false;  ///< takes up what an earlier front end left; else it is done away with
     std::function<void(const std::string&)> tell;  ///< what the user should know
   };

@@ -28,7 +28,7 @@ struct RunContext {
   Vector3d downhill;   ///< unit, in the ground's plane: steepest descent; on the level, along the
                        ///< base's initial velocity
   double weight = 0.;  ///< m |g| [N], of the whole robot
-  /// Of an engine with one coefficient of friction, the kinetic one (EngineEntry::one_friction).
+  /// Of an engine with one coefficient of friction, the kinetic one (EngineDescription::one_friction).
   bool one_friction = false;
   simulation::EngineFactory make =
       nullptr;  ///< of the run's engine, where a metric may run another

@@ -302,11 +302,10 @@ std::optional<RunRecord> execute(const Measurement& measurement,
                                  const EngineTable& engines, const std::string& refusal,
                                  const std::atomic<bool>& stop) {
   const EngineEntry* engine = engines.find(experiment.engine);
-  const std::string why_not =
-      !engines.available(experiment.engine)
-          ? fmt::format("skipped: engine {} is not on this machine", experiment.engine)
-      : !refusal.empty() ? "refused: " + refusal
-                         : "";
+  const std::string why_not = !engines.available(experiment.engine)
+                                  ? "skipped: " + engines.absence(experiment.engine)
+                              : !refusal.empty() ? "refused: " + refusal
+                                                 : "";
   RunRecord record;
   try {
     RunContext context = context_of(measurement, experiment);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <sys/utsname.h>
 
+#include <algorithm>
 #include <array>
 #include <ctime>
 #include <thread>
@@ -38,8 +39,12 @@ Provenance make_provenance(const StudyPlan& plan, const EngineTable& engines) {
   provenance.program = output::hash_of_program();
   provenance.compiler = HOOKPOINT_FLAGS;
   provenance.inputs = plan.inputs;
-  for (const auto& [name, entry] : engines)
-    provenance.engines.emplace_back(name, entry.description);
+  for (const auto& [name, entry] : engines) {
+    // A program is not started for a study that has nothing to do with it.
+    const bool runs =
+        std::ranges::find(plan.compositions, name, &SubjectInfo::engine) != plan.compositions.end();
+    if (runs || !entry.is_program) provenance.engines.emplace_back(name, entry.describe());
+  }
   provenance.seeds.assign(plan.seeds.begin(), plan.seeds.end());
   provenance.host = host.nodename;
   provenance.system = fmt::format("{} {}", host.sysname, host.release);
@@ -62,7 +67,9 @@ std::string provenance_json(const Provenance& provenance) {
   json.key("engines").begin_object();
   for (const auto& [name, engine] : provenance.engines) {
     json.key(name).begin_object().member("found", engine.found);
-    json.member("version", engine.version).member("precision", engine.precision).end_object();
+    json.member("version", engine.version).member("precision", engine.precision);
+    if (!engine.program.empty()) json.member("program", engine.program);
+    json.end_object();
   }
   json.end_object().key("inputs").begin_array();
   for (const output::InputFile& input : provenance.inputs)

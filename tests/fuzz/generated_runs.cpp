@@ -75,7 +75,7 @@ bool has_non_finite(std::string text) {
       arguments.out = out;
       arguments.record = drawn.trails;
       status = cli::run(arguments);
-      const int of_dynamics = drawn.dynamics ? cli::dynamics(file, {}, true, false) : cli::fine;
+      const int of_dynamics = drawn.dynamics ? cli::dynamics(file, {}, true, {}) : cli::fine;
       if (status == cli::fine) status = of_dynamics;
     } else {
       application::TaskArguments arguments;

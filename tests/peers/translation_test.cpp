@@ -239,7 +239,7 @@ TEST(ExportedToMujoco, FeetOfARobotWithJointsStandAsDeepAsHere) {
 // Of every body of a robot with joints, beside MuJoCo's own of the exported model.
 TEST(ExportedToMujoco, InverseWeightsAreMujocos) {
   for (const char* scene : {"standing_hexapod", "standing_quadruped_urdf"}) {
-    application::Application application(false, [](const language::Diagnostics&) {});
+    application::Application application({}, [](const language::Diagnostics&) {});
     application::ExportRequest request;
     request.file = testing::source_folder() + "/configs/scenes/" + scene + ".hook";
     request.format = "mjcf";
@@ -258,7 +258,7 @@ TEST(ExportedToMujoco, InverseWeightsAreMujocos) {
 TEST(ExportedToMujoco, EveryRobotOfTheScenesCompiles) {
   for (const char* scene :
        {"standing_hexapod", "walking_hexapod", "standing_quadruped_urdf", "sloped_block"}) {
-    application::Application application(false, [](const language::Diagnostics&) {});
+    application::Application application({}, [](const language::Diagnostics&) {});
     application::ExportRequest request;
     request.file = testing::source_folder() + "/configs/scenes/" + scene + ".hook";
     request.format = "mjcf";

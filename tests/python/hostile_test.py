@@ -322,7 +322,7 @@ class Fuzz(unittest.TestCase):
 
     def test_constructors_survive_arguments_at_random(self):
         draw = random.Random(3)
-        names = ["threads", "seeds", "observations", "actions", "done", "set", "engine", "allow_plugins"]
+        names = ["threads", "seeds", "observations", "actions", "done", "set", "engine", "allow_plugins", "allow_engines"]
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             for _ in range(400):

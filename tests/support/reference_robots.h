@@ -1,10 +1,14 @@
 // Robots with chains for the peers' tests, built without the language.
 #pragma once
 
+#include <gtest/gtest.h>
+
+#include <algorithm>
 #include <array>
 #include <random>
 #include <vector>
 
+#include "simulation/dts_engine/dts_engine.h"
 #include "tests/support/reference_scenes.h"
 
 namespace hookpoint::reference_scenes {
@@ -87,6 +91,39 @@ inline simulation::Experiment robot_world(const simulation::RobotSpec& robot, do
   double torque = 0.5;
   for (simulation::ChainSpec& chain : experiment.robots[0].chains)
     for (simulation::LinkSpec& link : chain.links) link.torque = torque = 0.4 - torque;
+  return experiment;
+}
+
+/// Largest relative difference of accelerations in the first step: of every joint, and of the
+/// base's turning.
+inline double acceleration_error(simulation::EngineFactory make,
+                                 const simulation::Experiment& experiment) {
+  const auto ours = simulation::make_dts(experiment), theirs = make(experiment);
+  const Vector3d before = ours->state().bodies[0].angular_velocity;
+  EXPECT_TRUE(ours->step().ok() && theirs->step().ok());
+  double largest = 0., error = 0.;
+  for (std::size_t i = 0; i < ours->state().joints.size(); ++i) {
+    const double expected = ours->state().joints[i].acceleration;
+    largest = std::max(largest, std::abs(expected));
+    error = std::max(error, std::abs(theirs->state().joints[i].acceleration - expected));
+  }
+  const Vector3d& a = ours->state().bodies[0].angular_velocity;
+  const Vector3d& b = theirs->state().bodies[0].angular_velocity;
+  const double per_second = 1. / experiment.deltat;
+  largest = std::max(largest, per_second * norm(a - before));
+  error = std::max(error, per_second * norm(a - b));
+  return error / largest;
+}
+
+/// From rest the first step of any engine is deltat times the accelerations, whatever deltat: mass
+/// matrix, gravity and torques. ODE's joints have CFM 1e-10/deltat beside inverse inertias of some
+/// 1000, so deltat is 1 s; all forces are 1e-9 of their own, so that the geometry stays.
+inline simulation::Experiment at_rest(const simulation::RobotSpec& robot) {
+  constexpr double scale = 1e-9;
+  simulation::Experiment experiment = robot_world(robot, 1.);
+  experiment.gravity = scale * experiment.gravity;
+  for (simulation::ChainSpec& chain : experiment.robots[0].chains)
+    for (simulation::LinkSpec& link : chain.links) link.torque *= scale;
   return experiment;
 }
 

@@ -29,7 +29,7 @@ class RoughCalibrations {
  public:
   static constexpr const char* cmaes = "method = cmaes; population = 12; generations = 12; ";
 
-  RoughCalibrations() : application_(false, [](const language::Diagnostics&) {}) {}
+  RoughCalibrations() : application_({}, [](const language::Diagnostics&) {}) {}
 
   /// A drop of 50 mm under a lift of `seen` * 0.1 N, with a = 2 and b = 3, which are fitted from 0
   /// to 6; noise of 0.2 mm. `world`: more of the World; `block`: more of the Calibrate.

@@ -85,7 +85,7 @@ class StudyRunner : public ::testing::Test {
     add_study_classes(schema_);
     write("scene.hook", slider_scene);
     for (const char* name : {"dts", "ode"})
-      engines_.add(name, {{"dts", "test", "double", true, {}, {}}, make, nullptr});
+      engines_.add(name, {described_as({"dts", "test", "double", true, {}, {}}), make});
     Slider::steps_taken = 0;
   }
   ~StudyRunner() override { std::filesystem::remove_all(folder_); }

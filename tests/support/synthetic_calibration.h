@@ -56,7 +56,7 @@ class SyntheticCalibrations {
  public:
   static constexpr double a = 2., b = 3., from = 0.5, to = 6.;
 
-  SyntheticCalibrations() : application_(false, [](const language::Diagnostics&) {}) {}
+  SyntheticCalibrations() : application_({}, [](const language::Diagnostics&) {}) {}
 
   /// Calibration `number` of these pushes: pushes, scales and methods in turn, each with noise of
   /// its own.

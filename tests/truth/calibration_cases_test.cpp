@@ -72,7 +72,7 @@ double sliding(double time, double speed) {
 class MeasuredCases : public ::testing::Test {
  protected:
   MeasuredCases()
-      : application_(false, [](const language::Diagnostics& found) {
+      : application_({}, [](const language::Diagnostics& found) {
           for (const language::Diagnostic& diagnostic : found.all())
             ADD_FAILURE() << diagnostic.message;
         }) {}

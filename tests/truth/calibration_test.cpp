@@ -81,7 +81,7 @@ Motion hunt_crossley_drop(double stiffness, double hysteresis, double height) {
 
 class KnownConstants : public ::testing::Test {
  protected:
-  KnownConstants() : application_(false) { place_.file("scene.hook", point_scene); }
+  KnownConstants() { place_.file("scene.hook", point_scene); }
 
   /// The motion with normal noise of this deviation [m].
   void measure(const std::string& name, const Motion& motion, double noise, unsigned seed) {

@@ -57,7 +57,7 @@ TEST(JointBias, IsTheJointsPartOfTheTermsForControllers) {
   std::vector<simulation::EngineFactory> engines{simulation::make_dts};
   for (const reference::Peer& peer : reference::peers())
     if (peer.name == std::string_view("bullet")) engines.push_back(peer.make);
-  for (const simulation::EngineFactory make : engines) {
+  for (const simulation::EngineFactory& make : engines) {
     const Loaded loaded = load_text(tumbling);
     Running run(loaded, make);
     const simulation::Experiment& experiment = *loaded.experiment;

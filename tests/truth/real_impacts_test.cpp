@@ -45,7 +45,7 @@ constexpr double explained_by_a_box = 0.19;
 
 TEST(RealImpacts, TwentyThrowsUnderConstantsThatAreGiven) {
   const Workplace work;
-  application::Application application(false, [](const language::Diagnostics& found) {
+  application::Application application({}, [](const language::Diagnostics& found) {
     for (const language::Diagnostic& diagnostic : found.all())
       EXPECT_NE(diagnostic.severity, language::Severity::error) << diagnostic.message;
   });

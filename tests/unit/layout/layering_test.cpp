@@ -31,7 +31,7 @@ const std::map<std::string, Names> may_include{
     {"output", {"math", "text"}},
     {"simulation",
      {"math", "text", "dts", "contact", "integrators", "language", "control", "output"}},
-    {"reference", {"math", "text", "contact", "simulation"}},
+    {"reference", {"math", "text", "contact", "output", "simulation"}},
     {"translation", {"math", "text", "contact", "simulation", "reference"}},
     {"studies", {"math", "text", "contact", "language", "output", "simulation"}},
     {"examples", {"control"}},
@@ -47,7 +47,7 @@ const std::map<std::string, Names> may_include{
 };
 
 /// Folders of reference/, an engine or two each.
-const Names peers{"ode", "bullet", "mujoco", "dart", "simbody"};
+const Names peers{"ode", "bullet", "mujoco", "dart", "simbody", "process"};
 
 /// Rooms of a folder, lowest first: a file includes nothing of a later room. A room is one or more
 /// sub-folders. Files of the folder itself are the lowest room, or the highest if they are listed

@@ -51,7 +51,8 @@ class LiveRunTest : public ::testing::Test {
                  std::vector<Change> script = {}) {
     place.file("scene.hook", text);
     loader = std::make_unique<application::LiveLoader>(
-        place.folder() / "scene.hook", application::Settings(), false, std::filesystem::path());
+        place.folder() / "scene.hook", application::Settings(), application::Consent(),
+        std::filesystem::path());
     const auto load = [this](const std::vector<std::string>& overrides, std::string& problem) {
       return loader->load(overrides, problem);
     };
@@ -281,8 +282,8 @@ TEST_F(LiveRunTest, APeerIsSetAndPulledButNeitherEditedNorTakenBack) {
   text.insert(text.find("gravity"), "engine = ode; ");
   text.erase(text.find("  Record"), text.find("\n", text.find("  Record")) - text.find("  Record"));
   place.file("scene.hook", text);
-  loader = std::make_unique<application::LiveLoader>(place.folder() / "scene.hook",
-                                                     application::Settings(), false);
+  loader = std::make_unique<application::LiveLoader>(
+      place.folder() / "scene.hook", application::Settings(), application::Consent());
   run = std::make_unique<LiveRun>(
       [this](const std::vector<std::string>& overrides, std::string& problem) {
         return loader->load(overrides, problem);

@@ -60,8 +60,7 @@ std::string oscillation(double factor, int samples = 60, double ripple = 0., dou
 
 class CalibrateFile : public ::testing::Test {
  protected:
-  CalibrateFile()
-      : application_(false, [this](const language::Diagnostics& found) { tell(found); }) {
+  CalibrateFile() : application_({}, [this](const language::Diagnostics& found) { tell(found); }) {
     place_.file("scene.hook", point_scene);
     place_.file("drop.csv", oscillation(1., 60, 0.01));
   }

@@ -8,8 +8,8 @@ namespace {
 class CompositionOfExperiment : public ::testing::Test {
  protected:
   CompositionOfExperiment() {
-    engines_.add("dts", {{"dts", "1", "double", true, {}, {}}});
-    engines_.add("ode", {{"ode", "1", "double", false, {}, {}}});
+    engines_.add("dts", {described_as({"dts", "1", "double", true, {}, {}})});
+    engines_.add("ode", {described_as({"ode", "1", "double", false, {}, {}})});
     experiment_.engine = "dts";
     experiment_.integrator = "rk4";
     experiment_.settings = "matched";

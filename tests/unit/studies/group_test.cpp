@@ -95,7 +95,7 @@ std::unique_ptr<simulation::Engine> make_half_as_fast(const Experiment& experime
 }
 
 TEST_F(StudyRunner, PeerDistanceIsTheGreatestSeparationOfTwoKnownPaths) {
-  engines_.add("ode", {engines_.describe("ode"), make_half_as_fast});
+  engines_.add("ode", {described_as(engines_.describe("ode")), make_half_as_fast});
   const auto plan = this->plan(between_peers());
   ASSERT_TRUE(plan) << first_error();
   const StudyRun run = this->run(*plan, "out");
@@ -117,7 +117,7 @@ TEST_F(StudyRunner, PeerDistanceIsTheGreatestSeparationOfTwoKnownPaths) {
 }
 
 TEST_F(StudyRunner, TheReportHasTheMatrixAsNumbersAndColours) {
-  engines_.add("ode", {engines_.describe("ode"), make_half_as_fast});
+  engines_.add("ode", {described_as(engines_.describe("ode")), make_half_as_fast});
   const auto plan = this->plan(between_peers());
   ASSERT_TRUE(plan) << first_error();
   const std::string table = distance_table(run(*plan, "out").result);
@@ -137,7 +137,7 @@ TEST_F(StudyRunner, PathsAreComparedAtEqualTimesWhateverTheStep) {
 }
 
 TEST_F(StudyRunner, ResumedPathsGiveTheSameDistances) {
-  engines_.add("ode", {engines_.describe("ode"), make_half_as_fast});
+  engines_.add("ode", {described_as(engines_.describe("ode")), make_half_as_fast});
   const auto plan = this->plan(grouped);
   ASSERT_TRUE(plan) << first_error();
   run(*plan, "whole", 3);

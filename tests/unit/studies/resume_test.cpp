@@ -50,7 +50,9 @@ TEST_F(Resume, TakesWhatIsOfTheSameRun) {
 TEST_F(Resume, RunsAnewWhatAnotherEngineOfThatNameMade) {
   run_whole();
   EngineEntry other = engines_.at("ode");
-  other.description.version = "another";
+  simulation::EngineDescription description = other.describe();
+  description.version = "another";
+  other.describe = described_as(description);
   engines_.add("ode", other);
   EXPECT_EQ(steps_of_resume(study), 3 * steps_a_row);
   EXPECT_EQ(told_,

@@ -301,9 +301,11 @@ TEST(RunList, IsReadBackAsItWasWritten) {
                   {find_metric("creep_speed"), find_metric("fell")},
                   {{find_signal("speed"), true}, {find_signal("drift"), false}},
                   true}};
-  work.file("list.json", run_list_text({true, {run, run}}));
+  work.file("list.json", run_list_text({{true, true, {"/engines/mine.hook"}}, {run, run}}));
   const RunList read = read_run_list(work.folder() / "list.json");
-  EXPECT_TRUE(read.allow_plugins);
+  EXPECT_TRUE(read.code.allow_plugins);
+  EXPECT_TRUE(read.code.allow_engines);
+  EXPECT_EQ(read.code.engine_files, std::vector<std::string>{"/engines/mine.hook"});
   ASSERT_EQ(read.runs.size(), 2u);
   for (const RunRequest& other : read.runs) {
     EXPECT_EQ(other.name, run.name);

@@ -45,7 +45,7 @@ Tune stiffest {
 
 class TuneFile : public ::testing::Test {
  protected:
-  TuneFile() : application_(false, [this](const language::Diagnostics& found) { tell(found); }) {
+  TuneFile() : application_({}, [this](const language::Diagnostics& found) { tell(found); }) {
     place_.file("scene.hook", point_scene);
   }
 

@@ -20,7 +20,7 @@ namespace {
 class StudyVerdict : public StudyRunner {
  protected:
   StudyVerdict() {
-    engines_.add("mujoco", {{"mujoco", "", "double", false, {}, {}}, nullptr, nullptr});
+    engines_.add("mujoco", {described_as({"mujoco", "", "double", false, {}, {}})});
     write("ball.hook",
           replaced(slider_scene, "Shape.Box { dimensions = 0.2, 0.2, 0.1; mass = 1 kg; }",
                    "mass = 1 kg; inertia = 1e-3, 1e-3, 1e-3, 0, 0, 0; "

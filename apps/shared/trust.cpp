@@ -1,4 +1,6 @@
-#include "apps/shared/plugin_trust.h"
+#include "apps/shared/trust.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -6,7 +8,10 @@
 
 namespace hookpoint::application {
 
-PluginTrust::PluginTrust(bool all, const std::vector<std::filesystem::path>& folders) : all_(all) {
+Trust::Trust(TrustKind kind, bool all, const std::filesystem::path& installed)
+    : kind_(kind), all_(all) {
+  std::vector<std::filesystem::path> folders = folders_of(kind.variable);
+  if (!installed.empty()) folders.push_back(installed);
   for (const std::filesystem::path& folder : folders) {
     std::error_code error;
     std::filesystem::path real = std::filesystem::canonical(folder, error);
@@ -14,9 +19,9 @@ PluginTrust::PluginTrust(bool all, const std::vector<std::filesystem::path>& fol
   }
 }
 
-std::string PluginTrust::problem(const std::filesystem::path& library) const {
+std::string Trust::problem(const std::filesystem::path& file) const {
   std::error_code error;
-  const std::filesystem::path real = std::filesystem::canonical(library, error);
+  const std::filesystem::path real = std::filesystem::canonical(file, error);
   if (error) return "cannot be read: " + error.message();
   const bool trusted = std::ranges::any_of(folders_, [&real](const std::filesystem::path& folder) {
     // Part by part: /opt/plugins-of-others does not lie in /opt/plugins.
@@ -24,10 +29,10 @@ std::string PluginTrust::problem(const std::filesystem::path& library) const {
            folder.end();
   });
   if (all_ || trusted) return "";
-  return "is refused, since it would run with all of your rights: allow it with --allow-plugins, "
-         "or "
-         "put its folder `" +
-         real.parent_path().string() + "` into HOOKPOINT_TRUSTED_PLUGINS";
+  return fmt::format(
+      "is refused, since it would run with all of your rights: allow it with {}, or put its folder "
+      "`{}` into {}",
+      kind_.option, real.parent_path().string(), kind_.variable);
 }
 
 std::vector<std::filesystem::path> folders_of(const char* variable) {

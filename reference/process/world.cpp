@@ -1,0 +1,224 @@
+#include "reference/process/world.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "reference/external_forces.h"
+#include "reference/process/experiment_json.h"
+#include "reference/robot_tree.h"
+#include "reference/touching_points.h"
+
+namespace hookpoint::reference {
+namespace {
+
+using simulation::BodyState;
+using simulation::JointState;
+
+/// A contact in the last step.
+struct Contact {
+  std::size_t body = 0;
+  std::optional<std::size_t> point;  ///< index into touching_points(); none: of a shape
+  Vector3d position, force;
+};
+
+/// The numbers of an answer, one after the other.
+class Reader {
+ public:
+  explicit Reader(std::span<const double> numbers) : left_(numbers) {}
+
+  bool ended() const { return left_.empty(); }
+  double number() {
+    if (left_.empty()) throw ProgramError("the program's answer to a step ends too early");
+    const double value = left_.front();
+    left_ = left_.subspan(1);
+    return value;
+  }
+  Vector3d vector() {
+    const double x = number(), y = number(), z = number();
+    return {x, y, z};
+  }
+  Quaterniond orientation() {
+    const double w = number(), x = number(), y = number(), z = number();
+    return {w, x, y, z};
+  }
+  /// A whole number from `least` on, below `end`.
+  std::ptrdiff_t index(std::ptrdiff_t least, std::size_t end, const char* what) {
+    const double value = number();
+    if (!(value >= static_cast<double>(least) && value < static_cast<double>(end)) ||
+        value != std::floor(value))
+      throw ProgramError(fmt::format("the program's answer to a step has {} as {}", value, what));
+    return static_cast<std::ptrdiff_t>(value);
+  }
+
+ private:
+  std::span<const double> left_;
+};
+
+class ProgramWorld final : public PeerWorld {
+ public:
+  ProgramWorld(const simulation::Experiment& experiment, std::shared_ptr<ProgramPool> pool)
+      : pool_(std::move(pool)), program_(pool_->take()) {
+    const RobotTree tree = robot_tree(experiment);
+    forced_ = forced_bodies(experiment, tree);
+    const auto points = touching_points(experiment, tree);
+    joints_.resize(tree.joints);
+    for (const TreeBody& body : tree.bodies) {
+      const auto number = static_cast<std::size_t>(&body - tree.bodies.data());
+      Body& own = bodies_.emplace_back();
+      own.mobile = body.mobile;
+      own.state = body.initial;
+      if (body.mobile) own.shapes = touching_shapes(experiment, *body.body).size();
+      const auto is_own = [&](const TouchingPoint& point) { return point.body == number; };
+      const auto first = std::ranges::find_if(points, is_own);
+      own.first_point = static_cast<std::size_t>(first - points.begin());
+      own.colliders = own.shapes + static_cast<std::size_t>(std::ranges::count_if(points, is_own));
+      if (body.link != nullptr)
+        joints_[static_cast<std::size_t>(body.joint)] = {body.link->angle, body.link->rate};
+    }
+    const text::JsonValue answer = program_->ask(experiment_json(experiment));
+    const text::JsonValue* type = answer.member("type");
+    const text::JsonValue* reason = answer.member("reason");
+    take_words();
+    if (type != nullptr && type->text() == "ready") return;
+    const bool refused = type != nullptr && type->text() == "refused" && reason != nullptr;
+    if (refused) pool_->give_back(std::move(program_));
+    throw simulation::ExperimentError(
+        fmt::format("engine {}: {}", pool_->definition().name,
+                    refused ? one_line(reason->text())
+                            : "the program answers an experiment neither with ready nor with "
+                              "refused and a reason"));
+  }
+  ~ProgramWorld() override {
+    if (program_) pool_->give_back(std::move(program_));
+  }
+
+  std::string advance(const simulation::WorldInputs& inputs) override {
+    take(inputs);
+    try {
+      const auto answer = program_->step(numbers_);
+      if (const auto* failed = std::get_if<std::string>(&answer))
+        return "the program ends the run: " + *failed;
+      read_answer(std::get<std::vector<double>>(answer));
+      take_words();
+      return {};
+    } catch (const ProgramError& error) {
+      program_.reset();
+      return error.what();
+    }
+  }
+
+  std::string notice() override {
+    if (words_.empty()) return {};
+    std::string first = std::move(words_.front());
+    words_.erase(words_.begin());
+    return "engine " + pool_->definition().name + ": " + first;
+  }
+
+  void read(std::span<BodyState> bodies, std::span<JointState> joints) const override {
+    for (std::size_t i = 0; i < bodies_.size(); ++i)
+      if (bodies_[i].mobile) bodies[i] = bodies_[i].state;
+    for (std::size_t i = 0; i < joints_.size(); ++i) {
+      joints[i].angle = joints_[i].angle;
+      joints[i].rate = joints_[i].rate;
+    }
+  }
+
+  void read_points(std::span<Vector3d> forces) const override {
+    std::ranges::fill(forces, Vector3d{});
+    for (const Contact& contact : contacts_)
+      if (contact.point) forces[*contact.point] += contact.force;
+  }
+
+  void read_shapes(std::vector<ShapeForce>& forces) const override {
+    for (const Contact& contact : contacts_)
+      if (!contact.point) forces.push_back({contact.body, contact.position, contact.force});
+  }
+
+ private:
+  struct Body {
+    bool mobile = false;
+    BodyState state;
+    std::size_t shapes = 0, colliders = 0;  ///< shapes come first, then touching points
+    std::size_t first_point = 0;            ///< of touching_points()
+  };
+
+  void take(const simulation::WorldInputs& inputs) {
+    constexpr double steps = 1.;
+    numbers_.assign(1, steps);
+    numbers_.insert(numbers_.end(), inputs.joint_torques.begin(), inputs.joint_torques.end());
+    for_each_force(forced_, inputs, [&](std::size_t body, const simulation::ForceInput& input) {
+      const Vector3d &p = input.point, &f = input.force, &t = input.torque;
+      numbers_.insert(numbers_.end(),
+                      {static_cast<double>(body), p.x, p.y, p.z, f.x, f.y, f.z, t.x, t.y, t.z});
+    });
+  }
+
+  void read_answer(std::span<const double> numbers) {
+    Reader reader(numbers);
+    for (Body& body : bodies_) {
+      body.state.position = reader.vector();
+      body.state.orientation = reader.orientation();
+      body.state.velocity = reader.vector();
+      body.state.angular_velocity = reader.vector();
+      body.state.contact_force = {};
+      body.state.contacts = 0;
+      constexpr double rounding = 1e-3;  // of single precision, and of integration
+      const Quaterniond& q = body.state.orientation;
+      if (const double square = q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z;
+          std::isfinite(square) && std::abs(square - 1.) > rounding)
+        throw ProgramError(fmt::format(
+            "the program's answer to a step has an orientation of length {:g}", std::sqrt(square)));
+    }
+    for (JointState& joint : joints_) {
+      joint.angle = reader.number();
+      joint.rate = reader.number();
+    }
+    const auto count =
+        static_cast<std::size_t>(reader.index(0, numbers.size(), "the number of contacts"));
+    contacts_.resize(count);
+    for (Contact& contact : contacts_) {
+      contact.body =
+          static_cast<std::size_t>(reader.index(0, bodies_.size(), "the body of a contact"));
+      Body& body = bodies_[contact.body];
+      const std::ptrdiff_t collider = reader.index(-1, body.colliders, "the collider of a contact");
+      contact.point.reset();
+      if (collider >= static_cast<std::ptrdiff_t>(body.shapes))
+        contact.point = body.first_point + static_cast<std::size_t>(collider) - body.shapes;
+      contact.position = reader.vector();
+      contact.force = reader.vector();
+      reader.number();  // the depth, by the program's own measure
+      body.state.contact_force += contact.force;
+      if (norm(contact.force) > 0.) ++body.state.contacts;
+    }
+    if (!reader.ended())
+      throw ProgramError("the program's answer to a step has numbers that belong to nothing");
+  }
+
+  void take_words() {
+    constexpr std::size_t most = 100;
+    for (const std::string& line : program_->words())
+      if (!line.empty() && words_.size() < most) words_.push_back(one_line(line));
+  }
+
+  std::shared_ptr<ProgramPool> pool_;
+  std::unique_ptr<Program> program_;  ///< null once it has failed
+  std::vector<std::size_t> forced_;   ///< the body of each force
+  std::vector<Body> bodies_;
+  std::vector<JointState> joints_;
+  std::vector<Contact> contacts_;
+  std::vector<double> numbers_;
+  std::vector<std::string> words_;  ///< that were not said yet
+};
+
+}  // namespace
+
+std::unique_ptr<PeerWorld> make_program_world(const simulation::Experiment& experiment,
+                                              std::shared_ptr<ProgramPool> pool) {
+  return std::make_unique<ProgramWorld>(experiment, std::move(pool));
+}
+
+}  // namespace hookpoint::reference

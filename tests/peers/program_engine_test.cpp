@@ -1,0 +1,107 @@
+// The engines under Node that come with hookpoint (configs/engines), against ours, closed forms and
+// numbers that were measured without hookpoint.
+// ctest: long, released
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "apps/shared/application.h"
+#include "apps/shared/engine_block.h"
+#include "apps/shared/engine_check.h"
+#include "output/files/child.h"
+#include "reference/process/engine.h"
+#include "tests/support/folders.h"
+#include "tests/support/reference_robots.h"
+
+namespace hookpoint {
+namespace {
+
+using namespace reference_scenes;
+namespace fs = std::filesystem;
+
+const fs::path folder = fs::path(testing::source_folder()) / "configs/engines";
+
+/// Why the npm packages are not here; empty where they are.
+std::string missing_packages() {
+  static const std::string missing = [] {
+    const auto result = output::run_program(
+        "bash", {testing::source_folder() + "/scripts/npm_packages", folder.string()}, "/");
+    return result && result->status == 0 ? "" : result ? result->output : "there is no bash";
+  }();
+  return missing;
+}
+
+reference::ProgramDefinition definition(const std::string& file) {
+  auto engines = application::read_engines(
+      folder / file, {}, [](const std::string&) { return false; },
+      [](const language::Diagnostics& diagnostics) { EXPECT_EQ(diagnostics.error_count(), 0); });
+  return engines.at(0);
+}
+
+class ProgramEngineTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (const std::string why = missing_packages(); !why.empty()) GTEST_SKIP() << why;
+  }
+};
+
+TEST_F(ProgramEngineTest, PassesTheCheck) {
+  for (const char* file : {"mujoco.hook"})
+    for (const application::EngineFinding& finding : application::check_engine(definition(file)))
+      EXPECT_NE(finding.verdict, application::EngineFinding::Verdict::failed)
+          << file << ", " << finding.check << ": " << finding.text;
+}
+
+// The block of 1 kg on 15 deg, mu 0.8, 1 ms. The numbers are of MuJoCo 3.14 in a script of its own,
+// without hookpoint (docs/reference_engines.md): a pyramid creeps at ... and a cone at 1/impratio.
+TEST_F(ProgramEngineTest, MujocoCreepsAsItDoesByItself) {
+  const reference::ProgramEngine engine(definition("mujoco.hook"));
+  const struct {
+    const char* settings;
+    double creep;
+  } measured[] = {{"default", 1.095e-3},
+                  {"elliptic", 6.62e-4},
+                  {"elliptic_10", 6.62e-5},
+                  {"recommended", 6.62e-6},
+                  {"discrete", 1.07e-3}};
+  for (const auto& [settings, creep] : measured) {
+    const auto world = engine.make(sloped_block(15. * degree, 0., 0.8, 1e-3, settings));
+    EXPECT_NEAR(creep_speed(*world, slope_axes(15. * degree, 0.).downhill, 1e-3, 2., 3.), creep,
+                0.01 * creep)
+        << settings;
+  }
+  const auto still = engine.make(sloped_block(15. * degree, 0., 0.8, 1e-3, "noslip"));
+  EXPECT_LT(creep_speed(*still, slope_axes(15. * degree, 0.).downhill, 1e-3, 2., 3.), 1e-8);
+}
+
+TEST_F(ProgramEngineTest, MujocoIsSetUpAsTheLinkedOne) {
+  const reference::Peer& linked = reference::peer_named("mujoco");
+  if (!linked.found()) GTEST_SKIP() << "MuJoCo is not found";
+  const reference::ProgramEngine program(definition("mujoco.hook"));
+  for (const char* settings : {"default", "recommended", "matched"}) {
+    const auto experiment = sloped_block(15. * degree, 0.3, 0.8, 1e-3, settings);
+    const auto a = linked.make(experiment), b = program.make(experiment);
+    ASSERT_TRUE(run_until(*a, 1e-3, 0.2) && run_until(*b, 1e-3, 0.2)) << settings;
+    EXPECT_LT(norm(a->state().bodies[0].position - b->state().bodies[0].position), 2e-5)
+        << settings;
+    EXPECT_EQ(a->state().bodies[0].contacts, b->state().bodies[0].contacts) << settings;
+  }
+}
+
+TEST_F(ProgramEngineTest, RobotsWithChainsAccelerateAsOurs) {
+  const reference::ProgramEngine engine(definition("mujoco.hook"));
+  const auto make = [&](const simulation::Experiment& experiment) {
+    return engine.make(experiment);
+  };
+  for (const bool mobile : {true, false})
+    for (simulation::RobotSpec robot : skew_robots(mobile)) {
+      EXPECT_LT(acceleration_error(make, at_rest(robot)), 1e-8);
+      set_in_motion(robot);
+      simulation::Experiment experiment = robot_world(robot, 1e-3);
+      experiment.integrator = "explicit_euler";
+      EXPECT_LT(acceleration_error(make, experiment), 1e-8);
+    }
+}
+
+}  // namespace
+}  // namespace hookpoint
