@@ -14,10 +14,10 @@ std::vector<std::filesystem::path> config_files() {
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(
            std::filesystem::path(testing::source_folder()) / "configs")) {
-    // Studies have classes of their own, which their own tests know.
+    // Studies and engines have classes of their own, which their own tests know.
     const auto folder = entry.path().parent_path().filename();
-    const bool study = folder == "studies" || folder == "tunings";
-    if (entry.path().extension() == ".hook" && !study) files.push_back(entry.path());
+    const bool other = folder == "studies" || folder == "tunings" || folder == "engines";
+    if (entry.path().extension() == ".hook" && !other) files.push_back(entry.path());
   }
   std::ranges::sort(files);
   return files;
