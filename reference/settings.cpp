@@ -6,17 +6,20 @@
 namespace hookpoint::reference {
 
 const std::string& SettingRow::at(Settings settings) const {
-  switch (settings) {
-    case Settings::default_:
-      return default_;
-    case Settings::recommended:
-      return recommended;
-    case Settings::matched:
-      return matched;
-    case Settings::own:
-      break;
-  }
-  return own.empty() ? recommended : own;
+  const auto written = [&]() -> const std::string& {
+    switch (settings) {
+      case Settings::default_:
+        return default_;
+      case Settings::recommended:
+        return recommended;
+      case Settings::matched:
+        return matched;
+      case Settings::own:
+        break;
+    }
+    return own.empty() ? recommended : own;
+  };
+  return written() == same_as_default ? default_ : written();
 }
 
 std::string setting_text(double value) {

@@ -23,6 +23,9 @@ struct OwnSetting {
   std::string_view doc;   ///< what it is, for the manual
 };
 
+/// In place of a value that is the default's.
+inline constexpr std::string_view same_as_default = "same";
+
 /// One line of the table that a report prints beside a peer's results.
 struct SettingRow {
   std::string quantity;     ///< name and unit
@@ -32,6 +35,7 @@ struct SettingRow {
   std::string source;       ///< where the values come from
   std::string own{};        ///< value at the engine's own setting; empty: as recommended
 
+  /// The value itself, also where the row has same_as_default.
   const std::string& at(Settings settings) const;
 };
 

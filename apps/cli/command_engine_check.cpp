@@ -17,7 +17,7 @@ int engine_check(const std::vector<std::string>& command) {
                                                    .settings = {},
                                                    .files = {},
                                                    .install = "",
-                                                   .consent = ""});
+                                                   .refusal = ""});
   for (const application::EngineFinding& finding : findings)
     fmt::print("{:<22} {:<14} {}\n", finding.check,
                finding.verdict == Verdict::passed   ? "passed"

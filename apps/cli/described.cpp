@@ -90,8 +90,7 @@ void add_engine_settings(std::vector<Entry>& entries) {
       const auto setting = reference::settings_named(name, peer);
       if (!setting || peer.settings_table == nullptr) continue;
       for (const reference::SettingRow& row : peer.settings_table())
-        text += fmt::format("    {}: {}\n", row.quantity,
-                            row.at(*setting) == "same" ? row.default_ : row.at(*setting));
+        text += fmt::format("    {}: {}\n", row.quantity, row.at(*setting));
     }
   }
   for (auto& [name, text] : texts) entries.push_back({name, std::move(text)});

@@ -1,9 +1,6 @@
 #include "apps/cli/headless_browser.h"
 
-#include <unistd.h>
-
 #include <cstdlib>
-#include <sstream>
 #include <system_error>
 #include <vector>
 
@@ -11,11 +8,6 @@
 
 namespace hookpoint::cli {
 namespace {
-
-bool can_be_run(const std::filesystem::path& file) {
-  std::error_code ignored;
-  return std::filesystem::is_regular_file(file, ignored) && ::access(file.c_str(), X_OK) == 0;
-}
 
 /// A page that only leads to `url`. The folder that it lies in is its owner's alone.
 std::filesystem::path write_opener(const std::filesystem::path& folder, const std::string& url) {
@@ -65,20 +57,14 @@ constexpr std::size_t most_said = 2000;
 
 std::filesystem::path find_headless_browser() {
   if (const char* chosen = std::getenv("HOOKPOINT_BROWSER"); chosen != nullptr && *chosen != '\0') {
-    if (can_be_run(chosen)) return std::filesystem::absolute(chosen);
+    const std::filesystem::path program = std::filesystem::absolute(chosen);
+    if (!output::program_on_path(program).empty()) return program;
     throw BrowserMissing(std::string("HOOKPOINT_BROWSER names `") + chosen +
                          "`, which is no program that can be run");
   }
-  const char* path = std::getenv("PATH");
-  const std::string places = path == nullptr ? "/usr/local/bin:/usr/bin:/bin" : path;
-  for (const char* name :
-       {"chromium", "chromium-browser", "google-chrome", "google-chrome-stable"}) {
-    std::istringstream folders(places);
-    for (std::string folder; std::getline(folders, folder, ':');) {
-      const std::filesystem::path candidate = std::filesystem::path(folder) / name;
-      if (candidate.is_absolute() && can_be_run(candidate)) return candidate;
-    }
-  }
+  for (const char* name : {"chromium", "chromium-browser", "google-chrome", "google-chrome-stable"})
+    if (std::filesystem::path program = output::program_on_path(name); !program.empty())
+      return program;
   throw BrowserMissing(
       "this needs a Chromium to draw with, and PATH has none: install the package chromium "
       "(Debian: "

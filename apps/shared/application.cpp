@@ -94,7 +94,7 @@ bool Application::add_engines(const std::filesystem::path& file) {
       });
   for (reference::ProgramDefinition definition : engines) {
     if (const std::string problem = engine_trust_.problem(file); !problem.empty())
-      definition.consent = "it is a program, which " + problem;
+      definition.refusal = "it is a program, which " + problem;
     peers_.engines.push_back(definition.name);
     for (const std::string& name : definition.settings)
       if (!peers_.knows_setting(name))

@@ -68,6 +68,8 @@ std::vector<ProgramDefinition> read_engines(
                       "not belong beside it");
   } else if (const auto root = library.evaluate(file, {}, diagnostics)) {
     for (const language::Object* object : root->children_of(engine_class_name)) {
+      // Blocks of included files belong to those files.
+      if (!std::filesystem::equivalent(object->position.file->path, file)) continue;
       ProgramDefinition engine = load_fields(*object, engine_fields());
       engine.name = object->name;
       engine.folder =

@@ -17,7 +17,7 @@ inline constexpr const char* engine_class_name = "Engine";
 
 void add_engine_class(language::Schema& schema);
 
-/// Of a file of Engine blocks and its Includes, without consent to any. Errors go to `tell` and leave
+/// The Engine blocks of a file, not of its Includes, without consent to any. Errors go to `tell` and leave
 /// nothing. `known` says whether there is an engine of that name already, which is an error.
 std::vector<reference::ProgramDefinition> read_engines(
     const std::filesystem::path& file, const std::vector<std::filesystem::path>& search_path,

@@ -180,7 +180,7 @@ class EngineCheck {
   Outcome errors() {
     Experiment experiment = world(ball({0., 0., 1.}));
     experiment.settings = "of no engine";
-    const text::JsonValue answer = program_.ask(reference::experiment_json(experiment));
+    const text::JsonValue answer = program_.request(reference::experiment_json(experiment));
     const text::JsonValue* type = answer.member("type");
     const text::JsonValue* reason = answer.member("reason");
     const bool refused = type != nullptr && type->text() == "refused" && reason != nullptr &&
@@ -312,7 +312,7 @@ class EngineCheck {
 
   /// All states of a run.
   std::vector<double> states(const std::string& start, int exchanges, int steps_each) {
-    const text::JsonValue ready = program_.ask(start);
+    const text::JsonValue ready = program_.request(start);
     const text::JsonValue* type = ready.member("type");
     if (type == nullptr || type->text() != "ready")
       throw reference::ProgramError("the program does not answer ready");

@@ -32,7 +32,6 @@ const hello = {
     gap("static friction that differs from kinetic", "noticed", "this engine has one coefficient of friction, and it is the kinetic one"),
     gap("restitution", "noticed", "MuJoCo has no coefficient of restitution: how a body rebounds follows from solref"),
     gap("height fields", "refused", "choose engine mujoco, which has them"),
-    gap("the shape Legcone", "noticed", "its samples touch, as under touch = points"),
   ],
 };
 

@@ -51,7 +51,7 @@ struct Ends {
 bool read_on(int descriptor, std::string& text) {
   std::array<char, 65536> buffer;
   while (true) {
-    const ssize_t count = read(descriptor, buffer.data(), buffer.size());
+    const ssize_t count = ::read(descriptor, buffer.data(), buffer.size());
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) return count < 0;
     text.append(buffer.data(), static_cast<std::size_t>(count));
@@ -88,7 +88,7 @@ ChildProgram::ChildProgram(const std::filesystem::path& program,
     sigemptyset(&none);
     sigprocmask(SIG_SETMASK, &none, nullptr);
     for (const int number : {SIGPIPE, SIGINT, SIGTERM, SIGHUP, SIGXFSZ}) signal(number, SIG_DFL);
-    dup2(options.hears ? input.ends[1] : open("/dev/null", O_RDONLY), STDIN_FILENO);
+    dup2(options.takes_input ? input.ends[1] : open("/dev/null", O_RDONLY), STDIN_FILENO);
     dup2(output.ends[1], STDOUT_FILENO);
     dup2(errors.ends[1], STDERR_FILENO);
     if (!options.folder.empty() && chdir(options.folder.c_str()) != 0) _exit(127);
@@ -164,11 +164,11 @@ std::vector<std::string> ChildProgram::take_error_lines() {
   return lines;
 }
 
-bool ChildProgram::wait(bool to_say, Clock::time_point until) {
+bool ChildProgram::wait(bool to_write, Clock::time_point until) {
   // What it writes is taken meanwhile: a pipe that is full would hold it up.
   std::array<pollfd, 3> ends{{{output_closed_ ? -1 : output_, POLLIN, 0},
                               {errors_closed_ ? -1 : errors_, POLLIN, 0},
-                              {to_say ? input_ : -1, POLLOUT, 0}}};
+                              {to_write ? input_ : -1, POLLOUT, 0}}};
   const int ready = poll(ends.data(), ends.size(), left_until(until));
   if (ready == 0 && Clock::now() >= until) return false;
   if (ready <= 0) return true;
@@ -177,29 +177,29 @@ bool ChildProgram::wait(bool to_say, Clock::time_point until) {
   return true;
 }
 
-ChildProgram::Talk ChildProgram::say(std::string_view bytes, Clock::time_point until) {
+ChildProgram::Transfer ChildProgram::write(std::string_view bytes, Clock::time_point until) {
   while (!bytes.empty()) {
     const ssize_t count = send(input_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
     if (count > 0) {
       bytes.remove_prefix(static_cast<std::size_t>(count));
     } else if (count < 0 && errno != EAGAIN && errno != EINTR) {
-      return Talk::closed;
+      return Transfer::closed;
     } else if (!wait(true, until)) {
-      return Talk::late;
+      return Transfer::late;
     }
   }
-  return Talk::done;
+  return Transfer::done;
 }
 
-ChildProgram::Talk ChildProgram::hear(std::size_t count, std::string& bytes,
-                                      Clock::time_point until) {
+ChildProgram::Transfer ChildProgram::read(std::size_t count, std::string& bytes,
+                                          Clock::time_point until) {
   while (unread_.size() < count) {
-    if (output_closed_) return Talk::closed;
-    if (!wait(false, until)) return Talk::late;
+    if (output_closed_) return Transfer::closed;
+    if (!wait(false, until)) return Transfer::late;
   }
   bytes.assign(unread_, 0, count);
   unread_.erase(0, count);
-  return Talk::done;
+  return Transfer::done;
 }
 
 std::filesystem::path program_on_path(const std::string& name) {

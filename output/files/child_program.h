@@ -1,5 +1,5 @@
-// Another program beside this one, which it talks to and which ends with it. run_program (child.h)
-// is for those that are waited for.
+// A program that runs beside this one, with pipes to its standard streams. run_program (child.h) runs a
+// program and waits for its end.
 #pragma once
 
 #include <sys/types.h>
@@ -17,9 +17,9 @@ class ChildProgram {
  public:
   using Clock = std::chrono::steady_clock;
   struct Options {
-    std::filesystem::path folder{};  ///< it runs there; empty: here
-    bool hears = false;              ///< it has something to read (say); else /dev/null
-    bool ends_with_thread = true;    ///< it is ended when the thread that started it ends
+    std::filesystem::path folder{};  ///< working folder; empty: that of this process
+    bool takes_input = false;        ///< standard input is a pipe (write()); else /dev/null
+    bool ends_with_thread = true;    ///< SIGTERM when the thread that started it ends
   };
 
   /// Starts it without a shell, in a process group of its own. Throws std::system_error.
@@ -27,46 +27,44 @@ class ChildProgram {
       : ChildProgram(program, arguments, Options{}) {}
   ChildProgram(const std::filesystem::path& program, const std::vector<std::string>& arguments,
                const Options& options);
-  /// Ends it and what it has started: asks, and after a moment insists.
+  /// Ends it and what it has started: SIGTERM, and after two seconds SIGKILL.
   ~ChildProgram();
   ChildProgram(const ChildProgram&) = delete;
   ChildProgram& operator=(const ChildProgram&) = delete;
 
   bool running();
-  /// How it ended, which it has: "exit status 3", "signal 9".
+  /// How a program that has ended did so: "exit status 3", "signal 9".
   std::string end() const;
-  /// Ends it at once.
+  /// Ends it and what it has started at once (SIGKILL).
   void kill();
 
   /// The next whole line of its standard output; none while there is none.
   std::optional<std::string> take_line();
-  /// What it has written to standard error, the last of it.
+  /// The last 8 KiB of its standard error.
   const std::string& errors();
-  /// The whole lines of that which were not taken yet, the first of them where they are many.
+  /// Whole lines of its standard error since the last call; of more than 64 KiB the first.
   std::vector<std::string> take_error_lines();
 
-  /// How a talk went.
-  enum class Talk {
+  enum class Transfer {
     done,
-    late,   ///< not until the deadline
-    closed  ///< it does not read, or write, any more
+    late,   ///< the deadline passed
+    closed  ///< the program has closed its end
   };
-  /// Hands it all of `bytes` to read.
-  Talk say(std::string_view bytes, Clock::time_point until);
-  /// Takes exactly `count` bytes of its standard output, in the place of `bytes`.
-  Talk hear(std::size_t count, std::string& bytes, Clock::time_point until);
+  /// Writes all of `bytes` to its standard input, until the deadline `until` at most.
+  Transfer write(std::string_view bytes, Clock::time_point until);
+  /// Reads exactly `count` bytes of its standard output into `bytes`.
+  Transfer read(std::size_t count, std::string& bytes, Clock::time_point until);
 
  private:
-  /// Waits until it takes or gives something, and takes what it gives; false at the deadline.
-  bool wait(bool to_say, Clock::time_point until);
+  /// Waits until a stream is ready, and reads what is there; false at the deadline.
+  bool wait(bool to_write, Clock::time_point until);
+  void read_errors();
 
   pid_t process_ = -1;
   bool ended_ = false;
   int status_ = 0;                              ///< of waitpid
   int input_ = -1, output_ = -1, errors_ = -1;  ///< ends of a socket and of pipes
   bool output_closed_ = false, errors_closed_ = false;
-  void read_errors();
-
   std::string unread_, error_text_, error_lines_;
 };
 

@@ -10,12 +10,12 @@ namespace hookpoint::reference {
 struct ProgramDefinition {
   std::string name;                   ///< as in `engine = rapier`
   std::vector<std::string> command;   ///< the program and its arguments
-  std::filesystem::path folder;       ///< in which it runs, that of the file which has the block
+  std::filesystem::path folder;       ///< working folder: that of the file with the block
   std::vector<std::string> settings;  ///< names that `settings =` accepts
-  std::vector<std::string> files;     ///< in that folder, which decide its numbers too
+  std::vector<std::string> files;     ///< in `folder`, beside the command's: part of a run's hash
   std::string install;                ///< what to do where the program does not start
   double deadline = 60.;              ///< for each answer [s]
-  std::string consent;                ///< why it may not be started; empty: it may
+  std::string refusal;                ///< why it may not be started; empty: it may
 };
 
 }  // namespace hookpoint::reference

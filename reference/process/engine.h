@@ -15,10 +15,10 @@ class ProgramEngine {
  public:
   explicit ProgramEngine(ProgramDefinition definition);
 
-  /// As the program says it, which is started for that once. One that may not be started, or does
-  /// not start, is not found, and `missing` says why.
+  /// From the program's hello message; the first call starts the program (50-300 ms), later ones copy.
+  /// Where it may not or does not start, `found` is false and `missing` the reason.
   simulation::EngineDescription describe() const;
-  /// Throws simulation::ExperimentError with what the program, or the protocol, lacks.
+  /// Throws simulation::ExperimentError where the program or the protocol cannot run the experiment.
   std::unique_ptr<simulation::Engine> make(const simulation::Experiment& experiment) const;
   const ProgramDefinition& definition() const;
 

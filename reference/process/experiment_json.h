@@ -7,7 +7,8 @@
 
 namespace hookpoint::reference {
 
-/// O(experiment). Nothing in it is what the protocol has no word for (protocol_gaps, engine.h).
+/// The `experiment` message as JSON text, SI units. `experiment` uses no feature of protocol_gaps
+/// (pool.cpp). Linear in its size.
 std::string experiment_json(const simulation::Experiment& experiment);
 
 }  // namespace hookpoint::reference

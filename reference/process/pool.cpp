@@ -14,13 +14,15 @@ namespace {
 using simulation::EngineGap;
 using enum EngineGap::Handling;
 
-/// What protocol 1 has no word for.
+/// Features that protocol 1 cannot express.
 constexpr auto protocol_gaps = std::to_array<OwnGap>({
     {feature::loops, refused, "the protocol of programs has no loops; choose engine dts"},
     {feature::couplings, refused, "the protocol of programs has no mimic; choose engine dts"},
     {feature::belt, refused, "the protocol of programs has no belts; choose engine dts"},
     {feature::moving_obstacles, refused,
      "obstacles stand still in the protocol of programs; choose engine dts"},
+    {feature::legcone, noticed,
+     "the protocol of programs has no cone: its samples touch, as under touch = points"},
     {feature::tile_friction, refused, "use one material"},
     {feature::tile_softness, refused, "use one material"},
     {feature::tile_restitution, refused, "use one material"},
@@ -34,7 +36,7 @@ std::vector<EngineGap> gaps_and(const std::vector<EngineGap>& own) {
   return common_gaps_and(std::move(gaps));
 }
 
-/// Of the words of its command that are files, and of the files that its block names.
+/// Hash of the command line, of the files among its words, and of the files that the block names.
 std::string hash_of_files(const ProgramDefinition& definition) {
   std::set<std::filesystem::path> files;
   for (const std::vector<std::string>& words : {definition.command, definition.files})
@@ -44,6 +46,7 @@ std::string hash_of_files(const ProgramDefinition& definition) {
       if (std::filesystem::is_regular_file(file, ignored)) files.insert(file);
     }
   output::Hash hash;
+  for (const std::string& word : definition.command) hash.add(word);
   for (const std::filesystem::path& file : files) hash.add(output::hash_of_file(file));
   return hash.text();
 }
@@ -55,22 +58,22 @@ simulation::EngineDescription ProgramPool::describe() {
     const std::lock_guard lock(mutex_);
     if (description_) return *description_;
   }
-  simulation::EngineDescription description = ask();
+  simulation::EngineDescription description = describe_by_hello();
   const std::lock_guard lock(mutex_);
   if (!description_) description_ = std::move(description);
   return *description_;
 }
 
-simulation::EngineDescription ProgramPool::ask() {
+simulation::EngineDescription ProgramPool::describe_by_hello() {
   simulation::EngineDescription description{.name = definition_.name,
                                             .version = "",
                                             .precision = "",
                                             .found = false,
                                             .settings = definition_.settings,
                                             .gaps = gaps_and({}),
-                                            .missing = definition_.consent,
+                                            .missing = definition_.refusal,
                                             .program = ""};
-  if (!definition_.consent.empty()) return description;
+  if (!definition_.refusal.empty()) return description;
   try {
     auto program = take();
     const Hello hello = program->hello();
@@ -92,9 +95,9 @@ simulation::EngineDescription ProgramPool::ask() {
 std::unique_ptr<Program> ProgramPool::take() {
   {
     const std::lock_guard lock(mutex_);
-    if (!waiting_.empty()) {
-      auto program = std::move(waiting_.back());
-      waiting_.pop_back();
+    if (!idle_.empty()) {
+      auto program = std::move(idle_.back());
+      idle_.pop_back();
       return program;
     }
   }
@@ -103,7 +106,7 @@ std::unique_ptr<Program> ProgramPool::take() {
 
 void ProgramPool::give_back(std::unique_ptr<Program> program) {
   const std::lock_guard lock(mutex_);
-  waiting_.push_back(std::move(program));
+  idle_.push_back(std::move(program));
 }
 
 }  // namespace hookpoint::reference

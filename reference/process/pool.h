@@ -1,4 +1,4 @@
-// The processes of one engine that is a program: those which have no run at the moment wait here.
+// The processes of one engine that is a program, reused from run to run.
 #pragma once
 
 #include <memory>
@@ -16,17 +16,17 @@ class ProgramPool {
 
   const ProgramDefinition& definition() const { return definition_; }
   simulation::EngineDescription describe();
-  /// One that waits, or a new one. Throws ProgramError.
+  /// An idle process, or a new one. Throws ProgramError.
   std::unique_ptr<Program> take();
-  /// Of a run that has ended without a fault of the program's.
+  /// Returns a process whose run has ended without an error of the program's.
   void give_back(std::unique_ptr<Program> program);
 
  private:
-  simulation::EngineDescription ask();
+  simulation::EngineDescription describe_by_hello();
 
   const ProgramDefinition definition_;
   std::mutex mutex_;
-  std::vector<std::unique_ptr<Program>> waiting_;
+  std::vector<std::unique_ptr<Program>> idle_;
   std::optional<simulation::EngineDescription> description_;
 };
 

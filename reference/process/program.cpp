@@ -20,7 +20,7 @@ namespace {
 using output::ChildProgram;
 using simulation::EngineGap;
 using text::JsonValue;
-using Talk = ChildProgram::Talk;
+using Transfer = ChildProgram::Transfer;
 
 static_assert(std::endian::native == std::endian::little, "the protocol's numbers are");
 
@@ -101,7 +101,7 @@ std::unique_ptr<ChildProgram> start(const ProgramDefinition& definition) {
     return std::make_unique<ChildProgram>(
         program, std::vector<std::string>(definition.command.begin() + 1, definition.command.end()),
         ChildProgram::Options{
-            .folder = definition.folder, .hears = true, .ends_with_thread = false});
+            .folder = definition.folder, .takes_input = true, .ends_with_thread = false});
   } catch (const std::system_error& error) {
     throw ProgramError(error.what());
   }
@@ -118,7 +118,7 @@ Program::Program(const ProgramDefinition& definition)
     : definition_(definition), child_(start(definition)) {
   constexpr int protocol = 1;
   try {
-    hello_ = hello_of(ask(hello_text(protocol)), protocol);
+    hello_ = hello_of(request(hello_text(protocol)), protocol);
   } catch (const ProgramError& error) {
     if (definition.install.empty()) throw;
     throw ProgramError(std::string(error.what()) + "; " + definition.install);
@@ -129,7 +129,7 @@ Program::Program(const ProgramDefinition& definition)
                          "`, which the program does not know");
 }
 
-JsonValue Program::ask(const std::string& json) {
+JsonValue Program::request(const std::string& json) {
   send(json_kind, json);
   return json_of(receive());
 }
@@ -141,12 +141,11 @@ std::variant<std::vector<double>, std::string> Program::step(std::span<const dou
   if (frame.kind == json_kind) {
     const JsonValue json = json_of(frame);
     if (member_text(json, "type") != "failed")
-      give_up("answers a step with `" + one_line(member_text(json, "type")) + "`");
+      fail("answers a step with `" + one_line(member_text(json, "type")) + "`");
     return one_line(member_text(json, "reason"));
   }
   if (frame.payload.size() % sizeof(double) != 0)
-    give_up(
-        fmt::format("answers a step with {} bytes, which are no doubles", frame.payload.size()));
+    fail(fmt::format("answers a step with {} bytes, which are no doubles", frame.payload.size()));
   std::vector<double> states(frame.payload.size() / sizeof(double));
   std::memcpy(states.data(), frame.payload.data(), frame.payload.size());
   return states;
@@ -160,54 +159,52 @@ void Program::send(char kind, std::string_view payload) {
   std::string frame(sizeof length, '\0');
   std::memcpy(frame.data(), &length, sizeof length);
   frame.append(1, kind).append(payload);
-  const Talk talk = child_->say(frame, until_);
-  if (talk == Talk::late)
-    give_up(fmt::format("has not read its input for {:g} s", definition_.deadline));
+  if (child_->write(frame, until_) == Transfer::late)
+    fail(fmt::format("has not read its input for {:g} s", definition_.deadline));
   // What it wrote before it ended is still there: receive() tells how it ended.
 }
 
-std::string Program::hear(std::size_t count) {
+std::string Program::read(std::size_t count) {
   std::string bytes;
-  switch (child_->hear(count, bytes, until_)) {
-    case Talk::done:
+  switch (child_->read(count, bytes, until_)) {
+    case Transfer::done:
       return bytes;
-    case Talk::late:
-      give_up(fmt::format("has not answered for {:g} s", definition_.deadline));
-    case Talk::closed:
+    case Transfer::late:
+      fail(fmt::format("has not answered for {:g} s", definition_.deadline));
+    case Transfer::closed:
       break;
   }
   // It has closed its output, so it is about to end.
   for (const auto until = ChildProgram::Clock::now() + std::chrono::seconds(2);
        child_->running() && ChildProgram::Clock::now() < until;)
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  give_up(child_->running() ? "has closed its standard output"
-                            : "has ended (" + child_->end() + ")");
+  fail(child_->running() ? "has closed its standard output" : "has ended (" + child_->end() + ")");
 }
 
 Program::Frame Program::receive() {
-  const std::string head = hear(head_size);
+  const std::string head = read(head_size);
   std::uint32_t length = 0;
   std::memcpy(&length, head.data(), sizeof length);
   const char kind = head.back();
   if (kind != json_kind && kind != doubles_kind)
-    give_up("answers with what is no frame: does it print to its standard output?");
-  if (length > most_bytes) give_up(fmt::format("answers with a frame of {} bytes", length));
-  return {kind, hear(length)};
+    fail("answers with what is no frame: does it print to its standard output?");
+  if (length > most_bytes) fail(fmt::format("answers with a frame of {} bytes", length));
+  return {kind, read(length)};
 }
 
 JsonValue Program::json_of(const Frame& frame) {
   auto json = text::read_json(frame.payload);
   if (frame.kind != json_kind || !json || !json->is_object())
-    give_up("answers with what is no JSON object");
+    fail("answers with what is no JSON object");
   return *std::move(json);
 }
 
-void Program::give_up(const std::string& trouble) {
+void Program::fail(const std::string& problem) {
   child_->kill();
   std::string last = child_->errors();
   while (!last.empty() && last.back() == '\n') last.pop_back();
   last.erase(0, last.rfind('\n') + 1);
-  throw ProgramError("the program " + trouble +
+  throw ProgramError("the program " + problem +
                      (last.empty() ? "" : "; its last words: " + one_line(last)));
 }
 

@@ -15,8 +15,8 @@
 
 namespace hookpoint::reference {
 
-/// A program does not speak the protocol, is late, or has ended; the message says which, with its
-/// last words.
+/// The program does not follow the protocol, missed its deadline, or has ended. The message says which,
+/// with the last line of its standard error.
 struct ProgramError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -31,16 +31,17 @@ struct Hello {
 
 class Program {
  public:
-  /// Starts it and says hello. Throws ProgramError.
+  /// Starts it and exchanges the hello messages. Throws ProgramError.
   explicit Program(const ProgramDefinition& definition);
 
   const Hello& hello() const { return hello_; }
-  /// Hands it a JSON object, and takes one. Throws ProgramError.
-  text::JsonValue ask(const std::string& json);
-  /// Hands it a step, and takes its states, or what it says of a failure. Throws ProgramError.
+  /// Sends a JSON object and returns the JSON object of the answer. Throws ProgramError.
+  text::JsonValue request(const std::string& json);
+  /// Sends a `step` message and returns the states, or the reason of a `failed` message. Throws
+  /// ProgramError.
   std::variant<std::vector<double>, std::string> step(std::span<const double> inputs);
-  /// What it has written to standard error since the last call, line by line.
-  std::vector<std::string> words() { return child_->take_error_lines(); }
+  /// Lines of its standard error since the last call.
+  std::vector<std::string> take_error_lines() { return child_->take_error_lines(); }
 
  private:
   struct Frame {
@@ -50,9 +51,9 @@ class Program {
   void send(char kind, std::string_view payload);
   Frame receive();
   text::JsonValue json_of(const Frame& frame);
-  std::string hear(std::size_t count);
-  /// Throws ProgramError of `trouble`.
-  [[noreturn]] void give_up(const std::string& trouble);
+  std::string read(std::size_t count);
+  /// Ends the program and throws ProgramError.
+  [[noreturn]] void fail(const std::string& problem);
 
   ProgramDefinition definition_;
   std::unique_ptr<output::ChildProgram> child_;
@@ -60,7 +61,7 @@ class Program {
   Hello hello_;
 };
 
-/// A line of text from a program, for a message: without control characters, at most 200 bytes.
+/// A program's text for a message: one line of at most 200 bytes, without control characters.
 std::string one_line(const std::string& text);
 
 }  // namespace hookpoint::reference

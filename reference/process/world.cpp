@@ -25,7 +25,7 @@ struct Contact {
   Vector3d position, force;
 };
 
-/// The numbers of an answer, one after the other.
+/// Reads the numbers of a `states` message in order.
 class Reader {
  public:
   explicit Reader(std::span<const double> numbers) : left_(numbers) {}
@@ -79,10 +79,10 @@ class ProgramWorld final : public PeerWorld {
       if (body.link != nullptr)
         joints_[static_cast<std::size_t>(body.joint)] = {body.link->angle, body.link->rate};
     }
-    const text::JsonValue answer = program_->ask(experiment_json(experiment));
+    const text::JsonValue answer = program_->request(experiment_json(experiment));
     const text::JsonValue* type = answer.member("type");
     const text::JsonValue* reason = answer.member("reason");
-    take_words();
+    collect_notices();
     if (type != nullptr && type->text() == "ready") return;
     const bool refused = type != nullptr && type->text() == "refused" && reason != nullptr;
     if (refused) pool_->give_back(std::move(program_));
@@ -103,7 +103,7 @@ class ProgramWorld final : public PeerWorld {
       if (const auto* failed = std::get_if<std::string>(&answer))
         return "the program ends the run: " + *failed;
       read_answer(std::get<std::vector<double>>(answer));
-      take_words();
+      collect_notices();
       return {};
     } catch (const ProgramError& error) {
       program_.reset();
@@ -112,9 +112,9 @@ class ProgramWorld final : public PeerWorld {
   }
 
   std::string notice() override {
-    if (words_.empty()) return {};
-    std::string first = std::move(words_.front());
-    words_.erase(words_.begin());
+    if (notices_.empty()) return {};
+    std::string first = std::move(notices_.front());
+    notices_.erase(notices_.begin());
     return "engine " + pool_->definition().name + ": " + first;
   }
 
@@ -198,10 +198,10 @@ class ProgramWorld final : public PeerWorld {
       throw ProgramError("the program's answer to a step has numbers that belong to nothing");
   }
 
-  void take_words() {
+  void collect_notices() {
     constexpr std::size_t most = 100;
-    for (const std::string& line : program_->words())
-      if (!line.empty() && words_.size() < most) words_.push_back(one_line(line));
+    for (const std::string& line : program_->take_error_lines())
+      if (!line.empty() && notices_.size() < most) notices_.push_back(one_line(line));
   }
 
   std::shared_ptr<ProgramPool> pool_;
@@ -211,7 +211,7 @@ class ProgramWorld final : public PeerWorld {
   std::vector<JointState> joints_;
   std::vector<Contact> contacts_;
   std::vector<double> numbers_;
-  std::vector<std::string> words_;  ///< that were not said yet
+  std::vector<std::string> notices_;  ///< not reported yet
 };
 
 }  // namespace

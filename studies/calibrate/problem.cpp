@@ -253,6 +253,7 @@ class SubjectMaker {
       subject.refusal = "engine " + subject.info.engine + " is not on this machine";
     choose_constants(subject, plan_.varied);
     subject.runs_hash = runs_hash(subject, own);
+    plan_.runs.compositions.push_back(subject.info);
     plan_.subjects.push_back(std::move(subject));
   }
 

@@ -41,8 +41,9 @@ Provenance make_provenance(const StudyPlan& plan, const EngineTable& engines) {
   provenance.inputs = plan.inputs;
   for (const auto& [name, entry] : engines) {
     // A program is not started for a study that has nothing to do with it.
-    const bool runs =
-        std::ranges::find(plan.compositions, name, &SubjectInfo::engine) != plan.compositions.end();
+    const auto is_of = [&](const SubjectInfo& info) { return info.engine == name; };
+    const bool runs = std::ranges::any_of(plan.compositions, is_of) ||
+                      std::ranges::any_of(plan.subjects, is_of, &SubjectPlan::info);
     if (runs || !entry.is_program) provenance.engines.emplace_back(name, entry.describe());
   }
   provenance.seeds.assign(plan.seeds.begin(), plan.seeds.end());

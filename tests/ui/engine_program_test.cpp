@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "tests/support/command.h"
 #include "tests/support/folders.h"
@@ -211,6 +212,34 @@ TEST_F(EngineProgram, AnEngineStandsInAFileOfItsOwn) {
       << twice.err;
 }
 
+TEST_F(EngineProgram, AFileOfEnginesMayIncludeAnother) {
+  place.file("more.hook", block("second", "honest"));
+  place.file("engines.hook", "Include \"more.hook\";\n" + block("mine", "honest"));
+  place.file("run.hook", ball_on_slope);
+  for (const std::string engine : {"mine", "second"})
+    EXPECT_EQ(place.hookpoint("run run.hook --for 5ms --allow-engines --engine " + engine).status,
+              0)
+        << engine;
+}
+
+// Other arguments are another engine: what was stored of the one is not taken for the other's.
+TEST_F(EngineProgram, ACommandLineIsPartOfARunsIdentity) {
+  place.file("run.hook", ball_on_slope);
+  place.file("study.hook", R"(Include "engines.hook";
+Study creep {
+  scene = "run.hook"; settle = 0.1 s; duration = 0.2 s;
+  Subject mine { engine = mine; }
+  Measure creep_speed;
+}
+)");
+  const std::string command = "study study.hook --out out --allow-engines --resume";
+  place.file("engines.hook", block("mine", "honest"));
+  ASSERT_EQ(place.hookpoint(command).status, 0);
+  EXPECT_FALSE(has(place.hookpoint(command).err, "again")) << "nothing changed";
+  place.file("engines.hook", block("mine", "honest 7"));
+  EXPECT_TRUE(has(place.hookpoint(command).err, "it is run again"));
+}
+
 TEST_F(EngineProgram, AFolderOfEnginesBesideTheFileIsFound) {
   fs::create_directory(place.folder() / "engines");
   place.file("engines/mine.hook", block("mine", "honest"));
@@ -235,6 +264,34 @@ TEST_F(EngineProgram, TheManualsTranscriptIsOfThisProgram) {
   EXPECT_TRUE(has(manual, "```\n" + transcript + "```\n"))
       << "docs/engine_protocol.md does not have this transcript:\n"
       << transcript;
+}
+
+// Scenes with all that the protocol has: chains, every shape, planes, triangles, stairs, obstacles.
+TEST_F(EngineProgram, MessagesFitTheirJsonSchemas) {
+  fs::create_directory(place.folder() / "engines");
+  place.file("engines/any.hook", "Engine any { command = \"python3\", \"" +
+                                     (engines / "transcript.py").string() + "\", \"" + here() +
+                                     "/transcript\", \"any\"; }\n");
+  std::string capsule = ball_on_slope;
+  capsule.replace(capsule.find("Shape.Sphere"), 12,
+                  "Shape.Capsule { radius = 0.1; length = 0.2; } Shape.Sphere");
+  std::vector<std::string> scenes{capsule.substr(capsule.find("Param"))};
+  for (const char* scene : {"standing_hexapod", "stairs_hexapod", "standing_tin", "rolling_wheel",
+                            "tumbling_acrobat", "climbing_hound", "walking_rough"})
+    scenes.push_back(std::string("Include \"scenes/") + scene + ".hook\";\n");
+  for (const std::string& scene : scenes) {
+    place.file("run.hook", scene);
+    place.hookpoint("run run.hook --engine any --for 1ms --allow-engines");  // it refuses most
+  }
+  const fs::path schemas = fs::path(testing::source_folder()) / "docs/engine_protocol";
+  const std::string command = "cd '" + here() + "' && python3 '" +
+                              (engines / "validate.py").string() + "' transcript '" +
+                              schemas.string() + "' >said 2>&1";
+  EXPECT_EQ(std::system(command.c_str()), 0) << place.read("said");
+  const std::string transcript = place.read("transcript");
+  for (const char* word : {"\"revolute\"", "\"plane\"", "\"triangles\"", "\"box\"", "\"sphere\"",
+                           "\"cylinder\"", "\"capsule\"", "\"point\""})
+    EXPECT_TRUE(has(transcript, word)) << word << " is in no experiment";
 }
 
 TEST_F(EngineProgram, TheCheckPassesTheExample) {

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""particle.py, which writes each frame of the protocol to the file that its argument names."""
+"""transcript.py FILE [any]: particle.py, which writes each frame of the protocol to FILE. `any`: it declares no gap, so that every experiment reaches it."""
 import json
 import sys
 from pathlib import Path
@@ -9,6 +9,8 @@ sys.dont_write_bytecode = True
 import particle  # noqa: E402
 
 take, give = particle.read, particle.write
+if sys.argv[2:] == ["any"]:
+    particle.HELLO["gaps"] = []
 
 
 def text(message):
