@@ -107,7 +107,9 @@ class PeerEngine final : public simulation::Engine, public simulation::Restartab
         return fail(StepStatus::Kind::not_finite, i,
                     "the state is not finite; look for an extreme force, mass or speed, or reduce "
                     "deltat");
-    if (!trouble.empty()) return fail(StepStatus::Kind::solver_failed, 0, trouble);
+    if (!trouble.empty())
+      return fail(world_->lost() ? StepStatus::Kind::engine_lost : StepStatus::Kind::solver_failed,
+                  0, trouble);
     publish();
     for (simulation::SurfaceMotion& obstacle : inputs_.obstacles)
       simulation::advance(obstacle, experiment_.deltat);
@@ -119,6 +121,10 @@ class PeerEngine final : public simulation::Engine, public simulation::Restartab
     return {};
   }
 
+  /// A joint's own torque follows its motion, so that inputs are others in each step.
+  void announce(std::int64_t steps) override {
+    if (tree_.joints == 0) world_->announce(steps);
+  }
   const simulation::WorldState& state() const override { return state_; }
   simulation::WorldInputs& inputs() override { return inputs_; }
   void publish_details() override {

@@ -31,6 +31,10 @@ class PeerWorld {
   /// step's start (simulation/experiment/joint_forces.h), together. Empty on success, else the
   /// trouble in a few words and what to do.
   virtual std::string advance(const simulation::WorldInputs& inputs) = 0;
+  /// As Engine::announce.
+  virtual void announce(std::int64_t /*steps*/) {}
+  /// Whether the world is gone for good: advance() has just reported it.
+  virtual bool lost() const { return false; }
   /// The body whose load or motion is beyond what the library's own checks let pass (extremes.h):
   /// advance() has then not taken the step, which would have led to a state that is not finite.
   virtual std::optional<std::size_t> beyond_range() const { return std::nullopt; }

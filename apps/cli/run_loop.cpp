@@ -177,6 +177,7 @@ int step_through(const Experiment& experiment, simulation::World& world,
     watched.observe();
     return simulation::StepStatus{};
   };
+  world.announce(last - world.state().step);
   const simulation::RunEnd end = simulation::run_until(
       world, last, [&] { return watch.begin_step(); }, after);
   if (end.failed()) {

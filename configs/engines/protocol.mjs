@@ -103,6 +103,31 @@ export function turn_to(n) {
   return length > 1e-9 ? [length / 2, -n[1] / length, n[0] / length, 0] : [0, 1, 0, 0];
 }
 
+/** Axes of a symmetric matrix xx, yy, zz, xy, xz, yz as a turn, and its values along them, by Jacobi's rotations. */
+export function principal(inertia) {
+  const [xx, yy, zz, xy, xz, yz] = inertia;
+  const a = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]], v = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
+  for (let sweep = 0; sweep < 30; ++sweep)
+    for (const [p, q] of [[0, 1], [0, 2], [1, 2]]) {
+      if (Math.abs(a[p][q]) < 1e-300) continue;
+      const theta = (a[q][q] - a[p][p]) / (2 * a[p][q]);
+      const t = (theta < 0 ? -1 : 1) / (Math.abs(theta) + Math.sqrt(theta * theta + 1)), c = 1 / Math.sqrt(t * t + 1), s = t * c;
+      for (let k = 0; k < 3; ++k) [a[k][p], a[k][q]] = [c * a[k][p] - s * a[k][q], s * a[k][p] + c * a[k][q]];
+      for (let k = 0; k < 3; ++k) [a[p][k], a[q][k]] = [c * a[p][k] - s * a[q][k], s * a[p][k] + c * a[q][k]];
+      for (let k = 0; k < 3; ++k) [v[k][p], v[k][q]] = [c * v[k][p] - s * v[k][q], s * v[k][p] + c * v[k][q]];
+    }
+  const axis = k => [v[0][k], v[1][k], v[2][k]], third = cross(axis(0), axis(1));
+  return {values: [a[0][0], a[1][1], a[2][2]], turn: quaternion_of([axis(0), axis(1), third])};
+}
+/** Of the turn that takes x, y, z to these three axes. */
+export function quaternion_of([x, y, z]) {
+  const squares = [1 + x[0] + y[1] + z[2], 1 + x[0] - y[1] - z[2], 1 - x[0] + y[1] - z[2], 1 - x[0] - y[1] + z[2]];
+  const largest = squares.indexOf(Math.max(...squares)), r = 2 * Math.sqrt(squares[largest]);
+  const [yz, zx, xy] = [y[2] - z[1], z[0] - x[2], x[1] - y[0]], [s_xy, s_xz, s_yz] = [x[1] + y[0], x[2] + z[0], y[2] + z[1]];
+  return [[r / 4, yz / r, zx / r, xy / r], [yz / r, r / 4, s_xy / r, s_xz / r],
+          [zx / r, s_xy / r, r / 4, s_yz / r], [xy / r, s_xz / r, s_yz / r, r / 4]][largest];
+}
+
 /** Of a point, which has no size: the radius of the ball in its place, and how far the ground is lowered for it [m]. */
 export const point_radius = 1e-3;
 

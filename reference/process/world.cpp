@@ -30,7 +30,7 @@ class Reader {
  public:
   explicit Reader(std::span<const double> numbers) : left_(numbers) {}
 
-  bool ended() const { return left_.empty(); }
+  std::size_t left() const { return left_.size(); }
   double number() {
     if (left_.empty()) throw ProgramError("the program's answer to a step ends too early");
     const double value = left_.front();
@@ -96,13 +96,24 @@ class ProgramWorld final : public PeerWorld {
     if (program_) pool_->give_back(std::move(program_));
   }
 
+  void announce(std::int64_t steps) override { announced_ = steps; }
+
   std::string advance(const simulation::WorldInputs& inputs) override {
-    take(inputs);
     try {
-      const auto answer = program_->step(numbers_);
-      if (const auto* failed = std::get_if<std::string>(&answer))
-        return "the program ends the run: " + *failed;
-      read_answer(std::get<std::vector<double>>(answer));
+      if (ahead_ == 0) {
+        ahead_ = std::clamp<std::int64_t>(announced_, 1, most_steps);
+        take(inputs);
+        auto answer = program_->step(numbers_);
+        if (const auto* failed = std::get_if<std::string>(&answer)) {
+          ahead_ = 0;
+          return "the program ends the run: " + *failed;
+        }
+        answer_ = std::get<std::vector<double>>(std::move(answer));
+        read_ = 0;
+      }
+      read_answer();
+      --ahead_;
+      if (announced_ > 0) --announced_;
       collect_notices();
       return {};
     } catch (const ProgramError& error) {
@@ -110,6 +121,7 @@ class ProgramWorld final : public PeerWorld {
       return error.what();
     }
   }
+  bool lost() const override { return program_ == nullptr; }
 
   std::string notice() override {
     if (notices_.empty()) return {};
@@ -147,8 +159,7 @@ class ProgramWorld final : public PeerWorld {
   };
 
   void take(const simulation::WorldInputs& inputs) {
-    constexpr double steps = 1.;
-    numbers_.assign(1, steps);
+    numbers_.assign(1, static_cast<double>(ahead_));
     numbers_.insert(numbers_.end(), inputs.joint_torques.begin(), inputs.joint_torques.end());
     for_each_force(forced_, inputs, [&](std::size_t body, const simulation::ForceInput& input) {
       const Vector3d &p = input.point, &f = input.force, &t = input.torque;
@@ -157,8 +168,9 @@ class ProgramWorld final : public PeerWorld {
     });
   }
 
-  void read_answer(std::span<const double> numbers) {
-    Reader reader(numbers);
+  /// The states of one step, the next of the answer.
+  void read_answer() {
+    Reader reader(std::span<const double>(answer_).subspan(read_));
     for (Body& body : bodies_) {
       body.state.position = reader.vector();
       body.state.orientation = reader.orientation();
@@ -178,7 +190,7 @@ class ProgramWorld final : public PeerWorld {
       joint.rate = reader.number();
     }
     const auto count =
-        static_cast<std::size_t>(reader.index(0, numbers.size(), "the number of contacts"));
+        static_cast<std::size_t>(reader.index(0, answer_.size(), "the number of contacts"));
     contacts_.resize(count);
     for (Contact& contact : contacts_) {
       contact.body =
@@ -194,7 +206,8 @@ class ProgramWorld final : public PeerWorld {
       body.state.contact_force += contact.force;
       if (norm(contact.force) > 0.) ++body.state.contacts;
     }
-    if (!reader.ended())
+    read_ = answer_.size() - reader.left();
+    if (ahead_ == 1 && reader.left() > 0)
       throw ProgramError("the program's answer to a step has numbers that belong to nothing");
   }
 
@@ -211,6 +224,12 @@ class ProgramWorld final : public PeerWorld {
   std::vector<JointState> joints_;
   std::vector<Contact> contacts_;
   std::vector<double> numbers_;
+  /// Most steps in one exchange: a run that ends early has let the program take some in vain.
+  static constexpr std::int64_t most_steps = 100;
+  std::int64_t announced_ = 0;        ///< steps under the same inputs
+  std::int64_t ahead_ = 0;            ///< steps that the answer still has
+  std::vector<double> answer_;        ///< of the latest exchange
+  std::size_t read_ = 0;              ///< numbers of it
   std::vector<std::string> notices_;  ///< not reported yet
 };
 

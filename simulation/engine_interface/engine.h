@@ -203,7 +203,8 @@ WorldInputs initial_inputs(const Experiment& experiment);
 
 /// Why a step was not taken. Nothing is repaired silently: a run that fails stops and says this.
 struct StepStatus {
-  enum class Kind { ok, not_finite, step_too_large, solver_failed };
+  /// `engine_lost`: it has ended or does not answer, which says nothing of the experiment.
+  enum class Kind { ok, not_finite, step_too_large, solver_failed, engine_lost };
   Kind kind = Kind::ok;
   double time = 0.;    ///< [s]
   std::string body;    ///< trail of the body concerned, "block.base"
@@ -219,6 +220,9 @@ class Engine {
   virtual ~Engine() = default;
   /// Advances the world by one `deltat`. On failure the state is that before the step.
   virtual StepStatus step() = 0;
+  /// The next `steps` steps are taken under the inputs as they are then, the first ones: an engine may
+  /// work ahead. To be called before the first of them.
+  virtual void announce(std::int64_t /*steps*/) {}
   /// The published values; the reference stays valid for the engine's life.
   virtual const WorldState& state() const = 0;
   /// What acts on the world in the next step; may be written between steps. The reference and its

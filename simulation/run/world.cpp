@@ -30,6 +30,18 @@ std::unique_ptr<Engine> on_demand(std::unique_ptr<Engine> engine) {
   return engine;
 }
 
+/// Whether what acts on the engine may change by itself: by wires, or over a time.
+bool inputs_are_driven(const Experiment& experiment) {
+  const auto drives = [&](const WireSpec& wire) {
+    return std::ranges::none_of(experiment.components, [&](const ComponentSpec& component) {
+      return wire.to.starts_with(component.trail + ".");
+    });
+  };
+  return std::ranges::any_of(experiment.wires, drives) ||
+         std::ranges::any_of(experiment.forces,
+                             [](const ForceSpec& force) { return force.window.has_value(); });
+}
+
 }  // namespace
 
 World::World(const Experiment& experiment, std::unique_ptr<Engine> engine)
@@ -51,6 +63,10 @@ StepStatus World::step() {
 
   // The signals follow its state at k + 1.
   return status_of_signals(update(signals_));
+}
+
+void World::announce(std::int64_t steps) {
+  if (!inputs_are_driven(experiment_)) engine_->announce(steps);
 }
 
 /// With the gains of this moment, which sliders may have moved.

@@ -1,6 +1,7 @@
 // A run: an engine and the signals around it, step by step. The same for every engine.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
@@ -21,6 +22,10 @@ class World {
   /// While `World.running` is false nothing moves. Allocates nothing. A signal that is no longer
   /// finite stops the run as a state does, at the instant at which it is seen, time 0 included.
   StepStatus step();
+
+  /// The next `steps` calls of step() follow each other, and nobody sets anything meanwhile: an engine
+  /// beyond a pipe may then answer for several at once.
+  void announce(std::int64_t steps);
 
   const WorldState& state() const { return engine_->state(); }
   /// What the ground's springs hold, where the engine tells [J].

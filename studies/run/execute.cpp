@@ -26,7 +26,8 @@ namespace hookpoint::studies {
 namespace {
 
 /// In the order of StepStatus::Kind.
-constexpr std::array kind_names{"ok", "not_finite", "step_too_large", "solver_failed"};
+constexpr std::array kind_names{"ok", "not_finite", "step_too_large", "solver_failed",
+                                "engine_lost"};
 
 /// A curve over time being recorded: at step 0, then at `trace_samples` steps. A signal that counts
 /// from `settle` starts there.
@@ -235,6 +236,7 @@ std::optional<RunRecord> step_through(const Measurement& measurement, const RunC
   Watch watch(measurement, context, steps, world);
   simulation::WorldWatch watched(experiment, world, steps);
   watch.observe(world);
+  world.announce(steps);
   const simulation::RunEnd end = simulation::run_until(
       world, steps, [&] { return !stop.load(std::memory_order_relaxed); },
       [&] {

@@ -31,6 +31,8 @@ struct RunRecord {
   std::map<std::string, KeptValue> values;
   std::map<std::string, KeptCurve> curves;
 
+  /// Its engine, a program, ended on the way: another try may do.
+  bool lost_engine() const { return status.starts_with("engine_lost"); }
   /// Takes what `other`, a record of the same run, has beside this one's.
   void merge(RunRecord other);
 };

@@ -58,7 +58,7 @@ CachedRuns::Numbers CachedRuns::take_finished(const RunBatch& batch, const Numbe
   Numbers left;
   for (const std::size_t number : numbers) {
     const auto record = store_->load(identity(number));
-    if (!record || !batch.complete(number, *record)) {
+    if (!record || record->lost_engine() || !batch.complete(number, *record)) {
       left.push_back(number);
       continue;
     }

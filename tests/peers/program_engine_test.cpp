@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 #include "apps/shared/application.h"
 #include "apps/shared/engine_block.h"
@@ -46,7 +47,7 @@ class ProgramEngineTest : public ::testing::Test {
 };
 
 TEST_F(ProgramEngineTest, PassesTheCheck) {
-  for (const char* file : {"mujoco.hook"})
+  for (const char* file : {"mujoco.hook", "rapier.hook", "jolt.hook"})
     for (const application::EngineFinding& finding : application::check_engine(definition(file)))
       EXPECT_NE(finding.verdict, application::EngineFinding::Verdict::failed)
           << file << ", " << finding.check << ": " << finding.text;
@@ -89,6 +90,55 @@ TEST_F(ProgramEngineTest, MujocoIsSetUpAsTheLinkedOne) {
     EXPECT_NEAR(0.05 - dot(b->state().bodies[0].position, axes.normal), depth, 0.01 * depth)
         << settings;
     EXPECT_EQ(a->state().bodies[0].contacts, b->state().bodies[0].contacts) << settings;
+  }
+}
+
+// Their contacts hold what sticks by positions: what moves is rounding of single precision.
+TEST_F(ProgramEngineTest, RapierAndJoltDoNotCreep) {
+  for (const auto& [file, most] : {std::pair{"rapier.hook", 5e-6}, std::pair{"jolt.hook", 1e-8}}) {
+    const reference::ProgramEngine engine(definition(file));
+    const auto world = engine.make(sloped_block(15. * degree, 0., 0.8, 1e-3));
+    const double creep = creep_speed(*world, slope_axes(15. * degree, 0.).downhill, 1e-3, 2., 3.);
+    EXPECT_LT(std::abs(creep), most) << file;
+    const double load = dot(world->state().bodies[0].contact_force, Vector3d{0., 0., 1.});
+    EXPECT_NEAR(load, g, 0.02 * g) << file;
+  }
+}
+
+// A block that friction cannot hold slides with g (sin a - mu cos a).
+TEST_F(ProgramEngineTest, WhatSlidesAcceleratesAsCoulombSays) {
+  const double angle = 30. * degree, mu = 0.3;
+  const double expected = g * (std::sin(angle) - mu * std::cos(angle));
+  for (const char* file : {"mujoco.hook", "rapier.hook", "jolt.hook"}) {
+    const reference::ProgramEngine engine(definition(file));
+    const auto world = engine.make(sloped_block(angle, 0., mu, 1e-3));
+    const Vector3d downhill = slope_axes(angle, 0.).downhill;
+    ASSERT_TRUE(run_until(*world, 1e-3, 0.2)) << file;
+    const double before = dot(world->state().bodies[0].velocity, downhill);
+    ASSERT_TRUE(run_until(*world, 1e-3, 0.4)) << file;
+    const double after = dot(world->state().bodies[0].velocity, downhill);
+    EXPECT_NEAR((after - before) / 0.2, expected, 0.01 * expected) << file;
+  }
+}
+
+// Iterations hold their joints together: at rest, solved to the end, over a step so long that single
+// precision leaves the digits (its gaps of 1e-7 m close in a step) and so short that the joints hardly
+// turn in it.
+TEST_F(ProgramEngineTest, RapierAndJoltAccelerateChainsFromRestAsOurs) {
+  for (const char* file : {"rapier.hook", "jolt.hook"}) {
+    const reference::ProgramEngine engine(definition(file));
+    const auto make = [&](const simulation::Experiment& of) { return engine.make(of); };
+    for (const bool mobile : {true, false}) {
+      simulation::RobotSpec robot = skew_robot(3, 4, mobile);
+      for (simulation::ChainSpec& chain : robot.chains)
+        for (simulation::LinkSpec& link : chain.links)
+          link.joint = simulation::JointKind::revolute;  // Rapier's here
+      simulation::Experiment experiment = robot_world(robot, 3e-3);
+      experiment.settings = "converged";
+      experiment.integrator = "explicit_euler";
+      EXPECT_LT(acceleration_error(make, experiment), 1e-3)
+          << file << (mobile ? "" : ", fixed base");
+    }
   }
 }
 

@@ -179,6 +179,59 @@ Study creep {
   EXPECT_TRUE(has(table, "ok")) << table;
 }
 
+// Wherever the program is killed, the study ends, the run says why, and --resume makes up for it.
+TEST_F(EngineProgram, AResumedStudyHasTheBytesOfOneThatNothingDisturbed) {
+  const std::string flag = here() + "/flag";
+  place.file("run.hook", ball_on_slope);
+  place.file("study.hook", R"(Include "engines.hook";
+Study creep {
+  scene = "run.hook"; settle = 0.02 s; duration = 0.05 s;
+  Subject mine { engine = mine; }
+  Sweep mass { values = 1 kg, 2 kg, 3 kg; }
+  Measure creep_speed;
+}
+)");
+  for (const int step : {1, 2, 30, 51, 75, 100, 101, 149}) {
+    const std::string number = std::to_string(step);
+    place.file("engines.hook", block("mine", "kill_once " + number + " " + flag));
+    const std::string command = "study study.hook --jobs 1 --allow-engines --out ";
+    ASSERT_EQ(place.hookpoint(command + "whole" + number).status, 0);
+    place.file("flag", "");
+    EXPECT_EQ(place.hookpoint(command + "cut" + number).status, 1) << step;
+    EXPECT_TRUE(has(place.read("cut" + number + "/results.csv"), "engine_lost at"))
+        << step << place.read("cut" + number + "/results.csv");
+    EXPECT_TRUE(
+        has(place.read("cut" + number + "/results.csv"), "the program has ended (signal 9)"));
+    ASSERT_EQ(place.hookpoint(command + "cut" + number + " --resume").status, 0) << step;
+    EXPECT_EQ(place.read("cut" + number + "/results.csv"),
+              place.read("whole" + number + "/results.csv"))
+        << step;
+  }
+}
+
+// Where nothing acts on the ball several steps are one exchange, and the states are the same.
+TEST_F(EngineProgram, StepsUnderTheSameInputsShareAnExchange) {
+  const std::string exchanges = here() + "/exchanges";
+  const auto steps = [&](const std::string& scene, const std::string& out) {
+    place.file("engines.hook", block("mine", "exchanges 0 " + exchanges));
+    place.file("run.hook", scene);
+    fs::remove(exchanges);
+    const CommandResult result = place.hookpoint(
+        "run run.hook --engine mine --for 250ms --allow-engines --record ball.base.location.x --out " +
+        out);
+    EXPECT_EQ(result.status, 0) << result.err;
+    return place.read("exchanges");
+  };
+  EXPECT_EQ(steps(ball_on_slope, "free"), "100\n100\n50\n");
+  std::string driven = ball_on_slope;
+  driven.insert(driven.find("  Robot"), "  Force push { body = ball.base; }\n");
+  driven +=
+      "Expression none { formula = \"0 * w.ball.base.location.x\"; Wire FROM output TO w.push.force.x; }\n";
+  const std::string single = steps(driven, "driven");
+  EXPECT_EQ(single.size(), std::string("1\n").size() * 250) << single;
+  EXPECT_EQ(place.read("free/trace.csv"), place.read("driven/trace.csv"));
+}
+
 // A process is started once for the description and for all runs of a thread.
 TEST_F(EngineProgram, OneProcessRunsManyExperiments) {
   const std::string started = here() + "/started";

@@ -73,6 +73,9 @@ def misbehave():
         os._exit(3)
     if lie == "kill":
         os.kill(os.getpid(), signal.SIGKILL)
+    if lie == "kill_once" and os.path.exists(sys.argv[3]):
+        os.remove(sys.argv[3])
+        os.kill(os.getpid(), signal.SIGKILL)
     if lie == "hang":
         time.sleep(1000)
     if lie == "print":
@@ -88,5 +91,14 @@ def write(message):
     send(message)
 
 
-particle.step, particle.write = step, write
+def read():
+    message = take()
+    if lie == "exchanges" and isinstance(message, tuple):
+        with open(sys.argv[3], "a", encoding="utf-8") as exchanges:
+            exchanges.write(f"{int(message[0])}\n")
+    return message
+
+
+take = particle.read
+particle.step, particle.write, particle.read = step, write, read
 particle.main()

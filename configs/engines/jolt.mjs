@@ -1,0 +1,285 @@
+// Jolt Physics, single precision: rigid bodies in world coordinates, joints as constraints. It tells where bodies touch, and no forces.
+import {Refusal, conjugate, contact_of, cross, dot, gap, minus, module_of, one_ground, plus, point_radius, rotated, scaled, serve, times, turn_to} from "./protocol.mjs";
+
+const jolt = await (await module_of("jolt-physics")).default();
+
+const samples = "Jolt's samples and PhysicsSettings.h";
+// Iterations over velocities and over positions in a step.
+const iterations = {default: [10, 2], recommended: [20, 4], converged: [1000, 20]};
+const hello = {
+  name: "jolt", version: "1.1.0", precision: "single",
+  settings: [
+    {name: "default", source: samples + ": the library's own"},
+    {name: "recommended", source: samples + ": more iterations where stacks and joints must be stiff; twice is ours"},
+    {name: "converged", source: "ours: iterations until joints and contacts are solved to rounding"},
+  ].map(setting => ({...setting, constants: {mNumVelocitySteps: iterations[setting.name][0], mNumPositionSteps: iterations[setting.name][1]}})),
+  gaps: [
+    gap("static friction that differs from kinetic", "noticed", "this engine has one coefficient of friction, and it is the kinetic one"),
+    gap("rotor inertias", "refused", "choose engine mujoco_3_14"),
+    gap("links without mass", "refused", "give every link a mass"),
+    gap("bases that are kept in a plane", "refused", "choose engine mujoco_3_14"),
+    gap("forces of single contacts", "stated", "Jolt tells no forces: what the robot's momentum needs is shared equally among the places where it touches"),
+  ],
+};
+
+/** Values that Jolt made for one expression; freed together. */
+class Scratch {
+  constructor() { this.made = []; }
+  keep(value) { this.made.push(value); return value; }
+  vec(a) { return this.keep(new jolt.Vec3(...a)); }
+  place(a) { return this.keep(new jolt.RVec3(...a)); }
+  quat(q) { return this.keep(new jolt.Quat(q[1], q[2], q[3], q[0])); }
+  free() { for (const value of this.made) jolt.destroy(value); this.made = []; }
+}
+const list = v => [v.GetX(), v.GetY(), v.GetZ()];
+const turn = q => [q.GetW(), q.GetX(), q.GetY(), q.GetZ()];
+function refuse(reason) { throw new Refusal(reason); }
+
+const half = Math.SQRT1_2, from_y_to_z = [half, half, 0, 0];  // Jolt's cylinders stand along y
+const axis_turn = shape => shape.type === "cylinder" || shape.type === "capsule" ? from_y_to_z : [1, 0, 0, 0];
+// Shapes meet the ground, points without a size the ground that is lowered for them.
+const layers = {shapes: 0, ground: 1, points: 2, lowered: 3};
+
+function world_of(scratch) {
+  const count = Object.keys(layers).length;
+  const pairs = new jolt.ObjectLayerPairFilterTable(count);
+  pairs.EnableCollision(layers.shapes, layers.ground);
+  pairs.EnableCollision(layers.points, layers.lowered);
+  const broad = new jolt.BroadPhaseLayerInterfaceTable(count, 2);
+  for (const [name, layer] of Object.entries(layers))
+    broad.MapObjectToBroadPhaseLayer(layer, scratch.keep(new jolt.BroadPhaseLayer(name === "ground" || name === "lowered" ? 0 : 1)));
+  const settings = scratch.keep(new jolt.JoltSettings());
+  settings.mMaxWorkerThreads = 0;
+  settings.mObjectLayerPairFilter = pairs;
+  settings.mBroadPhaseLayerInterface = broad;
+  settings.mObjectVsBroadPhaseLayerFilter = new jolt.ObjectVsBroadPhaseLayerFilterTable(broad, 2, pairs, count);
+  return new jolt.JoltInterface(settings);
+}
+
+class World {
+  constructor(experiment) {
+    const scratch = new Scratch();
+    this.experiment = experiment;
+    this.ground = one_ground(experiment);
+    this.jolt = world_of(scratch);
+    this.system = this.jolt.GetPhysicsSystem();
+    this.interface = this.system.GetBodyInterface();
+    const settings = this.system.GetPhysicsSettings();
+    [settings.mNumVelocitySteps, settings.mNumPositionSteps] = iterations[experiment.settings];
+    settings.mAllowSleeping = false;
+    settings.mDeterministicSimulation = true;
+    this.system.SetPhysicsSettings(settings);
+    this.system.SetGravity(scratch.vec(experiment.gravity));
+    this.touches = [];
+    this.listen();
+    this.add_ground(scratch);
+    this.numbers = new Map();  // of bodies, by Jolt's own
+    this.bodies = experiment.bodies.map((body, i) => this.add_body(scratch, body, i));
+    this.robots = [...new Set(experiment.bodies.map(body => body.robot))]
+      .map(name => experiment.bodies.map((body, i) => body.robot === name && body.mobile ? i : -1).filter(i => i >= 0));
+    this.joints = experiment.joints.map(joint => this.add_joint(scratch, joint));
+    scratch.free();
+  }
+
+  listen() {
+    const listener = new jolt.ContactListenerJS();
+    const note = (first, second, manifold) => {
+      const [one, two] = [first, second].map(body => jolt.wrapPointer(body, jolt.Body).GetID().GetIndexAndSequenceNumber());
+      const at = jolt.wrapPointer(manifold, jolt.ContactManifold), count = at.get_mRelativeContactPointsOn1().size();
+      const body = this.numbers.get(two) ?? this.numbers.get(one);
+      // Out of the ground: Jolt's normal moves the second body out of the first.
+      const normal = scaled(this.numbers.has(two) ? 1 : -1, list(at.get_mWorldSpaceNormal()));
+      for (let k = 0; k < count; ++k) this.touches.push({body, place: list(at.GetWorldSpaceContactPointOn1(k)), normal, depth: at.get_mPenetrationDepth()});
+    };
+    listener.OnContactValidate = () => jolt.ValidateResult_AcceptAllContactsForThisBodyPair;
+    listener.OnContactAdded = note;
+    listener.OnContactPersisted = note;
+    listener.OnContactRemoved = () => {};
+    this.listener = listener;
+    this.system.SetContactListener(listener);
+  }
+
+  shape(scratch, shape) {
+    // A convex radius would round edges.
+    const sharp = 0;
+    switch (shape.type) {
+      case "sphere": return new jolt.SphereShapeSettings(shape.radius);
+      case "point": return new jolt.SphereShapeSettings(shape.radius || point_radius);
+      case "box": return new jolt.BoxShapeSettings(scratch.vec(scaled(0.5, shape.dimensions)), sharp);
+      case "cylinder": return new jolt.CylinderShapeSettings(0.5 * shape.length, shape.radius, sharp);
+      case "capsule": return new jolt.CapsuleShapeSettings(0.5 * shape.length, shape.radius);
+      case "hull": {
+        const hull = new jolt.ConvexHullShapeSettings();
+        hull.mMaxConvexRadius = sharp;
+        for (let k = 0; k < shape.vertices.length; k += 3) hull.mPoints.push_back(scratch.vec(shape.vertices.slice(k, k + 3)));
+        return hull;
+      }
+      case "triangles": {
+        const triangles = new jolt.TriangleList(), corner = k => {
+          const [x, y, z] = shape.vertices.slice(3 * k, 3 * k + 3);
+          return scratch.keep(new jolt.Float3(x, y, z));
+        };
+        triangles.resize(shape.triangles.length / 3);
+        for (let k = 0; k < shape.triangles.length / 3; ++k)
+          [0, 1, 2].forEach(c => triangles.at(k).set_mV(c, corner(shape.triangles[3 * k + c])));
+        return new jolt.MeshShapeSettings(triangles);
+      }
+      default: return refuse(`Jolt has no shape ${shape.type} here`);
+    }
+  }
+
+  add_ground(scratch) {
+    const add = (settings, position, orientation, layer) => {
+      const made = settings.Create();
+      if (made.HasError()) refuse(`Jolt does not make a piece of ground: ${made.GetError().c_str()}`);
+      const of = scratch.keep(new jolt.BodyCreationSettings(made.Get(), scratch.place(position), scratch.quat(orientation), jolt.EMotionType_Static, layer));
+      of.mFriction = of.mRestitution = 1;
+      this.interface.CreateAndAddBody(of, jolt.EActivation_DontActivate);
+    };
+    for (const piece of this.experiment.ground) {
+      if (piece.type === "plane") {
+        const wide = 100, deep = 5;
+        for (const [layer, down] of [[layers.ground, 0], [layers.lowered, point_radius]])
+          add(new jolt.BoxShapeSettings(scratch.vec([wide, wide, deep]), 0), scaled(piece.offset - down - deep, piece.normal), turn_to(piece.normal), layer);
+      } else {
+        const place = piece.type === "triangles" ? {position: [0, 0, 0], orientation: [1, 0, 0, 0]} : piece;
+        add(this.shape(scratch, piece), place.position, times(place.orientation, axis_turn(piece)), layers.ground);
+      }
+    }
+  }
+
+  add_body(scratch, body, number) {
+    const compound = new jolt.StaticCompoundShapeSettings();
+    for (const collider of body.colliders)
+      compound.AddShape(scratch.vec(collider.position), scratch.quat(times(collider.orientation ?? [1, 0, 0, 0], axis_turn(collider))), this.shape(scratch, collider), 0);
+    const bare = new Set(body.colliders.map(collider => collider.type === "point" && !collider.radius));
+    if (bare.size > 1) refuse("in Jolt a body touches by shapes, or by points of radius 0");
+    const settings = body.colliders.length > 0 ? compound : new jolt.EmptyShapeSettings();
+    const made = settings.Create();
+    if (made.HasError()) refuse(`Jolt does not make the shapes of ${body.name}: ${made.GetError().c_str()}`);
+    // The place where Jolt has the centre of mass is ours, not the shapes'.
+    const center = made.Get().GetCenterOfMass();
+    const moved = new jolt.OffsetCenterOfMassShapeSettings(scratch.vec(minus(body.center_of_mass, list(center))), settings).Create();
+    const kind = body.mobile ? jolt.EMotionType_Dynamic : jolt.EMotionType_Static;
+    const of = scratch.keep(new jolt.BodyCreationSettings(moved.Get(), scratch.place(body.position), scratch.quat(body.orientation), kind, bare.has(true) ? layers.points : layers.shapes));
+    const contact = body.colliders.length > 0 ? contact_of(this.experiment, body.colliders[0].material, this.ground) : null;
+    if (new Set(body.colliders.map(collider => collider.material)).size > 1) refuse("in Jolt a body has one material");
+    // Jolt takes the root of the product of both coefficients, and the greater restitution.
+    of.mFriction = (contact?.kinetic_friction ?? 0) ** 2;
+    of.mRestitution = contact?.restitution ?? 0;
+    of.mLinearDamping = of.mAngularDamping = 0;
+    of.mApplyGyroscopicForce = true;
+    of.mAllowSleeping = false;
+    of.mMaxLinearVelocity = of.mMaxAngularVelocity = 1e4;
+    if (body.mobile) {
+      const [xx, yy, zz, xy, xz, yz] = body.inertia, inertia = of.mMassPropertiesOverride;
+      inertia.mMass = body.mass;
+      const matrix = scratch.keep(new jolt.Mat44());
+      [[xx, xy, xz, 0], [xy, yy, yz, 0], [xz, yz, zz, 0], [0, 0, 0, 1]].forEach((column, k) => matrix.SetColumn4(k, scratch.keep(new jolt.Vec4(...column))));
+      inertia.mInertia = matrix;
+      of.mOverrideMassProperties = jolt.EOverrideMassProperties_MassAndInertiaProvided;
+    }
+    const own = this.interface.CreateBody(of);
+    this.numbers.set(own.GetID().GetIndexAndSequenceNumber(), number);
+    this.interface.AddBody(own.GetID(), jolt.EActivation_Activate);
+    const arm = rotated(body.orientation, body.center_of_mass);
+    if (body.mobile) {
+      own.SetLinearVelocity(scratch.vec(plus(body.velocity, cross(body.angular_velocity, arm))));
+      own.SetAngularVelocity(scratch.vec(body.angular_velocity));
+    }
+    return {own, mass: body.mass, center: body.center_of_mass, colliders: body.colliders.length};
+  }
+
+  add_joint(scratch, joint) {
+    const turns = joint.type !== "prismatic";
+    const settings = scratch.keep(turns ? new jolt.HingeConstraintSettings() : new jolt.SliderConstraintSettings());
+    settings.mSpace = jolt.EConstraintSpace_LocalToBodyCOM;
+    const axis = [0, 0, 1], normal = [1, 0, 0];
+    settings.mPoint1 = scratch.place(minus(joint.position, this.bodies[joint.parent].center));
+    settings.mPoint2 = scratch.place(scaled(-1, this.bodies[joint.body].center));
+    const name = turns ? "mHingeAxis" : "mSliderAxis";
+    settings[name + 1] = scratch.vec(rotated(joint.orientation, axis));
+    settings.mNormalAxis1 = scratch.vec(rotated(joint.orientation, normal));
+    settings[name + 2] = scratch.vec(axis);
+    settings.mNormalAxis2 = scratch.vec(normal);
+    this.system.AddConstraint(settings.Create(this.bodies[joint.parent].own, this.bodies[joint.body].own));
+    return {...joint, turns};
+  }
+
+  motion({own, center}) {
+    const q = turn(own.GetRotation()), spin = list(own.GetAngularVelocity()), center_velocity = list(own.GetLinearVelocity());
+    return {position: list(own.GetPosition()), orientation: q, spin, center_velocity, velocity: minus(center_velocity, cross(spin, rotated(q, center)))};
+  }
+
+  step(torques, loads, states) {
+    const scratch = new Scratch(), before = this.bodies.map(body => this.motion(body));
+    const outside = this.bodies.map(() => [0, 0, 0]);
+    for (const load of loads) {
+      const {position, orientation} = before[load.body], {own} = this.bodies[load.body];
+      own.AddForce(scratch.vec(load.force), scratch.place(plus(position, rotated(orientation, load.point))));
+      own.AddTorque(scratch.vec(load.torque));
+      outside[load.body] = plus(outside[load.body], load.force);
+    }
+    this.joints.forEach((joint, k) => this.drive(scratch, joint, torques[k], before));
+    this.touches = [];
+    this.jolt.Step(this.experiment.deltat, 1);
+    scratch.free();
+    const after = this.bodies.map(body => this.motion(body));
+    for (const {position, orientation, velocity, spin} of after) states.push(...position, ...orientation, ...velocity, ...spin);
+    for (const joint of this.joints) states.push(...this.coordinate(joint, after));
+    const contacts = this.contacts(before, after, outside);
+    states.push(contacts.length);
+    for (const {body, collider, place, force, depth} of contacts) states.push(body, collider, ...place, ...force, depth);
+  }
+
+  drive(scratch, joint, torque, motions) {
+    const along = scaled(torque, rotated(motions[joint.body].orientation, [0, 0, 1]));
+    const [parent, child] = [this.bodies[joint.parent].own, this.bodies[joint.body].own];
+    if (joint.turns) {
+      child.AddTorque(scratch.vec(along));
+      if (parent.IsDynamic()) parent.AddTorque(scratch.vec(scaled(-1, along)));
+    } else {
+      const at = scratch.place(motions[joint.body].position);
+      child.AddForce(scratch.vec(along), at);
+      if (parent.IsDynamic()) parent.AddForce(scratch.vec(scaled(-1, along)), at);
+    }
+  }
+
+  coordinate(joint, motions) {
+    const parent = motions[joint.parent], child = motions[joint.body];
+    const axis = rotated(child.orientation, [0, 0, 1]);
+    if (!joint.turns) {
+      const from = plus(parent.position, rotated(parent.orientation, joint.position)), arm = minus(child.position, parent.position);
+      return [dot(minus(child.position, from), axis), dot(minus(child.velocity, plus(parent.velocity, cross(parent.spin, arm))), axis)];
+    }
+    const relative = times(conjugate(times(parent.orientation, joint.orientation)), child.orientation);
+    const angle = 2 * Math.atan2(relative[3], relative[0]);
+    joint.angle = angle + 2 * Math.PI * Math.round((joint.angle - angle) / (2 * Math.PI));
+    return [joint.angle, dot(minus(child.spin, parent.spin), axis)];
+  }
+
+  contacts(before, after, outside) {
+    const {deltat, gravity} = this.experiment, found = [];
+    for (const robot of this.robots) {
+      const own = this.touches.filter(touch => robot.includes(touch.body));
+      let needed = [0, 0, 0];
+      for (const i of robot) {
+        const body = this.bodies[i];
+        const gained = scaled(body.mass / deltat, minus(after[i].center_velocity, before[i].center_velocity));
+        needed = plus(needed, minus(minus(gained, scaled(body.mass, gravity)), outside[i]));
+      }
+      for (const {body, place, normal, depth} of own) {
+        const force = scaled(1 / own.length, needed);
+        if (dot(force, normal) > 0) found.push({body, collider: this.bodies[body].colliders === 1 ? 0 : -1, place, force, depth});
+      }
+    }
+    return found;
+  }
+
+  close() {
+    jolt.destroy(this.jolt);
+    jolt.destroy(this.listener);
+  }
+}
+
+serve(hello, experiment => new World(experiment));
