@@ -245,7 +245,8 @@ std::vector<EngineGap> common_gaps_and(std::vector<EngineGap> own) {
        "the engine has no shape without thickness: the samples of its rim touch; write a "
        "Shape.Cylinder that has one"},
       {std::string(feature::saving), refused,
-       "the library keeps to itself what its solver remembers; choose engine dts"},
+       "the library keeps to itself what its solver remembers, so that a movie runs again from its "
+       "start; choose engine dts"},
   };
   std::ranges::move(own, std::back_inserter(gaps));
   return gaps;

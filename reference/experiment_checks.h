@@ -53,7 +53,7 @@ inline constexpr std::string_view law = "contact laws and integrators";
 inline constexpr std::string_view surface_forces =
     "adhesion, rolling and spinning resistance, friction across";
 inline constexpr std::string_view hips = "hip_force and hip_moment of a Chain";
-inline constexpr std::string_view saving = "movies and resumed runs";
+inline constexpr std::string_view saving = "states that are saved and restored";
 /// All of them.
 inline constexpr std::array all{
     chains,

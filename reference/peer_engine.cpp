@@ -51,7 +51,9 @@ std::unique_ptr<PeerWorld> library_world(const simulation::Experiment& experimen
   }
 }
 
-class PeerEngine final : public simulation::Engine, public simulation::Restartable {
+class PeerEngine final : public simulation::Engine,
+                         public simulation::Restartable,
+                         public simulation::Saveable {
  public:
   PeerEngine(const simulation::Experiment& experiment, WorldSource source,
              std::vector<std::string> notices)
@@ -93,6 +95,27 @@ class PeerEngine final : public simulation::Engine, public simulation::Restartab
     std::ranges::fill(state_.points, simulation::PointState{});
     take_start(robot_tree(start));
     if (has_details_) publish_points();
+  }
+
+  simulation::Saveable* saveable() override { return this; }
+  std::size_t state_size() const override { return simulation::count_of(*this); }
+  std::string state_layout() const override { return simulation::layout_of(*this); }
+  void save(std::span<double> numbers) const override { simulation::save_to(numbers, *this); }
+  /// What it publishes, in the order in which a movie has it.
+  template <class Self, class Archive>
+  static void exchange(Self& self, Archive& archive) {
+    archive.each("body", self.state_.bodies, [](auto& body, auto& each) {
+      each("position", body.position);
+      each("orientation", body.orientation);
+      each("velocity", body.velocity);
+      each("angular_velocity", body.angular_velocity);
+      each("contact_force", body.contact_force);
+    });
+    archive.each("joint", self.state_.joints, [](auto& joint, auto& each) {
+      each("angle", joint.angle);
+      each("rate", joint.rate);
+      each("torque", joint.torque);
+    });
   }
 
   StepStatus step() override {

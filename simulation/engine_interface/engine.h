@@ -255,6 +255,8 @@ class Engine {
   virtual std::optional<double> ground_energy() const { return std::nullopt; }
   /// Its state as numbers; null for an engine whose solver remembers what nobody can read or set.
   virtual Resumable* resumable() { return nullptr; }
+  /// What a movie keeps of an instant: its state, or where nobody can read that all that it publishes.
+  virtual Saveable* saveable() { return resumable(); }
 };
 
 /// What an engine does not do as ours does.

@@ -14,9 +14,10 @@
 
 namespace hookpoint::simulation {
 
-class Resumable {
+/// An instant of a run as numbers, which a movie keeps.
+class Saveable {
  public:
-  virtual ~Resumable() = default;
+  virtual ~Saveable() = default;
   /// How many numbers; the same for the object's life.
   virtual std::size_t state_size() const = 0;
   /// What they are, in order: "position orientation ... hook[4]". Numbers of one layout mean
@@ -24,6 +25,11 @@ class Resumable {
   virtual std::string state_layout() const = 0;
   /// `numbers`: state_size() of them. Allocates nothing.
   virtual void save(std::span<double> numbers) const = 0;
+};
+
+/// Numbers that are all of it: restored, the run continues from there.
+class Resumable : public Saveable {
+ public:
   /// The state is right from now on. What belongs to the step that led to it (accelerations, forces
   /// between bodies) is right again after the next step.
   virtual void restore(std::span<const double> numbers) = 0;

@@ -287,7 +287,7 @@ std::string LiveRun::reset() {
   std::unique_ptr<Track> track;
   try {
     track = std::make_unique<Track>(from, std::vector<std::string>());
-    check_run_files(from->experiment, track->world, track->world.ports(), files_of(*from));
+    check_run_files(from->experiment, track->world.ports(), files_of(*from));
   } catch (const ExperimentError& error) {
     return error.what();
   }

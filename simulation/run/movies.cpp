@@ -34,8 +34,8 @@ Movies::Movies(const Experiment& experiment, const World& world,
   if (const auto plugins = plugins_of(experiment); !plugins.empty())
     header.annotations.emplace_back("plugins", fmt::format("{}", fmt::join(plugins, "\n")));
   for (const FileSpec& file : experiment.files) header.files.push_back(file_of(file));
-  header.layout = layout_text(world.state_layout());
-  header.size = world.state_size();
+  header.layout = layout_text(world.instant_layout());
+  header.size = world.instant_size();
   state_.resize(header.size);
   left_.resize(header.size);
   const std::int64_t passed = std::max(world.state().step + 1, first_step);
@@ -47,7 +47,7 @@ Movies::Movies(const Experiment& experiment, const World& world,
     movie.writer = output::make_movie_writer(folder / spec.file, header);
     movies_.push_back(std::move(movie));
   }
-  world_->save(state_);
+  world_->save_instant(state_);
   for (Movie& movie : movies_) write(movie);
 }
 
@@ -62,7 +62,7 @@ void Movies::row(std::int64_t step) {
   std::optional<output::FileError> refused;
   for (Movie& movie : movies_) {
     if (!movie.schedule.due(step)) continue;
-    if (!saved) world_->save(state_);
+    if (!saved) world_->save_instant(state_);
     saved = true;
     try {
       write(movie);
@@ -75,7 +75,7 @@ void Movies::row(std::int64_t step) {
 
 /// The present instant; `even_again` where a movie has it already.
 void Movies::write_all(bool even_again) {
-  if (!movies_.empty()) world_->save(state_);
+  if (!movies_.empty()) world_->save_instant(state_);
   for (Movie& movie : movies_) {
     if (even_again || movie.last != world_->state().step) write(movie);
   }

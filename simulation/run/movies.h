@@ -20,8 +20,7 @@ class Movies {
  public:
   /// Files in `folder`, with `world`'s present instant as the first of each, whatever its rate, and
   /// from `first_step` on those that the whole run would have. `text` goes into every file, as
-  /// do the files that the experiment reads. Throws
-  /// ExperimentError for an engine that cannot be resumed, output::FileError.
+  /// do the files that the experiment reads. Throws output::FileError.
   Movies(const Experiment& experiment, const World& world, const std::filesystem::path& folder,
          const RunText& text, std::int64_t first_step = 0);
 
@@ -35,7 +34,7 @@ class Movies {
   void before_change();
   /// Before each step, which may fail.
   void go_on() {
-    if (changed_) world_->save(left_);
+    if (changed_) world_->save_instant(left_);
   }
   /// From now on the instants are those of `world`, whose numbers are alike.
   void rebind(const World& world) { world_ = &world; }

@@ -48,9 +48,9 @@ std::string version_of(const output::MovieHeader& header) {
 }  // namespace
 
 Rewind::Rewind(const Experiment& experiment, const output::MovieReader& movie, World& world)
-    : experiment_(experiment), movie_(movie), world_(world), sections_(world.state_layout()) {
+    : experiment_(experiment), movie_(movie), world_(world), sections_(world.instant_layout()) {
   const std::string here = layout_text(sections_);
-  if (movie.header().layout != here || movie.header().size != world.state_size())
+  if (movie.header().layout != here || movie.header().size != world.instant_size())
     throw MovieError(fmt::format(
         "the movie's numbers are not those of this program (hookpoint {}; the movie is of {}): {}",
         HOOKPOINT_VERSION, version_of(movie.header()),
@@ -114,9 +114,11 @@ std::string Rewind::go_on() {
   run_to(world_.state().step + 1);
   if (next_ == steps_.size() || world_.state().step < steps_[next_]) return "";
   std::string differs = difference(next_);
-  if (!differs.empty()) world_.restore(recorded_);
+  const bool restores = world_.can_be_saved();
+  if (!differs.empty() && restores) world_.restore(recorded_);
   // What somebody changed between two steps: the same step again, as it was left.
   for (; next_ + 1 < steps_.size() && steps_[next_ + 1] == steps_[next_]; ++next_) {
+    if (!restores) continue;
     movie_.read(next_ + 1, recorded_);
     world_.restore(recorded_);
   }
@@ -130,9 +132,19 @@ std::size_t Rewind::instant_before(std::int64_t step) const {
 }
 
 void Rewind::put(std::size_t instant) {
+  if (!world_.can_be_saved()) return run_again(steps_[instant]);
   movie_.read(instant, recorded_);
   world_.restore(recorded_);
   whole_ = false;
+}
+
+/// What an engine's library remembers leads to a moment from the start alone.
+void Rewind::run_again(std::int64_t step) {
+  if (world_.state().step > step) {
+    world_.restart(experiment_);
+    whole_ = false;
+  }
+  run_to(step);
 }
 
 void Rewind::run_to(std::int64_t step) {
@@ -152,7 +164,7 @@ void Rewind::compare(std::size_t instant) {
 /// Bits, not values: -0 is not 0, and what is not a number equals itself.
 std::string Rewind::difference(std::size_t instant) {
   movie_.read(instant, recorded_);
-  world_.save(computed_);
+  world_.save_instant(computed_);
   const auto same = [](double a, double b) {
     return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
   };

@@ -1,5 +1,6 @@
 // Back to a moment of a movie: the world is put to the instant before it and steps there, so that
-// everything is as the run had it, what only a step computes included.
+// everything is as the run had it, what only a step computes included. The world of an engine that
+// cannot be saved runs there from its start.
 #pragma once
 
 #include <atomic>
@@ -15,8 +16,7 @@ namespace hookpoint::simulation {
 class Rewind {
  public:
   /// `world`: of the movie's experiment, at time 0. Both outlive it. Throws output::MovieError when
-  /// the world's numbers are not those of the movie, ExperimentError for an engine that cannot be
-  /// resumed.
+  /// the world's numbers are not those of the movie.
   Rewind(const Experiment& experiment, const output::MovieReader& movie, World& world);
 
   /// The first and the last step that can be reached.
@@ -47,6 +47,7 @@ class Rewind {
 
  private:
   void put(std::size_t instant);
+  void run_again(std::int64_t step);
   void run_to(std::int64_t step);
   /// The last instant before `step`; of the first moment, that one.
   std::size_t instant_before(std::int64_t step) const;

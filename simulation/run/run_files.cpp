@@ -72,13 +72,12 @@ void add_movie(const std::filesystem::path& file, Experiment& experiment) {
   experiment.movies.push_back({"movie", path, std::nullopt});
 }
 
-void check_run_files(const Experiment& experiment, const World& world,
-                     const std::vector<Port>& ports, const RunFilesRequest& request) {
+void check_run_files(const Experiment& experiment, const std::vector<Port>& ports,
+                     const RunFilesRequest& request) {
   find_all_ports(experiment, ports, request.trails);
   for (const RecordSpec& record : experiment.records)
     for (const output::Channel& channel : record.channels)
       find_port(experiment, ports, channel.path);
-  if (!experiment.movies.empty()) static_cast<void>(world.state_layout());
 }
 
 std::vector<std::string> run_files() {
@@ -95,7 +94,7 @@ RunFiles::RunFiles(const Experiment& experiment, World& world, const std::vector
     : place_(request.folder),
       ports_(find_all_ports(experiment, ports, request.trails)),
       values_(ports_.size()),
-      folder_((check_run_files(experiment, world, ports, request),
+      folder_((check_run_files(experiment, ports, request),
                open_folder(experiment, request, text.hash))),
       movies_(experiment, world, request.folder, text, first_step),
       records_(experiment, ports, request.folder, text, first_step) {

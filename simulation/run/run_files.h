@@ -35,8 +35,8 @@ struct RunFilesRequest {
 };
 
 /// Finds out what cannot be written before anything is. Throws ExperimentError.
-void check_run_files(const Experiment& experiment, const World& world,
-                     const std::vector<Port>& ports, const RunFilesRequest& request);
+void check_run_files(const Experiment& experiment, const std::vector<Port>& ports,
+                     const RunFilesRequest& request);
 
 /// The Records and Movies of the file, and the rows of trace.csv: the row at the first step, then
 /// one a step. What lies in the folder is tied to the experiment (output/files/result_folder.h).

@@ -126,27 +126,32 @@ std::string World::ended() const {
 Resumable& World::resumable() const {
   if (Resumable* resumable = engine_->resumable()) return *resumable;
   throw ExperimentError("engine `" + experiment_.engine +
-                        "` cannot be saved and resumed exactly, so there is no movie or film of "
-                        "its run: its library hides what its solver remembers; `hookpoint view` "
-                        "shows the run in a window, and with `engine = dts` it can be saved");
+                        "` cannot be saved and resumed exactly: its library hides what its solver "
+                        "remembers; with `engine = dts` it can be saved");
 }
 
-std::vector<StateSection> World::state_layout() const {
-  const Resumable& engine = resumable();
+std::vector<StateSection> World::layout_of(const Saveable& engine) const {
   std::vector<StateSection> sections{
       {"engine " + experiment_.engine, engine.state_layout(), engine.state_size()}};
   for (StateSection& section : signals_.state_layout()) sections.push_back(std::move(section));
   return sections;
 }
 
-std::size_t World::state_size() const { return resumable().state_size() + signals_.state_size(); }
-
-void World::save(std::span<double> numbers) const {
-  const Resumable& engine = resumable();
+void World::save(const Saveable& engine, std::span<double> numbers) const {
   const std::size_t size = engine.state_size();
   engine.save(numbers.first(size));
   signals_.save(numbers.subspan(size));
 }
+
+std::vector<StateSection> World::state_layout() const { return layout_of(resumable()); }
+std::size_t World::state_size() const { return resumable().state_size() + signals_.state_size(); }
+void World::save(std::span<double> numbers) const { save(resumable(), numbers); }
+
+std::vector<StateSection> World::instant_layout() const { return layout_of(*engine_->saveable()); }
+std::size_t World::instant_size() const {
+  return engine_->saveable()->state_size() + signals_.state_size();
+}
+void World::save_instant(std::span<double> numbers) const { save(*engine_->saveable(), numbers); }
 
 void World::restore(std::span<const double> numbers) {
   Resumable& engine = resumable();

@@ -77,6 +77,12 @@ class World {
   void save(std::span<double> numbers) const;
   void restore(std::span<const double> numbers);
 
+  /// What a movie keeps of an instant: the same, or of an engine that cannot be saved what it publishes.
+  std::vector<StateSection> instant_layout() const;
+  std::size_t instant_size() const;
+  /// `numbers`: instant_size() of them. Allocates nothing.
+  void save_instant(std::span<double> numbers) const;
+
   /// Back to time 0, whatever the engine: all is as in a new world of `start`, which is the world's
   /// experiment except for the robots' initial positions and velocities (initial_state.h). Ports
   /// keep their addresses; those of the step that led to an instant are right after the next step,
@@ -86,6 +92,8 @@ class World {
 
  private:
   Resumable& resumable() const;
+  std::vector<StateSection> layout_of(const Saveable& engine) const;
+  void save(const Saveable& engine, std::span<double> numbers) const;
   Experiment as_it_stands() const;
   /// Brings `signals` to the engine's present state. False where a number is no longer finite.
   bool update(Signals& signals) const;

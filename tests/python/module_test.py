@@ -278,8 +278,6 @@ class World(unittest.TestCase):
                 hookpoint.loads(LOGGED).run(output=place / "taken")
             with self.assertRaisesRegex(hookpoint.Error, "goes with `output`"):
                 hookpoint.loads(LOGGED).run(movie=True)
-            with self.assertRaisesRegex(hookpoint.Error, "cannot be saved and resumed"):
-                hookpoint.loads(LOGGED, engine="ode").run(output=place / "none")
             with self.assertRaisesRegex(hookpoint.Error, "nearest|did you mean"):
                 hookpoint.loads(FALLING).run(record=["ball.base.locatoin.z"], output=place / "none")
             with self.assertRaisesRegex(hookpoint.Error, "another name"):

@@ -55,9 +55,6 @@ INSTANTIATE_TEST_SUITE_P(
                    "did you mean `block.base.location.x`?"},
         WrongInput{"run " + block + " --set world.contact=impulse --set world.integrator=rk4",
                    "cannot be paired with rk4"},
-        WrongInput{"run " + config("paper/fig7_two_joint_arm.hook") +
-                       " --set SimpleWorld.engine=ode --movie",
-                   "engine `ode` cannot be saved"},
         WrongInput{"run " + block + " --set world.constraint_mixing=0",
                    "constraint_mixing is a constant of ODE, and the engine is dts"},
         WrongInput{"study " + block, "holds no Study, no Wall and no Matrix"},

@@ -293,9 +293,7 @@ TEST_F(LiveRunTest, APeerIsSetAndPulledButNeitherEditedNorTakenBack) {
   set("controls.east.value", 4.);
   to(50);
   const std::string why =
-      "engine `ode` cannot be saved and resumed exactly, so there is no movie or film of its run: "
-      "its library hides what its solver remembers; `hookpoint view` shows the run in a window, "
-      "and "
+      "engine `ode` cannot be saved and resumed exactly: its library hides what its solver remembers; "
       "with `engine = dts` it can be saved";
   EXPECT_EQ(run->no_history(), why);
   EXPECT_EQ(run->edit("w.clay.normal_stiffness", "5 kN/m"), why);
