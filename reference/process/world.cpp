@@ -11,6 +11,7 @@
 #include "reference/process/experiment_json.h"
 #include "reference/robot_tree.h"
 #include "reference/touching_points.h"
+#include "simulation/engine_interface/engine_lost.h"
 
 namespace hookpoint::reference {
 namespace {
@@ -237,7 +238,12 @@ class ProgramWorld final : public PeerWorld {
 
 std::unique_ptr<PeerWorld> make_program_world(const simulation::Experiment& experiment,
                                               std::shared_ptr<ProgramPool> pool) {
-  return std::make_unique<ProgramWorld>(experiment, std::move(pool));
+  const std::string name = pool->definition().name;
+  try {
+    return std::make_unique<ProgramWorld>(experiment, std::move(pool));
+  } catch (const ProgramError& error) {
+    throw simulation::EngineLost(fmt::format("engine {}: {}", name, error.what()));
+  }
 }
 
 }  // namespace hookpoint::reference

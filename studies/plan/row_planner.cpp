@@ -4,6 +4,7 @@
 
 #include "simulation/engine_interface/identity.h"
 #include "studies/measure/workers.h"
+#include "studies/results/selection.h"
 
 namespace hookpoint::studies {
 namespace {

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "output/files/hash.h"
+#include "simulation/engine_interface/engine_lost.h"
 #include "simulation/engine_interface/identity.h"
 #include "simulation/engine_interface/step_count.h"
 #include "simulation/run/loop.h"
@@ -322,6 +323,10 @@ std::optional<RunRecord> execute(const Measurement& measurement,
       // The run itself says why, if it cannot be.
     }
     return step_through(measurement, context, *engine, record, stop);
+  } catch (const simulation::EngineLost& error) {
+    record.values.clear();
+    return not_run(measurement, std::move(record),
+                   fmt::format("engine_lost before the run: {}", error.what()));
   } catch (const simulation::ExperimentError& error) {
     if (!why_not.empty()) return not_run(measurement, std::move(record), why_not);
     const bool peer = experiment.engine != "dts";

@@ -9,7 +9,9 @@
 
 #include <chrono>
 #include <filesystem>
+#include <fstream>
 #include <functional>
+#include <iterator>
 #include <string>
 #include <thread>
 #include <vector>
@@ -56,6 +58,18 @@ class ChildProcess {
   /// To it and what it has started; nothing once it has ended.
   void signal(int number) const {
     if (process_ > 0) kill(-process_, number);
+  }
+  /// What it has started itself, and what of it has not ended.
+  std::vector<pid_t> children() const {
+    std::vector<pid_t> found;
+    std::error_code ended;
+    const std::string threads = "/proc/" + std::to_string(process_) + "/task";
+    for (std::filesystem::directory_iterator thread(threads, ended), end; !ended && thread != end;
+         thread.increment(ended)) {
+      std::ifstream list(thread->path() / "children");
+      found.insert(found.end(), std::istream_iterator<pid_t>(list), {});
+    }
+    return found;
   }
   std::string out() const { return read_file(folder_ / ".out"); }
   std::string err() const { return read_file(folder_ / ".err"); }
