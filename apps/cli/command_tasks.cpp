@@ -208,6 +208,11 @@ int run_tasks(const application::TaskCommand& command, const TaskArguments& aske
   application::Application application(asked.consent);
   TaskArguments arguments = asked;
   arguments.file = application.locate(asked.file);
+  return run_tasks(application, command, std::move(arguments), view);
+}
+
+int run_tasks(application::Application& application, const application::TaskCommand& command,
+              TaskArguments arguments, const std::optional<ViewArguments>& view) {
   if (const auto refusal = slurm_refusal(arguments)) return *refusal;
   application::TaskApplication host(application, command, arguments);
   const auto tasks = host.plan();

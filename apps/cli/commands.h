@@ -89,6 +89,20 @@ int recover(const std::filesystem::path& spool);
 int run_tasks(const application::TaskCommand& command, const application::TaskArguments& arguments,
               const std::optional<ViewArguments>& view = {});
 
+/// The same in an application that knows the file, which `arguments.file` names.
+int run_tasks(application::Application& application, const application::TaskCommand& command,
+              application::TaskArguments arguments, const std::optional<ViewArguments>& view = {});
+
+struct FixtureArguments {
+  std::vector<std::string> subjects;             ///< none: all that are found
+  std::optional<std::filesystem::path> engines;  ///< a file of Engine blocks
+  application::TaskArguments tasks;
+};
+/// fixture run: scores of the engines in scenes with closed forms.
+int run_fixture(const FixtureArguments& arguments);
+/// fixture export: the same scenes for whoever has no hookpoint.
+int export_fixture(const std::filesystem::path& folder);
+
 struct RunsArguments {
   std::filesystem::path list, journal;
   int jobs = 1;

@@ -44,6 +44,7 @@ struct Request {
   CompareArguments compare;
   TranslateArguments translate;
   ExportArguments export_;
+  FixtureArguments fixture;
   std::vector<std::filesystem::path> files;
   std::filesystem::path file;
   application::Settings settings;
@@ -402,6 +403,33 @@ int describe_with(const CLI::App& app, const DescribeArguments& arguments) {
   return fine;
 }
 
+void add_fixture(CLI::App& app, Request& request) {
+  CLI::App* fixture_app = app.add_subcommand("fixture", "scenes with closed forms for any engine");
+  fixture_app->require_subcommand(1);
+  CLI::App* run_app = fixture_app->add_subcommand(
+      "run", "run them in engines, and leave a score card in decades of error");
+  run_app->callback([&request] { request.command = [&] { return run_fixture(request.fixture); }; });
+  application::TaskArguments& arguments = request.fixture.tasks;
+  run_app->add_option(
+      "SUBJECT", request.fixture.subjects,
+      "engines, settings and laws: mujoco:recommended, lugre, bullet (default: all that "
+      "are found)");
+  run_app
+      ->add_option("--engines", request.fixture.engines,
+                   "a file of Engine blocks, whose engines may be subjects")
+      ->type_name("FILE");
+  run_app->add_option("--out", arguments.out, "folder of the results (default: runs/fixture-HASH)")
+      ->type_name("DIR");
+  add_consent(run_app, arguments.consent);
+  add_jobs(run_app, arguments.jobs);
+  run_app->add_flag("--resume", arguments.resume, "run only what an interrupted run lacks");
+  CLI::App* export_app = fixture_app->add_subcommand(
+      "export", "write them as files for other programs, with a script that judges");
+  export_app->callback(
+      [&request] { request.command = [&] { return export_fixture(request.file); }; });
+  export_app->add_option("DIR", request.file, "folder that they go into")->required();
+}
+
 void add_language_tools(CLI::App& app, Request& request) {
   CLI::App* check_app = add_command(app, request, "check", "report what is wrong in files",
                                     [&] { return check(request.files, request.consent); });
@@ -697,6 +725,7 @@ int main_with(int count, char** words) {
   add_advise(app, request);
   add_translate(app, request);
   add_export(app, request);
+  add_fixture(app, request);
   add_compare(app, request);
   std::vector<std::string> wanted = with_command(app, given);
   if (wanted.empty() && !given.empty()) return wrong_input;

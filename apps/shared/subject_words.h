@@ -18,9 +18,10 @@ struct SubjectError : std::runtime_error {
 
 /// The World's fields that the words set, which colons join: an engine, its settings, a law, an
 /// integrator, each at most once. A law or an integrator is of our engine unless one is named.
-/// Throws SubjectError.
-std::vector<std::pair<std::string, std::string>> subject_fields(const language::Schema& schema,
-                                                                const std::string& words);
+/// `given_as`: what the words stand behind, for an error. Throws SubjectError.
+std::vector<std::pair<std::string, std::string>> subject_fields(
+    const language::Schema& schema, const std::string& words,
+    const std::string& given_as = "--with");
 
 /// What tells an experiment from the same one under other words: our law, or the engine and its
 /// settings.

@@ -13,11 +13,15 @@ int TaskArguments::threads() const {
 }
 
 std::string rerun_command(const std::string& command, const TaskArguments& arguments) {
-  std::string line = "hookpoint " + command;
+  std::string line = "hookpoint";
   const auto add = [&line](const std::string& option, const std::string& value) {
     line += option + " " + text::shell_word(value);
   };
-  add("", arguments.file.string());
+  if (arguments.words.empty()) {
+    add("", command);
+    add("", arguments.file.string());
+  }
+  for (const std::string& word : arguments.words) add("", word);
   for (const std::string& setting : arguments.settings.trails) add(" --set", setting);
   for (const auto& [field, value] : arguments.settings.world)
     for (const ShortForm& form : short_forms)

@@ -25,6 +25,7 @@ struct TaskArguments {
   bool dry_run = false;  ///< only prints what it would be sent
   studies::SlurmSettings slurm_settings{};
   std::vector<std::string> engine_files{};  ///< absolute, that a cluster's runs may need
+  std::vector<std::string> words{};  ///< of a command that makes its file; empty: it is given
 
   /// `jobs`, or how many cores there are.
   int threads() const;

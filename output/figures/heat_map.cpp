@@ -20,6 +20,7 @@ constexpr double air = 10.;                                 // between numbers s
 constexpr double number_font = 11., tick_font = 13.;        // [px]
 constexpr double left_margin = 100., panel_gap = 40., right_margin = 120.;
 constexpr double top_margin = 92., bottom_margin = 84., band_gap = 108.;
+constexpr double colorbox_width = 22.;     // [px]
 constexpr double widest = 1800.;           // of a drawing whose panels stand side by side
 constexpr std::size_t most_numbered = 60;  // columns or rows of cells with numbers
 constexpr double crowded_panel = 720., tick_room = 64.;  // without numbers [px]
@@ -70,6 +71,20 @@ std::string tick_text(const Axis& axis, double value) {
                             : axis.names.at(static_cast<std::size_t>(std::lround(value)));
 }
 
+double widest_tick(const Axis& axis, const std::vector<double>& values) {
+  double width = 0.;
+  for (const double tick : values)
+    width = std::max(width, width_of(tick_text(axis, tick), tick_font));
+  return width;
+}
+
+/// Whether the names below the columns stand upright: side by side they would make the drawing too
+/// wide.
+bool upright_ticks(const HeatMap& map) {
+  const double width = std::max(least_width, widest_tick(map.x, map.x_values) + air);
+  return !crowded(map) && width * static_cast<double>(map.x_values.size()) > widest;
+}
+
 /// Of all cells: so that each number and each tick has room.
 double cell_width(const HeatMap& map) {
   if (crowded(map)) return crowded_panel / static_cast<double>(map.x_values.size());
@@ -77,8 +92,7 @@ double cell_width(const HeatMap& map) {
   for (const HeatMapPanel& panel : map.panels)
     for (const HeatMapCell& cell : panel.cells)
       if (cell.value) width = std::max(width, width_of(number_text(map, *cell.value), number_font));
-  for (const double tick : map.x_values)
-    width = std::max(width, width_of(tick_text(map.x, tick), tick_font));
+  if (!upright_ticks(map)) width = std::max(width, widest_tick(map.x, map.x_values));
   return std::ceil(width + air);
 }
 
@@ -94,14 +108,17 @@ class HeatMapScript {
         rows_(map.y_values.size()),
         panel_width_(cell_width(map) * static_cast<double>(columns_)),
         panel_height_(cell_height(map) * static_cast<double>(rows_)) {
+    if (upright_ticks(map)) bottom_ += widest_tick(map.x, map.x_values);
+    if (!map.y.names.empty())
+      left_ = std::max(left_, widest_tick(map.y, map.y_values) + 2. * tick_font);
     const std::size_t panels = std::max<std::size_t>(1, map.panels.size());
-    const double room = widest - left_margin - right_margin + panel_gap;
+    const double room = widest - left_ - right_margin + panel_gap;
     const double fit = std::max(1., std::floor(room / (panel_width_ + panel_gap)));
     across_ = std::min(panels, static_cast<std::size_t>(fit));
     bands_ = (panels + across_ - 1) / across_;
     const auto across = static_cast<double>(across_), bands = static_cast<double>(bands_);
-    width_ = left_margin + across * (panel_width_ + panel_gap) - panel_gap + right_margin;
-    height_ = top_margin + bands * (panel_height_ + band_gap) - band_gap + bottom_margin;
+    width_ = left_ + across * (panel_width_ + panel_gap) - panel_gap + right_margin;
+    height_ = top_margin + bands * (panel_height_ + band_gap) - band_gap + bottom_;
     out_.imbue(std::locale::classic());
   }
 
@@ -136,9 +153,8 @@ class HeatMapScript {
   void page_label(const std::string& text, double height, const char* size,
                   const std::string& color) {
     out_ << "set label " << gnuplot_quoted(text) << " at screen "
-         << text::rounded(left_margin / width_, 5) << ", screen "
-         << text::rounded(height / height_, 5) << " left font 'Helvetica," << size << "'" << color
-         << "\n";
+         << text::rounded(left_ / width_, 5) << ", screen " << text::rounded(height / height_, 5)
+         << " left font 'Helvetica," << size << "'" << color << "\n";
   }
 
   void set_colors() {
@@ -157,14 +173,16 @@ class HeatMapScript {
     if (map_.color.logarithmic) out_ << "set logscale cb\nset format cb '10^{%T}'\n";
     least_ = least;
     greatest_ = greatest;
-    out_ << "set palette defined (0 '" << hexadecimal(least_color) << "', 0.5 '"
-         << hexadecimal(middle_color) << "', 1 '" << hexadecimal(greatest_color)
-         << "')\nset cbrange [" << text::shortest(least) << ":" << text::shortest(greatest)
+    const Color& low = map_.less_is_better ? greatest_color : least_color;
+    const Color& high = map_.less_is_better ? least_color : greatest_color;
+    out_ << "set palette defined (0 '" << hexadecimal(low) << "', 0.5 '"
+         << hexadecimal(middle_color) << "', 1 '" << hexadecimal(high) << "')\nset cbrange ["
+         << text::shortest(least) << ":" << text::shortest(greatest)
          << "]\nset border 0\nset xrange [-0.5:"
          << text::shortest(static_cast<double>(columns_) - 0.5)
          << "]\nset yrange [-0.5:" << text::shortest(static_cast<double>(rows_) - 0.5)
-         << "]\nset tics scale 0\nset xtics nomirror ("
-         << ticks(map_.x, map_.x_values, panel_width_) << ")\nset xlabel "
+         << "]\nset tics scale 0\nset xtics nomirror" << (upright_ticks(map_) ? " rotate" : "")
+         << " (" << ticks(map_.x, map_.x_values, panel_width_) << ")\nset xlabel "
          << gnuplot_quoted(axis_title(map_.x)) << " noenhanced\nset cblabel "
          << gnuplot_quoted(axis_title(map_.color)) << " noenhanced\n";
   }
@@ -188,9 +206,8 @@ class HeatMapScript {
     const HeatMapPanel& panel = map_.panels[index];
     assert(panel.cells.size() == columns_ * rows_);
     const std::size_t column = index % across_, bands_below = bands_ - 1 - index / across_;
-    const double left = left_margin + static_cast<double>(column) * (panel_width_ + panel_gap);
-    const double bottom =
-        bottom_margin + static_cast<double>(bands_below) * (panel_height_ + band_gap);
+    const double left = left_ + static_cast<double>(column) * (panel_width_ + panel_gap);
+    const double bottom = bottom_ + static_cast<double>(bands_below) * (panel_height_ + band_gap);
     const auto screen = [](double pixels, double whole) {
       return text::rounded(pixels / whole, 5);
     };
@@ -204,7 +221,15 @@ class HeatMapScript {
            << ")\nset ylabel " << gnuplot_quoted(axis_title(map_.y)) << " noenhanced\n";
     else
       out_ << "unset ylabel\nunset ytics\n";
-    out_ << (index + 1 == map_.panels.size() ? "set colorbox\n" : "unset colorbox\n");
+    if (index + 1 < map_.panels.size())
+      out_ << "unset colorbox\n";
+    else if (upright_ticks(map_))  // gnuplot's own is as broad as the drawing is wide
+      out_ << "set colorbox user origin screen "
+           << screen(left + panel_width_ + 0.5 * panel_gap, width_) << ", screen "
+           << screen(bottom, height_) << " size screen " << screen(colorbox_width, width_)
+           << ", screen " << screen(panel_height_, height_) << "\n";
+    else
+      out_ << "set colorbox\n";
     set_line(panel);
     const std::size_t count = static_cast<std::size_t>(
         std::count_if(panel.cells.begin(), panel.cells.end(),
@@ -291,10 +316,11 @@ class HeatMapScript {
 
   const HeatMap& map_;
   std::size_t columns_, rows_;
-  double panel_width_, panel_height_;   // [px]
-  std::size_t across_ = 1, bands_ = 1;  // panels in a row, rows of panels
-  double width_ = 0., height_ = 0.;     // of the drawing [px]
-  double least_ = 0., greatest_ = 0.;   // of the colours
+  double panel_width_, panel_height_;                   // [px]
+  std::size_t across_ = 1, bands_ = 1;                  // panels in a row, rows of panels
+  double left_ = left_margin, bottom_ = bottom_margin;  // [px]
+  double width_ = 0., height_ = 0.;                     // of the drawing [px]
+  double least_ = 0., greatest_ = 0.;                   // of the colours
   std::ostringstream out_;
 };
 

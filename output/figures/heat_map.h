@@ -32,6 +32,7 @@ struct HeatMap {
   Axis x, y, color;  ///< names and units; a logarithmic colour begins at its floor
   std::vector<double> x_values, y_values;
   std::vector<HeatMapPanel> panels;  ///< side by side, of one scale of colours
+  bool less_is_better = false;       ///< the least has the blue of the greatest
 };
 
 /// Whether cells are so many that their numbers could not be read: they are colours alone then.

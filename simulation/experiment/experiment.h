@@ -311,7 +311,8 @@ enum class Reduction {
   integral,
   settle_time,
   count_above,
-  time_above
+  time_above,
+  curvature
 };
 
 /// One number of a quantity's values over a time.
@@ -333,9 +334,10 @@ struct ExpectationSpec {
   double expected = 0.;     ///< SI
   double tolerance = 0.;    ///< relative
   double within = 0.;       ///< absolute
-  std::string unit;         ///< of the expected value
-  std::string formula;      ///< as the file writes it
-  std::string source;       ///< where it comes from
+  std::optional<double> scale;  ///< of decades of error; none: the size of `expected`
+  std::string unit;             ///< of the expected value
+  std::string formula;          ///< as the file writes it
+  std::string source;           ///< where it comes from
   std::vector<std::string> laws, except_laws;  ///< no law: all
   std::vector<std::string> integrators;        ///< none: all
 

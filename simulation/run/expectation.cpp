@@ -11,10 +11,10 @@ namespace hookpoint::simulation {
 
 const std::vector<std::string>& reduction_names() {
   static const std::vector<std::string> names{
-      "final",    "maximum",     "minimum",         "mean",
-      "rms",      "range",       "change",          "slope",
-      "time_at",  "last",        "time_of_maximum", "time_of_minimum",
-      "integral", "settle_time", "count_above",     "time_above"};
+      "final",           "maximum",         "minimum",  "mean",        "rms",
+      "range",           "change",          "slope",    "time_at",     "last",
+      "time_of_maximum", "time_of_minimum", "integral", "settle_time", "count_above",
+      "time_above",      "curvature"};
   return names;
 }
 
@@ -41,6 +41,8 @@ language::Dimension dimension_of(Reduction take, const language::Dimension& quan
   switch (take) {
     case Reduction::slope:
       return quantity / second;
+    case Reduction::curvature:
+      return quantity / second / second;
     case Reduction::integral:
       return quantity * second;
     case Reduction::time_at:
@@ -82,6 +84,38 @@ double SettleWatch::since(double end) const {
   look(greatest_, end + band_);
   look(least_, band_ - end);
   return since;
+}
+
+void ParabolaFit::observe(double time, double value) {
+  if (count_ == 0.) {
+    first_time_ = time;
+    first_ = value;
+  }
+  const double s = time - first_time_, v = value - first_;
+  ++count_;
+  power_[0] += s;
+  power_[1] += s * s;
+  power_[2] += s * s * s;
+  power_[3] += s * s * s * s;
+  value_ += v;
+  product_ += s * v;
+  square_product_ += s * s * v;
+}
+
+std::optional<double> ParabolaFit::curvature() const {
+  if (count_ < 3.) return std::nullopt;
+  const auto covariance = [this](double product, double one, double other) {
+    return product / count_ - one / count_ * (other / count_);
+  };
+  // Of s and s^2, with each other and with the values.
+  const double ss = covariance(power_[1], power_[0], power_[0]);
+  const double sq = covariance(power_[2], power_[0], power_[1]);
+  const double qq = covariance(power_[3], power_[1], power_[1]);
+  const double sv = covariance(product_, power_[0], value_);
+  const double qv = covariance(square_product_, power_[1], value_);
+  const double determinant = ss * qq - sq * sq;
+  if (!(determinant > 0.)) return std::nullopt;
+  return 2. * (qv * ss - sv * sq) / determinant;
 }
 
 bool ExpectationSpec::covers(std::string_view law, std::string_view integrator) const {
@@ -129,6 +163,7 @@ void Reducer::observe(double time, double value) {
   if (time < from_ || (to_ && time > *to_)) return;
   find_crossing(time, value);
   if (take_ == Reduction::settle_time) observe_settling(time, value);
+  if (take_ == Reduction::curvature) parabola_.observe(time, value);
   ++count_;
   if (count_ == 1) {
     first_time_ = greatest_time_ = least_time_ = time;
@@ -186,6 +221,8 @@ std::optional<double> Reducer::value() const {
       return static_cast<double>(rises_);
     case Reduction::time_above:
       return above_;
+    case Reduction::curvature:
+      return parabola_.curvature();
   }
   return std::nullopt;
 }
@@ -196,6 +233,14 @@ std::optional<double> ExpectationResult::error() const {
   const bool relative = spec->tolerance > 0. && spec->expected != 0.;
   const double error = relative ? difference / std::abs(spec->expected) : difference;
   return std::isfinite(error) ? std::optional(error) : std::nullopt;
+}
+
+std::optional<double> ExpectationResult::decades() const {
+  const double scale = spec->scale.value_or(std::abs(spec->expected));
+  if (!measured || !(scale > 0.)) return std::nullopt;
+  const double ratio = std::abs(*measured - spec->expected) / scale;
+  if (!std::isfinite(ratio)) return std::nullopt;
+  return ratio > 0. ? std::max(std::log10(ratio), least_decades) : least_decades;
 }
 
 bool ExpectationResult::ok() const {

@@ -2,6 +2,7 @@
 // own metrics are reduced by the same code.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -49,6 +50,20 @@ class SettleWatch {
   Staircase greatest_, least_;  ///< of the values, and of those with the other sign
 };
 
+/// The least-squares parabola over time, in a pass.
+class ParabolaFit {
+ public:
+  void observe(double time, double value);
+  /// Its second derivative; nothing before three values.
+  std::optional<double> curvature() const;
+
+ private:
+  double count_ = 0., first_time_ = 0., first_ = 0.;
+  std::array<double, 4>
+      power_{};  ///< sums of the time since the first value, to the power of 1 to 4
+  double value_ = 0., product_ = 0., square_product_ = 0.;  ///< sums of the values less the first
+};
+
 /// Sees a quantity's value at every step and keeps a fixed amount of memory, however long the run
 /// (but for `settle_time` without a level: SettleWatch).
 class Reducer {
@@ -78,6 +93,7 @@ class Reducer {
   double level_, band_;
   bool about_level_;
   SettleWatch settling_;
+  ParabolaFit parabola_;
   std::optional<double> inside_since_;  ///< of the band about the level
   double integral_ = 0., above_ = 0.;
   std::int64_t rises_ = 0;
@@ -97,6 +113,10 @@ struct ExpectationResult {
   /// |measured - expected|; relative where `tolerance` decides.
   std::optional<double> error() const;
   bool ok() const;
+  /// log10 of |measured - expected| over the expectation's scale, at least `least_decades`; nothing
+  /// without a value or a scale.
+  std::optional<double> decades() const;
+  static constexpr double least_decades = -9.;
 };
 
 /// All expectations of an experiment that cover its law and integrator.

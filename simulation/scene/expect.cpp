@@ -29,7 +29,7 @@ namespace {
 
 namespace expect_field {
 constexpr const char *of = "of", *take = "take", *equals = "equals", *within = "within",
-                     *level = "level", *band = "band", *to = "to", *laws = "laws",
+                     *scale = "scale", *level = "level", *band = "band", *to = "to", *laws = "laws",
                      *except_laws = "except_laws", *integrators = "integrators";
 }
 
@@ -59,6 +59,9 @@ const Fields<ExpectationSpec>& expect_fields() {
                                 "allowed difference relative to `equals`")),
       not_negative(without_default(
           number_field(expect_field::within, "?", &Spec::within, "allowed absolute difference"))),
+      positive(number_field(expect_field::scale, "?", &Spec::scale,
+                            "what a score card holds the difference against; default: the size "
+                            "of `equals`")),
       reduction_field(
           number_field(expect_field::level, "?", &Take::level,
                        "of `time_at`, `count_above`, `time_above`; of `settle_time` what it "
@@ -157,7 +160,7 @@ class ExpectationLoader {
                      "no difference is allowed: give a `tolerance` (relative) or `within`");
   }
 
-  /// `equals` and `within` are in the unit of the reduction, level and band in the port's own.
+  /// `equals`, `within` and `scale` are in the unit of the reduction, level and band in the port's own.
   void check_unit(const language::Target& target) {
     const std::string& unit = target.object->unit_of(*target.field);
     const auto parsed = language::parse_unit(unit == "?" ? "" : unit);
@@ -168,7 +171,7 @@ class ExpectationLoader {
         dimension_of(spec_.reduction.take, some) != dimension_of(spec_.reduction.take, {});
     spec_.unit = unit == "?" && follows ? "" : language::unit_text(wanted);
     if (unit == "?") return;
-    for (const char* field : {expect_field::equals, expect_field::within})
+    for (const char* field : {expect_field::equals, expect_field::within, expect_field::scale})
       check_dimension(field, wanted);
     for (const char* field : {expect_field::level, expect_field::band})
       check_dimension(field, parsed->dimension);

@@ -6,9 +6,14 @@ namespace hookpoint::studies {
 
 namespace {
 
-const Fields<Heading>& wall_fields() {
-  static const Fields<Heading> fields =
-      heading_fields("heading of the report", "what the wall shows, first thing in the report");
+const Fields<WallBlock>& wall_fields() {
+  static const Fields<WallBlock> fields{
+      text_field("title", &WallBlock::title, "heading of the report"),
+      text_field("question", &WallBlock::question,
+                 "what the wall shows, first thing in the report"),
+      boolean_field("score_card", &WallBlock::score_card,
+                    "whether it compares its subjects: the report begins with a card of decades of "
+                    "error, and a truth that does not hold is a finding, no failure")};
   return fields;
 }
 
@@ -16,7 +21,10 @@ const Fields<SceneBlock>& scene_fields() {
   static const Fields<SceneBlock> fields{
       text_field("title", &SceneBlock::title, "what it shows"),
       text_field("file", &SceneBlock::file, "if not scenes/NAME.hook"),
-      quick_field(&SceneBlock::quick)};
+      quick_field(&SceneBlock::quick),
+      number_field("accepted", "?", &SceneBlock::accepted,
+                   "an error that others accept, which the score card shows beside the subjects"),
+      text_field("accepted_by", &SceneBlock::accepted_by, "who accepts it")};
   return fields;
 }
 
@@ -31,7 +39,7 @@ void add_wall_classes(language::Schema& schema) {
                          schemas(scene_fields()), {"Fix"}));
 }
 
-Heading wall_heading(const language::Object& wall) { return load_fields(wall, wall_fields()); }
+WallBlock wall_block(const language::Object& wall) { return load_fields(wall, wall_fields()); }
 
 SceneBlock scene_block(const language::Object& scene) { return load_fields(scene, scene_fields()); }
 

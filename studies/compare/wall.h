@@ -20,6 +20,8 @@ struct WallScene {
   std::string name;                       ///< "braking_block"
   std::string title;                      ///< what it shows
   std::string file;                       ///< as the Wall writes it
+  std::optional<double> accepted = {};    ///< error that others accept, SI
+  std::string accepted_by = {};           ///< who they are
   std::vector<std::string> expects = {};  ///< names of all that it expects, of whatever law
 };
 
@@ -29,11 +31,13 @@ struct WallPlan {
   std::vector<std::vector<simulation::ExpectationSpec>> expectations;  ///< that cover it, one a row
   std::vector<WallScene> scenes;
   std::vector<std::string> unselected;  ///< Subjects that --only leaves out
+  bool score_card = false;              ///< it compares, and its truths need not hold
 };
 
 /// The result of one truth under one subject.
 struct WallCell {
   std::optional<double> measured, error;
+  std::optional<double> decades;  ///< of the error (ExpectationResult::decades)
   double expected = 0.;
   bool ok = false;
   std::string status;  ///< "ok", or what stopped the run; "" where the truth says nothing of it
@@ -46,6 +50,7 @@ struct WallLine {
   std::string name, formula, source, unit;
   std::string allowed;          ///< "0.1 %", "1e-06 m"
   bool relative = true;         ///< how errors are written
+  double scale = 0.;            ///< of decades of error
   std::vector<WallCell> cells;  ///< one a subject
 };
 
@@ -56,8 +61,10 @@ struct WallResult {
   std::vector<WallLine> lines;        ///< scenes in order, their truths in order
   std::vector<std::string> warnings;  ///< the plan's
   std::vector<IdleBlock> idle;        ///< Expects that cover no run
-  /// Every verdict holds, and no scene's Expects all judge nothing: what exit status 0 means.
-  bool holds() const { return failed() == 0 && !has_fault(idle); }
+  bool score_card = false;            ///< it compares, and its truths need not hold
+  /// No scene's Expects all judge nothing, and where it does not compare every verdict holds: what
+  /// exit status 0 means.
+  bool holds() const { return (score_card || failed() == 0) && !has_fault(idle); }
   int passed() const;
   int failed() const;
   int left_out() const;  ///< truths that no run judges, for want of an engine

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "language/names.h"
+#include "language/units.h"
 #include "simulation/analysis/step_warning.h"
 #include "simulation/scene/load.h"
 #include "studies/blocks/fix.h"
@@ -48,7 +49,9 @@ class WallPlanner : public RowPlanner {
       diagnostics_.error(block.position, "no file \"" + file + "\" beside the Wall or in configs/");
       return;
     }
-    wall_.scenes.push_back({block.name, scene.title, file});
+    wall_.scenes.push_back({block.name, scene.title, file, {}, scene.accepted_by});
+    accepted_ = scene.accepted;
+    if (accepted_ != nullptr) wall_.scenes.back().accepted = accepted_->numbers[0];
     const std::size_t runs_before = plan_.rows.size();
     const std::size_t errors_before = diagnostics_.error_count();
     covered_.clear();
@@ -186,14 +189,38 @@ class WallPlanner : public RowPlanner {
                    *loaded.warning);
     row.deltat = loaded.deltat;
     row.duration = loaded.duration;
+    if (wall_.score_card && !fit_a_card(loaded.expectations)) return Answer::error;
     wall_.expectations.push_back(std::move(loaded.expectations));
     return Answer::taken;
+  }
+
+  /// Whether each has a scale, and the unit of the error that others accept.
+  bool fit_a_card(const std::vector<simulation::ExpectationSpec>& expectations) {
+    for (const simulation::ExpectationSpec& spec : expectations) {
+      const auto unit = language::parse_unit(spec.unit);
+      std::string problem;
+      if (spec.expected == 0. && !spec.scale)
+        problem = fmt::format(
+            "the Expect {} has a closed form of 0: a score card needs the `scale` that its error is "
+            "held against",
+            spec.name);
+      else if (accepted_ != nullptr && unit &&
+               !language::fits(accepted_->dimension, unit->dimension))
+        problem = fmt::format("`accepted` is to be in {}, as the Expect {} is, not in {}",
+                              language::describe_dimension(unit->dimension), spec.name,
+                              language::describe_dimension(accepted_->dimension));
+      if (problem.empty()) continue;
+      refuse(*block_, problem);
+      return false;
+    }
+    return true;
   }
 
   WallPlan& wall_;
   language::Library& library_;
   const PlanOptions& options_;
-  const Object* block_ = nullptr;  ///< the present scene
+  const Object* block_ = nullptr;              ///< the present scene
+  const language::Field* accepted_ = nullptr;  ///< of it
   std::vector<const Object*> subjects_;
   std::set<std::string> covered_;
   std::set<std::string> refused_;  ///< scenes, each with what is wrong
@@ -230,9 +257,10 @@ std::optional<WallPlan> make_wall_plan(const Object& root, const Object& wall,
   plan.study.library = &library;
   plan.study.quick = options.quick;
   plan.study.may_end = true;
-  const Heading heading = wall_heading(wall);
-  plan.study.title = heading.title;
-  plan.study.question = heading.question;
+  const WallBlock block = wall_block(wall);
+  plan.study.title = block.title;
+  plan.study.question = block.question;
+  plan.score_card = block.score_card;
   WallPlanner planner(plan, engines, options, diagnostics);
   for (const Object* subject : wall.children_of("Subject")) {
     if (options.only.empty() || language::contains(options.only, subject->name))

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "language/names.h"
+#include "studies/compare/score_card.h"
 #include "studies/report/page_files.h"
 #include "studies/report/report_page.h"
 #include "studies/report/report_tables.h"
@@ -118,6 +120,11 @@ std::string verdict(const WallResult& wall) {
   if (passed + failed == 0)
     text = fmt::format("<p class=\"verdict{}No verdict{}.</p>\n", fault ? " bad\">✗ " : "\">",
                        counted);
+  else if (wall.score_card)
+    text = fmt::format(
+        "<p class=\"verdict\">{} of {} results lie as near to the closed form as the scene "
+        "allows{}.</p>\n",
+        passed, passed + failed, counted);
   else if (failed == 0)
     text = fmt::format("<p class=\"verdict {}All {} verdicts hold{}.</p>\n",
                        fault ? "bad\">✗ " : "good\">✓ ", passed, counted);
@@ -141,7 +148,55 @@ const WallCell* worst_cell(const WallLine& line) {
   return worst;
 }
 
+std::string decades_text(const std::optional<double>& decades) {
+  return decades ? fmt::format("{:.1f}", *decades) : "no result";
+}
+
+/// "threshold_below: mujoco_default -7.3; lugre -0.1, ..." with a word for each.
+std::string laws_text(const Loss& loss) {
+  std::vector<std::string> laws;
+  for (const auto& [law, decades] : loss.ours) laws.push_back(law + " " + decades_text(decades));
+  return language::join(laws, ", ");
+}
+
+std::string card_section(const ReportFigure& card) {
+  if (card.svg.empty()) return "<p class=\"note bad\">" + html(card.message) + "</p>\n";
+  return "<figure class=\"scroll\">" + described_svg(card) + "<figcaption>" + html(card.caption) +
+         " Data: <a href=\"score_card.csv\">score_card.csv</a>, <a "
+         "href=\"scores.csv\">scores.csv</a>.</figcaption></figure>\n";
+}
+
+std::string losses_table(const WallResult& wall) {
+  const std::vector<Loss> found = losses(wall);
+  std::string text = "<h2>Where our laws lose</h2>\n";
+  if (found.empty())
+    return text +
+           "<p>Nowhere: no other engine is more than a decade nearer to a closed form that a law of "
+           "ours does not meet.</p>\n";
+  text +=
+      "<p>Closed forms that laws of ours do not meet, and that another engine is more than a decade "
+      "nearer to.</p>\n<div class=\"scroll\"><table class=\"summary\"><thead><tr><th "
+      "class=\"text\">truth</th><th class=\"text\">nearest of the others</th><th "
+      "class=\"text\">laws of ours, decades of error</th></tr></thead><tbody>\n";
+  for (const Loss& loss : found)
+    text += fmt::format(
+        "<tr><td class=\"text\">{}</td><td class=\"text\">{} {}</td><td class=\"form\">{}</td></tr>\n",
+        html(wall.scenes[loss.line->scene].name), html(loss.other), decades_text(loss.theirs),
+        html(laws_text(loss)));
+  return text + "</tbody></table></div>\n";
+}
+
+std::string card_lines(const WallResult& wall, const TableStyle& style) {
+  std::string text;
+  for (const Loss& loss : losses(wall))
+    text += toned("  ✗ ", Tone::bad, style.color) +
+            fmt::format("{}: {} comes nearer ({}) than {}\n", wall.scenes[loss.line->scene].name,
+                        loss.other, decades_text(loss.theirs), laws_text(loss));
+  return text;
+}
+
 std::string failures(const WallResult& wall, const TableStyle& style) {
+  if (wall.score_card) return card_lines(wall, style);
   std::string text;
   for (const WallLine& line : wall.lines) {
     for (std::size_t i = 0; i < line.cells.size(); ++i) {
@@ -161,12 +216,14 @@ std::string failures(const WallResult& wall, const TableStyle& style) {
 
 }  // namespace
 
-std::string wall_html(const WallResult& wall, const ReportContext& context) {
+std::string wall_html(const WallResult& wall, const ReportContext& context,
+                      const std::optional<ReportFigure>& card) {
   const std::string title = wall.title.empty() ? wall.name : wall.title;
   std::string page = page_start(title, page_files::wall_css);
   page += "<p class=\"kicker\">Wall · " + html(wall.file) + "</p>\n<h1>" + html(title) + "</h1>\n";
   if (!wall.question.empty()) page += "<p class=\"question\">" + html(wall.question) + "</p>\n";
   page += verdict(wall) + "<pre>" + html(context.command) + "</pre>\n";
+  if (card) page += card_section(*card) + losses_table(wall);
   page +=
       "<p class=\"note soft\">Each cell: what was measured and, small, how far it is from the "
       "closed form. A dot: the truth says nothing of that law; where a law fails by its own "

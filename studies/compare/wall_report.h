@@ -1,6 +1,7 @@
 // A Wall for the eye: a page and a table of the terminal.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "studies/compare/wall.h"
@@ -10,8 +11,10 @@
 namespace hookpoint::studies {
 
 /// One self-contained page: scenes and their truths down, subjects across; each cell what was
-/// measured, how far from the closed form, and whether that is allowed. Pure.
-std::string wall_html(const WallResult& wall, const ReportContext& context);
+/// measured, how far from the closed form, and whether that is allowed. `card`: the drawing of
+/// score_card(), before the table. Pure.
+std::string wall_html(const WallResult& wall, const ReportContext& context,
+                      const std::optional<ReportFigure>& card = {});
 
 /// A line a truth: the closed form, how many subjects meet it and the largest error; then what does
 /// not hold, and the counts.

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <mutex>
 #include <optional>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "output/files/csv.h"
 #include "output/files/file.h"
 #include "simulation/run/expectation.h"
+#include "studies/compare/score_card.h"
 #include "studies/compare/wall.h"
 #include "studies/results/summary.h"
 #include "studies/run/results_csv.h"
@@ -44,6 +46,7 @@ WallLine& line_of(WallResult& result, std::size_t scene, const ExpectationSpec& 
                 spec.unit,
                 allowed_difference(spec),
                 spec.tolerance > 0. && spec.expected != 0.,
+                spec.scale.value_or(std::abs(spec.expected)),
                 {}};
   line.cells.resize(result.subjects.size());
   result.lines.push_back(std::move(line));
@@ -64,6 +67,7 @@ void add_record(WallResult& result, const WallPlan& plan, std::size_t index, Run
     const ExpectationResult found{&spec, record.values[expectation_key(spec.name)].measured};
     cell.measured = found.measured;
     cell.error = found.error();
+    cell.decades = found.decades();
     cell.ok = found.ok();
   }
 }
@@ -137,8 +141,9 @@ std::optional<WallRun> run_wall(const WallPlan& plan, const EngineTable& engines
                                 const RunOptions& options, const std::atomic<bool>& stop) {
   const std::vector<RowPlan>& rows = plan.study.rows;
   WallRun run{{}, options.folder.empty() ? plan.study.folder() : options.folder, nullptr, {}};
-  run.files = std::make_unique<output::ResultFolder>(run.folder, manifest_of(plan.study),
-                                                     study_files(plan.study));
+  std::vector<std::string> names = study_files(plan.study);
+  if (plan.score_card) names.insert(names.end(), score_card_files.begin(), score_card_files.end());
+  run.files = std::make_unique<output::ResultFolder>(run.folder, manifest_of(plan.study), names);
   CachedRuns runs(plan.study.name, options, run.folder, rows.size(), stop);
   const StudyRows kept(plan.study, engines, runs.store());
   RunBatch batch = kept.batch(stop);
@@ -161,7 +166,8 @@ std::optional<WallRun> run_wall(const WallPlan& plan, const EngineTable& engines
             {},
             {},
             plan.study.warnings,
-            {}};
+            {},
+            plan.score_card};
   for (const SubjectPlan& subject : plan.study.subjects) result.subjects.push_back(subject.info);
   Notices notices;
   for (std::size_t row = 0; row < rows.size(); ++row) {

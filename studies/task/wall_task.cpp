@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "studies/blocks/wall.h"
+#include "studies/compare/score_card.h"
 #include "studies/compare/wall.h"
 #include "studies/compare/wall_report.h"
 #include "studies/task/task_kinds.h"
@@ -68,13 +69,24 @@ class WallTask : public Task {
   std::vector<std::string> leave() override {
     const Provenance provenance = make_provenance(plan_.study, host_.engines());
     write_wall_files(*files_, run_->result, plan_, provenance);
+    std::vector<std::string> problems;
+    const std::optional<ReportFigure> card = draw_card(problems);
     files_->write("report.html",
-                  wall_html(run_->result, {command_, {}, provenance_lines(provenance), {}}));
+                  wall_html(run_->result, {command_, {}, provenance_lines(provenance), {}}, card));
     files_->finish();
-    return {};
+    return problems;
   }
 
  private:
+  std::optional<ReportFigure> draw_card(std::vector<std::string>& problems) {
+    if (!run_->result.score_card) return std::nullopt;
+    files_->write("scores.csv", score_table(run_->result).text());
+    const output::HeatMap map = score_card(run_->result);
+    const output::PlotOutcome drawn = output::draw(map, folder());
+    if (!drawn.drawn) problems.push_back(drawn.message);
+    return ReportFigure{map.name, map.title + ": " + map.subtitle + ".", drawn.svg, drawn.message};
+  }
+
   WallPlan plan_;
   std::optional<WallRun> run_;
 };

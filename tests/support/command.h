@@ -51,9 +51,12 @@ class Workplace {
   }
   /// `hookpoint ARGUMENTS` with this folder as the working directory.
   CommandResult hookpoint(const std::string& arguments) const {
-    const std::string command = "cd '" + folder_.string() + "' && '" + testing::build_folder() +
-                                "/hookpoint' " + arguments + " >.out 2>.err";
-    const int raw = std::system(command.c_str());
+    return run("'" + testing::build_folder() + "/hookpoint' " + arguments);
+  }
+  /// Any other command there.
+  CommandResult run(const std::string& command) const {
+    const int raw =
+        std::system(("cd '" + folder_.string() + "' && " + command + " >.out 2>.err").c_str());
     return {WIFEXITED(raw) ? WEXITSTATUS(raw) : 128 + WTERMSIG(raw), read(".out"), read(".err")};
   }
 

@@ -117,6 +117,28 @@ TEST(HeatMapScript, CellsAreAsWideAsTheirNumbersAndTicksAsk) {
   EXPECT_GE(width(), narrow + 2. * 15.);
 }
 
+// Names that would make the drawing too wide side by side stand upright below their columns.
+TEST(HeatMapScript, ManyLongNamesStandUpright) {
+  HeatMap map = sample();
+  map.x.names = {"mujoco_3_14_recommended", "ode_quickstep_default"};
+  map.x_values = {0., 1.};
+  EXPECT_EQ(heat_map_script(map).find("rotate"), std::string::npos) << "two have room";
+  for (int i = 2; i < 40; ++i) {
+    map.x.names.push_back("bullet_recommended");
+    map.x_values.push_back(i);
+  }
+  map.panels[0].cells.resize(40 * map.y_values.size());
+  EXPECT_NE(heat_map_script(map).find("set xtics nomirror rotate"), std::string::npos);
+}
+
+// The blue of the greatest is that of the least where less is better.
+TEST(HeatMapScript, TheBetterEndIsBlue) {
+  HeatMap map = sample();
+  EXPECT_NE(heat_map_script(map).find("(0 '#f6b26b'"), std::string::npos);
+  map.less_is_better = true;
+  EXPECT_NE(heat_map_script(map).find("(0 '#7fb8e6'"), std::string::npos);
+}
+
 TEST(HeatMapScript, PanelsThatDoNotFitSideBySideStandInRows) {
   HeatMap map = sample();
   // 92 px each and 40 between them: 12 in the 1580 px beside the margins.

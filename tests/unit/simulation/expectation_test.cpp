@@ -46,6 +46,32 @@ TEST(Reducer, TakesEachNumberOfASeries) {
   EXPECT_NEAR(*of_pi(take(Reduction::slope)), 0.4, 1e-15);
 }
 
+// A parabola's own second derivative, far from the start of time and on a large constant.
+TEST(Reducer, FitsTheCurvatureOfAParabola) {
+  Reducer curvature(take(Reduction::curvature, 0.5).reduction);
+  for (int step = 0; step <= 2000; ++step) {
+    const double t = 1e-3 * step;
+    curvature.observe(t, 1e3 - 3. * t + 0.5 * 0.0876 * t * t);
+  }
+  EXPECT_NEAR(*curvature.value(), 0.0876, 1e-9);
+  // (1, 3, 2) and so on against the polynomials orthogonal on five points: 2 (2, -1, -2, -1, 2).y/14
+  EXPECT_NEAR(*of_pi(take(Reduction::curvature)), 2. * (6. - 1. - 8. - 1. + 10.) / 14., 1e-14);
+  EXPECT_EQ(of_pi(take(Reduction::curvature, 3.)), std::nullopt) << "two values have none";
+}
+
+TEST(ExpectationResult, CountsDecadesOfItsScale) {
+  ExpectationSpec spec;
+  spec.expected = -2.;
+  using Result = simulation::ExpectationResult;
+  EXPECT_NEAR(*(Result{&spec, -2.002}.decades()), -3., 1e-9);
+  EXPECT_EQ((Result{&spec, -2.}.decades()), -9.);
+  EXPECT_EQ((Result{&spec, {}}.decades()), std::nullopt);
+  spec.scale = 200.;
+  EXPECT_NEAR(*(Result{&spec, 0.}.decades()), -2., 1e-12);
+  spec = {};
+  EXPECT_EQ((Result{&spec, 1.}.decades()), std::nullopt) << "0 without a scale";
+}
+
 TEST(Reducer, SeesOnlyItsWindowEndsIncluded) {
   EXPECT_EQ(of_pi(take(Reduction::maximum, 1., 3.)), 4.);
   EXPECT_EQ(of_pi(take(Reduction::final, 1., 3.)), 1.);

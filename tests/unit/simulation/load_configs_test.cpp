@@ -16,7 +16,8 @@ std::vector<std::filesystem::path> config_files() {
            std::filesystem::path(testing::source_folder()) / "configs")) {
     // Studies and engines have classes of their own, which their own tests know.
     const auto folder = entry.path().parent_path().filename();
-    const bool other = folder == "studies" || folder == "tunings" || folder == "engines";
+    const bool other = folder == "studies" || folder == "tunings" || folder == "engines" ||
+                       entry.path().filename() == "scenes.hook";
     if (entry.path().extension() == ".hook" && !other) files.push_back(entry.path());
   }
   std::ranges::sort(files);
@@ -52,7 +53,8 @@ TEST_P(EveryConfig, Loads) {
     EXPECT_TRUE(is_included(GetParam())) << GetParam() << " stands in no scene";
     return;
   }
-  const bool is_world = folder == "scenes" || folder == "paper" || folder == "views";
+  const bool is_world = folder == "scenes" || folder == "paper" || folder == "views" ||
+                        folder == "fixture" || folder == "parts";
   const Loaded loaded = load_file(GetParam());
   if (is_world) {
     EXPECT_TRUE(loaded.experiment) << loaded.diagnostics;
