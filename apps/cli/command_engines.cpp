@@ -49,8 +49,14 @@ void print_table(const application::Application& application) {
 
 int engines(const EnginesArguments& arguments) {
   application::Application application(arguments.consent);
-  if (arguments.file && !application.load_plugins(application.locate(*arguments.file)))
-    return wrong_input;
+  if (arguments.file) {
+    const std::filesystem::path file = application.locate(*arguments.file);
+    if (!std::filesystem::exists(file)) {
+      application::print_error("there is no file " + text::printable(file.string()));
+      return wrong_input;
+    }
+    if (!application.load_plugins(file)) return wrong_input;
+  }
   if (arguments.json) {
     std::cout << application::engines_json(application);
   } else {

@@ -406,9 +406,9 @@ int describe_with(const CLI::App& app, const DescribeArguments& arguments) {
 void add_fixture(CLI::App& app, Request& request) {
   CLI::App* fixture_app = app.add_subcommand("fixture", "scenes with closed forms for any engine");
   fixture_app->require_subcommand(1);
-  CLI::App* run_app = fixture_app->add_subcommand(
-      "run", "run them in engines, and leave a score card in decades of error");
-  run_app->callback([&request] { request.command = [&] { return run_fixture(request.fixture); }; });
+  CLI::App* run_app = add_command(*fixture_app, request, "run",
+                                  "run them in engines, and leave a score card in decades of error",
+                                  [&] { return run_fixture(request.fixture); });
   application::TaskArguments& arguments = request.fixture.tasks;
   run_app->add_option(
       "SUBJECT", request.fixture.subjects,
@@ -423,11 +423,11 @@ void add_fixture(CLI::App& app, Request& request) {
   add_consent(run_app, arguments.consent);
   add_jobs(run_app, arguments.jobs);
   run_app->add_flag("--resume", arguments.resume, "run only what an interrupted run lacks");
-  CLI::App* export_app = fixture_app->add_subcommand(
-      "export", "write them as files for other programs, with a script that judges");
-  export_app->callback(
-      [&request] { request.command = [&] { return export_fixture(request.file); }; });
-  export_app->add_option("DIR", request.file, "folder that they go into")->required();
+  add_command(*fixture_app, request, "export",
+              "write them as files for other programs, with a script that judges",
+              [&] { return export_fixture(request.file); })
+      ->add_option("DIR", request.file, "folder that they go into")
+      ->required();
 }
 
 void add_language_tools(CLI::App& app, Request& request) {
@@ -742,8 +742,9 @@ int main_with(int count, char** words) {
   try {
     return request.command();
   } catch (const output::PlaceError& error) {
-    const bool may_move =
-        app.got_subcommand("run") || app.got_subcommand("study") || app.got_subcommand("tune");
+    const bool may_move = app.got_subcommand("run") || app.got_subcommand("study") ||
+                          app.got_subcommand("tune") ||
+                          app.get_subcommand("fixture")->got_subcommand("run");
     const std::string message = error.what(), advice = "--out names another folder";
     const bool said = message.find(advice) != std::string::npos;
     throw output::FileError(message + (may_move && !said ? "; " + advice : ""));

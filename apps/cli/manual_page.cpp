@@ -59,12 +59,13 @@ std::string troff(const std::string& text) {
 std::string bold(const std::string& text) { return "\\fB" + troff(text) + "\\fR"; }
 std::string slanted(const std::string& text) { return "\\fI" + troff(text) + "\\fR"; }
 
-std::string heading(const CLI::App& command) {
-  std::string text = ".SS " + troff(command.get_name());
+/// `name`: with that of the command that it is a part of.
+std::string heading(const CLI::App& command, const std::string& name) {
+  std::string text = ".SS " + troff(name);
   for (const CLI::Option* option : options_of(command)) {
     if (!option->get_positional()) continue;
-    const std::string name = option->get_name(true) + (option->get_expected_max() > 1 ? "..." : "");
-    text += " " + troff(option->get_required() ? name : "[" + name + "]");
+    const std::string word = option->get_name(true) + (option->get_expected_max() > 1 ? "..." : "");
+    text += " " + troff(option->get_required() ? word : "[" + word + "]");
   }
   return text + " [OPTIONS]\n" + troff(command.get_description()) + ".\n";
 }
@@ -77,6 +78,15 @@ std::string entry(const CLI::Option& option) {
   if (!option.get_positional() && takes_value(option))
     text += " " + slanted(option.get_type_name());
   return text + "\n" + troff(option.get_description()) + "\n";
+}
+
+/// The command, then its parts.
+std::string section(const CLI::App& command, const std::string& name) {
+  std::string text = heading(command, name);
+  for (const CLI::Option* option : options_of(command)) text += entry(*option);
+  for (const CLI::App* part : commands_of(command))
+    text += section(*part, name + " " + part->get_name());
+  return text;
 }
 
 /// What bash offers after an option, as a command that prints it; "" for nothing.
@@ -107,10 +117,7 @@ std::string manual_page(const CLI::App& app, const std::string& version) {
       "]\n.SH DESCRIPTION\n" + troff(about.substr(line + 1)) + "\n.SH OPTIONS\n";
   for (const CLI::Option* option : options_of(app)) text += entry(*option);
   text += ".SH COMMANDS\n";
-  for (const CLI::App* command : commands_of(app)) {
-    text += heading(*command);
-    for (const CLI::Option* option : options_of(*command)) text += entry(*option);
-  }
+  for (const CLI::App* command : commands_of(app)) text += section(*command, command->get_name());
   text += ".SH EXIT STATUS\n";
   for (const ExitMeaning& exit : exit_meanings)
     text += ".TP\n" + bold(std::to_string(exit.status)) + "\n" + troff(exit.meaning) + "\n";
@@ -126,12 +133,13 @@ std::string bash_completion(const CLI::App& app,
       "# Made by `hookpoint describe --completion bash`.\n"
       "_hookpoint() {\n"
       "  local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]}\n"
-      "  local command=${COMP_WORDS[1]} options=\n"
+      "  local command=${COMP_WORDS[1]} options= parts=\n"
       "  if [ \"$COMP_CWORD\" = 1 ]; then command=; fi\n"
       "  case \"$command:$before\" in\n";
   std::vector<std::string> commands;
   std::string options = "  case $command in\n";
-  const auto add = [&](const std::vector<const CLI::Option*>& possible, const std::string& name) {
+  const auto add = [&](const std::vector<const CLI::Option*>& possible, const std::string& name,
+                       const std::vector<std::string>& parts = {}) {
     std::vector<std::string> all;
     for (const CLI::Option* option : possible) {
       const std::vector<std::string> names = names_of(*option);
@@ -142,12 +150,19 @@ std::string bash_completion(const CLI::App& app,
       text += "    " + name + ":" + names.back() + ") mapfile -t COMPREPLY < <(" +
               (offered.empty() ? ":" : offered + " -- \"$word\"") + "); return ;;\n";
     }
-    options +=
-        "    " + (name.empty() ? "''" : name) + ") options='" + language::join(all, " ") + "' ;;\n";
+    options += "    " + (name.empty() ? "''" : name) + ") options='" + language::join(all, " ") +
+               "'" + (parts.empty() ? "" : " parts='" + language::join(parts, " ") + "'") + " ;;\n";
   };
   for (const CLI::App* command : commands_of(app)) {
     commands.push_back(command->get_name());
-    add(options_of(*command), command->get_name());
+    std::vector<const CLI::Option*> possible = options_of(*command);
+    std::vector<std::string> parts;
+    for (const CLI::App* part : commands_of(*command)) {
+      parts.push_back(part->get_name());
+      const auto of_part = options_of(*part);
+      possible.insert(possible.end(), of_part.begin(), of_part.end());
+    }
+    add(possible, command->get_name(), parts);
   }
   add(options_of(app), "");
   // The first word is a command or a file; FILE.hook takes what `run` and `study` take.
@@ -163,6 +178,10 @@ std::string bash_completion(const CLI::App& app,
           "  case $word in\n"
           "    -*) mapfile -t COMPREPLY < <(compgen -W \"$options\" -- \"$word\") ;;\n"
           "    *) mapfile -t COMPREPLY < <(compgen -f -- \"$word\")\n"
+          "       if [ -n \"$parts\" ]; then\n"
+          "         mapfile -t -O \"${#COMPREPLY[@]}\" COMPREPLY < <(compgen -W \"$parts\" -- "
+          "\"$word\")\n"
+          "       fi\n"
           "       if [ -z \"$command\" ]; then\n"
           "         mapfile -t -O \"${#COMPREPLY[@]}\" COMPREPLY < <(compgen -W \"$options\" -- "
           "\"$word\")\n"

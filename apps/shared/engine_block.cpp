@@ -48,6 +48,7 @@ void add_engine_class(language::Schema& schema) {
       "an engine that is a program (docs/engine_protocol.md); in a file of its own, which lies in a "
       "folder `engines` or is included";
   engine.top_level = true;
+  engine.own_file = true;
   engine.naming = language::Naming::required;
   engine.fields = schemas(engine_fields());
   schema.add(std::move(engine));

@@ -76,8 +76,8 @@ Experiment over_ground() {
   return experiment;
 }
 
-/// A base with two links, the axes askew, at rest and under torques: engines that know bodies alone
-/// feel how their joints move only in the step after.
+/// A base with two links, their axes askew, at rest and under torques. At rest, since an engine whose
+/// joints are constraints has no centripetal accelerations within a step.
 Experiment chain() {
   simulation::RobotSpec robot = ball({0., 0., 1.});
   robot.base.shapes.clear();
@@ -94,8 +94,8 @@ Experiment chain() {
     link.torque = 0.2 - angle;
   }
   Experiment experiment = world(std::move(robot));
-  // Single precision places bodies to 1e-7 m, and what is left of a joint's gap is made up for in a step:
-  // a long one.
+  // In single precision bodies stand to 1e-7 m, and a step closes the gaps of that size: a long step does
+  // so slowly.
   experiment.deltat = 10. * step;
   experiment.integrator = "explicit_euler";  // ours: the accelerations of the start
   return experiment;

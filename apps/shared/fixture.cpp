@@ -52,6 +52,7 @@ std::string subject_blocks(const Application& application, const std::string& wo
   if (given(open) != nullptr) return subject_block(fields);
   const std::vector<std::string> choices =
       ours ? contact::law_names() : application.engines().at(engine).describe().settings;
+  if (choices.empty()) return subject_block(fields);  // an engine that is not found
   std::string text;
   for (const std::string& choice : choices) {
     auto chosen = fields;
@@ -204,6 +205,9 @@ std::optional<std::vector<Phenomenon>> load_phenomena(Application& application,
     phenomenon.accepted_by = scene.accepted_by;
     auto experiment = application.load(phenomenon.file, {});
     if (!experiment) return std::nullopt;
+    if (experiment->expectations.size() != 1)
+      throw simulation::ExperimentError(
+          fmt::format("{}: a phenomenon of the fixture has one Expect", phenomenon.name));
     phenomenon.experiment = std::move(*experiment);
     phenomena.push_back(std::move(phenomenon));
   }

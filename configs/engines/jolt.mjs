@@ -1,5 +1,6 @@
-// Jolt Physics, single precision: rigid bodies in world coordinates, joints as constraints. It tells where bodies touch, and no forces.
-import {Refusal, conjugate, contact_of, cross, dot, gap, minus, module_of, one_ground, plus, point_radius, rotated, scaled, serve, times, turn_to} from "./protocol.mjs";
+// Jolt Physics, single precision: rigid bodies in world coordinates, joints as constraints. It reports where bodies touch, and no forces.
+import {contact_of, dot, gap, minus, module_of, point_radius, rotated, scaled, serve} from "./protocol.mjs";
+import {RigidBodyWorld, center_velocity, collider_turn, is_bare_point, motion_of, refuse, rigid_body_gaps} from "./rigid_bodies.mjs";
 
 const jolt = await (await module_of("jolt-physics")).default();
 
@@ -14,11 +15,8 @@ const hello = {
     {name: "converged", source: "ours: iterations until joints and contacts are solved to rounding"},
   ].map(setting => ({...setting, constants: {mNumVelocitySteps: iterations[setting.name][0], mNumPositionSteps: iterations[setting.name][1]}})),
   gaps: [
-    gap("static friction that differs from kinetic", "noticed", "this engine has one coefficient of friction, and it is the kinetic one"),
-    gap("rotor inertias", "refused", "choose engine mujoco_3_14"),
-    gap("links without mass", "refused", "give every link a mass"),
-    gap("bases that are kept in a plane", "refused", "choose engine mujoco_3_14"),
-    gap("forces of single contacts", "stated", "Jolt tells no forces: what the robot's momentum needs is shared equally among the places where it touches"),
+    ...rigid_body_gaps,
+    gap("forces of single contacts", "stated", "Jolt reports no forces: what the robot's momentum needs is shared equally among the places where it touches"),
   ],
 };
 
@@ -33,10 +31,7 @@ class Scratch {
 }
 const list = v => [v.GetX(), v.GetY(), v.GetZ()];
 const turn = q => [q.GetW(), q.GetX(), q.GetY(), q.GetZ()];
-function refuse(reason) { throw new Refusal(reason); }
 
-const half = Math.SQRT1_2, from_y_to_z = [half, half, 0, 0];  // Jolt's cylinders stand along y
-const axis_turn = shape => shape.type === "cylinder" || shape.type === "capsule" ? from_y_to_z : [1, 0, 0, 0];
 // Shapes meet the ground, points without a size the ground that is lowered for them.
 const layers = {shapes: 0, ground: 1, points: 2, lowered: 3};
 
@@ -56,11 +51,10 @@ function world_of(scratch) {
   return new jolt.JoltInterface(settings);
 }
 
-class World {
+class World extends RigidBodyWorld {
   constructor(experiment) {
+    super(experiment);
     const scratch = new Scratch();
-    this.experiment = experiment;
-    this.ground = one_ground(experiment);
     this.jolt = world_of(scratch);
     this.system = this.jolt.GetPhysicsSystem();
     this.interface = this.system.GetBodyInterface();
@@ -72,13 +66,15 @@ class World {
     this.system.SetGravity(scratch.vec(experiment.gravity));
     this.touches = [];
     this.listen();
-    this.add_ground(scratch);
+    this.add_ground(
+      (half, position, turned, is_lowered) =>
+        this.add_piece(scratch, new jolt.BoxShapeSettings(scratch.vec(half), 0), position, turned, is_lowered ? layers.lowered : layers.ground),
+      (piece, position, turned) => this.add_piece(scratch, this.shape(scratch, piece), position, turned, layers.ground));
     this.numbers = new Map();  // of bodies, by Jolt's own
     this.bodies = experiment.bodies.map((body, i) => this.add_body(scratch, body, i));
-    this.robots = [...new Set(experiment.bodies.map(body => body.robot))]
-      .map(name => experiment.bodies.map((body, i) => body.robot === name && body.mobile ? i : -1).filter(i => i >= 0));
     this.joints = experiment.joints.map(joint => this.add_joint(scratch, joint));
     scratch.free();
+    this.scratch = new Scratch();  // of a step
   }
 
   listen() {
@@ -128,31 +124,21 @@ class World {
     }
   }
 
-  add_ground(scratch) {
-    const add = (settings, position, orientation, layer) => {
-      const made = settings.Create();
-      if (made.HasError()) refuse(`Jolt does not make a piece of ground: ${made.GetError().c_str()}`);
-      const of = scratch.keep(new jolt.BodyCreationSettings(made.Get(), scratch.place(position), scratch.quat(orientation), jolt.EMotionType_Static, layer));
-      of.mFriction = of.mRestitution = 1;
-      this.interface.CreateAndAddBody(of, jolt.EActivation_DontActivate);
-    };
-    for (const piece of this.experiment.ground) {
-      if (piece.type === "plane") {
-        const wide = 100, deep = 5;
-        for (const [layer, down] of [[layers.ground, 0], [layers.lowered, point_radius]])
-          add(new jolt.BoxShapeSettings(scratch.vec([wide, wide, deep]), 0), scaled(piece.offset - down - deep, piece.normal), turn_to(piece.normal), layer);
-      } else {
-        const place = piece.type === "triangles" ? {position: [0, 0, 0], orientation: [1, 0, 0, 0]} : piece;
-        add(this.shape(scratch, piece), place.position, times(place.orientation, axis_turn(piece)), layers.ground);
-      }
-    }
+  add_piece(scratch, settings, position, turned, layer) {
+    const made = settings.Create();
+    if (made.HasError()) refuse(`Jolt does not make a piece of ground: ${made.GetError().c_str()}`);
+    const of = scratch.keep(new jolt.BodyCreationSettings(made.Get(), scratch.place(position), scratch.quat(turned), jolt.EMotionType_Static, layer));
+    // Of a contact Jolt takes the root of the product of both frictions, and the greater restitution: the body decides.
+    of.mFriction = 1;
+    of.mRestitution = 0;
+    this.interface.CreateAndAddBody(of, jolt.EActivation_DontActivate);
   }
 
   add_body(scratch, body, number) {
     const compound = new jolt.StaticCompoundShapeSettings();
     for (const collider of body.colliders)
-      compound.AddShape(scratch.vec(collider.position), scratch.quat(times(collider.orientation ?? [1, 0, 0, 0], axis_turn(collider))), this.shape(scratch, collider), 0);
-    const bare = new Set(body.colliders.map(collider => collider.type === "point" && !collider.radius));
+      compound.AddShape(scratch.vec(collider.position), scratch.quat(collider_turn(collider)), this.shape(scratch, collider), 0);
+    const bare = new Set(body.colliders.map(is_bare_point));
     if (bare.size > 1) refuse("in Jolt a body touches by shapes, or by points of radius 0");
     const settings = body.colliders.length > 0 ? compound : new jolt.EmptyShapeSettings();
     const made = settings.Create();
@@ -164,7 +150,6 @@ class World {
     const of = scratch.keep(new jolt.BodyCreationSettings(moved.Get(), scratch.place(body.position), scratch.quat(body.orientation), kind, bare.has(true) ? layers.points : layers.shapes));
     const contact = body.colliders.length > 0 ? contact_of(this.experiment, body.colliders[0].material, this.ground) : null;
     if (new Set(body.colliders.map(collider => collider.material)).size > 1) refuse("in Jolt a body has one material");
-    // Jolt takes the root of the product of both coefficients, and the greater restitution.
     of.mFriction = (contact?.kinetic_friction ?? 0) ** 2;
     of.mRestitution = contact?.restitution ?? 0;
     of.mLinearDamping = of.mAngularDamping = 0;
@@ -182,12 +167,11 @@ class World {
     const own = this.interface.CreateBody(of);
     this.numbers.set(own.GetID().GetIndexAndSequenceNumber(), number);
     this.interface.AddBody(own.GetID(), jolt.EActivation_Activate);
-    const arm = rotated(body.orientation, body.center_of_mass);
     if (body.mobile) {
-      own.SetLinearVelocity(scratch.vec(plus(body.velocity, cross(body.angular_velocity, arm))));
+      own.SetLinearVelocity(scratch.vec(center_velocity(body)));
       own.SetAngularVelocity(scratch.vec(body.angular_velocity));
     }
-    return {own, mass: body.mass, center: body.center_of_mass, colliders: body.colliders.length};
+    return {own, mass: body.mass, center: body.center_of_mass, mobile: body.mobile, colliders: body.colliders.length};
   }
 
   add_joint(scratch, joint) {
@@ -203,77 +187,26 @@ class World {
     settings[name + 2] = scratch.vec(axis);
     settings.mNormalAxis2 = scratch.vec(normal);
     this.system.AddConstraint(settings.Create(this.bodies[joint.parent].own, this.bodies[joint.body].own));
-    return {...joint, turns};
+    return {...joint};
   }
 
   motion({own, center}) {
-    const q = turn(own.GetRotation()), spin = list(own.GetAngularVelocity()), center_velocity = list(own.GetLinearVelocity());
-    return {position: list(own.GetPosition()), orientation: q, spin, center_velocity, velocity: minus(center_velocity, cross(spin, rotated(q, center)))};
+    return motion_of(list(own.GetPosition()), turn(own.GetRotation()), list(own.GetLinearVelocity()), list(own.GetAngularVelocity()), center);
   }
+  push({own}, force, place) { own.AddForce(this.scratch.vec(force), this.scratch.place(place)); }
+  twist({own}, torque) { own.AddTorque(this.scratch.vec(torque)); }
 
-  step(torques, loads, states) {
-    const scratch = new Scratch(), before = this.bodies.map(body => this.motion(body));
-    const outside = this.bodies.map(() => [0, 0, 0]);
-    for (const load of loads) {
-      const {position, orientation} = before[load.body], {own} = this.bodies[load.body];
-      own.AddForce(scratch.vec(load.force), scratch.place(plus(position, rotated(orientation, load.point))));
-      own.AddTorque(scratch.vec(load.torque));
-      outside[load.body] = plus(outside[load.body], load.force);
-    }
-    this.joints.forEach((joint, k) => this.drive(scratch, joint, torques[k], before));
+  advance() {
     this.touches = [];
     this.jolt.Step(this.experiment.deltat, 1);
-    scratch.free();
-    const after = this.bodies.map(body => this.motion(body));
-    for (const {position, orientation, velocity, spin} of after) states.push(...position, ...orientation, ...velocity, ...spin);
-    for (const joint of this.joints) states.push(...this.coordinate(joint, after));
-    const contacts = this.contacts(before, after, outside);
-    states.push(contacts.length);
-    for (const {body, collider, place, force, depth} of contacts) states.push(body, collider, ...place, ...force, depth);
+    this.scratch.free();
   }
 
-  drive(scratch, joint, torque, motions) {
-    const along = scaled(torque, rotated(motions[joint.body].orientation, [0, 0, 1]));
-    const [parent, child] = [this.bodies[joint.parent].own, this.bodies[joint.body].own];
-    if (joint.turns) {
-      child.AddTorque(scratch.vec(along));
-      if (parent.IsDynamic()) parent.AddTorque(scratch.vec(scaled(-1, along)));
-    } else {
-      const at = scratch.place(motions[joint.body].position);
-      child.AddForce(scratch.vec(along), at);
-      if (parent.IsDynamic()) parent.AddForce(scratch.vec(scaled(-1, along)), at);
-    }
-  }
-
-  coordinate(joint, motions) {
-    const parent = motions[joint.parent], child = motions[joint.body];
-    const axis = rotated(child.orientation, [0, 0, 1]);
-    if (!joint.turns) {
-      const from = plus(parent.position, rotated(parent.orientation, joint.position)), arm = minus(child.position, parent.position);
-      return [dot(minus(child.position, from), axis), dot(minus(child.velocity, plus(parent.velocity, cross(parent.spin, arm))), axis)];
-    }
-    const relative = times(conjugate(times(parent.orientation, joint.orientation)), child.orientation);
-    const angle = 2 * Math.atan2(relative[3], relative[0]);
-    joint.angle = angle + 2 * Math.PI * Math.round((joint.angle - angle) / (2 * Math.PI));
-    return [joint.angle, dot(minus(child.spin, parent.spin), axis)];
-  }
-
-  contacts(before, after, outside) {
-    const {deltat, gravity} = this.experiment, found = [];
-    for (const robot of this.robots) {
-      const own = this.touches.filter(touch => robot.includes(touch.body));
-      let needed = [0, 0, 0];
-      for (const i of robot) {
-        const body = this.bodies[i];
-        const gained = scaled(body.mass / deltat, minus(after[i].center_velocity, before[i].center_velocity));
-        needed = plus(needed, minus(minus(gained, scaled(body.mass, gravity)), outside[i]));
-      }
-      for (const {body, place, normal, depth} of own) {
-        const force = scaled(1 / own.length, needed);
-        if (dot(force, normal) > 0) found.push({body, collider: this.bodies[body].colliders === 1 ? 0 : -1, place, force, depth});
-      }
-    }
-    return found;
+  /** Equal parts of what the momentum needs, where that presses. */
+  contacts(robot, needed) {
+    const own = this.touches.filter(touch => robot.includes(touch.body)), force = scaled(1 / own.length, needed);
+    return own.filter(({normal}) => dot(force, normal) > 0)
+      .map(({body, place, depth}) => ({body, collider: this.bodies[body].colliders === 1 ? 0 : -1, place, force, depth}));
   }
 
   close() {

@@ -77,6 +77,7 @@ struct ClassSchema {
   std::vector<std::string>
       children;            ///< classes that may stand inside; "Shape." allows the whole family
   bool top_level = false;  ///< may stand at the top of a file
+  bool own_file = false;   ///< stands in a file of its own, which `print` includes in its place
   bool implicit = false;  ///< one stands at the top of every file without being written (Simulator)
   Naming naming = Naming::optional;
   /// The name says what the object is about (Measure creep_speed, Truth creep_speed): only two of

@@ -1,5 +1,8 @@
 #include "language/tree/print.h"
 
+#include <filesystem>
+#include <set>
+
 #include "language/schema/describe.h"
 #include "language/tree/field.h"
 #include "language/tree/references.h"
@@ -16,7 +19,10 @@ class Printer {
   std::string run() {
     for (const std::string& plugin : root_.plugins) text_ += "Plugin " + quote(plugin) + ";\n";
     for (const std::unique_ptr<Object>& child : root_.children) {
-      if (!child->implicit) print(*child, 0);
+      if (child->schema->own_file)
+        include(*child);
+      else if (!child->implicit)
+        print(*child, 0);
     }
     for (const Wire& wire : root_.wires) print(root_, wire, 0);
     return std::move(text_);
@@ -56,6 +62,12 @@ class Printer {
 
  private:
   void indent(int depth) { text_.append(2 * static_cast<std::size_t>(depth), ' '); }
+
+  /// The file of the object, by its absolute path, once.
+  void include(const Object& object) {
+    const std::string path = std::filesystem::absolute(object.position.file->path).string();
+    if (included_.insert(path).second) text_ += "Include " + quote(path) + ";\n";
+  }
 
   void print(const Object& object, int depth) {
     indent(depth);
@@ -107,6 +119,7 @@ class Printer {
 
   const Object& root_;
   std::string text_;
+  std::set<std::string> included_;
   Names names_;
 };
 

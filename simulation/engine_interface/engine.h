@@ -220,8 +220,8 @@ class Engine {
   virtual ~Engine() = default;
   /// Advances the world by one `deltat`. On failure the state is that before the step.
   virtual StepStatus step() = 0;
-  /// The next `steps` steps are taken under the inputs as they are then, the first ones: an engine may
-  /// work ahead. To be called before the first of them.
+  /// Called before the first of `steps` steps whose inputs all are as they stand at that one: an engine
+  /// may compute several at once.
   virtual void announce(std::int64_t /*steps*/) {}
   /// The published values; the reference stays valid for the engine's life.
   virtual const WorldState& state() const = 0;

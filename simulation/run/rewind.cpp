@@ -117,11 +117,11 @@ std::string Rewind::go_on() {
   const bool restores = world_.can_be_saved();
   if (!differs.empty() && restores) world_.restore(recorded_);
   // What somebody changed between two steps: the same step again, as it was left.
-  for (; next_ + 1 < steps_.size() && steps_[next_ + 1] == steps_[next_]; ++next_) {
-    if (!restores) continue;
-    movie_.read(next_ + 1, recorded_);
-    world_.restore(recorded_);
-  }
+  for (; next_ + 1 < steps_.size() && steps_[next_ + 1] == steps_[next_]; ++next_)
+    if (restores) {
+      movie_.read(next_ + 1, recorded_);
+      world_.restore(recorded_);
+    }
   ++next_;
   return differs;
 }

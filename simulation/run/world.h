@@ -23,8 +23,8 @@ class World {
   /// finite stops the run as a state does, at the instant at which it is seen, time 0 included.
   StepStatus step();
 
-  /// The next `steps` calls of step() follow each other, and nobody sets anything meanwhile: an engine
-  /// beyond a pipe may then answer for several at once.
+  /// Nobody sets an input between the next `steps` calls of step(): an engine that is a program may
+  /// then answer for several at once. Where a wire or a window of time drives an input it does not.
   void announce(std::int64_t steps);
 
   const WorldState& state() const { return engine_->state(); }

@@ -6,14 +6,20 @@ namespace hookpoint::studies {
 
 namespace {
 
+Fields<WallBlock> make_wall_fields() {
+  Fields<WallBlock> fields;
+  append(fields,
+         heading_fields("heading of the report", "what the wall shows, first thing in the report"));
+  append(fields,
+         {boolean_field("score_card", &WallBlock::score_card,
+                        "whether it compares its subjects: the report begins with a card of "
+                        "decades of error, and a truth that does not hold is a finding, no "
+                        "failure")});
+  return fields;
+}
+
 const Fields<WallBlock>& wall_fields() {
-  static const Fields<WallBlock> fields{
-      text_field("title", &WallBlock::title, "heading of the report"),
-      text_field("question", &WallBlock::question,
-                 "what the wall shows, first thing in the report"),
-      boolean_field("score_card", &WallBlock::score_card,
-                    "whether it compares its subjects: the report begins with a card of decades of "
-                    "error, and a truth that does not hold is a finding, no failure")};
+  static const Fields<WallBlock> fields = make_wall_fields();
   return fields;
 }
 

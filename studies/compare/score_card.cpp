@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "studies/results/summary.h"
 #include "text/number.h"
 
 namespace hookpoint::studies {
@@ -15,8 +16,9 @@ bool is_ours(const SubjectInfo& subject) { return subject.engine == "dts"; }
 
 /// Whether there was a run, which may have ended early.
 bool ran(const WallCell& cell) {
-  return !cell.status.empty() && !cell.status.starts_with("skipped") &&
-         !cell.status.starts_with("refused");
+  if (cell.status.empty()) return false;
+  const RunOutcome outcome = outcome_of(cell.status);
+  return outcome == RunOutcome::finished || outcome == RunOutcome::stopped;
 }
 
 /// No -0 among them.
@@ -57,9 +59,7 @@ std::vector<double> places(std::size_t count) {
 /// The truth's name; its scene's before it where that has several.
 std::string line_name(const WallResult& wall, const WallLine& line) {
   const std::string& scene = wall.scenes[line.scene].name;
-  std::string name = scene == line.name ? scene : scene + " " + line.name;
-  std::ranges::replace(name, '_', ' ');
-  return name;
+  return spoken(scene == line.name ? scene : scene + " " + line.name);
 }
 
 }  // namespace

@@ -152,7 +152,7 @@ std::string decades_text(const std::optional<double>& decades) {
   return decades ? fmt::format("{:.1f}", *decades) : "no result";
 }
 
-/// "threshold_below: mujoco_default -7.3; lugre -0.1, ..." with a word for each.
+/// "nominal -0.7, lugre -0.7".
 std::string laws_text(const Loss& loss) {
   std::vector<std::string> laws;
   for (const auto& [law, decades] : loss.ours) laws.push_back(law + " " + decades_text(decades));

@@ -121,6 +121,28 @@ TEST_F(ProgramEngineTest, WhatSlidesAcceleratesAsCoulombSays) {
   }
 }
 
+// A ball that falls 0.3 m comes back with the part of its speed that the material says, whatever the
+// other engine makes of two coefficients.
+TEST_F(ProgramEngineTest, WhatBouncesKeepsThePartThatItsMaterialSays) {
+  const double fall = std::sqrt(2. * 0.3 / g);
+  for (const char* file : {"rapier.hook", "jolt.hook"})
+    for (const double restitution : {0., 0.5, 0.8}) {
+      simulation::Experiment experiment = sloped_block(0., 0., 0.5, 1e-3);
+      experiment.materials[0].constants.restitution = restitution;
+      simulation::RobotSpec& ball = experiment.robots[0];
+      ball.base.shapes.clear();
+      ball.base.shapes.emplace_back().geometry = simulation::Sphere{0.1};
+      ball.location = {0., 0., 0.4};
+      const reference::ProgramEngine engine(definition(file));
+      const auto world = engine.make(experiment);
+      ASSERT_TRUE(run_until(*world, 1e-3, fall - 5e-3)) << file;
+      const double before = world->state().bodies[0].velocity.z;
+      ASSERT_TRUE(run_until(*world, 1e-3, fall + 5e-3)) << file;
+      const double after = world->state().bodies[0].velocity.z;
+      EXPECT_NEAR(after / -before, restitution, 0.04) << file;
+    }
+}
+
 // Iterations hold their joints together: at rest, solved to the end, over a step so long that single
 // precision leaves the digits (its gaps of 1e-7 m close in a step) and so short that the joints hardly
 // turn in it.

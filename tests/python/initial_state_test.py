@@ -296,13 +296,15 @@ class BatchOfDifferentWorlds(unittest.TestCase):
     def test_each_world_starts_where_it_is_put(self):
         rows = np.array([[0, 0, 1.], [0, 1, 2], [1, 0, 3]])
         speeds = np.array([0.5, -0.5, 2])
-        for engine in [None, *(engine for engine in ("ode", "mujoco") if engine in ENGINES)]:
+        for engine in [None, *ENGINES]:
+            # In single precision each of 100 steps rounds by up to two units in the last place of a speed of 2 m/s.
+            rounding = 1e-6 if PRECISION.get(engine, "double") == "double" else 100 * 2 * 2.4e-7
             batch = hookpoint.Batch(FALLING, 3, observations=["ball.base.location", "ball.base.velocity"], threads=2, engine=engine)
             observed = batch.reset(state={"ball.base.location": rows, "ball.base.velocity.z": speeds, "ball.base.angular_velocity": [0, 0, 1]})
             np.testing.assert_array_equal(observed[:, :3], rows)
             np.testing.assert_array_equal(observed[:, 5], speeds)
             observed, _ = batch.step(count=100)
-            np.testing.assert_allclose(observed[:, 5], speeds - 1, atol=1e-6)
+            np.testing.assert_allclose(observed[:, 5], speeds - 1, atol=rounding)
             np.testing.assert_allclose(observed[:, 2], rows[:, 2] + 0.1 * speeds - 5 * 0.01, atol=2e-3)
             if engine is None:
                 for i in range(3):

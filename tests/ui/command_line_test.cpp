@@ -57,6 +57,7 @@ INSTANTIATE_TEST_SUITE_P(
                    "cannot be paired with rk4"},
         WrongInput{"run " + block + " --set world.constraint_mixing=0",
                    "constraint_mixing is a constant of ODE, and the engine is dts"},
+        WrongInput{"engines nowhere.hook", "there is no file nowhere.hook"},
         WrongInput{"study " + block, "holds no Study, no Wall and no Matrix"},
         WrongInput{"study " + config("studies/creep.hook") + " --jobs 0",
                    "--jobs takes a whole number"},

@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 
 #include <cstdlib>
+#include <functional>
 #include <set>
 #include <sstream>
 
@@ -487,16 +488,21 @@ TEST(Manual, PageCompletionAndDocumentationHaveEveryOptionOfHelp) {
   const std::string manual = testing::read_file(testing::source_folder() + "/docs/command_line.md");
   const std::vector<std::string> names = commands(work.hookpoint("--help").out);
   EXPECT_GT(names.size(), 12U);
-  for (const std::string& command : names) {
+  const std::function<void(const std::string&)> look_for = [&](const std::string& command) {
+    const std::string help = work.hookpoint(command + " --help").out;
     EXPECT_TRUE(has(page, ".SS " + command + " ")) << command;
-    EXPECT_TRUE(has(completion, "    " + command + ") options=")) << command;
+    const std::string first = command.substr(0, command.find(' '));
+    EXPECT_TRUE(has(completion, "    " + first + ") options=")) << command;
     EXPECT_TRUE(has(manual, "hookpoint " + command + " ")) << command;
-    for (const std::string& option : options_in(work.hookpoint(command + " --help").out)) {
+    for (const std::string& option : options_in(help)) {
       EXPECT_TRUE(has(page, "\\fB" + option + "\\fR")) << command << ' ' << option;
       EXPECT_TRUE(has(completion, " " + option)) << command << ' ' << option;
       EXPECT_TRUE(has(manual, option)) << command << ' ' << option;
     }
-  }
+    if (!has(help, "Subcommands:")) return;
+    for (const std::string& part : commands(help)) look_for(command + " " + part);
+  };
+  for (const std::string& command : names) look_for(command);
   for (const char* status : {"0", "1", "2", "3", "130"})
     EXPECT_TRUE(has(page, std::string("\\fB") + status + "\\fR")) << status;
 }
@@ -530,6 +536,8 @@ TEST(Manual, BashCompletesCommandsOptionsAndTheirWords) {
   EXPECT_EQ(completed("hookpoint mine.hook --engine bul", 3), "bullet\n");
   EXPECT_EQ(completed("hookpoint run mi", 2), "mine.hook\n");
   EXPECT_EQ(completed("hookpoint describe --completion b", 3), "bash\n");
+  EXPECT_EQ(completed("hookpoint fixture ex", 2), "export\n");
+  EXPECT_EQ(completed("hookpoint fixture run --re", 3), "--resume\n");
 }
 
 }  // namespace

@@ -209,6 +209,22 @@ Study creep {
   }
 }
 
+// What a run leaves runs again: its experiment includes the file of the Engine block, wherever it lies.
+TEST_F(EngineProgram, WhatARunLeftRunsAgain) {
+  place.file("engines.hook", block("mine", "honest"));
+  place.file("run.hook", ball_on_slope);
+  const std::string options =
+      " --engine mine --for 50ms --allow-engines --record ball.base.location.x,ball.contact.force.z";
+  ASSERT_EQ(place.hookpoint("run run.hook --out one --movie" + options).status, 0);
+  const CommandResult again = place.hookpoint("run one/experiment.hook --out two" + options);
+  ASSERT_EQ(again.status, 0) << again.err;
+  EXPECT_EQ(place.read("two/trace.csv"), place.read("one/trace.csv"));
+  EXPECT_EQ(place.read("two/experiment.hook"), place.read("one/experiment.hook"));
+  const CommandResult moment = place.hookpoint("replay one/movie.h5 --at 0.03 --allow-engines");
+  EXPECT_EQ(moment.status, 0) << moment.err;
+  EXPECT_EQ(place.hookpoint("replay one/movie.h5 --at 0.03").status, 2) << "without consent";
+}
+
 // Where nothing acts on the ball several steps are one exchange, and the states are the same.
 TEST_F(EngineProgram, StepsUnderTheSameInputsShareAnExchange) {
   const std::string exchanges = here() + "/exchanges";

@@ -1,16 +1,16 @@
-// An engine's program that is killed, at whatever moment of a study: the study ends and says why, and
-// gone on with it has the bytes of one that was not disturbed.
+// An engine's program that is killed at any moment of a study: the study ends and says why, and resumed
+// it has the bytes of one that was not disturbed.
 // ctest: long, released
 #include <gtest/gtest.h>
 
 #include <chrono>
 #include <csignal>
-#include <cstdlib>
 #include <random>
 #include <thread>
 
 #include "tests/support/child_process.h"
 #include "tests/support/command.h"
+#include "tests/support/kills.h"
 
 namespace hookpoint {
 namespace {
@@ -34,14 +34,8 @@ World w {
 }
 )";
 
-/// Ten, or as many as .ci/full wants.
-int wanted_kills() {
-  const char* wanted = std::getenv("HOOKPOINT_KILLS");
-  return wanted == nullptr ? 10 : std::atoi(wanted);
-}
-
 // The moments are drawn over the time that a whole run takes; which they are decides nothing.
-TEST(KilledEngine, AtAnyMomentItsStudyEndsAndIsGoneOnWith) {
+TEST(KilledEngine, AtAnyMomentItsStudyEndsAndCanBeResumed) {
   const Workplace work;
   work.file("study.hook", study);
   work.file("run.hook", scene);
@@ -59,7 +53,8 @@ TEST(KilledEngine, AtAnyMomentItsStudyEndsAndIsGoneOnWith) {
   std::mt19937_64 random(1);
   std::uniform_int_distribution<std::int64_t> moment(0, whole_time.count());
   int kills = 0;
-  for (int tried = 0; kills < wanted_kills() && tried < 5 * wanted_kills(); ++tried) {
+  for (int tried = 0; kills < testing::wanted_kills() && tried < 5 * testing::wanted_kills();
+       ++tried) {
     std::filesystem::remove_all(work.folder() / "cut");
     ChildProcess child(work.folder(),
                        {"study", "study.hook", "--jobs", "2", "--allow-engines", "--out", "cut"});
@@ -77,7 +72,7 @@ TEST(KilledEngine, AtAnyMomentItsStudyEndsAndIsGoneOnWith) {
     ASSERT_EQ(resumed.status, 0) << resumed.err << said;
     ASSERT_EQ(work.read("cut/results.csv"), expected) << said;
   }
-  EXPECT_GE(kills, wanted_kills());
+  EXPECT_GE(kills, testing::wanted_kills());
 }
 
 }  // namespace

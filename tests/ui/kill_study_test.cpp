@@ -4,7 +4,6 @@
 
 #include <chrono>
 #include <csignal>
-#include <cstdlib>
 #include <map>
 #include <random>
 #include <regex>
@@ -12,6 +11,7 @@
 
 #include "tests/support/child_process.h"
 #include "tests/support/command.h"
+#include "tests/support/kills.h"
 
 namespace hookpoint {
 namespace {
@@ -62,16 +62,10 @@ class Killed : public ::testing::Test {
   Workplace work_;
 };
 
-/// Ten, or as many as .ci/full wants.
-int wanted_kills() {
-  const char* wanted = std::getenv("HOOKPOINT_KILLS");
-  return wanted == nullptr ? 10 : std::atoi(wanted);
-}
-
 // The moments are drawn over the time that a whole run takes; which they are decides nothing.
 TEST_F(Killed, AtAnyMomentItEndsInTheSameBytes) {
   constexpr int kills_a_study = 5;
-  const int wanted = wanted_kills();
+  const int wanted = testing::wanted_kills();
   work_.file("study.hook", study);
   const auto begin = std::chrono::steady_clock::now();
   ASSERT_EQ(work_.hookpoint("study study.hook --jobs 2 --out whole").status, 0);
