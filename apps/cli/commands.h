@@ -177,6 +177,16 @@ struct CompareArguments {
 /// compare: what differs between two runs.
 int compare(const CompareArguments& arguments);
 
+struct NewArguments {
+  std::string kind;  ///< robot, study, controller
+  std::string name;
+};
+/// new: a commented file to begin with, NAME.hook.
+int new_file(const NewArguments& arguments);
+
+/// cite: BibTeX entries of the program and, with a folder of results, of what these were made with.
+int cite(const std::optional<std::filesystem::path>& folder);
+
 struct EnginesArguments {
   std::optional<std::filesystem::path> file;  ///< whose engines are listed too
   bool json = false;

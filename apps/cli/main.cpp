@@ -51,6 +51,8 @@ struct Request {
   DescribeArguments describe;
   PortsArguments ports;
   EnginesArguments engines;
+  NewArguments new_;
+  std::optional<std::filesystem::path> folder;
   std::vector<std::string> words;
   bool json = false, check_only = false;
   application::Consent consent;
@@ -274,6 +276,14 @@ struct ManyRunsText {
   std::string block, folder, quick, resume;
 };
 
+/// What a paper takes of the results.
+void add_publication(CLI::App* command, studies::PublicationForms& forms) {
+  command->add_flag("--latex", forms.latex,
+                    "tables and figures as LaTeX too, the figures as PDF: tables_and_figures.tex "
+                    "compiles as it is");
+  command->add_flag("--pdf", forms.pdf, "figures as PDF too");
+}
+
 /// What `study` and `tune` have in common.
 void add_many_runs(CLI::App* command, application::TaskArguments& arguments,
                    const ManyRunsText& text) {
@@ -287,6 +297,7 @@ void add_many_runs(CLI::App* command, application::TaskArguments& arguments,
   add_jobs(command, arguments.jobs);
   command->add_flag("--quick", arguments.quick, text.quick);
   command->add_flag("--resume", arguments.resume, text.resume);
+  add_publication(command, arguments.forms);
   add_slurm(command, arguments);
 }
 
@@ -423,6 +434,7 @@ void add_fixture(CLI::App& app, Request& request) {
   add_consent(run_app, arguments.consent);
   add_jobs(run_app, arguments.jobs);
   run_app->add_flag("--resume", arguments.resume, "run only what an interrupted run lacks");
+  add_publication(run_app, arguments.forms);
   add_command(*fixture_app, request, "export",
               "write them as files for other programs, with a script that judges",
               [&] { return export_fixture(request.file); })
@@ -622,6 +634,34 @@ void add_inspection(CLI::App& app, Request& request) {
       ->required();
 }
 
+void add_beginnings(CLI::App& app, Request& request) {
+  CLI::App* new_app =
+      add_command(app, request, "new", "write a commented file to begin with, NAME.hook",
+                  [&] { return new_file(request.new_); });
+  new_app->add_option("KIND", request.new_.kind, "robot, study or controller")
+      ->required()
+      ->check(CLI::IsMember({"robot", "study", "controller"}));
+  new_app->add_option("NAME", request.new_.name, "of what it holds, and of the file")->required();
+  add_command(app, request, "cite", "what to cite, as BibTeX", [&] { return cite(request.folder); })
+      ->add_option("DIR", request.folder,
+                   "a folder of results: with its hash, and the engines and laws that made it");
+}
+
+/// What `hookpoint` alone says.
+constexpr const char* guide =
+    "hookpoint runs legged robots under contact models that can be compared.\n"
+    "\n"
+    "  hookpoint new robot walker        write walker.hook, a robot to change\n"
+    "  hookpoint view walker.hook        watch it in the browser, and move it\n"
+    "  hookpoint run walker.hook         run it; --record and --out keep what happens\n"
+    "  hookpoint new study who_creeps    write who_creeps.hook, a comparison to change\n"
+    "  hookpoint study who_creeps.hook   run it; a report with tables and figures\n"
+    "  hookpoint describe Link           what a class, metric, law or engine is\n"
+    "  hookpoint engines                 which engines, laws and integrators there are\n"
+    "\n"
+    "hookpoint --help lists all commands, hookpoint COMMAND --help its options.\n"
+    "The manual begins at docs/README.md, its tutorial at docs/tutorial.md.\n";
+
 std::vector<std::string> command_names(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
@@ -727,8 +767,13 @@ int main_with(int count, char** words) {
   add_export(app, request);
   add_fixture(app, request);
   add_compare(app, request);
+  add_beginnings(app, request);
+  if (given.empty()) {
+    std::cout << guide;
+    return fine;
+  }
   std::vector<std::string> wanted = with_command(app, given);
-  if (wanted.empty() && !given.empty()) return wrong_input;
+  if (wanted.empty()) return wrong_input;
   std::reverse(wanted.begin(), wanted.end());  // CLI11 takes the words last first
   try {
     app.parse(wanted);

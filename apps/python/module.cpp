@@ -324,42 +324,45 @@ void add_functions(py::module_& module) {
       "study",
       [](const std::filesystem::path& file, bool quick, const py::object& only, std::int64_t jobs,
          std::optional<std::filesystem::path> out, bool resume, bool allow_plugins, bool frames,
-         bool allow_engines) {
+         bool allow_engines, bool latex, bool pdf) {
         const Frames made(frames);
-        return made.of(run_tasks(application::study_command, {file,
-                                                              std::move(out),
-                                                              threads_of(jobs, "jobs"),
-                                                              quick,
-                                                              resume,
-                                                              names_of(only, "only"),
-                                                              {allow_plugins, allow_engines}}));
+        application::TaskArguments arguments{
+            file,   std::move(out),         threads_of(jobs, "jobs"),      quick,
+            resume, names_of(only, "only"), {allow_plugins, allow_engines}};
+        arguments.forms = {latex, pdf};
+        return made.of(run_tasks(application::study_command, arguments));
       },
       py::arg("file"), py::kw_only(), py::arg("quick") = false, py::arg("only") = py::list(),
       py::arg("jobs") = 0, py::arg("out") = py::none(), py::arg("resume") = false,
       py::arg("allow_plugins") = false, py::arg("frames") = false, py::arg("allow_engines") = false,
+      py::arg("latex") = false, py::arg("pdf") = false,
       "Runs the Studies, Walls and Matrices of a .hook file: a dict of results by their names, "
       "each with \"table\", a dict of numpy arrays by the titles of results.csv (\"slope [deg]\"), "
       "a "
       "Study also with \"tables\", its Table blocks. `out`: where the files of `hookpoint study` "
       "go, "
-      "else none are kept. `frames`: every table is a pandas.DataFrame.");
+      "else none are kept. `frames`: every table is a pandas.DataFrame. `latex`, `pdf`: what "
+      "--latex and --pdf add to these files.");
   module.def(
       "tune",
       [](const std::filesystem::path& file, bool quick, std::int64_t jobs,
          std::optional<std::filesystem::path> out, bool resume, bool allow_plugins, bool frames,
-         bool allow_engines) {
+         bool allow_engines, bool latex, bool pdf) {
         const Frames made(frames);
-        return made.of(run_tasks(application::tune_command, {file,
-                                                             std::move(out),
-                                                             threads_of(jobs, "jobs"),
-                                                             quick,
-                                                             resume,
-                                                             {},
-                                                             {allow_plugins, allow_engines}}));
+        application::TaskArguments arguments{file,
+                                             std::move(out),
+                                             threads_of(jobs, "jobs"),
+                                             quick,
+                                             resume,
+                                             {},
+                                             {allow_plugins, allow_engines}};
+        arguments.forms = {latex, pdf};
+        return made.of(run_tasks(application::tune_command, arguments));
       },
       py::arg("file"), py::kw_only(), py::arg("quick") = false, py::arg("jobs") = 0,
       py::arg("out") = py::none(), py::arg("resume") = false, py::arg("allow_plugins") = false,
-      py::arg("frames") = false, py::arg("allow_engines") = false,
+      py::arg("frames") = false, py::arg("allow_engines") = false, py::arg("latex") = false,
+      py::arg("pdf") = false,
       "Runs the Tunes and Calibrates of a .hook file: a dict of results by their names, each with "
       "\"table\", a dict of numpy arrays: every evaluation of a Tune, the fitted constants of a "
       "Calibrate. `out`: where the files of `hookpoint tune` go, else none are kept. `frames`: "

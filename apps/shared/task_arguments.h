@@ -9,6 +9,7 @@
 #include "apps/shared/consent.h"
 #include "apps/shared/settings.h"
 #include "studies/cluster/slurm_script.h"
+#include "studies/report/publication.h"
 
 namespace hookpoint::application {
 
@@ -25,7 +26,8 @@ struct TaskArguments {
   bool dry_run = false;  ///< only prints what it would be sent
   studies::SlurmSettings slurm_settings{};
   std::vector<std::string> engine_files{};  ///< absolute, that a cluster's runs may need
-  std::vector<std::string> words{};  ///< of a command that makes its file; empty: it is given
+  std::vector<std::string> words{};   ///< of a command that makes its file; empty: it is given
+  studies::PublicationForms forms{};  ///< what is left for a paper
 
   /// `jobs`, or how many cores there are.
   int threads() const;

@@ -78,9 +78,9 @@ std::optional<studies::Tasks> TaskApplication::plan(const language::Object& root
     options.settings.trails.push_back(override_from(setting));
   options.settings.world = arguments_.settings.world;
   options.jobs = arguments_.threads();
-  return studies::plan_tasks(
-      {*this, root, arguments_.file, std::move(options), rerun_command(command_.name, arguments_)},
-      command_.name);
+  return studies::plan_tasks({*this, root, arguments_.file, std::move(options),
+                              rerun_command(command_.name, arguments_), arguments_.forms},
+                             command_.name);
 }
 
 /// What is set but stands nowhere; "" when all does.

@@ -100,6 +100,10 @@ struct PanelPlot {
 std::string panel_data(const PanelPlot& plot);
 std::string panel_script(const PanelPlot& plot);
 
+/// Types of the files that a figure may leave: NAME.csv and NAME.gp, its drawings, and what takes it
+/// into a paper (output/latex/).
+inline constexpr const char* figure_types[] = {".svg", ".csv", ".gp", ".pdf", ".tex"};
+
 struct PlotOutcome {
   bool drawn = false;
   std::string message;  ///< why not; "" when drawn

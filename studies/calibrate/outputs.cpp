@@ -8,10 +8,11 @@
 #include <numbers>
 #include <span>
 
+#include "output/figures/plot.h"
+#include "output/latex/latex.h"
 #include "studies/calibrate/figures.h"
 #include "studies/calibrate/report.h"
 #include "studies/measurements/trace_residual.h"
-#include "studies/report/page_parts.h"
 #include "studies/run/results_csv.h"
 #include "studies/search/material_text.h"
 #include "text/json.h"
@@ -352,23 +353,24 @@ std::vector<output::ResultFile> linked_calibration_files(const CalibrationPlan& 
 
 std::vector<std::string> calibration_files(const CalibrationPlan& plan) {
   std::vector<std::string> files = output::names_of(linked_calibration_files(plan, {}, {}));
-  files.insert(files.end(), {store_folder, "report.html"});
+  files.insert(files.end(),
+               {store_folder, "report.html", "calibration.tex", output::latex_document_file});
   for (const std::string& figure : calibration_figure_names(plan))
-    for (const char* type : {".svg", ".csv", ".gp"}) files.push_back(figure + type);
+    for (const char* type : output::figure_types) files.push_back(figure + type);
   return files;
 }
 
-std::vector<std::string> write_calibration(output::ResultFolder& folder,
-                                           const CalibrationPlan& plan, const CalibrationRun& run,
-                                           const std::string& command) {
+std::vector<ReportFigure> write_calibration(output::ResultFolder& folder,
+                                            const CalibrationPlan& plan, const CalibrationRun& run,
+                                            const std::string& command) {
   folder.write(linked_calibration_files(plan, run, command));
-  const auto figures = draw_calibration_figures(plan, run.result, folder.path());
+  std::vector<ReportFigure> figures = draw_calibration_figures(plan, run.result, folder.path());
   folder.write(
       "report.html",
       calibration_html(plan, run.result,
                        {command, {}, provenance_lines(run.provenance), folder.written()}, figures));
   folder.finish();
-  return undrawn(figures);
+  return figures;
 }
 
 }  // namespace hookpoint::studies

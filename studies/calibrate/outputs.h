@@ -7,6 +7,7 @@
 
 #include "output/files/csv.h"
 #include "studies/calibrate/calibration.h"
+#include "studies/report/report.h"
 
 namespace hookpoint::studies {
 
@@ -45,8 +46,8 @@ std::string material_text(const CalibrationPlan& plan, const CalibrationSubject&
 
 /// Writes all of them that there are, figures and report.html too, and the folder's list of them.
 /// What could not be drawn comes back. Throws output::FileError.
-std::vector<std::string> write_calibration(output::ResultFolder& folder,
-                                           const CalibrationPlan& plan, const CalibrationRun& run,
-                                           const std::string& command);
+std::vector<ReportFigure> write_calibration(output::ResultFolder& folder,
+                                            const CalibrationPlan& plan, const CalibrationRun& run,
+                                            const std::string& command);
 
 }  // namespace hookpoint::studies

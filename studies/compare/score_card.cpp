@@ -66,7 +66,7 @@ std::string line_name(const WallResult& wall, const WallLine& line) {
 
 output::HeatMap score_card(const WallResult& wall) {
   output::HeatMap map;
-  map.name = "score_card";
+  map.name = score_card_name;
   map.title = "Decades of error";
   map.subtitle =
       "log10 of the error over the size of what is measured: -3 is a thousandth; at least -9";
@@ -126,6 +126,30 @@ output::CsvTable score_table(const WallResult& wall) {
                             text::shortest(cell.expected), line.unit, text::shortest(line.scale),
                             text::shortest(cell.decades), cell.status});
     }
+  return table;
+}
+
+output::LatexTable latex_score_table(const WallResult& wall) {
+  output::LatexTable table{.name = score_table_name,
+                           .label = score_table_name,
+                           .caption =
+                               "Decades of error: log10 of the error over the size of what "
+                               "is measured. *: beyond what the truth allows.",
+                           .across = "",
+                           .head = {"truth"},
+                           .text_columns = 1,
+                           .rows = {}};
+  for (const SubjectInfo& subject : wall.subjects)
+    table.head.push_back(output::latex_text(subject.name));
+  for (const WallLine& line : wall.lines) {
+    table.rows.push_back({output::latex_text(line_name(wall, line))});
+    for (const WallCell& cell : line.cells) {
+      const bool shown = ran(cell) && cell.decades;
+      table.rows.back().push_back(!shown ? "--"
+                                         : output::latex_number(to_tenths(*cell.decades)) +
+                                               (cell.ok ? "" : "$^{\\ast}$"));
+    }
+  }
   return table;
 }
 

@@ -1,13 +1,13 @@
 // A Wall that compares: decades of error of every truth under every subject, and where our laws lose.
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "output/figures/heat_map.h"
+#include "output/latex/latex.h"
 #include "studies/compare/wall.h"
 
 namespace hookpoint::studies {
@@ -25,11 +25,15 @@ struct Loss {
 };
 std::vector<Loss> losses(const WallResult& wall);
 
-/// What a comparing Wall leaves beside its other files: the table, the card's data, script and drawing.
-inline constexpr std::array score_card_files{"scores.csv", "score_card.csv", "score_card.gp",
-                                             "score_card.svg"};
+/// Names, without types, of what a comparing Wall leaves beside its other files: the table and the
+/// card.
+inline constexpr const char* score_table_name = "scores";
+inline constexpr const char* score_card_name = "score_card";
 
 /// Rows scene, truth, subject, engine, measured, expected, unit, scale, decades, status.
 output::CsvTable score_table(const WallResult& wall);
+
+/// The same as LaTeX: a row a truth, a column a subject, decades of error.
+output::LatexTable latex_score_table(const WallResult& wall);
 
 }  // namespace hookpoint::studies

@@ -142,7 +142,12 @@ std::optional<WallRun> run_wall(const WallPlan& plan, const EngineTable& engines
   const std::vector<RowPlan>& rows = plan.study.rows;
   WallRun run{{}, options.folder.empty() ? plan.study.folder() : options.folder, nullptr, {}};
   std::vector<std::string> names = study_files(plan.study);
-  if (plan.score_card) names.insert(names.end(), score_card_files.begin(), score_card_files.end());
+  if (plan.score_card) {
+    for (const char* type : output::table_types)
+      names.push_back(std::string(score_table_name) + type);
+    for (const char* type : output::figure_types)
+      names.push_back(std::string(score_card_name) + type);
+  }
   run.files = std::make_unique<output::ResultFolder>(run.folder, manifest_of(plan.study), names);
   CachedRuns runs(plan.study.name, options, run.folder, rows.size(), stop);
   const StudyRows kept(plan.study, engines, runs.store());

@@ -84,6 +84,19 @@ std::string provenance_json(const Provenance& provenance) {
   return json.text();
 }
 
+std::string origin_words(const Provenance& provenance, const std::vector<SubjectInfo>& subjects) {
+  constexpr std::size_t digits = 12;  // as in the folder's name
+  std::string words = fmt::format("hookpoint {}, experiment {}", HOOKPOINT_VERSION,
+                                  provenance.hash.substr(0, digits));
+  std::string engines;
+  for (const auto& [name, engine] : provenance.engines)
+    if (name != "dts" && std::ranges::any_of(subjects, [&](const SubjectInfo& subject) {
+          return subject.engine == name && subject.available;
+        }))
+      engines += (engines.empty() ? "; " : ", ") + name + " " + engine.version;
+  return words + engines + (provenance.quick ? "; quick." : ".");
+}
+
 std::vector<std::pair<std::string, std::string>> provenance_lines(const Provenance& provenance) {
   std::vector<std::pair<std::string, std::string>> lines{
       {"study", provenance.study + " of " + provenance.file + (provenance.quick ? ", quick" : "")},

@@ -9,6 +9,7 @@
 #include "output/files/result_folder.h"
 #include "studies/measure/engine_table.h"
 #include "studies/plan/plan.h"
+#include "studies/results/result.h"
 
 namespace hookpoint::studies {
 
@@ -33,6 +34,10 @@ Provenance make_provenance(const StudyPlan& plan, const EngineTable& engines);
 
 /// provenance.json.
 std::string provenance_json(const Provenance& provenance);
+
+/// What a caption says: "hookpoint 0.1.0, experiment 0123456789ab; ode 0.16.2, mujoco 2.2.2.", with
+/// the engines of these subjects.
+std::string origin_words(const Provenance& provenance, const std::vector<SubjectInfo>& subjects);
 
 /// The same as names and values for readers: "ode" -> "0.16.2, double precision".
 std::vector<std::pair<std::string, std::string>> provenance_lines(const Provenance& provenance);

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "output/figures/plot.h"
 #include "output/files/file.h"
+#include "output/latex/latex.h"
 #include "studies/results/matched_grounds.h"
 #include "studies/results/pivot.h"
 #include "studies/results/selection.h"
@@ -157,12 +159,14 @@ output::CsvTable results_table(const StudyResult& result, bool timing) {
 }
 
 std::vector<std::string> study_files(const StudyPlan& plan) {
-  std::vector<std::string> files{store_folder, cluster_folder,    "experiment.hook",
-                                 "scene.hook", "provenance.json", "report.html"};
+  std::vector<std::string> files{
+      store_folder,      cluster_folder, "experiment.hook", "scene.hook",
+      "provenance.json", "report.html",  "summary.tex",     output::latex_document_file};
   for (const std::string_view table : table_names) files.push_back(std::string(table) + ".csv");
-  for (const TableSpec& table : plan.tables) files.push_back(table.name + ".csv");
+  for (const TableSpec& table : plan.tables)
+    for (const char* type : output::table_types) files.push_back(table.name + type);
   for (const PlotPlan& plot : plan.plots) {
-    for (const char* type : {".svg", ".csv", ".gp"}) files.push_back(plot.spec.name + type);
+    for (const char* type : output::figure_types) files.push_back(plot.spec.name + type);
     for (std::size_t row = 0; row < plan.rows.size(); ++row)
       if (plan.records(plot, plan.rows[row])) files.push_back(trace_file(plot.spec.name, row));
   }

@@ -6,6 +6,8 @@
 #include "studies/calibrate/idleness.h"
 #include "studies/calibrate/outputs.h"
 #include "studies/calibrate/report.h"
+#include "studies/report/latex_tables.h"
+#include "studies/report/page_parts.h"
 #include "studies/task/task_kinds.h"
 
 namespace hookpoint::studies {
@@ -79,7 +81,19 @@ class CalibrateTask : public Task {
   bool is_whole() const override { return !run_.result.interrupted; }
   bool holds() const override { return !has_fault(idle()); }
   std::vector<std::string> leave() override {
-    return write_calibration(*files_, plan_, run_, command_);
+    figures_ = write_calibration(*files_, plan_, run_, command_);
+    return undrawn(figures_);
+  }
+  Publication publication() const override {
+    constexpr std::size_t columns = 7;  // up to `identified`
+    std::vector<SubjectInfo> subjects;
+    for (const CalibrationSubject& subject : plan_.subjects) subjects.push_back(subject.info);
+    return {name(),
+            {latex_table_of("calibration",
+                            name() + ": fitted constants, with the ends of their 95 % intervals.",
+                            calibration_table(plan_, run_.result), columns, 3)},
+            figures_,
+            origin_words(run_.provenance, subjects)};
   }
 
  private:
@@ -88,6 +102,7 @@ class CalibrateTask : public Task {
   CalibrationPlan plan_;
   CalibrationRun run_;
   std::vector<std::string> notices_;
+  std::vector<ReportFigure> figures_;
 };
 
 }  // namespace

@@ -171,7 +171,8 @@ class MatrixTask : public Task {
       return refuse(matrix, part, "no file \"" + name + "\" beside the Matrix or in configs/");
     const TaskFile evaluated = matrix.host.evaluate(file);
     if (evaluated.root == nullptr) return false;
-    TaskSource source{matrix.host, *evaluated.root, file, matrix.options, matrix.command};
+    TaskSource source{matrix.host,    *evaluated.root, file,
+                      matrix.options, matrix.command,  matrix.forms};
     if (source.root.children_of("Study").empty())
       return refuse(matrix, part, "\"" + name + "\" holds no Study");
     source.options.only = subjects_in(source.root, matrix.options.only);

@@ -4,6 +4,7 @@
 
 #include "output/files/file.h"
 #include "studies/blocks/study.h"
+#include "studies/report/latex_tables.h"
 #include "studies/results/idleness.h"
 #include "studies/results/pivot.h"
 #include "studies/run/results_csv.h"
@@ -42,6 +43,11 @@ std::vector<std::string> StudyTask::leave() {
   report_ = write_report(run_.result, context(), folder());
   files_->finish();
   return report_.messages;
+}
+
+Publication StudyTask::publication() const {
+  return {plan_.title.empty() ? name() : plan_.title, latex_tables(run_.result), report_.figures,
+          origin_words(run_.provenance, run_.result.compositions)};
 }
 
 void StudyTask::add_picture() {

@@ -33,6 +33,7 @@ class StudyTask : public Task {
   bool has_result() const override { return !run_.interrupted; }
   std::vector<std::string> notices() const override { return run_.notices; }
   std::vector<std::string> leave() override;
+  Publication publication() const override;
   bool holds() const override;
 
  private:

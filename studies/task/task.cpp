@@ -1,5 +1,7 @@
 #include "studies/task/task.h"
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace hookpoint::studies {
@@ -15,7 +17,13 @@ TaskStatus Task::run(TaskRunner& runner, const std::shared_ptr<RunStore>& store)
   for (const std::string& notice : notices()) runner.note(notice);
   if (!has_result()) return TaskStatus::interrupted;
   std::vector<std::string> undrawn;
-  if (runner.wants_reports()) undrawn = leave();
+  if (runner.wants_reports()) {
+    undrawn = leave();
+    if (forms_.any()) {
+      std::vector<std::string> others = write_publication(*files_, publication(), forms_);
+      std::ranges::move(others, std::back_inserter(undrawn));
+    }
+  }
   for (const std::string& message : undrawn) runner.problem(message);
   runner.left(*this);
   files_.reset();

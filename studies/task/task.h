@@ -16,6 +16,7 @@
 #include "output/files/result_folder.h"
 #include "studies/measure/engine_table.h"
 #include "studies/plan/plan.h"
+#include "studies/report/publication.h"
 #include "studies/report/report.h"
 #include "studies/report/terminal_table.h"
 #include "studies/run/run.h"
@@ -59,6 +60,7 @@ struct TaskSource {
   std::filesystem::path file;
   PlanOptions options;
   std::string command;  ///< runs the file again
+  PublicationForms forms{};
 };
 
 class Task;
@@ -93,6 +95,7 @@ class Task {
   Task(const TaskSource& source, std::string name, std::string hash)
       : host_(source.host),
         command_(source.command),
+        forms_(source.forms),
         name_(std::move(name)),
         hash_(std::move(hash)) {}
   virtual ~Task() = default;
@@ -157,10 +160,13 @@ class Task {
   virtual std::vector<std::string> notices() const { return {}; }
   /// Writes the report and all else; what could not be drawn.
   virtual std::vector<std::string> leave() = 0;
+  /// The result as a paper takes it; after `leave`.
+  virtual Publication publication() const { return {}; }
   virtual bool holds() const = 0;
 
   TaskHost& host_;
   const std::string command_;
+  const PublicationForms forms_;
   std::unique_ptr<output::ResultFolder> files_;  ///< locks the folder while it runs
 
  private:

@@ -5,6 +5,9 @@
 
 #include "language/names.h"
 #include "studies/blocks/tune.h"
+#include "studies/report/latex_tables.h"
+#include "studies/report/page_parts.h"
+#include "studies/run/provenance.h"
 #include "studies/task/task_kinds.h"
 #include "studies/tune/idleness.h"
 #include "studies/tune/outputs.h"
@@ -77,7 +80,26 @@ class TuneTask : public Task {
   bool has_result() const override { return true; }
   bool is_whole() const override { return !run_.result.interrupted; }
   bool holds() const override { return run_.result.holds(plan_) && !has_fault(idle()); }
-  std::vector<std::string> leave() override { return write_tuning(*files_, plan_, run_, command_); }
+  std::vector<std::string> leave() override {
+    figures_ = write_tuning(*files_, plan_, run_, command_);
+    return undrawn(figures_);
+  }
+  Publication publication() const override {
+    const TuneResult& result = run_.result;
+    Publication publication{
+        name(), {}, figures_, origin_words(run_.provenance, {plan_.runs.subjects.front().info})};
+    const auto add = [&](const std::string& table, const std::string& caption,
+                         const output::CsvTable& rows, std::size_t words) {
+      publication.tables.push_back(
+          latex_table_of(table, name() + ": " + caption, rows, rows.header.size(), words));
+    };
+    if (result.recommended)
+      add("pareto", "the Pareto set with its constants and objectives.",
+          pareto_table(plan_, result), 0);
+    if (!result.indices.empty())
+      add("sobol", "Sobol's indices with their 95 % intervals.", indices_table(plan_, result), 2);
+    return publication;
+  }
 
  private:
   /// "generation 3 of 25, 18 runs/s, 7 in the Pareto set; best foot_slip 0.02, ..."
@@ -94,6 +116,7 @@ class TuneTask : public Task {
   TunePlan plan_;
   TuneRun run_;
   std::vector<std::string> notices_;
+  std::vector<ReportFigure> figures_;
 };
 
 }  // namespace

@@ -68,19 +68,30 @@ class WallTask : public Task {
 
   std::vector<std::string> leave() override {
     const Provenance provenance = make_provenance(plan_.study, host_.engines());
+    origin_ = origin_words(provenance, run_->result.subjects);
     write_wall_files(*files_, run_->result, plan_, provenance);
     std::vector<std::string> problems;
-    const std::optional<ReportFigure> card = draw_card(problems);
+    card_ = draw_card(problems);
     files_->write("report.html",
-                  wall_html(run_->result, {command_, {}, provenance_lines(provenance), {}}, card));
+                  wall_html(run_->result, {command_, {}, provenance_lines(provenance), {}}, card_));
     files_->finish();
     return problems;
+  }
+
+  Publication publication() const override {
+    const WallResult& result = run_->result;
+    Publication publication{result.title.empty() ? name() : result.title, {}, {}, origin_};
+    if (card_) {
+      publication.tables = {latex_score_table(result)};
+      publication.figures = {*card_};
+    }
+    return publication;
   }
 
  private:
   std::optional<ReportFigure> draw_card(std::vector<std::string>& problems) {
     if (!run_->result.score_card) return std::nullopt;
-    files_->write("scores.csv", score_table(run_->result).text());
+    files_->write(std::string(score_table_name) + ".csv", score_table(run_->result).text());
     const output::HeatMap map = score_card(run_->result);
     const output::PlotOutcome drawn = output::draw(map, folder());
     if (!drawn.drawn) problems.push_back(drawn.message);
@@ -89,6 +100,8 @@ class WallTask : public Task {
 
   WallPlan plan_;
   std::optional<WallRun> run_;
+  std::optional<ReportFigure> card_;
+  std::string origin_;
 };
 
 }  // namespace

@@ -6,7 +6,8 @@
 #include <functional>
 #include <utility>
 
-#include "studies/report/page_parts.h"
+#include "output/figures/plot.h"
+#include "output/latex/latex.h"
 #include "studies/results/statistics.h"
 #include "studies/run/results_csv.h"
 #include "studies/search/material_text.h"
@@ -319,22 +320,23 @@ std::vector<output::ResultFile> linked_tune_files(const TunePlan& plan, const Tu
 
 std::vector<std::string> tune_files(const TunePlan& plan) {
   std::vector<std::string> files = output::names_of(linked_tune_files(plan, {}, {}));
-  files.insert(files.end(), {store_folder, "report.html"});
+  files.insert(files.end(), {store_folder, "report.html", "pareto.tex", "sobol.tex",
+                             output::latex_document_file});
   for (const std::string& figure : tune_figure_names(plan))
-    for (const char* type : {".svg", ".csv", ".gp"}) files.push_back(figure + type);
+    for (const char* type : output::figure_types) files.push_back(figure + type);
   return files;
 }
 
-std::vector<std::string> write_tuning(output::ResultFolder& folder, const TunePlan& plan,
-                                      const TuneRun& run, const std::string& command) {
+std::vector<ReportFigure> write_tuning(output::ResultFolder& folder, const TunePlan& plan,
+                                       const TuneRun& run, const std::string& command) {
   folder.write(linked_tune_files(plan, run, command));
-  const auto figures = draw_tune_figures(plan, run.result, folder.path());
+  std::vector<ReportFigure> figures = draw_tune_figures(plan, run.result, folder.path());
   folder.write(
       "report.html",
       tune_html(plan, run.result, {command, {}, provenance_lines(run.provenance), folder.written()},
                 figures));
   folder.finish();
-  return undrawn(figures);
+  return figures;
 }
 
 }  // namespace hookpoint::studies

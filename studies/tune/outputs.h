@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "output/files/csv.h"
+#include "studies/report/report.h"
 #include "studies/tune/tune.h"
 
 namespace hookpoint::studies {
@@ -32,8 +33,8 @@ std::string material_file(const TunePlan& plan);
 
 /// Writes all of them, figures and report.html too, and the folder's list of them. What could not
 /// be drawn comes back. Throws output::FileError.
-std::vector<std::string> write_tuning(output::ResultFolder& folder, const TunePlan& plan,
-                                      const TuneRun& run, const std::string& command);
+std::vector<ReportFigure> write_tuning(output::ResultFolder& folder, const TunePlan& plan,
+                                       const TuneRun& run, const std::string& command);
 
 /// What a candidate sets in the scene; nothing for the files' own constants.
 std::vector<ConstantSetting> settings_of(const TunePlan& plan, const Candidate& candidate);

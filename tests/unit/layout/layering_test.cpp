@@ -58,7 +58,7 @@ const std::map<std::string, Rooms> rooms{
     {"contact", {{"laws"}, {"terrain"}, {"geometry"}, {"impulse"}}},
     {"control", {{"core"}, {"data"}, {"components"}, {"plugin"}}},
     {"language", {{"schema"}, {"syntax"}, {"values"}, {"tree"}, {"document"}}},
-    {"output", {{"files"}, {"records"}, {"movies"}, {"figures"}}},
+    {"output", {{"files"}, {"records"}, {"movies"}, {"figures"}, {"latex"}}},
     {"simulation",
      {{"experiment"},
       {"engine_interface"},

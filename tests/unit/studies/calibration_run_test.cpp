@@ -9,6 +9,7 @@
 #include "output/files/csv.h"
 #include "studies/calibrate/outputs.h"
 #include "studies/calibrate/subject_name.h"
+#include "studies/report/page_parts.h"
 #include "tests/support/command.h"
 #include "tests/support/planned.h"
 
@@ -95,7 +96,7 @@ class CalibrateFile : public ::testing::Test {
       if (stop_after > 0 && progress.done >= stop_after) stop = true;
     };
     const CalibrationRun run = run_calibration(plan, application_.engines(), options, stop);
-    undrawn_ = write_calibration(*run.files, plan, run, "hookpoint tune calibrate.hook");
+    undrawn_ = undrawn(write_calibration(*run.files, plan, run, "hookpoint tune calibrate.hook"));
     return run.result;
   }
 

@@ -1,0 +1,111 @@
+// What a study leaves for a paper, and what to cite.
+// ctest: released
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "tests/support/command.h"
+
+namespace hookpoint {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::CommandResult;
+using testing::Workplace;
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+/// Two laws on two slopes; names and titles that TeX would obey.
+constexpr const char* creep = R"(
+Study creep {
+  title = "Creep \\input{secret} of 100 % & more_";
+  scene = "scenes/sloped_block.hook";
+  duration = 0.5 s;
+  settle = 0.3 s;
+  Sweep slope { values = 5 deg, 10 deg; }
+  Measure creep_speed;
+  Measure penetration_mean;
+  Subject hookpoint { contact = hookpoint; }
+  Subject lugre { contact = lugre; }
+  Truth none { metric = creep_speed; below = 1e-30 m/s; subjects = lugre; }
+  Table by_slope { rows = subject; columns = slope; value = creep_speed; }
+  Plot figure { x = slope; y = creep_speed; scale = log; }
+}
+)";
+
+TEST(Publication, TablesAndFiguresAreThoseOfTheReport) {
+  const Workplace place;
+  place.file("creep.hook", creep);
+  const CommandResult ran = place.hookpoint("study creep.hook --latex --out out");
+  ASSERT_EQ(ran.status, 1) << ran.err;  // the Truth does not hold
+  const std::string table = place.read("out/by_slope.tex");
+  EXPECT_TRUE(has(table, "subject & 5 & 10 \\\\\n\\midrule\nhookpoint & ")) << table;
+  EXPECT_TRUE(has(table, "$^{\\ast}$")) << table;
+  EXPECT_TRUE(has(table, "hookpoint 0.1.0, experiment ")) << table;
+  EXPECT_TRUE(has(place.read("out/summary.tex"),
+                  "Creep \\textbackslash{}input\\{secret\\} of 100 \\% \\& more\\_"));
+  EXPECT_TRUE(
+      has(place.read("out/figure.tex"), "\\includegraphics[width=\\linewidth]{figure.pdf}"));
+  EXPECT_EQ(place.read("out/figure.pdf").substr(0, 5), "%PDF-");
+  const std::string document = place.read("out/tables_and_figures.tex");
+  for (const std::string file : {"by_slope", "summary", "figure"})
+    EXPECT_TRUE(has(document, "\\input{" + file + "}")) << document;
+  const std::string list = place.read("out/files.json");
+  for (const std::string file : {"by_slope.tex", "figure.pdf", "tables_and_figures.tex"})
+    EXPECT_TRUE(has(list, file)) << list;
+}
+
+TEST(Publication, TheSameResultsGiveTheSameBytes) {
+  const Workplace place;
+  place.file("creep.hook", creep);
+  place.hookpoint("study creep.hook --latex --out one");
+  place.run("sleep 1.1");
+  place.hookpoint("study creep.hook --latex --out other");
+  for (const std::string file :
+       {"by_slope.tex", "summary.tex", "figure.tex", "figure.pdf", "tables_and_figures.tex"}) {
+    EXPECT_FALSE(place.read("one/" + file).empty()) << file;
+    EXPECT_EQ(place.read("one/" + file), place.read("other/" + file)) << file;
+  }
+}
+
+TEST(Publication, EachOptionLeavesItsOwnFiles) {
+  const Workplace place;
+  place.file("creep.hook", creep);
+  place.hookpoint("study creep.hook --out plain");
+  place.hookpoint("study creep.hook --pdf --out pdf");
+  for (const std::string file : {"by_slope.tex", "figure.tex", "tables_and_figures.tex"}) {
+    EXPECT_FALSE(fs::exists(place.folder() / "plain" / file)) << file;
+    EXPECT_FALSE(fs::exists(place.folder() / "pdf" / file)) << file;
+  }
+  EXPECT_FALSE(fs::exists(place.folder() / "plain/figure.pdf"));
+  EXPECT_TRUE(fs::exists(place.folder() / "pdf/figure.pdf"));
+}
+
+TEST(Citation, IsOfTheProgramAndOfWhatMadeTheResults) {
+  const Workplace place;
+  place.file("creep.hook", creep);
+  const std::string plain = place.hookpoint("cite").out;
+  EXPECT_TRUE(has(plain, "@software{hookpoint,")) << plain;
+  EXPECT_TRUE(has(plain, "version = {0.1.0}")) << plain;
+  EXPECT_TRUE(has(plain, "Reichler, James A.")) << plain;
+  EXPECT_FALSE(has(plain, "lugre")) << plain;
+  EXPECT_FALSE(has(plain, "keywords")) << plain;
+  EXPECT_FALSE(has(plain, "NOTE")) << plain;
+  place.hookpoint("study creep.hook --out out");
+  const std::string of_results = place.hookpoint("cite out").out;
+  EXPECT_TRUE(has(of_results, "canudas_de_wit_1995")) << of_results;
+  EXPECT_TRUE(has(of_results, "note = {experiment ")) << of_results;
+  EXPECT_FALSE(has(of_results, "todorov")) << of_results;
+  place.hookpoint("run " + testing::config("scenes/sloped_block.hook") +
+                  " --for 10ms --engine ode --out run");
+  EXPECT_TRUE(has(place.hookpoint("cite run").out, "smith_ode"));
+  const CommandResult none = place.hookpoint("cite .");
+  EXPECT_EQ(none.status, 2);
+  EXPECT_TRUE(has(none.err, "holds no results")) << none.err;
+}
+
+}  // namespace
+}  // namespace hookpoint
