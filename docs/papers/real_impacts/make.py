@@ -17,8 +17,8 @@ from paper import ROOT, check_page, page_with_tables
 from setting import ENGINES, GIVEN, PAGE, SCENE, TUNINGS, frame_of_scene
 from tosses import write_data
 from curves import curves_of
-from runs import ROOMS, cases_block, hold_all, hold_shipped, median_constants, published_constants, tune_all, write_given, write_materials, write_moved, write_study
-from summaries import judged, summaries, write_nearer
+from runs import ROOMS, cases_block, hold_all, hold_borrowers, hold_shipped, median_constants, published_constants, tune_all, write_given, write_materials, write_moved, write_study
+from summaries import judged, summaries, write_borrowed, write_nearer
 from tables import TABLES, scene_is_as_found
 from figures import draw_constants, draw_errors, draw_impacts, draw_toss
 from window import window_picture
@@ -42,6 +42,7 @@ def run(out):
     default = {f"{engine}_default": constants[f"{engine}_recommended"] for engine in ENGINES if f"{engine}_recommended" in constants}
     tune_all([TUNINGS / "source_cube.hook"], out / "source_cube")
     hold_shipped(out, constants)
+    hold_borrowers(out, constants)
     hold_all(out / "default", "Acrylic on wood: engines at their defaults", cases_block("toss", "data/cube_tosses/states.csv", "from = 0;"), default)
     only = write_moved(out / "moved.csv")
     still = cases_block("toss", "data/cube_tosses/states.csv", only)
@@ -70,6 +71,7 @@ def main():
     what.add_argument("--data", metavar="TOSSES.csv", type=pathlib.Path, help="write configs/data/cube_tosses/ from the source's table (configs/data/README.md)")
     what.add_argument("--page", metavar="FOLDER", type=pathlib.Path, nargs="?", const=False, help="tables and figures from the summaries beside the page; with FOLDER the summaries from its results first")
     what.add_argument("--nearer", metavar="FOLDER", type=pathlib.Path, help="all subjects under the published constants on all tosses, some five minutes: who is nearer, toss by toss")
+    what.add_argument("--borrowed", metavar="FOLDER", type=pathlib.Path, help="engines that nobody identified, under the published constants of others, on all tosses, some minutes")
     what.add_argument("--quick", metavar="FOLDER", type=pathlib.Path, nargs="?", const=pathlib.Path("runs/real_impacts_quick"), help="twenty tosses under constants that are given, reported on the terminal; writes into FOLDER only")
     what.add_argument("--check", action="store_true", help="change nothing; status 1 if the page's tables are not those of the summaries beside it")
     chosen = parser.parse_args()
@@ -84,6 +86,9 @@ def main():
     elif chosen.nearer:
         hold_shipped(chosen.nearer, published_constants())
         write_nearer(chosen.nearer)
+    elif chosen.borrowed:
+        hold_borrowers(chosen.borrowed, published_constants())
+        write_borrowed(chosen.borrowed)
     elif chosen.quick:
         quick(chosen.quick)
     else:

@@ -10,7 +10,7 @@ import time
 import numpy as np
 
 from paper import ROOT, program, rows_of
-from setting import CONSTANTS, DATA, FOLDS, GIVEN, LATE, LAWS, LEAST, MOVED, POWERS, RATE, SUBJECTS, TRACKING_ANGLE, TRACKING_PLACE, parts_of, summary
+from setting import BORROWERS, CONSTANTS, DATA, FOLDS, GIVEN, LATE, LAWS, LEAST, MOVED, POWERS, RATE, SUBJECTS, TRACKING_ANGLE, TRACKING_PLACE, parts_of, summary
 from rotations import exponential, product
 
 
@@ -131,12 +131,17 @@ def write_study(constants):
     subprocess.run([program(), "fmt", STUDY], check=True, capture_output=True)
 
 
+def borrowed(constants):
+    """subject -> constants of each that takes those of another."""
+    return {subject: constants[lender] for subject, lender in BORROWERS.items()}
+
+
 def write_given(constants):
     known = [int(row["toss"]) for row in rows_of(DATA / "states.csv")]
     chosen = known[:: len(known) // 20][:20]
     only = f"values = {', '.join(map(str, chosen))};"
     text = "// Twenty throws of a real cube under constants that were identified from others: what is asked in CI. Written by docs/papers/real_impacts/make.py.\n"
-    text += held_against("given", "Acrylic on wood: constants that are given", cases_block("toss", "data/cube_tosses/states.csv", only), constants)
+    text += held_against("given", "Acrylic on wood: constants that are given", cases_block("toss", "data/cube_tosses/states.csv", only), {**constants, **borrowed(constants)})
     GIVEN.write_text(text)
     subprocess.run([program(), "fmt", GIVEN], check=True, capture_output=True)
 
@@ -180,7 +185,8 @@ def hold_all(out, title, cases, constants):
     """Subjects with these constants against the measurements of these cases, a file a room."""
     out.mkdir(parents=True, exist_ok=True)
     files = []
-    for room in ROOMS:
+    others = dict.fromkeys(room_of(subject) for subject in constants if room_of(subject) not in ROOMS)
+    for room in (*ROOMS, *others):
         subjects = {subject: values for subject, values in constants.items() if room_of(subject) == room}
         if subjects:
             files.append(out / f"{room}.hook")
@@ -198,3 +204,10 @@ def published_constants():
 
 def hold_shipped(out, constants):
     hold_all(out / "shipped", "Acrylic on wood: published constants", cases_block("toss", "data/cube_tosses/states.csv", "from = 0;"), constants)
+
+
+def hold_borrowers(out, constants):
+    """Those that take constants, and their lenders, on all tosses."""
+    lenders = {lender: constants[lender] for lender in BORROWERS.values()}
+    title = "Acrylic on wood: constants that another subject identified"
+    hold_all(out / "borrowed", title, cases_block("toss", "data/cube_tosses/states.csv", "from = 0;"), {**lenders, **borrowed(constants)})

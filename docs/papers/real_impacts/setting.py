@@ -22,6 +22,13 @@ ENGINES = ("ode", "ode_quickstep", "bullet", "mujoco", "dart", "simbody")
 PEERS = [f"{engine}_{settings}" for engine in ENGINES for settings in ("matched", "recommended")]
 DEFAULTS = [f"{engine}_default" for engine in ENGINES]
 SUBJECTS = LAWS + PEERS
+# Engines that nobody has identified, each with the subject whose constants it takes.
+BORROWERS = {
+    "mujoco_3_14_recommended": "mujoco_recommended",
+    "mujoco_3_14_matched": "mujoco_matched",
+    "rapier_recommended": "impulse",
+    "jolt_recommended": "impulse",
+}
 POWERS = ("hunt_crossley", "azad_featherstone")  # whose stiffness is not in N/m
 CONSTANTS = {"friction": "", "stiffness": "kN/m", "damping": "N.s/m", "restitution": "", "hysteresis": "s/m"}
 MOVED = 120  # tosses whose initial states are moved within their errors

@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from paper import rows_of, write_csv, text_of
-from setting import DEFAULTS, LAWS, PAGE, PEERS, SUBJECTS, frame_of_scene, parts_of, summary
+from setting import BORROWERS, DEFAULTS, LAWS, PAGE, PEERS, SUBJECTS, frame_of_scene, parts_of, summary
 from rotations import inverse, logarithm, product
 from flights import lowest
 from curves import EDGE, compare, curves_of, impacts, mean_interval
@@ -32,6 +32,7 @@ METRICS = {
     "second_impact": ("ms", 1e3),
     "third_impact": ("ms", 1e3),
 }
+METRIC_COLUMNS = ["stage", "subject", "metric", "unit", "tosses", "mean", "low", "high", "spread", "median", "90 %"]
 
 
 def metric_rows(results, stage):
@@ -82,7 +83,7 @@ def merged(out, stage="identified", name="curves.csv"):
     frame, found = frame_of_scene(), {}
     for part in parts_of(out, stage):
         found.update(judged(curves_of(part / name), frame))
-    return {subject: found[subject] for subject in [*SUBJECTS, *DEFAULTS] if found.get(subject)}
+    return {subject: found[subject] for subject in [*SUBJECTS, *DEFAULTS, *BORROWERS] if found.get(subject)}
 
 
 def summaries(out):
@@ -97,7 +98,7 @@ def summaries(out):
     path = lambda name: PAGE.parent / f"{name}.csv"
     write_csv(
         path("metrics"),
-        ["stage", "subject", "metric", "unit", "tosses", "mean", "low", "high", "spread", "median", "90 %"],
+        METRIC_COLUMNS,
         [row for stage, results in stages for row in metric_rows(results, stage)],
     )
     write_csv(
@@ -129,6 +130,7 @@ def summaries(out):
     write_csv(path("correlations"), ["subject", "constant", "other", "correlation"], sorted(correlations, key=lambda row: order[row[0]]))
     write_csv(path("pairs"), ["ours", "other", "metric", "unit", "difference", "low", "high"], pair_rows(tuned))
     write_nearer(out)
+    write_borrowed(out)
     write_csv(path("rebounds"), ["subject", "rebound_from [mm]", "rebound_to [mm]", "tosses", "position [%]", "low", "high", "rotation [deg]", "rise [mm]"], rebound_rows(out, frame))
     shown_toss(out, frame)
 
@@ -181,6 +183,14 @@ def write_nearer(out):
         ours = summary("pairs")[0]["ours"]  # which is best is decided by tosses that the constants have not seen
         header = ["ours", "other", "metric", "unit", "tosses", "difference", "low", "high", "median", "nearer [%]", "nearer_low", "nearer_high"]
         write_csv(PAGE.parent / "nearer.csv", header, nearer_rows(shipped, ours))
+
+
+def write_borrowed(out):
+    """Errors of those that take constants and of their lenders, from the runs of the stage `borrowed`."""
+    results = merged(out, "borrowed")
+    if results:
+        rows = metric_rows(results, "borrowed")
+        write_csv(PAGE.parent / "borrowed.csv", METRIC_COLUMNS, rows)
 
 
 def rebound(t, p, q, frame):

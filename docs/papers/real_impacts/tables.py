@@ -3,7 +3,7 @@
 import numpy as np
 
 from paper import short
-from setting import ENGINES, frame_of_scene, summary
+from setting import BORROWERS, ENGINES, frame_of_scene, summary
 from summaries import lead
 
 
@@ -118,6 +118,19 @@ def table_nearer():
         yield f"| {other} | {' | '.join(cells)} |"
 
 
+def table_borrowed():
+    rows = summary("borrowed")
+    yield "| subject | constants of | position [% of the edge]: mean (95 %) | median | rotation [deg]: mean (95 %) | median |"
+    yield "|---|---|---|---|---|---|"
+    lenders = dict.fromkeys(BORROWERS.values())
+    for subject in (name for lender in lenders for name in (lender, *(one for one in BORROWERS if BORROWERS[one] == lender))):
+        cells = []
+        for metric in ("position", "rotation"):
+            row = metric_of(rows, "borrowed", subject, metric)
+            cells += [f"{short(row['mean'])} ({short(row['low'])} to {short(row['high'])})", short(row["median"])]
+        yield f"| {subject} | {BORROWERS.get(subject, 'its own')} | {' | '.join(cells)} |"
+
+
 def table_default():
     rows = summary("metrics")
     yield "| engine | position [% of the edge]: `default` | `recommended` | `matched` | rotation [deg]: `default` | `recommended` | `matched` |"
@@ -167,4 +180,4 @@ def table_anchor():
         yield f"| {subject}, here, held out | {' | '.join(errors)} | {short(friction)} |"
 
 
-TABLES = {"frame": table_frame, "accuracy": table_accuracy, "more": table_more, "impacts": table_impacts, "constants": table_constants, "correlations": table_correlations, "folds": table_folds, "pairs": table_pairs, "nearer": table_nearer, "default": table_default, "rebounds": table_rebounds, "cube": table_cube, "anchor": table_anchor}
+TABLES = {"frame": table_frame, "accuracy": table_accuracy, "more": table_more, "impacts": table_impacts, "constants": table_constants, "correlations": table_correlations, "folds": table_folds, "pairs": table_pairs, "nearer": table_nearer, "borrowed": table_borrowed, "default": table_default, "rebounds": table_rebounds, "cube": table_cube, "anchor": table_anchor}
