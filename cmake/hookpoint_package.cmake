@@ -1,0 +1,16 @@
+# A package for Debian and its like: scripts/package. What the program links to becomes its dependencies, as dpkg-shlibdeps finds them, so that
+# a package is for the release that it was built on.
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME hookpoint)
+set(CPACK_PACKAGE_VENDOR "The hookpoint maintainers")
+set(CPACK_PACKAGE_CONTACT "The hookpoint maintainers <maintainers@hookpoint.invalid>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "dynamics of legged robots under comparable contact models")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "gnuplot-nox, python3-numpy")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "chromium, nodejs, npm")
+set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/cmake/hookpoint_package_layout.cmake)
+include(CPack)
