@@ -24,7 +24,7 @@ endforeach()
 install(DIRECTORY configs DESTINATION share/hookpoint PATTERN node_modules EXCLUDE)
 install(FILES ${PROJECT_BINARY_DIR}/hookpoint.1 DESTINATION share/man/man1)
 install(FILES ${PROJECT_BINARY_DIR}/hookpoint.bash DESTINATION share/bash-completion/completions RENAME hookpoint)
-install(DIRECTORY docs/ DESTINATION share/doc/hookpoint)
+install(DIRECTORY docs DESTINATION share/doc/hookpoint)
 install(FILES README.md LICENSE CHANGELOG.md DESTINATION share/doc/hookpoint)
 if(TARGET hookpoint_module)
   # PREFIX/lib/python goes on PYTHONPATH; without the module where only the program was built.

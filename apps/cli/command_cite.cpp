@@ -7,6 +7,7 @@
 #include "apps/cli/commands.h"
 #include "apps/cli/exit_status.h"
 #include "apps/shared/application.h"
+#include "language/names.h"
 #include "output/files/csv.h"
 #include "output/files/file.h"
 #include "output/files/result_folder.h"
@@ -27,18 +28,22 @@ std::vector<std::string> entries_of(const std::string& bibliography) {
   return entries;
 }
 
-/// "engine ode, engine ode_quickstep" of its line `keywords = {...}`.
+/// "a" and "b c" of "a, b c".
+std::set<std::string> words_of(const std::string& list) {
+  std::set<std::string> words;
+  for (std::size_t at = list.find_first_not_of(", "); at != std::string::npos;) {
+    const std::size_t end = std::min(list.find(',', at), list.size());
+    words.insert(list.substr(at, end - at));
+    at = list.find_first_not_of(", ", end);
+  }
+  return words;
+}
+
+/// "engine ode" and "engine ode_quickstep" of its line `keywords = {engine ode, engine ode_quickstep}`.
 std::set<std::string> keywords_of(const std::string& entry) {
   const std::string key = "keywords = {";
   const std::size_t begin = entry.find(key) + key.size();
-  std::string list = entry.substr(begin, entry.find('}', begin) - begin);
-  std::set<std::string> words;
-  for (std::size_t end = 0; !list.empty(); list.erase(0, end)) {
-    list.erase(0, list.find_first_not_of(", "));
-    end = std::min(list.find(','), list.size());
-    words.insert(list.substr(0, end));
-  }
-  return words;
+  return words_of(entry.substr(begin, entry.find('}', begin) - begin));
 }
 
 std::string without_keywords(std::string entry) {
@@ -51,30 +56,68 @@ void replace(std::string& text, const std::string& word, const std::string& with
   if (at != std::string::npos) text.replace(at, word.size(), with);
 }
 
-/// The engines and laws of the rows of a table of results, "engine ode", "law lugre".
-void add_rows(std::set<std::string>& used, const std::filesystem::path& file) {
+/// What results were made with.
+struct Origin {
+  std::set<std::string> used{"always"};  ///< "engine ode", "law lugre"
+  std::vector<std::string> experiments;  ///< their hashes
+  bool unfinished = false;
+};
+
+/// The engines and laws of the rows of a table of results that ran; false where there is none.
+bool add_rows(Origin& origin, const std::filesystem::path& file) {
   const std::optional<std::string> text = output::read_file(file);
   const auto table = text ? output::parse_csv(*text) : std::nullopt;
-  if (!table) return;
-  for (std::size_t column = 0; column < table->header.size(); ++column) {
-    const std::string& title = table->header[column];
-    if (title != "engine" && title != "law") continue;
-    for (const std::vector<std::string>& row : table->rows)
-      if (!row[column].empty()) used.insert(title + " " + row[column]);
+  if (!table) return false;
+  const auto status = std::ranges::find(table->header, "status");
+  const auto place = static_cast<std::size_t>(status - table->header.begin());
+  for (const std::vector<std::string>& row : table->rows) {
+    const bool ran = status == table->header.end() ||
+                     (!row[place].starts_with("skipped") && !row[place].starts_with("refused"));
+    for (std::size_t column = 0; ran && column < table->header.size(); ++column) {
+      const std::string& title = table->header[column];
+      if (title == "engine" || title == "law") origin.used.insert(title + " " + row[column]);
+    }
+  }
+  return true;
+}
+
+/// The words of `field = WORD, WORD;` in an experiment as it is printed.
+void add_words(Origin& origin, const std::string& text, const std::string& field,
+               const std::string& kind) {
+  const std::string key = field + " = ";
+  for (std::size_t at = text.find(key); at != std::string::npos; at = text.find(key, at)) {
+    at += key.size();
+    for (const std::string& word : words_of(text.substr(at, text.find(';', at) - at)))
+      origin.used.insert(kind + " " + word);
   }
 }
 
-/// What the results of a folder were made with, those of the folders in it too.
-std::set<std::string> used_in(const std::filesystem::path& folder,
-                              const output::Manifest& manifest) {
-  std::set<std::string> used{"always"};
-  for (const auto& [what, value] : manifest.about)
-    if (what == "engine") used.insert("engine " + value.substr(0, value.find(' ')));
-  add_rows(used, folder / "results.csv");
+/// What the results of a folder were made with, where it holds results.
+void add_folder(Origin& origin, const std::filesystem::path& folder) {
+  const std::optional<output::Manifest> manifest = output::read_manifest(folder);
+  if (!manifest) return;
+  origin.experiments.push_back(manifest->experiment);
+  origin.unfinished |= std::ranges::any_of(manifest->files, [](const auto& file) {
+    return file.second.empty() && !file.first.ends_with('/');
+  });
+  for (const auto& [what, value] : manifest->about)
+    if (what == "engine") origin.used.insert("engine " + value.substr(0, value.find(' ')));
+  if (add_rows(origin, folder / "results.csv")) return;
+  const std::string experiment = output::read_file(folder / "experiment.hook").value_or("");
+  add_words(origin, experiment, "engine", "engine");
+  add_words(origin, experiment, "contact", "law");
+}
+
+/// The same of a folder that holds several: a Matrix's, or that of a file with several studies.
+Origin origin_of(const std::filesystem::path& folder) {
+  Origin origin;
+  add_folder(origin, folder);
+  const std::vector<std::string> own = origin.experiments;
   std::error_code ignored;
   for (const auto& part : std::filesystem::directory_iterator(folder, ignored))
-    add_rows(used, part.path() / "results.csv");
-  return used;
+    if (part.is_directory(ignored)) add_folder(origin, part.path());
+  if (!own.empty()) origin.experiments = own;
+  return origin;
 }
 
 }  // namespace
@@ -86,23 +129,34 @@ int cite(const std::optional<std::filesystem::path>& folder) {
     application::print_error("there is no citations.bib in the folder of configs");
     return missing;
   }
-  std::set<std::string> used{"always"};
+  Origin origin;
   std::string note;
   if (folder) {
-    const std::optional<output::Manifest> manifest = output::read_manifest(*folder);
-    if (!manifest) {
-      application::print_error(text::printable(folder->string()) +
-                               " holds no results: `run --out`, `study` and `tune` leave folders "
-                               "that can be cited");
+    const std::string name = text::printable(folder->string());
+    try {
+      origin = origin_of(*folder);
+    } catch (const output::FolderError&) {
+      application::print_error("a files.json in " + name + " is not one that hookpoint wrote");
       return wrong_input;
     }
-    used = used_in(*folder, *manifest);
-    note = "experiment " + manifest->experiment;
+    if (origin.experiments.empty()) {
+      application::print_error(name +
+                               " holds no results: `run --out`, `study` and `tune` leave "
+                               "folders that can be cited");
+      return wrong_input;
+    }
+    if (origin.unfinished) {
+      application::print_error("the results in " + name +
+                               " are not finished; finish them with --resume");
+      return wrong_input;
+    }
+    note = "experiment " + language::join(origin.experiments, ", ");
   }
   std::string text;
   for (std::string entry : entries_of(*bibliography)) {
     const std::set<std::string> words = keywords_of(entry);
-    if (std::ranges::none_of(words, [&](const std::string& word) { return used.contains(word); }))
+    if (std::ranges::none_of(words,
+                             [&](const std::string& word) { return origin.used.contains(word); }))
       continue;
     entry = without_keywords(std::move(entry));
     replace(entry, "VERSION", HOOKPOINT_VERSION);

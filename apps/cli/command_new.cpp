@@ -60,8 +60,11 @@ int new_file(const NewArguments& arguments) {
   const std::string text = named(*starter, arguments.name);
   application.give(file, text);
   if (application.evaluate(file, {}) == nullptr) {
-    application::print_error("`" + arguments.name +
-                             "` has another meaning in it; take another name");
+    application.give("starter.hook", *starter);
+    const bool is_the_name = application.evaluate("starter.hook", {}) != nullptr;
+    application::print_error(
+        is_the_name ? "`" + arguments.name + "` has another meaning in it; take another name"
+                    : "a file that starters/" + arguments.kind + ".hook includes is wrong here");
     return wrong_input;
   }
   output::write_file(file, text);

@@ -27,6 +27,8 @@ std::string rerun_command(const std::string& command, const TaskArguments& argum
     for (const ShortForm& form : short_forms)
       if (field == form.field) add(std::string(" ") + form.option, value);
   if (arguments.quick) line += " --quick";
+  if (arguments.forms.latex) line += " --latex";
+  if (arguments.forms.pdf) line += " --pdf";
   for (const std::string& subject : arguments.only) add(" --only", subject);
   for (const char* option : arguments.consent.options()) line += std::string(" ") + option;
   return arguments.slurm ? line + studies::option_words(arguments.slurm_settings) : line;

@@ -23,11 +23,12 @@ extern char** environ;
 namespace hookpoint::output {
 namespace {
 
-/// The environment with C's locale in it.
+/// The environment with C's locale and UTC in it.
 std::vector<std::string> child_environment() {
-  std::vector<std::string> variables{"LC_ALL=C"};
+  std::vector<std::string> variables{"LC_ALL=C", "TZ=UTC"};
   for (char** variable = environ; *variable != nullptr; ++variable) {
-    if (!std::string_view(*variable).starts_with("LC_ALL=")) variables.emplace_back(*variable);
+    const std::string_view text = *variable;
+    if (!text.starts_with("LC_ALL=") && !text.starts_with("TZ=")) variables.emplace_back(text);
   }
   return variables;
 }

@@ -24,8 +24,8 @@ struct ChildOptions {
   const std::atomic<bool>* stop = nullptr;  ///< once true, the program is stopped
 };
 
-/// Runs the program that PATH's absolute folders hold under `name`, in `folder`, with C's locale
-/// and nothing to read, and waits for its end. Nothing when there is no such program.
+/// Runs the program that PATH's absolute folders hold under `name`, in `folder`, with C's locale,
+/// in UTC and with nothing to read, and waits for its end. Nothing when there is no such program.
 std::optional<ChildResult> run_program(const std::string& name,
                                        const std::vector<std::string>& arguments,
                                        const std::filesystem::path& folder,

@@ -2,9 +2,12 @@
 
 #include <array>
 #include <cctype>
+#include <charconv>
+#include <cstdint>
 #include <utility>
 
 #include "text/number.h"
+#include "text/utf8.h"
 
 namespace hookpoint::output {
 namespace {
@@ -21,26 +24,93 @@ constexpr auto characters = std::to_array<Replacement>({
     {"#", "\\#"},
     {"_", "\\_"},
     {"~", "\\textasciitilde{}"},
+    {"`", "\\textasciigrave{}"},
     {"<", "$<$"},
     {">", "$>$"},
     {"|", "$|$"},
     {"\"", "\\textquotedbl{}"},
     {"\n", " "},
-    {"°", "$^\\circ$"},
     {"µ", "\\textmu{}"},
-    {"μ", "\\textmu{}"},
     {"²", "$^2$"},
     {"³", "$^3$"},
+    {"−", "$-$"},
+    {"–", "--"},
+    {"—", "---"},
+    {"…", "\\ldots{}"},
+    {"‘", "'"},
+    {"’", "'"},
+    {"“", "\\textquotedbl{}"},
+    {"”", "\\textquotedbl{}"},
+    {"α", "$\\alpha$"},
+    {"β", "$\\beta$"},
+    {"γ", "$\\gamma$"},
+    {"δ", "$\\delta$"},
+    {"ε", "$\\varepsilon$"},
+    {"ζ", "$\\zeta$"},
+    {"η", "$\\eta$"},
+    {"θ", "$\\theta$"},
+    {"κ", "$\\kappa$"},
+    {"λ", "$\\lambda$"},
+    {"μ", "$\\mu$"},
+    {"ν", "$\\nu$"},
+    {"ξ", "$\\xi$"},
+    {"π", "$\\pi$"},
+    {"ρ", "$\\rho$"},
+    {"σ", "$\\sigma$"},
+    {"τ", "$\\tau$"},
+    {"φ", "$\\varphi$"},
+    {"χ", "$\\chi$"},
+    {"ψ", "$\\psi$"},
+    {"ω", "$\\omega$"},
+    {"Γ", "$\\Gamma$"},
+    {"Δ", "$\\Delta$"},
+    {"Θ", "$\\Theta$"},
+    {"Λ", "$\\Lambda$"},
+    {"Ξ", "$\\Xi$"},
+    {"Π", "$\\Pi$"},
+    {"Σ", "$\\Sigma$"},
+    {"Φ", "$\\Phi$"},
+    {"Ψ", "$\\Psi$"},
+    {"Ω", "$\\Omega$"},
     {"±", "$\\pm$"},
     {"×", "$\\times$"},
     {"·", "$\\cdot$"},
     {"≤", "$\\leq$"},
     {"≥", "$\\geq$"},
-    {"−", "$-$"},
-    {"–", "--"},
-    {"…", "\\ldots{}"},
-    {"é", "\\'e"},
+    {"≠", "$\\neq$"},
+    {"≈", "$\\approx$"},
+    {"∞", "$\\infty$"},
+    {"→", "$\\rightarrow$"},
+    {"√", "$\\surd$"},
+    {"°", "$^\\circ$"},
 });
+
+/// "[U+4E2D]".
+std::string code_of(char32_t point) {
+  std::array<char, 8> digits{};
+  constexpr int hexadecimal = 16;
+  const auto end =
+      std::to_chars(digits.begin(), digits.end(), static_cast<std::uint32_t>(point), hexadecimal);
+  std::string code = "[U+" + std::string(digits.begin(), end.ptr) + "]";
+  for (char& c : code)
+    if (c >= 'a' && c <= 'f') c = static_cast<char>(c - 'a' + 'A');
+  return code;
+}
+
+/// The beginning of `text` as LaTeX, and how many bytes that is.
+std::pair<std::string, std::size_t> first_piece(std::string_view text) {
+  for (const auto& [from, to] : characters)
+    if (text.starts_with(from)) return {std::string(to), from.size()};
+  // Two of these in a row would be one sign.
+  for (const std::string_view pair : {"--", "''", ",,"})
+    if (text.starts_with(pair)) return {std::string(1, pair[0]) + "{}", 1};
+  const text::Character character = text::first_character(text);
+  if (character.length == 0) return {"?", 1};
+  if (character.control) return {" ", character.length};
+  constexpr char32_t latin_end = 0x180;  // of what pdfTeX has letters for
+  if (character.point >= latin_end) return {code_of(character.point), character.length};
+  return {std::string(text.substr(0, character.length)), character.length};
+}
 
 /// "2" of "s^2 x", "-1" of "s^-1"; "" where no power begins.
 std::string_view power_at(std::string_view text) {
@@ -67,17 +137,9 @@ std::string latex_text(std::string_view text) {
       text.remove_prefix(1 + power.size());
       continue;
     }
-    bool replaced = false;
-    for (const auto& [from, to] : characters) {
-      if (!text.starts_with(from)) continue;
-      out += to;
-      text.remove_prefix(from.size());
-      replaced = true;
-      break;
-    }
-    if (replaced) continue;
-    out += text[0];
-    text.remove_prefix(1);
+    const auto [piece, length] = first_piece(text);
+    out += piece;
+    text.remove_prefix(length);
   }
   return out;
 }
@@ -93,6 +155,7 @@ std::string latex_number(const std::optional<double>& value) {
 }
 
 std::string latex_table(const LatexTable& table) {
+  if (table.rows.empty() || table.head.size() <= table.text_columns) return "";
   constexpr std::size_t most_level = 8;  // columns whose titles lie
   const std::size_t columns = table.head.size();
   std::string text = "\\begin{table}\n\\centering\n\\caption{" + latex_text(table.caption) +

@@ -1,6 +1,7 @@
 // Tables and figures as LaTeX, for papers: text in which nothing of others is a command.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -8,8 +9,8 @@
 
 namespace hookpoint::output {
 
-/// Text in which TeX's own characters stand for themselves, "m/s^2" is typeset, and signs beyond
-/// ASCII that a unit or a sentence has are commands that pdfTeX knows.
+/// Text in which TeX's own characters stand for themselves, "m/s^2" is typeset, and Greek letters
+/// and other signs are commands that pdfTeX knows. A character that it has not is "[U+4E2D]".
 std::string latex_text(std::string_view text);
 
 /// A number for a cell, of three significant digits: "$-1.2 \times 10^{-7}$"; "--" without a value.
@@ -26,8 +27,9 @@ struct LatexTable {
   std::vector<std::vector<std::string>> rows;
 };
 
-/// A `table` environment, with the rules of the package booktabs, no wider than the line. Where it
-/// has more than eight columns their titles stand upright.
+/// A `table` environment, with the rules of the package booktabs, no wider than the line; ""
+/// of a table without rows or numbers. Where it has more than eight columns their titles stand
+/// upright.
 std::string latex_table(const LatexTable& table);
 
 /// A `figure` environment with NAME.pdf. `caption` is plain text.
@@ -35,6 +37,9 @@ std::string latex_figure(const std::string& name, const std::string& caption);
 
 /// Types of the files that a table of results may leave: NAME.csv ...
 inline constexpr const char* table_types[] = {".csv", ".tex"};
+
+/// Names, without types, of the LaTeX that a study leaves beside that of its own tables and figures.
+inline constexpr std::array<std::string_view, 2> latex_names{"summary", "tables_and_figures"};
 
 /// A document that inputs these files, to compile as it is; and its name.
 inline constexpr const char* latex_document_file = "tables_and_figures.tex";

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "output/latex/latex.h"
 #include "studies/blocks/block.h"
 #include "studies/blocks/study_parts.h"
 #include "studies/blocks/subject.h"
@@ -84,6 +85,9 @@ class PlotLoader {
     if (std::ranges::find(table_names, spec.name) != table_names.end())
       error(object_.position,
             fmt::format("the study itself leaves {}.csv; give the Plot another name", spec.name));
+    if (std::ranges::find(output::latex_names, spec.name) != output::latex_names.end())
+      error(object_.position,
+            fmt::format("the study itself leaves {}.tex; give the Plot another name", spec.name));
     spec.title = block_.title.value.value_or(object_.name);
     spec.x = *block_.x;
     spec.y = *block_.y;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "output/latex/latex.h"
 #include "studies/blocks/block.h"
 #include "studies/blocks/study_parts.h"
 #include "studies/blocks/subject.h"
@@ -65,6 +66,10 @@ TableSpec load_table(const Object& object, const StudyParts& so_far, Diagnostics
     diagnostics.error(
         object.position,
         fmt::format("the study leaves another {}.csv; give the Table another name", table.name));
+  if (std::ranges::find(output::latex_names, table.name) != output::latex_names.end())
+    diagnostics.error(
+        object.position,
+        fmt::format("the study itself leaves {}.tex; give the Table another name", table.name));
   table.title = block.title;
   table.rows = *block.rows;
   table.columns = *block.columns;

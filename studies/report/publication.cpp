@@ -16,13 +16,15 @@ std::vector<std::string> write_tables(output::ResultFolder& folder,
     const auto end = std::find_if(first, tables.end(), [&](const output::LatexTable& table) {
       return table.name != first->name;
     });
+    const std::string name = first->name;
     std::string text;
-    names.push_back(first->name);
     for (; first != end; ++first) {
       first->caption += " " + origin;
       text += output::latex_table(*first);
     }
-    folder.write(names.back() + ".tex", text);
+    if (text.empty()) continue;
+    folder.write(name + ".tex", text);
+    names.push_back(name);
   }
   return names;
 }

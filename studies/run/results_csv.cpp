@@ -159,9 +159,10 @@ output::CsvTable results_table(const StudyResult& result, bool timing) {
 }
 
 std::vector<std::string> study_files(const StudyPlan& plan) {
-  std::vector<std::string> files{
-      store_folder,      cluster_folder, "experiment.hook", "scene.hook",
-      "provenance.json", "report.html",  "summary.tex",     output::latex_document_file};
+  std::vector<std::string> files{store_folder, cluster_folder,    "experiment.hook",
+                                 "scene.hook", "provenance.json", "report.html"};
+  for (const std::string_view name : output::latex_names)
+    files.push_back(std::string(name) + ".tex");
   for (const std::string_view table : table_names) files.push_back(std::string(table) + ".csv");
   for (const TableSpec& table : plan.tables)
     for (const char* type : output::table_types) files.push_back(table.name + type);

@@ -88,9 +88,10 @@ class CalibrateTask : public Task {
     constexpr std::size_t columns = 7;  // up to `identified`
     std::vector<SubjectInfo> subjects;
     for (const CalibrationSubject& subject : plan_.subjects) subjects.push_back(subject.info);
-    return {name(),
+    const std::string title = plan_.runs.title.empty() ? name() : plan_.runs.title;
+    return {title,
             {latex_table_of("calibration",
-                            name() + ": fitted constants, with the ends of their 95 % intervals.",
+                            title + ": fitted constants, with the ends of their 95 % intervals.",
                             calibration_table(plan_, run_.result), columns, 3)},
             figures_,
             origin_words(run_.provenance, subjects)};

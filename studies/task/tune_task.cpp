@@ -86,12 +86,13 @@ class TuneTask : public Task {
   }
   Publication publication() const override {
     const TuneResult& result = run_.result;
+    const std::string title = plan_.title.empty() ? name() : plan_.title;
     Publication publication{
-        name(), {}, figures_, origin_words(run_.provenance, {plan_.runs.subjects.front().info})};
+        title, {}, figures_, origin_words(run_.provenance, {plan_.runs.subjects.front().info})};
     const auto add = [&](const std::string& table, const std::string& caption,
                          const output::CsvTable& rows, std::size_t words) {
       publication.tables.push_back(
-          latex_table_of(table, name() + ": " + caption, rows, rows.header.size(), words));
+          latex_table_of(table, title + ": " + caption, rows, rows.header.size(), words));
     };
     if (result.recommended)
       add("pareto", "the Pareto set with its constants and objectives.",

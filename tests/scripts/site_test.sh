@@ -1,11 +1,17 @@
 #!/usr/bin/env bash
-# scripts/site: the manual becomes a site without a dead link, and what is wrong or missing is told.
+# scripts/site: the manual becomes a site without a dead link, and what is wrong or missing is reported.
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/support.sh"
 site=$root/scripts/site
 
 status=0; said=$("$site" --chekc 2>&1) || status=$?
 expect "status of a wrong argument" "$status" 2
+mkdir -p "$work/other" && echo precious >"$work/other/file"
+status=0; said=$("$site" "$work/other" 2>&1) || status=$?
+expect "status where a folder holds something else" "$status" 2
+expect "what it holds stays" "$(cat "$work/other/file")" precious
+status=0; said=$("$site" "" 2>&1) || status=$?
+expect "status of an empty name" "$status" 2
 mkdir -p "$work/tools"
 status=0; said=$(PATH="$work/tools" /usr/bin/python3 "$site" "$work/site" 2>&1) || status=$?
 expect "status without mkdocs" "$status" 3
@@ -22,6 +28,7 @@ loader = importlib.machinery.SourceFileLoader("site_script", sys.argv[1])
 site = importlib.util.module_from_spec(importlib.util.spec_from_loader("site_script", loader))
 loader.exec_module(site)
 pages = pathlib.Path(sys.argv[2])
+assert site.as_python_markdown("[gone.md](gone.md)", pages) == "[gone.md](gone.md)"
 text = site.as_python_markdown("see [other.md](other.md#x):\n- one\n  - two\n```cpp a.cpp\n- no item\n```", pages)
 assert text == 'see [The other page](other.md#x):\n\n- one\n    - two\n```cpp title="a.cpp"\n- no item\n```', text
 assert list(site.dead_links(pages)) == ["index.html: #there: no such heading", "index.html: no.html: no such file"]
@@ -38,5 +45,7 @@ fi
 [ "$status" -eq 0 ] || printf '%s\n' "$said"
 expect "status of the manual" "$status" 0
 expect "it has a first page" "$(grep -c '<h1 id="hookpoint">' "$work/site/index.html")" 1
+status=0; said=$("$site" "$work/site" 2>&1) || status=$?
+expect "status of a second time" "$status" 0
 expect "it can be searched" "$(grep -c creep "$work/site/search/search_index.json")" 1
 [ "$failures" -eq 0 ] || exit 1

@@ -42,6 +42,7 @@ TEST(RealImpacts, FrameAndCubeAreFoundInThrowsThatAreMadeOfThem) {
 constexpr double well_explained = 0.10;
 /// ODE's and DART's friction is a box: no constants make up for it.
 constexpr double explained_by_a_box = 0.19;
+// Rapier and Jolt have the constants of `impulse`, which are not their own best: the same bound.
 
 TEST(RealImpacts, TwentyThrowsUnderConstantsThatAreGiven) {
   const Workplace work;
@@ -67,7 +68,9 @@ TEST(RealImpacts, TwentyThrowsUnderConstantsThatAreGiven) {
     ours += info.engine == "dts" ? 1 : 0;
     ASSERT_TRUE(result.subjects[i].error) << info.name << ": " << result.subjects[i].status;
     const bool box = info.engine.starts_with("ode") || info.engine == "dart";
-    EXPECT_LT(*result.subjects[i].error, box ? explained_by_a_box : well_explained) << info.name;
+    const bool borrowed = info.engine == "rapier" || info.engine == "jolt";
+    EXPECT_LT(*result.subjects[i].error, box || borrowed ? explained_by_a_box : well_explained)
+        << info.name;
     if (box) {
       EXPECT_GT(*result.subjects[i].error, well_explained) << info.name;
     }

@@ -71,6 +71,48 @@ TEST(Publication, TheSameResultsGiveTheSameBytes) {
   }
 }
 
+TEST(Publication, TheTimeZoneLeavesNoTrace) {
+  const Workplace place;
+  place.file("creep.hook", creep);
+  const std::string program =
+      "'" + testing::build_folder() + "/hookpoint' study creep.hook --pdf --out ";
+  place.run("TZ=America/New_York " + program + "west");
+  place.run("TZ=Asia/Tokyo " + program + "east");
+  EXPECT_EQ(place.read("west/figure.pdf").substr(0, 5), "%PDF-");
+  EXPECT_EQ(place.read("west/figure.pdf"), place.read("east/figure.pdf"));
+}
+
+TEST(Publication, TheDocumentCompiles) {
+  const Workplace place;
+  if (place.run("command -v pdflatex").status != 0) GTEST_SKIP() << "pdflatex is not installed";
+  std::string odd = creep;
+  odd.replace(odd.find("more_"), 5, "Größe Ω → ∞ 中 α ½ `a'' -- ?`");
+  place.file("creep.hook", odd);
+  place.hookpoint("study creep.hook --latex --out out");
+  const CommandResult compiled = place.run(
+      "sh -c 'cd out && pdflatex -halt-on-error -interaction=nonstopmode tables_and_figures.tex'");
+  EXPECT_EQ(compiled.status, 0) << compiled.out;
+}
+
+TEST(Publication, NamesOfTheStudyItselfAreRefused) {
+  const Workplace place;
+  for (const std::string name : {"summary", "tables_and_figures"}) {
+    std::string taken = creep;
+    taken.replace(taken.find("Table by_slope"), 14, "Table " + name);
+    place.file("taken.hook", taken);
+    const CommandResult refused = place.hookpoint("study taken.hook --out " + name);
+    EXPECT_EQ(refused.status, 2) << name;
+    EXPECT_TRUE(has(refused.err, "the study itself leaves " + name + ".tex")) << refused.err;
+  }
+}
+
+TEST(Publication, ResumingKeepsTheOptions) {
+  const Workplace place;
+  place.file("creep.hook", creep);
+  place.hookpoint("study creep.hook --latex --out out");
+  EXPECT_TRUE(has(place.read("out/report.html"), "hookpoint study creep.hook --latex"));
+}
+
 TEST(Publication, EachOptionLeavesItsOwnFiles) {
   const Workplace place;
   place.file("creep.hook", creep);
@@ -102,7 +144,15 @@ TEST(Citation, IsOfTheProgramAndOfWhatMadeTheResults) {
   place.hookpoint("run " + testing::config("scenes/sloped_block.hook") +
                   " --for 10ms --engine ode --out run");
   EXPECT_TRUE(has(place.hookpoint("cite run").out, "smith_ode"));
-  const CommandResult none = place.hookpoint("cite .");
+  place.hookpoint("run " + testing::config("scenes/sloped_block.hook") +
+                  " --for 10ms --contact hunt_crossley --out law");
+  EXPECT_TRUE(has(place.hookpoint("cite law").out, "hunt_crossley_1975"));
+  place.run("mkdir several && mv out several/one");
+  EXPECT_TRUE(has(place.hookpoint("cite several").out, "canudas_de_wit_1995"));
+  place.run("mkdir broken && echo '{' >broken/files.json");
+  EXPECT_EQ(place.hookpoint("cite broken").status, 2);
+  place.run("mkdir empty");
+  const CommandResult none = place.hookpoint("cite empty");
   EXPECT_EQ(none.status, 2);
   EXPECT_TRUE(has(none.err, "holds no results")) << none.err;
 }

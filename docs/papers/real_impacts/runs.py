@@ -140,7 +140,7 @@ def write_given(constants):
     known = [int(row["toss"]) for row in rows_of(DATA / "states.csv")]
     chosen = known[:: len(known) // 20][:20]
     only = f"values = {', '.join(map(str, chosen))};"
-    text = "// Twenty throws of a real cube under constants that were identified from others: what is asked in CI. Written by docs/papers/real_impacts/make.py.\n"
+    text = "// Twenty throws of a real cube under constants that were identified from others: what continuous integration runs. Written by docs/papers/real_impacts/make.py.\n"
     text += held_against("given", "Acrylic on wood: constants that are given", cases_block("toss", "data/cube_tosses/states.csv", only), {**constants, **borrowed(constants)})
     GIVEN.write_text(text)
     subprocess.run([program(), "fmt", GIVEN], check=True, capture_output=True)

@@ -19,6 +19,9 @@ TEST(Latex, TextStandsForItself) {
   EXPECT_EQ(latex_text("s^-1"), "s$^{-1}$");
   EXPECT_EQ(latex_text("a^b^"), "a\\textasciicircum{}b\\textasciicircum{}");
   EXPECT_EQ(latex_text("15° ± 2 µm"), "15$^\\circ$ $\\pm$ 2 \\textmu{}m");
+  EXPECT_EQ(latex_text("Größe Ω → ∞"), "Größe $\\Omega$ $\\rightarrow$ $\\infty$");
+  EXPECT_EQ(latex_text("中 \xff"), "[U+4E2D] ?");
+  EXPECT_EQ(latex_text("a--b ''c''"), "a-{}-b '{}'c'{}'");
 }
 
 TEST(Latex, NumbersAreTypeset) {
@@ -53,6 +56,23 @@ TEST(Latex, AnyTextLeavesGroupsAndFormulasClosed) {
     EXPECT_EQ(bare(latex, '$') % 2, 0u);
     for (const char c : std::string("&%#_~\n")) EXPECT_EQ(bare(latex, c), 0u) << latex;
   }
+}
+
+TEST(Latex, ATableWithoutRowsOrNumbersIsNone) {
+  const LatexTable full{.name = "t",
+                        .label = "t",
+                        .caption = "",
+                        .across = "x",
+                        .head = {"a", "b"},
+                        .text_columns = 1,
+                        .rows = {{"c", "$1$"}}};
+  EXPECT_NE(latex_table(full), "");
+  LatexTable table = full;
+  table.rows.clear();
+  EXPECT_EQ(latex_table(table), "");
+  table = full;
+  table.head = {"a"};
+  EXPECT_EQ(latex_table(table), "");
 }
 
 TEST(Latex, ATableHasItsRulesAndEveryCell) {
